@@ -1,0 +1,1 @@
+//! Analyses of the linear and the static problem.

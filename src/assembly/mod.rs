@@ -1,0 +1,1 @@
+//! Assembly: model to DOF map and matrices.

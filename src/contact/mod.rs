@@ -1,0 +1,1 @@
+//! Contact of ball and race.

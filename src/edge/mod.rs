@@ -1,0 +1,1 @@
+//! Edges: one owner per foreign crate or file format.

@@ -1,0 +1,17 @@
+//! Mechanical elements: plain data with their matrices or forces.
+
+pub mod anchor;
+pub mod belt;
+pub mod bushing;
+pub mod joint;
+pub mod material;
+pub mod rigid_body;
+pub mod shaft;
+
+pub use anchor::Anchor;
+pub use belt::Belt;
+pub use bushing::Bushing;
+pub use joint::Joint;
+pub use material::Material;
+pub use rigid_body::{Disc, PointMass, RigidBody};
+pub use shaft::{ShaftElement, ShearCoefficient};

@@ -1,0 +1,42 @@
+//! Rigid bodies (housing, bench block), discs and point masses: inertia only.
+
+use super::anchor::Anchor;
+
+/// Rigid body with six DOFs at its centre of mass; it does not spin with the shaft.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidBody {
+    pub name: String,
+    /// Position of the centre of mass \[m\] in the model's axes (shaft axis: x = y = 0).
+    pub position: [f64; 3],
+    /// Mass m \[kg\].
+    pub mass: f64,
+    /// Inertia tensor about the centre of mass \[kg m²\], row-major, symmetric.
+    pub inertia: [[f64; 3]; 3],
+}
+
+/// Rigid disc fixed to a shaft node; it spins with the shaft.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disc {
+    pub name: String,
+    /// Shaft node that carries the disc.
+    pub node: usize,
+    /// Mass m \[kg\].
+    pub mass: f64,
+    /// Polar moment of inertia I_p about z \[kg m²\].
+    pub polar_inertia: f64,
+    /// Diametral moment of inertia I_d about x and y \[kg m²\].
+    pub diametral_inertia: f64,
+    /// Outer diameter \[m\], for pictures and blows at the rim; 0 when the disc is given by inertia alone.
+    pub outer_diameter: f64,
+    /// Axial thickness \[m\], for pictures; 0 when unknown.
+    pub thickness: f64,
+}
+
+/// Point mass rigidly attached to a body or station, such as an accelerometer; it has no rotary inertia of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointMass {
+    pub name: String,
+    pub at: Anchor,
+    /// Mass m \[kg\].
+    pub mass: f64,
+}

@@ -1,0 +1,35 @@
+//! Errors of the library: input, physics, environment.
+
+use std::path::PathBuf;
+
+/// Anything that can go wrong outside reading a model file.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The physics has no answer here: item, speed, time, iteration and residual as far as known.
+    #[error("{0}")]
+    Physics(#[from] PhysicsError),
+    /// A file or folder did not obey.
+    #[error("{operation} {}: {source}", path.display())]
+    Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
+}
+
+/// A failure of the physics, with all that is known about where it happened.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PhysicsError {
+    #[error(
+        "the system is singular: {motion} is free to move; hold it with a bearing, bushing, joint or drive"
+    )]
+    Singular { motion: String },
+    #[error(
+        "no static equilibrium at {speed_rpm:.1} rpm: residual {residual:.3e} N at {item} after {iterations} iterations"
+    )]
+    NoEquilibrium { item: String, speed_rpm: f64, residual: f64, iterations: usize },
+    #[error(
+        "no convergence at t = {time:.6} s, {speed_rpm:.1} rpm: residual {residual:.3e} at {item} after {iterations} iterations and the smallest step"
+    )]
+    NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
+    #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
+    Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
+    #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
+    Eigen { speed_rpm: f64, reason: String },
+}

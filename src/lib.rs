@@ -1,0 +1,23 @@
+//! rotordyn: a multibody rotor-bearing simulator with a flexible shaft.
+
+pub mod conventions;
+pub mod units;
+
+pub mod linalg;
+pub mod signal;
+
+pub mod contact;
+
+pub mod bearing;
+pub mod element;
+
+pub mod model;
+
+pub mod assembly;
+
+pub mod analysis;
+
+pub mod transient;
+
+pub mod edge;
+pub mod error;

@@ -1,0 +1,1 @@
+//! Linear algebra: the only bridge between nalgebra and faer.

@@ -1,0 +1,127 @@
+//! The model: one machine, immutable, in SI units, as read and checked from its file.
+
+pub mod speed_profile;
+pub mod study;
+
+pub use speed_profile::SpeedProfile;
+
+use crate::bearing::Bearing;
+use crate::element::{Anchor, Belt, Bushing, Disc, Joint, Material, PointMass, RigidBody, ShaftElement};
+
+/// One rotating machine, in SI units; nothing in it changes after it was checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    pub name: String,
+    pub title: String,
+    /// Gravity \[m/s²\].
+    pub gravity: [f64; 3],
+    pub materials: Vec<Material>,
+    /// Axial position of every shaft node \[m\], increasing.
+    pub node_z: Vec<f64>,
+    /// Element k joins shaft nodes k and k+1.
+    pub shaft: Vec<ShaftElement>,
+    pub stations: Vec<Station>,
+    pub discs: Vec<Disc>,
+    /// Body k is node `node_z.len() + k`.
+    pub bodies: Vec<RigidBody>,
+    pub masses: Vec<PointMass>,
+    pub bushings: Vec<Bushing>,
+    pub joints: Vec<Joint>,
+    pub bearings: Vec<BearingSite>,
+    pub belts: Vec<Belt>,
+    pub unbalances: Vec<Unbalance>,
+    pub loads: Vec<Load>,
+    pub damping: Damping,
+    pub drive: Drive,
+    pub profile: SpeedProfile,
+    pub probes: Vec<Probe>,
+    pub studies: study::Studies,
+}
+
+impl Model {
+    /// Number of nodes: shaft nodes, then bodies.
+    pub fn node_count(&self) -> usize {
+        self.node_z.len() + self.bodies.len()
+    }
+}
+
+/// Named shaft station.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Station {
+    pub name: String,
+    pub node: usize,
+    /// Axial position \[m\].
+    pub z: f64,
+}
+
+/// A bearing between a shaft node and a housing (body or ground).
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingSite {
+    pub name: String,
+    /// Shaft node.
+    pub node: usize,
+    /// Housing side: the point of the body (or ground) that meets the bearing's centre.
+    pub housing: Anchor,
+    pub bearing: Bearing,
+}
+
+/// Unbalance at a shaft node: F_x = U (Ω² cos φ + Ω̇ sin φ), F_y = U (Ω² sin φ − Ω̇ cos φ), φ = θ + phase.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unbalance {
+    pub name: String,
+    pub node: usize,
+    /// Magnitude U = m e \[kg m\].
+    pub magnitude: f64,
+    /// Phase from the shaft's keyphasor \[rad\].
+    pub phase: f64,
+}
+
+/// Concentrated load at an anchor: constant or tabulated over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    pub name: String,
+    pub at: Anchor,
+    /// Force and moment \[N, N m\] at factor 1.
+    pub force: [f64; 6],
+    /// (time \[s\], factor), piecewise linear, zero outside; empty means always 1 (and then part of the static load).
+    pub history: Vec<[f64; 2]>,
+}
+
+/// Damping that belongs to no element.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Damping {
+    /// C = α M + β K of the assembled structure: α \[1/s\], β \[s\].
+    pub proportional: [f64; 2],
+    /// Modal damping as measured: (frequency \[Hz\], damping ratio ζ), piecewise linear in frequency, constant
+    /// beyond the ends; empty means none. Applied to the undamped modes at standstill.
+    pub modal: Vec<[f64; 2]>,
+}
+
+/// How the shaft is driven.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// The rotation of this node follows the speed profile exactly; with `None` the whole shaft spins at the
+    /// profile's speed and its torsion is free.
+    Prescribed { node: Option<usize> },
+    /// A torque at this node against the inertia: (speed \[rad/s\], torque \[N m\]) table, times the profile-free
+    /// equation of rotation; `drag` \[N m s/rad\] is viscous resistance to ground.
+    Torque { node: usize, table: Vec<[f64; 2]>, drag: f64 },
+}
+
+/// Quantity that a probe reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    Displacement,
+    Velocity,
+    Acceleration,
+}
+
+/// A measuring point: one direction of one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    pub name: String,
+    pub at: Anchor,
+    /// Weights on u_x u_y u_z θ_x θ_y θ_z of the point; unit vector for a translation.
+    pub direction: [f64; 6],
+    pub quantity: Quantity,
+}

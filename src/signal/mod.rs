@@ -1,0 +1,1 @@
+//! Signal processing on slices and a sample rate; knows no rotor.

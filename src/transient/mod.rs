@@ -1,0 +1,1 @@
+//! Nonlinear transients in time.

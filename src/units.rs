@@ -1,0 +1,1 @@
+//! Units: "60 um" to SI.
