@@ -26,3 +26,40 @@ pub struct BallGeometry {
     pub outside_diameter: f64,
     pub width: f64,
 }
+
+impl BallGeometry {
+    /// Radius of the circle of inner groove centres R_i = D_pw/2 + r_i − D_w/2 − P_d/4 \[m\].
+    pub fn inner_centre_radius(&self) -> f64 {
+        0.5 * self.pitch_diameter + self.inner_groove_radius
+            - 0.5 * self.ball_diameter
+            - 0.25 * self.radial_clearance
+    }
+
+    /// Characteristic frequencies per revolution of the inner ring at contact angle α, outer ring at rest.
+    pub fn orders(&self, contact_angle: f64) -> CharacteristicOrders {
+        let gamma = self.ball_diameter * contact_angle.cos() / self.pitch_diameter;
+        let z = self.balls as f64;
+        CharacteristicOrders {
+            ftf: 0.5 * (1.0 - gamma),
+            bpfo: 0.5 * z * (1.0 - gamma),
+            bpfi: 0.5 * z * (1.0 + gamma),
+            bsf: 0.5 / self.ball_diameter * self.pitch_diameter * (1.0 - gamma * gamma),
+        }
+    }
+}
+
+/// Frequencies of a bearing in orders of the shaft speed.
+///
+/// Cage ½ (1 − γ), outer race ½ Z (1 − γ), inner race ½ Z (1 + γ), ball spin (D_pw / 2 D_w)(1 − γ²) with
+/// γ = D_w cos α / D_pw. Source: Cakmak & Sanliturk 2010 eq. 20-23 in orders; eq. 23 without its N_b.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CharacteristicOrders {
+    /// Cage (fundamental train) order.
+    pub ftf: f64,
+    /// Ball pass order, outer race.
+    pub bpfo: f64,
+    /// Ball pass order, inner race.
+    pub bpfi: f64,
+    /// Ball spin order; a ball defect strikes twice per turn.
+    pub bsf: f64,
+}

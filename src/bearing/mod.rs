@@ -1,8 +1,10 @@
 //! Bearings: force and both tangents between a shaft node and its housing.
 
+pub mod ball;
 pub mod geometry;
 
-pub use geometry::BallGeometry;
+pub use ball::{BallElement, BallLoad, Rotation};
+pub use geometry::{BallGeometry, CharacteristicOrders};
 
 use crate::element::Material;
 
@@ -72,4 +74,40 @@ pub struct Wave {
     pub amplitude: f64,
     /// Phase ϕ₀ \[rad\].
     pub phase: f64,
+}
+
+/// Force on the shaft with both tangents, at one relative displacement and velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Reaction {
+    /// Force and moment on the shaft f \[N, N m\]; the housing gets −f.
+    pub force: [f64; 6],
+    /// −∂f/∂d.
+    pub stiffness: [[f64; 6]; 6],
+    /// −∂f/∂ḋ.
+    pub damping: [[f64; 6]; 6],
+    /// Elastic energy stored \[J\].
+    pub elastic_energy: f64,
+    /// Power that the turning cage and passing waves put into the elastic energy \[W\].
+    pub parametric_power: f64,
+    /// Power lost in contact damping \[W\].
+    pub dissipated_power: f64,
+    /// Load-weighted mean of cos α over the loaded balls.
+    pub mean_cos: f64,
+}
+
+impl Reaction {
+    /// Adds `weight` times another reaction.
+    pub fn add(&mut self, other: &Self, weight: f64) {
+        for a in 0..6 {
+            self.force[a] += weight * other.force[a];
+            for b in 0..6 {
+                self.stiffness[a][b] += weight * other.stiffness[a][b];
+                self.damping[a][b] += weight * other.damping[a][b];
+            }
+        }
+        self.elastic_energy += weight * other.elastic_energy;
+        self.parametric_power += weight * other.parametric_power;
+        self.dissipated_power += weight * other.dissipated_power;
+        self.mean_cos += weight * other.mean_cos;
+    }
 }

@@ -1,0 +1,6 @@
+//! Closed forms.
+
+#[path = "../common/bearing.rs"]
+mod bearing;
+
+mod hertz;

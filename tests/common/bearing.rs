@@ -1,0 +1,37 @@
+//! The rig's 6205 as data, for tests that need a bearing and no model file.
+#![allow(dead_code)]
+
+use rotordyn::bearing::{BallBearing, BallGeometry, Cage};
+use rotordyn::element::Material;
+
+pub fn steel() -> Material {
+    Material { name: "steel".into(), young: 207e9, shear: 207e9 / 2.6, poisson: 0.3, density: 7850.0 }
+}
+
+/// 6205 of the overhung rig: 9 balls of 7.938 mm on 38.5 mm, f 0.515/0.525, clearance 10 um.
+pub fn rig_6205() -> BallBearing {
+    BallBearing {
+        geometry: BallGeometry {
+            balls: 9,
+            ball_diameter: 7.938e-3,
+            pitch_diameter: 38.5e-3,
+            inner_groove_radius: 0.515 * 7.938e-3,
+            outer_groove_radius: 0.525 * 7.938e-3,
+            radial_clearance: 10e-6,
+            contact_angle: 0.0,
+            thrust_direction: 1.0,
+            bore: 25e-3,
+            outside_diameter: 52e-3,
+            width: 15e-3,
+        },
+        ball_material: steel(),
+        ring_material: steel(),
+        contact_damping: 300.0,
+        damping_ramp: 1e-6,
+        cage: Cage::Rolling,
+        cage_angle: 0.0,
+        inner_waviness: vec![],
+        outer_waviness: vec![],
+        cage_pocket_diameter: 8.1e-3,
+    }
+}

@@ -1,0 +1,6 @@
+//! What every force element owes: force and tangents that agree, dissipation, no pull.
+
+#[path = "../common/bearing.rs"]
+mod bearing;
+
+mod ball_bearing;
