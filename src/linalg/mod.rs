@@ -1,1 +1,3 @@
-//! Linear algebra: the only bridge between nalgebra and faer.
+//! Linear algebra: the only bridge between nalgebra and faer, and interpolation.
+
+pub mod pchip;

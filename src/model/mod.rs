@@ -3,7 +3,7 @@
 pub mod speed_profile;
 pub mod study;
 
-pub use speed_profile::SpeedProfile;
+pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;
 use crate::element::{Anchor, Belt, Bushing, Disc, Joint, Material, PointMass, RigidBody, ShaftElement};
