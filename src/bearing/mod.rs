@@ -1,10 +1,14 @@
 //! Bearings: force and both tangents between a shaft node and its housing.
 
 pub mod ball;
+pub mod element;
 pub mod geometry;
+pub mod linear;
 
 pub use ball::{BallElement, BallLoad, Rotation};
+pub use element::BearingElement;
 pub use geometry::{BallGeometry, CharacteristicOrders};
+pub use linear::LinearElement;
 
 use crate::element::Material;
 

@@ -1,3 +1,4 @@
 //! Linear algebra: the only bridge between nalgebra and faer, and interpolation.
 
 pub mod pchip;
+pub mod small;

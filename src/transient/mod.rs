@@ -1,1 +1,3 @@
 //! Nonlinear transients in time.
+
+pub mod system;

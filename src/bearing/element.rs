@@ -1,0 +1,61 @@
+//! One interface for every bearing model.
+
+use super::{BallElement, Bearing, LinearElement, Reaction, Rotation};
+
+/// A bearing made ready for evaluation.
+#[derive(Clone, Debug)]
+pub enum BearingElement {
+    Linear(LinearElement),
+    Ball(Box<BallElement>),
+}
+
+impl BearingElement {
+    /// Prepares a bearing for evaluation.
+    pub fn new(bearing: &Bearing) -> Self {
+        match bearing {
+            Bearing::Linear(linear) => Self::Linear(LinearElement::new(linear)),
+            Bearing::Ball(ball) => Self::Ball(Box::new(BallElement::new(ball))),
+        }
+    }
+
+    /// Force on the shaft and both tangents at displacement `d` and velocity `v` of the shaft relative to
+    /// the housing (order u_x u_y u_z θ_x θ_y θ_z).
+    pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        match self {
+            Self::Linear(linear) => linear.reaction(d, v, rotation.shaft_speed),
+            Self::Ball(ball) => ball.reaction(d, v, rotation),
+        }
+    }
+
+    /// Static reaction averaged over one ball pitch of cage angles (`angles` of them).
+    pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
+        match self {
+            Self::Linear(linear) => linear.reaction(d, &[0.0; 6], rotation.shaft_speed),
+            Self::Ball(ball) => ball.cage_average(d, rotation, angles),
+        }
+    }
+
+    /// Number of relative motions the bearing resists: 5 when the shaft turns freely in it, else 6.
+    pub fn rows(&self) -> usize {
+        match self {
+            Self::Linear(_) => 6,
+            Self::Ball(_) => 5,
+        }
+    }
+
+    /// Cage speed over shaft speed at a mean contact angle; 0 where there is no cage.
+    pub fn cage_ratio(&self, mean_cos: f64) -> f64 {
+        match self {
+            Self::Linear(_) => 0.0,
+            Self::Ball(ball) => ball.cage_ratio(mean_cos),
+        }
+    }
+
+    /// Cosine of the nominal contact angle.
+    pub fn nominal_cos(&self) -> f64 {
+        match self {
+            Self::Linear(_) => 1.0,
+            Self::Ball(ball) => ball.nominal_cos(),
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Linear bearing: K and C, constant or tabulated over speed.
+
+use super::{LinearBearing, Reaction};
+use crate::linalg::pchip::Pchip;
+
+/// A linear bearing made ready for evaluation.
+#[derive(Clone, Debug)]
+pub struct LinearElement {
+    /// Entries that are not zero at every speed: row, column, curve over speed.
+    stiffness: Vec<(usize, usize, Pchip)>,
+    damping: Vec<(usize, usize, Pchip)>,
+}
+
+impl LinearElement {
+    /// Prepares a bearing; an empty table, or speeds that do not increase, leave it without force.
+    pub fn new(bearing: &LinearBearing) -> Self {
+        let speeds: Vec<f64> = bearing.table.iter().map(|r| r.speed).collect();
+        let curves = |pick: &dyn Fn(usize, usize, usize) -> f64| {
+            let mut out = Vec::new();
+            for a in 0..6 {
+                for b in 0..6 {
+                    let values: Vec<f64> = (0..speeds.len()).map(|k| pick(k, a, b)).collect();
+                    if values.iter().any(|v| *v != 0.0)
+                        && let Some(curve) = Pchip::new(&speeds, &values)
+                    {
+                        out.push((a, b, curve));
+                    }
+                }
+            }
+            out
+        };
+        Self {
+            stiffness: curves(&|k, a, b| bearing.table[k].stiffness[a][b]),
+            damping: curves(&|k, a, b| bearing.table[k].damping[a][b]),
+        }
+    }
+
+    /// Stiffness K and damping C at a speed Ω \[rad/s\], order u_x u_y u_z θ_x θ_y θ_z.
+    pub fn matrices(&self, speed: f64) -> ([[f64; 6]; 6], [[f64; 6]; 6]) {
+        let fill = |curves: &[(usize, usize, Pchip)]| {
+            let mut m = [[0.0; 6]; 6];
+            for (a, b, curve) in curves {
+                m[*a][*b] = curve.at(speed)[0];
+            }
+            m
+        };
+        (fill(&self.stiffness), fill(&self.damping))
+    }
+
+    /// Force on the shaft f = −K d − C ḋ with its tangents; the symmetric part of K stores ½ dᵀ K d.
+    pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], speed: f64) -> Reaction {
+        let (stiffness, damping) = self.matrices(speed);
+        let mut out = Reaction { stiffness, damping, mean_cos: 1.0, ..Reaction::default() };
+        for a in 0..6 {
+            for b in 0..6 {
+                out.force[a] -= stiffness[a][b] * d[b] + damping[a][b] * v[b];
+                out.elastic_energy += 0.5 * d[a] * stiffness[a][b] * d[b];
+                out.dissipated_power += v[a] * damping[a][b] * v[b];
+                // The skew part of K does work that is not stored; booked as power put in.
+                out.parametric_power += 0.5 * v[a] * (stiffness[b][a] - stiffness[a][b]) * d[b];
+            }
+        }
+        out
+    }
+}
