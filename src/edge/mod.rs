@@ -1,1 +1,3 @@
 //! Edges: one owner per foreign crate or file format.
+
+pub mod parry;

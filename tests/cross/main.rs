@@ -1,0 +1,7 @@
+//! A second opinion: other programs' figures and other libraries' methods beside ours.
+
+#[path = "../common/bearing.rs"]
+mod bearing;
+
+mod parry_distance;
+mod parry_overlaps;
