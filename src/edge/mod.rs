@@ -1,3 +1,6 @@
 //! Edges: one owner per foreign crate or file format.
 
+pub mod gltf;
+pub mod mesh;
 pub mod parry;
+pub mod scene;

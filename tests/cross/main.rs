@@ -3,5 +3,7 @@
 #[path = "../common/bearing.rs"]
 mod bearing;
 
+mod glb;
 mod parry_distance;
+mod parry_masses;
 mod parry_overlaps;

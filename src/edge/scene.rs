@@ -1,0 +1,143 @@
+//! Scenes for viewing: one bearing, or the whole machine of a model.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
+
+use super::gltf::{ColouredMesh, Look, Node, Scene};
+use super::mesh::Mesh;
+use super::parry::{BearingShapes, Placement};
+use crate::bearing::Bearing;
+use crate::element::{Disc, RigidBody};
+use crate::model::Model;
+
+/// Facets around a body of revolution.
+const SECTORS: usize = 96;
+
+const SHAFT: Look = Look { name: "shaft", colour: [0.36, 0.40, 0.46, 1.0], metallic: 0.7, roughness: 0.45 };
+const DISC: Look = Look { name: "disc", colour: [0.10, 0.25, 0.50, 1.0], metallic: 0.4, roughness: 0.5 };
+const INNER: Look =
+    Look { name: "inner ring", colour: [0.30, 0.42, 0.60, 1.0], metallic: 0.7, roughness: 0.4 };
+const OUTER: Look =
+    Look { name: "outer ring", colour: [0.50, 0.52, 0.55, 1.0], metallic: 0.7, roughness: 0.4 };
+const CAGE: Look = Look { name: "cage", colour: [0.70, 0.42, 0.12, 1.0], metallic: 0.6, roughness: 0.5 };
+const BALL: Look = Look { name: "ball", colour: [0.85, 0.86, 0.88, 1.0], metallic: 0.9, roughness: 0.15 };
+const BODY: Look = Look { name: "body", colour: [0.45, 0.50, 0.45, 0.35], metallic: 0.1, roughness: 0.8 };
+
+impl Scene {
+    /// One bearing at a placement: nodes "inner ring", "outer ring", "cage", "ball 1" to "ball Z".
+    pub fn of_bearing(name: &str, shapes: &BearingShapes, at: &Placement) -> Self {
+        let mut scene = Self { name: name.into(), ..Self::default() };
+        scene.add_bearing(name, [0.0; 3], shapes, at);
+        scene
+    }
+
+    /// The machine at rest: shaft sections, discs, ball bearings, rigid bodies.
+    ///
+    /// A disc given by inertia alone is drawn as the cylinder, a body as the box that has its mass and
+    /// inertias. Linear bearings, bushings and belts have no shape.
+    pub fn of_machine(model: &Model) -> Self {
+        let mut scene = Self { name: model.name.clone(), ..Self::default() };
+        for (k, element) in model.shaft.iter().enumerate() {
+            let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
+            let mesh = Mesh::frustum(
+                half(element.inner_diameter),
+                half(element.outer_diameter),
+                [0.0, element.length],
+                SECTORS,
+            );
+            scene.part(
+                format!("shaft {}", k + 1),
+                mesh,
+                SHAFT,
+                &Isometry3::translation(0.0, 0.0, model.node_z[k]),
+            );
+        }
+        for disc in &model.discs {
+            let (radius, thickness) = disc_size(disc);
+            let bore = 0.5 * shaft_diameter(model, disc.node);
+            let inner = if bore < radius { bore } else { 0.0 };
+            let z = [-0.5 * thickness, 0.5 * thickness];
+            let mesh = Mesh::frustum([inner; 2], [radius; 2], z, SECTORS);
+            let at = Isometry3::translation(0.0, 0.0, model.node_z[disc.node]);
+            scene.part(disc.name.clone(), mesh, DISC, &at);
+        }
+        for body in &model.bodies {
+            let (edges, turn) = equivalent_box(body);
+            let [x, y, z] = body.position;
+            let at = Isometry3::from_parts([x, y, z].into(), turn);
+            scene.part(body.name.clone(), Mesh::cuboid(edges), BODY, &at);
+        }
+        for site in &model.bearings {
+            if let Bearing::Ball(ball) = &site.bearing {
+                let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
+                let at = shapes.centred(ball.cage_angle);
+                scene.add_bearing(&site.name, [0.0, 0.0, model.node_z[site.node]], &shapes, &at);
+            }
+        }
+        scene
+    }
+
+    fn add_bearing(&mut self, name: &str, centre: [f64; 3], shapes: &BearingShapes, at: &Placement) {
+        let parent = self.nodes.len();
+        self.nodes.push(Node::at(name, None, centre));
+        let inner = self.part("inner ring".into(), Mesh::ring(&shapes.inner, SECTORS, 24), INNER, &at.inner);
+        let still = Isometry3::identity();
+        let outer = self.part("outer ring".into(), Mesh::ring(&shapes.outer, SECTORS, 24), OUTER, &still);
+        let cage = self.part("cage".into(), Mesh::cage(&shapes.cage, 48, 4), CAGE, &at.cage);
+        let ball = self.meshes.len();
+        self.meshes.push(ColouredMesh { mesh: Mesh::ball(shapes.ball_diameter, 48), look: BALL });
+        let mut children = vec![inner, outer, cage];
+        for (j, centre) in at.balls.iter().enumerate() {
+            children.push(self.nodes.len());
+            self.nodes.push(Node::at(format!("ball {}", j + 1), Some(ball), centre.coords.into()));
+        }
+        self.nodes[parent].children = children;
+    }
+
+    fn part(&mut self, name: String, mesh: Mesh, look: Look, at: &Isometry3<f64>) -> usize {
+        let mut node = Node::at(name, Some(self.meshes.len()), at.translation.vector.into());
+        let q = at.rotation.coords;
+        node.rotation = [q.x, q.y, q.z, q.w];
+        self.meshes.push(ColouredMesh { mesh, look });
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+}
+
+/// Outer diameter of the shaft at a node \[m\], the larger of its two sides.
+fn shaft_diameter(model: &Model, node: usize) -> f64 {
+    let left = node.checked_sub(1).and_then(|k| model.shaft.get(k)).map_or(0.0, |e| e.outer_diameter[1]);
+    let right = model.shaft.get(node).map_or(0.0, |e| e.outer_diameter[0]);
+    left.max(right)
+}
+
+/// Radius and thickness as given, else of the solid cylinder with I_p = m R²/2, I_d = m (3 R² + t²)/12.
+fn disc_size(disc: &Disc) -> (f64, f64) {
+    let given = |length: f64, other: f64| if length > 0.0 { length } else { other };
+    let radius2 = 2.0 * disc.polar_inertia / disc.mass;
+    let thickness2 = 12.0 * disc.diametral_inertia / disc.mass - 3.0 * radius2;
+    let radius = radius2.max(0.0).sqrt();
+    // A thin disc's inertias may leave no thickness; a tenth of the radius is then just a picture.
+    (given(0.5 * disc.outer_diameter, radius), given(disc.thickness, thickness2.max(0.01 * radius2).sqrt()))
+}
+
+/// Edges and orientation of the homogeneous box with the body's mass and inertias: a² = 6 (I_b + I_c − I_a)/m.
+fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
+    let tensor = Matrix3::from_fn(|i, j| body.inertia[i][j]);
+    let diagonal = tensor.diagonal();
+    let off = (tensor - Matrix3::from_diagonal(&diagonal)).amax();
+    // A diagonal tensor keeps the model's axes; eigenvectors of equal moments would turn it at will.
+    let (moments, turn) = if off <= 1e-9 * diagonal.amax() {
+        (diagonal, UnitQuaternion::identity())
+    } else {
+        let eigen = tensor.symmetric_eigen();
+        let mut axes = eigen.eigenvectors;
+        if axes.determinant() < 0.0 {
+            axes.column_mut(2).neg_mut();
+        }
+        (eigen.eigenvalues, UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)))
+    };
+    let trace = moments.sum();
+    // A body given as a point mass, or with inertias of no real body, is drawn 10 mm small.
+    let edge = |k: usize| (6.0 * (trace - 2.0 * moments[k]) / body.mass).max(1e-4).sqrt();
+    ([edge(0), edge(1), edge(2)], turn)
+}
