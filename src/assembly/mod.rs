@@ -1,1 +1,187 @@
-//! Assembly: model to DOF map and matrices.
+//! Assembly: from the model to a DOF map, matrices and load vectors.
+//!
+//! M q̈ + (C + Ω G) q̇ + (K + Ω̇ K_s + Ω K_c) q = f over the free DOFs q; q_full = T q holds six DOFs per
+//! node, shaft nodes first, then bodies. θ_z of a shaft node is its twist beyond the drive's rotation.
+
+pub mod dofs;
+mod elements;
+pub mod free_motion;
+pub mod linear_system;
+mod spin_up;
+
+pub use dofs::DofMap;
+pub use linear_system::LinearSystem;
+pub use spin_up::SpinUpForm;
+
+use crate::element::Anchor;
+use crate::element::shaft_matrices::ConeRule;
+use crate::error::Error;
+use crate::linalg::{Complex64, SparseMatrix, SparseRow};
+use crate::model::Model;
+
+/// The machine's equations over its free DOFs, bearings apart.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    pub dofs: DofMap,
+    /// Mass M.
+    pub mass: SparseMatrix,
+    /// Stiffness K of shaft and bushings, without bearings and belts.
+    pub stiffness: SparseMatrix,
+    /// Stiffness of the belts, which acts about the equilibrium but not in it.
+    pub belt_stiffness: SparseMatrix,
+    /// Damping C: of elements, bushings, belts, proportional and internal; without bearings and modal damping.
+    pub damping: SparseMatrix,
+    /// Gyroscopic matrix G, per rad/s.
+    pub gyroscopic: SparseMatrix,
+    /// Circulatory stiffness K_c of internal damping, per rad/s.
+    pub circulatory: SparseMatrix,
+    /// Stiffness K_s of angular acceleration, per rad/s².
+    pub spin_up: SparseMatrix,
+    /// Gravity on every mass \[N, N m\].
+    pub gravity_load: Vec<f64>,
+    /// Constant loads and the belts' static pull \[N, N m\].
+    pub static_load: Vec<f64>,
+    /// Momentum Tᵀ M r of the rigid rotation r of all shaft nodes about z: an acceleration Ω̇ puts −Ω̇ times this
+    /// on the twist. (With no drive station, each inertia is taken to be turned by its own torque: then leave it out.)
+    pub spin_momentum: Vec<f64>,
+    /// Polar moment of inertia rᵀ M r of shaft, discs and what rides on them \[kg m²\].
+    pub polar_inertia: f64,
+    pub unbalances: Vec<UnbalanceForce>,
+    pub sites: Vec<Site>,
+    /// Modal damping as measured: (frequency \[Hz\], ζ).
+    pub modal_damping: Vec<[f64; 2]>,
+    /// Mass over all DOFs, before elimination.
+    pub full_mass: SparseMatrix,
+}
+
+/// A bearing's place: how its six relative displacements follow from q.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Site {
+    pub name: String,
+    /// Shaft node minus housing point: u_x u_y u_z θ_x θ_y θ_z as rows over the free DOFs.
+    pub rows: [SparseRow; 6],
+}
+
+impl Site {
+    /// Relative displacement (or velocity) d = R q.
+    pub fn relative(&self, q: &[f64]) -> [f64; 6] {
+        std::array::from_fn(|i| self.rows[i].dot(q))
+    }
+
+    /// Adds Rᵀ f: f on the shaft, −f on the housing.
+    pub fn add_force(&self, force: &[f64; 6], to: &mut [f64]) {
+        elements::add_force(&self.rows, force, to);
+    }
+}
+
+/// Unbalance U at phase ϕ on a node, as a force on the free DOFs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnbalanceForce {
+    pub name: String,
+    /// u_x and u_y of the node as rows over the free DOFs.
+    pub x: SparseRow,
+    pub y: SparseRow,
+    /// U = m e \[kg m\].
+    pub magnitude: f64,
+    /// ϕ \[rad\].
+    pub phase: f64,
+}
+
+impl Assembly {
+    /// Assembles with exact cones and energy-consistent terms of angular acceleration.
+    ///
+    /// # Errors
+    /// A mass matrix that is not positive definite.
+    pub fn new(model: &Model) -> Result<Self, Error> {
+        Self::with_forms(model, SpinUpForm::default(), ConeRule::default())
+    }
+
+    /// Assembles with chosen forms, to compare with programs that differ.
+    ///
+    /// # Errors
+    /// A mass matrix that is not positive definite.
+    pub fn with_forms(model: &Model, spin_up: SpinUpForm, cones: ConeRule) -> Result<Self, Error> {
+        let dofs = DofMap::new(model);
+        let full = elements::assemble(model, cones);
+        let n = dofs.len();
+        let reduce = |a: &SparseMatrix| a.congruence(&dofs.basis, n);
+        let (gravity, steady) = elements::loads(model, &full.mass);
+        let rotation: Vec<f64> =
+            (0..dofs.full_len()).map(|i| f64::from(i < 6 * dofs.shaft_nodes && i % 6 == 5)).collect();
+        let momentum = full.mass.mul(&rotation);
+        let node_rows = |node: usize| dofs.anchor_rows(&Anchor::node(node));
+        let assembly = Self {
+            mass: reduce(&full.mass),
+            stiffness: reduce(&full.stiffness),
+            belt_stiffness: reduce(&full.belt_stiffness),
+            damping: reduce(&full.damping),
+            gyroscopic: reduce(&full.gyroscopic),
+            circulatory: reduce(&full.circulatory),
+            spin_up: reduce(&spin_up::spin_up(model, spin_up, &full.gyroscopic)),
+            gravity_load: dofs.reduce(&gravity),
+            static_load: dofs.reduce(&steady),
+            spin_momentum: dofs.reduce(&momentum),
+            polar_inertia: momentum.iter().zip(&rotation).map(|(p, r)| p * r).sum(),
+            unbalances: model
+                .unbalances
+                .iter()
+                .map(|u| {
+                    let [x, y, ..] = node_rows(u.node);
+                    UnbalanceForce { name: u.name.clone(), x, y, magnitude: u.magnitude, phase: u.phase }
+                })
+                .collect(),
+            sites: model
+                .bearings
+                .iter()
+                .map(|b| Site {
+                    name: b.name.clone(),
+                    rows: dofs.relative_rows(&Anchor::node(b.node), &b.housing),
+                })
+                .collect(),
+            modal_damping: model.damping.modal.clone(),
+            full_mass: full.mass,
+            dofs,
+        };
+        free_motion::check_mass(&assembly)?;
+        Ok(assembly)
+    }
+
+    /// Displacement of an anchor's point as rows over the free DOFs.
+    pub fn anchor_rows(&self, anchor: &Anchor) -> [SparseRow; 6] {
+        self.dofs.anchor_rows(anchor)
+    }
+
+    /// One direction of an anchor's point as a row over the free DOFs: Σ direction × row.
+    pub fn direction_row(&self, anchor: &Anchor, direction: &[f64; 6]) -> SparseRow {
+        let mut out = SparseRow::default();
+        for (row, &d) in self.anchor_rows(anchor).iter().zip(direction) {
+            out.add_scaled(d, row);
+        }
+        out
+    }
+
+    /// Adds the unbalance force at shaft angle θ, speed Ω and acceleration Ω̇:
+    /// F_x = U (Ω² cos φ + Ω̇ sin φ), F_y = U (Ω² sin φ − Ω̇ cos φ), φ = θ + ϕ.
+    pub fn add_unbalance(&self, theta: f64, speed: f64, acceleration: f64, to: &mut [f64]) {
+        for u in &self.unbalances {
+            let (sin, cos) = (theta + u.phase).sin_cos();
+            u.x.add_to(u.magnitude * (speed * speed * cos + acceleration * sin), to);
+            u.y.add_to(u.magnitude * (speed * speed * sin - acceleration * cos), to);
+        }
+    }
+
+    /// Complex amplitude F of the unbalance force at steady speed, f = Re(F e^{jΩt}): F_x = U Ω² e^{jϕ}, F_y = −j F_x.
+    pub fn unbalance_amplitude(&self, speed: f64) -> Vec<Complex64> {
+        let mut f = vec![Complex64::default(); self.dofs.len()];
+        for u in &self.unbalances {
+            let force = Complex64::from_polar(u.magnitude * speed * speed, u.phase);
+            for &(i, v) in &u.x.0 {
+                f[i] += force * v;
+            }
+            for &(i, v) in &u.y.0 {
+                f[i] += Complex64::new(force.im, -force.re) * v;
+            }
+        }
+        f
+    }
+}

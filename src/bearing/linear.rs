@@ -3,6 +3,24 @@
 use super::{LinearBearing, Reaction};
 use crate::linalg::pchip::Pchip;
 
+/// Stiffness and damping of a bearing between shaft node and housing point, linearised.
+///
+/// With d = (displacement of the shaft node) − (that of the housing's point), the force on the shaft is
+/// f = −K d − C ḋ; order u_x u_y u_z θ_x θ_y θ_z.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct SiteTangent {
+    /// K \[N/m, N/rad, N m/m, N m/rad\].
+    pub stiffness: [[f64; 6]; 6],
+    /// C, same order \[N s/m ...\].
+    pub damping: [[f64; 6]; 6],
+}
+
+impl From<&Reaction> for SiteTangent {
+    fn from(reaction: &Reaction) -> Self {
+        Self { stiffness: reaction.stiffness, damping: reaction.damping }
+    }
+}
+
 /// A linear bearing made ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct LinearElement {
@@ -45,6 +63,12 @@ impl LinearElement {
             m
         };
         (fill(&self.stiffness), fill(&self.damping))
+    }
+
+    /// Stiffness and damping at a speed Ω \[rad/s\] as a tangent.
+    pub fn tangent(&self, speed: f64) -> SiteTangent {
+        let (stiffness, damping) = self.matrices(speed);
+        SiteTangent { stiffness, damping }
     }
 
     /// Force on the shaft f = −K d − C ḋ with its tangents; the symmetric part of K stores ½ dᵀ K d.

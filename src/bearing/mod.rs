@@ -8,7 +8,7 @@ pub mod linear;
 pub use ball::{BallElement, BallLoad, Rotation};
 pub use element::BearingElement;
 pub use geometry::{BallGeometry, CharacteristicOrders};
-pub use linear::LinearElement;
+pub use linear::{LinearElement, SiteTangent};
 
 use crate::element::Material;
 

@@ -7,6 +7,7 @@ pub mod joint;
 pub mod material;
 pub mod rigid_body;
 pub mod shaft;
+pub mod shaft_matrices;
 
 pub use anchor::Anchor;
 pub use belt::Belt;

@@ -1,4 +1,25 @@
-//! Linear algebra: the only bridge between nalgebra and faer, and interpolation.
+//! Linear algebra: sparse and banded matrices of our own, dense eigenvalue problems through faer.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`sparse`] | [`Triplets`] to assemble into, [`SparseMatrix`] (compressed columns), [`SparseRow`] |
+//! | [`band`] | node ordering, [`BandLayout`] and the banded [`BandLu`], real and complex |
+//! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
+//! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
+//! | [`pchip`] | monotone cubic interpolation |
+//! | [`small`] | small dense systems |
 
+pub mod band;
+pub mod eigen;
+pub mod krylov;
 pub mod pchip;
 pub mod small;
+pub mod sparse;
+
+pub use band::{BandLayout, BandLu, ZeroPivot};
+pub use sparse::{SparseMatrix, SparseRow, Triplets};
+
+pub use nalgebra::Complex;
+
+/// Complex number of double precision.
+pub type Complex64 = Complex<f64>;

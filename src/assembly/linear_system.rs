@@ -1,0 +1,86 @@
+//! The linear equations at one speed, bearings included.
+
+use super::Assembly;
+use crate::bearing::SiteTangent;
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{SparseMatrix, Triplets, eigen};
+
+/// M q̈ + D q̇ + S q = f at speed Ω, with D = C + Ω G and S = K + Ω K_c, bearings and belts included.
+#[derive(Clone, Debug)]
+pub struct LinearSystem {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    /// M.
+    pub mass: SparseMatrix,
+    /// D = C + Ω G.
+    pub damping: SparseMatrix,
+    /// S = K + Ω K_c.
+    pub stiffness: SparseMatrix,
+}
+
+impl LinearSystem {
+    /// Linear equations with one tangent for every bearing site, in order.
+    ///
+    /// # Errors
+    /// No undamped modes where modal damping asks for them.
+    pub fn new(assembly: &Assembly, tangents: &[SiteTangent], speed: f64) -> Result<Self, Error> {
+        let n = assembly.dofs.len();
+        let (mut k, mut c) = (Triplets::new(n, n), Triplets::new(n, n));
+        for (site, tangent) in assembly.sites.iter().zip(tangents) {
+            k.add_between_rows(&site.rows, &tangent.stiffness);
+            c.add_between_rows(&site.rows, &tangent.damping);
+        }
+        let standstill = SparseMatrix::sum(&[
+            (1.0, &assembly.stiffness),
+            (1.0, &assembly.belt_stiffness),
+            (1.0, &k.build()),
+        ]);
+        let modal = modal_damping(assembly, &standstill)?;
+        Ok(Self {
+            speed,
+            mass: assembly.mass.clone(),
+            damping: SparseMatrix::sum(&[
+                (1.0, &assembly.damping),
+                (1.0, &c.build()),
+                (1.0, &modal),
+                (speed, &assembly.gyroscopic),
+            ]),
+            stiffness: SparseMatrix::sum(&[(1.0, &standstill), (speed, &assembly.circulatory)]),
+        })
+    }
+}
+
+/// C = M Φ diag(2 ζ ω) Φᵀ M from the undamped modes at standstill, Φᵀ M Φ = 1.
+pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<SparseMatrix, Error> {
+    let n = assembly.dofs.len();
+    if assembly.modal_damping.is_empty() {
+        return Ok(SparseMatrix::zeros(n, n));
+    }
+    let mass = assembly.mass.to_dense();
+    let (squares, mut shapes) = eigen::undamped(&stiffness.to_dense(), &mass, 1.0)
+        .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
+    let momentum = &mass * &shapes;
+    for (mut column, square) in shapes.column_iter_mut().zip(&squares) {
+        let omega = square.max(0.0).sqrt();
+        column *= 2.0 * omega * damping_ratio(&assembly.modal_damping, omega / std::f64::consts::TAU);
+    }
+    let mut dense = &momentum * (mass * shapes).transpose();
+    // Unknowns that nothing couples get round-off only; without it they stay apart.
+    let floor = 1e-12 * dense.amax();
+    dense.apply(|v| {
+        if v.abs() < floor {
+            *v = 0.0;
+        }
+    });
+    Ok(SparseMatrix::from_dense(&dense))
+}
+
+/// ζ at a frequency \[Hz\]: piecewise linear, constant beyond the ends.
+fn damping_ratio(table: &[[f64; 2]], hz: f64) -> f64 {
+    let after = table.partition_point(|row| row[0] <= hz);
+    match (after.checked_sub(1).map(|k| table[k]), table.get(after).copied()) {
+        (Some([f0, z0]), Some([f1, z1])) => z0 + (z1 - z0) * (hz - f0) / (f1 - f0),
+        (Some([_, z]), None) | (None, Some([_, z])) => z,
+        (None, None) => 0.0,
+    }
+}

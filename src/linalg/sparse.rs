@@ -1,0 +1,265 @@
+//! Sparse matrices: triplets to assemble into, compressed columns to compute with.
+
+use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+
+/// Matrix under assembly: entries at the same place add up.
+#[derive(Clone, Debug, Default)]
+pub struct Triplets {
+    rows: usize,
+    cols: usize,
+    entries: Vec<(usize, usize, f64)>,
+}
+
+impl Triplets {
+    /// Empty matrix of the given size.
+    pub fn new(rows: usize, cols: usize) -> Self {
+        Self { rows, cols, entries: Vec::new() }
+    }
+
+    /// Adds `value` at (row, col).
+    pub fn add(&mut self, row: usize, col: usize, value: f64) {
+        debug_assert!(row < self.rows && col < self.cols);
+        self.entries.push((row, col, value));
+    }
+
+    /// Adds factor × `matrix` with its top left corner at (row, col).
+    pub fn add_sparse(&mut self, row: usize, col: usize, matrix: &SparseMatrix, factor: f64) {
+        self.entries.extend(matrix.iter().map(|(i, j, v)| (row + i, col + j, factor * v)));
+    }
+
+    /// Adds Rᵀ S R, S a small dense matrix between the rows R.
+    pub fn add_between_rows<const N: usize>(&mut self, rows: &[SparseRow; N], block: &[[f64; N]; N]) {
+        self.add_between(rows, block, rows);
+    }
+
+    /// Adds Lᵀ S R, S a small dense matrix between the rows L and R.
+    pub fn add_between<const N: usize>(
+        &mut self,
+        left: &[SparseRow; N],
+        block: &[[f64; N]; N],
+        right: &[SparseRow; N],
+    ) {
+        for (l, line) in left.iter().zip(block) {
+            for (r, &s) in right.iter().zip(line) {
+                if s != 0.0 {
+                    for &(i, a) in &l.0 {
+                        for &(j, b) in &r.0 {
+                            self.entries.push((i, j, a * s * b));
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The compressed matrix; entries that add up to exactly zero are left out.
+    pub fn build(mut self) -> SparseMatrix {
+        // A stable sort keeps the order of addition, so that sums round the same every time.
+        self.entries.sort_by_key(|&(i, j, _)| (j, i));
+        let mut matrix = SparseMatrix::zeros(self.rows, self.cols);
+        let mut place = None;
+        let mut columns = Vec::with_capacity(self.entries.len());
+        for (i, j, v) in self.entries {
+            if place == Some((i, j)) {
+                *matrix.values.last_mut().expect("an entry stands at `place`") += v;
+            } else {
+                place = Some((i, j));
+                columns.push(j);
+                matrix.row_index.push(i);
+                matrix.values.push(v);
+            }
+        }
+        matrix.compress(&columns);
+        matrix
+    }
+}
+
+/// Sparse matrix in compressed columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SparseMatrix {
+    rows: usize,
+    /// Entries of column j are `start[j]..start[j + 1]`.
+    start: Vec<usize>,
+    row_index: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl SparseMatrix {
+    /// Matrix without entries.
+    pub fn zeros(rows: usize, cols: usize) -> Self {
+        Self { rows, start: vec![0; cols + 1], row_index: Vec::new(), values: Vec::new() }
+    }
+
+    /// Drops zeros and sets the column starts from the column of every entry.
+    fn compress(&mut self, columns: &[usize]) {
+        let mut kept = 0;
+        let mut count = vec![0; self.cols() + 1];
+        for (k, &j) in columns.iter().enumerate() {
+            if self.values[k] != 0.0 {
+                self.values[kept] = self.values[k];
+                self.row_index[kept] = self.row_index[k];
+                count[j + 1] += 1;
+                kept += 1;
+            }
+        }
+        self.values.truncate(kept);
+        self.row_index.truncate(kept);
+        for j in 0..self.cols() {
+            count[j + 1] += count[j];
+        }
+        self.start = count;
+    }
+
+    /// Sparse copy of a dense matrix.
+    pub fn from_dense(dense: &DMatrix<f64>) -> Self {
+        let mut triplets = Triplets::new(dense.nrows(), dense.ncols());
+        for j in 0..dense.ncols() {
+            for i in 0..dense.nrows() {
+                if dense[(i, j)] != 0.0 {
+                    triplets.add(i, j, dense[(i, j)]);
+                }
+            }
+        }
+        triplets.build()
+    }
+
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    pub fn cols(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// Entries (row, column, value) in order of columns.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        (0..self.cols()).flat_map(move |j| self.column(j).map(move |(i, v)| (i, j, v)))
+    }
+
+    /// Entries (row, value) of a column.
+    pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let range = self.start[j]..self.start[j + 1];
+        self.row_index[range.clone()].iter().copied().zip(self.values[range].iter().copied())
+    }
+
+    /// Entry at (i, j); zero when none is stored.
+    pub fn get(&self, i: usize, j: usize) -> f64 {
+        let range = self.start[j]..self.start[j + 1];
+        self.row_index[range.clone()].binary_search(&i).map_or(0.0, |k| self.values[range.start + k])
+    }
+
+    /// Dense copy.
+    pub fn to_dense(&self) -> DMatrix<f64> {
+        let mut dense = DMatrix::zeros(self.rows(), self.cols());
+        for (i, j, v) in self.iter() {
+            dense[(i, j)] = v;
+        }
+        dense
+    }
+
+    /// y = A x.
+    pub fn mul(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.rows];
+        self.mul_add(1.0, x, &mut y);
+        y
+    }
+
+    /// y ← y + factor A x.
+    pub fn mul_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
+        for (j, &xj) in x.iter().enumerate() {
+            let s = factor * xj;
+            for k in self.start[j]..self.start[j + 1] {
+                y[self.row_index[k]] += self.values[k] * s;
+            }
+        }
+    }
+
+    /// y = A x for a complex vector.
+    pub fn mul_complex(&self, x: &[super::Complex64]) -> Vec<super::Complex64> {
+        let mut y = vec![super::Complex64::default(); self.rows];
+        for (i, j, v) in self.iter() {
+            y[i] += x[j] * v;
+        }
+        y
+    }
+
+    /// Σ factor × matrix over matrices of one size.
+    pub fn sum(terms: &[(f64, &SparseMatrix)]) -> SparseMatrix {
+        let (rows, cols) = terms.first().map_or((0, 0), |(_, a)| (a.rows(), a.cols()));
+        let mut out = SparseMatrix::zeros(rows, cols);
+        let mut column = BTreeMap::new();
+        let mut columns = Vec::new();
+        for j in 0..cols {
+            for (factor, matrix) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
+                for (i, v) in matrix.column(j) {
+                    *column.entry(i).or_insert(0.0) += factor * v;
+                }
+            }
+            while let Some((i, v)) = column.pop_first() {
+                out.row_index.push(i);
+                out.values.push(v);
+                columns.push(j);
+            }
+        }
+        out.compress(&columns);
+        out
+    }
+
+    /// Tᵀ A T, `basis[i]` being row i of T.
+    pub fn congruence(&self, basis: &[SparseRow], reduced: usize) -> SparseMatrix {
+        let mut out = Triplets::new(reduced, reduced);
+        for (i, j, v) in self.iter() {
+            for &(a, ta) in &basis[i].0 {
+                for &(b, tb) in &basis[j].0 {
+                    out.add(a, b, ta * v * tb);
+                }
+            }
+        }
+        out.build()
+    }
+
+    /// Largest magnitude of an entry.
+    pub fn max_abs(&self) -> f64 {
+        self.values.iter().fold(0.0, |m, v| m.max(v.abs()))
+    }
+}
+
+/// A sparse row vector r: (index, value) pairs, sorted by index.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SparseRow(pub Vec<(usize, f64)>);
+
+impl SparseRow {
+    /// Unit row.
+    pub fn unit(index: usize) -> Self {
+        Self(vec![(index, 1.0)])
+    }
+
+    /// Adds factor × `other`.
+    pub fn add_scaled(&mut self, factor: f64, other: &SparseRow) {
+        for &(i, v) in &other.0 {
+            match self.0.binary_search_by_key(&i, |&(k, _)| k) {
+                Ok(at) => self.0[at].1 += factor * v,
+                Err(at) => self.0.insert(at, (i, factor * v)),
+            }
+        }
+        self.0.retain(|&(_, v)| v != 0.0);
+    }
+
+    /// r · x.
+    pub fn dot(&self, x: &[f64]) -> f64 {
+        self.0.iter().map(|&(i, v)| v * x[i]).sum()
+    }
+
+    /// r · x for a complex vector.
+    pub fn dot_complex(&self, x: &[super::Complex64]) -> super::Complex64 {
+        self.0.iter().map(|&(i, v)| x[i] * v).sum()
+    }
+
+    /// y ← y + factor rᵀ, which is how a force at the row's point enters the equations.
+    pub fn add_to(&self, factor: f64, y: &mut [f64]) {
+        for &(i, v) in &self.0 {
+            y[i] += factor * v;
+        }
+    }
+}
