@@ -141,10 +141,9 @@ pub(super) fn full_rows(anchor: &Anchor) -> [SparseRow; 6] {
 }
 
 /// Rows solved each for one DOF (coefficient 1), which appears in no other row.
-fn eliminate(mut rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
+fn eliminate(rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
     let mut solved: Vec<(usize, SparseRow)> = Vec::new();
-    for at in 0..rows.len() {
-        let mut row = std::mem::take(&mut rows[at]);
+    for mut row in rows {
         for (pivot, other) in &solved {
             let factor = row.0.iter().find(|(i, _)| i == pivot).map_or(0.0, |&(_, v)| v);
             row.add_scaled(-factor, other);

@@ -36,7 +36,6 @@ const SPIN: &str = "rotation of the shaft about z (θ_z)";
 fn free_motions(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, Error> {
     let (squares, shapes) = eigen::undamped(&stiffness.to_dense(), &assembly.mass.to_dense(), 1.0)
         .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
-    // Low stiffness is told from round-off of the stiffest element by the size of what a shift moves.
     let mut names: Vec<String> = Vec::new();
     for (square, shape) in squares.iter().zip(shapes.column_iter()) {
         if *square < FREE_BELOW * FREE_BELOW {
@@ -78,7 +77,7 @@ fn describe(assembly: &Assembly, shape: &[f64]) -> String {
 /// Every free DOF must carry inertia.
 pub(super) fn check_mass(assembly: &Assembly) -> Result<(), Error> {
     let dofs: &DofMap = &assembly.dofs;
-    match (0..dofs.len()).find(|&k| !(assembly.mass.get(k, k) > 0.0)) {
+    match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {
         Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }.into()),
         None => Ok(()),
     }
