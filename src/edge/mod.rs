@@ -3,4 +3,5 @@
 pub mod gltf;
 pub mod mesh;
 pub mod parry;
+pub mod rapier;
 pub mod scene;

@@ -7,3 +7,4 @@ mod glb;
 mod parry_distance;
 mod parry_masses;
 mod parry_overlaps;
+mod rapier_cage;
