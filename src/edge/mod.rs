@@ -1,6 +1,7 @@
 //! Edges: one owner per foreign crate or file format.
 
 pub mod gltf;
+pub mod hdf5;
 pub mod mesh;
 pub mod parry;
 pub mod rapier;

@@ -1,0 +1,282 @@
+//! HDF5 files: groups, attributes, data sets and streamed channels, readable with plain h5py.
+//!
+//! The only module that uses the hdf5 crate. Files need HDF5 1.8 or later to read, hold no time stamps (so that
+//! rerunning gives the same file) and name objects by absolute paths, `/modes/omega`; groups on the way are
+//! made as needed.
+
+mod attribute;
+mod scale;
+mod stream;
+
+pub use attribute::Attribute;
+pub use stream::{Channel, ChannelStream, Recording, read_recording};
+
+use crate::error::Error;
+use hdf5::file::LibraryVersion;
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, File, Group, H5Type, OpenMode};
+use nalgebra::Complex;
+use std::path::{Path, PathBuf};
+
+/// Values in a chunk at most (256 kB of f64).
+const CHUNK_VALUES: usize = 32_768;
+/// Data sets with fewer values than this are stored whole and uncompressed.
+const SMALL: usize = 1024;
+/// Compression level 1 to 9: above 1 shuffled samples hardly shrink further.
+const DEFLATE: u8 = 1;
+
+/// An open HDF5 file.
+#[derive(Debug)]
+pub struct Store {
+    file: File,
+    path: PathBuf,
+}
+
+/// An N-dimensional data set in row-major order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array<T> {
+    pub shape: Vec<usize>,
+    pub data: Vec<T>,
+}
+
+/// The compound that h5py reads as complex128.
+#[derive(Clone, Copy, H5Type)]
+#[repr(C)]
+struct ComplexPair {
+    r: f64,
+    i: f64,
+}
+
+impl Store {
+    /// Creates a file, replacing one that is there, and the folders on the way to it.
+    pub fn create(path: impl AsRef<Path>) -> Result<Store, Error> {
+        let path = path.as_ref();
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| failure("create the folder of", path, e))?;
+        }
+        Store::open_as(path, OpenMode::Create, "create")
+    }
+
+    /// Opens a file for reading.
+    pub fn open(path: impl AsRef<Path>) -> Result<Store, Error> {
+        Store::open_as(path.as_ref(), OpenMode::Read, "open")
+    }
+
+    /// Opens a file for writing more into it, or creates it.
+    pub fn append(path: impl AsRef<Path>) -> Result<Store, Error> {
+        match path.as_ref().exists() {
+            true => Store::open_as(path.as_ref(), OpenMode::ReadWrite, "open for writing"),
+            false => Store::create(path),
+        }
+    }
+
+    fn open_as(path: &Path, mode: OpenMode, operation: &'static str) -> Result<Store, Error> {
+        let mut options = File::with_options();
+        // The 1.8 format has no "open for writing" mark, so a file whose writer was killed opens as any other.
+        // No lock, so that a run can be looked at while it goes on.
+        options.with_fapl(|access| {
+            access.libver_bounds(LibraryVersion::V18, LibraryVersion::V18).file_locking(false)
+        });
+        options.with_fcpl(|create| create.obj_track_times(false));
+        let file = options.open_as(path, mode).map_err(|e| failure(operation, path, e))?;
+        Ok(Store { file, path: path.into() })
+    }
+
+    /// The file's path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Hands all that was written to the operating system.
+    pub fn flush(&self) -> Result<(), Error> {
+        self.file.flush().map_err(|e| failure("write", &self.path, e))
+    }
+
+    /// Whether there is a group or data set of this name.
+    pub fn contains(&self, name: &str) -> bool {
+        prefixes(name).all(|prefix| self.file.link_exists(prefix))
+    }
+
+    /// Names of the groups and data sets in a group, in alphabetical order.
+    pub fn members(&self, group: &str) -> Result<Vec<String>, Error> {
+        let mut names = self.reading(group, self.file.group(group).and_then(|g| g.member_names()))?;
+        names.sort();
+        Ok(names)
+    }
+
+    /// Removes a group with all in it, or a data set; nothing happens if there is none.
+    ///
+    /// Remove data sets together with their scales. The space is used again only until the file is closed.
+    pub fn remove(&self, name: &str) -> Result<(), Error> {
+        match self.contains(name) {
+            true => self.writing(name, self.file.unlink(name)),
+            false => Ok(()),
+        }
+    }
+
+    /// Creates a group and those above it; nothing happens if it is there.
+    pub fn create_group(&self, name: &str) -> Result<(), Error> {
+        self.writing(name, self.group(name)).map(drop)
+    }
+
+    /// Writes a data set of f64 with its shape and attributes; the name must be free.
+    pub fn write(
+        &self,
+        name: &str,
+        shape: &[usize],
+        data: &[f64],
+        attributes: &[(&str, Attribute)],
+    ) -> Result<(), Error> {
+        self.writing(name, self.dataset(name, shape, data, attributes))
+    }
+
+    /// Writes a data set of complex numbers, a compound {r, i} of f64; the name must be free.
+    pub fn write_complex(
+        &self,
+        name: &str,
+        shape: &[usize],
+        data: &[Complex<f64>],
+        attributes: &[(&str, Attribute)],
+    ) -> Result<(), Error> {
+        let pairs: Vec<_> = data.iter().map(|z| ComplexPair { r: z.re, i: z.im }).collect();
+        self.writing(name, self.dataset(name, shape, &pairs, attributes))
+    }
+
+    /// Writes a list of UTF-8 strings; the name must be free.
+    pub fn write_texts<T: AsRef<str>>(
+        &self,
+        name: &str,
+        texts: &[T],
+        attributes: &[(&str, Attribute)],
+    ) -> Result<(), Error> {
+        let written = texts
+            .iter()
+            .map(|text| attribute::unicode(text.as_ref()))
+            .collect::<hdf5::Result<Vec<_>>>()
+            .and_then(|texts| self.dataset(name, &[texts.len()], &texts, attributes));
+        self.writing(name, written)
+    }
+
+    /// Reads a data set of numbers.
+    pub fn read(&self, name: &str) -> Result<Array<f64>, Error> {
+        self.read_as(name)
+    }
+
+    /// Reads a data set of complex numbers.
+    pub fn read_complex(&self, name: &str) -> Result<Array<Complex<f64>>, Error> {
+        let Array { shape, data } = self.read_as::<ComplexPair>(name)?;
+        Ok(Array { shape, data: data.iter().map(|z| Complex::new(z.r, z.i)).collect() })
+    }
+
+    /// Reads a list of strings.
+    pub fn read_texts(&self, name: &str) -> Result<Vec<String>, Error> {
+        Ok(self.read_as::<VarLenUnicode>(name)?.data.iter().map(|text| text.to_string()).collect())
+    }
+
+    /// Sets an attribute of a data set or group, replacing an earlier value; a missing group is created.
+    pub fn set_attribute(&self, object: &str, name: &str, value: impl Into<Attribute>) -> Result<(), Error> {
+        let set = match self.file.dataset(object) {
+            Ok(dataset) => attribute::set(&dataset, name, &value.into()),
+            Err(_) => self.group(object).and_then(|group| attribute::set(&group, name, &value.into())),
+        };
+        self.writing(object, set)
+    }
+
+    /// Reads an attribute of a data set or group; `None` if it has none of this name.
+    pub fn attribute(&self, object: &str, name: &str) -> Result<Option<Attribute>, Error> {
+        let read = match self.file.dataset(object) {
+            Ok(dataset) => attribute::get(&dataset, name),
+            Err(_) => self.file.group(object).and_then(|group| attribute::get(&group, name)),
+        };
+        self.reading(object, read)
+    }
+
+    /// Makes the one-dimensional data set `scale` the axis of one dimension (from 0) of `dataset`.
+    ///
+    /// `label` (at most 63 bytes) names the axis, "frequency"; h5py shows both as `dataset.dims[dimension]`.
+    pub fn attach_scale(
+        &self,
+        dataset: &str,
+        dimension: usize,
+        scale: &str,
+        label: &str,
+    ) -> Result<(), Error> {
+        self.writing(dataset, scale::attach(&self.file, &self.path, dataset, dimension, scale, label))
+    }
+
+    /// The group of this name, created with those above it if missing.
+    fn group(&self, name: &str) -> hdf5::Result<Group> {
+        let mut group = self.file.as_group()?;
+        for prefix in prefixes(name) {
+            group = match self.file.link_exists(prefix) {
+                true => self.file.group(prefix)?,
+                false => self.file.create_group_builder().obj_track_times(false).create(prefix)?,
+            };
+        }
+        Ok(group)
+    }
+
+    fn dataset<T: H5Type>(
+        &self,
+        name: &str,
+        shape: &[usize],
+        data: &[T],
+        attributes: &[(&str, Attribute)],
+    ) -> hdf5::Result<()> {
+        if shape.iter().product::<usize>() != data.len() {
+            let message = format!("the shape {shape:?} does not fit {} values", data.len());
+            return Err(hdf5::Error::Internal(message));
+        }
+        let parent = name.rsplit_once('/').map_or("", |(parent, _)| parent);
+        self.group(parent)?;
+        let mut builder = self.file.new_dataset::<T>().obj_track_times(false);
+        if data.len() >= SMALL {
+            builder = builder.chunk(chunk(shape)).shuffle().deflate(DEFLATE);
+        }
+        let dataset = builder.shape(shape).create(name)?;
+        dataset.write_raw(data)?;
+        attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))
+    }
+
+    fn read_as<T: H5Type>(&self, name: &str) -> Result<Array<T>, Error> {
+        let read = self
+            .file
+            .dataset(name)
+            .and_then(|dataset: Dataset| Ok(Array { shape: dataset.shape(), data: dataset.read_raw()? }));
+        self.reading(name, read)
+    }
+
+    fn writing<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {
+        result.map_err(|e| failure("write", &self.path, format!("{object}: {e}")))
+    }
+
+    fn reading<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {
+        result.map_err(|e| failure("read", &self.path, format!("{object}: {e}")))
+    }
+}
+
+fn failure(
+    operation: &'static str,
+    path: &Path,
+    source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> Error {
+    Error::Environment { operation, path: path.into(), source: source.into() }
+}
+
+/// `/a/b/c` as `/a`, `/a/b`, `/a/b/c`.
+fn prefixes(name: &str) -> impl Iterator<Item = &str> {
+    let name = name.trim_end_matches('/');
+    let ends = name.match_indices('/').map(|(end, _)| end).chain([name.len()]);
+    ends.filter(|&end| end > 0).map(|end| &name[..end])
+}
+
+/// A chunk of at most `CHUNK_VALUES` values, whole in the last dimensions as far as they go.
+fn chunk(shape: &[usize]) -> Vec<usize> {
+    let mut left = CHUNK_VALUES;
+    let mut chunk = shape.to_vec();
+    for size in chunk.iter_mut().rev() {
+        *size = (*size).min(left.max(1));
+        left /= *size;
+    }
+    chunk
+}

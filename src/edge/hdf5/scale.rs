@@ -1,0 +1,94 @@
+//! Dimension scales: axes of data sets, in the form of the HDF5 dimension scale specification.
+
+use super::attribute;
+use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenArray, VarLenUnicode};
+use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
+use std::path::Path;
+
+/// A file whose one attribute CLASS has the type that the specification asks for, a null-terminated string of 16
+/// bytes; the hdf5 crate can take it from a file but not describe it. Made by h5py:
+/// `t = h5t.C_S1.copy(); t.set_size(16); h5a.create(f.id, b"CLASS", t, h5s.create(h5s.SCALAR))`.
+const SCALE_CLASS: &[u8] = include_bytes!("scale_class.h5");
+
+/// Which data set a scale belongs to, an element of the scale's attribute REFERENCE_LIST.
+#[derive(Clone, Copy, H5Type)]
+#[repr(C)]
+struct BackReference {
+    dataset: ObjectReference1,
+    dimension: u32,
+}
+
+/// Attaches `scale` to one dimension of `dataset`; both must exist in `file`, which lies at `path`.
+pub(super) fn attach(
+    file: &File,
+    path: &Path,
+    dataset: &str,
+    dimension: usize,
+    scale: &str,
+    label: &str,
+) -> hdf5::Result<()> {
+    let (data, axis) = (file.dataset(dataset)?, file.dataset(scale)?);
+    let shape = data.shape();
+    if axis.ndim() != 1 || shape.get(dimension) != axis.shape().first() {
+        let message =
+            format!("{scale} of shape {:?} is no axis {dimension} of shape {shape:?}", axis.shape());
+        return Err(hdf5::Error::Internal(message));
+    }
+    mark_as_scale(&axis, path, label)?;
+
+    let empty = || vec![VarLenArray::from_slice(&[]); shape.len()];
+    let mut scales: Vec<VarLenArray<ObjectReference1>> = list(&data, "DIMENSION_LIST")?.unwrap_or_else(empty);
+    let of_dimension = [&scales[dimension][..], &[file.reference(scale)?]].concat();
+    scales[dimension] = VarLenArray::from_slice(&of_dimension);
+    replace(&data, "DIMENSION_LIST", &scales)?;
+
+    let empty = || vec![VarLenUnicode::new(); shape.len()];
+    let mut labels: Vec<VarLenUnicode> = list(&data, "DIMENSION_LABELS")?.unwrap_or_else(empty);
+    labels[dimension] = attribute::unicode(label)?;
+    replace(&data, "DIMENSION_LABELS", &labels)?;
+
+    let mut owners: Vec<BackReference> = list(&axis, "REFERENCE_LIST")?.unwrap_or_default();
+    // HDF5 allows 32 dimensions.
+    owners.push(BackReference { dataset: file.reference(dataset)?, dimension: dimension as u32 });
+    replace(&axis, "REFERENCE_LIST", &owners)
+}
+
+fn list<T: H5Type>(object: &Dataset, name: &str) -> hdf5::Result<Option<Vec<T>>> {
+    match attribute::has(object, name)? {
+        true => object.attr(name)?.read_raw().map(Some),
+        false => Ok(None),
+    }
+}
+
+fn replace<T: H5Type>(object: &Dataset, name: &str, values: &[T]) -> hdf5::Result<()> {
+    if attribute::has(object, name)? {
+        object.delete_attr(name)?;
+    }
+    attribute::list(object, name, values)
+}
+
+fn mark_as_scale(axis: &Dataset, path: &Path, label: &str) -> hdf5::Result<()> {
+    if attribute::has(axis, "CLASS")? {
+        return Ok(());
+    }
+    let class = axis.new_attr_builder().empty_as(scale_class(path)?).create("CLASS")?;
+    class.write_scalar(&FixedAscii::<16>::from_ascii(b"DIMENSION_SCALE").map_err(internal)?)?;
+    // Readers take the name's length from its type, with one byte for a NUL.
+    let length = TypeDescriptor::FixedUnicode(label.len() + 1);
+    let name = axis.new_attr_builder().empty_as(&length).create("NAME")?;
+    name.write_scalar(&label.parse::<FixedUnicode<64>>().map_err(internal)?)
+}
+
+/// Reads the type of CLASS from a small file that lies beside `path` for a moment.
+fn scale_class(path: &Path) -> hdf5::Result<Datatype> {
+    let mut small = path.as_os_str().to_owned();
+    small.push(".scale_class");
+    std::fs::write(&small, SCALE_CLASS).map_err(internal)?;
+    let class = File::open(&small).and_then(|file| file.attr("CLASS")?.dtype());
+    std::fs::remove_file(&small).map_err(internal)?;
+    class
+}
+
+fn internal(error: impl std::fmt::Display) -> hdf5::Error {
+    hdf5::Error::Internal(error.to_string())
+}

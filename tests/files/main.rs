@@ -1,0 +1,5 @@
+//! Files that rotordyn writes: read back in Rust, and by the programs that users open them with.
+
+mod hdf5_h5py;
+mod hdf5_round_trip;
+mod hdf5_stream;
