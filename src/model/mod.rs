@@ -1,8 +1,14 @@
 //! The model: one machine, immutable, in SI units, as read and checked from its file.
 
+pub mod check;
+pub mod file;
+pub mod load;
 pub mod speed_profile;
 pub mod study;
 
+pub use check::catalogue;
+pub use file::{Diagnostic, Kind, ModelErrors, Source};
+pub use load::{Loaded, Options, load, variants};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;

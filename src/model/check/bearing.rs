@@ -1,0 +1,322 @@
+//! Bearings: linear ones, and ball bearings from the catalogue or by their geometry.
+
+use super::catalogue::{self, CatalogueEntry};
+use super::loading::increasing;
+use super::material;
+use super::places::Places;
+use super::springs::{self, Family};
+use crate::bearing::{BallBearing, BallGeometry, Bearing, Cage, LinearBearing, LinearBearingRow, Wave};
+use crate::element::{Anchor, Material};
+use crate::model::BearingSite;
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative, positive};
+use crate::model::file::tree::Value;
+use crate::units::{ANGLE, DAMPING, LENGTH, NUMBER, SPEED};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+pub(super) fn read(top: &Reader, materials: &[Material], places: &Places) -> Vec<BearingSite> {
+    let read = |(name, r): (&str, Reader)| {
+        let (node, z) = places.station(&r, "station");
+        let housing = r.text("housing").unwrap_or("ground");
+        let housing = places
+            .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
+            .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
+        if !r.has("model") {
+            r.missing("model", "\"ball\" or \"linear\"");
+        }
+        let bearing = match r.choice("model", &[("linear", false), ("ball", true)]) {
+            Some(true) => Bearing::Ball(ball(&r, materials)),
+            Some(false) => Bearing::Linear(linear(&r)),
+            None => {
+                r.entries();
+                Bearing::Linear(LinearBearing { table: Vec::new() })
+            }
+        };
+        r.finish();
+        BearingSite { name: name.into(), node, housing, bearing }
+    };
+    top.items("bearing").into_iter().map(read).collect()
+}
+
+fn linear(r: &Reader) -> LinearBearing {
+    let speeds = r.list("speed", not_negative(SPEED)).unwrap_or_else(|| vec![0.0]);
+    increasing(r, "speed", &speeds);
+    let stiffness = springs::table(r, Family::Stiffness, speeds.len(), false);
+    let damping = springs::table(r, Family::Damping, speeds.len(), false);
+    if r.sound() && stiffness.iter().flatten().flatten().all(|&k| k == 0.0) {
+        r.missing("k_xx", "\"1e7 N/m\" (and k_yy)");
+    }
+    let rows = speeds.into_iter().zip(stiffness).zip(damping);
+    LinearBearing {
+        table: rows
+            .map(|((speed, stiffness), damping)| LinearBearingRow { speed, stiffness, damping })
+            .collect(),
+    }
+}
+
+/// Bearing steel, where the file names no material.
+fn bearing_steel() -> Material {
+    let (young, poisson) = (207e9, 0.3);
+    Material {
+        name: "bearing steel".into(),
+        young,
+        shear: young / (2.0 * (1.0 + poisson)),
+        poisson,
+        density: 7850.0,
+    }
+}
+
+fn ball(r: &Reader, materials: &[Material]) -> BallBearing {
+    let entry = designation(r);
+    let geometry = geometry(r, entry.as_ref());
+    let part = |key: &str| match (r.has(key), r.has("material")) {
+        (true, _) => material(r, key, materials),
+        (_, true) => material(r, "material", materials),
+        _ => None,
+    };
+    let steel = bearing_steel();
+    let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
+    let free = (spacing - geometry.ball_diameter).max(0.0);
+    let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
+    let bearing = BallBearing {
+        ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
+        ring_material: part("ring_material").unwrap_or(steel),
+        contact_damping: r.or("contact_damping", not_negative(DAMPING), 300.0),
+        damping_ramp: r.or("damping_ramp", positive(LENGTH), 1e-6),
+        cage: cage(r),
+        cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
+        inner_waviness: waviness(r, "inner_waviness"),
+        outer_waviness: waviness(r, "outer_waviness"),
+        cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
+        geometry,
+    };
+    if r.sound() {
+        fits(r, &bearing);
+    }
+    bearing
+}
+
+fn designation(r: &Reader) -> Option<CatalogueEntry> {
+    let name = r.text("designation")?;
+    let found = catalogue::find(name);
+    if found.is_none() {
+        let message = format!("unknown bearing designation `{name}`");
+        let problem = Problem::new(Kind::UnknownName, &r.span_of("designation"), message);
+        let names: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
+        r.log.error(
+            problem.suggest(name, names).expected("a bearing of assets/bearings.csv, or its geometry"),
+        );
+    }
+    found
+}
+
+/// Geometry by the catalogue, each field of which the file may state itself.
+fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
+    // an unknown designation was reported; its fields are not asked for again
+    let reported = r.has("designation") && entry.is_none();
+    let field = |key: &str, from: fn(&CatalogueEntry) -> f64| match (r.get(key, positive(LENGTH)), entry) {
+        (Some(given), _) => given,
+        (None, Some(entry)) => from(entry),
+        (None, None) if reported || r.has(key) => 1.0,
+        (None, None) => r.need(key, positive(LENGTH)),
+    };
+    let ball_diameter = field("ball_diameter", |e| e.ball_diameter);
+    let pitch_diameter = field("pitch_diameter", |e| e.pitch_diameter);
+    let balls = match entry {
+        None if !reported && !r.has("balls") => {
+            r.missing("balls", "9");
+            3
+        }
+        _ => r.count("balls", entry.map_or(3, |e| e.balls), 3..=1000),
+    };
+    let groove = |radius: &str, osculation: &str, k: usize| match r.one_of(&[radius, osculation]) {
+        Some(key) if key == radius => r.need(radius, positive(LENGTH)),
+        Some(_) => r.need(osculation, positive(NUMBER)) * ball_diameter,
+        None => match entry {
+            Some(e) => e.osculation[k] * ball_diameter,
+            None if reported => ball_diameter,
+            None => {
+                r.missing(osculation, "0.52");
+                ball_diameter
+            }
+        },
+    };
+    let inner_groove_radius = groove("inner_groove_radius", "inner_osculation", 0);
+    let outer_groove_radius = groove("outer_groove_radius", "outer_osculation", 1);
+    let contact_angle = r.or("contact_angle", not_negative(ANGLE), entry.map_or(0.0, |e| e.contact_angle));
+    let thrust = r.choice("thrust", &[("+z", 1.0), ("-z", -1.0)]);
+    if contact_angle > 0.0 && thrust.is_none() && !r.has("thrust") {
+        r.missing(
+            "thrust",
+            "\"+z\" (the way in which the inner ring can push the shaft's thrust into the housing)",
+        );
+    }
+    let bore = r.or("bore", positive(LENGTH), entry.map_or(pitch_diameter - 2.2 * ball_diameter, |e| e.bore));
+    let outside = entry.map_or(pitch_diameter + 2.2 * ball_diameter, |e| e.outside_diameter);
+    BallGeometry {
+        balls,
+        ball_diameter,
+        pitch_diameter,
+        inner_groove_radius,
+        outer_groove_radius,
+        radial_clearance: clearance(r, bore, contact_angle),
+        contact_angle,
+        thrust_direction: thrust.unwrap_or(1.0),
+        bore,
+        outside_diameter: r.or("outside_diameter", positive(LENGTH), outside),
+        width: r.or("width", positive(LENGTH), entry.map_or(1.8 * ball_diameter, |e| e.width)),
+    }
+}
+
+/// Diametral clearance: as given, or the middle of the class (CN when nothing is said); an angular contact bearing
+/// has none of its own.
+fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
+    let class = match r.one_of(&["radial_clearance", "clearance"]) {
+        Some("radial_clearance") => return r.get("radial_clearance", any(LENGTH)).unwrap_or(0.0),
+        Some(_) => {
+            let classes = catalogue::CLASSES.map(|c| (c, c));
+            r.choice("clearance", &classes)
+        }
+        None if contact_angle > 0.0 => return 0.0,
+        None => Some("CN"),
+    };
+    let Some(class) = class else { return 0.0 };
+    match catalogue::clearance(class, bore) {
+        Some([least, greatest]) => 0.5 * (least + greatest),
+        None if !r.sound() => 0.0,
+        None => {
+            let message = format!("no clearance class is tabulated for a bore of {:.3} mm", bore * 1e3);
+            let problem = Problem::new(Kind::OutOfRange, &r.span_of("clearance"), message);
+            r.log.error(problem.hint("give radial_clearance = \"10 um\""));
+            0.0
+        }
+    }
+}
+
+/// Geometry that can be built: balls part from each other, grooves wider than balls, rings outside them.
+fn fits(r: &Reader, bearing: &BallBearing) {
+    let g = &bearing.geometry;
+    let balls = g.balls as f64;
+    let spacing = g.pitch_diameter * (PI / balls).sin();
+    let problem = |key: &str, message: String| Problem::new(Kind::Geometry, &r.span_of(key), message);
+    let mm = |x: f64| x * 1e3;
+    if spacing <= g.ball_diameter {
+        let key =
+            ["balls", "ball_diameter", "pitch_diameter"].into_iter().find(|k| r.has(k)).unwrap_or("balls");
+        let message = format!(
+            "the balls of {} overlap: {} balls of {:.3} mm on a pitch circle of {:.3} mm",
+            r.path,
+            g.balls,
+            mm(g.ball_diameter),
+            mm(g.pitch_diameter)
+        );
+        // least integer above the real root of D_pw sin(π/Z) = D_w leaves a gap
+        let most = (PI / (g.ball_diameter / g.pitch_diameter).min(1.0).asin()).ceil() - 1.0;
+        let room = format!("at most {most} balls of this size, or balls below {:.3} mm", mm(spacing));
+        r.log.error(problem(key, message).expected(room));
+        return;
+    }
+    if bearing.cage_pocket_diameter < g.ball_diameter || bearing.cage_pocket_diameter > spacing {
+        let message = format!("the cage pockets of {} do not fit", r.path);
+        let range = format!(
+            "from {:.3} mm (the ball) to {:.3} mm (the next pocket)",
+            mm(g.ball_diameter),
+            mm(spacing)
+        );
+        r.log.error(problem("cage_pocket_diameter", message).expected(range));
+    }
+    for (keys, radius) in [
+        (["inner_groove_radius", "inner_osculation"], g.inner_groove_radius),
+        (["outer_groove_radius", "outer_osculation"], g.outer_groove_radius),
+    ] {
+        if radius <= 0.5 * g.ball_diameter {
+            let key = keys.into_iter().find(|k| r.has(k)).unwrap_or(keys[0]);
+            let message = format!("the groove of {} is narrower than its balls", r.path);
+            let least = format!("a radius above {:.4} mm (osculation above 0.5)", 500.0 * g.ball_diameter);
+            r.log.error(problem(key, message).expected(least));
+        }
+    }
+    if g.contact_angle >= FRAC_PI_2 {
+        r.log.error(problem("contact_angle", format!("{} must be below 90 deg", r.name("contact_angle"))));
+    }
+    let (inside, outside) = (g.pitch_diameter - g.ball_diameter, g.pitch_diameter + g.ball_diameter);
+    if g.bore >= inside || g.bore <= 0.0 {
+        let message = format!("the balls of {} cut into its bore of {:.3} mm", r.path, mm(g.bore));
+        r.log.error(problem("bore", message).expected(format!("a bore below {:.3} mm", mm(inside))));
+    }
+    if g.outside_diameter <= outside {
+        let message =
+            format!("the balls of {} stand out of its ring of {:.3} mm", r.path, mm(g.outside_diameter));
+        let least = format!("an outside diameter above {:.3} mm", mm(outside));
+        r.log.error(problem("outside_diameter", message).expected(least));
+    }
+    if g.radial_clearance.abs() > 0.1 * g.ball_diameter {
+        let message = format!("{} is more than a tenth of a ball", r.name("radial_clearance"));
+        r.log.error(
+            problem("radial_clearance", message).expected("a clearance of some micrometres, diametral"),
+        );
+    }
+}
+
+fn cage(r: &Reader) -> Cage {
+    match r.entry("cage").map(|e| &e.node.value) {
+        None => Cage::Rolling,
+        Some(Value::Text(text)) if text == "rolling" => Cage::Rolling,
+        Some(Value::Integer(_) | Value::Float(_)) => {
+            let ratio = r.get("cage", not_negative(NUMBER)).unwrap_or(0.4);
+            if ratio > 1.0 {
+                r.error(Kind::OutOfRange, "cage", format!("{} must be at most 1", r.name("cage")));
+            }
+            Cage::Ratio(ratio)
+        }
+        Some(_) => {
+            let message = format!("{} is neither \"rolling\" nor a ratio", r.name("cage"));
+            let problem = Problem::new(Kind::WrongType, &r.span_of("cage"), message);
+            r.log.error(problem.expected("\"rolling\", or cage speed over shaft speed such as 0.3969"));
+            Cage::Rolling
+        }
+    }
+}
+
+/// A list of waves, `[{ order = 2, amplitude = "1 um" }]`, or a law, `{ amplitude = "2 um", from = 2, to = 15 }`:
+/// amplitude/n for every n (`law = "constant"` for one amplitude), phases from a seed.
+fn waviness(r: &Reader, key: &str) -> Vec<Wave> {
+    const MOST: usize = 10_000;
+    if let Some(Value::Table(_)) = r.entry(key).map(|e| &e.node.value) {
+        let Some(law) = r.table(key) else { return Vec::new() };
+        let amplitude = law.need("amplitude", not_negative(LENGTH));
+        let (from, to) = (law.count("from", 2, 1..=MOST), law.count("to", 15, 1..=MOST));
+        let constant = law.choice("law", &[("1/n", false), ("constant", true)]).unwrap_or(false);
+        let mut seed = law.count("seed", 1, 0..=usize::MAX >> 1) as u64;
+        if to < from && law.sound() {
+            law.error(Kind::OutOfRange, "to", format!("{} is below {}", law.name("to"), law.name("from")));
+        }
+        law.finish();
+        let wave = |n: usize| Wave {
+            order: n as u32,
+            amplitude: if constant { amplitude } else { amplitude / n as f64 },
+            phase: TAU * uniform(&mut seed),
+        };
+        return (from..=to).map(wave).collect();
+    }
+    let read = |wave: Reader| {
+        let order = wave.count("order", 0, 1..=MOST);
+        if !wave.has("order") {
+            wave.missing("order", "2");
+        }
+        let amplitude = wave.need("amplitude", not_negative(LENGTH));
+        let phase = wave.or("phase", any(ANGLE), 0.0);
+        wave.finish();
+        Wave { order: order as u32, amplitude, phase }
+    };
+    r.tables(key).into_iter().map(read).collect()
+}
+
+/// Next uniform number in [0, 1) of splitmix64, the same on every machine.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}

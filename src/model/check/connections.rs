@@ -1,0 +1,76 @@
+//! Bushings, joints and belts.
+
+use super::places::Places;
+use super::springs::{self, Family};
+use crate::element::{Belt, Bushing, Joint};
+use crate::model::file::diagnostic::Kind;
+use crate::model::file::reader::{Reader, any, not_negative};
+use crate::units::{DAMPING, FORCE, STIFFNESS, TILT_DAMPING, TILT_STIFFNESS};
+
+pub(super) fn bushings(top: &Reader, places: &Places) -> Vec<Bushing> {
+    let read = |(name, r): (&str, Reader)| {
+        let [a, b] = places.between(&r);
+        let stiffness = springs::matrix(&r, Family::Stiffness, true);
+        let damping = springs::matrix(&r, Family::Damping, true);
+        if r.sound() && stiffness.iter().chain(&damping).flatten().all(|&v| v == 0.0) {
+            r.missing("k_x", "\"1e6 N/m\" or another component of stiffness or damping");
+        }
+        r.finish();
+        Bushing { name: name.into(), a, b, stiffness, damping }
+    };
+    top.items("bushing").into_iter().map(read).collect()
+}
+
+const SPHERICAL: [bool; 6] = [true, true, true, false, false, false];
+const CYLINDRICAL: [bool; 6] = [true, true, false, true, true, false];
+const REVOLUTE: [bool; 6] = [true, true, true, true, true, false];
+const FIXED: [bool; 6] = [true; 6];
+
+/// Joints by kind; `axial = "free"` or `"held"` overrides what the kind says about motion along z.
+pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
+    let read = |(name, r): (&str, Reader)| {
+        let [a, b] = places.between(&r);
+        let kinds = [
+            ("spherical", SPHERICAL),
+            ("cylindrical", CYLINDRICAL),
+            ("revolute", REVOLUTE),
+            ("fixed", FIXED),
+        ];
+        if !r.has("kind") {
+            r.missing("kind", "\"spherical\"");
+        }
+        let mut locked = r.choice("kind", &kinds).unwrap_or(FIXED);
+        if let Some(held) = r.choice("axial", &[("held", true), ("free", false)]) {
+            locked[2] = held;
+        }
+        r.finish();
+        Joint { name: name.into(), a, b, locked }
+    };
+    top.items("joint").into_iter().map(read).collect()
+}
+
+pub(super) fn belts(top: &Reader, places: &Places) -> Vec<Belt> {
+    let read = |(name, r): (&str, Reader)| {
+        let (node, _) = places.station(&r, "station");
+        let pull = match r.list("pull", any(FORCE)).as_deref() {
+            None => [0.0; 2],
+            Some(&[x, y]) => [x, y],
+            Some(_) => {
+                r.error(Kind::WrongType, "pull", format!("{} has two components, x and y", r.name("pull")));
+                [0.0; 2]
+            }
+        };
+        let k = |key| r.or(key, not_negative(STIFFNESS), 0.0);
+        let c = |key| r.or(key, not_negative(DAMPING), 0.0);
+        let belt = Belt {
+            name: name.into(),
+            node,
+            pull,
+            stiffness: [k("k_x"), k("k_y"), r.or("k_spin", not_negative(TILT_STIFFNESS), 0.0)],
+            damping: [c("c_x"), c("c_y"), r.or("c_spin", not_negative(TILT_DAMPING), 0.0)],
+        };
+        r.finish();
+        belt
+    };
+    top.items("belt").into_iter().map(read).collect()
+}

@@ -1,0 +1,180 @@
+//! What is wrong, or doubtful, in a model file: plain data that points into its text.
+
+use std::cell::RefCell;
+use std::ops::Range;
+
+/// A text that was read: the model file, or one `--set` argument.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    pub name: String,
+    pub text: String,
+}
+
+/// Kind of a problem, for machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Not TOML, or not text at all.
+    Syntax,
+    UnknownKey,
+    MissingKey,
+    WrongType,
+    MissingUnit,
+    /// Unknown unit or malformed quantity.
+    BadQuantity,
+    WrongDimension,
+    /// Negative, zero, infinite or NaN where that cannot be.
+    OutOfRange,
+    /// A station, body, material, designation, variant or other item that does not exist.
+    UnknownName,
+    /// Two statements that exclude each other, or a name used twice.
+    Conflict,
+    /// Lengths that do not fit together.
+    Geometry,
+    /// A body that nothing holds.
+    Disconnected,
+    /// A `--set` argument whose path does not exist.
+    BadPath,
+}
+
+/// One problem with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    pub kind: Kind,
+    /// Which of the sources the span is in.
+    pub source: usize,
+    /// Bytes of the source's text.
+    pub span: Range<usize>,
+    pub message: String,
+    /// What stands there ideally; shown at the span.
+    pub expected: Option<String>,
+    /// How to mend it.
+    pub hint: Option<String>,
+}
+
+/// Everything that is wrong with a model file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", summary(.diagnostics))]
+pub struct ModelErrors {
+    pub sources: Vec<Source>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+fn summary(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(|d| d.message.as_str()).collect::<Vec<_>>().join("; ")
+}
+
+/// A problem while it is being written: spans still count over all sources.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    kind: Kind,
+    span: Range<usize>,
+    message: String,
+    expected: Option<String>,
+    hint: Option<String>,
+}
+
+impl Problem {
+    pub fn new(kind: Kind, span: &Range<usize>, message: impl Into<String>) -> Self {
+        Self { kind, span: span.clone(), message: message.into(), expected: None, hint: None }
+    }
+
+    pub fn expected(mut self, text: impl Into<String>) -> Self {
+        self.expected = Some(text.into());
+        self
+    }
+
+    pub fn hint(mut self, text: impl Into<String>) -> Self {
+        self.hint = Some(text.into());
+        self
+    }
+
+    /// Hint at the nearest of the known names, or list them when none is near.
+    pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        let known: Vec<&str> = known.into_iter().collect();
+        if let Some(near) = nearest(word, &known) {
+            return self.hint(format!("did you mean `{near}`?"));
+        }
+        match known.len() {
+            0 => self,
+            1..=12 => self.hint(format!("known here: {}", known.join(", "))),
+            n => self.hint(format!("known here: {} and {} more", known[..12].join(", "), n - 12)),
+        }
+    }
+}
+
+/// Most alike of the known names, if one is alike enough to be meant.
+fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
+    let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
+    let word = plain(word);
+    let score = |name: &str| strsim::jaro_winkler(&word, &plain(name));
+    let best = known.iter().copied().max_by(|a, b| score(a).total_cmp(&score(b)))?;
+    let close = strsim::damerau_levenshtein(&word, &plain(best)) <= word.chars().count() / 3;
+    (close || score(best) > 0.87).then_some(best)
+}
+
+/// All texts that were read, laid end to end so that one offset names a place in any of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sources {
+    sources: Vec<Source>,
+    starts: Vec<usize>,
+}
+
+impl Sources {
+    /// Add a text; returns the offset at which its spans start.
+    pub fn push(&mut self, name: impl Into<String>, text: impl Into<String>) -> usize {
+        let start = self.starts.last().map_or(0, |s| s + self.sources[self.sources.len() - 1].text.len() + 1);
+        self.starts.push(start);
+        self.sources.push(Source { name: name.into(), text: text.into() });
+        start
+    }
+
+    /// Finished diagnostics, in the order of the texts.
+    pub fn locate(&self, mut problems: Vec<Problem>) -> Vec<Diagnostic> {
+        problems.sort_by_key(|p| (p.span.start, p.span.end));
+        let locate = |p: Problem| {
+            let source = self.starts.iter().rposition(|&s| s <= p.span.start).unwrap_or(0);
+            let start = self.starts.get(source).copied().unwrap_or(0);
+            let length = self.sources.get(source).map_or(0, |s| s.text.len());
+            let local = |at: usize| at.saturating_sub(start).min(length);
+            Diagnostic {
+                kind: p.kind,
+                source,
+                span: local(p.span.start)..local(p.span.end),
+                message: p.message,
+                expected: p.expected,
+                hint: p.hint,
+            }
+        };
+        problems.into_iter().map(locate).collect()
+    }
+
+    pub fn into_vec(self) -> Vec<Source> {
+        self.sources
+    }
+}
+
+/// Problems found so far; reading goes on after each.
+#[derive(Default)]
+pub(crate) struct Log {
+    errors: RefCell<Vec<Problem>>,
+    warnings: RefCell<Vec<Problem>>,
+}
+
+impl Log {
+    pub fn error(&self, problem: Problem) {
+        self.errors.borrow_mut().push(problem);
+    }
+
+    pub fn warn(&self, problem: Problem) {
+        self.warnings.borrow_mut().push(problem);
+    }
+
+    /// Number of errors so far; a check that needs sound values compares it with the number before.
+    pub fn count(&self) -> usize {
+        self.errors.borrow().len()
+    }
+
+    pub fn into_parts(self) -> (Vec<Problem>, Vec<Problem>) {
+        (self.errors.into_inner(), self.warnings.into_inner())
+    }
+}

@@ -1,0 +1,12 @@
+//! From text to a tree of values with their places, changed by variants and `--set`, and typed access to it.
+//!
+//! The whole file is kept as a tree of spanned values instead of being deserialised into structs: a derived
+//! deserialiser stops at its first error and loses the spans of tagged enums, while a reader of the tree goes on
+//! and so reports every problem of a file at once, each at its exact place.
+
+pub(crate) mod diagnostic;
+pub(crate) mod overlay;
+pub(crate) mod reader;
+pub(crate) mod tree;
+
+pub use diagnostic::{Diagnostic, Kind, ModelErrors, Source};

@@ -1,0 +1,230 @@
+//! What changes the document before it is checked: variants and `--set` arguments.
+
+use super::diagnostic::{Kind, Log, Problem, Sources};
+use super::tree::{Entry, Node, Table, Value};
+use std::ops::Range;
+
+/// Tables whose entries are named items: `bearing.B`, `housing.A`.
+pub(crate) const COLLECTIONS: &[&str] = &[
+    "material",
+    "disc",
+    "body",
+    "housing",
+    "sensor",
+    "bushing",
+    "joint",
+    "bearing",
+    "belt",
+    "unbalance",
+    "load",
+    "probe",
+];
+
+/// Lay the variant of this name over the document; takes all variants out of it.
+///
+/// A variant may build on another (`based_on = "wavy"`), drop items (`remove = ["housing.A"]`), and state
+/// anything else that the file can state: tables are merged, everything else is replaced.
+pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
+    let variants = match root.remove("variant") {
+        Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) => table,
+        Some(entry) => {
+            log.error(
+                Problem::new(
+                    Kind::WrongType,
+                    &entry.node.span,
+                    "`variant` must be a table of named variants",
+                )
+                .hint("write [variant.NAME]"),
+            );
+            return;
+        }
+        None => Table::default(),
+    };
+    let Some(name) = wanted else { return };
+    let mut chain: Vec<&Entry> = Vec::new();
+    let mut next = Some((name.to_string(), 0..0));
+    while let Some((name, asked_at)) = next.take() {
+        let Some(entry) = variants.get(&name) else {
+            let problem = Problem::new(Kind::UnknownName, &asked_at, format!("unknown variant `{name}`"));
+            log.error(problem.suggest(&name, variants.keys()));
+            return;
+        };
+        if chain.iter().any(|e| e.key == name) {
+            log.error(Problem::new(
+                Kind::Conflict,
+                &asked_at,
+                format!("variant `{name}` is based on itself"),
+            ));
+            return;
+        }
+        chain.push(entry);
+        if let Value::Table(table) = &entry.node.value
+            && let Some(base) = table.get("based_on")
+        {
+            match &base.node.value {
+                Value::Text(base_name) => next = Some((base_name.clone(), base.node.span.clone())),
+                _ => log.error(Problem::new(
+                    Kind::WrongType,
+                    &base.node.span,
+                    "`based_on` must be the name of a variant",
+                )),
+            }
+        }
+    }
+    for entry in chain.into_iter().rev() {
+        let Value::Table(table) = &entry.node.value else {
+            log.error(Problem::new(
+                Kind::WrongType,
+                &entry.node.span,
+                format!("variant `{}` must be a table", entry.key),
+            ));
+            continue;
+        };
+        let mut overrides = table.clone();
+        overrides.remove("based_on");
+        if let Some(list) = overrides.remove("remove") {
+            remove(root, &list, log);
+        }
+        merge(root, overrides);
+    }
+}
+
+fn remove(root: &mut Table, list: &Entry, log: &Log) {
+    let Value::List(paths) = &list.node.value else {
+        log.error(
+            Problem::new(Kind::WrongType, &list.node.span, "`remove` must be a list of paths")
+                .expected("such as [\"housing.A\", \"belt.drive\"]"),
+        );
+        return;
+    };
+    for path in paths {
+        let Value::Text(text) = &path.value else {
+            log.error(Problem::new(Kind::WrongType, &path.span, "a path to remove must be a text"));
+            continue;
+        };
+        let mut table = &mut *root;
+        let parts: Vec<&str> = text.split('.').collect();
+        for (depth, part) in parts.iter().enumerate() {
+            if table.get(part).is_none() {
+                let problem =
+                    Problem::new(Kind::BadPath, &path.span, format!("there is no `{text}` to remove"));
+                log.error(problem.suggest(part, table.keys()));
+                break;
+            }
+            if depth + 1 == parts.len() {
+                table.remove(part);
+                break;
+            }
+            match table.get_mut(part) {
+                Some(Entry { node: Node { value: Value::Table(inner), .. }, .. }) => table = inner,
+                _ => {
+                    log.error(Problem::new(Kind::BadPath, &path.span, format!("`{part}` is not a table")));
+                    break;
+                }
+            }
+        }
+    }
+}
+
+fn merge(into: &mut Table, from: Table) {
+    for entry in from.entries {
+        match into.get_mut(&entry.key) {
+            None => into.entries.push(entry),
+            Some(old) => match (&mut old.node.value, entry.node.value) {
+                (Value::Table(old_table), Value::Table(new_table)) => merge(old_table, new_table),
+                (_, value) => {
+                    old.key_span = entry.key_span;
+                    old.node = Node { span: entry.node.span, value };
+                }
+            },
+        }
+    }
+}
+
+/// Apply one `--set PATH=VALUE`; the value is read as TOML, or as a text when it is not TOML (`20 um`).
+pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut Sources, log: &Log) {
+    let text = format!("{path}={value}");
+    let start = sources.push("--set", text);
+    let value_start = start + path.len() + 1;
+    let span = value_start..value_start + value.len();
+    let node = match Table::parse(&format!("x={value}"), value_start.saturating_sub(2)) {
+        Ok(mut table) if table.entries.len() == 1 && !value.contains('\n') => table.entries.remove(0).node,
+        _ => Node { span, value: Value::Text(value.trim().to_string()) },
+    };
+    let mut at = start;
+    let locate = |name| {
+        let span = at..at + str::len(name);
+        at = span.end + 1;
+        Part { name, span }
+    };
+    let parts: Vec<Part> = path.split('.').map(locate).collect();
+    if let Err(problem) = set_in_table(root, path, &parts, 0, node) {
+        log.error(problem);
+    }
+}
+
+/// One step of a path.
+struct Part<'p> {
+    name: &'p str,
+    span: Range<usize>,
+}
+
+fn bad(part: &Part, message: String) -> Problem {
+    Problem::new(Kind::BadPath, &part.span, message)
+}
+
+fn set_in_table(
+    table: &mut Table,
+    path: &str,
+    parts: &[Part],
+    depth: usize,
+    node: Node,
+) -> Result<(), Problem> {
+    let part = &parts[depth];
+    if part.name.is_empty() {
+        return Err(bad(part, format!("`{path}` is not a path")).hint("such as bearing.B.radial_clearance"));
+    }
+    let last = depth + 1 == parts.len();
+    if table.get(part.name).is_none() {
+        // a slip in the name of an item must not make a new one
+        let item = depth == 1 && !last && COLLECTIONS.contains(&parts[0].name);
+        if depth == 0 && COLLECTIONS.contains(&part.name) || item {
+            let what = parts[..=depth].iter().map(|p| p.name).collect::<Vec<_>>().join(".");
+            return Err(bad(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
+        }
+        let empty = Node { span: part.span.clone(), value: Value::Table(Table::default()) };
+        table.entries.push(Entry { key: part.name.into(), key_span: part.span.clone(), node: empty });
+    }
+    let Some(entry) = table.get_mut(part.name) else { return Ok(()) };
+    if last {
+        entry.key_span = part.span.clone();
+        entry.node = node;
+        return Ok(());
+    }
+    set_in_node(&mut entry.node, path, parts, depth + 1, node)
+}
+
+fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: Node) -> Result<(), Problem> {
+    let part = &parts[depth];
+    match &mut into.value {
+        Value::Table(table) => set_in_table(table, path, parts, depth, node),
+        // a number picks an item of a list: shaft.section.0.length
+        Value::List(items) => {
+            let count = items.len();
+            let Some(item) = part.name.parse::<usize>().ok().and_then(|i| items.get_mut(i)) else {
+                let message =
+                    format!("`{}` is not one of the {count} items of `{}`", part.name, parts[depth - 1].name);
+                return Err(bad(part, message).hint("items are counted from 0"));
+            };
+            if depth + 1 == parts.len() {
+                *item = node;
+                return Ok(());
+            }
+            set_in_node(item, path, parts, depth + 1, node)
+        }
+        _ => {
+            let owner = &parts[depth - 1];
+            Err(bad(owner, format!("`{}` is a value, so `{path}` cannot go into it", owner.name)))
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The document as a tree in file order, every key and value with its place.
+
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A value and its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub span: Range<usize>,
+    pub value: Value,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Text(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    List(Vec<Node>),
+    Table(Table),
+    /// A date, or an integer too large to keep.
+    Other,
+}
+
+impl Value {
+    /// Name of the type, for messages.
+    pub fn type_name(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "a text",
+            Self::Integer(_) | Self::Float(_) => "a bare number",
+            Self::Boolean(_) => "true or false",
+            Self::List(_) => "a list",
+            Self::Table(_) => "a table",
+            Self::Other => "a date or huge number",
+        }
+    }
+}
+
+/// Entries in file order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Table {
+    pub entries: Vec<Entry>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub key: String,
+    pub key_span: Range<usize>,
+    pub node: Node,
+}
+
+impl Table {
+    pub fn get(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|e| e.key == key)
+    }
+
+    pub fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
+        self.entries.iter_mut().find(|e| e.key == key)
+    }
+
+    pub fn remove(&mut self, key: &str) -> Option<Entry> {
+        let at = self.entries.iter().position(|e| e.key == key)?;
+        Some(self.entries.remove(at))
+    }
+
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|e| e.key.as_str())
+    }
+
+    /// Parse a TOML text whose spans start at `offset`.
+    pub fn parse(text: &str, offset: usize) -> Result<Self, toml::de::Error> {
+        let root = DeTable::parse(text)?;
+        Ok(table(root.get_ref(), offset))
+    }
+}
+
+fn table(from: &DeTable<'_>, offset: usize) -> Table {
+    let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| -> Entry {
+        let name: &std::borrow::Cow<'_, str> = key.get_ref();
+        Entry { key: name.to_string(), key_span: shift(key.span(), offset), node: node(value, offset) }
+    };
+    let mut entries: Vec<Entry> = from.iter().map(entry).collect();
+    entries.sort_by_key(|e| e.key_span.start);
+    Table { entries }
+}
+
+fn node(from: &Spanned<DeValue<'_>>, offset: usize) -> Node {
+    let value = match from.get_ref() {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Integer(i) => {
+            i64::from_str_radix(i.as_str(), i.radix()).map_or(Value::Other, Value::Integer)
+        }
+        DeValue::Float(f) => f.as_str().parse().map_or(Value::Other, Value::Float),
+        DeValue::Boolean(b) => Value::Boolean(*b),
+        DeValue::Array(items) => Value::List(items.iter().map(|item| node(item, offset)).collect()),
+        DeValue::Table(inner) => Value::Table(table(inner, offset)),
+        DeValue::Datetime(_) => Value::Other,
+    };
+    Node { span: shift(from.span(), offset), value }
+}
+
+fn shift(span: Range<usize>, offset: usize) -> Range<usize> {
+    span.start + offset..span.end + offset
+}

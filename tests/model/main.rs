@@ -1,0 +1,3 @@
+//! Model files: what they say arrives in the model.
+
+mod files;
