@@ -67,6 +67,17 @@ impl BandLayout {
         Self { size, blocks }
     }
 
+    /// The same layout with only those groups that hold one of `unknowns`; solving leaves the others alone.
+    pub fn restricted_to(&self, unknowns: &[usize]) -> Self {
+        let mut start = 0;
+        let mut blocks = Vec::new();
+        for block in self.blocks.iter().filter(|b| b.order.iter().any(|i| unknowns.contains(i))) {
+            blocks.push(Block { start, ..block.clone() });
+            start += block.order.len() * block.width();
+        }
+        Self { size: self.size, blocks }
+    }
+
     /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.size
@@ -84,17 +95,17 @@ impl BandLayout {
 
     /// Band storage of a matrix; add such arrays entry by entry to combine matrices of one layout.
     pub fn scatter(&self, matrix: &SparseMatrix) -> Vec<f64> {
-        let mut place = vec![(0, 0); self.size];
-        for (b, block) in self.blocks.iter().enumerate() {
+        let mut place = vec![None; self.size];
+        for block in &self.blocks {
             for (p, &i) in block.order.iter().enumerate() {
-                place[i] = (b, p);
+                place[i] = Some((block, p));
             }
         }
         let mut values = vec![0.0; self.storage()];
         for (i, j, v) in matrix.iter() {
-            let ((b, p), (_, q)) = (place[i], place[j]);
-            let block = &self.blocks[b];
-            values[block.start + p * block.width() + block.half + q - p] = v;
+            if let (Some((block, p)), Some((_, q))) = (place[i], place[j]) {
+                values[block.start + p * block.width() + block.half + q - p] = v;
+            }
         }
         values
     }
@@ -110,6 +121,14 @@ impl BandLayout {
         let mut lu = BandLu { layout: self, values, pivots: vec![0; self.size] };
         lu.factor_all()?;
         Ok(lu)
+    }
+
+    /// Memory for factors, to be filled by [`BandLu::refactor`].
+    pub fn workspace<T>(&self) -> BandLu<'_, T>
+    where
+        T: ComplexField<RealField = f64> + Copy,
+    {
+        BandLu { layout: self, values: vec![T::zero(); self.storage()], pivots: vec![0; self.size] }
     }
 }
 

@@ -125,3 +125,38 @@ pub fn quadratic(
         .map(|(j, &v)| (v / t, vectors.column(j).iter().take(n).copied().collect()))
         .collect())
 }
+
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of the Hermitian matrix A + j B.
+///
+/// Solved as the real symmetric \[A, −B; B, A\], which has every eigenvalue twice.
+///
+/// # Errors
+/// As [`symmetric`].
+pub fn hermitian(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<Complex64>), EigenError> {
+    let n = a.nrows();
+    let mut real = DMatrix::zeros(2 * n, 2 * n);
+    real.view_mut((0, 0), (n, n)).copy_from(a);
+    real.view_mut((n, n), (n, n)).copy_from(a);
+    real.view_mut((0, n), (n, n)).copy_from(&-b);
+    real.view_mut((n, 0), (n, n)).copy_from(b);
+    let (values, vectors) = symmetric(&real)?;
+    // (x, y) and (−y, x) stand for v = x + j y and j v; of vectors with one value keep those that are
+    // independent over the complex numbers.
+    let mut kept: Vec<(f64, nalgebra::DVector<Complex64>)> = Vec::with_capacity(n);
+    for (value, column) in values.iter().zip(vectors.column_iter()) {
+        let mut v = nalgebra::DVector::from_fn(n, |i, _| Complex64::new(column[i], column[n + i]));
+        for (_, other) in kept.iter().rev().take(4) {
+            let part = other.dotc(&v);
+            v.axpy(-part, other, Complex64::new(1.0, 0.0));
+        }
+        let length = v.norm();
+        if length > 0.5 && kept.len() < n {
+            kept.push((*value, v.unscale(length)));
+        }
+    }
+    if kept.len() < n {
+        return Err(EigenError::NoConvergence);
+    }
+    let vectors = DMatrix::from_fn(n, n, |i, j| kept[j].1[i]);
+    Ok((kept.iter().map(|k| k.0).collect(), vectors))
+}

@@ -3,5 +3,7 @@
 #[path = "../common/ross.rs"]
 mod ross;
 
+mod ross_critical;
 mod ross_elements;
 mod ross_modes;
+mod ross_responses;

@@ -1,0 +1,169 @@
+//! Campbell diagram: modes over speed, tracked by their shapes.
+
+use super::modal::{self, Mode, inner};
+use super::mode_kind::ModeKind;
+use crate::assembly::{Assembly, LinearSystem};
+use crate::bearing::SiteTangent;
+use crate::error::Error;
+use crate::linalg::Complex64;
+use rayon::prelude::*;
+
+/// Modes computed beyond those asked for, so that a branch does not end where it is overtaken.
+const SPARE: usize = 4;
+/// Below this MAC a step in speed is too long and halved.
+const SURE: f64 = 0.7;
+/// Below this MAC a branch is lost.
+const LOST: f64 = 0.2;
+/// Halvings of a step.
+const DEPTH: usize = 5;
+
+/// The bearings' tangents at a speed.
+pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync {}
+impl<F: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync> Tangents for F {}
+
+/// Modes over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campbell {
+    /// Speeds Ω \[rad/s\].
+    pub speeds: Vec<f64>,
+    /// One branch per mode, by frequency at the first speed.
+    pub branches: Vec<Branch>,
+}
+
+/// One mode followed over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Label and kind at the highest speed that the branch reaches.
+    pub label: String,
+    pub kind: ModeKind,
+    /// The mode at every speed; `None` where it was lost.
+    pub modes: Vec<Option<Mode>>,
+}
+
+impl Branch {
+    /// Damped angular frequency at speed k \[rad/s\].
+    pub fn omega(&self, k: usize) -> Option<f64> {
+        self.modes[k].as_ref().map(Mode::omega)
+    }
+}
+
+/// Campbell diagram of the `count` lowest modes over increasing speeds \[rad/s\].
+///
+/// Modes of neighbouring speeds are joined by their mass-weighted MAC, |φ₁ᴴ M φ₂|², not by their place in the
+/// list; where that is in doubt, speeds in between are computed.
+///
+/// # Errors
+/// Whatever the tangents or the eigenvalue computation report.
+pub fn campbell(
+    assembly: &Assembly,
+    speeds: &[f64],
+    count: usize,
+    tangents: &impl Tangents,
+) -> Result<Campbell, Error> {
+    let tracker = Tracker { assembly, tangents, count: count + SPARE };
+    let sets: Vec<Vec<Mode>> = speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, Error>>()?;
+    let links: Vec<Vec<Option<usize>>> = (1..speeds.len())
+        .into_par_iter()
+        .map(|k| tracker.join((speeds[k - 1], &sets[k - 1]), (speeds[k], &sets[k]), DEPTH))
+        .collect::<Result<_, Error>>()?;
+
+    let starts = sets.first().map_or(0, |set| set.len().min(count));
+    let mut branches: Vec<Branch> = (0..starts)
+        .map(|start| {
+            let mut at = Some(start);
+            let mut modes = Vec::with_capacity(sets.len());
+            for (k, set) in sets.iter().enumerate() {
+                if k > 0 {
+                    at = at.and_then(|i| links[k - 1][i]);
+                }
+                modes.push(at.map(|i| set[i].clone()));
+            }
+            let last = modes.iter().flatten().next_back();
+            let (label, kind) = last.map_or((String::new(), ModeKind::Mixed), |m| (m.label.clone(), m.kind));
+            Branch { label, kind, modes }
+        })
+        .collect();
+    name_apart(&mut branches);
+    Ok(Campbell { speeds: speeds.to_vec(), branches })
+}
+
+/// Branches that ended at different speeds may carry the same label: the later one says so.
+fn name_apart(branches: &mut [Branch]) {
+    for k in 1..branches.len() {
+        let same = (0..k).filter(|&i| branches[i].label == branches[k].label).count();
+        if same > 0 {
+            branches[k].label = format!("{} ({})", branches[k].label, same + 1);
+        }
+    }
+}
+
+/// Follows modes from speed to speed.
+pub(super) struct Tracker<'a, T> {
+    pub assembly: &'a Assembly,
+    pub tangents: &'a T,
+    pub count: usize,
+}
+
+impl<T: Tangents> Tracker<'_, T> {
+    /// Modes at a speed.
+    pub fn modes(&self, speed: f64) -> Result<Vec<Mode>, Error> {
+        let system = LinearSystem::new(self.assembly, &(self.tangents)(speed)?, speed)?;
+        modal::modes(self.assembly, &system, self.count)
+    }
+
+    /// For every mode of `a` its continuation among those of `b`.
+    fn join(&self, a: (f64, &[Mode]), b: (f64, &[Mode]), depth: usize) -> Result<Vec<Option<usize>>, Error> {
+        let mac = self.mac(a.1, b.1);
+        let links = assign(&mac);
+        // Modes at the upper end may really have left the list; only the others must be sure.
+        let known = a.1.len().saturating_sub(SPARE / 2);
+        let doubtful = (0..known).any(|i| links[i].is_none_or(|j| mac[i][j] < SURE));
+        if !doubtful || depth == 0 {
+            return Ok(links);
+        }
+        let speed = 0.5 * (a.0 + b.0);
+        let middle = self.modes(speed)?;
+        let first = self.join(a, (speed, &middle), depth - 1)?;
+        let second = self.join((speed, &middle), b, depth - 1)?;
+        Ok(first.into_iter().map(|i| i.and_then(|i| second[i])).collect())
+    }
+
+    /// MAC of every mode of `a` with every mode of `b`; modes of one frequency share theirs, since any
+    /// combination of them is a mode too.
+    pub fn mac(&self, a: &[Mode], b: &[Mode]) -> Vec<Vec<f64>> {
+        let momenta: Vec<Vec<Complex64>> =
+            b.iter().map(|m| self.assembly.mass.mul_complex(&m.shape)).collect();
+        let plain: Vec<Vec<f64>> =
+            a.iter().map(|m| momenta.iter().map(|p| inner(&m.shape, p).norm_sqr()).collect()).collect();
+        let same = |p: &Mode, q: &Mode| (p.eigenvalue - q.eigenvalue).norm() < 1e-7 * q.natural();
+        let mut shared = plain.clone();
+        for (i, row) in shared.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                let left: f64 = (0..a.len()).filter(|&k| same(&a[k], &a[i])).map(|k| plain[k][j]).sum();
+                let right: f64 = (0..b.len()).filter(|&k| same(&b[k], &b[j])).map(|k| plain[i][k]).sum();
+                *value = left.max(right).min(1.0);
+            }
+        }
+        shared
+    }
+}
+
+/// Pairs rows with columns, best MAC first; among equals the order of the lists decides.
+fn assign(mac: &[Vec<f64>]) -> Vec<Option<usize>> {
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, row) in mac.iter().enumerate() {
+        pairs.extend(row.iter().enumerate().filter(|(_, v)| **v > LOST).map(|(j, v)| (*v, i, j)));
+    }
+    // Rounded, so that the shared MAC of a degenerate pair leaves the choice to the order.
+    let step = |v: f64| (v * 1e4).round() as i64;
+    pairs.sort_by_key(|&(v, i, j)| (-step(v), i, j));
+    let mut links = vec![None; mac.len()];
+    let mut taken = vec![false; mac.first().map_or(0, Vec::len)];
+    for (_, i, j) in pairs {
+        if links[i].is_none() && !taken[j] {
+            links[i] = Some(j);
+            taken[j] = true;
+        }
+    }
+    links
+}

@@ -1,0 +1,147 @@
+//! Natural frequencies, damping and mode shapes at one speed.
+
+use super::mode_kind::{self, Energy, ModeKind};
+use crate::assembly::{Assembly, LinearSystem};
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{Complex64, SparseMatrix, krylov};
+use std::f64::consts::TAU;
+
+/// Shift of the eigenvalue search \[rad/s\], below any natural frequency of interest.
+const SHIFT: f64 = 30.0;
+
+/// One oscillatory mode, q(t) = Re(φ e^{λt}).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ \[1/s\].
+    pub eigenvalue: Complex64,
+    /// φ over the free DOFs, φᴴ M φ = 1, its largest translation real and positive.
+    pub shape: Vec<Complex64>,
+    /// φ over all DOFs, six per node.
+    pub full_shape: Vec<Complex64>,
+    pub kind: ModeKind,
+    /// Such as "1st bending forward"; numbered by frequency within its kind.
+    pub label: String,
+    /// Whirl of every shaft node from −1 (backward circle) over 0 (straight line) to 1 (forward circle).
+    pub whirl: Vec<f64>,
+    /// Where the kinetic energy is.
+    pub energy: Energy,
+    /// Share of the total mass that takes part when the ground moves along x, y, z.
+    pub effective_mass: [f64; 3],
+}
+
+impl Mode {
+    /// Damped angular frequency ω_d = Im λ \[rad/s\].
+    pub fn omega(&self) -> f64 {
+        self.eigenvalue.im
+    }
+
+    /// Damped frequency \[Hz\].
+    pub fn frequency_hz(&self) -> f64 {
+        self.eigenvalue.im / TAU
+    }
+
+    /// Natural angular frequency |λ| \[rad/s\].
+    pub fn natural(&self) -> f64 {
+        self.eigenvalue.norm()
+    }
+
+    /// Damping ratio ζ = −Re λ / |λ|.
+    pub fn zeta(&self) -> f64 {
+        -self.eigenvalue.re / self.eigenvalue.norm()
+    }
+
+    /// Logarithmic decrement δ = 2π ζ / √(1 − ζ²).
+    pub fn log_dec(&self) -> f64 {
+        -TAU * self.eigenvalue.re / self.eigenvalue.im
+    }
+}
+
+/// The lowest `count` oscillatory modes, by natural frequency; rigid-body and overdamped motions are left out.
+///
+/// # Errors
+/// An eigenvalue computation that fails.
+pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+    let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
+    let mut pairs = krylov::lowest(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
+        .map_err(|e| failed(e.to_string()))?;
+    // One more than asked for keeps a degenerate pair at the end together.
+    pairs.truncate(count + 1);
+    let mut shapes: Vec<(Complex64, Vec<Complex64>)> =
+        pairs.into_iter().map(|p| (p.value, normalised(p.vector, &system.mass))).collect();
+    align_planes(assembly, &mut shapes);
+    shapes.truncate(count);
+    let mut modes: Vec<Mode> =
+        shapes.into_iter().map(|(value, shape)| mode_kind::describe(assembly, value, shape)).collect();
+    mode_kind::label(assembly, &mut modes);
+    Ok(modes)
+}
+
+/// The undamped modes of a system: C and the circulatory part dropped, gyroscopic effect kept.
+///
+/// # Errors
+/// As [`modes`].
+pub fn undamped_modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+    modes(assembly, &undamped(assembly, system), count)
+}
+
+/// The system without damping: D = Ω G, S = K.
+pub fn undamped(assembly: &Assembly, system: &LinearSystem) -> LinearSystem {
+    LinearSystem {
+        speed: system.speed,
+        mass: system.mass.clone(),
+        damping: SparseMatrix::sum(&[(system.speed, &assembly.gyroscopic)]),
+        stiffness: SparseMatrix::sum(&[(1.0, &system.stiffness), (-system.speed, &assembly.circulatory)]),
+    }
+}
+
+/// φ scaled to φᴴ M φ = 1.
+fn normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) -> Vec<Complex64> {
+    let size = inner(&shape, &mass.mul_complex(&shape)).re.sqrt();
+    if size > 0.0 {
+        shape.iter_mut().for_each(|v| *v /= size);
+    }
+    shape
+}
+
+/// aᴴ b.
+pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
+    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
+}
+
+/// Turns a pair of equal eigenvalues into one mode with the most and one with the least energy along x.
+///
+/// An axisymmetric rotor at rest has such pairs, and an eigenvalue solver returns any two of their combinations.
+fn align_planes(assembly: &Assembly, pairs: &mut [(Complex64, Vec<Complex64>)]) {
+    let mut k = 0;
+    while k + 1 < pairs.len() {
+        let (a, b) = (pairs[k].0, pairs[k + 1].0);
+        if (a - b).norm() > 1e-7 * a.norm() {
+            k += 1;
+            continue;
+        }
+        let mass = &assembly.mass;
+        let first = pairs[k].1.clone();
+        let overlap = inner(&mass.mul_complex(&first), &pairs[k + 1].1);
+        let rest = pairs[k + 1].1.iter().zip(&first).map(|(v, f)| v - f * overlap).collect();
+        let second = normalised(rest, mass);
+        // Hermitian 2×2 of the energy along x: turn by its eigenvectors.
+        let along_x = |v: &[Complex64]| {
+            let mut full = assembly.dofs.expand_complex(v);
+            for (i, v) in full.iter_mut().enumerate() {
+                if i % 6 != 0 && i % 6 != 4 {
+                    *v = Complex64::default();
+                }
+            }
+            full
+        };
+        let (p, q) = (along_x(&first), along_x(&second));
+        let (mp, mq) = (assembly.full_mass.mul_complex(&p), assembly.full_mass.mul_complex(&q));
+        let (e11, e22, e12) = (inner(&p, &mp).re, inner(&q, &mq).re, inner(&p, &mq));
+        let turn = 0.5 * (2.0 * e12.norm()).atan2(e11 - e22);
+        let phase = if e12.norm() > 0.0 { e12.conj() / e12.norm() } else { Complex64::new(1.0, 0.0) };
+        let (sin, cos) = turn.sin_cos();
+        pairs[k].1 = first.iter().zip(&second).map(|(f, s)| f * cos + s * phase * sin).collect();
+        pairs[k + 1].1 = first.iter().zip(&second).map(|(f, s)| s * phase * cos - f * sin).collect();
+        k += 2;
+    }
+}

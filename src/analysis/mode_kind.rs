@@ -1,0 +1,217 @@
+//! What a mode is: bending, torsional, axial or of a body, and how it whirls.
+
+use super::modal::{Mode, inner};
+use crate::assembly::Assembly;
+use crate::linalg::Complex64;
+use std::collections::HashMap;
+
+/// A node whirls in a straight line when its whirl is smaller than this.
+const PLANAR: f64 = 0.01;
+/// Nodes that move less than this share of the largest orbit do not vote on the whirl.
+const QUIET: f64 = 0.05;
+
+/// Kind of a mode, by energy and orbit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ModeKind {
+    /// Bending, every node whirls with the spin (x towards y).
+    Forward,
+    /// Bending, every node whirls against the spin.
+    Backward,
+    /// Bending, some nodes forward and some backward.
+    Mixed,
+    /// Bending in a plane, mostly along x.
+    PlaneX,
+    /// Bending in a plane, mostly along y.
+    PlaneY,
+    Torsional,
+    Axial,
+    /// Most of the energy is in a body (housing, block).
+    Body,
+}
+
+impl ModeKind {
+    /// The kind in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forward => "bending forward",
+            Self::Backward => "bending backward",
+            Self::Mixed => "bending mixed",
+            Self::PlaneX => "bending x",
+            Self::PlaneY => "bending y",
+            Self::Torsional => "torsional",
+            Self::Axial => "axial",
+            Self::Body => "body",
+        }
+    }
+
+    /// Whether the shaft bends.
+    pub fn is_bending(self) -> bool {
+        !matches!(self, Self::Torsional | Self::Axial | Self::Body)
+    }
+}
+
+/// Shares of a mode's kinetic energy; they add up to 1.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Energy {
+    /// Shaft, along u_x and θ_y.
+    pub bending_x: f64,
+    /// Shaft, along u_y and θ_x.
+    pub bending_y: f64,
+    /// Shaft, along u_z.
+    pub axial: f64,
+    /// Shaft, along θ_z.
+    pub torsion: f64,
+    /// Every body, by direction.
+    pub bodies: Vec<[f64; 6]>,
+}
+
+impl Energy {
+    /// Share of all bodies.
+    pub fn body_total(&self) -> f64 {
+        self.bodies.iter().flatten().sum()
+    }
+}
+
+/// A mode with its kind, its label still empty.
+pub(super) fn describe(assembly: &Assembly, eigenvalue: Complex64, mut shape: Vec<Complex64>) -> Mode {
+    let mut full_shape = assembly.dofs.expand_complex(&shape);
+    turn_to_real(&mut shape, &mut full_shape);
+    let momentum = assembly.full_mass.mul_complex(&full_shape);
+    let shaft = assembly.dofs.shaft_nodes;
+    let energy = energy_shares(&full_shape, &momentum, shaft);
+    let whirl: Vec<f64> = full_shape.chunks(6).take(shaft).map(|n| whirl_of(n[0], n[1])).collect();
+    let kind = classify(&energy, &full_shape[..6 * shaft], &whirl);
+    let total = translation_masses(assembly);
+    let effective_mass = std::array::from_fn(|d| {
+        let part: Complex64 = momentum.iter().skip(d).step_by(6).sum();
+        part.norm_sqr() / (total[d] * inner(&full_shape, &momentum).re)
+    });
+    Mode { eigenvalue, shape, full_shape, kind, label: String::new(), whirl, energy, effective_mass }
+}
+
+/// Total mass along x, y, z.
+fn translation_masses(assembly: &Assembly) -> [f64; 3] {
+    let mut total = [0.0; 3];
+    for (i, j, v) in assembly.full_mass.iter() {
+        if i % 6 < 3 && i % 6 == j % 6 {
+            total[i % 6] += v;
+        }
+    }
+    total
+}
+
+/// Turns the phase so that the largest translation (or, without any, rotation) is real and positive.
+fn turn_to_real(shape: &mut [Complex64], full: &mut [Complex64]) {
+    let largest = |translation: bool| {
+        let candidates = full.iter().enumerate().filter(move |(i, _)| (i % 6 < 3) == translation);
+        // The first of equals, so that round-off between symmetric nodes cannot change the choice often.
+        candidates
+            .fold(Complex64::default(), |m, (_, v)| if v.norm() > m.norm() * 1.000_001 { *v } else { m })
+    };
+    let (move_, turn) = (largest(true), largest(false));
+    let lead = if move_.norm() > 1e-6 * turn.norm() { move_ } else { turn };
+    if lead.norm() > 0.0 {
+        let phase = lead.conj() / lead.norm();
+        shape.iter_mut().chain(full).for_each(|v| *v *= phase);
+    }
+}
+
+fn energy_shares(full: &[Complex64], momentum: &[Complex64], shaft_nodes: usize) -> Energy {
+    let mut energy = Energy { bodies: vec![[0.0; 6]; full.len() / 6 - shaft_nodes], ..Energy::default() };
+    let mut total = 0.0;
+    for (i, (q, p)) in full.iter().zip(momentum).enumerate() {
+        let e = (q.conj() * p).re;
+        total += e;
+        let (node, dof) = (i / 6, i % 6);
+        match (node.checked_sub(shaft_nodes), dof) {
+            (Some(body), _) => energy.bodies[body][dof] += e,
+            (None, 0 | 4) => energy.bending_x += e,
+            (None, 1 | 3) => energy.bending_y += e,
+            (None, 2) => energy.axial += e,
+            (None, _) => energy.torsion += e,
+        }
+    }
+    for e in [&mut energy.bending_x, &mut energy.bending_y, &mut energy.axial, &mut energy.torsion] {
+        *e /= total;
+    }
+    energy.bodies.iter_mut().flatten().for_each(|e| *e /= total);
+    energy
+}
+
+/// (|F|² − |B|²)/(|F|² + |B|²) with x + j y = F e^{jωt} + B e^{−jωt}.
+pub fn whirl_of(x: Complex64, y: Complex64) -> f64 {
+    // |X + jY|² − |X − jY|² = 4 Im(X* Y) (−1).
+    let sum = x.norm_sqr() + y.norm_sqr();
+    if sum > 0.0 { -2.0 * (x.conj() * y).im / sum } else { 0.0 }
+}
+
+fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
+    let bending = energy.bending_x + energy.bending_y;
+    let bodies = energy.body_total();
+    let top = bending.max(bodies).max(energy.axial).max(energy.torsion);
+    if top == energy.torsion {
+        return ModeKind::Torsional;
+    }
+    if top == energy.axial {
+        return ModeKind::Axial;
+    }
+    if top == bodies {
+        return ModeKind::Body;
+    }
+    let size: Vec<f64> = shaft.chunks(6).map(|n| (n[0].norm_sqr() + n[1].norm_sqr()).sqrt()).collect();
+    let largest = size.iter().fold(0.0, |m: f64, v| m.max(*v));
+    let votes = || size.iter().zip(whirl).filter(|(s, _)| **s > QUIET * largest).map(|(_, w)| *w);
+    match (votes().any(|w| w > PLANAR), votes().any(|w| w < -PLANAR)) {
+        (true, true) => ModeKind::Mixed,
+        (true, false) => ModeKind::Forward,
+        (false, true) => ModeKind::Backward,
+        (false, false) if energy.bending_x >= energy.bending_y => ModeKind::PlaneX,
+        (false, false) => ModeKind::PlaneY,
+    }
+}
+
+/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing_A u_x".
+///
+/// Bending modes come in pairs: a forward (or x) mode counts the forward ones below it, a mixed one half of all.
+pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
+    let mut count: HashMap<String, usize> = HashMap::new();
+    let (mut bending, mut mixed) = (0, 0);
+    for mode in modes {
+        let name = match mode.kind {
+            ModeKind::Body => body_name(assembly, &mode.energy),
+            kind => kind.name().into(),
+        };
+        let before = *count.entry(name.clone()).and_modify(|n| *n += 1).or_insert(1) - 1;
+        let place = match mode.kind {
+            ModeKind::Mixed => bending / 2,
+            kind if kind.is_bending() => before + mixed / 2,
+            _ => before,
+        };
+        bending += usize::from(mode.kind.is_bending());
+        mixed += usize::from(mode.kind == ModeKind::Mixed);
+        mode.label = match mode.kind {
+            ModeKind::Body if before == 0 => name,
+            _ => format!("{} {name}", ordinal(place + 1)),
+        };
+    }
+}
+
+/// The body and direction with most of the energy.
+fn body_name(assembly: &Assembly, energy: &Energy) -> String {
+    let all = energy.bodies.iter().enumerate().flat_map(|(b, e)| (0..6).map(move |d| (b, d, e[d])));
+    let (body, dof, _) = all.max_by(|a, b| a.2.total_cmp(&b.2)).unwrap_or_default();
+    let name = &assembly.dofs.node_names[assembly.dofs.shaft_nodes + body];
+    format!("{name} {}", crate::assembly::dofs::DOF_NAMES[dof])
+}
+
+/// 1st, 2nd, 3rd, 4th ...
+pub fn ordinal(n: usize) -> String {
+    let ending = match (n % 100, n % 10) {
+        (11..=13, _) => "th",
+        (_, 1) => "st",
+        (_, 2) => "nd",
+        (_, 3) => "rd",
+        _ => "th",
+    };
+    format!("{n}{ending}")
+}
