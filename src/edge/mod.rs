@@ -1,8 +1,10 @@
 //! Edges: one owner per foreign crate or file format.
 
+pub mod csv;
 pub mod gltf;
 pub mod hdf5;
 pub mod mesh;
 pub mod parry;
 pub mod rapier;
 pub mod scene;
+pub mod vtk;

@@ -8,3 +8,4 @@ mod parry_distance;
 mod parry_masses;
 mod parry_overlaps;
 mod rapier_cage;
+mod text_files;

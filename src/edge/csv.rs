@@ -1,0 +1,82 @@
+//! CSV with a header of names and units, '.' as decimal sign, constant step.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::error::Error;
+
+/// One column: a name such as `B_ax`, its unit such as `m/s^2`, and its values.
+#[derive(Clone, Copy, Debug)]
+pub struct Column<'a> {
+    pub name: &'a str,
+    pub unit: &'a str,
+    pub values: &'a [f64],
+}
+
+impl Column<'_> {
+    /// Name with unit in letters, digits and underscores: `B_ax` in m/s² becomes `B_ax_m_s2`.
+    pub fn header(&self) -> String {
+        let mut out = String::new();
+        for c in self.name.chars().chain(['_']).chain(self.unit.chars()) {
+            match c {
+                '²' => out.push('2'),
+                '³' => out.push('3'),
+                '°' => out.push_str("deg"),
+                'µ' | 'μ' => out.push('u'),
+                '^' => {}
+                c if c.is_alphanumeric() => out.push(c),
+                _ if out.is_empty() || out.ends_with('_') => {}
+                _ => out.push('_'),
+            }
+        }
+        out.trim_end_matches('_').to_owned()
+    }
+}
+
+/// A table of any columns as text; numbers are the shortest that read back exactly.
+///
+/// Shorter columns leave their last cells empty.
+pub fn to_csv(columns: &[Column]) -> String {
+    let mut out = columns.iter().map(Column::header).collect::<Vec<_>>().join(",");
+    out.push('\n');
+    let rows = columns.iter().map(|c| c.values.len()).max().unwrap_or(0);
+    for row in 0..rows {
+        for (k, column) in columns.iter().enumerate() {
+            if k > 0 {
+                out.push(',');
+            }
+            if let Some(value) = column.values.get(row) {
+                // Writing to a String cannot fail.
+                let _ = write!(out, "{value:e}");
+            }
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// Writes a table of any columns.
+///
+/// # Errors
+/// [`Error::Environment`] when the file cannot be written.
+pub fn write(path: &Path, columns: &[Column]) -> Result<(), Error> {
+    std::fs::write(path, to_csv(columns)).map_err(|source| Error::Environment {
+        operation: "write",
+        path: path.to_path_buf(),
+        source: source.into(),
+    })
+}
+
+/// Writes channels of one constant sample rate, led by the column `time_s` = t₀ + k/f_s.
+///
+/// `rate`: f_s \[Hz\]; `start`: t₀ \[s\].
+///
+/// # Errors
+/// [`Error::Environment`] when the file cannot be written.
+pub fn write_series(path: &Path, rate: f64, start: f64, channels: &[Column]) -> Result<(), Error> {
+    let rows = channels.iter().map(|c| c.values.len()).max().unwrap_or(0);
+    let time: Vec<f64> = (0..rows).map(|k| start + k as f64 / rate).collect();
+    let mut columns = vec![Column { name: "time", unit: "s", values: &time }];
+    columns.extend(channels);
+    write(path, &columns)
+}
