@@ -4,6 +4,7 @@
 mod bearing;
 
 mod glb;
+mod machine_export;
 mod parry_distance;
 mod parry_masses;
 mod parry_overlaps;
