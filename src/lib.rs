@@ -1,6 +1,9 @@
 //! rotordyn: a multibody rotor-bearing simulator with a flexible shaft.
 
+#![forbid(unsafe_code)]
+
 pub mod conventions;
+pub mod material;
 pub mod units;
 
 pub mod linalg;

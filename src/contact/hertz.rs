@@ -1,7 +1,7 @@
 //! Dry Hertzian point contact with exact elliptic integrals.
 
 use super::elliptic;
-use crate::element::Material;
+use crate::material::Material;
 
 /// Elliptic Hertz contact of two bodies: everything that does not depend on the load.
 ///

@@ -4,15 +4,14 @@ pub mod anchor;
 pub mod belt;
 pub mod bushing;
 pub mod joint;
-pub mod material;
 pub mod rigid_body;
 pub mod shaft;
 pub mod shaft_matrices;
 
+pub use crate::material::Material;
 pub use anchor::Anchor;
 pub use belt::Belt;
 pub use bushing::Bushing;
 pub use joint::Joint;
-pub use material::Material;
 pub use rigid_body::{Disc, PointMass, RigidBody};
 pub use shaft::{ShaftElement, ShearCoefficient};

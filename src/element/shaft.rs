@@ -1,6 +1,6 @@
 //! Two-node Timoshenko shaft element: data and section properties; matrices in [`shaft_matrices`](super::shaft_matrices).
 
-use super::material::Material;
+use crate::material::Material;
 use std::f64::consts::PI;
 
 /// How the shear coefficient κ of a section is found.

@@ -1,0 +1,204 @@
+//! The rules of CONTRIBUTING.md about what may use what, read off the sources.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Layers from the ground up; a module may use its own layer and those before it. `error` may be used anywhere.
+const LAYERS: [&[&str]; 11] = [
+    &["units", "conventions", "references", "material"],
+    &["linalg", "signal"],
+    &["contact"],
+    &["element", "bearing"],
+    &["model"],
+    &["assembly"],
+    &["analysis"],
+    &["transient"],
+    &["identify"],
+    &["results", "study"],
+    &["edge"],
+];
+
+/// Foreign crates and the places that may use them.
+const OWNERS: [(&[&str], &[&str]); 6] = [
+    (&["faer"], &["linalg/"]),
+    (&["rapier3d", "rapier3d_f64"], &["edge/rapier"]),
+    (&["parry3d", "parry3d_f64"], &["edge/parry"]),
+    (&["hdf5"], &["edge/hdf5"]),
+    (&["resvg", "usvg", "tiny_skia", "png"], &["edge/plot"]),
+    (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
+];
+
+/// Modules that compute and must not touch files.
+const NO_FILES: [&str; 13] = [
+    "units",
+    "material",
+    "linalg",
+    "signal",
+    "contact",
+    "element",
+    "bearing",
+    "model",
+    "assembly",
+    "analysis",
+    "transient",
+    "identify",
+    "results",
+];
+
+const MAX_LINES: usize = 500;
+
+/// A source file: its path below src and its text without comments.
+struct Source {
+    path: String,
+    lines: usize,
+    code: String,
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![root.clone()];
+    let mut files: Vec<PathBuf> = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            match path.extension() {
+                _ if path.is_dir() => folders.push(path),
+                Some(extension) if extension == "rs" => files.push(path),
+                _ => {}
+            }
+        }
+    }
+    files.sort();
+    let read = |file: PathBuf| {
+        let text = fs::read_to_string(&file).unwrap();
+        let code = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>();
+        let path = file.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
+        Source { path, lines: code.len(), code: code.join("\n") }
+    };
+    files.into_iter().map(read).collect()
+}
+
+fn layer(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|layer| layer.contains(&module))
+}
+
+/// The name of the top module that a file belongs to.
+fn module(path: &str) -> &str {
+    path.split('/').next().unwrap_or(path).trim_end_matches(".rs")
+}
+
+fn is_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// The top modules named by `crate::a` and `crate::{a, b::c}` in `code`.
+fn used_modules(code: &str) -> Vec<String> {
+    let first_name = |text: &str| text.trim().chars().take_while(|&c| is_name(c)).collect::<String>();
+    let mut used = Vec::new();
+    for (start, found) in code.match_indices("crate::") {
+        let rest = &code[start + found.len()..];
+        match rest.strip_prefix('{') {
+            None => used.push(first_name(rest)),
+            Some(group) => {
+                let mut depth = 0;
+                let mut item = String::new();
+                for c in group.chars() {
+                    match c {
+                        '}' if depth == 0 => break,
+                        '{' => depth += 1,
+                        '}' => depth -= 1,
+                        ',' if depth == 0 => used.push(first_name(&std::mem::take(&mut item))),
+                        _ => {}
+                    }
+                    if !(c == ',' && depth == 0) {
+                        item.push(c);
+                    }
+                }
+                used.push(first_name(&item));
+            }
+        }
+    }
+    used.retain(|name| name.chars().next().is_some_and(char::is_lowercase));
+    used
+}
+
+/// Whether `code` names the foreign crate `name`: `name::` that no path leads to, or `use name`.
+fn uses_crate(code: &str, name: &str) -> bool {
+    code.match_indices(name).any(|(start, _)| {
+        let (before, after) = (&code[..start], &code[start + name.len()..]);
+        let whole = !before.ends_with(is_name) && !after.starts_with(is_name);
+        let statement = before.rsplit([';', '\n']).next().unwrap_or("").trim_start();
+        let in_path =
+            before.ends_with("::") && !before.ends_with(" ::") || statement.starts_with("use crate::");
+        whole && !in_path && (after.starts_with("::") || statement.ends_with("use "))
+    })
+}
+
+#[test]
+fn imports_go_one_way() {
+    let mut wrong = Vec::new();
+    for Source { path, code, .. } in sources() {
+        let Some(own) = layer(module(&path)) else {
+            let known = ["lib", "main", "error", "cli"].contains(&module(&path));
+            assert!(known, "src/{path} belongs to no layer: add it to LAYERS");
+            continue;
+        };
+        for used in used_modules(&code).into_iter().filter(|used| used != "error") {
+            if layer(&used).is_none_or(|layer| layer > own) {
+                wrong.push(format!("src/{path} uses crate::{used}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "imports against the layers:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn foreign_crates_stay_with_their_owners() {
+    let mut wrong = Vec::new();
+    for Source { path, code, .. } in sources() {
+        for (crates, owners) in OWNERS {
+            let owned = owners.iter().any(|owner| path.starts_with(owner));
+            for name in crates.iter().filter(|name| !owned && uses_crate(&code, name)) {
+                wrong.push(format!("src/{path} uses {name}, which belongs to {owners:?}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn physics_knows_no_files() {
+    let touches =
+        |code: &str| ["std::fs", "std::io"].iter().any(|m| code.contains(m)) || uses_crate(code, "fs");
+    let wrong: Vec<_> =
+        sources().into_iter().filter(|s| NO_FILES.contains(&module(&s.path)) && touches(&s.code)).collect();
+    assert!(wrong.is_empty(), "these touch files: {:?}", wrong.iter().map(|s| &s.path).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_file_has_one_purpose_and_few_lines() {
+    let long: Vec<_> =
+        sources().into_iter().filter(|s| s.lines > MAX_LINES).map(|s| (s.path, s.lines)).collect();
+    assert!(long.is_empty(), "over {MAX_LINES} lines: {long:?}");
+}
+
+/// The rules above are worth no more than the reading of the sources.
+#[test]
+fn the_reader_sees_what_it_should() {
+    assert_eq!(
+        used_modules("use crate::model::Model; crate::{a, b::{c, d}, e::f}"),
+        ["model", "a", "b", "e"]
+    );
+    assert!(used_modules("use super::x; pub(crate) fn f() {}").is_empty());
+    for code in ["use hdf5::File;", "use hdf5;", "let x = hdf5::open();", "use ::hdf5::File;", "f(hdf5::A)"] {
+        assert!(uses_crate(code, "hdf5"), "{code}");
+    }
+    for code in [
+        "use crate::edge::hdf5::Store;",
+        "edge::hdf5::Store",
+        "use crate::edge::{hdf5::Store};",
+        "my_hdf5::x",
+    ] {
+        assert!(!uses_crate(code, "hdf5"), "{code}");
+    }
+}
