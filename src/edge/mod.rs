@@ -5,6 +5,7 @@ pub mod gltf;
 pub mod hdf5;
 pub mod mesh;
 pub mod parry;
+pub mod plot;
 pub mod rapier;
 pub mod scene;
 pub mod vtk;

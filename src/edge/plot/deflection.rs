@@ -1,0 +1,79 @@
+//! Static deflection of the shaft's centreline.
+
+use super::axes::{Axes, Frame};
+use super::labels::{Entry, head, spread};
+use super::scale::Range;
+use super::style::*;
+use super::svg::{Dash, Style, Svg, Text};
+use super::{axes::Marker, font};
+
+/// A station named along the shaft.
+#[derive(Clone, Debug, Default)]
+pub struct Mark {
+    pub label: String,
+    /// Axial position \[m\].
+    pub z: f64,
+}
+
+/// Data of a deflection figure.
+#[derive(Clone, Debug, Default)]
+pub struct Deflection {
+    pub title: String,
+    pub note: String,
+    /// Axial positions of the nodes \[m\], ascending.
+    pub z: Vec<f64>,
+    /// Displacements \[m\].
+    pub u_x: Vec<f64>,
+    pub u_y: Vec<f64>,
+    pub stations: Vec<Mark>,
+}
+
+pub fn draw(data: &Deflection) -> Svg {
+    let horizontal = Style::stroke(BLUE, 1.6).dashed(Dash::Long);
+    let vertical = Style::stroke(RED, 1.9);
+    let dot = |style: Style| Style::fill(style.stroke.unwrap_or(INK));
+    let entries = [
+        Entry::line("horizontal (x)", horizontal).marked(Marker::Square, dot(horizontal)),
+        Entry::line("vertical (y)", vertical).marked(Marker::Circle, dot(vertical)),
+    ];
+    let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
+    let frame = Frame { x: LEFT, y: top + 18.0, w: WIDTH - LEFT - RIGHT, h: 300.0 };
+    let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v * by).collect() };
+    let z = scaled(&data.z, 1e3);
+    let (u_x, u_y) = (scaled(&data.u_x, 1e6), scaled(&data.u_y, 1e6));
+    let x = Range::of(z.iter().copied().chain(data.stations.iter().map(|s| 1e3 * s.z))).padded(0.02);
+    let y = Range::with_zero(u_x.iter().chain(&u_y).copied()).padded(0.08);
+    let axes = Axes::linear(frame, x, y);
+    axes.grid(&mut svg);
+    axes.segment(&mut svg, [x.lo, 0.0], [x.hi, 0.0], Style::stroke(PALE, 1.2));
+    let places: Vec<f64> = data.stations.iter().map(|s| axes.x.px(1e3 * s.z)).collect();
+    let labels: Vec<String> = data.stations.iter().map(|s| font::fit(&s.label, SMALL, 120.0)).collect();
+    let sizes: Vec<f64> = labels.iter().map(|l| font::width(l, SMALL) + 8.0).collect();
+    for ((at, label), place) in places.iter().zip(&labels).zip(spread(&places, &sizes, 6.0, WIDTH - 6.0)) {
+        svg.line([*at, frame.y], [*at, frame.bottom()], Style::stroke(PALE, 0.8).dashed(Dash::Short));
+        if let Some(place) = place {
+            svg.line([*at, frame.y], [place, frame.y - 5.0], Style::stroke(PALE, 0.8));
+            svg.text([place, frame.y - 8.0], label, Text::new(SMALL, MUTED).middle());
+        }
+    }
+    for (u, style, marker) in [(&u_x, horizontal, Marker::Square), (&u_y, vertical, Marker::Circle)] {
+        axes.curve(&mut svg, &z, u, style);
+        for station in &data.stations {
+            if let Some(value) = interpolate(&z, u, 1e3 * station.z) {
+                axes.markers(&mut svg, &[1e3 * station.z], &[value], marker, dot(style), 0.0);
+            }
+        }
+    }
+    axes.border(&mut svg, Some(&axes.x.label("axial position z", "mm")), &axes.y.label("deflection", "µm"));
+    svg.height = frame.bottom() + BOTTOM;
+    svg
+}
+
+/// Value of a polyline at x; None outside.
+fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
+    let (x_pairs, y_pairs) = (xs.windows(2), ys.windows(2));
+    x_pairs
+        .zip(y_pairs)
+        .find(|(p, _)| (p[0]..=p[1]).contains(&x))
+        .map(|(p, q)| if p[1] > p[0] { q[0] + (q[1] - q[0]) * (x - p[0]) / (p[1] - p[0]) } else { q[0] })
+}

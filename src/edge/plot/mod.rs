@@ -1,0 +1,148 @@
+//! Figures as SVG and PNG, each from plain data: a struct of numbers and names in, a picture out.
+//!
+//! | layer | files |
+//! |---|---|
+//! | page | [`svg`], `font`, `color_map`, `style` |
+//! | axes | [`scale`], [`axes`], [`labels`], `thin`, `heat` |
+//! | figures | one file each, one variant of [`Figure`] each |
+//!
+//! A new figure is one file, one variant and its arm. Non-finite data are left out with a gap; no data gives
+//! empty axes. Equal data give equal bytes.
+
+pub mod axes;
+mod color_map;
+mod font;
+mod heat;
+pub mod labels;
+pub mod scale;
+mod style;
+pub mod svg;
+mod thin;
+
+mod ball_load;
+mod bode;
+mod campbell;
+mod deflection;
+mod frf;
+mod history;
+mod lines;
+mod mode_shape;
+mod orbit;
+mod order;
+mod panels;
+mod polar;
+mod rig;
+mod spectrogram;
+mod waterfall;
+
+use std::path::Path;
+
+use resvg::{tiny_skia, usvg};
+
+use crate::error::Error;
+
+pub use ball_load::{BallLoads, BallRow};
+pub use bode::{Bode, BodeCurve};
+pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
+pub use deflection::{Deflection, Mark};
+pub use frf::{Frf, FrfCurve};
+pub use history::{Channel, History};
+pub use lines::{Curve, Lines};
+pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
+pub use orbit::{Orbit, Orbits};
+pub use order::OrderMap;
+pub use polar::{Polar, PolarCurve};
+pub use rig::{Rig, RigBelt, RigBlock, RigSection, RigSpring, RigSupport};
+pub use spectrogram::Spectrogram;
+pub use waterfall::Waterfall;
+
+/// Pixels of the PNG per px of the SVG.
+pub const PNG_SCALE: f32 = 2.0;
+
+/// Any figure of the program, with its data.
+#[derive(Clone, Debug)]
+pub enum Figure {
+    Campbell(Campbell),
+    Spectrogram(Spectrogram),
+    Waterfall(Waterfall),
+    OrderMap(OrderMap),
+    Frf(Frf),
+    ModeShapes(ModeShapes),
+    Bode(Bode),
+    Polar(Polar),
+    Orbits(Orbits),
+    BallLoads(BallLoads),
+    Deflection(Deflection),
+    History(History),
+    Lines(Lines),
+    Rig(Rig),
+}
+
+impl Figure {
+    /// The figure as an SVG document.
+    pub fn svg(&self) -> String {
+        match self {
+            Figure::Campbell(data) => campbell::draw(data),
+            Figure::Spectrogram(data) => spectrogram::draw(data),
+            Figure::Waterfall(data) => waterfall::draw(data),
+            Figure::OrderMap(data) => order::draw(data),
+            Figure::Frf(data) => frf::draw(data),
+            Figure::ModeShapes(data) => mode_shape::draw(data),
+            Figure::Bode(data) => bode::draw(data),
+            Figure::Polar(data) => polar::draw(data),
+            Figure::Orbits(data) => orbit::draw(data),
+            Figure::BallLoads(data) => ball_load::draw(data),
+            Figure::Deflection(data) => deflection::draw(data),
+            Figure::History(data) => history::draw(data),
+            Figure::Lines(data) => lines::draw(data),
+            Figure::Rig(data) => rig::draw(data),
+        }
+        .finish()
+    }
+}
+
+/// Writes a figure as `stem.svg` and `stem.png`.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(figure: &Figure, stem: &Path) -> Result<(), Error> {
+    let svg = figure.svg();
+    let name = |extension: &str| {
+        // Not `with_extension`: a stem such as "mode_27.1_hz" has a dot of its own.
+        let mut name = stem.as_os_str().to_owned();
+        name.push(extension);
+        std::path::PathBuf::from(name)
+    };
+    let put = |path: std::path::PathBuf, bytes: &[u8]| {
+        std::fs::write(&path, bytes).map_err(|e| Error::Environment {
+            operation: "write figure",
+            path,
+            source: e.into(),
+        })
+    };
+    put(name(".svg"), svg.as_bytes())?;
+    let png = png(&svg).map_err(|source| Error::Environment {
+        operation: "render figure",
+        path: name(".png"),
+        source,
+    })?;
+    put(name(".png"), &png)
+}
+
+/// Renders an SVG document as PNG at [`PNG_SCALE`].
+///
+/// # Errors
+/// The document is not SVG, or is too large to render.
+pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
+    let options = usvg::Options {
+        fontdb: font::database(),
+        font_family: "DejaVu Sans".to_string(),
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(svg, &options)?;
+    let size = tree.size().to_int_size();
+    let (w, h) = (size.width() as f32 * PNG_SCALE, size.height() as f32 * PNG_SCALE);
+    let mut pixmap = tiny_skia::Pixmap::new(w as u32, h as u32).ok_or("the figure is too large to render")?;
+    resvg::render(&tree, tiny_skia::Transform::from_scale(PNG_SCALE, PNG_SCALE), &mut pixmap.as_mut());
+    Ok(pixmap.encode_png()?)
+}

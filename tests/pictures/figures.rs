@@ -1,0 +1,134 @@
+//! What every figure must be: equal bytes for equal data, a PNG of twice the size, small even with long data.
+
+use resvg::{tiny_skia, usvg};
+use rotordyn::edge::plot::*;
+
+use super::samples::all;
+
+fn usual() -> Vec<Figure> {
+    let x: Vec<f64> = (0..60).map(|k| 10.0 * f64::from(k)).collect();
+    let y: Vec<f64> = (0..60).map(|k| 3.0 + 0.5 * f64::from(k) + (f64::from(k) * 0.3).sin()).collect();
+    all(&x, &y, "disc")
+}
+
+#[test]
+fn equal_data_give_equal_bytes() {
+    for (a, b) in usual().into_iter().zip(usual()) {
+        let (a, b) = (a.svg(), b.svg());
+        assert_eq!(a, b);
+        assert_eq!(png(&a).unwrap(), png(&b).unwrap());
+    }
+}
+
+#[test]
+fn svg_parses_and_png_is_twice_its_size() {
+    let folder = tempfile::tempdir().unwrap();
+    for (k, figure) in usual().iter().enumerate() {
+        let stem = folder.path().join(format!("figure_{k}.5_hz"));
+        write(figure, &stem).unwrap();
+        let path = |extension| folder.path().join(format!("figure_{k}.5_hz.{extension}"));
+        let svg = std::fs::read_to_string(path("svg")).unwrap();
+        let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
+        let picture = tiny_skia::Pixmap::decode_png(&std::fs::read(path("png")).unwrap()).unwrap();
+        let size = tree.size().to_int_size();
+        assert_eq!((picture.width(), picture.height()), (2 * size.width(), 2 * size.height()));
+        // Neither blank nor flooded: text and lines cover some of the page, not most of it.
+        let inked = picture.pixels().iter().filter(|p| p.red() < 128 || p.blue() < 128).count();
+        let share = inked as f64 / (picture.width() * picture.height()) as f64;
+        assert!((0.002..0.7).contains(&share), "figure {k}: {share}");
+    }
+}
+
+#[test]
+fn text_is_drawn_with_the_embedded_font() {
+    // The same page with and without its text differ where the text is.
+    let page = |text: &str| {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\"><text x=\"2\" y=\"15\" font-size=\"14\" font-family=\"'DejaVu Sans', sans-serif\">{text}</text></svg>"
+        )
+    };
+    assert_ne!(png(&page("BPFO")).unwrap(), png(&page("")).unwrap());
+}
+
+#[test]
+fn an_unwritable_place_is_an_environment_error() {
+    let figure = Figure::Lines(Lines::default());
+    let error = write(&figure, std::path::Path::new("/nonexistent/folder/figure")).unwrap_err();
+    assert!(error.to_string().contains("figure.svg"), "{error}");
+}
+
+#[test]
+fn a_million_samples_stay_small_and_keep_their_peak() {
+    let time: Vec<f64> = (0..1_000_000).map(|k| f64::from(k) * 1e-5).collect();
+    let mut value: Vec<f64> = time.iter().map(|t| (t * 3000.0).sin()).collect();
+    // One sample in a million stands out; the axis and the curve must both show it.
+    value[654_321] = 9.0;
+    let channel = Channel { time, value, ..Default::default() };
+    let svg = Figure::History(History { channels: vec![channel], ..Default::default() }).svg();
+    assert!(svg.len() < 150_000, "{} bytes", svg.len());
+    let curve = svg
+        .split("<path d=\"")
+        .skip(1)
+        .map(|p| p.split('"').next().unwrap())
+        .max_by_key(|d| d.len())
+        .unwrap();
+    let numbers: Vec<f64> = curve.split(['M', ' ']).filter_map(|n| n.parse().ok()).collect();
+    let mut heights: Vec<f64> = numbers.chunks(2).map(|p| p[1]).collect();
+    heights.sort_by(f64::total_cmp);
+    assert!(heights[1] - heights[0] > 100.0, "the peak stands alone above the rest: {:?}", &heights[..3]);
+}
+
+#[test]
+fn gaps_break_a_line() {
+    let curve = |y: Vec<f64>| Curve { x: vec![0.0, 1.0, 2.0, 3.0, 4.0], y, ..Default::default() };
+    let pieces = |y| {
+        let svg = Figure::Lines(Lines { curves: vec![curve(y)], ..Default::default() }).svg();
+        let path =
+            svg.split("<path d=\"").filter_map(|p| p.split('"').next()).max_by_key(|d| d.len()).unwrap();
+        path.matches('M').count()
+    };
+    assert_eq!(pieces(vec![1.0, 2.0, 1.5, 2.0, 1.0]), 1);
+    assert_eq!(pieces(vec![1.0, 2.0, f64::NAN, 2.0, 1.0]), 2);
+}
+
+#[test]
+fn phase_jumps_are_not_joined() {
+    let hz: Vec<f64> = (0..100).map(f64::from).collect();
+    // A phasor turning backwards three times: three jumps from -180 to 180.
+    let turn = |k: &f64| 6.0 * std::f64::consts::PI * k / 100.0;
+    let curve = FrfCurve {
+        re: hz.iter().map(|k| turn(k).cos()).collect(),
+        im: hz.iter().map(|k| -turn(k).sin()).collect(),
+        hz,
+        ..Default::default()
+    };
+    let svg = Figure::Frf(Frf { curves: vec![curve], ..Default::default() }).svg();
+    let most =
+        svg.split("<path d=\"").filter_map(|p| p.split('"').next()).map(|d| d.matches('M').count()).max();
+    assert_eq!(most, Some(4));
+}
+
+#[test]
+fn a_heat_map_keeps_a_ridge_one_cell_wide_and_its_place() {
+    // One loud cell in a fine grid: it must be seen, and where it belongs.
+    let (nx, ny) = (3000, 2000);
+    let (rpm, hz): (Vec<f64>, Vec<f64>) =
+        ((0..nx).map(f64::from).collect(), (0..ny).map(f64::from).collect());
+    let mut level_db = vec![-100.0; (nx * ny) as usize];
+    level_db[(750 * ny + 1500) as usize] = 0.0;
+    let map = Spectrogram { rpm, hz, level_db, span_db: 80.0, ..Default::default() };
+    let svg = Figure::Spectrogram(map).svg();
+    let picture = tiny_skia::Pixmap::decode_png(&png(&svg).unwrap()).unwrap();
+    let attribute = |name: &str| -> f64 {
+        let image = svg.split("<image ").nth(1).unwrap();
+        image.split(&format!("{name}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+    };
+    let (x, y, w, h) = (attribute("x"), attribute("y"), attribute("width"), attribute("height"));
+    // Axes from 0 to 2999 rpm and 1999 Hz.
+    let (px, py) = (2.0 * (x + w * 750.0 / 2999.0), 2.0 * (y + h * (1.0 - 1500.0 / 1999.0)));
+    let dark = |px: f64, py: f64| picture.pixel(px as u32, py as u32).unwrap().green() < 120;
+    let around =
+        |px: f64, py: f64| (-3..=3).any(|i| (-3..=3).any(|j| dark(px + f64::from(i), py + f64::from(j))));
+    assert!(around(px, py));
+    assert!(!around(px + 200.0, py - 100.0));
+}

@@ -1,0 +1,216 @@
+//! One figure of each kind, with the same numbers in every place.
+
+use rotordyn::edge::plot::*;
+
+/// Every kind of figure from the given abscissae and ordinates (lengths may differ) and a name.
+pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
+    let (x, y, name) = (x.to_vec(), y.to_vec(), name.to_string());
+    let pairs: Vec<[f64; 2]> = y.iter().map(|v| [*v, -*v]).collect();
+    let first = |k: usize| x.get(k).copied().unwrap_or(f64::NAN);
+    let value = |k: usize| y.get(k).copied().unwrap_or(f64::NAN);
+    let orders: Vec<OrderLine> = [first(0), 1.0, 7.14, f64::NAN]
+        .into_iter()
+        .map(|order| OrderLine { label: name.clone(), order, bearing: order > 2.0 })
+        .collect();
+    let whirls = [Whirl::Forward, Whirl::Backward, Whirl::Torsion, Whirl::Axial, Whirl::Mixed];
+    let branches: Vec<Branch> = whirls
+        .into_iter()
+        .map(|whirl| Branch {
+            label: name.clone(),
+            whirl,
+            rpm: x.clone(),
+            hz: y.clone(),
+            log_decrement: y.clone(),
+        })
+        .collect();
+    let criticals = vec![Critical { rpm: first(1), hz: value(1), label: name.clone() }];
+    let grid: Vec<f64> = x.iter().flat_map(|a| y.iter().map(move |b| a * b)).collect();
+    let labelled = |label: &str| label.to_string();
+    vec![
+        Figure::Campbell(Campbell {
+            title: name.clone(),
+            note: name.clone(),
+            branches: branches.clone(),
+            orders: orders.clone(),
+            criticals: criticals.clone(),
+            max_hz: y.first().copied(),
+        }),
+        Figure::Spectrogram(Spectrogram {
+            title: name.clone(),
+            rpm: x.clone(),
+            hz: y.clone(),
+            level_db: grid.clone(),
+            quantity: labelled("level"),
+            unit: labelled("dB re 1 m/s²"),
+            span_db: first(2),
+            orders: orders.clone(),
+            branches,
+            ..Default::default()
+        }),
+        Figure::Waterfall(Waterfall {
+            title: name.clone(),
+            rpm: x.clone(),
+            hz: y.clone(),
+            amplitude: grid.clone(),
+            unit: labelled("m/s²"),
+            orders: orders.clone(),
+            ..Default::default()
+        }),
+        Figure::OrderMap(OrderMap {
+            title: name.clone(),
+            rpm: x.clone(),
+            order: y.clone(),
+            level_db: grid,
+            span_db: 60.0,
+            orders,
+            max_order: Some(value(0)),
+            ..Default::default()
+        }),
+        Figure::Frf(Frf {
+            title: name.clone(),
+            quantity: labelled("receptance"),
+            unit: labelled("m/N"),
+            curves: vec![FrfCurve {
+                label: name.clone(),
+                hz: x.clone(),
+                re: y.clone(),
+                im: y.iter().rev().copied().collect(),
+                coherence: y.clone(),
+            }],
+            ..Default::default()
+        }),
+        Figure::ModeShapes(ModeShapes {
+            title: name.clone(),
+            rotor: Rotor {
+                z: x.clone(),
+                discs: vec![[first(0), value(0)]],
+                bearings: x.clone(),
+                orbit_nodes: vec![0, 1, 1000],
+            },
+            modes: whirls
+                .into_iter()
+                .map(|whirl| ModeShape {
+                    title: name.clone(),
+                    whirl,
+                    u_x: pairs.clone(),
+                    u_y: pairs.clone(),
+                    u_z: pairs.clone(),
+                    theta_z: pairs.clone(),
+                    bodies: pairs.iter().map(|p| BodyMotion { z: first(0), u_x: *p, u_y: *p }).collect(),
+                })
+                .collect(),
+            ..Default::default()
+        }),
+        Figure::Bode(Bode {
+            title: name.clone(),
+            unit: labelled("µm"),
+            curves: vec![BodeCurve {
+                label: name.clone(),
+                rpm: x.clone(),
+                amplitude: y.clone(),
+                phase_deg: y.clone(),
+            }],
+            criticals,
+            ..Default::default()
+        }),
+        Figure::Polar(Polar {
+            title: name.clone(),
+            unit: labelled("µm"),
+            curves: vec![PolarCurve {
+                label: name.clone(),
+                rpm: x.clone(),
+                amplitude: y.clone(),
+                phase_deg: x.clone(),
+            }],
+            ..Default::default()
+        }),
+        Figure::Orbits(Orbits {
+            title: name.clone(),
+            orbits: vec![Orbit {
+                title: name.clone(),
+                x: x.clone(),
+                y: y.clone(),
+                filtered_x: y.clone(),
+                filtered_y: x.clone(),
+                keyphasor: vec![0, 1, usize::MAX],
+                clearance: Some(first(1)),
+            }],
+            ..Default::default()
+        }),
+        Figure::BallLoads(BallLoads {
+            title: name.clone(),
+            rows: vec![BallRow {
+                title: name.clone(),
+                note: name.clone(),
+                angle_deg: x.clone(),
+                load: y.clone(),
+            }],
+            ..Default::default()
+        }),
+        Figure::Deflection(Deflection {
+            title: name.clone(),
+            z: x.clone(),
+            u_x: y.clone(),
+            u_y: y.iter().rev().copied().collect(),
+            stations: x.iter().take(30).map(|z| Mark { label: name.clone(), z: *z }).collect(),
+            ..Default::default()
+        }),
+        Figure::History(History {
+            title: name.clone(),
+            channels: vec![
+                Channel {
+                    label: name.clone(),
+                    quantity: name.clone(),
+                    unit: name.clone(),
+                    time: x.clone(),
+                    value: y.clone()
+                };
+                3
+            ],
+            ..Default::default()
+        }),
+        lines(&x, &y, &name, false),
+        lines(&x, &y, &name, true),
+        Figure::Rig(Rig {
+            title: name.clone(),
+            sections: vec![RigSection {
+                z: [first(0), first(1)],
+                outer: [value(0), value(1)],
+                inner: [value(1), value(0)],
+            }],
+            blocks: vec![RigBlock {
+                label: name.clone(),
+                z: [first(0), first(1)],
+                y: [value(0), value(1)],
+                rotating: true,
+            }],
+            supports: vec![RigSupport {
+                label: name.clone(),
+                z: first(0),
+                width: value(0),
+                bore: value(0),
+                outside: value(1),
+            }],
+            springs: vec![RigSpring { from: [first(0), value(0)], to: [first(1), value(1)], grounded: true }],
+            belts: vec![RigBelt { label: name.clone(), z: first(0), radius: value(0), upwards: true }],
+            stations: x.iter().take(30).map(|z| (name.clone(), *z)).collect(),
+            ..Default::default()
+        }),
+    ]
+}
+
+fn lines(x: &[f64], y: &[f64], name: &str, log: bool) -> Figure {
+    let curve = |points| Curve { label: name.to_string(), x: x.to_vec(), y: y.to_vec(), points };
+    Figure::Lines(Lines {
+        title: name.to_string(),
+        x_name: "load".to_string(),
+        x_unit: "N".to_string(),
+        y_name: "stiffness".to_string(),
+        y_unit: "N/m".to_string(),
+        curves: vec![curve(false), curve(true)],
+        log_x: log,
+        log_y: log,
+        from_zero: !log,
+        ..Default::default()
+    })
+}
