@@ -30,12 +30,13 @@ pub fn thresholds(
     for branch in &diagram.branches {
         for (k, pair) in branch.modes.windows(2).enumerate() {
             let [Some(a), Some(b)] = pair else { continue };
-            // An undamped mode has a real part of round-off size only; it crosses nothing.
-            let sign = |m: &Mode| if m.zeta().abs() < 1e-9 { 0.0 } else { m.zeta().signum() };
-            if sign(a) * sign(b) < 0.0 {
+            // An undamped mode has a real part of round-off size at both ends; it crosses nothing.
+            let unstable = |m: &Mode| m.eigenvalue.re >= 0.0;
+            let real = a.zeta().abs().max(b.zeta().abs()) > 1e-9;
+            if real && unstable(a) != unstable(b) {
                 let ends = ((diagram.speeds[k], a), (diagram.speeds[k + 1], b));
                 let (speed, mode) = tracker.root(ends.0, ends.1, |m, _| m.eigenvalue.re)?;
-                let unstable_above = sign(b) < 0.0;
+                let unstable_above = unstable(b);
                 found.push(Threshold { speed, unstable_above, mode, label: branch.label.clone() });
             }
         }

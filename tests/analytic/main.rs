@@ -2,5 +2,8 @@
 
 #[path = "../common/bearing.rs"]
 mod bearing;
+#[path = "../common/machine.rs"]
+mod machine;
 
 mod hertz;
+mod shaft_limits;

@@ -3,6 +3,8 @@
 #[path = "../common/ross.rs"]
 mod ross;
 
+mod cakmak_2010;
+mod nelson_mcvaugh_1976;
 mod ross_critical;
 mod ross_elements;
 mod ross_modes;

@@ -1,0 +1,9 @@
+//! Fitted orders of convergence.
+
+#[path = "../common/machine.rs"]
+mod machine;
+#[path = "../common/ross.rs"]
+#[allow(dead_code)]
+mod ross;
+
+mod shaft_element;

@@ -1,0 +1,6 @@
+//! Theorems that hold for any machine, on random ones.
+
+#[path = "../common/machine.rs"]
+mod machine;
+
+mod linear;
