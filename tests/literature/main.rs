@@ -9,3 +9,4 @@ mod ross_critical;
 mod ross_elements;
 mod ross_modes;
 mod ross_responses;
+mod ross_run_up;
