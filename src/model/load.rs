@@ -62,9 +62,12 @@ pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loa
         Ok(text) => text,
         Err(error) => {
             let at = error.valid_up_to();
-            sources.push(name, String::from_utf8_lossy(&bytes[..at]));
-            let problem =
-                Problem::new(Kind::Syntax, &(at..at), format!("not a text: byte {at} is not UTF-8"));
+            sources.push(name, String::from_utf8_lossy(bytes));
+            let problem = Problem::new(
+                Kind::Syntax,
+                &(at..at + '\u{fffd}'.len_utf8()),
+                format!("not a text: byte {at} is not UTF-8"),
+            );
             log.error(problem.hint("a model file is TOML, saved as UTF-8"));
             return Err(failed(sources, log));
         }
@@ -83,7 +86,10 @@ pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loa
             let span = error.span().unwrap_or(0..0);
             let message = error.message().lines().next().unwrap_or("not TOML").to_string();
             let problem = Problem::new(Kind::Syntax, &span, format!("not TOML: {message}"));
-            log.error(problem.hint("TOML is described at https://toml.io"));
+            log.error(problem.hint(match message.as_str() {
+                "duplicate key" => "a name can stand only once; to change it in a variant use [variant.NAME]",
+                _ => "TOML is described at https://toml.io",
+            }));
             return Err(failed(sources, log));
         }
     };

@@ -1,3 +1,6 @@
 //! Model files: what they say arrives in the model.
 
+mod catalogue;
 mod files;
+mod rig;
+mod syntax;

@@ -109,7 +109,7 @@ fn materials(top: &Reader) -> Vec<Material> {
         if poisson.is_some_and(|nu| !(-1.0..=0.5).contains(&nu)) {
             r.error(Kind::OutOfRange, "poisson", format!("{} must be from -1 to 0.5", r.name("poisson")));
         }
-        if shear.is_none() && poisson.is_none() {
+        if !r.has("shear") && !r.has("poisson") {
             r.missing("poisson", "0.3");
         }
         let poisson = poisson.or_else(|| shear.map(|g| young / (2.0 * g) - 1.0)).unwrap_or(0.3);

@@ -62,7 +62,8 @@ const MAX_NODES: f64 = 5000.0;
 
 pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     if !top.has("shaft") {
-        top.missing("shaft", "a table [shaft] with [[shaft.section]]");
+        let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [shaft] table");
+        top.log.error(problem.hint("add [shaft] with material, element_length and [[shaft.section]]"));
         top.table("station").inspect(|r| _ = r.entries());
         return Line::default();
     }
@@ -71,10 +72,11 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     let spacing = r.or("minimum_spacing", positive(LENGTH), 1e-4);
     let common = properties(&r, None, materials);
     let sections = sections(&r, start, &common, materials);
+    let before = r.log.count();
     let sound = r.sound();
     r.finish();
     let stations = stations(top, &sections, spacing);
-    if !sound || sections.is_empty() {
+    if !sound || sections.is_empty() || top.log.count() > before {
         // stations keep their names so that references to them still resolve
         return Line { stations, ..Line::default() };
     }

@@ -72,9 +72,9 @@ pub(super) fn table(r: &Reader, family: Family, rows: usize, passive: bool) -> V
         }
     };
     put(&format!("{letter}_tilt"), &[(3, 3), (4, 4)]);
-    for i in 0..6 {
-        for j in 0..6 {
-            let key = format!("{letter}_{}{}", DOFS[i], DOFS[j]);
+    for (i, row) in DOFS.iter().enumerate() {
+        for (j, column) in DOFS.iter().enumerate() {
+            let key = format!("{letter}_{row}{column}");
             if i == j {
                 let short = format!("{letter}_{}", DIAGONAL[i]);
                 r.one_of(&[&short, &key]);

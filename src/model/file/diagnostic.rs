@@ -88,6 +88,14 @@ impl Problem {
         self
     }
 
+    /// Hint at the nearest of the known names when one is near.
+    pub fn suggest_near<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        match nearest(word, &known.into_iter().collect::<Vec<_>>()) {
+            Some(near) => self.hint(format!("did you mean `{near}`?")),
+            None => self,
+        }
+    }
+
     /// Hint at the nearest of the known names, or list them when none is near.
     pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
@@ -103,7 +111,7 @@ impl Problem {
 }
 
 /// Most alike of the known names, if one is alike enough to be meant.
-fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
+pub(crate) fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
     let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let word = plain(word);
     let score = |name: &str| strsim::jaro_winkler(&word, &plain(name));
@@ -163,6 +171,12 @@ pub(crate) struct Log {
 impl Log {
     pub fn error(&self, problem: Problem) {
         self.errors.borrow_mut().push(problem);
+    }
+
+    /// Take back the report of a missing key whose misspelt form was found.
+    pub fn retract_missing(&self, span: &Range<usize>, message: &str) {
+        let is_it = |p: &Problem| p.kind == Kind::MissingKey && p.span == *span && p.message == message;
+        self.errors.borrow_mut().retain(|p| !is_it(p));
     }
 
     pub fn warn(&self, problem: Problem) {

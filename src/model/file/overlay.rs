@@ -25,8 +25,8 @@ pub(crate) const COLLECTIONS: &[&str] = &[
 /// A variant may build on another (`based_on = "wavy"`), drop items (`remove = ["housing.A"]`), and state
 /// anything else that the file can state: tables are merged, everything else is replaced.
 pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
-    let variants = match root.remove("variant") {
-        Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) => table,
+    let (variants, place) = match root.remove("variant") {
+        Some(Entry { key_span, node: Node { value: Value::Table(table), .. }, .. }) => (table, key_span),
         Some(entry) => {
             log.error(
                 Problem::new(
@@ -38,15 +38,18 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
             );
             return;
         }
-        None => Table::default(),
+        None => (Table::default(), 0..0),
     };
     let Some(name) = wanted else { return };
     let mut chain: Vec<&Entry> = Vec::new();
-    let mut next = Some((name.to_string(), 0..0));
+    let mut next = Some((name.to_string(), place));
     while let Some((name, asked_at)) = next.take() {
         let Some(entry) = variants.get(&name) else {
             let problem = Problem::new(Kind::UnknownName, &asked_at, format!("unknown variant `{name}`"));
-            log.error(problem.suggest(&name, variants.keys()));
+            log.error(match variants.entries.len() {
+                0 => problem.hint("the file has no variants"),
+                _ => problem.suggest(&name, variants.keys()),
+            });
             return;
         };
         if chain.iter().any(|e| e.key == name) {

@@ -3,7 +3,7 @@
 //! A method that must return a value returns a stand-in after an error; a model with an error is never handed out.
 //! Every key that is asked for becomes known, so [`Reader::finish`] can report the others with a suggestion.
 
-use super::diagnostic::{Kind, Log, Problem};
+use super::diagnostic::{Kind, Log, Problem, nearest};
 use super::tree::{Entry, Node, Table, Value};
 use crate::units::{self, Dimension, NUMBER, UnitError};
 use std::cell::RefCell;
@@ -86,8 +86,12 @@ impl<'a> Reader<'a> {
     }
 
     pub fn missing(&self, key: &str, example: &str) {
-        let problem = Problem::new(Kind::MissingKey, &self.span, format!("{} is missing", self.name(key)));
+        let problem = Problem::new(Kind::MissingKey, &self.span, self.missing_message(key));
         self.log.error(problem.hint(format!("add {key} = {example}")));
+    }
+
+    fn missing_message(&self, key: &str) -> String {
+        format!("{} is missing", self.name(key))
     }
 
     fn wrong_type(&self, key: &str, node: &Node, expected: &str) {
@@ -180,11 +184,7 @@ impl<'a> Reader<'a> {
             Value::Integer(i) => vec![self.bare(key, node, spec.dimension, *i as f64)?],
             Value::Float(f) => vec![self.bare(key, node, spec.dimension, *f)?],
             _ => {
-                self.wrong_type(
-                    key,
-                    node,
-                    &format!("a {} such as {}", spec.dimension.name, quoted(spec.dimension)),
-                );
+                self.wrong_type(key, node, &such_as(spec.dimension));
                 return None;
             }
         };
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
                 let what = if *value < 0.0 { "negative" } else { "zero" };
                 let message = format!("{} is {what}", self.name(key));
                 let problem = Problem::new(Kind::OutOfRange, &node.span, message);
-                self.log.error(problem.expected(format!("a {} {must}", spec.dimension.name)));
+                self.log.error(problem.expected(format!("{} {must}", with_article(spec.dimension.name))));
                 return None;
             }
         }
@@ -209,12 +209,12 @@ impl<'a> Reader<'a> {
         let name = self.name(key);
         let problem = if !value.is_finite() {
             Problem::new(Kind::OutOfRange, &node.span, format!("{name} is not a finite number"))
-                .expected(format!("a {} such as {}", dimension.name, quoted(dimension)))
+                .expected(such_as(dimension))
         } else if dimension == NUMBER {
             return Some(value);
         } else {
             Problem::new(Kind::MissingUnit, &node.span, format!("{name} has no unit"))
-                .expected(format!("a {} such as {}", dimension.name, quoted(dimension)))
+                .expected(such_as(dimension))
                 .hint(format!("if {} is meant, write \"{value} {}\"", dimension.unit, dimension.unit))
         };
         self.log.error(problem);
@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
 
     fn unit_problem(&self, key: &str, node: &Node, dimension: Dimension, error: &UnitError) -> Problem {
         let name = self.name(key);
-        let expected = format!("a {} such as {}", dimension.name, quoted(dimension));
+        let expected = such_as(dimension);
         let problem = |kind, message: String| Problem::new(kind, &node.span, message).expected(&expected);
         match error {
             UnitError::NoUnit(text) => problem(Kind::MissingUnit, format!("{name} has no unit"))
@@ -231,7 +231,7 @@ impl<'a> Reader<'a> {
             UnitError::WrongDimension { unit, found, expected: dimension } => {
                 let p = problem(
                     Kind::WrongDimension,
-                    format!("{name} must be a {dimension}; {unit} is a {found}"),
+                    format!("{name} must be {}; {unit} is {}", with_article(dimension), with_article(found)),
                 );
                 if *dimension == units::FORCE.name && unit.contains("lb") {
                     p.hint("lb is a mass; write lbf for the force")
@@ -370,7 +370,7 @@ impl<'a> Reader<'a> {
             let message = format!("{} cannot be `{word}`", self.name(key));
             let problem = Problem::new(Kind::UnknownName, &self.span_of(key), message)
                 .expected(format!("one of {}", choices.iter().map(|c| c.0).collect::<Vec<_>>().join(", ")));
-            self.log.error(problem.suggest(word, choices.iter().map(|c| c.0)));
+            self.log.error(problem.suggest_near(word, choices.iter().map(|c| c.0)));
         }
         found
     }
@@ -439,15 +439,17 @@ impl<'a> Reader<'a> {
         &self.table.entries
     }
 
-    /// Report every key that nobody asked for.
+    /// Report every key that nobody asked for; a missing key that it misspells is no longer called missing.
     pub fn finish(self) {
         let asked = self.asked.borrow();
-        for entry in &self.table.entries {
-            if !asked.contains(&entry.key) {
-                let message = format!("unknown key {}", self.name(&entry.key));
-                let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
-                self.log.error(problem.suggest(&entry.key, asked.iter().map(String::as_str)));
+        let known: Vec<&str> = asked.iter().map(String::as_str).collect();
+        for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
+            if let Some(meant) = nearest(&entry.key, &known) {
+                self.log.retract_missing(&self.span, &self.missing_message(meant));
             }
+            let message = format!("unknown key {}", self.name(&entry.key));
+            let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
+            self.log.error(problem.suggest(&entry.key, known.iter().copied()));
         }
     }
 }
@@ -455,4 +457,13 @@ impl<'a> Reader<'a> {
 /// Example of a quantity as it is written in the file.
 fn quoted(dimension: Dimension) -> String {
     if dimension == NUMBER { dimension.example.into() } else { format!("\"{}\"", dimension.example) }
+}
+
+fn such_as(dimension: Dimension) -> String {
+    format!("{} such as {}", with_article(dimension.name), quoted(dimension))
+}
+
+fn with_article(noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {noun}")
 }

@@ -29,7 +29,7 @@ impl Value {
         match self {
             Self::Text(_) => "a text",
             Self::Integer(_) | Self::Float(_) => "a bare number",
-            Self::Boolean(_) => "true or false",
+            Self::Boolean(_) => "a truth value",
             Self::List(_) => "a list",
             Self::Table(_) => "a table",
             Self::Other => "a date or huge number",

@@ -1,0 +1,65 @@
+//! No slip of the pen makes the reader panic, and every refusal points into the text.
+
+use rotordyn::model::{self, Options};
+
+const FILES: [&str; 4] = [
+    include_str!("../../models/overhung_rig.toml"),
+    include_str!("../../models/nelson_mcvaugh.toml"),
+    include_str!("../../models/jeffcott.toml"),
+    include_str!("../../models/two_disc_pedestals.toml"),
+];
+
+const VALUES: [&str; 12] = [
+    "0",
+    "-1",
+    "nan",
+    "inf",
+    "true",
+    "\"\"",
+    "\"-1 mm\"",
+    "\"1e300 m\"",
+    "\"A\"",
+    "[]",
+    "{}",
+    "\"0, 0, 0 mm\"",
+];
+
+/// Every line dropped, and every value replaced by each of the odd ones.
+#[test]
+fn spoiled_lines_are_refused_or_read_but_never_panic() {
+    let (mut read, mut refused) = (0, 0);
+    for text in FILES {
+        let lines: Vec<&str> = text.lines().collect();
+        let variants: Vec<Option<String>> =
+            std::iter::once(None).chain(model::variants(text).into_iter().take(1).map(Some)).collect();
+        for (k, line) in lines.iter().enumerate() {
+            let key = line.split_once(" = ").map(|(key, _)| key);
+            let replacements = VALUES.iter().filter_map(|v| key.map(|key| format!("{key} = {v}")));
+            for line in replacements.chain([String::new()]) {
+                let mut spoiled = lines.clone();
+                spoiled[k] = &line;
+                let spoiled = spoiled.join("\n");
+                for variant in &variants {
+                    match model::load(
+                        "m",
+                        &spoiled,
+                        &Options { variant: variant.clone(), ..Options::default() },
+                    ) {
+                        Ok(_) => read += 1,
+                        Err(errors) => {
+                            refused += 1;
+                            for d in &errors.diagnostics {
+                                assert!(
+                                    d.span.start <= d.span.end && d.span.end <= spoiled.len(),
+                                    "{line}: {d:?}"
+                                );
+                                assert!(spoiled.get(d.span.clone()).is_some(), "{line}: {d:?}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(read > 100 && refused > 5000, "{read} read, {refused} refused");
+}
