@@ -14,6 +14,7 @@ use crate::element::Material;
 
 /// A bearing model.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // a model has a handful of bearings
 pub enum Bearing {
     Linear(LinearBearing),
     Ball(BallBearing),
