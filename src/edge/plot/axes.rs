@@ -74,7 +74,7 @@ impl Axes {
             Range::new(middle - 0.5 * px * per_px, middle + 0.5 * px * per_px)
         };
         let (x, y) = (around(x, frame.w), around(y, frame.h));
-        Axes { frame, x: Scale::linear(x, frame.across(), 60.0), y: Scale::linear(y, frame.up(), 60.0) }
+        Axes { frame, x: Scale::linear(x, frame.across(), 44.0), y: Scale::linear(y, frame.up(), 44.0) }
     }
 
     /// Place of a value pair on the page; NaN coordinates where there is none.

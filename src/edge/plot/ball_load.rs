@@ -34,15 +34,16 @@ pub struct BallLoads {
 
 pub fn draw(data: &BallLoads) -> Svg {
     const SIDE: f64 = 330.0;
+    const CELL: f64 = SIDE + 46.0;
     let rows = &data.rows[..data.rows.len().min(MOST)];
     let columns = rows.len().clamp(1, 2);
-    let width = (SIDE + 20.0) * columns as f64 + 20.0;
+    let width = CELL * columns as f64 + 20.0;
     let (mut svg, top) = head(width.max(430.0), 20.0, &data.title, &data.note, &[]);
-    let left = 0.5 * (svg.width - (SIDE + 20.0) * columns as f64) + 10.0;
+    let left = 0.5 * (svg.width - CELL * columns as f64) + 23.0;
     let largest = extremes(rows.iter().flat_map(|r| r.load.iter().copied())).map_or(0.0, |e| e.1);
     let height = SIDE + 34.0;
     for (k, row) in rows.iter().enumerate() {
-        let x = left + (SIDE + 20.0) * (k % columns) as f64;
+        let x = left + CELL * (k % columns) as f64;
         panel(
             &mut svg,
             row,

@@ -3,7 +3,7 @@
 use super::axes::{Axes, Frame, Marker, clip};
 use super::font;
 use super::labels::{EndLabel, Entry, end_labels, end_room, head};
-use super::scale::Range;
+use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
 
@@ -223,33 +223,34 @@ pub(super) fn branch_ends(axes: &Axes, branches: &[Branch]) -> Vec<EndLabel> {
     labels
 }
 
-/// Marks and labels of critical speeds; each label goes where it covers the least of marks, labels and branches.
+/// Marks and labels of critical speeds; each label goes where it covers no mark or label
+/// and the least of the branches.
 fn criticals(svg: &mut Svg, axes: &Axes, list: &[Critical], branches: &[Branch]) {
     let marks: Vec<_> =
         list.iter().map(|c| (axes.at(c.rpm, c.hz), &c.label)).filter(|m| axes.holds(m.0)).collect();
     let square = |p: Point, r: f64| [p[0] - r, p[1] - r, p[0] + r, p[1] + r];
     let mut taken: Vec<[f64; 4]> = marks.iter().map(|(p, _)| square(*p, 6.0)).collect();
-    for branch in branches {
-        taken.extend(dots(axes, branch).into_iter().map(|p| square(p, 2.0)));
-    }
+    let lines: Vec<[f64; 4]> = branches.iter().flat_map(|b| dots(axes, b)).map(|p| square(p, 2.0)).collect();
     for (at, label) in &marks {
         Marker::Circle.draw(svg, *at, CRITICAL);
         let label = font::fit(label, SMALL, 160.0);
         let w = font::width(&label, SMALL);
         let area = |[x, y]: Point| [x - 2.0, y - 0.9 * SMALL, x + w + 2.0, y + 0.3 * SMALL];
-        let heights = [14.0, -7.0, 26.0, -19.0, 38.0, -31.0];
+        let heights = [14.0, -7.0, 26.0, -19.0];
         let places =
             heights.iter().flat_map(|dy| [[8.0, *dy], [-8.0 - w, *dy], [-0.5 * w, *dy + dy.signum() * 4.0]]);
-        let covered = |p: &Point| {
+        let covered = |list: &[[f64; 4]], p: &Point| {
             let [l, t, r, b] = area(*p);
-            taken.iter().filter(|o| l < o[2] && r > o[0] && t < o[3] && b > o[1]).count()
+            list.iter().filter(|o| l < o[2] && r > o[0] && t < o[3] && b > o[1]).count()
         };
         let inside = |p: &Point| {
             let [l, t, r, b] = area(*p);
             l > axes.frame.x && r < axes.frame.right() && t > axes.frame.y && b < axes.frame.bottom()
         };
-        let places = places.map(|d| [at[0] + d[0], at[1] + d[1]]).filter(inside);
-        if let Some(place) = places.min_by_key(covered) {
+        let places = places.map(|d| [at[0] + d[0], at[1] + d[1]]);
+        // Never over another mark or label: rather no label.
+        let places = places.filter(inside).filter(|p| covered(&taken, p) == 0);
+        if let Some(place) = places.min_by_key(|p| covered(&lines, p)) {
             svg.text(place, &label, Text::new(SMALL, INK).halo());
             taken.push(area(place));
         }
@@ -274,9 +275,7 @@ fn dots(axes: &Axes, branch: &Branch) -> Vec<Point> {
 }
 
 fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_label: &str) {
-    // Overdamped modes have no bound: δ = 2π is a damping ratio of 0.7.
-    const CAP: f64 = 2.0 * std::f64::consts::PI;
-    let values = branches.iter().flat_map(|b| b.log_decrement.iter().map(|d| d.clamp(-CAP, CAP)));
+    let (values, above) = decrement_scale(branches);
     let y = Range::with_zero(values);
     let y = Range { lo: if y.lo < 0.0 { y.padded(0.08).lo } else { 0.0 }, hi: y.raised(0.08).hi };
     let axes = Axes::linear(frame, x, y);
@@ -287,4 +286,23 @@ fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_labe
         mark_branch(svg, &axes, branch, &branch.log_decrement);
     }
     axes.border(svg, Some(x_label), &axes.y.label("log decrement", "–"));
+    if !above.is_empty() {
+        let text = font::fit(&format!("above: {}", above.join(", ")), SMALL, frame.w - 16.0);
+        svg.text([frame.x + 8.0, frame.y + 14.0], &text, Text::new(SMALL, MUTED).halo());
+    }
+}
+
+/// Largest and smallest log decrements to scale the panel by, and the labels of the branches left above it:
+/// an overdamped mode has no bound and would flatten all others.
+fn decrement_scale(branches: &[Branch]) -> (Vec<f64>, Vec<&str>) {
+    let ends =
+        branches.iter().filter_map(|b| Some((extremes(b.log_decrement.iter().copied())?, b.label.as_str())));
+    let ends: Vec<((f64, f64), &str)> = ends.collect();
+    let mut highest: Vec<f64> = ends.iter().map(|e| e.0.1).collect();
+    highest.sort_by(f64::total_cmp);
+    let usual = highest.get(highest.len() / 2).copied().unwrap_or(0.0);
+    let limit = if usual > 0.0 { 6.0 * usual } else { f64::INFINITY };
+    let (shown, above): (Vec<_>, Vec<_>) = ends.into_iter().partition(|e| e.0.0 <= limit);
+    let bounds = shown.iter().flat_map(|e| [e.0.0, e.0.1.min(limit)]).collect();
+    (bounds, above.into_iter().map(|e| e.1).collect())
 }

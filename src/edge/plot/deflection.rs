@@ -1,11 +1,11 @@
 //! Static deflection of the shaft's centreline.
 
+use super::axes::Marker;
 use super::axes::{Axes, Frame};
-use super::labels::{Entry, head, spread};
+use super::labels::{Entry, NameRow, head};
 use super::scale::Range;
 use super::style::*;
-use super::svg::{Dash, Style, Svg, Text};
-use super::{axes::Marker, font};
+use super::svg::{Dash, Style, Svg};
 
 /// A station named along the shaft.
 #[derive(Clone, Debug, Default)]
@@ -37,25 +37,24 @@ pub fn draw(data: &Deflection) -> Svg {
         Entry::line("vertical (y)", vertical).marked(Marker::Circle, dot(vertical)),
     ];
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
-    let frame = Frame { x: LEFT, y: top + 18.0, w: WIDTH - LEFT - RIGHT, h: 300.0 };
     let scaled = |list: &[f64], by: f64| -> Vec<f64> { list.iter().map(|v| v * by).collect() };
     let z = scaled(&data.z, 1e3);
     let (u_x, u_y) = (scaled(&data.u_x, 1e6), scaled(&data.u_y, 1e6));
     let x = Range::of(z.iter().copied().chain(data.stations.iter().map(|s| 1e3 * s.z))).padded(0.02);
     let y = Range::with_zero(u_x.iter().chain(&u_y).copied()).padded(0.08);
+    let frame = Frame { x: LEFT, y: top, w: WIDTH - LEFT - RIGHT, h: 300.0 };
+    let row = |axes: &Axes| {
+        NameRow::new(data.stations.iter().map(|s| (axes.x.px(1e3 * s.z), s.label.clone())), WIDTH)
+    };
+    // The row of names decides where the panel begins; places along x do not depend on it.
+    let frame = Frame { y: top + 10.0 + row(&Axes::linear(frame, x, y)).height, ..frame };
     let axes = Axes::linear(frame, x, y);
     axes.grid(&mut svg);
     axes.segment(&mut svg, [x.lo, 0.0], [x.hi, 0.0], Style::stroke(PALE, 1.2));
-    let places: Vec<f64> = data.stations.iter().map(|s| axes.x.px(1e3 * s.z)).collect();
-    let labels: Vec<String> = data.stations.iter().map(|s| font::fit(&s.label, SMALL, 120.0)).collect();
-    let sizes: Vec<f64> = labels.iter().map(|l| font::width(l, SMALL) + 8.0).collect();
-    for ((at, label), place) in places.iter().zip(&labels).zip(spread(&places, &sizes, 6.0, WIDTH - 6.0)) {
-        svg.line([*at, frame.y], [*at, frame.bottom()], Style::stroke(PALE, 0.8).dashed(Dash::Short));
-        if let Some(place) = place {
-            svg.line([*at, frame.y], [place, frame.y - 5.0], Style::stroke(PALE, 0.8));
-            svg.text([place, frame.y - 8.0], label, Text::new(SMALL, MUTED).middle());
-        }
+    for at in data.stations.iter().map(|s| axes.x.px(1e3 * s.z)) {
+        svg.line([at, frame.y], [at, frame.bottom()], Style::stroke(PALE, 0.8).dashed(Dash::Short));
     }
+    row(&axes).draw(&mut svg, frame.y, true, MUTED);
     for (u, style, marker) in [(&u_x, horizontal, Marker::Square), (&u_y, vertical, Marker::Circle)] {
         axes.curve(&mut svg, &z, u, style);
         for station in &data.stations {

@@ -88,6 +88,46 @@ pub fn end_labels(svg: &mut Svg, axes: &Axes, labels: &[EndLabel]) {
     }
 }
 
+/// A row of names at places along a horizontal axis; set upright if they are too many to lie side by side.
+#[derive(Clone, Debug)]
+pub struct NameRow {
+    names: Vec<(f64, String)>,
+    upright: bool,
+    /// Height of the row \[px\].
+    pub height: f64,
+}
+
+impl NameRow {
+    /// A row of (place \[px\], name) on a page of the given width.
+    pub fn new(names: impl IntoIterator<Item = (f64, String)>, page: f64) -> Self {
+        let names: Vec<(f64, String)> =
+            names.into_iter().map(|(x, n)| (x, font::fit(&n, SMALL, 120.0))).collect();
+        let widths = || names.iter().map(|n| font::width(&n.1, SMALL));
+        let upright = widths().map(|w| w + 8.0).sum::<f64>() > 0.7 * page;
+        let height = if upright { widths().fold(0.0, f64::max) } else { SMALL };
+        NameRow { names, upright, height }
+    }
+
+    /// Writes the row above (`up`) or below the page height `y`, with leaders from the places at `y`.
+    pub fn draw(&self, svg: &mut Svg, y: f64, up: bool, color: Color) {
+        let side = if up { -1.0 } else { 1.0 };
+        let size = |name: &str| if self.upright { 1.15 * SMALL } else { font::width(name, SMALL) + 8.0 };
+        let wanted: Vec<f64> = self.names.iter().map(|n| n.0).collect();
+        let sizes: Vec<f64> = self.names.iter().map(|n| size(&n.1)).collect();
+        for ((at, name), place) in self.names.iter().zip(spread(&wanted, &sizes, 4.0, svg.width - 4.0)) {
+            let Some(x) = place else { continue };
+            svg.line([*at, y], [x, y + side * 8.0], Style::stroke(PALE, 0.8));
+            let text = Text::new(SMALL, color);
+            match (self.upright, up) {
+                (false, true) => svg.text([x, y - 11.0], name, text.middle()),
+                (false, false) => svg.text([x, y + 11.0 + 0.75 * SMALL], name, text.middle()),
+                (true, true) => svg.text([x + 0.36 * SMALL, y - 11.0], name, text.upright()),
+                (true, false) => svg.text([x + 0.36 * SMALL, y + 11.0], name, text.upright().end()),
+            }
+        }
+    }
+}
+
 /// One entry of a legend.
 #[derive(Clone, Debug)]
 pub struct Entry {

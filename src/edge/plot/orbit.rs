@@ -113,8 +113,8 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
 fn direction(svg: &mut Svg, points: &[Point], color: super::svg::Color) {
     let k = points.len() / 4;
     let Some(&tail) = points.get(k) else { return };
-    let ahead = points.iter().skip(k).find(|p| (p[0] - tail[0]).hypot(p[1] - tail[1]) > 7.0);
+    let ahead = points.iter().skip(k).find(|p| (p[0] - tail[0]).hypot(p[1] - tail[1]) > 13.0);
     if let Some(&tip) = ahead {
-        svg.arrow(tail, tip, 11.0, color, 1.8);
+        svg.arrow(tail, tip, 14.0, color, 1.8);
     }
 }

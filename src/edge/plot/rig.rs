@@ -2,7 +2,7 @@
 
 use super::axes::{Axes, Frame};
 use super::font;
-use super::labels::{head, spread};
+use super::labels::{NameRow, head, spread};
 use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
@@ -87,7 +87,7 @@ pub fn draw(data: &Rig) -> Svg {
     let frame = Frame { x: 24.0, y: top + 30.0, w, h };
     let axes = Axes::equal(frame, z, y);
     let corner = |z: f64, y: f64| axes.at(1e3 * z, 1e3 * y);
-    stations(&mut svg, &axes, &data.stations);
+    let under_names = stations(&mut svg, &axes, &data.stations);
     for block in data.blocks.iter().filter(|b| !b.rotating) {
         let fill = Style::stroke(MUTED, 0.9).filled(STANDING);
         rectangle(&mut svg, corner(block.z[0], block.y[0]), corner(block.z[1], block.y[1]), fill);
@@ -104,15 +104,7 @@ pub fn draw(data: &Rig) -> Svg {
         let fill = Style::stroke(INK, 0.9).filled(ROTATING);
         rectangle(&mut svg, corner(block.z[0], block.y[0]), corner(block.z[1], block.y[1]), fill);
     }
-    for s in &data.sections {
-        let shape = |r: [f64; 2]| {
-            [corner(s.z[0], r[0]), corner(s.z[1], r[1]), corner(s.z[1], -r[1]), corner(s.z[0], -r[0])]
-        };
-        svg.polygon(&shape(s.outer), Style::stroke(INK, 0.9).filled(SHAFT));
-        if s.inner.iter().any(|r| *r > 0.0) {
-            svg.polygon(&shape(s.inner), Style::stroke(MUTED, 0.7).filled(WHITE).faint(0.8));
-        }
-    }
+    shaft(&mut svg, &axes, &data.sections);
     for support in &data.supports {
         bearing(&mut svg, &axes, support);
     }
@@ -126,9 +118,36 @@ pub fn draw(data: &Rig) -> Svg {
         Style::stroke(INK, 0.7).dashed(Dash::DashDot),
     );
     names(&mut svg, &axes, data);
-    ruler(&mut svg, &axes);
-    svg.height = frame.bottom() + 82.0;
+    ruler(&mut svg, &axes, under_names + 10.0);
+    svg.height = under_names + 56.0;
     svg
+}
+
+/// The shaft: outline and shoulders dark, joints between equal sections pale.
+fn shaft(svg: &mut Svg, axes: &Axes, sections: &[RigSection]) {
+    let corner = |z: f64, y: f64| axes.at(1e3 * z, 1e3 * y);
+    let dark = Style::stroke(INK, 0.9);
+    for s in sections {
+        let shape = |r: [f64; 2]| {
+            [corner(s.z[0], r[0]), corner(s.z[1], r[1]), corner(s.z[1], -r[1]), corner(s.z[0], -r[0])]
+        };
+        svg.polygon(&shape(s.outer), Style::stroke(PALE, 0.5).filled(SHAFT));
+        if s.inner.iter().any(|r| *r > 0.0) {
+            svg.polygon(&shape(s.inner), Style::stroke(MUTED, 0.7).filled(WHITE).faint(0.8));
+        }
+    }
+    for (k, s) in sections.iter().enumerate() {
+        for side in [1.0, -1.0] {
+            svg.line(corner(s.z[0], side * s.outer[0]), corner(s.z[1], side * s.outer[1]), dark);
+        }
+        let before = k.checked_sub(1).and_then(|k| sections.get(k)).map(|o| (o.z[1], o.outer[1]));
+        let after = sections.get(k + 1).map(|o| (o.z[0], o.outer[0]));
+        for (end, neighbour) in [(0, before), (1, after)] {
+            if neighbour != Some((s.z[end], s.outer[end])) {
+                svg.line(corner(s.z[end], s.outer[end]), corner(s.z[end], -s.outer[end]), dark);
+            }
+        }
+    }
 }
 
 /// Extent of everything \[mm\], a little padded.
@@ -210,20 +229,15 @@ fn belt(svg: &mut Svg, axes: &Axes, b: &RigBelt) {
     );
 }
 
-/// Stations: ticks under the drawing with their names, kept apart.
-fn stations(svg: &mut Svg, axes: &Axes, list: &[(String, f64)]) {
-    let bottom = axes.frame.bottom();
-    let places: Vec<f64> = list.iter().map(|s| axes.x.px(1e3 * s.1)).collect();
-    let labels: Vec<String> = list.iter().map(|s| font::fit(&s.0, SMALL, 120.0)).collect();
-    let sizes: Vec<f64> = labels.iter().map(|l| font::width(l, SMALL) + 8.0).collect();
-    let axis = axes.at(0.0, 0.0)[1];
-    for ((x, label), place) in places.iter().zip(&labels).zip(spread(&places, &sizes, 4.0, WIDTH - 4.0)) {
-        svg.line([*x, axis], [*x, bottom + 4.0], Style::stroke(PALE, 0.7).dashed(Dash::Dotted));
-        if let Some(place) = place {
-            svg.line([*x, bottom + 4.0], [place, bottom + 12.0], Style::stroke(PALE, 0.7));
-            svg.text([place, bottom + 22.0], label, Text::new(SMALL, MUTED).middle());
-        }
+/// Stations: dotted lines down from the axis to their names under the drawing; returns the height under these.
+fn stations(svg: &mut Svg, axes: &Axes, list: &[(String, f64)]) -> f64 {
+    let (axis, bottom) = (axes.at(0.0, 0.0)[1], axes.frame.bottom() + 4.0);
+    let row = NameRow::new(list.iter().map(|s| (axes.x.px(1e3 * s.1), s.0.clone())), WIDTH);
+    for x in list.iter().map(|s| axes.x.px(1e3 * s.1)) {
+        svg.line([x, axis], [x, bottom], Style::stroke(PALE, 0.7).dashed(Dash::Dotted));
     }
+    row.draw(svg, bottom, false, MUTED);
+    bottom + 11.0 + row.height
 }
 
 /// Names of blocks and bearings in a row above the drawing, with leaders.
@@ -244,8 +258,7 @@ fn names(svg: &mut Svg, axes: &Axes, data: &Rig) {
 }
 
 /// The axial scale under the station names.
-fn ruler(svg: &mut Svg, axes: &Axes) {
-    let y = axes.frame.bottom() + 34.0;
+fn ruler(svg: &mut Svg, axes: &Axes, y: f64) {
     let ends = extremes(axes.x.ticks.iter().map(|t| axes.x.px(t.value)))
         .unwrap_or((axes.frame.x, axes.frame.right()));
     svg.line([ends.0, y], [ends.1, y], FRAME);
