@@ -1,6 +1,8 @@
 //! `models/overhung_rig.toml` is the rig of `tests/data/rig.json`, number by number.
 
-use rotordyn::bearing::{BallBearing, Bearing, Cage};
+use rotordyn::analysis::modal;
+use rotordyn::assembly::{Assembly, LinearSystem};
+use rotordyn::bearing::{BallBearing, Bearing, Cage, SiteTangent};
 use rotordyn::element::ShearCoefficient;
 use rotordyn::model::{self, Drive, Model, Options, SpeedProfile};
 use serde_json::Value;
@@ -201,4 +203,38 @@ fn wavy_variant() {
     assert!(a.iter().all(|w| w.amplitude == 2e-6 / f64::from(w.order)));
     assert!(a.iter().zip(&b).all(|(a, b)| a.phase != b.phase && (0.0..7.0).contains(&a.phase)));
     assert_eq!(a, ball(&rig(Some("wavy")), "A").inner_waviness);
+}
+
+/// With the bearing stiffnesses of the reference, the file's machine has the reference's frequencies.
+#[test]
+fn frequencies_with_the_given_bearing_stiffness() {
+    let json = reference();
+    let tangent = |name: &str| {
+        let mut stiffness = [[0.0; 6]; 6];
+        for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))) {
+            stiffness[i][j] = get(&json, &format!("/expected/bearing_K5_at_equilibrium/{name}/{i}/{j}"));
+        }
+        SiteTangent { stiffness, ..SiteTangent::default() }
+    };
+    let frequencies = |variant: Option<&str>, rpm: f64| {
+        let assembly = Assembly::new(&rig(variant)).unwrap();
+        let speed = rpm * std::f64::consts::PI / 30.0;
+        let system = LinearSystem::new(&assembly, &[tangent("A"), tangent("B")], speed).unwrap();
+        let modes = modal::undamped_modes(&assembly, &system, 16).unwrap();
+        modes.iter().map(modal::Mode::frequency_hz).collect::<Vec<_>>()
+    };
+    let expected = |key: &str| {
+        let list = json.pointer(&format!("/expected/{key}")).unwrap().as_array().unwrap();
+        list.iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>()
+    };
+    let near = |a: &f64, b: &f64| (a - b).abs() < 0.0105; // the reference is printed to 0.01 Hz
+    for (key, rpm) in [("finite/0rpm", 0.0), ("finite/1200rpm", 1200.0)] {
+        let ours = frequencies(None, rpm);
+        for theirs in expected(key) {
+            assert!(ours.iter().any(|hz| near(hz, &theirs)), "{key}: {theirs} is not in {ours:?}");
+        }
+    }
+    let (ours, theirs) = (frequencies(Some("block"), 0.0), expected("finite_with_block_0rpm"));
+    assert_eq!(theirs.len(), 16);
+    assert!(ours.iter().zip(&theirs).all(|(a, b)| near(a, b)), "{ours:?}");
 }
