@@ -5,6 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::torque::TorqueDrive;
 use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::model::{Quantity, SpeedCurve, Spin};
 
@@ -35,23 +36,6 @@ pub struct Channel {
     pub quantity: Quantity,
 }
 
-/// Torque drive: the frame's speed follows from the torque balance instead of a profile.
-#[derive(Clone, Debug)]
-pub struct TorqueDrive {
-    /// (speed \[rad/s\], torque \[N m\]), speeds increasing; linear in between, constant outside.
-    pub table: Vec<[f64; 2]>,
-    /// Viscous drag to ground \[N m s/rad\].
-    pub drag: f64,
-    /// Vᵀ of the unit torque at the driven node.
-    pub torque: DVector<f64>,
-    /// Polar inertia of all that spins J = rᵀ M r \[kg m²\].
-    pub inertia: f64,
-    /// Mass-normalised coordinates of the unit rigid rotation r about z, x_r = Vᵀ M r.
-    pub rigid_rotation: DVector<f64>,
-    /// Rows of every unbalanced node's u_x, u_y with U cos and sin of its phase, for its reaction on the spin.
-    pub unbalance_rows: [DVector<f64>; 2],
-}
-
 /// The reduced machine; immutable during a run.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -72,7 +56,9 @@ pub struct System {
     pub interfaces: Vec<Interface>,
     pub channels: Vec<Channel>,
     pub curve: SpeedCurve,
+    /// Torque drive, when the shaft's speed follows from a torque balance instead of the profile.
     pub drive: Option<TorqueDrive>,
+    pub has_circulatory: bool,
 }
 
 /// Everything that changes during a run.
@@ -103,6 +89,30 @@ impl System {
         self.interfaces.last().map_or(0, |i| i.first_row + i.rows)
     }
 
+    /// The shaft's motion `offset` after (time, spin): from the profile, or at constant acceleration under a
+    /// torque drive.
+    pub fn spin_ahead(&self, time: f64, spin: &Spin, offset: f64) -> Spin {
+        match &self.drive {
+            None => self.curve.at(time + offset),
+            Some(_) => Spin {
+                angle: spin.angle + offset * (spin.speed + 0.5 * offset * spin.acceleration),
+                speed: spin.speed + offset * spin.acceleration,
+                acceleration: spin.acceleration,
+            },
+        }
+    }
+
+    /// What an interface row is, in words.
+    pub fn name_of_row(&self, row: usize) -> String {
+        const DIRECTIONS: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
+        self.interfaces
+            .iter()
+            .find(|i| (i.first_row..i.first_row + i.rows).contains(&row))
+            .map_or("the structure".into(), |i| {
+                format!("bearing {}, {}", i.name, DIRECTIONS[row - i.first_row])
+            })
+    }
+
     /// External load p(t) without bearing forces, written to `out`.
     pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
         let (sin, cos) = spin.angle.sin_cos();
@@ -112,6 +122,9 @@ impl System {
         out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
         if rate != 0.0 {
             out.axpy(rate, &self.spin_inertia, 1.0);
+        }
+        if let Some(drive) = &self.drive {
+            out.axpy(drive.torque_at(spin.speed), &drive.torque, 1.0);
         }
         for history in &self.histories {
             let factor = piecewise(&history.points, time, 0.0);
@@ -134,7 +147,7 @@ impl System {
         out.gemv(weight, &self.stiffness, x, 1.0);
         if spin.speed != 0.0 {
             out.gemv(weight * spin.speed, &self.gyroscopic, v, 1.0);
-            if self.circulatory.amax() != 0.0 {
+            if self.has_circulatory {
                 out.gemv(weight * spin.speed, &self.circulatory, x, 1.0);
             }
         }
@@ -184,7 +197,10 @@ impl System {
 
     /// The state at t = 0 with given coordinates, at rest or moving, with consistent acceleration.
     pub fn initial_state(&self, x: DVector<f64>, v: DVector<f64>) -> State {
-        let spin = self.curve.at(0.0);
+        let mut spin = self.curve.at(0.0);
+        if self.drive.is_some() {
+            spin.acceleration = 0.0;
+        }
         let (n, rows) = (self.size(), self.rows());
         let rotations = self
             .interfaces

@@ -1,0 +1,130 @@
+//! Energy balance of a run.
+
+use nalgebra::DVector;
+
+use super::system::{State, System};
+
+/// Running energy account \[J\]: kinetic + strain + contact = start + work − losses, up to the integrator's error.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Energy {
+    /// ½ ẋᵀ ẋ (mass-normalised coordinates).
+    pub kinetic: f64,
+    /// ½ xᵀ K x of the linear parts.
+    pub strain: f64,
+    /// Elastic energy in the bearings.
+    pub contact: f64,
+    /// Work of loads, unbalance, angular acceleration and circulatory terms since the start.
+    pub work: f64,
+    /// Work of turning cages and passing waves since the start.
+    pub parametric: f64,
+    /// Loss in linear damping since the start.
+    pub damping_loss: f64,
+    /// Loss in bearing contacts since the start.
+    pub contact_loss: f64,
+    /// Stored energy at the start.
+    pub start: f64,
+}
+
+impl Energy {
+    /// What the account leaves unexplained \[J\].
+    pub fn residual(&self) -> f64 {
+        self.kinetic + self.strain + self.contact - self.start - self.work - self.parametric
+            + self.damping_loss
+            + self.contact_loss
+    }
+
+    /// Size of the exchange that the residual is held against \[J\]: losses plus change of stored energy.
+    pub fn turnover(&self) -> f64 {
+        self.damping_loss + self.contact_loss + (self.kinetic + self.strain + self.contact - self.start).abs()
+    }
+}
+
+/// Keeps the account along a run, step by step; allocates nothing after the start.
+pub struct EnergyLedger {
+    pub energy: Energy,
+    load: DVector<f64>,
+    previous_load: DVector<f64>,
+    linear: DVector<f64>,
+    moved: DVector<f64>,
+    x: DVector<f64>,
+    v: DVector<f64>,
+    /// Parametric and contact-loss power at the last state.
+    powers: [f64; 2],
+    time: f64,
+}
+
+impl EnergyLedger {
+    pub fn new(system: &System, state: &State) -> Self {
+        let zero = || DVector::zeros(system.size());
+        let mut ledger = Self {
+            energy: Energy::default(),
+            load: zero(),
+            previous_load: zero(),
+            linear: zero(),
+            moved: zero(),
+            x: state.x.clone(),
+            v: state.v.clone(),
+            powers: powers(state),
+            time: state.time,
+        };
+        effective_load(system, state, &mut ledger.previous_load);
+        ledger.stored(system, state);
+        let e = &mut ledger.energy;
+        e.start = e.kinetic + e.strain + e.contact;
+        ledger
+    }
+
+    /// Books one step: work by the mean load over the step's path, powers by the trapezoidal rule.
+    pub fn book(&mut self, system: &System, state: &State) {
+        let step = state.time - self.time;
+        self.moved.copy_from(&state.x);
+        self.moved -= &self.x;
+        effective_load(system, state, &mut self.load);
+        let e = &mut self.energy;
+        e.work += 0.5 * (self.load.dot(&self.moved) + self.previous_load.dot(&self.moved));
+        std::mem::swap(&mut self.load, &mut self.previous_load);
+        // C (v₀ + v₁)/2 along the path.
+        self.v += &state.v;
+        self.linear.gemv(0.5, &system.damping, &self.v, 0.0);
+        e.damping_loss += self.linear.dot(&self.moved);
+        let now = powers(state);
+        e.parametric += 0.5 * step * (self.powers[0] + now[0]);
+        e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
+        self.powers = now;
+        self.x.copy_from(&state.x);
+        self.v.copy_from(&state.v);
+        self.time = state.time;
+    }
+
+    /// Goes on from a state whose coordinates were changed between steps (a torque drive's recentring).
+    pub fn start_from(&mut self, system: &System, state: &State) {
+        effective_load(system, state, &mut self.previous_load);
+        self.x.copy_from(&state.x);
+        self.v.copy_from(&state.v);
+    }
+
+    /// Brings the stored energies up to date, when somebody looks.
+    pub fn stored(&mut self, system: &System, state: &State) {
+        let e = &mut self.energy;
+        e.kinetic = 0.5 * state.v.norm_squared();
+        self.linear.gemv(0.5, &system.stiffness, &state.x, 0.0);
+        e.strain = self.linear.dot(&state.x);
+        e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
+    }
+}
+
+fn powers(state: &State) -> [f64; 2] {
+    let sum = |pick: fn(&crate::bearing::Reaction) -> f64| state.reactions.iter().map(pick).sum();
+    [sum(|r| r.parametric_power), sum(|r| r.dissipated_power)]
+}
+
+/// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.
+fn effective_load(system: &System, state: &State, out: &mut DVector<f64>) {
+    system.load(state.time, &state.spin, out);
+    if state.spin.acceleration != 0.0 {
+        out.gemv(-state.spin.acceleration, &system.spin_up, &state.x, 1.0);
+    }
+    if system.has_circulatory && state.spin.speed != 0.0 {
+        out.gemv(-state.spin.speed, &system.circulatory, &state.x, 1.0);
+    }
+}

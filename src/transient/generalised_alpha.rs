@@ -1,0 +1,340 @@
+//! Generalised-α and Newmark steps with Newton on the bearing interfaces only.
+//!
+//! The linear part is constant but for Ω, so one inverse serves many steps; the nonlinear bearings act on a
+//! few interface rows, so Newton solves for those alone (the rest follows by back-substitution).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::cage;
+use super::system::{State, System};
+use crate::bearing::Reaction;
+use crate::linalg::small::solve_in_place;
+use crate::model::Spin;
+
+/// Newton stops when the interface displacement moves by less than this \[m, rad\]: 1e-4 of an atom's
+/// diameter, far below any contact deflection of interest and above rounding of metre-sized coordinates.
+const TOLERANCE: f64 = 1e-14;
+const MAX_ITERATIONS: usize = 25;
+
+/// Parameters of the family (Chung & Hulbert 1993, eq. 17-20 and 25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scheme {
+    pub alpha_m: f64,
+    pub alpha_f: f64,
+    pub beta: f64,
+    pub gamma: f64,
+}
+
+impl Scheme {
+    /// Generalised-α with spectral radius ρ∞ in \[0, 1\] at infinite frequency.
+    pub fn generalised_alpha(rho: f64) -> Self {
+        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        Self {
+            alpha_m,
+            alpha_f,
+            beta: 0.25 * (1.0 - alpha_m + alpha_f).powi(2),
+            gamma: 0.5 - alpha_m + alpha_f,
+        }
+    }
+
+    /// Newmark's average acceleration, γ = ½, β = ¼.
+    pub const NEWMARK: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
+}
+
+/// The inverse of the effective matrix for one step length, near one speed.
+struct Factor {
+    step: f64,
+    speed: f64,
+    acceleration: f64,
+    inverse: DMatrix<f64>,
+    /// S⁻¹ Wᵀ, coordinates × rows.
+    response: DMatrix<f64>,
+    /// Y = W S⁻¹ Wᵀ, row-major.
+    compliance: Vec<f64>,
+}
+
+/// Why a step failed, for the driver that halves it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepFailure {
+    /// Interface row with the largest correction, and that correction.
+    pub row: usize,
+    pub residual: f64,
+    pub iterations: usize,
+}
+
+/// One-step implicit integrator; owns every buffer, so that a step allocates nothing.
+pub struct GeneralisedAlpha {
+    scheme: Scheme,
+    factors: Vec<Factor>,
+    /// External and linear force of the previous state, L₀ = C v + K x − p, and its bearing force Wᵀ f.
+    previous: DVector<f64>,
+    right: DVector<f64>,
+    linear: DVector<f64>,
+    correction: DVector<f64>,
+    x: DVector<f64>,
+    v: DVector<f64>,
+    a: DVector<f64>,
+    base_d: Vec<f64>,
+    base_rate: Vec<f64>,
+    row_buffer: Vec<f64>,
+    force: Vec<f64>,
+    unknown: Vec<f64>,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+    d: Vec<f64>,
+    d_rate: Vec<f64>,
+    rotations: Vec<crate::bearing::Rotation>,
+    reactions: Vec<Reaction>,
+    /// Newton iterations spent, for the run's report.
+    pub iterations: u64,
+    /// Inverses made.
+    pub refactored: u64,
+}
+
+impl GeneralisedAlpha {
+    pub fn new(system: &System, scheme: Scheme) -> Self {
+        let (n, m) = (system.size(), system.rows());
+        let sites = system.interfaces.len();
+        let zero = || DVector::zeros(n);
+        Self {
+            scheme,
+            factors: Vec::new(),
+            previous: zero(),
+            right: zero(),
+            linear: zero(),
+            correction: zero(),
+            x: zero(),
+            v: zero(),
+            a: zero(),
+            base_d: vec![0.0; m],
+            base_rate: vec![0.0; m],
+            row_buffer: vec![0.0; m],
+            force: vec![0.0; m],
+            unknown: vec![0.0; m],
+            residual: vec![0.0; m],
+            jacobian: vec![0.0; m * m],
+            d: vec![0.0; m],
+            d_rate: vec![0.0; m],
+            rotations: vec![Default::default(); sites],
+            reactions: vec![Reaction::default(); sites],
+            iterations: 0,
+            refactored: 0,
+        }
+    }
+
+    /// Index of a factor that is close enough in speed for this step length.
+    ///
+    /// What a stale factor gets wrong, (Ω − Ω_f) h G, is put right by the outer iteration of [`Self::step`];
+    /// keeping it below 1e-3 makes that converge by three digits a turn.
+    fn factor(&mut self, system: &System, step: f64, spin: &Spin) -> usize {
+        let found = self.factors.iter().position(|f| f.step == step);
+        if let Some(k) = found {
+            let f = &self.factors[k];
+            let stale = ((f.speed - spin.speed) * step).abs() > 1e-3
+                || ((f.acceleration - spin.acceleration) * step * step).abs() > 1e-3;
+            if !stale {
+                return k;
+            }
+        }
+        let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
+        let (n, m) = (system.size(), system.rows());
+        let damping = &system.damping + &system.gyroscopic * spin.speed;
+        let stiffness =
+            &system.stiffness + &system.circulatory * spin.speed + &system.spin_up * spin.acceleration;
+        let effective = DMatrix::identity(n, n) * (1.0 - alpha_m)
+            + (damping * (gamma * step) + stiffness * (beta * step * step)) * (1.0 - alpha_f);
+        // The effective matrix is the identity plus terms of order h: invertible for any step worth taking;
+        // a singular one yields NaN, which the divergence check of the driver reports.
+        let inverse = effective.try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
+        let map = DMatrix::from_row_slice(m, n, &system.interface_map);
+        let response = &inverse * map.transpose();
+        let y = &map * &response;
+        let compliance = y.transpose().as_slice().to_vec();
+        let factor = Factor {
+            step,
+            speed: spin.speed,
+            acceleration: spin.acceleration,
+            inverse,
+            response,
+            compliance,
+        };
+        self.refactored += 1;
+        match found {
+            Some(k) => {
+                self.factors[k] = factor;
+                k
+            }
+            None => {
+                self.factors.push(factor);
+                self.factors.len() - 1
+            }
+        }
+    }
+
+    /// Advances `state` by `step`; `spin` is the shaft's motion at the end of the step.
+    ///
+    /// (1−α_m) a₁ + α_m a₀ + (1−α_f) R₁ + α_f R₀ = 0 with R = (C+ΩG) v + (K+…) x − p − Wᵀ f,
+    /// x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁), v₁ = v₀ + h ((1−γ) a₀ + γ a₁).
+    /// On failure the state is left as it was.
+    pub fn step(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+        spin: Spin,
+    ) -> Result<(), StepFailure> {
+        let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
+        let k = self.factor(system, step, &spin);
+        let (kd, kv) = (beta * step * step, gamma * step);
+        let rows = system.rows();
+        cage::advance(system, state, &spin, &mut self.rotations);
+
+        // Predictors with a₁ = 0.
+        self.x.copy_from(&state.x);
+        self.x.axpy(step, &state.v, 1.0);
+        self.x.axpy(step * step * (0.5 - beta), &state.a, 1.0);
+        self.v.copy_from(&state.v);
+        self.v.axpy(step * (1.0 - gamma), &state.a, 1.0);
+
+        // R₀, needed only when α_f ≠ 0.
+        self.right.fill(0.0);
+        if alpha_f != 0.0 {
+            system.load(state.time, &state.spin, &mut self.previous);
+            self.previous.neg_mut();
+            system.add_linear(&state.spin, &state.x, &state.v, 1.0, &mut self.previous);
+            system.gather(&state.reactions, &mut self.force);
+            system.add_from_interface(&self.force, -1.0, &mut self.previous);
+            self.right.axpy(-alpha_f, &self.previous, 1.0);
+        }
+        if alpha_m != 0.0 {
+            self.right.axpy(-alpha_m, &state.a, 1.0);
+        }
+        system.load(state.time + step, &spin, &mut self.linear);
+        system.add_linear(&spin, &self.x, &self.v, -1.0, &mut self.linear);
+        self.right.axpy(1.0 - alpha_f, &self.linear, 1.0);
+
+        // The factor's speed differs a little from this step's: a₁ enters the difference, iterate on it.
+        let (off_speed, off_rate) =
+            (spin.speed - self.factors[k].speed, spin.acceleration - self.factors[k].acceleration);
+        let exact = off_speed == 0.0 && off_rate == 0.0;
+        system.gather(&state.reactions, &mut self.force);
+        self.a.copy_from(&state.a);
+        let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
+        for _ in 0..MAX_ITERATIONS {
+            self.linear.copy_from(&self.right);
+            if !exact {
+                let weight = 1.0 - alpha_f;
+                self.linear.gemv(-weight * kv * off_speed, &system.gyroscopic, &self.a, 1.0);
+                self.linear.gemv(-weight * kd * off_rate, &system.spin_up, &self.a, 1.0);
+                self.linear.gemv(-weight * kd * off_speed, &system.circulatory, &self.a, 1.0);
+            }
+            let factor = &self.factors[k];
+            self.correction.copy_from(&self.a);
+            self.a.gemv(1.0, &factor.inverse, &self.linear, 0.0);
+            if rows > 0 {
+                // d = d̄ + kd u, ḋ = ḋ̄ + kv u with u = (1−α_f) Y f(d, ḋ).
+                system.to_interface(&self.x, &mut self.base_d);
+                system.to_interface(&self.v, &mut self.base_rate);
+                system.to_interface(&self.a, &mut self.row_buffer);
+                for r in 0..rows {
+                    self.base_d[r] += kd * self.row_buffer[r];
+                    self.base_rate[r] += kv * self.row_buffer[r];
+                }
+                self.newton(system, k, kd, kv, &mut failure)?;
+                let factor = &self.factors[k];
+                for (r, f) in self.force.iter().enumerate() {
+                    self.a.axpy((1.0 - alpha_f) * f, &factor.response.column(r), 1.0);
+                }
+            }
+            if exact {
+                break;
+            }
+            self.correction -= &self.a;
+            if kd * self.correction.amax() <= 1e-3 * TOLERANCE + 1e-12 * kd * self.a.amax() {
+                break;
+            }
+        }
+
+        state.x.copy_from(&self.x);
+        state.x.axpy(kd, &self.a, 1.0);
+        state.v.copy_from(&self.v);
+        state.v.axpy(kv, &self.a, 1.0);
+        state.a.copy_from(&self.a);
+        state.time += step;
+        state.spin = spin;
+        state.rotations.copy_from_slice(&self.rotations);
+        state.reactions.copy_from_slice(&self.reactions);
+        state.d.copy_from_slice(&self.d);
+        state.d_rate.copy_from_slice(&self.d_rate);
+        Ok(())
+    }
+
+    /// Newton for u = (1−α_f) Y f(d̄ + kd u, ḋ̄ + kv u), starting from the force in `self.force`.
+    fn newton(
+        &mut self,
+        system: &System,
+        k: usize,
+        kd: f64,
+        kv: f64,
+        failure: &mut StepFailure,
+    ) -> Result<(), StepFailure> {
+        let rows = system.rows();
+        let weight = 1.0 - self.scheme.alpha_f;
+        let compliance = &self.factors[k].compliance;
+        for r in 0..rows {
+            let y = &compliance[r * rows..(r + 1) * rows];
+            self.unknown[r] = weight * y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
+        }
+        for iteration in 1..=MAX_ITERATIONS {
+            self.iterations += 1;
+            for r in 0..rows {
+                self.d[r] = self.base_d[r] + kd * self.unknown[r];
+                self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
+            }
+            system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions);
+            system.gather(&self.reactions, &mut self.force);
+            // Residual u − (1−α_f) Y f and Jacobian I + (1−α_f) Y (kd K + kv C), block by block.
+            for r in 0..rows {
+                let y = &compliance[r * rows..(r + 1) * rows];
+                self.residual[r] =
+                    self.unknown[r] - weight * y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
+                for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
+                    let (first, count) = (interface.first_row, interface.rows);
+                    for c in 0..count {
+                        let mut sum = 0.0;
+                        for b in 0..count {
+                            let t = kd * reaction.stiffness[b][c] + kv * reaction.damping[b][c];
+                            sum += y[first + b] * t;
+                        }
+                        self.jacobian[r * rows + first + c] = weight * sum;
+                    }
+                }
+                self.jacobian[r * rows + r] += 1.0;
+            }
+            if !solve_in_place(&mut self.jacobian, &mut self.residual) {
+                return Err(*failure);
+            }
+            let (mut worst, mut row) = (0.0f64, 0);
+            for r in 0..rows {
+                self.unknown[r] -= self.residual[r];
+                let move_by = kd * self.residual[r].abs();
+                if !(move_by <= worst) {
+                    (worst, row) = (move_by, r);
+                }
+            }
+            *failure = StepFailure { row, residual: worst, iterations: iteration };
+            if worst <= TOLERANCE * (1.0 + 1e4 * self.d[row].abs()) {
+                // One more evaluation puts forces and displacements of the accepted state in step.
+                for r in 0..rows {
+                    self.d[r] = self.base_d[r] + kd * self.unknown[r];
+                    self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
+                }
+                return Ok(());
+            }
+            if !worst.is_finite() {
+                return Err(*failure);
+            }
+        }
+        Err(*failure)
+    }
+}

@@ -1,0 +1,172 @@
+//! Explicit Runge-Kutta steps: the classical one of order 4 and Dormand-Prince 5(4).
+
+use nalgebra::DVector;
+
+use super::cage;
+use super::system::{State, System};
+use crate::bearing::{Reaction, Rotation};
+use crate::model::Spin;
+
+/// Coefficients of an explicit method; rows of `a` are packed.
+struct Tableau {
+    c: &'static [f64],
+    a: &'static [&'static [f64]],
+    b: &'static [f64],
+    /// b − b̂, for the embedded error estimate.
+    error: &'static [f64],
+}
+
+const RK4: Tableau = Tableau {
+    c: &[0.0, 0.5, 0.5, 1.0],
+    a: &[&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
+    b: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    error: &[],
+};
+
+/// Dormand & Prince 1980, RK5(4)7M.
+const DORMAND_PRINCE: Tableau = Tableau {
+    c: &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0],
+    a: &[
+        &[],
+        &[0.2],
+        &[3.0 / 40.0, 9.0 / 40.0],
+        &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+        &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+        &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+        &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+    ],
+    b: &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0],
+    error: &[
+        71.0 / 57600.0,
+        0.0,
+        -71.0 / 16695.0,
+        71.0 / 1920.0,
+        -17253.0 / 339200.0,
+        22.0 / 525.0,
+        -1.0 / 40.0,
+    ],
+};
+
+/// Explicit integrator; owns its stages, so that a step allocates nothing.
+pub struct RungeKutta {
+    tableau: &'static Tableau,
+    /// (ẋ, ẍ) of every stage.
+    stages: Vec<(DVector<f64>, DVector<f64>)>,
+    x: DVector<f64>,
+    v: DVector<f64>,
+    x_error: DVector<f64>,
+    v_error: DVector<f64>,
+    d: Vec<f64>,
+    d_rate: Vec<f64>,
+    force: Vec<f64>,
+    rotations: Vec<Rotation>,
+    reactions: Vec<Reaction>,
+    /// Right-hand sides evaluated, for the run's report.
+    pub evaluations: u64,
+}
+
+impl RungeKutta {
+    pub fn classical(system: &System) -> Self {
+        Self::new(system, &RK4)
+    }
+
+    pub fn dormand_prince(system: &System) -> Self {
+        Self::new(system, &DORMAND_PRINCE)
+    }
+
+    fn new(system: &System, tableau: &'static Tableau) -> Self {
+        let (n, m) = (system.size(), system.rows());
+        let zero = || DVector::zeros(n);
+        Self {
+            tableau,
+            stages: (0..tableau.c.len()).map(|_| (zero(), zero())).collect(),
+            x: zero(),
+            v: zero(),
+            x_error: zero(),
+            v_error: zero(),
+            d: vec![0.0; m],
+            d_rate: vec![0.0; m],
+            force: vec![0.0; m],
+            rotations: vec![Rotation::default(); system.interfaces.len()],
+            reactions: vec![Reaction::default(); system.interfaces.len()],
+            evaluations: 0,
+        }
+    }
+
+    /// Acceleration at (time, x, v) into `out`; leaves reactions, d and ḋ of that point in the buffers.
+    fn evaluate(&mut self, system: &System, state: &State, time: f64, spin: &Spin, stage: usize) {
+        self.evaluations += 1;
+        cage::advance(system, state, spin, &mut self.rotations);
+        system.to_interface(&self.x, &mut self.d);
+        system.to_interface(&self.v, &mut self.d_rate);
+        system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions);
+        system.gather(&self.reactions, &mut self.force);
+        let (rate, acceleration) = &mut self.stages[stage];
+        rate.copy_from(&self.v);
+        system.load(time, spin, acceleration);
+        system.add_linear(spin, &self.x, &self.v, -1.0, acceleration);
+        system.add_from_interface(&self.force, 1.0, acceleration);
+    }
+
+    /// Tries a step; returns the error estimate in units of the tolerance (0 without error control).
+    ///
+    /// `spin` gives the shaft's motion at an offset from the state's time. With `tolerance` = (relative,
+    /// absolute \[m √kg\]) and an estimate above 1 the state is left as it was.
+    pub fn step(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+        spin: &dyn Fn(f64) -> Spin,
+        tolerance: Option<(f64, f64)>,
+    ) -> f64 {
+        let Tableau { c, a, b, error } = *self.tableau;
+        for stage in 0..c.len() {
+            self.x.copy_from(&state.x);
+            self.v.copy_from(&state.v);
+            for (weight, (rate, acceleration)) in a[stage].iter().zip(&self.stages) {
+                if *weight != 0.0 {
+                    self.x.axpy(step * weight, rate, 1.0);
+                    self.v.axpy(step * weight, acceleration, 1.0);
+                }
+            }
+            let offset = c[stage] * step;
+            let at = if offset == 0.0 { state.spin } else { spin(offset) };
+            self.evaluate(system, state, state.time + offset, &at, stage);
+        }
+        let mut estimate = 0.0;
+        if let Some((relative, absolute)) = tolerance {
+            self.x_error.fill(0.0);
+            self.v_error.fill(0.0);
+            for (weight, (rate, acceleration)) in error.iter().zip(&self.stages) {
+                self.x_error.axpy(step * weight, rate, 1.0);
+                self.v_error.axpy(step * weight, acceleration, 1.0);
+            }
+            // Velocities are weighed on the step's own time scale, so that both parts are lengths.
+            let size = state.x.amax() + step * state.v.amax();
+            let worst = self.x_error.amax().max(step * self.v_error.amax());
+            estimate = worst / (absolute + relative * size);
+            if !(estimate <= 1.0) {
+                return estimate;
+            }
+        }
+        self.x.copy_from(&state.x);
+        self.v.copy_from(&state.v);
+        for (weight, (rate, acceleration)) in b.iter().zip(&self.stages) {
+            self.x.axpy(step * weight, rate, 1.0);
+            self.v.axpy(step * weight, acceleration, 1.0);
+        }
+        let end = spin(step);
+        self.evaluate(system, state, state.time + step, &end, 0);
+        state.x.copy_from(&self.x);
+        state.v.copy_from(&self.v);
+        state.a.copy_from(&self.stages[0].1);
+        state.time += step;
+        state.spin = end;
+        state.rotations.copy_from_slice(&self.rotations);
+        state.reactions.copy_from_slice(&self.reactions);
+        state.d.copy_from_slice(&self.d);
+        state.d_rate.copy_from_slice(&self.d_rate);
+        estimate
+    }
+}
