@@ -11,6 +11,7 @@
 
 pub mod campbell;
 pub mod critical_speed;
+pub mod equilibrium;
 pub mod frf;
 pub mod modal;
 pub mod mode_kind;

@@ -124,7 +124,7 @@ impl BallElement {
         self.nominal_cos
     }
 
-    fn ball(&self, j: usize, d: &[f64; 6], rotation: &Rotation, cage: [f64; 2]) -> Ball {
+    fn ball(&self, j: usize, d: &[f64; 6], rotation: &Rotation, cage: [f64; 2], waves: bool) -> Ball {
         let [cj, sj] = self.spacing[j];
         let cos = cage[0] * cj - cage[1] * sj;
         let sin = cage[1] * cj + cage[0] * sj;
@@ -134,12 +134,12 @@ impl BallElement {
         let distance = (radial * radial + axial * axial).sqrt();
         let mut deflection = distance - self.centre_distance;
         let mut wave_rate = 0.0;
-        if !self.outer_waves.is_empty() {
+        if waves && !self.outer_waves.is_empty() {
             let (w, slope) = self.outer_waves.at(cos, sin);
             deflection += w;
             wave_rate += slope * rotation.cage_speed;
         }
-        if !self.inner_waves.is_empty() {
+        if waves && !self.inner_waves.is_empty() {
             let (st, ct) = rotation.shaft_angle.sin_cos();
             let (w, slope) = self.inner_waves.at(cos * ct + sin * st, sin * ct - cos * st);
             deflection += w;
@@ -157,13 +157,17 @@ impl BallElement {
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all δ ≤ 0 gives zero force and zero tangents; the force never pulls.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        self.sum(d, v, rotation, true)
+    }
+
+    fn sum(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, waves: bool) -> Reaction {
         let mut out = Reaction::default();
         let cage = [rotation.cage_angle.cos(), rotation.cage_angle.sin()];
         let r = self.inner_centre_radius;
         let mut load_sum = 0.0;
         let mut load_cos = 0.0;
         for j in 0..self.spacing.len() {
-            let ball = self.ball(j, d, rotation, cage);
+            let ball = self.ball(j, d, rotation, cage, waves);
             if ball.deflection <= 0.0 {
                 continue;
             }
@@ -215,13 +219,14 @@ impl BallElement {
     /// Elastic force and stiffness averaged over one ball pitch of cage angles at fixed ring displacement.
     ///
     /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average is a potential force, so its tangent is symmetric.
+    /// Waviness is left out: it averages to zero over a turn.
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         let pitch = std::f64::consts::TAU / self.spacing.len() as f64;
         let mut out = Reaction::default();
         for k in 0..angles {
             let at =
                 Rotation { cage_angle: rotation.cage_angle + pitch * k as f64 / angles as f64, ..*rotation };
-            out.add(&self.reaction(d, &[0.0; 6], &at), 1.0 / angles as f64);
+            out.add(&self.sum(d, &[0.0; 6], &at, false), 1.0 / angles as f64);
         }
         out
     }
@@ -231,7 +236,7 @@ impl BallElement {
         let cage = [rotation.cage_angle.cos(), rotation.cage_angle.sin()];
         (0..self.spacing.len())
             .map(|j| {
-                let ball = self.ball(j, d, rotation, cage);
+                let ball = self.ball(j, d, rotation, cage, true);
                 let squeezed = ball.deflection.max(0.0);
                 BallLoad {
                     position: ball.sin.atan2(ball.cos),

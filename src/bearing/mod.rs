@@ -20,6 +20,16 @@ pub enum Bearing {
     Ball(BallBearing),
 }
 
+impl Bearing {
+    /// Cage angle at the start \[rad\]; 0 where there is no cage.
+    pub fn cage_angle(&self) -> f64 {
+        match self {
+            Self::Linear(_) => 0.0,
+            Self::Ball(ball) => ball.cage_angle,
+        }
+    }
+}
+
 /// Linear bearing: stiffness and damping matrices, constant or tabulated over speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearBearing {

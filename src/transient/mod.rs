@@ -3,6 +3,7 @@
 pub mod cage;
 pub mod energy;
 pub mod generalised_alpha;
+pub mod reduction;
 pub mod run;
 pub mod runge_kutta;
 pub mod system;

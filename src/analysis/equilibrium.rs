@@ -1,0 +1,238 @@
+//! Static equilibrium of the machine on its nonlinear bearings.
+
+use crate::assembly::Assembly;
+use crate::bearing::{BallLoad, BearingElement, Reaction, Rotation, SiteTangent};
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{BandLayout, SparseMatrix, Triplets};
+use crate::model::Model;
+
+/// Cage angles per ball pitch over which an averaged bearing is summed.
+pub const CAGE_ANGLES: usize = 12;
+const MAX_ITERATIONS: usize = 200;
+const MAX_HALVINGS: usize = 80;
+
+/// Bearing forces at the cage angle of the model, or averaged over one ball pitch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CageTreatment {
+    AsPlaced,
+    Averaged,
+}
+
+/// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Speed at which speed-dependent bearings were taken \[rad/s\].
+    pub speed: f64,
+    pub cage: CageTreatment,
+    /// Displacements of the free DOFs \[m, rad\].
+    pub q: Vec<f64>,
+    pub bearings: Vec<BearingState>,
+    pub iterations: usize,
+    /// Largest force left over \[N, N m\].
+    pub residual: f64,
+}
+
+/// One bearing at equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingState {
+    pub name: String,
+    /// Displacement of the shaft relative to the housing \[m, rad\].
+    pub displacement: [f64; 6],
+    /// Force and moment on the shaft \[N, N m\].
+    pub force: [f64; 6],
+    /// Tangents there; the housing side takes the opposite.
+    pub tangent: SiteTangent,
+    /// Every ball at the cage angle of the model; empty for a linear bearing.
+    pub balls: Vec<BallLoad>,
+}
+
+impl Equilibrium {
+    /// Tangents of all bearings in the order of the model.
+    pub fn tangents(&self) -> Vec<SiteTangent> {
+        self.bearings.iter().map(|b| b.tangent).collect()
+    }
+}
+
+/// The bearings of a model at standstill, ready to be summed.
+struct Sites {
+    elements: Vec<(BearingElement, Rotation)>,
+    cage: CageTreatment,
+}
+
+impl Sites {
+    fn new(model: &Model, speed: f64, cage: CageTreatment) -> Self {
+        let elements = model
+            .bearings
+            .iter()
+            .map(|site| {
+                let rotation =
+                    Rotation { cage_angle: site.bearing.cage_angle(), shaft_speed: speed, ..Rotation::default() };
+                (BearingElement::new(&site.bearing), rotation)
+            })
+            .collect();
+        Self { elements, cage }
+    }
+
+    fn reaction(&self, k: usize, d: &[f64; 6]) -> Reaction {
+        let (element, rotation) = &self.elements[k];
+        match self.cage {
+            CageTreatment::AsPlaced => element.reaction(d, &[0.0; 6], rotation),
+            CageTreatment::Averaged => element.cage_average(d, rotation, CAGE_ANGLES),
+        }
+    }
+
+    fn reactions(&self, assembly: &Assembly, q: &[f64]) -> Vec<Reaction> {
+        assembly.sites.iter().enumerate().map(|(k, site)| self.reaction(k, &site.relative(q))).collect()
+    }
+}
+
+/// Finds the static equilibrium at a speed by damped Newton, from `start` or from rest.
+///
+/// The structure and the Hertz contacts have a convex energy, so a Newton step shortened until the force along
+/// it has fallen always gets closer, whatever the clearance and however many balls are unloaded. Where nothing
+/// yet carries the load (all balls within the clearance) a vanishing share of M keeps the step finite.
+/// Elastic forces only: no damping, no motion of the cage.
+///
+/// # Errors
+/// [`PhysicsError::Singular`] when a load meets a free motion, [`PhysicsError::NoEquilibrium`] when Newton ends
+/// before the residual is below 1e-9 of the loads.
+pub fn equilibrium(
+    model: &Model,
+    assembly: &Assembly,
+    speed: f64,
+    cage: CageTreatment,
+    start: Option<&[f64]>,
+) -> Result<Equilibrium, Error> {
+    let n = assembly.dofs.len();
+    let sites = Sites::new(model, speed, cage);
+    let load: Vec<f64> =
+        assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect();
+    let load_size = max_abs(&load).max(1e-6);
+    let tolerance = 1e-10 * load_size;
+    let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &full_pattern(assembly)]);
+    let stiffness = layout.scatter(&assembly.stiffness);
+    let mass = layout.scatter(&assembly.mass);
+
+    let residual_of = |q: &[f64], reactions: &[Reaction]| {
+        let mut r = load.clone();
+        assembly.stiffness.mul_add(-1.0, q, &mut r);
+        for (site, reaction) in assembly.sites.iter().zip(reactions) {
+            site.add_force(&reaction.force, &mut r);
+        }
+        r
+    };
+
+    let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
+    let mut reactions = sites.reactions(assembly, &q);
+    let mut residual = residual_of(&q, &reactions);
+    let mut iterations = 0;
+    let mut stalled = 0;
+    while max_abs(&residual) > tolerance && iterations < MAX_ITERATIONS && stalled < 3 {
+        iterations += 1;
+        // (2π · 3 Hz)² while the residual is of the load's size, falling with it: fast convergence at the end.
+        let shift = 350.0 * (max_abs(&residual) / load_size).min(1.0) + 1e-4;
+        let tangent = layout.scatter(&bearing_matrix(assembly, &reactions));
+        let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
+        let lu = layout
+            .factor::<f64>(values)
+            .map_err(|p| PhysicsError::Singular { motion: assembly.dofs.name(p.unknown) })?;
+        let mut direction = residual.clone();
+        lu.solve(&mut direction);
+        let before = dot(&residual, &direction);
+        // Shorten (bisection on the force along the step) until that force has clearly fallen.
+        let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
+        for halving in 0..MAX_HALVINGS {
+            let trial: Vec<f64> = q.iter().zip(&direction).map(|(q, p)| q + length * p).collect();
+            let trial_reactions = sites.reactions(assembly, &trial);
+            let trial_residual = residual_of(&trial, &trial_reactions);
+            let along = dot(&trial_residual, &direction);
+            let accept = along.abs() <= 0.9 * before.abs() || halving + 1 == MAX_HALVINGS;
+            if accept || !(before > 0.0) {
+                stalled = if max_abs(&trial_residual) < 0.999 * max_abs(&residual) { 0 } else { stalled + 1 };
+                if max_abs(&residual) > 1e3 * tolerance {
+                    stalled = 0;
+                }
+                (q, reactions, residual) = (trial, trial_reactions, trial_residual);
+                break;
+            }
+            if along > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            length = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * length };
+        }
+    }
+    let left = max_abs(&residual);
+    let worst = residual.iter().position(|r| r.abs() == left).unwrap_or(0);
+    let furthest = max_abs(&q);
+    if furthest > 1e3 {
+        let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
+        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
+    }
+    if !(left <= 1e-9 * load_size) {
+        return Err(PhysicsError::NoEquilibrium {
+            item: assembly.dofs.name(worst),
+            speed_rpm: speed * 30.0 / std::f64::consts::PI,
+            residual: left,
+            iterations,
+        }
+        .into());
+    }
+    Ok(Equilibrium {
+        speed,
+        cage,
+        bearings: (0..assembly.sites.len())
+            .map(|k| {
+                let displacement = assembly.sites[k].relative(&q);
+                let (element, rotation) = &sites.elements[k];
+                BearingState {
+                    name: assembly.sites[k].name.clone(),
+                    displacement,
+                    force: reactions[k].force,
+                    tangent: SiteTangent::from(&reactions[k]),
+                    balls: match element {
+                        BearingElement::Ball(ball) => ball.ball_loads(&displacement, rotation),
+                        BearingElement::Linear(_) => Vec::new(),
+                    },
+                }
+            })
+            .collect(),
+        q,
+        iterations,
+        residual: left,
+    })
+}
+
+/// Rᵀ K R over all sites.
+fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
+    let n = assembly.dofs.len();
+    let mut triplets = Triplets::new(n, n);
+    for (site, reaction) in assembly.sites.iter().zip(reactions) {
+        triplets.add_between_rows(&site.rows, &reaction.stiffness);
+    }
+    triplets.build()
+}
+
+/// Where bearings may have entries.
+fn full_pattern(assembly: &Assembly) -> SparseMatrix {
+    let n = assembly.dofs.len();
+    let mut triplets = Triplets::new(n, n);
+    for site in &assembly.sites {
+        // Absolute values: entries that cancel in one reaction need not in the next.
+        let size = site.rows.clone().map(|mut row| {
+            row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
+            row
+        });
+        triplets.add_between_rows(&size, &[[1.0; 6]; 6]);
+    }
+    triplets.build()
+}
+
+fn max_abs(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |m, x| if x.is_nan() { f64::NAN } else { f64::max(m, x.abs()) })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

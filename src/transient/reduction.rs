@@ -1,0 +1,210 @@
+//! Component-mode reduction of the linear parts, with static correction.
+//!
+//! Basis: the undamped modes of the machine linearised at equilibrium, up to a cutoff, plus its static response
+//! to every interface force and load. Bearing forces then act on an exact static compliance, and the machine's
+//! own low modes are in the basis as they are; C, G and the rest are projected, not approximated further.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::system::{Channel, Interface, LoadHistory, System};
+use super::torque::TorqueDrive;
+use crate::analysis::equilibrium::Equilibrium;
+use crate::assembly::{Assembly, linear_system};
+use crate::bearing::BearingElement;
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{SparseMatrix, SparseRow, Triplets, eigen};
+use crate::model::{Drive, Model};
+
+/// A reduced machine with the way back to all DOFs.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    pub system: System,
+    /// Basis V (free DOFs × coordinates), Vᵀ M V = 1.
+    pub basis: DMatrix<f64>,
+    /// Coordinates of the equilibrium the reduction was made at.
+    pub equilibrium: DVector<f64>,
+    /// Vibration modes and static-correction vectors in the basis.
+    pub modes: usize,
+    pub corrections: usize,
+    /// Largest displacement error of the equilibrium in the basis, relative to the largest displacement.
+    pub static_error: f64,
+}
+
+/// Reduces `assembly` about `equilibrium`, keeping modes up to `cutoff` \[Hz\] (infinity keeps all).
+///
+/// # Errors
+/// No undamped modes (mass or stiffness not positive definite).
+pub fn reduce(
+    model: &Model,
+    assembly: &Assembly,
+    equilibrium: &Equilibrium,
+    cutoff: f64,
+) -> Result<Reduction, Error> {
+    let n = assembly.dofs.len();
+    let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
+    let mut tangent = Triplets::new(n, n);
+    for (site, bearing) in assembly.sites.iter().zip(&equilibrium.bearings) {
+        let k = bearing.tangent.stiffness;
+        let symmetric = std::array::from_fn(|a| std::array::from_fn(|b| 0.5 * (k[a][b] + k[b][a])));
+        tangent.add_between_rows(&site.rows, &symmetric);
+    }
+    let held = SparseMatrix::sum(&[
+        (1.0, &assembly.stiffness),
+        (1.0, &assembly.belt_stiffness),
+        (1.0, &tangent.build()),
+    ]);
+    let mass = assembly.mass.to_dense();
+    let stiffness = held.to_dense();
+    let (squares, shapes) =
+        eigen::undamped(&stiffness, &mass, 1.0).map_err(|e| failed(e.to_string()))?;
+    let limit = (std::f64::consts::TAU * cutoff).powi(2);
+    let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
+
+    // The belt resists deviation from equilibrium: its stiffness comes with the force −k q₀ at q₀.
+    let belt_rest = assembly.belt_stiffness.mul(&equilibrium.q);
+    let mut steady: Vec<f64> =
+        (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
+    let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
+        .loads
+        .iter()
+        .filter(|load| !load.history.is_empty())
+        .map(|load| {
+            let mut vector = vec![0.0; n];
+            for (row, f) in assembly.anchor_rows(&load.at).iter().zip(&load.force) {
+                row.add_to(*f, &mut vector);
+            }
+            (vector, load.history.clone())
+        })
+        .collect();
+
+    let dense = |row: &SparseRow| {
+        let mut v = vec![0.0; n];
+        row.add_to(1.0, &mut v);
+        v
+    };
+    let mut forces: Vec<Vec<f64>> = vec![steady.clone(), belt_rest.clone(), assembly.spin_momentum.clone()];
+    forces.extend(assembly.sites.iter().flat_map(|s| s.rows.iter().map(dense)));
+    forces.extend(assembly.unbalances.iter().flat_map(|u| [dense(&u.x), dense(&u.y)]));
+    forces.extend(histories.iter().map(|(v, _)| v.clone()));
+    let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
+        .ok_or_else(|| failed("the stiffness at equilibrium is not positive definite".into()))?;
+
+    for (s, b) in steady.iter_mut().zip(&belt_rest) {
+        *s += b;
+    }
+    let momentum = basis.transpose() * &mass;
+    let project = |m: &SparseMatrix| basis.transpose() * m.to_dense() * &basis;
+    let vector = |v: &[f64]| basis.transpose() * DVector::from_column_slice(v);
+    let row = |r: &SparseRow| vector(&dense(r));
+    let structure = SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
+    let modal = linear_system::modal_damping(assembly, &held)?;
+    let damping = SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &modal)]);
+
+    let mut interfaces = Vec::new();
+    let mut map = Vec::new();
+    for (site, place) in model.bearings.iter().zip(&assembly.sites) {
+        let element = BearingElement::new(&site.bearing);
+        let rows = element.rows();
+        interfaces.push(Interface {
+            name: site.name.clone(),
+            first_row: interfaces.last().map_or(0, |i: &Interface| i.first_row + i.rows),
+            rows,
+            cage_angle: site.bearing.cage_angle(),
+            element,
+        });
+        for r in &place.rows[..rows] {
+            map.extend_from_slice(row(r).as_slice());
+        }
+    }
+    let mut unbalance = [DVector::zeros(basis.ncols()), DVector::zeros(basis.ncols())];
+    for u in &assembly.unbalances {
+        let (sin, cos) = u.phase.sin_cos();
+        let (x, y) = (row(&u.x) * u.magnitude, row(&u.y) * u.magnitude);
+        unbalance[0] += &x * cos + &y * sin;
+        unbalance[1] += &y * cos - &x * sin;
+    }
+    let drive = match &model.drive {
+        Drive::Prescribed { .. } => None,
+        Drive::Torque { node, table, drag } => {
+            let node = crate::element::Anchor::node(*node);
+            Some(TorqueDrive {
+                table: table.clone(),
+                drag: *drag,
+                torque: row(&assembly.anchor_rows(&node)[5]),
+                rigid_rotation: vector(&assembly.spin_momentum),
+            })
+        }
+    };
+    // Without a drive station every inertia is turned by its own torque: spin-up leaves the twist alone.
+    let driven = !matches!(model.drive, Drive::Prescribed { node: None });
+    let q0 = DVector::from_column_slice(&equilibrium.q);
+    let x0 = &momentum * &q0;
+    let static_error = (&basis * &x0 - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
+    let circulatory = project(&assembly.circulatory);
+    let system = System {
+        stiffness: project(&structure),
+        damping: project(&damping),
+        gyroscopic: project(&assembly.gyroscopic),
+        spin_up: project(&assembly.spin_up),
+        has_circulatory: circulatory.amax() != 0.0,
+        circulatory,
+        static_load: vector(&steady),
+        unbalance,
+        spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
+        histories: histories
+            .iter()
+            .map(|(v, points)| LoadHistory { vector: vector(v), points: points.clone() })
+            .collect(),
+        interface_map: map,
+        interfaces,
+        channels: model
+            .probes
+            .iter()
+            .map(|p| Channel {
+                name: p.name.clone(),
+                row: row(&assembly.direction_row(&p.at, &p.direction)),
+                quantity: p.quantity,
+            })
+            .collect(),
+        curve: model.profile.curve(),
+        drive,
+    };
+    Ok(Reduction { system, equilibrium: x0, modes, corrections: basis.ncols() - modes, static_error, basis })
+}
+
+/// Modes, then static responses made M-orthonormal to what is there; what adds nothing new is dropped.
+fn basis(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    shapes: &DMatrix<f64>,
+    modes: usize,
+    forces: &[Vec<f64>],
+) -> Option<DMatrix<f64>> {
+    let n = stiffness.nrows();
+    // A free rotation leaves K singular; a shift of (0.16 Hz)² changes no static response that matters.
+    let factor = nalgebra::Cholesky::new(stiffness.clone())
+        .or_else(|| nalgebra::Cholesky::new(stiffness + mass))?;
+    let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();
+    let mut momenta: Vec<DVector<f64>> = columns.iter().map(|c| mass * c).collect();
+    for force in forces {
+        if columns.len() == n || force.iter().all(|f| *f == 0.0) {
+            continue;
+        }
+        let mut response = factor.solve(&DVector::from_column_slice(force));
+        let size = response.dot(&(mass * &response)).sqrt();
+        // Twice is enough (Kahan & Parlett).
+        for _ in 0..2 {
+            for (c, p) in columns.iter().zip(&momenta) {
+                let share = p.dot(&response);
+                response.axpy(-share, c, 1.0);
+            }
+        }
+        let momentum = mass * &response;
+        let left = response.dot(&momentum).max(0.0).sqrt();
+        if left > 1e-7 * size {
+            columns.push(response / left);
+            momenta.push(momentum / left);
+        }
+    }
+    Some(DMatrix::from_columns(&columns))
+}
