@@ -1,42 +1,168 @@
-//! The overhung rig of Cakmak & Sanliturk 2010 as reconstructed in rig.json: spherical and cylindrical joints.
+//! The overhung rig against an independent program's figures for the same data (tests/data/rig.json).
 //!
-//! Its axes are ours: x horizontal, y up, z from the drive end to the disc.
+//! Mapping: x horizontal, y up, z from drive end to disc, as here. The figures follow from a belt on fixed
+//! centres: the reference's forces on the shaft along x add up to 228 N, not to the pull of 250 N; the missing
+//! 22 N are the belt's stiffness times the pulley's 55 um.
 
-use crate::ross::{number, numbers, read};
-use rotordyn::analysis::{ModeKind, modal};
+use crate::rig::{Supports, rig, variant};
+use rotordyn::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
+use rotordyn::analysis::modal::{Mode, modes, undamped_modes};
 use rotordyn::assembly::{Assembly, LinearSystem};
-use rotordyn::model::{self, Options};
-use std::f64::consts::TAU;
+use serde_json::Value;
 
-fn modes(variant: &str, rpm: f64) -> Vec<modal::Mode> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/overhung_rig.toml");
-    let text = std::fs::read_to_string(path).unwrap();
-    let options = Options { variant: Some(variant.into()), ..Options::default() };
-    let model = model::load(path, &text, &options).unwrap().model;
+const RPM_1200: f64 = 40.0 * std::f64::consts::PI;
+
+fn reference() -> Value {
+    serde_json::from_str(include_str!("../data/rig.json")).expect("the reference file is JSON")
+}
+
+fn numbers(v: &Value) -> Vec<f64> {
+    v.as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
+}
+
+/// Undamped natural frequencies \[Hz\] at a speed, ascending.
+fn natural_frequencies(supports: Supports, speed: f64) -> Vec<f64> {
+    let model = rig(supports);
     let assembly = Assembly::new(&model).unwrap();
-    let system = LinearSystem::new(&assembly, &[], rpm / 60.0 * TAU).unwrap();
-    modal::undamped_modes(&assembly, &system, 6).unwrap()
+    let found = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None).unwrap();
+    let system = LinearSystem::new(&assembly, &found.tangents(), speed).unwrap();
+    undamped_modes(&assembly, &system, 12).unwrap().iter().map(Mode::frequency_hz).collect()
+}
+
+fn solve(supports: Supports) -> (Assembly, Equilibrium) {
+    let model = rig(supports);
+    let assembly = Assembly::new(&model).unwrap();
+    let found = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None).unwrap();
+    (assembly, found)
+}
+
+/// Every expected frequency has a computed one within 0.5 %; the axial mode is listed apart in the reference.
+fn assert_frequencies(computed: &[f64], expected: &[f64], case: &str) {
+    for f in expected {
+        let nearest =
+            computed.iter().copied().min_by(|a, b| (a - f).abs().total_cmp(&(b - f).abs())).unwrap();
+        assert!((nearest / f - 1.0).abs() < 5e-3, "{case}: expected {f} Hz, nearest is {nearest} Hz");
+    }
 }
 
 #[test]
-fn frequencies_on_joints() {
-    let expected = &read("rig.json")["expected"];
-    let mut torsion = Vec::new();
-    for variant in ["spherical", "cylindrical"] {
-        for (name, rpm) in [("0rpm", 0.0), ("1200rpm", 1200.0)] {
-            let theirs = numbers(&expected[variant][name]);
-            let ours = modes(variant, rpm);
-            for (mode, theirs) in ours.iter().zip(&theirs) {
-                let hz = mode.frequency_hz();
-                println!("{variant} {name}: {hz:8.3} Hz, {theirs}, {}", mode.label);
-                // The figures are printed to 0.01 Hz.
-                assert!((hz - theirs).abs() < 0.001 * theirs, "{variant} {name}: {hz} {theirs}");
-            }
-            torsion.push(ours.iter().find(|m| m.kind == ModeKind::Torsional).unwrap().omega());
-            let split = ours.iter().any(|m| m.kind == ModeKind::Forward);
-            assert_eq!(split, rpm > 0.0);
+fn natural_frequencies_of_the_three_bearing_models() {
+    let expected = &reference()["expected"];
+    for (key, supports) in [
+        ("cylindrical", Supports::Cylindrical),
+        ("spherical", Supports::Spherical),
+        ("finite", Supports::BallBearings),
+    ] {
+        for (label, speed) in [("0rpm", 0.0), ("1200rpm", RPM_1200)] {
+            let computed = natural_frequencies(supports, speed);
+            assert_frequencies(&computed, &numbers(&expected[key][label]), &format!("{key} {label}"));
         }
     }
-    assert!(torsion.iter().all(|t| (t / torsion[0] - 1.0).abs() < 1e-9));
-    assert!(number(&expected["cylindrical"]["0rpm"][3]) > number(&expected["spherical"]["0rpm"][3]));
+    let finite = natural_frequencies(Supports::BallBearings, 0.0);
+    let mut rest = numbers(&expected["finite"]["third"]);
+    rest.push(expected["finite"]["axial_mode"].as_f64().unwrap());
+    assert_frequencies(&finite, &rest, "finite, third pair and axial");
+}
+
+#[test]
+fn damped_frequencies_and_damping() {
+    let (assembly, found) = solve(Supports::BallBearings);
+    for (label, speed) in [("0rpm", 0.0), ("1200rpm", RPM_1200)] {
+        let system = LinearSystem::new(&assembly, &found.tangents(), speed).unwrap();
+        let modes: Vec<[f64; 2]> = modes(&assembly, &system, 12)
+            .unwrap()
+            .iter()
+            .map(|m| [m.frequency_hz(), 100.0 * m.zeta()])
+            .collect();
+        for row in reference()["expected"]["damped_hz_zeta_pct"][label].as_array().unwrap() {
+            let [hz, zeta] = numbers(row)[..] else { panic!("two numbers") };
+            // The reference states the contact damping's two parameters but not its law; with ours the bearings'
+            // share differs, which is seen in ζ (up to 6 % at 271 Hz) and not in the frequencies.
+            assert!(
+                modes.iter().any(|m| (m[0] / hz - 1.0).abs() < 5e-4 && (m[1] / zeta - 1.0).abs() < 0.07),
+                "{label}: no mode at {hz} Hz with {zeta} %: {modes:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_the_paper_says_of_the_three_bearing_models() {
+    let cylindrical = natural_frequencies(Supports::Cylindrical, 0.0);
+    let spherical = natural_frequencies(Supports::Spherical, 0.0);
+    let balls = natural_frequencies(Supports::BallBearings, 0.0);
+    let torsion =
+        |f: &[f64]| f.iter().copied().min_by(|a, b| (a - 46.05).abs().total_cmp(&(b - 46.05).abs())).unwrap();
+    for other in [&spherical, &balls] {
+        assert!((torsion(other) / torsion(&cylindrical) - 1.0).abs() < 1e-3);
+    }
+    let second_pair = |f: &[f64]| {
+        let pair: Vec<f64> = f.iter().copied().filter(|f| (100.0..210.0).contains(f)).take(2).collect();
+        [pair[0], pair[1]]
+    };
+    let [c, s, b] = [second_pair(&cylindrical), second_pair(&spherical), second_pair(&balls)];
+    assert!(c[0] > 1.1 * s[1] && s[0] > 1.05 * b[1], "{c:?} {s:?} {b:?}");
+    // Housings and belt make x and y differ only in the full model.
+    assert!((c[1] - c[0]).abs() < 1e-6 && (s[1] - s[0]).abs() < 1e-6 && b[1] - b[0] > 10.0);
+    // Gyroscopic split, and its vanishing with speed.
+    for supports in [Supports::Cylindrical, Supports::Spherical] {
+        let split = |speed| {
+            let pair = second_pair(&natural_frequencies(supports, speed));
+            pair[1] - pair[0]
+        };
+        assert!(split(RPM_1200) > 25.0);
+        let slow = split(1e-3 * RPM_1200) / split(RPM_1200);
+        assert!((slow - 1e-3).abs() < 1e-4, "{slow}");
+    }
+}
+
+#[test]
+fn static_loads_and_bearing_stiffness() {
+    let expected = &reference()["expected"];
+    let (assembly, found) = solve(Supports::BallBearings);
+    for bearing in &found.bearings {
+        let name = bearing.name.as_str();
+        let force = numbers(&expected["static"][format!("{name}_force_on_shaft_xy")]);
+        for k in 0..2 {
+            assert!((bearing.force[k] / force[k] - 1.0).abs() < 0.01, "{name}: {:?}", bearing.force);
+        }
+        let load = expected["static"]["ball_Qmax"][name].as_f64().unwrap();
+        assert!(
+            (bearing.largest_ball_load / load - 1.0).abs() < 0.01,
+            "{name}: {} against {load}",
+            bearing.largest_ball_load
+        );
+        for (i, row) in expected["bearing_K5_at_equilibrium"][name].as_array().unwrap().iter().enumerate() {
+            for (j, k) in numbers(row).iter().enumerate() {
+                let computed = bearing.tangent.stiffness[i][j];
+                assert!((computed / k - 1.0).abs() < 0.01, "{name} K[{i}][{j}]: {computed} against {k}");
+            }
+        }
+    }
+    let disc = rig(Supports::BallBearings).discs[0].node;
+    let full = assembly.dofs.expand(&found.q);
+    let sag = expected["static"]["disc_sag"].as_f64().unwrap();
+    // The reference prints one digit.
+    assert!((-full[6 * disc + 1] / sag - 1.0).abs() < 0.05, "{}", full[6 * disc + 1]);
+}
+
+#[test]
+fn equilibrium_from_any_clearance() {
+    for clearance in ["-10 um", "-4 um", "0 um", "5 um", "20 um", "33 um", "100 um", "400 um"] {
+        let model = variant(
+            None,
+            &[("bearing.A.radial_clearance", clearance), ("bearing.B.radial_clearance", clearance)],
+        );
+        let assembly = Assembly::new(&model).unwrap();
+        for cage in [CageTreatment::AsPlaced, CageTreatment::Averaged] {
+            let found = equilibrium(&model, &assembly, 0.0, cage, None).unwrap();
+            // The bearings lift what the belt leaves of the weight: F + (−k_y u_y) = m g.
+            let lift: f64 = found.bearings.iter().map(|b| b.force[1]).sum();
+            let belt = -2e4 * assembly.dofs.expand(&found.q)[6 * model.belts[0].node + 1];
+            let shaft = std::f64::consts::PI / 4.0 * 0.025f64.powi(2) * 0.625 * 7850.0;
+            let weight = 9.80665 * (shaft + 1.0 + 11.097676048805946);
+            assert!((lift + belt - weight).abs() < 1e-6, "clearance {clearance}: {lift} {belt}");
+            assert!(found.residual < 1e-6);
+        }
+    }
 }

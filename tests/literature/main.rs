@@ -1,5 +1,7 @@
 //! Published figures; the file's name is its source.
 
+#[path = "../common/rig.rs"]
+mod rig;
 #[path = "../common/ross.rs"]
 mod ross;
 
