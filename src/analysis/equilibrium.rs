@@ -44,6 +44,8 @@ pub struct BearingState {
     pub tangent: SiteTangent,
     /// Every ball at the cage angle of the model; empty for a linear bearing.
     pub balls: Vec<BallLoad>,
+    /// Largest ball load over all cage angles at this displacement \[N\]; 0 for a linear bearing.
+    pub largest_ball_load: f64,
 }
 
 impl Equilibrium {
@@ -65,8 +67,11 @@ impl Sites {
             .bearings
             .iter()
             .map(|site| {
-                let rotation =
-                    Rotation { cage_angle: site.bearing.cage_angle(), shaft_speed: speed, ..Rotation::default() };
+                let rotation = Rotation {
+                    cage_angle: site.bearing.cage_angle(),
+                    shaft_speed: speed,
+                    ..Rotation::default()
+                };
                 (BearingElement::new(&site.bearing), rotation)
             })
             .collect();
@@ -191,10 +196,8 @@ pub fn equilibrium(
                     displacement,
                     force: reactions[k].force,
                     tangent: SiteTangent::from(&reactions[k]),
-                    balls: match element {
-                        BearingElement::Ball(ball) => ball.ball_loads(&displacement, rotation),
-                        BearingElement::Linear(_) => Vec::new(),
-                    },
+                    balls: element.ball_loads(&displacement, rotation),
+                    largest_ball_load: largest_ball_load(element, &displacement, rotation),
                 }
             })
             .collect(),
@@ -202,6 +205,18 @@ pub fn equilibrium(
         iterations,
         residual: left,
     })
+}
+
+/// Largest ball load over [`CAGE_ANGLES`] positions within one ball pitch.
+fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
+    let balls = element.ball_loads(d, rotation).len();
+    (0..if balls > 0 { CAGE_ANGLES } else { 0 })
+        .flat_map(|k| {
+            let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES * balls) as f64;
+            let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };
+            element.ball_loads(d, &turned)
+        })
+        .fold(0.0, |most, ball| ball.load.max(most))
 }
 
 /// Rᵀ K R over all sites.

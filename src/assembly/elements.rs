@@ -68,7 +68,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
     }
     for belt in &model.belts {
         for (dof, stiffness, damping) in belt_terms(belt) {
-            kb.add(dof, dof, stiffness);
+            if belt.constant_pull { &mut kb } else { &mut k }.add(dof, dof, stiffness);
             c.add(dof, dof, damping);
         }
     }

@@ -25,9 +25,9 @@ pub struct Assembly {
     pub dofs: DofMap,
     /// Mass M.
     pub mass: SparseMatrix,
-    /// Stiffness K of shaft and bushings, without bearings and belts.
+    /// Stiffness K of shaft, bushings and belts on fixed centres, without bearings.
     pub stiffness: SparseMatrix,
-    /// Stiffness of the belts, which acts about the equilibrium but not in it.
+    /// Stiffness of belts with constant pull, which acts about the equilibrium but not in it.
     pub belt_stiffness: SparseMatrix,
     /// Damping C: of elements, bushings, belts, proportional and internal; without bearings and modal damping.
     pub damping: SparseMatrix,

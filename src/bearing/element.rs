@@ -1,6 +1,6 @@
 //! One interface for every bearing model.
 
-use super::{BallElement, Bearing, LinearElement, Reaction, Rotation};
+use super::{BallElement, BallLoad, Bearing, LinearElement, Reaction, Rotation};
 
 /// A bearing made ready for evaluation.
 #[derive(Clone, Debug)]
@@ -32,6 +32,14 @@ impl BearingElement {
         match self {
             Self::Linear(linear) => linear.reaction(d, &[0.0; 6], rotation.shaft_speed),
             Self::Ball(ball) => ball.cage_average(d, rotation, angles),
+        }
+    }
+
+    /// Load, contact angle and approach of every ball; empty for a bearing without balls.
+    pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
+        match self {
+            Self::Linear(_) => Vec::new(),
+            Self::Ball(ball) => ball.ball_loads(d, rotation),
         }
     }
 

@@ -55,15 +55,13 @@ pub fn reduce(
     ]);
     let mass = assembly.mass.to_dense();
     let stiffness = held.to_dense();
-    let (squares, shapes) =
-        eigen::undamped(&stiffness, &mass, 1.0).map_err(|e| failed(e.to_string()))?;
+    let (squares, shapes) = eigen::undamped(&stiffness, &mass, 1.0).map_err(|e| failed(e.to_string()))?;
     let limit = (std::f64::consts::TAU * cutoff).powi(2);
     let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
 
     // The belt resists deviation from equilibrium: its stiffness comes with the force −k q₀ at q₀.
     let belt_rest = assembly.belt_stiffness.mul(&equilibrium.q);
-    let mut steady: Vec<f64> =
-        (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
+    let mut steady: Vec<f64> = (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
     let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
         .loads
         .iter()
@@ -182,8 +180,8 @@ fn basis(
 ) -> Option<DMatrix<f64>> {
     let n = stiffness.nrows();
     // A free rotation leaves K singular; a shift of (0.16 Hz)² changes no static response that matters.
-    let factor = nalgebra::Cholesky::new(stiffness.clone())
-        .or_else(|| nalgebra::Cholesky::new(stiffness + mass))?;
+    let factor =
+        nalgebra::Cholesky::new(stiffness.clone()).or_else(|| nalgebra::Cholesky::new(stiffness + mass))?;
     let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();
     let mut momenta: Vec<DVector<f64>> = columns.iter().map(|c| mass * c).collect();
     for force in forces {

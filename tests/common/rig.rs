@@ -21,8 +21,47 @@ fn node_at(z: &[f64], at: f64) -> usize {
     z.iter().position(|v| (v - at).abs() < 1e-9).expect("a node at every station")
 }
 
-/// The rig of tests/data/rig.json: shaft, disc, pulley, belt, two 6205 in spring-mounted housings.
-pub fn rig() -> Model {
+/// The rig's three bearing models of the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Supports {
+    /// Joints straight to ground, free to tilt; no housings, no belt stiffness.
+    Spherical,
+    /// Joints straight to ground that hold the tilt too.
+    Cylindrical,
+    /// Two 6205 in housings on springs, with the belt.
+    BallBearings,
+}
+
+/// The rig of tests/data/rig.json with one of its bearing models.
+pub fn rig(supports: Supports) -> Model {
+    let mut model = with_ball_bearings();
+    if supports == Supports::BallBearings {
+        return model;
+    }
+    let tilt = supports == Supports::Cylindrical;
+    model.joints = model
+        .bearings
+        .iter()
+        .map(|site| Joint {
+            name: site.name.clone(),
+            a: Anchor::node(site.node),
+            b: Anchor { node: None, offset: [0.0, 0.0, model.node_z[site.node]] },
+            locked: [true, true, site.name == "B", tilt, tilt, false],
+        })
+        .collect();
+    model.bearings.clear();
+    model.bodies.clear();
+    model.bushings.retain(|b| b.name == "disc damper");
+    for belt in &mut model.belts {
+        belt.stiffness = [0.0; 3];
+        belt.damping = [0.0; 3];
+    }
+    model.probes.retain(|p| p.name.starts_with("disc"));
+    model
+}
+
+/// Shaft, disc, pulley, belt, two 6205 in spring-mounted housings.
+fn with_ball_bearings() -> Model {
     let mut node_z: Vec<f64> = (0..NODES).map(|k| 0.0125 * k as f64).collect();
     let stations = [("A", 0.03), ("pulley", 0.308), ("B", 0.38), ("disc", 0.6), ("end", 0.625)];
     for (_, z) in stations {
@@ -121,6 +160,7 @@ pub fn rig() -> Model {
             name: "drive".into(),
             node: at(0.308),
             pull: [250.0, 0.0],
+            constant_pull: false,
             stiffness: [4e5, 2e4, 0.0],
             damping: [60.0, 0.0, 0.0],
         }],
@@ -133,7 +173,13 @@ pub fn rig() -> Model {
         loads: vec![],
         damping: Damping::default(),
         drive: Drive::Prescribed { node: Some(at(0.308)) },
-        profile: SpeedProfile::Ramp { from: 0.0, to: 40.0 * std::f64::consts::PI, settle: 1.0, ramp: 10.0, hold: 2.0 },
+        profile: SpeedProfile::Ramp {
+            from: 0.0,
+            to: 40.0 * std::f64::consts::PI,
+            settle: 1.0,
+            ramp: 10.0,
+            hold: 2.0,
+        },
         probes: vec![
             probe("B_ax", shaft_nodes + 1, 0, Quantity::Acceleration),
             probe("B_ay", shaft_nodes + 1, 1, Quantity::Acceleration),
