@@ -2,6 +2,7 @@
 //!
 //! | module | answers |
 //! |---|---|
+//! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangents |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | the same over speed, tracked by MAC |
 //! | [`critical_speed`] | speeds where a mode meets an order line |

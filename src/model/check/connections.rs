@@ -66,6 +66,7 @@ pub(super) fn belts(top: &Reader, places: &Places) -> Vec<Belt> {
             name: name.into(),
             node,
             pull,
+            constant_pull: r.flag("constant_pull", false),
             stiffness: [k("k_x"), k("k_y"), r.or("k_spin", not_negative(TILT_STIFFNESS), 0.0)],
             damping: [c("c_x"), c("c_y"), r.or("c_spin", not_negative(TILT_DAMPING), 0.0)],
         };
