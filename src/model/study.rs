@@ -2,6 +2,7 @@
 
 use super::{Probe, Quantity};
 use crate::element::Anchor;
+pub use crate::signal::WindowKind;
 
 /// The studies a model file asks for, each with its settings; `None` means not asked for.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -111,16 +112,6 @@ pub struct RunUpStudy {
     pub cutoff: f64,
     /// Start from static equilibrium (else at rest, undeformed).
     pub from_equilibrium: bool,
-}
-
-/// Window of a short-time transform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WindowKind {
-    Rectangular,
-    Hann,
-    Hamming,
-    Blackman,
-    FlatTop,
 }
 
 /// Spectrogram of a run-up over rpm.

@@ -1,1 +1,38 @@
 //! Signal processing on slices and a sample rate; knows no rotor.
+//!
+//! | module | what it answers |
+//! |---|---|
+//! | [`window`] | rectangular, Hann, Hamming, Blackman, flat top; gain and noise bandwidth |
+//! | [`filter`] | Butterworth sections, causal or zero-phase |
+//! | [`spectrum`] | amplitude spectrum, PSD and cross spectrum by Welch, coherence, dB |
+//! | [`stft`] | spectrogram over time and rpm |
+//! | [`resample`] | uniform in shaft angle, uniform in time |
+//! | [`order`] | order spectrogram, order cuts, averaged order spectrum |
+//! | [`waterfall`] | spectra at chosen speeds |
+//! | [`ridge`] | peaks between bins, the ridge near a line |
+//! | [`orbit`] | filtered orbit, whirl, full spectrum |
+//! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
+//! | [`impact`] | H1, H2 and coherence from blows or random excitation |
+//! | [`envelope`] | analytic signal, envelope, envelope spectrum |
+//!
+//! Sample n of a record is at t = n/f_s; every function refuses empty records, NaN and infinity with a
+//! [`SignalError`].
+
+pub mod envelope;
+pub mod error;
+pub mod filter;
+pub mod impact;
+pub mod orbit;
+pub mod order;
+pub mod resample;
+pub mod ridge;
+pub mod segment;
+pub mod spectrum;
+pub mod statistics;
+pub mod stft;
+pub mod waterfall;
+pub mod window;
+
+pub use error::SignalError;
+pub use rustfft::num_complex::Complex;
+pub use window::WindowKind;

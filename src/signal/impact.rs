@@ -1,0 +1,127 @@
+//! Frequency response functions from force and response records: hammer blows and random excitation.
+
+use rustfft::num_complex::Complex;
+
+use super::SignalError;
+use super::error::{check, check_rate, check_record, check_same_length};
+use super::segment::{SegmentTransform, bin_axis};
+use super::spectrum::{Densities, Welch, densities};
+use super::window::WindowKind;
+
+/// Estimated FRF between one force and one response \[response unit per force unit\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrfEstimate {
+    /// Frequencies \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// H₁ = S_fx / S_ff: right when the noise is in the response; too low in force noise.
+    pub h1: Vec<Complex<f64>>,
+    /// H₂ = S_xx / S_xf: right when the noise is in the force; too high in response noise.
+    pub h2: Vec<Complex<f64>>,
+    /// γ² = H₁ / H₂, 0..1; it is 1 by definition with one average.
+    pub coherence: Vec<f64>,
+    /// Decay rate that the exponential window added to every pole \[1/s\]; 0 without one.
+    pub added_decay: f64,
+}
+
+impl FrfEstimate {
+    /// Damping ratio without the exponential window's share, ζ = ζ_measured − 1/(τω_n).
+    ///
+    /// With the window the estimate is H(jω + 1/τ) instead of H(jω): compare a linear FRF there.
+    pub fn true_damping_ratio(&self, measured: f64, natural_frequency_hz: f64) -> f64 {
+        measured - self.added_decay / (std::f64::consts::TAU * natural_frequency_hz)
+    }
+}
+
+/// One blow: force and response sampled together.
+#[derive(Clone, Copy, Debug)]
+pub struct Blow<'a> {
+    pub force: &'a [f64],
+    pub response: &'a [f64],
+}
+
+/// Windows of an impact test.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct ImpactWindows {
+    /// Force beyond this many samples is set to zero; `None` keeps it all.
+    pub force_length: Option<usize>,
+    /// Time constant τ \[s\] of the exponential window e^{−t/τ} on force and response; `None` is rectangular.
+    pub time_constant: Option<f64>,
+}
+
+/// FRF from one or more blows of equal length, averaged; no mean is taken away.
+///
+/// With one rectangular window that holds the whole decay, the DFT's ratio is exact for a linear system up to
+/// aliasing. `sample_rate` \[Hz\]. Errors: no blow, NaN, unequal lengths, time constant not positive.
+/// Source: Ewins, Modal Testing (2000), ch. 3.
+pub fn frf_from_blows(
+    blows: &[Blow],
+    sample_rate: f64,
+    windows: ImpactWindows,
+) -> Result<FrfEstimate, SignalError> {
+    check_rate(sample_rate)?;
+    let length = blows.first().ok_or(SignalError::Empty { name: "list of blows" })?.force.len();
+    let decay = match windows.time_constant {
+        Some(tau) => {
+            check(tau > 0.0 && tau.is_finite(), "time constant", "a positive number of seconds", tau)?;
+            1.0 / tau
+        }
+        None => 0.0,
+    };
+    check_record("force", blows[0].force)?;
+    let mut transform = SegmentTransform::new(WindowKind::Rectangular, length, length);
+    let weights: Vec<f64> = (0..length).map(|n| (-decay * n as f64 / sample_rate).exp()).collect();
+    let kept = windows.force_length.unwrap_or(length).min(length);
+    let bins = transform.bins();
+    let mut sums = Densities {
+        frequencies: bin_axis(bins, length, sample_rate),
+        xx: vec![0.0; bins],
+        yy: vec![0.0; bins],
+        xy: vec![Complex::ZERO; bins],
+        noise_bandwidth_hz: sample_rate / length as f64,
+    };
+    let mut force = vec![0.0; length];
+    let mut response = vec![0.0; length];
+    let mut force_spectrum = vec![Complex::ZERO; bins];
+    for blow in blows {
+        check_record("force", blow.force)?;
+        check_record("response", blow.response)?;
+        check_same_length("force", blow.force.len(), "the first blow", length)?;
+        check_same_length("response", blow.response.len(), "force", length)?;
+        for n in 0..length {
+            force[n] = if n < kept { weights[n] * blow.force[n] } else { 0.0 };
+            response[n] = weights[n] * blow.response[n];
+        }
+        force_spectrum.copy_from_slice(transform.run(&force, 0.0));
+        for (k, (f, x)) in force_spectrum.iter().zip(transform.run(&response, 0.0)).enumerate() {
+            sums.xx[k] += f.norm_sqr();
+            sums.yy[k] += x.norm_sqr();
+            sums.xy[k] += f.conj() * x;
+        }
+    }
+    Ok(estimate(sums, decay))
+}
+
+/// FRF from long records of random excitation, by Welch averages.
+///
+/// Errors as [`super::spectrum::cross_spectral_density`].
+pub fn frf_from_random(
+    force: &[f64],
+    response: &[f64],
+    sample_rate: f64,
+    welch: &Welch,
+) -> Result<FrfEstimate, SignalError> {
+    Ok(estimate(densities(force, response, sample_rate, welch)?, 0.0))
+}
+
+/// Bins without any force or response power are zero, with zero coherence, rather than NaN.
+fn estimate(d: Densities, added_decay: f64) -> FrfEstimate {
+    let ratio = |a: Complex<f64>, b: Complex<f64>| if b == Complex::ZERO { b } else { a / b };
+    let bins = 0..d.xx.len();
+    FrfEstimate {
+        h1: bins.clone().map(|k| ratio(d.xy[k], d.xx[k].into())).collect(),
+        h2: bins.clone().map(|k| ratio(d.yy[k].into(), d.xy[k].conj())).collect(),
+        coherence: bins.map(|k| d.coherence(k)).collect(),
+        frequencies: d.frequencies,
+        added_decay,
+    }
+}

@@ -1,0 +1,57 @@
+//! Statistics of a record.
+
+use super::SignalError;
+use super::error::check_record;
+
+/// Statistics of a record of N samples with mean μ and central moments m_k = Σ(x−μ)ᵏ / N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    pub mean: f64,
+    /// √m₂, with divisor N.
+    pub standard_deviation: f64,
+    /// √(Σx²/N), the mean included.
+    pub rms: f64,
+    /// max |x|, the mean included.
+    pub peak: f64,
+    /// max x − min x.
+    pub peak_to_peak: f64,
+    /// Peak over RMS; √2 for a sine, `None` for a record of zeros.
+    pub crest_factor: Option<f64>,
+    /// m₃ / m₂^{3/2}; `None` for a constant record.
+    pub skewness: Option<f64>,
+    /// m₄ / m₂², Pearson's, without −3: 3 for a normal distribution, 1.5 for a sine; `None` for a constant record.
+    pub kurtosis: Option<f64>,
+}
+
+/// Statistics of a record; errors: empty, NaN.
+pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
+    check_record("record", record)?;
+    let n = record.len() as f64;
+    let mean = record.iter().sum::<f64>() / n;
+    let (mut m2, mut m3, mut m4, mut square) = (0.0, 0.0, 0.0, 0.0);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &x in record {
+        let d = x - mean;
+        m2 += d * d;
+        m3 += d * d * d;
+        m4 += d * d * d * d;
+        square += x * x;
+        low = low.min(x);
+        high = high.max(x);
+    }
+    (m2, m3, m4) = (m2 / n, m3 / n, m4 / n);
+    let rms = (square / n).sqrt();
+    let peak = high.max(-low);
+    // A constant record's spread is what rounding of its mean leaves, not a shape.
+    let varies = m2.sqrt() > 4.0 * f64::EPSILON * peak;
+    Ok(Statistics {
+        mean,
+        standard_deviation: m2.sqrt(),
+        rms,
+        peak,
+        peak_to_peak: high - low,
+        crest_factor: (rms > 0.0).then(|| peak / rms),
+        skewness: varies.then(|| m3 / (m2 * m2.sqrt())),
+        kurtosis: varies.then(|| m4 / (m2 * m2)),
+    })
+}
