@@ -1,0 +1,48 @@
+//! STFT and order analysis of a run-up record: 13 s at 20 kHz, 260 thousand samples.
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use rotordyn::signal::WindowKind;
+use rotordyn::signal::order::{OrderSettings, OrderTracker};
+use rotordyn::signal::stft::{Stft, StftSettings};
+
+const RATE: f64 = 20_000.0;
+const SAMPLES: usize = 260_000;
+
+/// 1 s at rest, 10 s ramp to 1200 rpm, 2 s at that speed: shaft angle \[rad\].
+fn angle(n: usize) -> f64 {
+    let t = n as f64 / RATE;
+    TAU * if t < 1.0 {
+        0.0
+    } else if t < 11.0 {
+        (t - 1.0).powi(2)
+    } else {
+        100.0 + 20.0 * (t - 11.0)
+    }
+}
+
+fn signal(c: &mut Criterion) {
+    let theta: Vec<f64> = (0..SAMPLES).map(angle).collect();
+    let x: Vec<f64> = theta.iter().map(|a| a.cos() + (7.0 * a).cos() + (7.14 * a).cos()).collect();
+    let mut group = c.benchmark_group("signal");
+    group.sample_size(20);
+
+    let settings = StftSettings::new(WindowKind::Hann, 8192, 0.9).expect("overlap is below 1");
+    let mut stft = Stft::new(settings, RATE).expect("settings are in range");
+    group.bench_function("stft_260k", |b| b.iter(|| stft.spectrogram(black_box(&x)).expect("finite record")));
+
+    let orders = |channels: &[&[f64]]| {
+        let mut tracker =
+            OrderTracker::new(&theta, RATE, OrderSettings::new(0.05, 50.0)).expect("turns enough");
+        let records = tracker.resample(channels).expect("finite records");
+        records.iter().map(|r| tracker.spectrogram(r)).collect::<Vec<_>>()
+    };
+    group.bench_function("orders_260k", |b| b.iter(|| orders(black_box(&[&x]))));
+    group.bench_function("orders_260k_8_channels", |b| b.iter(|| orders(black_box(&[&x[..]; 8]))));
+    group.finish();
+}
+
+criterion_group!(benches, signal);
+criterion_main!(benches);
