@@ -22,5 +22,8 @@ pub mod analysis;
 
 pub mod transient;
 
+pub mod results;
+pub mod study;
+
 pub mod edge;
 pub mod error;

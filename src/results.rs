@@ -1,0 +1,167 @@
+//! What the studies of a model give: plain data, as computed, in SI.
+
+use crate::analysis::campbell::Campbell;
+use crate::analysis::critical_speed::CriticalSpeed;
+use crate::analysis::equilibrium::Equilibrium;
+use crate::analysis::frf::Frf;
+use crate::analysis::stability::Threshold;
+use crate::analysis::unbalance::UnbalanceResponse;
+use crate::analysis::Mode;
+use crate::model::{Probe, Quantity};
+use crate::signal::{OrderCut, OrderSpectrogram, Spectrogram};
+use crate::transient::run::Report;
+
+/// Everything computed from one model; a study that was not asked for is empty.
+#[derive(Clone, Debug, Default)]
+pub struct Results {
+    pub equilibrium: Option<Equilibrium>,
+    pub modal: Vec<ModalResult>,
+    pub campbell: Option<CampbellResult>,
+    pub critical: Option<CriticalResult>,
+    pub frf: Option<FrfResult>,
+    pub unbalance: Option<UnbalanceResult>,
+    pub run_up: Option<RunUpResult>,
+    pub spectrograms: Vec<SpectrogramResult>,
+    pub orders: Vec<OrderResult>,
+    /// What the user should know, once each.
+    pub warnings: Vec<String>,
+}
+
+/// Modes at one speed.
+#[derive(Clone, Debug)]
+pub struct ModalResult {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    pub modes: Vec<Mode>,
+}
+
+/// A line of constant order, with the name a user would give it ("1x", "BPFO").
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrderLine {
+    pub label: String,
+    pub order: f64,
+    /// Whether it belongs to a bearing rather than to the shaft.
+    pub bearing: bool,
+}
+
+/// Campbell diagram with its order lines and the crossings on it.
+#[derive(Clone, Debug)]
+pub struct CampbellResult {
+    pub diagram: Campbell,
+    pub orders: Vec<OrderLine>,
+    pub crossings: Vec<CriticalSpeed>,
+    /// Speeds at which a mode loses or regains its damping.
+    pub thresholds: Vec<Threshold>,
+}
+
+/// Critical speeds up to a speed.
+#[derive(Clone, Debug)]
+pub struct CriticalResult {
+    pub max_speed: f64,
+    pub speeds: Vec<CriticalSpeed>,
+}
+
+/// FRFs with the names of their ends.
+#[derive(Clone, Debug)]
+pub struct FrfResult {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    pub excitations: Vec<String>,
+    pub responses: Vec<String>,
+    pub frf: Frf,
+}
+
+/// Unbalance response of every asked response, and of the orbits of every disc.
+#[derive(Clone, Debug)]
+pub struct UnbalanceResult {
+    pub response: UnbalanceResponse,
+    pub channels: Vec<UnbalanceChannel>,
+    pub orbits: Vec<DiscOrbit>,
+}
+
+/// One response: complex amplitude over speed, per its quantity.
+#[derive(Clone, Debug)]
+pub struct UnbalanceChannel {
+    pub probe: Probe,
+    /// Re and Im per speed; x(t) = Re(X e^{jΩt}).
+    pub amplitude: Vec<[f64; 2]>,
+}
+
+/// The orbit of a disc's centre over speed: complex u_x and u_y as Re and Im.
+#[derive(Clone, Debug)]
+pub struct DiscOrbit {
+    pub name: String,
+    pub x: Vec<[f64; 2]>,
+    pub y: Vec<[f64; 2]>,
+}
+
+/// A channel of a transient run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HistoryChannel {
+    pub name: String,
+    /// Unit, such as "m/s^2".
+    pub unit: String,
+    /// Quantity in words: displacement, velocity, acceleration, force, angle, energy.
+    pub quantity: String,
+    /// Station or body, and direction.
+    pub station: String,
+    pub direction: String,
+    pub values: Vec<f64>,
+}
+
+/// Samples of a transient run at a constant rate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    pub sample_rate: f64,
+    pub time: Vec<f64>,
+    /// Shaft angle θ \[rad\] and speed Ω \[rad/s\].
+    pub angle: Vec<f64>,
+    pub speed: Vec<f64>,
+    pub channels: Vec<HistoryChannel>,
+}
+
+/// A run-up: what was kept of the model, what was sampled, how it went.
+#[derive(Clone, Debug)]
+pub struct RunUpResult {
+    /// Vibration modes and static-correction vectors of the reduced model.
+    pub modes: usize,
+    pub corrections: usize,
+    /// Largest relative error of the reduced static equilibrium.
+    pub static_error: f64,
+    /// Largest relative error of the reduced model's damped frequencies up to half the cutoff, at top speed.
+    pub frequency_error: f64,
+    pub history: History,
+    pub report: Report,
+}
+
+/// Spectrogram of one channel with the speed at every frame.
+#[derive(Clone, Debug)]
+pub struct SpectrogramResult {
+    pub channel: String,
+    pub unit: String,
+    pub spectrogram: Spectrogram,
+    /// Speed at every frame \[rad/s\].
+    pub speed: Vec<f64>,
+    pub orders: Vec<OrderLine>,
+}
+
+/// Order spectrogram and cuts of one channel.
+#[derive(Clone, Debug)]
+pub struct OrderResult {
+    pub channel: String,
+    pub unit: String,
+    pub spectrogram: OrderSpectrogram,
+    pub cuts: Vec<(OrderLine, OrderCut)>,
+}
+
+/// Unit of a quantity of a translation, or of a rotation.
+pub fn unit_of(quantity: Quantity, rotation: bool) -> &'static str {
+    match (quantity, rotation) {
+        (Quantity::Displacement, false) => "m",
+        (Quantity::Velocity, false) => "m/s",
+        (Quantity::Acceleration, false) => "m/s^2",
+        (Quantity::Displacement, true) => "rad",
+        (Quantity::Velocity, true) => "rad/s",
+        (Quantity::Acceleration, true) => "rad/s^2",
+    }
+}

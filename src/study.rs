@@ -1,0 +1,235 @@
+//! The studies: from a model to its results, one method each.
+
+use std::ops::ControlFlow;
+
+use crate::analysis::campbell::{self, Campbell};
+use crate::analysis::critical_speed;
+use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
+use crate::analysis::{frf, modal, stability, unbalance};
+use crate::assembly::{Assembly, LinearSystem};
+use crate::bearing::{Bearing, BearingElement, SiteTangent};
+use crate::element::Anchor;
+use crate::error::Error;
+use crate::linalg::Complex64;
+use crate::model::study::{
+    CampbellStudy, CriticalStudy, EquilibriumStudy, FrfStudy, ModalStudy, RunUpStudy, UnbalanceStudy,
+};
+use crate::model::Model;
+use crate::results::{
+    CampbellResult, CriticalResult, DiscOrbit, FrfResult, ModalResult, OrderLine, UnbalanceChannel,
+    UnbalanceResult,
+};
+use crate::transient::reduction::{Reduction, reduce};
+use crate::transient::run::{Report, Sample, Settings, run};
+
+/// A model, assembled, with the equilibrium that linear studies are made about.
+pub struct Machine {
+    pub model: Model,
+    pub assembly: Assembly,
+    /// Equilibrium with cage-averaged bearings at standstill.
+    base: Equilibrium,
+    bearings: Vec<BearingElement>,
+}
+
+impl Machine {
+    /// Assembles a model and finds its equilibrium.
+    ///
+    /// # Errors
+    /// A mass matrix that is not definite, or no equilibrium.
+    pub fn new(model: Model) -> Result<Self, Error> {
+        let assembly = Assembly::new(&model)?;
+        let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)?;
+        let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
+        Ok(Self { model, assembly, base, bearings })
+    }
+
+    /// Static equilibrium as asked.
+    ///
+    /// # Errors
+    /// No equilibrium.
+    pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, Error> {
+        let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::AsPlaced };
+        equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.base.q))
+    }
+
+    /// Bearing tangents at a speed: ball bearings about the equilibrium at standstill, or with `follow` about
+    /// the equilibrium at that speed; linear bearings by their tables.
+    ///
+    /// # Errors
+    /// No equilibrium at that speed.
+    pub fn tangents(&self, speed: f64, follow: bool) -> Result<Vec<SiteTangent>, Error> {
+        if follow {
+            let found =
+                equilibrium(&self.model, &self.assembly, speed, CageTreatment::Averaged, Some(&self.base.q))?;
+            return Ok(found.tangents());
+        }
+        let tangent = |(element, state): (&BearingElement, _)| match element {
+            BearingElement::Linear(linear) => linear.tangent(speed),
+            BearingElement::Ball(_) => state,
+        };
+        Ok(self.bearings.iter().zip(self.base.tangents()).map(tangent).collect())
+    }
+
+    /// The linear equations at a speed.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::new`].
+    pub fn linear_system(&self, speed: f64) -> Result<LinearSystem, Error> {
+        LinearSystem::new(&self.assembly, &self.tangents(speed, false)?, speed)
+    }
+
+    /// Damped modes at every speed asked for.
+    ///
+    /// # Errors
+    /// An eigenvalue computation that fails.
+    pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, Error> {
+        let at = |&speed: &f64| {
+            let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, study.modes)?;
+            Ok(ModalResult { speed, modes })
+        };
+        study.speeds.iter().map(at).collect()
+    }
+
+    /// Campbell diagram, the crossings of its order lines, and stability thresholds.
+    ///
+    /// # Errors
+    /// As [`campbell::campbell`].
+    pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, Error> {
+        let tangents = |speed| self.tangents(speed, study.follow_bearings);
+        let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
+        let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
+        let thresholds = stability::thresholds(&self.assembly, &diagram, &tangents)?;
+        Ok(CampbellResult { diagram, orders: self.order_lines(&study.orders), crossings, thresholds })
+    }
+
+    /// Critical speeds up to a speed, from a Campbell diagram of its own.
+    ///
+    /// # Errors
+    /// As [`campbell::campbell`].
+    pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, Error> {
+        const SPEEDS: usize = 33;
+        const MODES: usize = 12;
+        let speeds: Vec<f64> =
+            (0..SPEEDS).map(|k| study.max_speed * k as f64 / (SPEEDS - 1) as f64).collect();
+        let tangents = |speed| self.tangents(speed, false);
+        let diagram: Campbell = campbell::campbell(&self.assembly, &speeds, MODES, &tangents)?;
+        let mut speeds = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
+        // The crossing at standstill of a motion at 0 Hz is none.
+        speeds.retain(|c| c.speed > 0.0);
+        Ok(CriticalResult { max_speed: study.max_speed, speeds })
+    }
+
+    /// Frequency response functions at a speed.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, Error> {
+        let system = self.linear_system(study.speed)?;
+        let row = |at: &Anchor, direction| self.assembly.direction_row(at, direction);
+        let excitations: Vec<_> = study.excitations.iter().map(|e| row(&e.at, &e.direction)).collect();
+        let responses: Vec<_> = study.responses.iter().map(|p| row(&p.at, &p.direction)).collect();
+        let (f, q) = (&study.frequencies, study.quantity);
+        Ok(FrfResult {
+            speed: study.speed,
+            excitations: study.excitations.iter().map(|e| e.name.clone()).collect(),
+            responses: study.responses.iter().map(|p| p.name.clone()).collect(),
+            frf: frf::frf(&self.assembly, &system, f, &excitations, &responses, q)?,
+        })
+    }
+
+    /// Steady unbalance response over speed.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, Error> {
+        let tangents = |speed| self.tangents(speed, false);
+        let response = unbalance::response(&self.assembly, &study.speeds, &tangents)?;
+        let plain = |values: Vec<Complex64>| values.iter().map(|v| [v.re, v.im]).collect();
+        let channels = study
+            .responses
+            .iter()
+            .map(|probe| {
+                let row = self.assembly.direction_row(&probe.at, &probe.direction);
+                let amplitude = plain(response.at(&row, probe.quantity));
+                UnbalanceChannel { probe: probe.clone(), amplitude }
+            })
+            .collect();
+        let orbits = self
+            .model
+            .discs
+            .iter()
+            .map(|disc| {
+                let [x, y, ..] = self.assembly.anchor_rows(&Anchor::node(disc.node));
+                let along = |row| plain(response.at(row, crate::model::Quantity::Displacement));
+                DiscOrbit { name: disc.name.clone(), x: along(&x), y: along(&y) }
+            })
+            .collect();
+        Ok(UnbalanceResult { response, channels, orbits })
+    }
+
+    /// The reduced model of a run-up, about the equilibrium at the cage angles of the model.
+    ///
+    /// # Errors
+    /// No equilibrium, or no modes.
+    pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, Error> {
+        let start = equilibrium(
+            &self.model,
+            &self.assembly,
+            self.model.profile.curve().at(0.0).speed,
+            CageTreatment::AsPlaced,
+            Some(&self.base.q),
+        )?;
+        reduce(&self.model, &self.assembly, &start, study.cutoff)
+    }
+
+    /// Runs the reduced model through the speed profile; `observe` sees every sample as it comes.
+    pub fn run_up(
+        &self,
+        study: &RunUpStudy,
+        reduction: &Reduction,
+        observe: impl FnMut(&Sample) -> ControlFlow<()>,
+    ) -> Report {
+        let start = if study.from_equilibrium { 1.0 } else { 0.0 };
+        let x = &reduction.equilibrium * start;
+        let v = &reduction.equilibrium * 0.0;
+        let state = reduction.system.initial_state(x, v);
+        let settings = Settings {
+            integrator: study.integrator,
+            step: study.step,
+            sample_rate: study.sample_rate,
+            duration: self.model.profile.duration(),
+        };
+        run(&reduction.system, state, &settings, observe)
+    }
+
+    /// Order lines with the names a user would give them: a multiple of a bearing's order by its name.
+    pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
+        let mut known: Vec<(String, f64)> = Vec::new();
+        for site in &self.model.bearings {
+            if let Bearing::Ball(ball) = &site.bearing {
+                let c = ball.geometry.orders(ball.geometry.contact_angle);
+                let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
+                known.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
+            }
+        }
+        orders
+            .iter()
+            .map(|&order| {
+                let multiple = |base: f64| {
+                    let n = (order / base).round();
+                    (n >= 1.0 && (order / base - n).abs() < 1e-6 * n).then_some(n)
+                };
+                // Whole orders are the shaft's, whatever a bearing's ratio.
+                let bearing = known.iter().find_map(|(name, base)| {
+                    let n = multiple(*base).filter(|n| *n <= 5.0 && multiple(1.0).is_none())?;
+                    Some(if n == 1.0 { name.clone() } else { format!("{n} {name}") })
+                });
+                OrderLine {
+                    label: bearing.clone().unwrap_or_else(|| format!("{order}x")),
+                    order,
+                    bearing: bearing.is_some(),
+                }
+            })
+            .collect()
+    }
+}
