@@ -8,6 +8,9 @@ pub enum Error {
     /// The physics has no answer here: item, speed, time, iteration and residual as far as known.
     #[error("{0}")]
     Physics(#[from] PhysicsError),
+    /// A record or setting that a signal function cannot work with.
+    #[error(transparent)]
+    Signal(#[from] crate::signal::SignalError),
     /// A file or folder did not obey.
     #[error("{operation} {}: {source}", path.display())]
     Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },

@@ -1,14 +1,15 @@
 //! What the studies of a model give: plain data, as computed, in SI.
 
+use crate::analysis::Mode;
 use crate::analysis::campbell::Campbell;
 use crate::analysis::critical_speed::CriticalSpeed;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::analysis::frf::Frf;
 use crate::analysis::stability::Threshold;
 use crate::analysis::unbalance::UnbalanceResponse;
-use crate::analysis::Mode;
 use crate::model::{Probe, Quantity};
-use crate::signal::{OrderCut, OrderSpectrogram, Spectrogram};
+use crate::signal::order::{OrderCut, OrderSpectrogram};
+use crate::signal::stft::Spectrogram;
 use crate::transient::run::Report;
 
 /// Everything computed from one model; a study that was not asked for is empty.

@@ -7,7 +7,7 @@ use crate::linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 
 /// Shift of the eigenvalue search \[rad/s\], below any natural frequency of interest.
-const SHIFT: f64 = 30.0;
+pub const SHIFT: f64 = 30.0;
 
 /// One oscillatory mode, q(t) = Re(φ e^{λt}).
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,10 @@
 //! The studies: from a model to its results, one method each.
 
+mod record;
+mod tracking;
+
+pub use record::Recorder;
+
 use std::ops::ControlFlow;
 
 use crate::analysis::campbell::{self, Campbell};
@@ -9,12 +14,12 @@ use crate::analysis::{frf, modal, stability, unbalance};
 use crate::assembly::{Assembly, LinearSystem};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
 use crate::element::Anchor;
-use crate::error::Error;
-use crate::linalg::Complex64;
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{Complex64, SparseMatrix, krylov};
+use crate::model::Model;
 use crate::model::study::{
     CampbellStudy, CriticalStudy, EquilibriumStudy, FrfStudy, ModalStudy, RunUpStudy, UnbalanceStudy,
 };
-use crate::model::Model;
 use crate::results::{
     CampbellResult, CriticalResult, DiscOrbit, FrfResult, ModalResult, OrderLine, UnbalanceChannel,
     UnbalanceResult,
@@ -180,6 +185,33 @@ impl Machine {
             Some(&self.base.q),
         )?;
         reduce(&self.model, &self.assembly, &start, study.cutoff)
+    }
+
+    /// Largest relative difference of damped frequencies up to half the cutoff, reduced against full, at a speed.
+    ///
+    /// # Errors
+    /// An eigenvalue computation that fails.
+    pub fn reduction_error(&self, reduction: &Reduction, cutoff: f64, speed: f64) -> Result<f64, Error> {
+        const MODES: usize = 24;
+        let full = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
+        let basis = &reduction.basis;
+        let system = self.linear_system(speed)?;
+        let project =
+            |m: &SparseMatrix| SparseMatrix::from_dense(&(basis.transpose() * m.to_dense() * basis));
+        let (m, c, k) = (project(&system.mass), project(&system.damping), project(&system.stiffness));
+        let count = MODES.min(basis.ncols());
+        let reduced = krylov::lowest(&m, &c, &k, count, modal::SHIFT)
+            .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
+        let limit = std::f64::consts::PI * cutoff;
+        Ok(full
+            .iter()
+            .filter(|mode| mode.omega() < limit)
+            .map(|mode| {
+                let nearest =
+                    reduced.iter().map(|r| (r.value - mode.eigenvalue).norm()).fold(f64::INFINITY, f64::min);
+                nearest / mode.natural()
+            })
+            .fold(0.0, f64::max))
     }
 
     /// Runs the reduced model through the speed profile; `observe` sees every sample as it comes.

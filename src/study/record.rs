@@ -1,0 +1,110 @@
+//! Records a transient run: probes, bearing forces, cage angles, energies.
+
+use crate::model::{Model, Probe, Quantity};
+use crate::results::{History, HistoryChannel, unit_of};
+use crate::transient::run::Sample;
+use crate::transient::system::System;
+
+/// Collects the samples of a run, channel by channel.
+pub struct Recorder {
+    pub history: History,
+    row: Vec<f64>,
+}
+
+impl Recorder {
+    /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage angle;
+    /// energies of the account.
+    pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
+        let mut channels: Vec<HistoryChannel> = model.probes.iter().map(|p| describe(model, p)).collect();
+        let plain =
+            |name: String, unit: &str, quantity: &str, station: &str, direction: &str| HistoryChannel {
+                name,
+                unit: unit.into(),
+                quantity: quantity.into(),
+                station: station.into(),
+                direction: direction.into(),
+                values: Vec::new(),
+            };
+        for interface in &system.interfaces {
+            let site = &interface.name;
+            for axis in ["x", "y", "z"] {
+                channels.push(plain(format!("{site}_force_{axis}"), "N", "force", site, axis));
+            }
+            channels.push(plain(format!("{site}_cage_angle"), "rad", "angle", site, "cage"));
+        }
+        for name in ENERGIES {
+            channels.push(plain(format!("energy_{name}"), "J", "energy", "machine", ""));
+        }
+        Self {
+            row: Vec::with_capacity(channels.len()),
+            history: History { sample_rate, channels, ..History::default() },
+        }
+    }
+
+    /// Takes one sample; returns its values in the order of the channels.
+    pub fn take(&mut self, sample: &Sample) -> &[f64] {
+        let state = sample.state;
+        self.row.clear();
+        self.row.extend_from_slice(sample.channels);
+        for (reaction, rotation) in state.reactions.iter().zip(&state.rotations) {
+            self.row.extend_from_slice(&reaction.force[..3]);
+            self.row.push(rotation.cage_angle);
+        }
+        let e = sample.energy;
+        self.row.extend([
+            e.kinetic,
+            e.strain,
+            e.contact,
+            e.work,
+            e.parametric,
+            e.damping_loss,
+            e.contact_loss,
+            e.residual(),
+        ]);
+        self.history.time.push(state.time);
+        self.history.angle.push(state.spin.angle);
+        self.history.speed.push(state.spin.speed);
+        for (channel, value) in self.history.channels.iter_mut().zip(&self.row) {
+            channel.values.push(*value);
+        }
+        &self.row
+    }
+}
+
+const ENERGIES: [&str; 8] =
+    ["kinetic", "strain", "contact", "work", "parametric", "damping_loss", "contact_loss", "residual"];
+
+/// Name, unit, place and direction of a probe.
+fn describe(model: &Model, probe: &Probe) -> HistoryChannel {
+    let rotation = probe.direction[3..].iter().any(|d| *d != 0.0);
+    let names = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];
+    let single = (0..6)
+        .find(|&k| probe.direction[k] == 1.0 && probe.direction.iter().filter(|d| **d != 0.0).count() == 1);
+    let direction = match single {
+        Some(k) => names[k].to_string(),
+        None => format!("{:?}", probe.direction),
+    };
+    let shaft_nodes = model.node_z.len();
+    let station = match probe.at.node {
+        None => "ground".to_string(),
+        Some(node) if node >= shaft_nodes => model.bodies[node - shaft_nodes].name.clone(),
+        Some(node) => model
+            .stations
+            .iter()
+            .find(|s| s.node == node)
+            .map_or_else(|| format!("z = {} m", model.node_z[node]), |s| s.name.clone()),
+    };
+    let quantity = match probe.quantity {
+        Quantity::Displacement => "displacement",
+        Quantity::Velocity => "velocity",
+        Quantity::Acceleration => "acceleration",
+    };
+    HistoryChannel {
+        name: probe.name.clone(),
+        unit: unit_of(probe.quantity, rotation).into(),
+        quantity: quantity.into(),
+        station,
+        direction,
+        values: Vec::new(),
+    }
+}

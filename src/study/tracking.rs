@@ -1,0 +1,93 @@
+//! Spectrograms and order analyses of a recorded run.
+
+use super::Machine;
+use crate::error::Error;
+use crate::model::study::{OrderStudy, SpectrogramStudy};
+use crate::results::{History, HistoryChannel, OrderResult, SpectrogramResult};
+use crate::signal::order::{OrderSettings, OrderTracker};
+use crate::signal::stft::{Stft, StftSettings};
+
+/// Half width of an order cut's band: what a Hann window's main lobe needs at the resolution.
+const CUT_BINS: f64 = 2.0;
+
+impl Machine {
+    /// Spectrograms of the channels asked for, up to the frequency asked for, with the speed at every frame.
+    ///
+    /// # Errors
+    /// A record too short for the window, or settings that make no sense.
+    pub fn spectrograms(
+        &self,
+        study: &SpectrogramStudy,
+        history: &History,
+    ) -> Result<Vec<SpectrogramResult>, Error> {
+        let rate = history.sample_rate;
+        let length = (study.length * rate).round() as usize;
+        let settings = StftSettings::new(study.window, length, study.overlap)?;
+        let mut stft = Stft::new(settings, rate)?;
+        let orders = self.order_lines(&study.orders);
+        chosen(&study.channels, history)
+            .map(|channel| {
+                let mut spectrogram = stft.spectrogram(&channel.values)?;
+                let speed = spectrogram.speed_at_frames(&history.speed, rate)?;
+                crop(&mut spectrogram.amplitude, &mut spectrogram.frequencies, study.max_frequency);
+                Ok(SpectrogramResult {
+                    channel: channel.name.clone(),
+                    unit: channel.unit.clone(),
+                    spectrogram,
+                    speed,
+                    orders: orders.clone(),
+                })
+            })
+            .collect()
+    }
+
+    /// Order spectrograms and cuts of the channels asked for.
+    ///
+    /// # Errors
+    /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order.
+    pub fn orders(&self, study: &OrderStudy, history: &History) -> Result<Vec<OrderResult>, Error> {
+        let settings = OrderSettings {
+            overlap: study.overlap,
+            window: study.window,
+            ..OrderSettings::new(study.resolution, study.max_order)
+        };
+        let mut tracker = OrderTracker::new(&history.angle, history.sample_rate, settings)?;
+        let lines = self.order_lines(&study.cuts);
+        chosen(&study.channels, history)
+            .map(|channel| {
+                let records = tracker.resample(&[&channel.values])?;
+                let spectrogram = tracker.spectrogram(&records[0]);
+                let cut = |line: &crate::results::OrderLine| {
+                    let cut = spectrogram.cut(line.order, CUT_BINS * study.resolution)?;
+                    Ok((line.clone(), cut))
+                };
+                let cuts = lines.iter().map(cut).collect::<Result<_, Error>>()?;
+                Ok(OrderResult {
+                    channel: channel.name.clone(),
+                    unit: channel.unit.clone(),
+                    spectrogram,
+                    cuts,
+                })
+            })
+            .collect()
+    }
+}
+
+/// The named channels; with no name given, everything that vibrates (no energies, no angles).
+fn chosen<'a>(names: &'a [String], history: &'a History) -> impl Iterator<Item = &'a HistoryChannel> {
+    history.channels.iter().filter(move |c| {
+        if names.is_empty() {
+            ["displacement", "velocity", "acceleration"].contains(&c.quantity.as_str())
+        } else {
+            names.contains(&c.name)
+        }
+    })
+}
+
+/// Drops the columns beyond a frequency.
+fn crop(amplitude: &mut Vec<f64>, frequencies: &mut Vec<f64>, limit: f64) {
+    let bins = frequencies.len();
+    let kept = frequencies.partition_point(|f| *f <= limit).max(1);
+    *amplitude = amplitude.chunks_exact(bins).flat_map(|row| row[..kept].iter().copied()).collect();
+    frequencies.truncate(kept);
+}
