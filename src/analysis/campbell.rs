@@ -15,7 +15,7 @@ const SURE: f64 = 0.7;
 /// Below this MAC a branch is lost.
 const LOST: f64 = 0.2;
 /// Halvings of a step.
-const DEPTH: usize = 5;
+const DEPTH: usize = 4;
 
 /// The bearings' tangents at a speed.
 pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync {}
@@ -62,22 +62,20 @@ pub fn campbell(
 ) -> Result<Campbell, Error> {
     let tracker = Tracker { assembly, tangents, count: count + SPARE };
     let sets: Vec<Vec<Mode>> = speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, Error>>()?;
-    let links: Vec<Vec<Option<usize>>> = (1..speeds.len())
-        .into_par_iter()
-        .map(|k| tracker.join((speeds[k - 1], &sets[k - 1]), (speeds[k], &sets[k]), DEPTH))
-        .collect::<Result<_, Error>>()?;
-
-    let starts = sets.first().map_or(0, |set| set.len().min(count));
-    let mut branches: Vec<Branch> = (0..starts)
-        .map(|start| {
-            let mut at = Some(start);
-            let mut modes = Vec::with_capacity(sets.len());
-            for (k, set) in sets.iter().enumerate() {
-                if k > 0 {
-                    at = at.and_then(|i| links[k - 1][i]);
-                }
-                modes.push(at.map(|i| set[i].clone()));
-            }
+    // The mode of every branch at the current speed, by its place in the list there.
+    let mut at: Vec<Option<usize>> =
+        (0..sets.first().map_or(0, |set| set.len().min(count))).map(Some).collect();
+    let mut paths: Vec<Vec<Option<usize>>> = vec![at.clone()];
+    for k in 1..speeds.len() {
+        let (a, b) = ((speeds[k - 1], sets[k - 1].as_slice()), (speeds[k], sets[k].as_slice()));
+        let links = tracker.join(a, b, &at, DEPTH)?;
+        at.iter_mut().for_each(|i| *i = i.and_then(|i| links[i]));
+        paths.push(at.clone());
+    }
+    let mut branches: Vec<Branch> = (0..at.len())
+        .map(|branch| {
+            let modes: Vec<Option<Mode>> =
+                paths.iter().zip(&sets).map(|(path, set)| path[branch].map(|i| set[i].clone())).collect();
             let last = modes.iter().flatten().next_back();
             let (label, kind) = last.map_or((String::new(), ModeKind::Mixed), |m| (m.label.clone(), m.kind));
             Branch { label, kind, modes }
@@ -111,20 +109,25 @@ impl<T: Tangents> Tracker<'_, T> {
         modal::modes(self.assembly, &system, self.count)
     }
 
-    /// For every mode of `a` its continuation among those of `b`.
-    fn join(&self, a: (f64, &[Mode]), b: (f64, &[Mode]), depth: usize) -> Result<Vec<Option<usize>>, Error> {
+    /// For every mode of `a` its continuation among those of `b`; those in `followed` must be beyond doubt.
+    fn join(
+        &self,
+        a: (f64, &[Mode]),
+        b: (f64, &[Mode]),
+        followed: &[Option<usize>],
+        depth: usize,
+    ) -> Result<Vec<Option<usize>>, Error> {
         let mac = self.mac(a.1, b.1);
         let links = assign(&mac);
-        // Modes at the upper end may really have left the list; only the others must be sure.
-        let known = a.1.len().saturating_sub(SPARE / 2);
-        let doubtful = (0..known).any(|i| links[i].is_none_or(|j| mac[i][j] < SURE));
-        if !doubtful || depth == 0 {
+        let doubtful = |i: usize| links[i].is_none_or(|j| mac[i][j] < SURE);
+        if depth == 0 || !followed.iter().flatten().any(|&i| doubtful(i)) {
             return Ok(links);
         }
         let speed = 0.5 * (a.0 + b.0);
         let middle = self.modes(speed)?;
-        let first = self.join(a, (speed, &middle), depth - 1)?;
-        let second = self.join((speed, &middle), b, depth - 1)?;
+        let first = self.join(a, (speed, &middle), followed, depth - 1)?;
+        let half_way: Vec<Option<usize>> = followed.iter().map(|i| i.and_then(|i| first[i])).collect();
+        let second = self.join((speed, &middle), b, &half_way, depth - 1)?;
         Ok(first.into_iter().map(|i| i.and_then(|i| second[i])).collect())
     }
 

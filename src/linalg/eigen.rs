@@ -36,6 +36,85 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     Ok((values, vectors))
 }
 
+/// Eigenpairs with Im θ ≥ 0 of a small real matrix, in no given order; of a conjugate pair the other is the conjugate.
+///
+/// By the real Schur form A = Q T Qᵀ of nalgebra, several times as fast as faer's below a hundred rows.
+///
+/// # Errors
+/// No convergence, or entries that are not finite.
+pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
+    if a.iter().any(|v| !v.is_finite()) {
+        return Err(EigenError::NotFinite);
+    }
+    let n = a.nrows();
+    let schur =
+        nalgebra::Schur::try_new(a.clone(), f64::EPSILON, 100 * n).ok_or(EigenError::NoConvergence)?;
+    let (q, t) = schur.unpack();
+    let mut pairs = Vec::with_capacity(n);
+    let mut k = 0;
+    while k < n {
+        let paired = k + 1 < n && t[(k + 1, k)] != 0.0;
+        let mut y = vec![Complex64::default(); n];
+        let value;
+        if paired {
+            // [a b; c d] has θ = m ± √(m² − ad + bc), m = (a + d)/2, and the eigenvector (b, θ − a).
+            let (a, b, c, d) = (t[(k, k)], t[(k, k + 1)], t[(k + 1, k)], t[(k + 1, k + 1)]);
+            let root = Complex64::new(0.25 * (a - d) * (a - d) + b * c, 0.0).sqrt();
+            value = 0.5 * (a + d) + root;
+            (y[k], y[k + 1]) = if b != 0.0 { (b.into(), value - a) } else { (value - d, c.into()) };
+            if root.im == 0.0 {
+                // Two real values in one block: this is one of them, and here comes the other.
+                let other = 0.5 * (a + d) - root;
+                let mut z = vec![Complex64::default(); n];
+                (z[k], z[k + 1]) = if b != 0.0 { (b.into(), other - a) } else { (other - d, c.into()) };
+                back_substitute(&t, other, k, &mut z);
+                pairs.push((other, turned(&q, &z)));
+            }
+        } else {
+            value = t[(k, k)].into();
+            y[k] = 1.0.into();
+        }
+        back_substitute(&t, value, k, &mut y);
+        pairs.push((value, turned(&q, &y)));
+        k += if paired { 2 } else { 1 };
+    }
+    Ok(pairs)
+}
+
+/// Fills y above row k so that (T − θ) y = 0, T upper triangular but for 2×2 blocks.
+fn back_substitute(t: &DMatrix<f64>, value: Complex64, k: usize, y: &mut [Complex64]) {
+    let n = t.nrows();
+    let smallest = f64::EPSILON * t.amax();
+    // A multiple eigenvalue would divide by zero; LAPACK nudges it likewise.
+    let safe = |v: Complex64| if v.norm() < smallest { smallest.into() } else { v };
+    let mut i = k;
+    while i > 0 {
+        i -= 1;
+        let load = |row: usize, from: usize| (from..n).map(|j| y[j] * t[(row, j)]).sum::<Complex64>();
+        if i > 0 && t[(i, i - 1)] != 0.0 {
+            let (f, g) = (load(i - 1, i + 1), load(i, i + 1));
+            let (a, d) = (t[(i - 1, i - 1)] - value, t[(i, i)] - value);
+            let (b, c) = (t[(i - 1, i)], t[(i, i - 1)]);
+            let det = safe(a * d - b * c);
+            (y[i - 1], y[i]) = ((g * b - f * d) / det, (f * c - g * a) / det);
+            i -= 1;
+        } else {
+            y[i] = -load(i, i + 1) / safe(t[(i, i)] - value);
+        }
+    }
+}
+
+/// Q y.
+fn turned(q: &DMatrix<f64>, y: &[Complex64]) -> Vec<Complex64> {
+    let mut out = vec![Complex64::default(); q.nrows()];
+    for (column, y) in q.column_iter().zip(y) {
+        for (o, q) in out.iter_mut().zip(column.iter()) {
+            *o += y * *q;
+        }
+    }
+    out
+}
+
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a real symmetric matrix.
 ///
 /// # Errors

@@ -1,17 +1,18 @@
 //! The lowest eigenvalues of the quadratic problem by shift and invert.
 //!
-//! A block Arnoldi process in real arithmetic about a small real shift σ. Unknowns that nothing
-//! couples are solved group by group, and blocks of two find the double eigenvalues of an
-//! axisymmetric rotor at rest.
+//! An Arnoldi process in real arithmetic about a small real shift σ. Unknowns that nothing couples are
+//! solved group by group. Without gyroscopic effect it works on blocks of two, which find the double eigenvalues
+//! of an axisymmetric rotor at rest; rotation parts them.
 
 use super::eigen::{self, EigenError};
 use super::{BandLayout, Complex64, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
 
-/// Vectors per block: a double eigenvalue needs two.
-const BLOCK: usize = 2;
 /// Residual of an accepted Ritz pair relative to its value.
 const TOLERANCE: f64 = 1e-11;
+/// Ritz pairs that are no nearer than this stand for nothing (the operator is far from normal); those on their way
+/// to a true eigenvalue are nearer long before higher ones have converged.
+const SPURIOUS: f64 = 1e-3;
 /// Below this many unknowns the dense solver is as fast.
 const DENSE_BELOW: usize = 24;
 
@@ -26,8 +27,8 @@ pub struct QuadraticPair {
     pub group: usize,
 }
 
-/// The oscillatory eigenpairs (Im λ > 0) of lowest |λ|: at least `count` of every group of coupled
-/// unknowns where it has so many, sorted by |λ|.
+/// The oscillatory eigenpairs (Im λ > 0) of lowest |λ|, sorted by |λ|: the first `count` without a gap, if there
+/// are so many, and what was found beyond.
 ///
 /// `shift` σ \[1/s\] > 0 should lie below the lowest frequency; eigenvalues with |λ| < 1e-3 σ are rigid-body
 /// motion and left out, as are overdamped ones.
@@ -42,26 +43,33 @@ pub fn lowest(
     shift: f64,
 ) -> Result<Vec<QuadraticPair>, EigenError> {
     let layout = BandLayout::new(&[m, c, k]);
-    let mut pairs = Vec::new();
-    for (group, unknowns) in layout.groups().enumerate() {
+    let mut groups: Vec<(usize, &[usize])> = layout.groups().enumerate().collect();
+    groups.sort_by_key(|(_, unknowns)| std::cmp::Reverse(unknowns.len()));
+    let mut pairs: Vec<QuadraticPair> = Vec::new();
+    for (group, unknowns) in groups {
+        // Of a further group only what lies below the best so far is of use.
+        let limit = pairs.get(count.max(1) - 1).map_or(f64::INFINITY, |p| p.value.norm());
         let [m, c, k] = [m, c, k].map(|a| restrict(a, unknowns));
-        let found = if unknowns.len() <= DENSE_BELOW.max(2 * count) {
+        let found = if unknowns.len() <= DENSE_BELOW {
             eigen::quadratic(&m.to_dense(), &c.to_dense(), &k.to_dense())?
         } else {
-            arnoldi(&m, &c, &k, count, shift)?
+            arnoldi(&m, &c, &k, Wanted { count, limit, shift })?
         };
-        for (value, part) in found {
-            if value.im > 1e-6 * value.norm() && value.norm() > 1e-3 * shift {
-                let mut vector = vec![Complex64::default(); layout.size()];
-                for (&i, v) in unknowns.iter().zip(part) {
-                    vector[i] = v;
-                }
-                pairs.push(QuadraticPair { value, vector, group });
+        for (value, part) in found.into_iter().filter(|(value, _)| oscillatory(*value, shift)) {
+            let mut vector = vec![Complex64::default(); layout.size()];
+            for (&i, v) in unknowns.iter().zip(part) {
+                vector[i] = v;
             }
+            pairs.push(QuadraticPair { value, vector, group });
         }
+        pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));
     }
-    pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));
     Ok(pairs)
+}
+
+/// Whether λ is an oscillation, one of the conjugate pair, and no rigid-body motion.
+fn oscillatory(value: Complex64, shift: f64) -> bool {
+    value.im > 1e-6 * value.norm() && value.norm() > 1e-3 * shift
 }
 
 /// The rows and columns of a group of unknowns.
@@ -83,64 +91,72 @@ fn restrict(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
 
 type Pairs = Vec<(Complex64, Vec<Complex64>)>;
 
-/// Eigenpairs of lowest |λ − σ| of one group, at least `count` oscillatory ones.
+/// What is asked of a group: `count` oscillatory pairs, or all up to |λ| = `limit`.
+#[derive(Clone, Copy)]
+struct Wanted {
+    count: usize,
+    limit: f64,
+    shift: f64,
+}
+
+/// Oscillatory eigenpairs of lowest |λ| of one group.
 fn arnoldi(
     m: &SparseMatrix,
     c: &SparseMatrix,
     k: &SparseMatrix,
-    count: usize,
-    shift: f64,
+    wanted: Wanted,
 ) -> Result<Pairs, EigenError> {
     let n = m.rows();
+    let shift = wanted.shift;
     let damp = SparseMatrix::sum(&[(1.0, c), (shift, m)]);
     let shifted = SparseMatrix::sum(&[(1.0, k), (shift, &damp)]);
     let layout = BandLayout::new(&[&shifted]);
     let lu = layout.factor(layout.scatter(&shifted)).map_err(|_| EigenError::SingularShift)?;
 
-    // State (q, v/s) with v = λ q; s makes the halves of the wanted vectors alike in size.
-    let s = shift;
+    // State (q, v/σ) with v = λ q, which brings the halves of the wanted vectors nearer in size.
     let apply = |x: &[f64]| {
         let (a, b) = x.split_at(n);
         let mut q = vec![0.0; n];
-        m.mul_add(-s, b, &mut q);
+        m.mul_add(-shift, b, &mut q);
         damp.mul_add(-1.0, a, &mut q);
         lu.solve(&mut q);
-        let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| (shift * q + a) / s).collect();
+        let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
         q.extend(v);
         q
     };
 
-    // Basis columns lie one after another; h holds the projection of the operator.
+    // Column j of `columns` holds the image of basis vector j in the basis.
+    let rotating = c.iter().any(|(i, j, v)| i != j && v != c.get(j, i));
+    let block = if rotating { 1 } else { 2 };
     let mut noise = Noise(0x9E37_79B9_7F4A_7C15);
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    for _ in 0..BLOCK {
+    for _ in 0..block {
         let start = apply(&(0..2 * n).map(|_| noise.next()).collect::<Vec<_>>());
         orthonormalise(start, &mut basis, &mut noise);
     }
     let mut columns: Vec<Vec<f64>> = Vec::new();
-    let mut size = 4 * count + 12;
+    let mut size = if wanted.limit.is_finite() { 12 } else { 12 + (2 + block) * wanted.count };
     loop {
-        size = size.min(2 * n - BLOCK);
+        if size >= 2 * n - block {
+            // Nearly the whole space: the dense solver is as fast.
+            return eigen::quadratic(&m.to_dense(), &c.to_dense(), &k.to_dense());
+        }
         while columns.len() < size {
             let image = apply(&basis[columns.len()]);
             columns.push(orthonormalise(image, &mut basis, &mut noise));
         }
-        let ritz = ritz_pairs(&columns, &basis, size, shift)?;
-        if size >= 2 * n - BLOCK {
-            // The whole space is spanned but for a block: let the dense solver say the last word.
-            return eigen::quadratic(&m.to_dense(), &c.to_dense(), &k.to_dense());
+        let mut ritz = ritz_pairs(&columns, &basis, size, shift)?;
+        ritz.retain(|r| r.residual < SPURIOUS);
+        let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
+        let enough = ritz[..converged].iter().filter(|r| oscillatory(r.value, shift)).count() >= wanted.count;
+        // What comes next is known well enough to say that it lies beyond the limit.
+        let beyond = ritz.get(converged).is_some_and(|r| r.value.norm() > 2.0 * wanted.limit);
+        if enough || beyond {
+            ritz.truncate(converged);
+            ritz.retain(|r| oscillatory(r.value, shift));
+            return Ok(ritz.into_iter().map(|r| (r.value, expand(&r.vector, &basis, n))).collect());
         }
-        let good = ritz.iter().take_while(|r| r.residual < TOLERANCE);
-        if good.filter(|r| r.value.im > 1e-6 * r.value.norm() && r.value.norm() > 1e-3 * shift).count()
-            >= count
-        {
-            return Ok(ritz
-                .into_iter()
-                .take_while(|r| r.residual < TOLERANCE)
-                .map(|r| (r.value, expand(&r.vector, &basis, n)))
-                .collect());
-        }
-        size += 8;
+        size += 8 + size / 8;
     }
 }
 
@@ -151,7 +167,7 @@ struct Ritz {
     residual: f64,
 }
 
-/// Ritz pairs of the projected operator, lowest |λ| first.
+/// Ritz pairs of the projected operator with Im λ ≥ 0, lowest |λ| first.
 fn ritz_pairs(
     columns: &[Vec<f64>],
     basis: &[Vec<f64>],
@@ -159,23 +175,20 @@ fn ritz_pairs(
     shift: f64,
 ) -> Result<Vec<Ritz>, EigenError> {
     let h = DMatrix::from_fn(basis.len(), size, |i, j| columns[j].get(i).copied().unwrap_or(0.0));
-    let (values, vectors) = eigen::general(&h.rows(0, size).into_owned())?;
     let rest = h.rows(size, basis.len() - size);
-    let mut ritz: Vec<Ritz> = values
-        .iter()
-        .enumerate()
-        .filter(|(_, theta)| theta.norm() > 0.0)
-        .map(|(j, theta)| {
-            let y = vectors.column(j);
-            let left: f64 = rest
-                .row_iter()
-                .map(|r| r.iter().zip(y.iter()).map(|(h, y)| y * *h).sum::<Complex64>().norm_sqr())
-                .sum();
+    let mut ritz: Vec<Ritz> = eigen::general_small(&h.rows(0, size).into_owned())?
+        .into_iter()
+        .filter(|(theta, _)| theta.norm() > 0.0)
+        .map(|(theta, y)| {
+            let image =
+                |r: nalgebra::RowDVector<f64>| r.iter().zip(&y).map(|(h, y)| y * *h).sum::<Complex64>();
+            let left: f64 = rest.row_iter().map(|r| image(r.into_owned()).norm_sqr()).sum();
             let size: f64 = y.iter().map(|v| v.norm_sqr()).sum();
+            // θ = 1/(λ − σ) has Im θ < 0 where Im λ > 0; of a conjugate pair the one with Im θ > 0 is given.
             Ritz {
-                value: theta.inv() + shift,
-                vector: y.iter().copied().collect(),
+                value: theta.conj().inv() + shift,
                 residual: (left / size).sqrt() / theta.norm(),
+                vector: y.into_iter().map(|v| v.conj()).collect(),
             }
         })
         .collect();

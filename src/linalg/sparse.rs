@@ -1,7 +1,6 @@
 //! Sparse matrices: triplets to assemble into, compressed columns to compute with.
 
 use nalgebra::DMatrix;
-use std::collections::BTreeMap;
 
 /// Matrix under assembly: entries at the same place add up.
 #[derive(Clone, Debug, Default)]
@@ -188,17 +187,24 @@ impl SparseMatrix {
     pub fn sum(terms: &[(f64, &SparseMatrix)]) -> SparseMatrix {
         let (rows, cols) = terms.first().map_or((0, 0), |(_, a)| (a.rows(), a.cols()));
         let mut out = SparseMatrix::zeros(rows, cols);
-        let mut column = BTreeMap::new();
+        let (mut column, mut touched) = (vec![0.0; rows], Vec::new());
+        let mut seen = vec![usize::MAX; rows];
         let mut columns = Vec::new();
         for j in 0..cols {
             for (factor, matrix) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
                 for (i, v) in matrix.column(j) {
-                    *column.entry(i).or_insert(0.0) += factor * v;
+                    if seen[i] != j {
+                        seen[i] = j;
+                        column[i] = 0.0;
+                        touched.push(i);
+                    }
+                    column[i] += factor * v;
                 }
             }
-            while let Some((i, v)) = column.pop_first() {
+            touched.sort_unstable();
+            for i in touched.drain(..) {
                 out.row_index.push(i);
-                out.values.push(v);
+                out.values.push(column[i]);
                 columns.push(j);
             }
         }

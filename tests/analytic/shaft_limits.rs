@@ -1,7 +1,7 @@
 //! Limits of the shaft's terms that a closed form knows: internal damping, acceleration, torque, free motions.
 
 use crate::machine::{disc, element, shaft};
-use rotordyn::analysis::{campbell::campbell, stability::thresholds};
+use rotordyn::analysis::{campbell::campbell, modal, stability::thresholds};
 use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
 use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
 use rotordyn::model::{Drive, Model};
@@ -165,4 +165,21 @@ fn free_motions_are_named() {
     assert_eq!(name(&model), ["axial motion of the shaft (u_z)"]);
     model.joints[0].locked[5] = false;
     assert_eq!(name(&model), ["axial motion of the shaft (u_z)", "rotation of the shaft about z (θ_z)"]);
+}
+
+/// Modal damping as measured comes out of the complex eigenvalues as it went in.
+#[test]
+fn modal_damping_is_what_was_measured() {
+    let mut model = shaft(vec![element(0.1, 0.03, 0.03); 8]);
+    pinned(&mut model);
+    model.damping.modal = vec![[100.0, 0.01], [500.0, 0.03]];
+    let assembly = Assembly::new(&model).unwrap();
+    let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
+    let modes = modal::modes(&assembly, &system, 6).unwrap();
+    assert_eq!(modes.len(), 6);
+    for mode in &modes {
+        let hz = mode.natural() / std::f64::consts::TAU;
+        let expected = 0.01 + 0.02 * ((hz - 100.0) / 400.0).clamp(0.0, 1.0);
+        assert!((mode.zeta() / expected - 1.0).abs() < 1e-6, "{hz} Hz: {} {expected}", mode.zeta());
+    }
 }
