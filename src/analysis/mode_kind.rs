@@ -5,19 +5,19 @@ use crate::assembly::Assembly;
 use crate::linalg::Complex64;
 use std::collections::HashMap;
 
-/// A node whirls in a straight line when its whirl is smaller than this.
+/// A mode is plane when its orbits enclose less than this share of the area of circles.
 const PLANAR: f64 = 0.01;
-/// Nodes that move less than this share of the largest orbit do not vote on the whirl.
-const QUIET: f64 = 0.05;
+/// A mode is mixed when the nodes that whirl against the others enclose more than this share of all area.
+const MIXED: f64 = 0.05;
 
 /// Kind of a mode, by energy and orbit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ModeKind {
-    /// Bending, every node whirls with the spin (x towards y).
+    /// Bending, the shaft whirls with the spin (x towards y), but for 5 % of the orbits' area at most.
     Forward,
-    /// Bending, every node whirls against the spin.
+    /// Bending, the shaft whirls against the spin, likewise.
     Backward,
-    /// Bending, some nodes forward and some backward.
+    /// Bending, part of the shaft forward and part backward.
     Mixed,
     /// Bending in a plane, mostly along x.
     PlaneX,
@@ -158,15 +158,22 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
     if top == bodies {
         return ModeKind::Body;
     }
-    let size: Vec<f64> = shaft.chunks(6).map(|n| (n[0].norm_sqr() + n[1].norm_sqr()).sqrt()).collect();
-    let largest = size.iter().fold(0.0, |m: f64, v| m.max(*v));
-    let votes = || size.iter().zip(whirl).filter(|(s, _)| **s > QUIET * largest).map(|(_, w)| *w);
-    match (votes().any(|w| w > PLANAR), votes().any(|w| w < -PLANAR)) {
-        (true, true) => ModeKind::Mixed,
-        (true, false) => ModeKind::Forward,
-        (false, true) => ModeKind::Backward,
-        (false, false) if energy.bending_x >= energy.bending_y => ModeKind::PlaneX,
-        (false, false) => ModeKind::PlaneY,
+    let (mut forward, mut backward, mut circles) = (0.0, 0.0, 0.0);
+    for (node, whirl) in shaft.chunks(6).zip(whirl) {
+        let circle = node[0].norm_sqr() + node[1].norm_sqr();
+        circles += circle;
+        forward += circle * whirl.max(0.0);
+        backward -= circle * whirl.min(0.0);
+    }
+    let area: f64 = forward + backward;
+    if area < PLANAR * circles {
+        if energy.bending_x >= energy.bending_y { ModeKind::PlaneX } else { ModeKind::PlaneY }
+    } else if forward.min(backward) > MIXED * area {
+        ModeKind::Mixed
+    } else if forward > backward {
+        ModeKind::Forward
+    } else {
+        ModeKind::Backward
     }
 }
 
