@@ -6,6 +6,7 @@ mod rig;
 mod ross;
 
 mod cakmak_2010;
+mod cakmak_2010_modes;
 mod nelson_mcvaugh_1976;
 mod ross_critical;
 mod ross_elements;
