@@ -61,7 +61,7 @@ impl ShaftElement {
     /// Shear coefficient κ, with ν = E/2G − 1 and m the ratio of mean diameters; `None` when rigid in shear.
     ///
     /// Cowper 1966: κ = 6(1+ν)(1+m²)² / ((7+6ν)(1+m²)² + (20+12ν)m²).
-    /// Hutchinson 2001: κ = 6(1+ν)²(1+m²)² / ((7+12ν+4ν²)(1+m²)² + 4(5+6ν+2ν²)m²).
+    /// Hutchinson 2001: κ = 6(1+ν)²(1+m²)² / ((7+12ν+4ν²)(1+m²)² + 4(5+6ν+2ν²)m²); ROSS 3.1.0 lacks one 1 + ν.
     pub fn shear_coefficient(&self) -> Option<f64> {
         let nu = self.material.young / (2.0 * self.material.shear) - 1.0;
         let (o, i) = self.diameters(0.5);

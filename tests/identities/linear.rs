@@ -7,6 +7,7 @@ use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
 use rotordyn::element::{Anchor, Bushing, Joint, PointMass, RigidBody};
+use rotordyn::linalg::{eigen, krylov};
 use rotordyn::model::{BearingSite, Model};
 
 prop_compose! {
@@ -188,5 +189,43 @@ proptest! {
             row.0.iter().map(|&(i, v)| v * assembly.gravity_load[i]).sum::<f64>()
         }).sum();
         prop_assert!((load / weight(&assembly) + 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_lowest_modes_are_those_of_the_dense_solver(mut model in free_machine(), round in any::<bool>()) {
+        if round {
+            // Axisymmetric: every bending frequency is double at rest, the body's too.
+            let nodes = model.node_z.len();
+            model.masses.clear();
+            let j = model.bodies[0].inertia[0][0];
+            model.bodies[0].position = [0.0, 0.0, model.node_z[1]];
+            model.bodies[0].inertia = [[j, 0.0, 0.0], [0.0, j, 0.0], [0.0, 0.0, 1.5 * j]];
+            let hanger = &mut model.bushings[0];
+            hanger.b = Anchor::node(nodes);
+            hanger.stiffness = [[0.0; 6]; 6];
+            for (i, k) in [2e6, 2e6, 1e6, 3e4, 3e4, 1e4].into_iter().enumerate() {
+                hanger.stiffness[i][i] = k;
+            }
+        }
+        let last = model.node_z.len() - 1;
+        model.bearings = vec![isotropic(0, 1e7), isotropic(last, 3e7)];
+        let assembly = Assembly::new(&model).unwrap();
+        for speed in [0.0, 5.0, 500.0] {
+            let system = LinearSystem::new(&assembly, &tangents(&model), speed).unwrap();
+            let (m, d, s) = (&system.mass, &system.damping, &system.stiffness);
+            let mut dense: Vec<f64> = eigen::quadratic(&m.to_dense(), &d.to_dense(), &s.to_dense())
+                .unwrap()
+                .iter()
+                .filter(|p| p.0.im > 1.0)
+                .map(|p| p.0.norm())
+                .collect();
+            dense.sort_by(f64::total_cmp);
+            let lowest = krylov::lowest(m, d, s, 10, 30.0).unwrap();
+            for (k, (pair, dense)) in lowest.iter().zip(&dense).take(10).enumerate() {
+                // The dense solver's round-off is that of the fastest mode: up to 1e-6 of a slow one.
+                let deviation = (pair.value.norm() / dense - 1.0).abs();
+                prop_assert!(deviation < 1e-5, "mode {k} at {speed} rad/s: {deviation:e} (round {round})");
+            }
+        }
     }
 }
