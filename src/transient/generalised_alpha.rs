@@ -11,9 +11,12 @@ use crate::bearing::Reaction;
 use crate::linalg::small::solve_in_place;
 use crate::model::Spin;
 
-/// Newton stops when the interface displacement moves by less than this \[m, rad\]: 1e-4 of an atom's
-/// diameter, far below any contact deflection of interest and above rounding of metre-sized coordinates.
-const TOLERANCE: f64 = 1e-14;
+/// Newton stops when the interface displacement moved by less than this \[m, rad\] in an iteration; being
+/// quadratic on contact deflections of 1e-7 m and more, it is then within 1e-15 m of the solution.
+const TOLERANCE: f64 = 1e-11;
+/// Largest (Ω − Ω_f) h at which an inverse made at Ω_f serves at Ω, by its first-order expansion in Ω: what the
+/// expansion leaves out is the square of this, 1e-8 of the gyroscopic effect.
+const STALE: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 25;
 
 /// Parameters of the family (Chung & Hulbert 1993, eq. 17-20 and 25).
@@ -42,15 +45,19 @@ impl Scheme {
 }
 
 /// The inverse of the effective matrix for one step length, near one speed.
+///
+/// S(Ω) = S₀ + κ (γ h G + β h² K_c)(1−α_f), κ = Ω − Ω_f; S⁻¹ ≈ S₀⁻¹ − κ S₀⁻¹ S′ S₀⁻¹, and likewise for what is
+/// made of it.
 struct Factor {
     step: f64,
     speed: f64,
     acceleration: f64,
-    inverse: DMatrix<f64>,
+    /// S₀⁻¹ and S₀⁻¹ S′ S₀⁻¹.
+    inverse: [DMatrix<f64>; 2],
     /// S⁻¹ Wᵀ, coordinates × rows.
-    response: DMatrix<f64>,
+    response: [DMatrix<f64>; 2],
     /// Y = W S⁻¹ Wᵀ, row-major.
-    compliance: Vec<f64>,
+    compliance: [Vec<f64>; 2],
 }
 
 /// Why a step failed, for the driver that halves it.
@@ -70,7 +77,6 @@ pub struct GeneralisedAlpha {
     previous: DVector<f64>,
     right: DVector<f64>,
     linear: DVector<f64>,
-    correction: DVector<f64>,
     x: DVector<f64>,
     v: DVector<f64>,
     a: DVector<f64>,
@@ -81,6 +87,11 @@ pub struct GeneralisedAlpha {
     unknown: Vec<f64>,
     residual: Vec<f64>,
     jacobian: Vec<f64>,
+    /// (1−α_f) Y at this step's speed.
+    compliance: Vec<f64>,
+    /// Force of the state before the last, and the step between them.
+    last_force: Vec<f64>,
+    last_step: f64,
     d: Vec<f64>,
     d_rate: Vec<f64>,
     rotations: Vec<crate::bearing::Rotation>,
@@ -102,7 +113,6 @@ impl GeneralisedAlpha {
             previous: zero(),
             right: zero(),
             linear: zero(),
-            correction: zero(),
             x: zero(),
             v: zero(),
             a: zero(),
@@ -113,6 +123,9 @@ impl GeneralisedAlpha {
             unknown: vec![0.0; m],
             residual: vec![0.0; m],
             jacobian: vec![0.0; m * m],
+            compliance: vec![0.0; m * m],
+            last_force: vec![0.0; m],
+            last_step: 0.0,
             d: vec![0.0; m],
             d_rate: vec![0.0; m],
             rotations: vec![Default::default(); sites],
@@ -123,38 +136,39 @@ impl GeneralisedAlpha {
     }
 
     /// Index of a factor that is close enough in speed for this step length.
-    ///
-    /// What a stale factor gets wrong, (Ω − Ω_f) h G, is put right by the outer iteration of [`Self::step`];
-    /// keeping it below 1e-3 makes that converge by three digits a turn.
     fn factor(&mut self, system: &System, step: f64, spin: &Spin) -> usize {
         let found = self.factors.iter().position(|f| f.step == step);
         if let Some(k) = found {
             let f = &self.factors[k];
-            let stale = ((f.speed - spin.speed) * step).abs() > 1e-3
-                || ((f.acceleration - spin.acceleration) * step * step).abs() > 1e-3;
+            let stale = ((f.speed - spin.speed) * step).abs() > STALE
+                || ((f.acceleration - spin.acceleration) * step * step).abs() > STALE * STALE;
             if !stale {
                 return k;
             }
         }
         let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
         let (n, m) = (system.size(), system.rows());
-        let damping = &system.damping + &system.gyroscopic * spin.speed;
-        let stiffness =
-            &system.stiffness + &system.circulatory * spin.speed + &system.spin_up * spin.acceleration;
+        let weight = 1.0 - alpha_f;
+        let by_speed =
+            (&system.gyroscopic * (gamma * step) + &system.circulatory * (beta * step * step)) * weight;
         let effective = DMatrix::identity(n, n) * (1.0 - alpha_m)
-            + (damping * (gamma * step) + stiffness * (beta * step * step)) * (1.0 - alpha_f);
+            + (&system.damping * (gamma * step)
+                + (&system.stiffness + &system.spin_up * spin.acceleration) * (beta * step * step))
+                * weight
+            + &by_speed * spin.speed;
         // The effective matrix is the identity plus terms of order h: invertible for any step worth taking;
         // a singular one yields NaN, which the divergence check of the driver reports.
         let inverse = effective.try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
+        let slope = &inverse * by_speed * &inverse;
         let map = DMatrix::from_row_slice(m, n, &system.interface_map);
-        let response = &inverse * map.transpose();
-        let y = &map * &response;
-        let compliance = y.transpose().as_slice().to_vec();
+        let response = [&inverse * map.transpose(), &slope * map.transpose()];
+        // Column-major of the transpose is row-major.
+        let compliance = [0, 1].map(|k| (&map * &response[k]).transpose().as_slice().to_vec());
         let factor = Factor {
             step,
             speed: spin.speed,
             acceleration: spin.acceleration,
-            inverse,
+            inverse: [inverse, slope],
             response,
             compliance,
         };
@@ -213,45 +227,46 @@ impl GeneralisedAlpha {
         system.add_linear(&spin, &self.x, &self.v, -1.0, &mut self.linear);
         self.right.axpy(1.0 - alpha_f, &self.linear, 1.0);
 
-        // The factor's speed differs a little from this step's: a₁ enters the difference, iterate on it.
-        let (off_speed, off_rate) =
-            (spin.speed - self.factors[k].speed, spin.acceleration - self.factors[k].acceleration);
-        let exact = off_speed == 0.0 && off_rate == 0.0;
-        system.gather(&state.reactions, &mut self.force);
-        self.a.copy_from(&state.a);
-        let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
-        for _ in 0..MAX_ITERATIONS {
-            self.linear.copy_from(&self.right);
-            if !exact {
-                let weight = 1.0 - alpha_f;
-                self.linear.gemv(-weight * kv * off_speed, &system.gyroscopic, &self.a, 1.0);
-                self.linear.gemv(-weight * kd * off_rate, &system.spin_up, &self.a, 1.0);
-                self.linear.gemv(-weight * kd * off_speed, &system.circulatory, &self.a, 1.0);
+        // Without bearings' forces: a₁ = S⁻¹ r. With them: a₁ += (1−α_f) S⁻¹ Wᵀ f.
+        let factor = &self.factors[k];
+        let off = spin.speed - factor.speed;
+        self.a.gemv(1.0, &factor.inverse[0], &self.right, 0.0);
+        if off != 0.0 {
+            self.a.gemv(-off, &factor.inverse[1], &self.right, 1.0);
+        }
+        if rows > 0 {
+            for (y, (y0, y1)) in
+                self.compliance.iter_mut().zip(factor.compliance[0].iter().zip(&factor.compliance[1]))
+            {
+                *y = (1.0 - alpha_f) * (y0 - off * y1);
             }
+            // d = d̄ + kd u, ḋ = ḋ̄ + kv u with u = (1−α_f) Y f(d, ḋ).
+            system.to_interface(&self.x, &mut self.base_d);
+            system.to_interface(&self.v, &mut self.base_rate);
+            system.to_interface(&self.a, &mut self.row_buffer);
+            for r in 0..rows {
+                self.base_d[r] += kd * self.row_buffer[r];
+                self.base_rate[r] += kv * self.row_buffer[r];
+            }
+            // The force is carried on from the last two states: a start a hundred times nearer than the last.
+            system.gather(&state.reactions, &mut self.force);
+            for r in 0..rows {
+                let now = self.force[r];
+                if self.last_step == step {
+                    self.force[r] = 2.0 * now - self.last_force[r];
+                }
+                self.row_buffer[r] = now;
+            }
+            self.newton(system, kd, kv)?;
+            self.last_force.copy_from_slice(&self.row_buffer);
+            self.last_step = step;
             let factor = &self.factors[k];
-            self.correction.copy_from(&self.a);
-            self.a.gemv(1.0, &factor.inverse, &self.linear, 0.0);
-            if rows > 0 {
-                // d = d̄ + kd u, ḋ = ḋ̄ + kv u with u = (1−α_f) Y f(d, ḋ).
-                system.to_interface(&self.x, &mut self.base_d);
-                system.to_interface(&self.v, &mut self.base_rate);
-                system.to_interface(&self.a, &mut self.row_buffer);
-                for r in 0..rows {
-                    self.base_d[r] += kd * self.row_buffer[r];
-                    self.base_rate[r] += kv * self.row_buffer[r];
+            for (r, f) in self.force.iter().enumerate() {
+                let share = (1.0 - alpha_f) * f;
+                self.a.axpy(share, &factor.response[0].column(r), 1.0);
+                if off != 0.0 {
+                    self.a.axpy(-off * share, &factor.response[1].column(r), 1.0);
                 }
-                self.newton(system, k, kd, kv, &mut failure)?;
-                let factor = &self.factors[k];
-                for (r, f) in self.force.iter().enumerate() {
-                    self.a.axpy((1.0 - alpha_f) * f, &factor.response.column(r), 1.0);
-                }
-            }
-            if exact {
-                break;
-            }
-            self.correction -= &self.a;
-            if kd * self.correction.amax() <= 1e-3 * TOLERANCE + 1e-12 * kd * self.a.amax() {
-                break;
             }
         }
 
@@ -269,22 +284,13 @@ impl GeneralisedAlpha {
         Ok(())
     }
 
-    /// Newton for u = (1−α_f) Y f(d̄ + kd u, ḋ̄ + kv u), starting from the force in `self.force`.
-    fn newton(
-        &mut self,
-        system: &System,
-        k: usize,
-        kd: f64,
-        kv: f64,
-        failure: &mut StepFailure,
-    ) -> Result<(), StepFailure> {
+    /// Newton for u = Ỹ f(d̄ + kd u, ḋ̄ + kv u), Ỹ = (1−α_f) Y, starting from the force in `self.force`.
+    fn newton(&mut self, system: &System, kd: f64, kv: f64) -> Result<(), StepFailure> {
         let rows = system.rows();
-        let weight = 1.0 - self.scheme.alpha_f;
-        let compliance = &self.factors[k].compliance;
-        for r in 0..rows {
-            let y = &compliance[r * rows..(r + 1) * rows];
-            self.unknown[r] = weight * y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
+        for (u, y) in self.unknown.iter_mut().zip(self.compliance.chunks_exact(rows)) {
+            *u = y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
         }
+        let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
             for r in 0..rows {
@@ -293,48 +299,64 @@ impl GeneralisedAlpha {
             }
             system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions);
             system.gather(&self.reactions, &mut self.force);
-            // Residual u − (1−α_f) Y f and Jacobian I + (1−α_f) Y (kd K + kv C), block by block.
+            // Residual u − Ỹ f and Jacobian I + Ỹ (kd K + kv C), block by block.
             for r in 0..rows {
-                let y = &compliance[r * rows..(r + 1) * rows];
+                let y = &self.compliance[r * rows..(r + 1) * rows];
                 self.residual[r] =
-                    self.unknown[r] - weight * y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
+                    self.unknown[r] - y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
+                let line = &mut self.jacobian[r * rows..(r + 1) * rows];
+                line.fill(0.0);
                 for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
                     let (first, count) = (interface.first_row, interface.rows);
-                    for c in 0..count {
-                        let mut sum = 0.0;
-                        for b in 0..count {
-                            let t = kd * reaction.stiffness[b][c] + kv * reaction.damping[b][c];
-                            sum += y[first + b] * t;
+                    for b in 0..count {
+                        let (yd, yv) = (kd * y[first + b], kv * y[first + b]);
+                        let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
+                        for column in 0..count {
+                            line[first + column] += yd * k[column] + yv * c[column];
                         }
-                        self.jacobian[r * rows + first + c] = weight * sum;
                     }
                 }
-                self.jacobian[r * rows + r] += 1.0;
+                line[r] += 1.0;
             }
             if !solve_in_place(&mut self.jacobian, &mut self.residual) {
-                return Err(*failure);
+                return Err(failure);
             }
-            let (mut worst, mut row) = (0.0f64, 0);
+            let (mut worst, mut row) = (0.0, 0);
             for r in 0..rows {
                 self.unknown[r] -= self.residual[r];
-                let move_by = kd * self.residual[r].abs();
-                if !(move_by <= worst) {
-                    (worst, row) = (move_by, r);
+                let moved = kd * self.residual[r].abs();
+                if moved > worst || moved.is_nan() {
+                    (worst, row) = (moved, r);
                 }
             }
-            *failure = StepFailure { row, residual: worst, iterations: iteration };
-            if worst <= TOLERANCE * (1.0 + 1e4 * self.d[row].abs()) {
-                // One more evaluation puts forces and displacements of the accepted state in step.
-                for r in 0..rows {
-                    self.d[r] = self.base_d[r] + kd * self.unknown[r];
-                    self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
-                }
+            failure = StepFailure { row, residual: worst, iterations: iteration };
+            if worst <= TOLERANCE {
+                // The force moves with the last correction by its tangent, so that force and state agree.
+                self.follow(system, kd, kv);
                 return Ok(());
             }
             if !worst.is_finite() {
-                return Err(*failure);
+                return Err(failure);
             }
         }
-        Err(*failure)
+        Err(failure)
+    }
+
+    /// Takes displacements and forces along with Newton's last correction: f ← f − (kd K + kv C) Δu, Δu = −residual.
+    fn follow(&mut self, system: &System, kd: f64, kv: f64) {
+        for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
+            let (first, count) = (interface.first_row, interface.rows);
+            let moved = &self.residual[first..first + count];
+            for (b, force) in reaction.force.iter_mut().enumerate().take(count) {
+                for (column, by) in moved.iter().enumerate() {
+                    *force += (kd * reaction.stiffness[b][column] + kv * reaction.damping[b][column]) * by;
+                }
+            }
+        }
+        for r in 0..system.rows() {
+            self.d[r] = self.base_d[r] + kd * self.unknown[r];
+            self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
+        }
+        system.gather(&self.reactions, &mut self.force);
     }
 }

@@ -3,8 +3,11 @@
 #[path = "../common/machine.rs"]
 #[allow(dead_code)]
 mod machine;
+#[path = "../common/rig.rs"]
+mod rig;
 #[path = "../common/ross.rs"]
 #[allow(dead_code)]
 mod ross;
 
+mod integrators;
 mod shaft_element;

@@ -1,0 +1,90 @@
+//! Fitted order of every time integrator on the rig's nonlinear equations.
+
+use std::ops::ControlFlow;
+
+use crate::rig::variant;
+use rotordyn::bearing::{Bearing, Cage};
+use rotordyn::model::SpeedProfile;
+use rotordyn::model::study::Integrator;
+use rotordyn::study::Machine;
+use rotordyn::transient::reduction::Reduction;
+use rotordyn::transient::run::{End, Settings, run};
+
+const DURATION: f64 = 0.01;
+
+/// The rig at 900 rpm with bearings of interference, so that every ball keeps its contact and the force law is
+/// smooth (the orders are those of smooth equations), and a cage ratio that does not depend on the state.
+fn machine() -> (Machine, Reduction) {
+    let mut model =
+        variant(None, &[("bearing.A.radial_clearance", "-20 um"), ("bearing.B.radial_clearance", "-20 um")]);
+    for site in &mut model.bearings {
+        if let Bearing::Ball(ball) = &mut site.bearing {
+            ball.cage = Cage::Ratio(0.4);
+        }
+    }
+    model.profile = SpeedProfile::Constant { speed: 94.2, duration: DURATION };
+    let machine = Machine::new(model).unwrap();
+    let mut study = machine.model.studies.run_up.clone().unwrap();
+    study.cutoff = 400.0;
+    let reduction = machine.reduce(&study).unwrap();
+    (machine, reduction)
+}
+
+/// Coordinates at the end, started at equilibrium with the shaft thrown sideways along its first mode.
+fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra::DVector<f64> {
+    let system = &reduction.system;
+    let mut v = &reduction.equilibrium * 0.0;
+    v[0] = 0.02;
+    v[1] = -0.01;
+    let settings = Settings {
+        integrator,
+        step: DURATION / steps as f64,
+        sample_rate: 1.0 / DURATION,
+        duration: DURATION,
+    };
+    let mut last = v.clone();
+    let report = run(system, system.initial_state(reduction.equilibrium.clone(), v), &settings, |sample| {
+        last.copy_from(&sample.state.x);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    last
+}
+
+fn order(coarse: f64, fine: f64) -> f64 {
+    (coarse / fine).log2()
+}
+
+#[test]
+fn fixed_step_methods() {
+    let (_machine, reduction) = machine();
+    // Classical Runge-Kutta at a step far finer than any below is the reference for all.
+    let reference = end(&reduction, Integrator::RungeKutta4, 8192);
+    for (integrator, expected, steps) in [
+        (Integrator::Newmark, 2.0, [512, 1024, 2048, 4096]),
+        (Integrator::GeneralisedAlpha { rho_infinity: 0.8 }, 2.0, [512, 1024, 2048, 4096]),
+        (Integrator::GeneralisedAlpha { rho_infinity: 0.0 }, 2.0, [512, 1024, 2048, 4096]),
+        (Integrator::RungeKutta4, 4.0, [1024, 1536, 2048, 3072]),
+    ] {
+        let errors: Vec<f64> =
+            steps.iter().map(|&n| (end(&reduction, integrator, n) - &reference).amax()).collect();
+        let fitted = order(errors[1], errors[3]) / order(steps[3] as f64, steps[1] as f64);
+        println!("{integrator:?}: errors {errors:?}, order {fitted:.2}");
+        assert!((fitted - expected).abs() < 0.15, "{integrator:?}: order {fitted}");
+    }
+}
+
+#[test]
+fn error_control_keeps_its_promise() {
+    let (_machine, reduction) = machine();
+    let reference = end(&reduction, Integrator::RungeKutta4, 8192);
+    let size = reference.amax();
+    for tolerance in [1e-6, 1e-8, 1e-10] {
+        let integrator =
+            Integrator::DormandPrince { relative_tolerance: tolerance, absolute_tolerance: 1e-16 };
+        let error = (end(&reduction, integrator, 1000) - &reference).amax() / size;
+        println!("tolerance {tolerance:.0e}: error {error:.1e}");
+        // Local errors of a few hundred steps add up.
+        assert!(error < 300.0 * tolerance, "{error} at {tolerance}");
+    }
+}

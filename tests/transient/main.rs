@@ -1,0 +1,8 @@
+//! The nonlinear transient against linear theory, itself at another step, and its energy account.
+
+#[path = "../common/rig.rs"]
+mod rig;
+
+mod hammer;
+mod run_up;
+mod torque;
