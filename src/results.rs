@@ -69,7 +69,25 @@ pub struct FrfResult {
     pub speed: f64,
     pub excitations: Vec<String>,
     pub responses: Vec<String>,
+    /// Unit of every response per excitation, `units[response][excitation]`, such as "(m/s^2)/N".
+    pub units: Vec<Vec<String>>,
     pub frf: Frf,
+}
+
+impl FrfResult {
+    /// Receptance, mobility or accelerance.
+    pub fn name(&self) -> &'static str {
+        match self.frf.quantity {
+            Quantity::Displacement => "receptance",
+            Quantity::Velocity => "mobility",
+            Quantity::Acceleration => "accelerance",
+        }
+    }
+}
+
+/// Whether a direction (weights on u_x u_y u_z θ_x θ_y θ_z) is a rotation or a moment.
+pub fn is_rotation(direction: &[f64; 6]) -> bool {
+    direction[..3].iter().all(|d| *d == 0.0)
 }
 
 /// Unbalance response of every asked response, and of the orbits of every disc.

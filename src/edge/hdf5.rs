@@ -149,11 +149,22 @@ impl Store {
         texts: &[T],
         attributes: &[(&str, Attribute)],
     ) -> Result<(), Error> {
+        self.write_text_array(name, &[texts.len()], texts, attributes)
+    }
+
+    /// Writes a data set of UTF-8 strings with its shape; the name must be free.
+    pub fn write_text_array<T: AsRef<str>>(
+        &self,
+        name: &str,
+        shape: &[usize],
+        texts: &[T],
+        attributes: &[(&str, Attribute)],
+    ) -> Result<(), Error> {
         let written = texts
             .iter()
             .map(|text| attribute::unicode(text.as_ref()))
             .collect::<hdf5::Result<Vec<_>>>()
-            .and_then(|texts| self.dataset(name, &[texts.len()], &texts, attributes));
+            .and_then(|texts| self.dataset(name, shape, &texts, attributes));
         self.writing(name, written)
     }
 

@@ -1,11 +1,15 @@
 //! Edges: one owner per foreign crate or file format.
 
 pub mod csv;
+pub mod export;
+pub mod figures;
 pub mod gltf;
 pub mod hdf5;
+pub mod json;
 pub mod mesh;
 pub mod parry;
 pub mod plot;
 pub mod rapier;
+pub mod results_file;
 pub mod scene;
 pub mod vtk;

@@ -104,14 +104,14 @@ impl Scene {
 }
 
 /// Outer diameter of the shaft at a node \[m\], the larger of its two sides.
-fn shaft_diameter(model: &Model, node: usize) -> f64 {
+pub(crate) fn shaft_diameter(model: &Model, node: usize) -> f64 {
     let left = node.checked_sub(1).and_then(|k| model.shaft.get(k)).map_or(0.0, |e| e.outer_diameter[1]);
     let right = model.shaft.get(node).map_or(0.0, |e| e.outer_diameter[0]);
     left.max(right)
 }
 
 /// Radius and thickness as given, else of the solid cylinder with I_p = m R²/2, I_d = m (3 R² + t²)/12.
-fn disc_size(disc: &Disc) -> (f64, f64) {
+pub(crate) fn disc_size(disc: &Disc) -> (f64, f64) {
     let given = |length: f64, other: f64| if length > 0.0 { length } else { other };
     let radius2 = 2.0 * disc.polar_inertia / disc.mass;
     let thickness2 = 12.0 * disc.diametral_inertia / disc.mass - 3.0 * radius2;
@@ -121,7 +121,7 @@ fn disc_size(disc: &Disc) -> (f64, f64) {
 }
 
 /// Edges and orientation of the homogeneous box with the body's mass and inertias: a² = 6 (I_b + I_c − I_a)/m.
-fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
+pub(crate) fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
     let tensor = Matrix3::from_fn(|i, j| body.inertia[i][j]);
     let diagonal = tensor.diagonal();
     let off = (tensor - Matrix3::from_diagonal(&diagonal)).amax();

@@ -16,13 +16,14 @@ use crate::bearing::{Bearing, BearingElement, SiteTangent};
 use crate::element::Anchor;
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};
-use crate::model::Model;
 use crate::model::study::{
-    CampbellStudy, CriticalStudy, EquilibriumStudy, FrfStudy, ModalStudy, RunUpStudy, UnbalanceStudy,
+    CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy, RunUpStudy,
+    UnbalanceStudy,
 };
+use crate::model::{Model, Probe};
 use crate::results::{
     CampbellResult, CriticalResult, DiscOrbit, FrfResult, ModalResult, OrderLine, UnbalanceChannel,
-    UnbalanceResult,
+    UnbalanceResult, is_rotation, unit_of,
 };
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, Sample, Settings, run};
@@ -134,8 +135,18 @@ impl Machine {
         let excitations: Vec<_> = study.excitations.iter().map(|e| row(&e.at, &e.direction)).collect();
         let responses: Vec<_> = study.responses.iter().map(|p| row(&p.at, &p.direction)).collect();
         let (f, q) = (&study.frequencies, study.quantity);
+        let unit = |response: &Probe, excitation: &Excitation| {
+            let moved = unit_of(q, is_rotation(&response.direction));
+            let moved = if moved.contains('/') { format!("({moved})") } else { moved.into() };
+            format!("{moved}/{}", if is_rotation(&excitation.direction) { "(N m)" } else { "N" })
+        };
         Ok(FrfResult {
             speed: study.speed,
+            units: study
+                .responses
+                .iter()
+                .map(|r| study.excitations.iter().map(|e| unit(r, e)).collect())
+                .collect(),
             excitations: study.excitations.iter().map(|e| e.name.clone()).collect(),
             responses: study.responses.iter().map(|p| p.name.clone()).collect(),
             frf: frf::frf(&self.assembly, &system, f, &excitations, &responses, q)?,

@@ -192,7 +192,12 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 outside: value(1),
             }],
             springs: vec![RigSpring { from: [first(0), value(0)], to: [first(1), value(1)], grounded: true }],
-            belts: vec![RigBelt { label: name.clone(), z: first(0), radius: value(0), upwards: true }],
+            belts: vec![RigBelt {
+                label: name.clone(),
+                z: first(0),
+                radius: value(0),
+                pull: [value(0), value(1)],
+            }],
             stations: x.iter().take(30).map(|z| (name.clone(), *z)).collect(),
             ..Default::default()
         }),

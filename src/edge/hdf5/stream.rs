@@ -26,7 +26,7 @@ pub struct Channel {
 
 /// Writes samples of a run as they come.
 ///
-/// `<at>/time/{t, theta, speed}` and `<at>/channels/<name>` grow together in blocks, each followed by a flush,
+/// `<at>/time/{t, theta, speed}` and `<at>/channels/<name>` (in the order of the attribute `names`) grow together in blocks, each followed by a flush,
 /// and no block is written twice: after a kill the file opens and holds all whole blocks. The attribute
 /// `run_state` of `<at>/time` is "running", then "complete" or "stopped: reason".
 #[derive(Debug)]
@@ -56,6 +56,10 @@ impl ChannelStream {
         for (name, unit) in [("t", "s"), ("theta", "rad"), ("speed", "rad/s")] {
             let attributes = [&[("unit", unit.into())], &sampling[..]].concat();
             datasets.push(series(&store, &format!("{at}/time/{name}"), &attributes)?);
+        }
+        let names: Vec<String> = channels.iter().map(|c| c.name.clone()).collect();
+        if !names.is_empty() {
+            store.set_attribute(&format!("{at}/channels"), "names", names)?;
         }
         store.create_group(&format!("{at}/channels"))?;
         for channel in channels {

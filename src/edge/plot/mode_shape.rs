@@ -68,14 +68,15 @@ pub fn draw(data: &ModeShapes) -> Svg {
     let count = data.modes.len().min(MOST);
     let columns = if count > 1 { 2 } else { 1 };
     let width = (W * columns as f64 + 16.0).max(WIDTH * 0.66);
-    let note = if data.note.is_empty() { HOW_TO_READ } else { &data.note };
-    let (mut svg, top) = head(width, 16.0, &data.title, note, &[]);
+    let (mut svg, top) = head(width, 16.0, &data.title, &data.note, &[]);
     for (k, mode) in data.modes.iter().take(MOST).enumerate() {
         let frame =
             Frame { x: 8.0 + W * (k % columns) as f64, y: top + H * (k / columns) as f64, w: W, h: H };
         panel(&mut svg, &data.rotor, mode, frame, k == 0);
     }
-    svg.height = top + H * count.div_ceil(columns).max(1) as f64 + 8.0;
+    let bottom = top + H * count.div_ceil(columns).max(1) as f64;
+    svg.text([16.0, bottom + 12.0], HOW_TO_READ, Text::new(SMALL, MUTED));
+    svg.height = bottom + 24.0;
     svg
 }
 

@@ -44,9 +44,10 @@ pub fn draw(data: &Orbits) -> Svg {
     const SIDE: f64 = 270.0;
     let orbits = &data.orbits[..data.orbits.len().min(MOST)];
     let columns = if orbits.len() > 1 { 2 } else { 1 };
-    let mut entries = vec![Entry::line("raw", RAW.thick(1.4))];
+    let mut entries = Vec::new();
+    // Without a filtered orbit there is nothing to tell the only one from.
     if orbits.iter().any(|o| !o.filtered_x.is_empty()) {
-        entries.push(Entry::line("1x filtered", FILTERED));
+        entries.extend([Entry::line("raw", RAW.thick(1.4)), Entry::line("1x filtered", FILTERED)]);
     }
     if orbits.iter().any(|o| !o.keyphasor.is_empty()) {
         entries.push(Entry::marker("keyphasor", super::axes::Marker::Circle, Style::fill(INK)));
@@ -90,8 +91,8 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
         axes.clipped(svg, &circle, CLEARANCE);
     }
     let page = |x: &[f64], y: &[f64]| thin::free(x.iter().zip(y).map(|(&x, &y)| axes.at(x, y)));
-    axes.clipped(svg, &page(&x, &y), RAW);
     let filtered = page(&fx, &fy);
+    axes.clipped(svg, &page(&x, &y), if filtered.is_empty() { FILTERED } else { RAW });
     axes.clipped(svg, &filtered, FILTERED);
     if filtered.len() > 3 {
         direction(svg, &filtered, BLUE)

@@ -57,8 +57,8 @@ pub struct RigBelt {
     /// Axial position, pulley radius \[m\].
     pub z: f64,
     pub radius: f64,
-    /// The pull's vertical sense: above or below the shaft.
-    pub upwards: bool,
+    /// Direction of the pull in x and y; x points into the page.
+    pub pull: [f64; 2],
 }
 
 /// Data of a rig sketch.
@@ -217,13 +217,27 @@ fn zigzag(svg: &mut Svg, a: Point, b: Point, grounded: bool) {
     }
 }
 
-/// The belt's run away from the pulley, and the arrow of its pull.
+/// The belt's pull: an arrow up or down, or the tail (into the page) or head of one that lies across.
 fn belt(svg: &mut Svg, axes: &Axes, b: &RigBelt) {
-    let side = if b.upwards { 1.0 } else { -1.0 };
+    let side = if b.pull[1] >= 0.0 { 1.0 } else { -1.0 };
     let [x, y] = axes.at(1e3 * b.z, side * 1e3 * b.radius);
-    svg.arrow([x, y], [x, y - side * 30.0], 8.0, GREEN, 2.0);
+    if b.pull[0].abs() > b.pull[1].abs() {
+        const R: f64 = 7.0;
+        let at = [x, y - side * 18.0];
+        let line = Style::stroke(GREEN, 1.6);
+        svg.circle(at, R, line.filled(WHITE));
+        if b.pull[0] > 0.0 {
+            let d = R * std::f64::consts::FRAC_1_SQRT_2;
+            svg.line([at[0] - d, at[1] - d], [at[0] + d, at[1] + d], line);
+            svg.line([at[0] - d, at[1] + d], [at[0] + d, at[1] - d], line);
+        } else {
+            svg.circle(at, 2.0, Style::fill(GREEN));
+        }
+    } else {
+        svg.arrow([x, y], [x, y - side * 30.0], 8.0, GREEN, 2.0);
+    }
     svg.text(
-        [x + 8.0, y - side * 24.0 + 4.0],
+        [x + 12.0, y - side * 18.0 + 4.0],
         &font::fit(&b.label, SMALL, 150.0),
         Text::new(SMALL, GREEN).halo(),
     );

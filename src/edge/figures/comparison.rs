@@ -1,0 +1,83 @@
+//! Variants of a model on common axes.
+
+use super::display::pretty;
+use super::response::frf_curve;
+use super::{Named, TO_RPM};
+use crate::edge::plot::{Curve, Figure, Frf, Lines};
+use crate::results::{FrfResult, Results};
+
+pub fn figures(variants: &[(String, &Results)]) -> Vec<Named> {
+    let mut figures = frfs(variants);
+    figures.extend(campbell(variants));
+    figures
+}
+
+/// One figure for every excitation and response that two variants or more have.
+fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
+    let with: Vec<(&str, &FrfResult)> =
+        variants.iter().filter_map(|(name, r)| Some((name.as_str(), r.frf.as_ref()?))).collect();
+    let mut ends: Vec<(&String, &String)> = Vec::new();
+    for (_, found) in &with {
+        for end in found.excitations.iter().flat_map(|e| found.responses.iter().map(move |r| (e, r))) {
+            if !ends.contains(&end) {
+                ends.push(end);
+            }
+        }
+    }
+    let mut figures = Vec::new();
+    for (excitation, response) in ends {
+        let mut unit = "";
+        let mut name = "";
+        let mut curves = Vec::new();
+        for (variant, found) in &with {
+            let e = found.excitations.iter().position(|n| n == excitation);
+            let r = found.responses.iter().position(|n| n == response);
+            if let (Some(e), Some(r)) = (e, r) {
+                (unit, name) = (&found.units[r][e], found.name());
+                curves.push(frf_curve(found, r, e, variant));
+            }
+        }
+        if curves.len() > 1 {
+            let figure = Frf {
+                title: format!("{response} under a force at {excitation}"),
+                note: "by model".into(),
+                quantity: name.into(),
+                unit: pretty(unit),
+                curves,
+            };
+            figures.push((format!("comparison_frf_{excitation}_{response}"), Figure::Frf(figure)));
+        }
+    }
+    figures
+}
+
+/// The branches of every variant in the style of the variant.
+fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
+    let mut curves = Vec::new();
+    for (name, results) in variants {
+        let Some(found) = &results.campbell else { continue };
+        let mut curve = Curve { label: name.clone(), ..Curve::default() };
+        for branch in &found.diagram.branches {
+            for (speed, mode) in found.diagram.speeds.iter().zip(&branch.modes) {
+                curve.x.push(speed * TO_RPM);
+                curve.y.push(mode.as_ref().map_or(f64::NAN, |m| m.frequency_hz()));
+            }
+            // A gap between branches.
+            curve.x.push(f64::NAN);
+            curve.y.push(f64::NAN);
+        }
+        curves.push(curve);
+    }
+    let figure = Lines {
+        title: "Campbell diagrams".into(),
+        note: "by model".into(),
+        x_name: "shaft speed".into(),
+        x_unit: "rpm".into(),
+        y_name: "natural frequency".into(),
+        y_unit: "Hz".into(),
+        from_zero: true,
+        curves,
+        ..Lines::default()
+    };
+    (figure.curves.len() > 1).then(|| ("comparison_campbell".into(), Figure::Lines(figure)))
+}

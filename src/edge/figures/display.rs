@@ -1,0 +1,49 @@
+//! Units as figures show them.
+
+/// A unit to draw in: factor from SI and its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    pub factor: f64,
+    pub name: &'static str,
+}
+
+/// The unit in which a quantity stored in `si` is drawn; decibels are relative to one of it.
+pub fn unit(si: &str) -> Display {
+    let (factor, name) = match si {
+        "m" => (1e6, "µm"),
+        "m/s" => (1e3, "mm/s"),
+        "m/s^2" => (1.0, "m/s²"),
+        "rad" => (1e6, "µrad"),
+        "rad/s" => (1e3, "mrad/s"),
+        "rad/s^2" => (1.0, "rad/s²"),
+        "N" => (1.0, "N"),
+        "J" => (1.0, "J"),
+        _ => (1.0, "SI"),
+    };
+    Display { factor, name }
+}
+
+/// What a unit measures.
+pub fn quantity(si: &str) -> &'static str {
+    match si {
+        "m" => "displacement",
+        "m/s" => "velocity",
+        "m/s^2" => "acceleration",
+        "rad" => "rotation",
+        "rad/s" => "angular velocity",
+        "rad/s^2" => "angular acceleration",
+        "N" => "force",
+        "J" => "energy",
+        _ => "level",
+    }
+}
+
+/// Levels in dB re one unit of `display`.
+pub fn decibels(amplitude: &[f64], display: Display) -> Vec<f64> {
+    amplitude.iter().map(|a| 20.0 * (a * display.factor).log10()).collect()
+}
+
+/// `m/s^2` as `m/s²`.
+pub fn pretty(si: &str) -> String {
+    si.replace("^2", "²").replace("N m", "N·m")
+}

@@ -1,0 +1,82 @@
+//! Every figure of a machine's results, by name.
+//!
+//! | name | shows |
+//! |---|---|
+//! | `rig` | the machine as understood, from the side |
+//! | `static_deflection`, `ball_loads` | equilibrium |
+//! | `modes_<speed>rpm`, `campbell` | modes |
+//! | `frf_<excitation>` | frequency responses, rotations apart (`_rotation`) |
+//! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | steady unbalance response |
+//! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | the run-up over time |
+//! | `spectrogram_<channel>`, `waterfall_<channel>` | frequency over speed, linear Campbell lines laid over |
+//! | `orders_<channel>`, `order_cuts_<channel>` | orders over speed |
+//! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
+
+mod comparison;
+mod display;
+mod machine;
+mod response;
+mod run;
+mod speed;
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::plot::{self, Figure};
+use crate::error::Error;
+use crate::results::Results;
+use crate::study::Machine;
+
+/// Frequency in Hz or speed in rpm of an angular one.
+const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
+
+/// A figure with the name of its files.
+type Named = (String, Figure);
+
+/// Draws every figure of the filled parts as `<name>.svg` and `<name>.png`; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut figures = vec![machine::rig(machine)];
+    figures.extend(results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine)));
+    figures.extend(results.modal.iter().map(|found| machine::modes(found, machine)));
+    figures.extend(results.campbell.iter().map(|found| speed::campbell(found, machine)));
+    figures.extend(results.frf.iter().flat_map(|found| response::frf(found, machine)));
+    let criticals = response::criticals(results);
+    figures
+        .extend(results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine)));
+    figures.extend(results.run_up.iter().flat_map(|found| run::histories(&found.history, machine)));
+    let campbell = results.campbell.as_ref();
+    figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
+    figures.extend(results.orders.iter().flat_map(|found| run::orders(found, machine)));
+    write_all(&figures, folder)
+}
+
+/// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    write_all(&comparison::figures(variants), folder)
+}
+
+fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    std::fs::create_dir_all(folder).map_err(|source| Error::Environment {
+        operation: "create folder",
+        path: folder.to_path_buf(),
+        source: source.into(),
+    })?;
+    let stems: Vec<String> = figures.iter().map(|(name, _)| file_name(name)).collect();
+    figures
+        .par_iter()
+        .zip(&stems)
+        .try_for_each(|((_, figure), stem)| plot::write(figure, &folder.join(stem)))?;
+    Ok(stems.iter().map(|stem| folder.join(format!("{stem}.svg"))).collect())
+}
+
+/// A name that every file system takes: what is neither letter, digit, dot nor dash becomes `_`.
+pub(super) fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()
+}

@@ -1,0 +1,71 @@
+//! The linear Campbell diagram, and its lines for other figures.
+
+use super::machine::whirl;
+use super::{Named, TO_RPM};
+use crate::analysis::Mode;
+use crate::edge::plot::{Branch, Campbell, Critical, Figure, OrderLine};
+use crate::results::{self, CampbellResult};
+use crate::study::Machine;
+
+/// Branches that a diagram shows at least.
+const LEAST: usize = 6;
+
+pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
+    let mut branches = branches(found);
+    let top = top(&branches, found);
+    branches.retain(|b| b.hz.iter().any(|hz| *hz <= top));
+    let figure = Campbell {
+        title: "Campbell diagram".into(),
+        note: machine.model.title.clone(),
+        max_hz: Some(top),
+        branches,
+        orders: order_lines(&found.orders),
+        criticals: found
+            .crossings
+            .iter()
+            .filter(|c| c.speed > 0.0)
+            .map(|c| Critical {
+                rpm: c.speed * TO_RPM,
+                hz: c.mode.frequency_hz(),
+                label: format!("{:.0}", c.speed * TO_RPM),
+            })
+            .collect(),
+    };
+    ("campbell".into(), Figure::Campbell(figure))
+}
+
+/// The branches of a diagram as curves.
+pub fn branches(found: &CampbellResult) -> Vec<Branch> {
+    let rpm: Vec<f64> = found.diagram.speeds.iter().map(|s| s * TO_RPM).collect();
+    let curve = |branch: &crate::analysis::campbell::Branch| {
+        let values = |value: fn(&Mode) -> f64| {
+            branch.modes.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect::<Vec<f64>>()
+        };
+        Branch {
+            label: branch.label.clone(),
+            whirl: whirl(branch.kind),
+            rpm: rpm.clone(),
+            hz: values(Mode::frequency_hz),
+            log_decrement: values(Mode::log_dec),
+        }
+    };
+    found.diagram.branches.iter().map(curve).collect()
+}
+
+pub fn order_lines(orders: &[results::OrderLine]) -> Vec<OrderLine> {
+    let line =
+        |o: &results::OrderLine| OrderLine { label: o.label.clone(), order: o.order, bearing: o.bearing };
+    orders.iter().map(line).collect()
+}
+
+/// Upper end of the frequency axis \[Hz\]: room for the lowest branches and for all that an order line meets.
+fn top(branches: &[Branch], found: &CampbellResult) -> f64 {
+    let highest = |b: &Branch| b.hz.iter().copied().filter(|hz| hz.is_finite()).fold(0.0, f64::max);
+    let mut ends: Vec<f64> = branches.iter().map(highest).collect();
+    ends.sort_by(f64::total_cmp);
+    let speed = found.diagram.speeds.last().copied().unwrap_or(0.0);
+    let order = found.orders.iter().map(|o| o.order * speed / std::f64::consts::TAU).fold(0.0, f64::max);
+    let met = ends.iter().copied().filter(|hz| *hz <= order).fold(0.0, f64::max);
+    let shown = ends.get(LEAST - 1).or(ends.last()).copied().unwrap_or(1.0);
+    1.12 * met.max(shown)
+}

@@ -1,0 +1,224 @@
+//! The results of a machine as one HDF5 file, `results.h5`.
+//!
+//! | group | holds |
+//! |---|---|
+//! | `/meta` | attributes: program, version, git, model (its text), title, variant, settings, seed, units |
+//! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
+//! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls |
+//! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
+//! | `/campbell` | \[branch, speed\]: frequency, zeta, log_dec; order lines, crossings, thresholds |
+//! | `/critical_speeds` | speed, order, frequency, whirl, label |
+//! | `/frf` | response \[response, excitation, frequency\] (complex) |
+//! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit |
+//! | `/time`, `/channels` | the run-up, streamed while it goes on |
+//! | `/run_up` | attributes: size and errors of the reduced model, steps, energy account |
+//! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
+//!
+//! Every data set has an attribute `unit`. What does not exist (a mode that was lost, one fewer at a speed) is
+//! NaN, or an empty text. Writing a study again replaces what was there of it.
+
+mod linear;
+mod run;
+
+use super::hdf5::{Attribute, Channel, Store, read_recording};
+use crate::bearing::Bearing;
+use crate::error::Error;
+use crate::linalg::Complex64;
+use crate::results::{History, HistoryChannel, Results};
+use crate::study::Machine;
+
+/// Where results come from.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Meta<'a> {
+    /// Text of the model file.
+    pub model: &'a str,
+    pub title: &'a str,
+    /// Empty for the model as it is.
+    pub variant: &'a str,
+    /// Every "path = value" laid over the file.
+    pub settings: &'a [String],
+}
+
+/// Writes `/meta`, replacing what was there.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_meta(store: &Store, meta: &Meta) -> Result<(), Error> {
+    let place = Place::new(store, "/meta")?;
+    place.note("program", "rotordyn")?;
+    place.note("version", env!("CARGO_PKG_VERSION"))?;
+    place.note("git", option_env!("ROTORDYN_GIT").unwrap_or("unknown"))?;
+    place.note("model", meta.model)?;
+    place.note("title", meta.title)?;
+    place.note("variant", meta.variant)?;
+    place.note("settings", meta.settings.join("\n"))?;
+    place.note("seed", "none of its own: what is random in the model has its seed there")?;
+    place.note("units", "SI: m, kg, s, N, rad; speeds in rad/s unless named rpm, frequencies in Hz")
+}
+
+/// Writes every filled part of the results, each replacing what was there of it; the run itself is streamed.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Result<(), Error> {
+    write_labels(store, machine)?;
+    if let Some(found) = &results.equilibrium {
+        linear::equilibrium(store, found, machine)?;
+    }
+    if !results.modal.is_empty() {
+        linear::modes(store, &results.modal, machine)?;
+    }
+    if let Some(found) = &results.campbell {
+        linear::campbell(store, found)?;
+    }
+    if let Some(found) = &results.critical {
+        let place = Place::new(store, "/critical_speeds")?;
+        place.note("max_speed", found.max_speed)?;
+        linear::crossings(&place, &found.speeds)?;
+    }
+    if let Some(found) = &results.frf {
+        linear::frf(store, found)?;
+    }
+    if let Some(found) = &results.unbalance {
+        linear::unbalance(store, found)?;
+    }
+    if let Some(found) = &results.run_up {
+        run::summary(store, found)?;
+    }
+    results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, found))?;
+    results.orders.iter().try_for_each(|found| run::orders(store, found))?;
+    if !results.warnings.is_empty() {
+        let place = Place::new(store, "/warnings")?;
+        place.texts("text", &[results.warnings.len()], &results.warnings)?;
+    }
+    store.flush()
+}
+
+/// The channels of a history as a stream writes them.
+pub fn channels_of(history: &History) -> Vec<Channel> {
+    let plain = |c: &HistoryChannel| Channel {
+        name: c.name.clone(),
+        unit: c.unit.clone(),
+        quantity: c.quantity.clone(),
+        station: c.station.clone(),
+        direction: c.direction.clone(),
+    };
+    history.channels.iter().map(plain).collect()
+}
+
+/// Removes a stored run, so that another can be streamed into the file, with what was made of it.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn remove_run(store: &Store) -> Result<(), Error> {
+    ["/channels", "/time", "/run_up", "/spectra"].iter().try_for_each(|group| store.remove(group))
+}
+
+/// Reads the stored run, complete or not, its channels in the order they were recorded.
+///
+/// # Errors
+/// The file cannot be read or holds no run.
+pub fn read_history(store: &Store) -> Result<History, Error> {
+    let stored = read_recording(store, "")?;
+    let plain = |(c, values): (Channel, Vec<f64>)| HistoryChannel {
+        name: c.name,
+        unit: c.unit,
+        quantity: c.quantity,
+        station: c.station,
+        direction: c.direction,
+        values,
+    };
+    let mut channels: Vec<HistoryChannel> = stored.channels.into_iter().map(plain).collect();
+    if let Some(Attribute::Texts(order)) = store.attribute("/channels", "names")? {
+        channels.sort_by_key(|c| order.iter().position(|name| *name == c.name));
+    }
+    Ok(History {
+        sample_rate: stored.sample_rate,
+        time: stored.time,
+        angle: stored.angle,
+        speed: stored.speed,
+        channels,
+    })
+}
+
+/// Names and places that the arrays of the other groups are over.
+fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
+    let place = Place::new(store, "/labels")?;
+    let (model, dofs) = (&machine.model, &machine.assembly.dofs);
+    place.texts("node", &[dofs.node_names.len()], &dofs.node_names)?;
+    let z: Vec<f64> =
+        model.node_z.iter().copied().chain(model.bodies.iter().map(|b| b.position[2])).collect();
+    place.array("node_z", &[z.len()], &z, "m")?;
+    place.texts("dof", &[6], &["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"])?;
+    for site in &model.bearings {
+        let at = place.below(&format!("bearings/{}", site.name))?;
+        let Bearing::Ball(ball) = &site.bearing else {
+            at.note("model", "linear")?;
+            continue;
+        };
+        let g = &ball.geometry;
+        let orders = g.orders(g.contact_angle);
+        at.note("model", "ball")?;
+        let wavy = !ball.inner_waviness.is_empty() || !ball.outer_waviness.is_empty();
+        at.note("condition", if wavy { "healthy, wavy races" } else { "healthy" })?;
+        at.note("balls", g.balls as i64)?;
+        for (name, value) in [
+            ("ball_diameter", g.ball_diameter),
+            ("pitch_diameter", g.pitch_diameter),
+            ("radial_clearance", g.radial_clearance),
+            ("contact_angle", g.contact_angle),
+            ("ftf", orders.ftf),
+            ("bpfo", orders.bpfo),
+            ("bpfi", orders.bpfi),
+            ("bsf", orders.bsf),
+        ] {
+            at.note(name, value)?;
+        }
+    }
+    Ok(())
+}
+
+/// A group that is being filled.
+struct Place<'a> {
+    store: &'a Store,
+    group: String,
+}
+
+impl<'a> Place<'a> {
+    /// The group, emptied.
+    fn new(store: &'a Store, group: &str) -> Result<Self, Error> {
+        store.remove(group)?;
+        store.create_group(group)?;
+        Ok(Self { store, group: group.into() })
+    }
+
+    fn below(&self, name: &str) -> Result<Self, Error> {
+        Self::new(self.store, &self.path(name))
+    }
+
+    fn path(&self, name: &str) -> String {
+        format!("{}/{name}", self.group)
+    }
+
+    fn note(&self, name: &str, value: impl Into<Attribute>) -> Result<(), Error> {
+        self.store.set_attribute(&self.group, name, value)
+    }
+
+    fn array(&self, name: &str, shape: &[usize], data: &[f64], unit: &str) -> Result<(), Error> {
+        self.store.write(&self.path(name), shape, data, &[("unit", unit.into())])
+    }
+
+    fn complex(&self, name: &str, shape: &[usize], data: &[Complex64], unit: &str) -> Result<(), Error> {
+        self.store.write_complex(&self.path(name), shape, data, &[("unit", unit.into())])
+    }
+
+    fn texts<T: AsRef<str>>(&self, name: &str, shape: &[usize], texts: &[T]) -> Result<(), Error> {
+        self.store.write_text_array(&self.path(name), shape, texts, &[])
+    }
+
+    /// Makes the array `scale` the axis of a dimension of the array `name`.
+    fn axis(&self, name: &str, dimension: usize, scale: &str) -> Result<(), Error> {
+        let label = scale.rsplit('/').next().unwrap_or(scale);
+        self.store.attach_scale(&self.path(name), dimension, &self.path(scale), label)
+    }
+}

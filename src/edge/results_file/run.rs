@@ -1,0 +1,89 @@
+//! What a run-up was, and its spectra, as data sets.
+
+use super::Place;
+use crate::edge::hdf5::Store;
+use crate::error::Error;
+use crate::results::{OrderResult, RunUpResult, SpectrogramResult};
+use crate::signal::segment::Level;
+use crate::transient::run::End;
+
+pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
+    let place = Place::new(store, "/run_up")?;
+    let (report, energy) = (&found.report, &found.report.energy);
+    let end = match &report.end {
+        End::Complete => "complete".to_string(),
+        End::Stopped => "stopped".to_string(),
+        End::Failed(error) => format!("failed: {error}"),
+    };
+    place.note("end", end)?;
+    for (name, value) in [
+        ("reduced_modes", found.modes as i64),
+        ("reduced_corrections", found.corrections as i64),
+        ("samples", report.samples as i64),
+        ("steps", report.steps as i64),
+        ("iterations", report.iterations as i64),
+        ("halvings", report.halvings as i64),
+    ] {
+        place.note(name, value)?;
+    }
+    for (name, value) in [
+        ("static_error", found.static_error),
+        ("frequency_error", found.frequency_error),
+        ("energy_work", energy.work),
+        ("energy_parametric", energy.parametric),
+        ("energy_damping_loss", energy.damping_loss),
+        ("energy_contact_loss", energy.contact_loss),
+        ("energy_residual", energy.residual()),
+    ] {
+        place.note(name, value)?;
+    }
+    Ok(())
+}
+
+pub fn spectrogram(store: &Store, found: &SpectrogramResult) -> Result<(), Error> {
+    let place = Place::new(store, &format!("/spectra/{}/spectrogram", found.channel))?;
+    let s = &found.spectrogram;
+    let rpm: Vec<f64> = found.speed.iter().map(|w| w * 60.0 / std::f64::consts::TAU).collect();
+    let (frames, bins) = (s.times.len(), s.frequencies.len());
+    place.note("level", level(s.level))?;
+    place.note("noise_bandwidth_bins", s.noise_bandwidth_bins)?;
+    place.array("amplitude", &[frames, bins], &s.amplitude, &found.unit)?;
+    place.array("rpm", &[frames], &rpm, "rpm")?;
+    place.array("time", &[frames], &s.times, "s")?;
+    place.array("frequency", &[bins], &s.frequencies, "Hz")?;
+    place.axis("amplitude", 0, "rpm")?;
+    place.axis("amplitude", 0, "time")?;
+    place.axis("amplitude", 1, "frequency")
+}
+
+pub fn orders(store: &Store, found: &OrderResult) -> Result<(), Error> {
+    let place = Place::new(store, &format!("/spectra/{}/orders", found.channel))?;
+    let s = &found.spectrogram;
+    let (windows, bins) = (s.times.len(), s.orders.len());
+    place.note("level", level(s.level))?;
+    place.note("noise_bandwidth_bins", s.noise_bandwidth_bins)?;
+    place.array("amplitude", &[windows, bins], &s.amplitude, &found.unit)?;
+    place.array("rpm", &[windows], &s.rpm, "rpm")?;
+    place.array("time", &[windows], &s.times, "s")?;
+    place.array("order", &[bins], &s.orders, "1/revolution")?;
+    place.axis("amplitude", 0, "rpm")?;
+    place.axis("amplitude", 0, "time")?;
+    place.axis("amplitude", 1, "order")?;
+    if found.cuts.is_empty() {
+        return Ok(());
+    }
+    let rms: Vec<f64> = found.cuts.iter().flat_map(|(_, cut)| cut.rms.iter().copied()).collect();
+    let labels: Vec<&str> = found.cuts.iter().map(|(line, _)| line.label.as_str()).collect();
+    let orders: Vec<f64> = found.cuts.iter().map(|(_, cut)| cut.order).collect();
+    place.array("cuts/rms", &[labels.len(), windows], &rms, &found.unit)?;
+    place.axis("cuts/rms", 1, "rpm")?;
+    place.texts("cuts/label", &[labels.len()], &labels)?;
+    place.array("cuts/order", &[labels.len()], &orders, "1/revolution")
+}
+
+fn level(level: Level) -> &'static str {
+    match level {
+        Level::Peak => "peak",
+        Level::Rms => "RMS",
+    }
+}
