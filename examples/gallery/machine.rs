@@ -324,7 +324,12 @@ pub fn rig() -> Figure {
         ],
         supports: vec![support("bearing A", 0.12), support("bearing B", 0.36)],
         springs: vec![spring(0.1), spring(0.38)],
-        belts: vec![RigBelt { label: "belt 120 N".to_string(), z: 0.0125, radius: 0.03, upwards: false }],
+        belts: vec![RigBelt {
+            label: "belt 120 N".to_string(),
+            z: 0.0125,
+            radius: 0.03,
+            pull: [0.0, -120.0],
+        }],
         stations: [
             ("P", 0.0125),
             ("A", 0.12),
