@@ -3,3 +3,8 @@
 mod hdf5_h5py;
 mod hdf5_round_trip;
 mod hdf5_stream;
+mod report;
+mod results_file;
+#[path = "../common/rig.rs"]
+mod rig;
+mod rig_results;

@@ -1,0 +1,156 @@
+//! Figures, JSON and viewer files of the rig's results.
+
+use rotordyn::edge::export::{export_geometry, export_modes};
+use rotordyn::edge::figures::{draw, draw_comparison};
+use rotordyn::edge::json::to_json;
+use serde_json::Value;
+
+use crate::rig_results::RIG;
+
+#[test]
+fn every_figure_is_drawn_and_the_same_again() {
+    let (machine, results) = &*RIG;
+    let folder = tempfile::tempdir().unwrap();
+    let files = draw(results, machine, &folder.path().join("a")).unwrap();
+    let again = draw(results, machine, &folder.path().join("b")).unwrap();
+    let names: Vec<&str> = files.iter().map(|f| f.file_stem().unwrap().to_str().unwrap()).collect();
+    let expected = [
+        "rig",
+        "static_deflection",
+        "ball_loads",
+        "modes_0rpm",
+        "modes_1200rpm",
+        "campbell",
+        "frf_rim",
+        "frf_rim_rotation",
+        "frf_housing_B",
+        "frf_housing_B_rotation",
+        "unbalance_bode_displacement",
+        "unbalance_polar_displacement",
+        "unbalance_orbits",
+        "run_up_A_ax",
+        "run_up_A_ay",
+        "run_up_B_ax",
+        "run_up_B_ay",
+        "run_up_disc_x",
+        "run_up_disc_y",
+        "run_up_disc_twist",
+        "run_up_bearing_A",
+        "run_up_bearing_B",
+        "run_up_energy",
+        "spectrogram_B_ax",
+        "waterfall_B_ax",
+        "orders_B_ax",
+        "order_cuts_B_ax",
+    ];
+    assert_eq!(names, expected);
+    for (a, b) in files.iter().zip(&again) {
+        for (a, b) in [(a, b), (&a.with_extension("png"), &b.with_extension("png"))] {
+            assert!(std::fs::read(a).unwrap() == std::fs::read(b).unwrap(), "{} differs", a.display());
+        }
+    }
+    let text = |name: &str| std::fs::read_to_string(folder.path().join("a").join(name)).unwrap();
+    for (file, words) in [
+        ("campbell.svg", &["1st torsional", "BPFO", "9x", "shaft speed [rpm]"][..]),
+        ("spectrogram_B_ax.svg", &["1st torsional", "BPFO", "acceleration level [dB re 1 m/s²]"]),
+        ("frf_rim.svg", &["accelerance [(m/s²)/N]", "disc_x", "0 rpm"]),
+        ("ball_loads.svg", &["bearing A", "load [N]"]),
+        ("rig.svg", &["housing A", "bearing B", "250 N along x", "pulley"]),
+    ] {
+        let svg = text(file);
+        words.iter().for_each(|w| assert!(svg.contains(w), "{file}: {w}"));
+    }
+    // What lies above the Campbell diagram's axis is neither drawn nor in its panel of decrements.
+    assert!(!text("campbell.svg").contains("A u_z"));
+}
+
+#[test]
+fn variants_are_compared_on_one_page() {
+    let (_, results) = &*RIG;
+    let folder = tempfile::tempdir().unwrap();
+    let variants = [("ball bearings".to_string(), results), ("spherical".to_string(), results)];
+    let files = draw_comparison(&variants, folder.path()).unwrap();
+    assert_eq!(files.len(), 2 * 7 + 1);
+    let svg = std::fs::read_to_string(folder.path().join("comparison_frf_rim_disc_x.svg")).unwrap();
+    assert!(svg.contains("ball bearings") && svg.contains("spherical"));
+    assert!(draw_comparison(&variants[..1], folder.path()).unwrap().is_empty());
+}
+
+/// Every number of a document, by path.
+fn numbers(value: &Value, path: &str, out: &mut Vec<(String, Option<f64>)>) {
+    match value {
+        Value::Object(map) => map.iter().for_each(|(k, v)| numbers(v, &format!("{path}.{k}"), out)),
+        Value::Array(list) => list.iter().for_each(|v| numbers(v, path, out)),
+        Value::Number(_) | Value::Null => out.push((path.into(), value.as_f64())),
+        _ => {}
+    }
+}
+
+#[test]
+fn json_holds_finite_numbers_in_stated_units() {
+    let (machine, results) = &*RIG;
+    let document = to_json(results, machine);
+    let keys: Vec<&String> = document.as_object().unwrap().keys().collect();
+    let mut expected = [
+        "schema",
+        "program",
+        "version",
+        "model",
+        "title",
+        "units",
+        "equilibrium",
+        "modal",
+        "campbell",
+        "critical_speeds",
+        "frf",
+        "unbalance",
+        "run_up",
+        "spectrograms",
+        "orders",
+        "warnings",
+    ];
+    expected.sort_unstable();
+    assert_eq!(keys, expected);
+    assert_eq!(document["schema"], "rotordyn-results-1");
+    assert_eq!(document["modal"][1]["speed_rpm"].as_f64().map(|rpm| (rpm - 1200.0).abs() < 1e-9), Some(true));
+    let mut all = Vec::new();
+    numbers(&document, "", &mut all);
+    let missing: Vec<_> = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches")).collect();
+    assert!(all.len() > 10_000 && missing.is_empty(), "{missing:?}");
+
+    // What is no number becomes null instead of invalid JSON.
+    let mut broken = results.clone();
+    broken.equilibrium.as_mut().unwrap().residual = f64::NAN;
+    broken.orders[0].cuts[0].1.rms[0] = f64::INFINITY;
+    let document: Value = serde_json::from_str(&to_json(&broken, machine).to_string()).unwrap();
+    assert!(document["equilibrium"]["residual_n"].is_null());
+    assert!(document["orders"][0]["cuts"][0]["rms"][0].is_null());
+    let empty = to_json(&rotordyn::results::Results::default(), machine);
+    assert_eq!(empty.as_object().unwrap().len(), 7);
+}
+
+#[test]
+fn geometry_and_modes_are_exported_for_viewers() {
+    let (machine, results) = &*RIG;
+    let folder = tempfile::tempdir().unwrap();
+    let shapes = export_geometry(machine, folder.path()).unwrap();
+    assert_eq!(shapes.len(), 3);
+    assert!(shapes.iter().all(|f| std::fs::read(f).unwrap().starts_with(b"glTF")));
+    let series = export_modes(results, machine, folder.path()).unwrap();
+    assert_eq!(series.len(), 2);
+    let text = std::fs::read_to_string(&series[1]).unwrap();
+    assert_eq!(text.matches("<DataSet").count(), 12);
+    assert!(text.contains("timestep=\"1e0\" part=\"0\" file=\"modes_1200rpm_01.vtu\""), "{text}");
+    // The first mode is a bending mode: its largest orbit radius is a tenth of the shaft's 625 mm.
+    let vtu = std::fs::read_to_string(folder.path().join("modes_1200rpm_01.vtu")).unwrap();
+    let vectors = |name: &str| -> Vec<[f64; 3]> {
+        let body = vtu.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
+        let body = body.split_once('>').unwrap().1.split('<').next().unwrap();
+        let list: Vec<f64> = body.split_whitespace().map(|n| n.parse().unwrap()).collect();
+        list.chunks(3).map(|v| [v[0], v[1], v[2]]).collect()
+    };
+    let square = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+    let (now, later) = (vectors("displacement"), vectors("displacement_quarter"));
+    let largest = now.iter().zip(&later).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
+    assert!((largest - 0.0625).abs() < 1e-12, "{largest}");
+}

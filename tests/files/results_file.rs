@@ -1,0 +1,92 @@
+//! results.h5 of the rig: read by h5py beside the same results as JSON, read back, written again.
+
+use std::path::Path;
+use std::process::Command;
+
+use rotordyn::edge::hdf5::{Attribute, ChannelStream, Store};
+use rotordyn::edge::json::to_json;
+use rotordyn::edge::results_file::{Meta, channels_of, read_history, remove_run, write_meta, write_study};
+
+use crate::rig_results::RIG;
+
+/// Streams the run and writes every study, as the program does.
+fn write_all(path: &Path) {
+    let (machine, results) = &*RIG;
+    let store = Store::append(path).unwrap();
+    let settings = ["speed.ramp = 0.9 s".to_string()];
+    let meta = Meta { model: "[model]", title: &machine.model.title, variant: "", settings: &settings };
+    write_meta(&store, &meta).unwrap();
+    remove_run(&store).unwrap();
+    let history = &results.run_up.as_ref().unwrap().history;
+    let mut stream =
+        ChannelStream::create(&store, "", &channels_of(history), history.sample_rate, 0.0).unwrap();
+    for k in 0..history.time.len() {
+        let row: Vec<f64> = history.channels.iter().map(|c| c.values[k]).collect();
+        stream.push(history.time[k], history.angle[k], history.speed[k], &row).unwrap();
+    }
+    stream.finish("complete").unwrap();
+    write_study(&store, results, machine).unwrap();
+}
+
+#[test]
+fn h5py_reads_what_the_json_says() {
+    let python = std::env::var("ROTORDYN_PYTHON").unwrap_or_else(|_| "python3".into());
+    if !crate::hdf5_h5py::has_h5py(&python) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (file, json) = (folder.path().join("results.h5"), folder.path().join("results.json"));
+    write_all(&file);
+    let (machine, results) = &*RIG;
+    std::fs::write(&json, to_json(results, machine).to_string()).unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/read_study.py");
+    let output = Command::new(&python).arg(script).arg(&file).arg(&json).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn a_stored_run_comes_back_and_studies_are_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("results.h5");
+    let (machine, results) = &*RIG;
+    write_all(&path);
+    // Again, as a second call of the program on the same folder.
+    write_all(&path);
+    let history = &results.run_up.as_ref().unwrap().history;
+    assert_eq!(&read_history(&Store::open(&path).unwrap()).unwrap(), history);
+    let groups = Store::open(&path).unwrap().members("/").unwrap();
+    let expected = [
+        "campbell",
+        "channels",
+        "critical_speeds",
+        "equilibrium",
+        "frf",
+        "labels",
+        "meta",
+        "modes",
+        "run_up",
+        "spectra",
+        "time",
+        "unbalance",
+        "warnings",
+    ];
+    assert_eq!(groups, expected);
+
+    // One study alone replaces itself and leaves the others.
+    let mut fewer = results.clone();
+    fewer.modal.truncate(1);
+    (fewer.campbell, fewer.frf, fewer.run_up) = (None, None, None);
+    let store = Store::append(&path).unwrap();
+    write_study(&store, &fewer, machine).unwrap();
+    assert_eq!(store.read("/modes/omega").unwrap().shape[0], 1);
+    assert!(store.contains("/campbell/frequency") && store.contains("/frf/response"));
+    assert_eq!(store.attribute("/run_up", "end").unwrap(), Some(Attribute::from("complete")));
+}
+
+#[test]
+fn a_file_without_a_run_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::create(folder.path().join("results.h5")).unwrap();
+    let message = read_history(&store).unwrap_err().to_string();
+    assert!(message.contains("results.h5") && message.contains("/channels"), "{message}");
+}

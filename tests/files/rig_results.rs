@@ -1,0 +1,56 @@
+//! Every study of the overhung rig, with a short run-up.
+
+use std::ops::ControlFlow;
+use std::sync::LazyLock;
+
+use rotordyn::results::{Results, RunUpResult};
+use rotordyn::study::{Machine, Recorder};
+
+use crate::rig::variant;
+
+/// The rig and its results: few speeds, 2 s of run-up, spectra of one channel of the seven.
+pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
+    let model = variant(
+        None,
+        &[
+            ("speed.settle", "0.1 s"),
+            ("speed.ramp", "0.9 s"),
+            ("speed.hold", "1 s"),
+            ("study.campbell.speeds", "0, 600, 1200 rpm"),
+            ("study.spectrogram.length", "0.25 s"),
+            ("study.orders.resolution", "0.2"),
+        ],
+    );
+    let machine = Machine::new(model).unwrap();
+    let ask = machine.model.studies.clone();
+    let study = ask.run_up.unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        recorder.take(sample);
+        ControlFlow::Continue(())
+    });
+    let history = recorder.history;
+    let mut results = Results {
+        equilibrium: Some(machine.equilibrium(&ask.equilibrium.unwrap()).unwrap()),
+        modal: machine.modal(&ask.modal.unwrap()).unwrap(),
+        campbell: Some(machine.campbell(&ask.campbell.unwrap()).unwrap()),
+        critical: Some(machine.critical(&ask.critical.unwrap()).unwrap()),
+        frf: Some(machine.frf(&ask.frf.unwrap()).unwrap()),
+        unbalance: Some(machine.unbalance(&ask.unbalance.unwrap()).unwrap()),
+        spectrograms: machine.spectrograms(&ask.spectrogram.unwrap(), &history).unwrap(),
+        orders: machine.orders(&ask.orders.unwrap(), &history).unwrap(),
+        run_up: Some(RunUpResult {
+            modes: reduction.modes,
+            corrections: reduction.corrections,
+            static_error: reduction.static_error,
+            frequency_error: 0.0,
+            history,
+            report,
+        }),
+        warnings: vec!["a warning".into()],
+    };
+    results.spectrograms.retain(|s| s.channel == "B_ax");
+    results.orders.retain(|s| s.channel == "B_ax");
+    (machine, results)
+});
