@@ -337,7 +337,7 @@ mod tests {
         assert_eq!(parse("5mm", LENGTH), Ok(5e-3));
         assert_eq!(parse("2 kN/mm", STIFFNESS), Ok(2e6));
         assert!((parse("1 lbf s^2*in", INERTIA).unwrap() - 0.112_984_829).abs() < 1e-9);
-        assert!((parse("1 psi", PRESSURE).unwrap() - 6894.757_293).abs() < 1e-6);
+        assert!((parse("1 psi", PRESSURE).unwrap() - 6_894.757_293).abs() < 1e-6);
         assert!((parse("1 N m/deg", TILT_STIFFNESS).unwrap() - 57.295_779_513_082_32).abs() < 1e-12);
     }
 

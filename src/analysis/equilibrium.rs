@@ -152,7 +152,7 @@ pub fn equilibrium(
             let trial_residual = residual_of(&trial, &trial_reactions);
             let along = dot(&trial_residual, &direction);
             let accept = along.abs() <= 0.9 * before.abs() || halving + 1 == MAX_HALVINGS;
-            if accept || !(before > 0.0) {
+            if accept || before.is_nan() || before <= 0.0 {
                 stalled = if max_abs(&trial_residual) < 0.999 * max_abs(&residual) { 0 } else { stalled + 1 };
                 if max_abs(&residual) > 1e3 * tolerance {
                     stalled = 0;
@@ -175,7 +175,7 @@ pub fn equilibrium(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
     }
-    if !(left <= 1e-9 * load_size) {
+    if left.is_nan() || left > 1e-9 * load_size {
         return Err(PhysicsError::NoEquilibrium {
             item: assembly.dofs.name(worst),
             speed_rpm: speed * 30.0 / std::f64::consts::PI,

@@ -2,8 +2,11 @@
 
 use super::dofs::DOF_NAMES;
 use super::{Assembly, DofMap, LinearSystem};
+use crate::bearing::Bearing;
+use crate::bearing::LinearElement;
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{SparseMatrix, eigen};
+use crate::linalg::{BandLayout, SparseMatrix, Triplets, eigen};
+use crate::model::{Drive, Model};
 
 /// Slower than this \[rad/s\], a motion counts as free: one turn in ten minutes.
 const FREE_BELOW: f64 = 0.01;
@@ -29,6 +32,60 @@ pub fn check_restrained(
 /// No convergence of the undamped modes.
 pub fn free_motions_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec<String>, Error> {
     free_motions(assembly, &system.stiffness)
+}
+
+/// Every motion that structure and bearings leave free at standstill, ball bearings taken as all in contact; rotation
+/// about z only when the drive holds it.
+///
+/// # Errors
+/// No convergence of the undamped modes.
+pub fn free_motions_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, Error> {
+    // What holds counts here, not how hard.
+    const CONTACT: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
+    let n = assembly.dofs.len();
+    let mut bearings = Triplets::new(n, n);
+    for (site, place) in model.bearings.iter().zip(&assembly.sites) {
+        let stiffness = match &site.bearing {
+            Bearing::Linear(linear) => LinearElement::new(linear).tangent(0.0).stiffness,
+            Bearing::Ball(_) => {
+                std::array::from_fn(|i| std::array::from_fn(|j| if i == j { CONTACT[i] } else { 0.0 }))
+            }
+        };
+        bearings.add_between_rows(&place.rows, &stiffness);
+    }
+    let stiffness = SparseMatrix::sum(&[
+        (1.0, &assembly.stiffness),
+        (1.0, &assembly.belt_stiffness),
+        (1.0, &bearings.build()),
+    ]);
+    let mut motions =
+        if may_move(assembly, &stiffness) { free_motions(assembly, &stiffness)? } else { Vec::new() };
+    let held_by_drive = matches!(model.drive, Drive::Prescribed { node: Some(_) });
+    motions.retain(|motion| held_by_drive || motion != SPIN);
+    Ok(motions)
+}
+
+/// Whether the slowest motion may be a free one, by a few steps of inverse iteration on (K + M) x = M x.
+fn may_move(assembly: &Assembly, stiffness: &SparseMatrix) -> bool {
+    const STEPS: usize = 8;
+    let mass = &assembly.mass;
+    let layout = BandLayout::new(&[mass, stiffness]);
+    let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
+    let Ok(factors) = layout.factor::<f64>(values) else { return true };
+    // Any start with a share of every mode will do.
+    let mut x: Vec<f64> = (0..assembly.dofs.len()).map(|k| (1.0 + k as f64).sin()).collect();
+    let mut slowest = 0.0;
+    for _ in 0..STEPS {
+        let momentum = mass.mul(&x);
+        let size = x.iter().zip(&momentum).map(|(x, p)| x * p).sum::<f64>().sqrt();
+        x = momentum.iter().map(|p| p / size).collect();
+        factors.solve(&mut x);
+        let response = mass.mul(&x);
+        // 1/(ω² + 1) of the slowest motion is approached from below.
+        slowest = x.iter().zip(&response).map(|(x, p)| x * p).sum::<f64>().sqrt();
+    }
+    // Half way between a free motion (1) and the slowest that a machine is held by.
+    slowest.is_nan() || slowest > 0.5
 }
 
 const SPIN: &str = "rotation of the shaft about z (θ_z)";

@@ -6,6 +6,7 @@ use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::tree::{Table, Value};
 use super::file::{Diagnostic, Kind, ModelErrors, Source};
+use std::ops::Range;
 
 /// What is laid over a model file before it is checked.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,6 +26,33 @@ pub struct Loaded {
     pub sources: Vec<Source>,
     /// Text of the model file.
     pub text: String,
+}
+
+impl Loaded {
+    /// Where the file states an item, such as `["bearing", "B"]`: in the model itself, else in a variant; the start of
+    /// the file when it is nowhere (set by `--set`).
+    pub fn place_of(&self, path: &[&str]) -> Range<usize> {
+        let root = Table::parse(&self.text, 0).unwrap_or_default();
+        let variants = match root.get("variant").map(|e| &e.node.value) {
+            Some(Value::Table(variants)) => variants.entries.as_slice(),
+            _ => &[],
+        };
+        let tables = variants.iter().filter_map(|e| match &e.node.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        });
+        std::iter::once(&root).chain(tables).find_map(|table| place_in(table, path)).unwrap_or(0..0)
+    }
+}
+
+fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
+    let (first, rest) = path.split_first()?;
+    let entry = table.get(first)?;
+    match (rest, &entry.node.value) {
+        ([], _) => Some(entry.key_span.clone()),
+        (_, Value::Table(inner)) => place_in(inner, rest),
+        _ => None,
+    }
 }
 
 /// Read, vary and check a model; `name` is what messages call the file.

@@ -11,7 +11,7 @@ use crate::analysis::campbell::{self, Campbell};
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::analysis::{frf, modal, stability, unbalance};
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, free_motion};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
 use crate::element::Anchor;
 use crate::error::{Error, PhysicsError};
@@ -44,7 +44,8 @@ impl Machine {
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model) -> Result<Self, Error> {
         let assembly = Assembly::new(&model)?;
-        let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)?;
+        let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
+            .map_err(|error| name_free_motion(error, &model, &assembly))?;
         let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
         Ok(Self { model, assembly, base, bearings })
     }
@@ -274,5 +275,14 @@ impl Machine {
                 }
             })
             .collect()
+    }
+}
+
+/// A load that meets a free motion leaves no equilibrium: then the motion is what the user must hear of.
+fn name_free_motion(error: Error, model: &Model, assembly: &Assembly) -> Error {
+    let free = free_motion::free_motions_of_machine(model, assembly).unwrap_or_default();
+    match free.into_iter().next() {
+        Some(motion) => PhysicsError::Singular { motion }.into(),
+        None => error,
     }
 }

@@ -60,6 +60,7 @@ const MAX_HALVINGS: u32 = 12;
 /// A bearing displacement beyond this \[m\] means the run has diverged.
 const DIVERGED: f64 = 0.1;
 
+#[allow(clippy::large_enum_variant)] // there is one
 enum Stepper {
     Implicit(GeneralisedAlpha),
     Fixed(RungeKutta),

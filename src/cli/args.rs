@@ -1,0 +1,374 @@
+//! Arguments of the command, and its manual.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+const LONG_ABOUT: &str = "\
+Simulates rotating machines: a flexible shaft with discs on ball or linear bearings, in housings on springs.
+
+One TOML file describes the machine and what to compute. From it come static equilibrium, natural frequencies and \
+mode shapes, Campbell diagrams, critical speeds, FRFs, unbalance responses, nonlinear run-ups with one Hertz contact \
+per ball, and the spectrograms and order spectra of those run-ups.";
+
+const AFTER: &str = "\
+Examples:
+  rotordyn run models/overhung_rig.toml                        every study the file asks for
+  rotordyn check my_machine.toml                               is the file sound? what is in it?
+  rotordyn modal my_machine.toml --speed \"0, 3000 rpm\"         natural frequencies at two speeds
+  rotordyn run-up my_machine.toml --set bearing.B.radial_clearance=\"20 um\"
+  rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
+  rotordyn spectrogram out/overhung_rig --channels B_ax        of a run-up that is on disk
+  rotordyn catalogue 6205
+
+Units are written in values: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A number without its unit is an error.
+
+Results go to out/NAME/ (out/NAME_VARIANT/ for a variant): results.h5 (HDF5, opens with h5py) and every figure as SVG \
+and PNG. Tables go to standard output; progress, warnings and errors to standard error.
+
+Exit codes:
+  0    done
+  2    the input is wrong: arguments, model file, settings
+  3    the physics has no answer: no equilibrium, no convergence, a free motion; what was computed is on disk
+  4    the environment: a file or folder that cannot be read or written
+  101  a bug in rotordyn: please report it
+  130  ended by Ctrl-C; what was computed is on disk
+
+Environment: NO_COLOR turns colour off; RAYON_NUM_THREADS is the default of --threads.";
+
+/// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
+#[derive(Debug, Parser)]
+#[command(
+    name = "rotordyn",
+    version,
+    long_about = LONG_ABOUT,
+    after_long_help = AFTER,
+    after_help = "See --help for examples, units and exit codes, and COMMAND --help for each command.",
+    max_term_width = 100,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// How to speak; for every command.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct Output {
+    /// Print one JSON document to standard output, and nothing else there
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Print no tables and no progress, only errors and warnings
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// Number of threads; the numbers computed do not depend on it [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// Which machine.
+#[derive(Args, Clone, Debug)]
+pub struct ModelArgs {
+    /// The model file (TOML)
+    pub model: PathBuf,
+    /// Lay [variant.NAME] of the file over the model
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
+    /// Set any value of the model, such as bearing.B.radial_clearance="20 um"; can be repeated
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+}
+
+/// Which machine, and where its results go.
+#[derive(Args, Clone, Debug)]
+pub struct StudyArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Folder for the results [default: out/NAME or out/NAME_VARIANT]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Draw no figures
+    #[arg(long)]
+    pub no_figures: bool,
+}
+
+/// A stored run.
+#[derive(Args, Clone, Debug)]
+pub struct StoredArgs {
+    /// results.h5 of a run-up, or the folder that holds it
+    pub file: PathBuf,
+    /// Channels to look at, separated by commas [default: those of the model file, else all that vibrate]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub channels: Vec<String>,
+    /// Window length, such as "0.5 s" (spectrogram only)
+    #[arg(long, value_name = "TIME")]
+    pub length: Option<String>,
+    /// Highest frequency, such as "220 Hz" (spectrogram only)
+    #[arg(long, value_name = "FREQUENCY")]
+    pub max_frequency: Option<String>,
+    /// Order resolution, such as 0.05 (orders only)
+    #[arg(long, value_name = "NUMBER")]
+    pub resolution: Option<String>,
+    /// Highest order (orders only)
+    #[arg(long, value_name = "NUMBER")]
+    pub max_order: Option<String>,
+    /// Order lines to draw or to cut, such as 1,2,BPFO,"2 BPFO"
+    #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
+    pub orders: Vec<String>,
+    /// Overlap of neighbouring windows, 0 to below 1
+    #[arg(long, value_name = "NUMBER")]
+    pub overlap: Option<String>,
+    /// Window: rectangular, hann, hamming, blackman, flat-top
+    #[arg(long, value_name = "NAME")]
+    pub window: Option<String>,
+    /// Draw no figures
+    #[arg(long)]
+    pub no_figures: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Do every study that the model file asks for
+    ///
+    /// Writes results.h5 and all figures to out/NAME/, and prints tables of modes, critical speeds, bearing loads,
+    /// orders and the energy balance of the run-up. results.h5 is started anew. A study that fails is named at the
+    /// end (exit code 3); the others are done all the same.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn run models/overhung_rig.toml
+  rotordyn run models/overhung_rig.toml --variant wavy --out /data/wavy
+  rotordyn run models/jeffcott.toml --json --quiet > jeffcott.json")]
+    Run(StudyArgs),
+
+    /// Check a model file with all its variants, and say what is in it
+    ///
+    /// Reports every problem of the file at once, each with its place; balls, cage pockets and rings that overlap;
+    /// and motions that nothing holds. Prints masses, stations, bearings with their characteristic orders (FTF, BPFO,
+    /// BPFI, BSF per revolution) and the number of degrees of freedom. With --variant only that one is checked.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn check models/overhung_rig.toml
+  rotordyn check my_machine.toml --variant block --set speed.to=\"1500 rpm\"")]
+    Check(ModelArgs),
+
+    /// Static equilibrium: bearing forces, ball loads, bearing stiffness
+    ///
+    /// Under gravity, belt pull, preload and constant loads, found by damped Newton for any clearance. Without
+    /// [study.static] at standstill, with the bearings averaged over the cage's position.
+    #[command(after_long_help = "\
+Units: forces N, moments N m, displacements um, ball positions and contact angles deg, stiffness N/m.
+
+Examples:
+  rotordyn static models/overhung_rig.toml
+  rotordyn static models/overhung_rig.toml --cage-as-placed --set bearing.A.cage_angle=\"20 deg\"")]
+    Static {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Speed at which bearings tabulated over speed are taken, such as "1200 rpm"
+        #[arg(long, value_name = "SPEED")]
+        speed: Option<String>,
+        /// Keep the cage angle of the model instead of averaging over it
+        #[arg(long)]
+        cage_as_placed: bool,
+    },
+
+    /// Natural frequencies, damping and mode shapes at given speeds
+    ///
+    /// Damped modes of the machine linearised about its equilibrium, labelled by orbit and energy. Without
+    /// [study.modal]: 12 modes at standstill and at the highest speed of [speed].
+    #[command(after_long_help = "\
+Units: frequencies Hz and rpm (cycles per minute), damping ratio zeta in %, logarithmic decrement.
+
+Examples:
+  rotordyn modal models/jeffcott.toml
+  rotordyn modal models/jeffcott.toml --speed \"0, 1500, 3000 rpm\" --modes 8")]
+    Modal {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Speeds, such as "1200 rpm" or "0, 600, 1200 rpm"
+        #[arg(long, value_name = "SPEEDS")]
+        speed: Option<String>,
+        /// Number of modes
+        #[arg(long, value_name = "N")]
+        modes: Option<usize>,
+    },
+
+    /// Linear Campbell diagram, crossings with order lines, stability thresholds
+    ///
+    /// Modes are followed over speed by their shapes (MAC). Without [study.campbell]: 12 modes at 25 speeds up to the
+    /// highest of [speed], else 3000 rpm.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn campbell models/overhung_rig.toml
+  rotordyn campbell models/jeffcott.toml --max-speed \"12000 rpm\" --modes 10")]
+    Campbell {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Highest speed, such as "6000 rpm"; 25 speeds from 0
+        #[arg(long, value_name = "SPEED")]
+        max_speed: Option<String>,
+        /// Number of modes
+        #[arg(long, value_name = "N")]
+        modes: Option<usize>,
+    },
+
+    /// Critical speeds with whirl direction and damping
+    ///
+    /// Speeds at which a mode's frequency is n times the speed. Without [study.critical]: order 1, up to three times
+    /// the highest speed of [speed], else 6000 rpm.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn critical models/jeffcott.toml
+  rotordyn critical models/overhung_rig.toml --max-speed \"6000 rpm\" --orders 1,2,3")]
+    Critical {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Highest speed, such as "6000 rpm"
+        #[arg(long, value_name = "SPEED")]
+        max_speed: Option<String>,
+        /// Orders, such as 1,2,BPFO
+        #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
+        orders: Vec<String>,
+    },
+
+    /// Frequency response functions at a fixed speed
+    ///
+    /// Every probe's response to every excitation, solved directly at each frequency. Without [study.frf]: unit forces
+    /// along x and y at the first disc (else station), 1 to 500 Hz by 0.25 Hz, receptance.
+    #[command(after_long_help = "\
+Units: receptance m/N, mobility m/(s N), accelerance m/(s^2 N).
+
+Examples:
+  rotordyn frf models/overhung_rig.toml
+  rotordyn frf models/jeffcott.toml --speed \"1500 rpm\" --quantity mobility")]
+    Frf {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Speed, such as "1200 rpm"
+        #[arg(long, value_name = "SPEED")]
+        speed: Option<String>,
+        /// Highest frequency, such as "400 Hz"; from 1 Hz by 0.25 Hz
+        #[arg(long, value_name = "FREQUENCY")]
+        max_frequency: Option<String>,
+        /// receptance, mobility or accelerance
+        #[arg(long, value_name = "NAME")]
+        quantity: Option<String>,
+    },
+
+    /// Steady unbalance response over speed: Bode diagrams and orbits
+    ///
+    /// Without [study.unbalance]: 200 speeds up to one and a half times the highest of [speed], else 6000 rpm.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn unbalance models/jeffcott.toml
+  rotordyn unbalance models/jeffcott.toml --max-speed \"6000 rpm\"")]
+    Unbalance {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Highest speed, such as "6000 rpm"; 200 speeds
+        #[arg(long, value_name = "SPEED")]
+        max_speed: Option<String>,
+    },
+
+    /// Nonlinear run-up through the speed profile, one Hertz contact per ball
+    ///
+    /// Integrates the machine through [speed]: linear parts reduced to their modes below the cutoff with static
+    /// correction, every ball a nonlinear contact. Samples go to results.h5 as they come; Ctrl-C ends the run cleanly
+    /// and what was computed stays readable. Without [study.run_up]: generalised-alpha, steps of 100 us, sampling at
+    /// 2 kHz, all modes. Where the file has [study.spectrogram] and [study.orders], they are done too.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn run-up models/overhung_rig.toml
+  rotordyn run-up models/overhung_rig.toml --variant wavy --step \"50 us\"
+  rotordyn run-up models/overhung_rig.toml --set speed.ramp=\"5 s\"")]
+    RunUp {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Time step, such as "100 us"
+        #[arg(long, value_name = "TIME")]
+        step: Option<String>,
+        /// generalised-alpha, newmark, rk4 or dormand-prince
+        #[arg(long, value_name = "NAME")]
+        integrator: Option<String>,
+        /// Sampling rate of the channels, such as "4 kHz"
+        #[arg(long, value_name = "FREQUENCY")]
+        sample_rate: Option<String>,
+    },
+
+    /// Spectrograms over rpm of a stored run-up: the measured-style Campbell diagram
+    ///
+    /// Settings come from the model text stored in the file; flags override them. Adds to the same results.h5 and
+    /// draws beside it.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn spectrogram out/overhung_rig
+  rotordyn spectrogram out/overhung_rig/results.h5 --channels B_ax,B_ay --length \"0.5 s\"")]
+    Spectrogram(StoredArgs),
+
+    /// Order spectra and order cuts of a stored run-up
+    ///
+    /// Resamples the channels at even shaft angles. Settings come from the model text stored in the file; flags
+    /// override them. Adds to the same results.h5 and draws beside it.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn orders out/overhung_rig
+  rotordyn orders out/overhung_rig --resolution 0.02 --orders 7,\"2 BPFO\"")]
+    Orders(StoredArgs),
+
+    /// Compare variants of one machine: frequencies side by side, FRFs overlaid
+    ///
+    /// Modes of the variants are paired with those of the first by their shapes along the shaft (mass-weighted MAC).
+    /// `base` is the file without a variant.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
+  rotordyn compare models/overhung_rig.toml --variants clearance_5um,base,clearance_33um --modes 8")]
+    Compare {
+        #[command(flatten)]
+        study: StudyArgs,
+        /// Variants, separated by commas [default: base and every variant of the file]
+        #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+        variants: Vec<String>,
+        /// Speeds, such as "0, 1200 rpm" [default: those of [study.modal]]
+        #[arg(long, value_name = "SPEEDS")]
+        speed: Option<String>,
+        /// Number of modes
+        #[arg(long, value_name = "N")]
+        modes: Option<usize>,
+    },
+
+    /// Look up bearings of the built-in catalogue
+    ///
+    /// Without a designation lists all; with one (or its beginning) shows internal geometry, clearance classes after
+    /// ISO 5753-1, characteristic orders, and where the geometry comes from.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn catalogue
+  rotordyn catalogue 6205
+  rotordyn catalogue 72 --json")]
+    Catalogue {
+        /// Designation, or how it begins
+        designation: Option<String>,
+    },
+
+    /// Export for viewing and for other programs: glb, VTK, CSV
+    ///
+    /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer), mode shapes as
+    /// VTK for ParaView, and, when the folder holds a run-up, its channels as CSV.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn export models/overhung_rig.toml")]
+    Export(StudyArgs),
+}
+
+/// PATH=VALUE.
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().into(), value.trim().into())),
+        _ => Err("expected PATH=VALUE, such as bearing.B.radial_clearance=\"20 um\"".into()),
+    }
+}

@@ -1,0 +1,125 @@
+//! `catalogue`: the built-in bearings.
+
+use rotordyn::bearing::BallGeometry;
+use rotordyn::model::catalogue::{CLASSES, CatalogueEntry, clearance, entries, find};
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::terminal::{Terminal, number};
+
+pub fn run(wanted: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
+    let wanted = wanted.unwrap_or_default().trim();
+    let found: Vec<CatalogueEntry> = match find(wanted) {
+        Some(entry) => vec![entry],
+        None => entries().filter(|e| starts(e.designation, wanted)).collect(),
+    };
+    match found.as_slice() {
+        [] => {
+            let message = format!("the catalogue has no bearing `{wanted}`; `rotordyn catalogue` lists all");
+            return Err(Failure::Input(message));
+        }
+        [one] => sheet(terminal, one),
+        many => list(terminal, many),
+    }
+    Ok(json!({ "command": "catalogue", "bearings": found.iter().map(to_json).collect::<Vec<_>>() }))
+}
+
+fn starts(designation: &str, with: &str) -> bool {
+    designation.get(..with.len()).is_some_and(|head| head.eq_ignore_ascii_case(with))
+}
+
+fn geometry(e: &CatalogueEntry) -> BallGeometry {
+    BallGeometry {
+        balls: e.balls,
+        ball_diameter: e.ball_diameter,
+        pitch_diameter: e.pitch_diameter,
+        inner_groove_radius: e.osculation[0] * e.ball_diameter,
+        outer_groove_radius: e.osculation[1] * e.ball_diameter,
+        radial_clearance: 0.0,
+        contact_angle: e.contact_angle,
+        thrust_direction: 1.0,
+        bore: e.bore,
+        outside_diameter: e.outside_diameter,
+        width: e.width,
+    }
+}
+
+fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
+    let mm = |length: f64| number(1e3 * length, 5).trim_end_matches('0').trim_end_matches('.').to_string();
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .map(|e| {
+            let orders = geometry(e).orders(e.contact_angle);
+            vec![
+                e.designation.to_string(),
+                mm(e.bore),
+                mm(e.outside_diameter),
+                mm(e.width),
+                e.balls.to_string(),
+                mm(e.ball_diameter),
+                mm(e.pitch_diameter),
+                format!("{:.0}", e.contact_angle.to_degrees()),
+                format!("{:.3}", orders.bpfo),
+                format!("{:.3}", orders.bpfi),
+            ]
+        })
+        .collect();
+    let header =
+        ["designation", "bore", "outside", "width", "balls", "ball", "pitch", "angle deg", "BPFO", "BPFI"];
+    terminal.table(
+        &format!("{} bearings, lengths in mm, frequencies per revolution", found.len()),
+        &header,
+        &rows,
+    );
+}
+
+fn sheet(terminal: &Terminal, e: &CatalogueEntry) {
+    let orders = geometry(e).orders(e.contact_angle);
+    let row = |name: &str, value: String| vec![name.to_string(), value];
+    let mm = |length: f64| format!("{} mm", number(1e3 * length, 5));
+    let mut rows = vec![
+        row("bore", mm(e.bore)),
+        row("outside diameter", mm(e.outside_diameter)),
+        row("width", mm(e.width)),
+        row("balls", e.balls.to_string()),
+        row("ball diameter", mm(e.ball_diameter)),
+        row("pitch diameter", mm(e.pitch_diameter)),
+        row("groove radius / ball diameter", format!("inner {}, outer {}", e.osculation[0], e.osculation[1])),
+        row("contact angle", format!("{:.1} deg", e.contact_angle.to_degrees())),
+        row("FTF, BPFO", format!("{:.4}, {:.4} per revolution", orders.ftf, orders.bpfo)),
+        row("BPFI, BSF", format!("{:.4}, {:.4} per revolution", orders.bpfi, orders.bsf)),
+    ];
+    rows.extend(e.static_rating.map(|c0| row("static load rating", format!("{} kN", number(1e-3 * c0, 4)))));
+    for class in CLASSES {
+        let range = clearance(class, e.bore).filter(|_| e.contact_angle == 0.0);
+        rows.extend(range.map(|[least, most]| {
+            let um = |c: f64| format!("{:.0}", 1e6 * c);
+            row(&format!("radial clearance {class}"), format!("{} to {} um", um(least), um(most)))
+        }));
+    }
+    rows.push(row("internal geometry", e.origin.to_string()));
+    terminal.table(e.designation, &["", ""], &rows);
+}
+
+fn to_json(e: &CatalogueEntry) -> Value {
+    let orders = geometry(e).orders(e.contact_angle);
+    let clearances: serde_json::Map<String, Value> = CLASSES
+        .iter()
+        .filter_map(|class| Some(((*class).to_string(), json!(clearance(class, e.bore)?))))
+        .collect();
+    json!({
+        "designation": e.designation,
+        "bore": e.bore,
+        "outside_diameter": e.outside_diameter,
+        "width": e.width,
+        "balls": e.balls,
+        "ball_diameter": e.ball_diameter,
+        "pitch_diameter": e.pitch_diameter,
+        "osculation": e.osculation,
+        "contact_angle": e.contact_angle,
+        "static_rating": e.static_rating,
+        "radial_clearance": clearances,
+        "orders": { "ftf": orders.ftf, "bpfo": orders.bpfo, "bpfi": orders.bpfi, "bsf": orders.bsf },
+        "origin": e.origin,
+    })
+}

@@ -1,0 +1,207 @@
+//! `check`: is the model sound with all its variants, and what is in it?
+
+use rayon::prelude::*;
+use rotordyn::assembly::free_motion;
+use rotordyn::bearing::Bearing;
+use rotordyn::model::{Loaded, Model};
+use rotordyn::study::Machine;
+use serde_json::{Value, json};
+
+use super::args::ModelArgs;
+use super::failure::Failure;
+use super::machine::Origin;
+use super::studies::Study;
+use super::terminal::{Terminal, number, rpm};
+
+/// What is known of one variant after the check.
+struct Checked {
+    name: String,
+    loaded: Loaded,
+    machine: Machine,
+    /// Total mass \[kg\].
+    mass: f64,
+    free: Vec<String>,
+}
+
+pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
+    let origin = Origin::read(args)?;
+    let names: Vec<String> = match &origin.options.variant {
+        Some(variant) => vec![variant.clone()],
+        None => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
+    };
+    // The first alone: what is wrong with it is wrong with all.
+    let (first, others) = names.split_first().ok_or_else(|| Failure::Input("nothing to check".into()))?;
+    let first = check(&origin, first)?;
+    let others: Vec<Result<Checked, (String, Failure)>> =
+        others.par_iter().map(|name| check(&origin, name).map_err(|e| (name.clone(), e))).collect();
+
+    summary(terminal, &first);
+    let mut checked = vec![first];
+    for other in others {
+        match other {
+            Ok(found) => checked.push(found),
+            Err((name, failure)) => {
+                terminal.say("");
+                terminal.complain("error", &format!("in variant `{name}`:"));
+                return Err(failure);
+            }
+        }
+    }
+    let rows: Vec<Vec<String>> = checked
+        .iter()
+        .map(|c| {
+            let free = if c.free.is_empty() { "nothing".into() } else { c.free.join("; ") };
+            let dofs = c.machine.assembly.dofs.len().to_string();
+            vec![c.name.clone(), number(c.mass, 4), dofs, free]
+        })
+        .collect();
+    if checked.len() > 1 {
+        terminal.table("Variants, all sound", &["variant", "mass kg", "DOFs", "free to move"], &rows);
+    }
+    for (c, motion) in checked.iter().flat_map(|c| c.free.iter().map(move |motion| (c, motion))) {
+        terminal.complain("warning", &format!("{}: {motion} is free to move", c.name));
+    }
+    for c in &checked {
+        super::warn(terminal, &c.loaded);
+    }
+    Ok(json!({
+        "command": "check",
+        "model": checked[0].loaded.model.name,
+        "title": checked[0].loaded.model.title,
+        "variants": checked.iter().map(to_json).collect::<Vec<_>>(),
+    }))
+}
+
+fn check(origin: &Origin, variant: &str) -> Result<Checked, Failure> {
+    let loaded = origin.with_variant(variant).load(&[])?;
+    let machine = Machine::new(loaded.model.clone())?;
+    let free = free_motion::free_motions_of_machine(&machine.model, &machine.assembly)?;
+    let full = &machine.assembly.full_mass;
+    // Everything moved along x: uᵀ M u is the total mass.
+    let along: Vec<f64> =
+        (0..machine.assembly.dofs.full_len()).map(|i| f64::from(u8::from(i % 6 == 0))).collect();
+    let mass = full.mul(&along).iter().zip(&along).map(|(p, u)| p * u).sum();
+    Ok(Checked { name: variant.to_string(), loaded, machine, mass, free })
+}
+
+fn summary(terminal: &Terminal, found: &Checked) {
+    let model = &found.loaded.model;
+    let dofs = &found.machine.assembly.dofs;
+    let discs: f64 = model.discs.iter().map(|d| d.mass).sum();
+    let bodies: f64 =
+        model.bodies.iter().map(|b| b.mass).sum::<f64>() + model.masses.iter().map(|m| m.mass).sum::<f64>();
+    terminal.heading(&format!("{}: {}", model.name, model.title));
+    let length = match (model.node_z.first(), model.node_z.last()) {
+        (Some(a), Some(b)) => b - a,
+        _ => 0.0,
+    };
+    terminal.say(&format!(
+        "  shaft {} mm in {} elements, {} kg; {} discs, {} kg; {} bodies and sensors, {} kg;\n  total {} kg",
+        number(1e3 * length, 4),
+        model.shaft.len(),
+        number(found.mass - discs - bodies, 4),
+        model.discs.len(),
+        number(discs, 4),
+        model.bodies.len() + model.masses.len(),
+        number(bodies, 4),
+        number(found.mass, 4),
+    ));
+    terminal.say(&format!(
+        "  {} degrees of freedom, {} of them eliminated by joints and drive; {} bushings, {} joints, {} belts",
+        dofs.len(),
+        dofs.full_len() - dofs.len(),
+        model.bushings.len(),
+        model.joints.len(),
+        model.belts.len()
+    ));
+    let (top, duration) = (rpm(model.profile.top_speed()), model.profile.duration());
+    if top > 0.0 {
+        terminal.say(&format!("  speed profile of {duration} s up to {} rpm", number(top, 5)));
+    }
+    let asked: Vec<&str> =
+        Study::ALL.iter().filter(|s| s.is_asked(&model.studies)).map(|s| s.name()).collect();
+    terminal.say(&format!("  studies: {}", if asked.is_empty() { "none".into() } else { asked.join(", ") }));
+
+    let rows: Vec<Vec<String>> = model
+        .stations
+        .iter()
+        .map(|s| vec![s.name.clone(), number(1e3 * s.z, 5), (s.node + 1).to_string(), carried(model, s.node)])
+        .collect();
+    terminal.table("Stations", &["station", "z mm", "node", "carries"], &rows);
+
+    let rows: Vec<Vec<String>> = model
+        .bearings
+        .iter()
+        .map(|site| {
+            let mut row = vec![site.name.clone()];
+            match &site.bearing {
+                Bearing::Linear(linear) => row.push(match linear.table.len() {
+                    1 => "linear".into(),
+                    n => format!("linear, {n} speeds"),
+                }),
+                Bearing::Ball(ball) => {
+                    let g = &ball.geometry;
+                    let orders = g.orders(g.contact_angle);
+                    row.push(format!("{} balls of {} mm", g.balls, number(1e3 * g.ball_diameter, 4)));
+                    row.push(number(1e3 * g.pitch_diameter, 5));
+                    row.push(format!("{:.1}", 1e6 * g.radial_clearance));
+                    row.push(format!("{:.0}", g.contact_angle.to_degrees()));
+                    let orders = [orders.ftf, orders.bpfo, orders.bpfi, orders.bsf];
+                    row.extend(orders.iter().map(|o| format!("{o:.4}")));
+                }
+            }
+            row
+        })
+        .collect();
+    if !rows.is_empty() {
+        let header =
+            ["bearing", "model", "pitch mm", "clearance um", "angle deg", "FTF", "BPFO", "BPFI", "BSF"];
+        let balls = rows.iter().any(|row| row.len() > 2);
+        let header = if balls { &header[..] } else { &header[..2] };
+        terminal.table("Bearings, with their frequencies per revolution", header, &rows);
+    }
+}
+
+/// What sits on a shaft node.
+fn carried(model: &Model, node: usize) -> String {
+    let discs = model.discs.iter().filter(|d| d.node == node).map(|d| format!("disc.{}", d.name));
+    let bearings = model.bearings.iter().filter(|b| b.node == node).map(|b| format!("bearing.{}", b.name));
+    let unbalances =
+        model.unbalances.iter().filter(|u| u.node == node).map(|u| format!("unbalance.{}", u.name));
+    discs.chain(bearings).chain(unbalances).collect::<Vec<_>>().join(", ")
+}
+
+fn to_json(found: &Checked) -> Value {
+    let bearings: Vec<Value> = found
+        .loaded
+        .model
+        .bearings
+        .iter()
+        .map(|site| match &site.bearing {
+            Bearing::Linear(_) => json!({ "name": site.name, "model": "linear" }),
+            Bearing::Ball(ball) => {
+                let g = &ball.geometry;
+                let o = g.orders(g.contact_angle);
+                json!({
+                    "name": site.name,
+                    "model": "ball",
+                    "balls": g.balls,
+                    "ball_diameter": g.ball_diameter,
+                    "pitch_diameter": g.pitch_diameter,
+                    "radial_clearance": g.radial_clearance,
+                    "orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
+                })
+            }
+        })
+        .collect();
+    json!({
+        "name": found.name,
+        "title": found.loaded.model.title,
+        "mass": found.mass,
+        "dofs": found.machine.assembly.dofs.len(),
+        "shaft_elements": found.loaded.model.shaft.len(),
+        "free_motions": found.free,
+        "bearings": bearings,
+        "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
+    })
+}

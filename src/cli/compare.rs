@@ -1,0 +1,178 @@
+//! `compare`: variants of one machine side by side.
+
+use rotordyn::analysis::Mode;
+use rotordyn::edge::figures;
+use rotordyn::results::{ModalResult, Results};
+use rotordyn::study::Machine;
+use serde_json::{Value, json};
+
+use super::args::StudyArgs;
+use super::failure::Failure;
+use super::machine::Origin;
+use super::terminal::{Terminal, rpm};
+use super::{Outcome, settings, warn, written};
+
+/// Below this MAC two modes are no pair.
+const PAIR: f64 = 0.3;
+
+/// A variant with its modes and FRFs.
+struct Variant {
+    name: String,
+    machine: Machine,
+    results: Results,
+}
+
+pub fn run(
+    args: &StudyArgs,
+    names: &[String],
+    speed: Option<&String>,
+    modes: Option<usize>,
+    terminal: &Terminal,
+) -> Result<Outcome, Failure> {
+    let origin = Origin::read(&args.model)?;
+    let names: Vec<String> = match names {
+        [] => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
+        names => names.to_vec(),
+    };
+    if names.len() < 2 {
+        return Err(Failure::Input(
+            "compare needs two variants or more, such as --variants base,NAME".into(),
+        ));
+    }
+    let mut variants = Vec::new();
+    for name in &names {
+        let origin = origin.with_variant(name);
+        let base = origin.load(&[])?;
+        let loaded = origin.load(&settings::modal(&base.model, speed, modes).set)?;
+        let machine = Machine::new(loaded.model.clone())?;
+        let studies = &machine.model.studies;
+        let results = Results {
+            modal: studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?.unwrap_or_default(),
+            campbell: studies.campbell.as_ref().map(|s| machine.campbell(s)).transpose()?,
+            frf: studies.frf.as_ref().map(|s| machine.frf(s)).transpose()?,
+            ..Results::default()
+        };
+        warn(terminal, &loaded);
+        variants.push(Variant { name: name.clone(), machine, results });
+    }
+    let speeds = variants[0].results.modal.len();
+    let mut tables = Vec::new();
+    for k in 0..speeds {
+        tables.push(table(terminal, &variants, k));
+    }
+    let model_name = &variants[0].machine.model.name;
+    let folder = args.out.clone().unwrap_or_else(|| format!("out/{model_name}_comparison").into());
+    let mut files = Vec::new();
+    if !args.no_figures {
+        let drawn: Vec<(String, &Results)> = variants.iter().map(|v| (v.name.clone(), &v.results)).collect();
+        files = figures::draw_comparison(&drawn, &folder)?;
+        written(terminal, &folder, &files);
+    }
+    Ok(json!({ "command": "compare", "model": model_name, "variants": names, "speeds": tables, "files": files })
+        .into())
+}
+
+/// One row for every mode: its frequency in each variant.
+struct Row<'a> {
+    modes: Vec<Option<&'a Mode>>,
+    /// Least MAC with the mode that opened the row.
+    mac: f64,
+}
+
+/// Prints and returns the frequencies at the k-th speed.
+fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
+    let found: Vec<Option<&ModalResult>> = variants.iter().map(|v| v.results.modal.get(k)).collect();
+    let speed = found[0].map_or(0.0, |at| rpm(at.speed));
+    let rows = pair(variants, &found);
+    let label = |row: &Row| row.modes.iter().flatten().next().map_or(String::new(), |m| m.label.clone());
+    let mut header = vec!["mode"];
+    let titles: Vec<String> = variants.iter().map(|v| format!("{} Hz", v.name)).collect();
+    header.extend(titles.iter().map(String::as_str));
+    header.push("least MAC");
+    let text: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            let hz = |m: &Option<&Mode>| m.map_or("-".into(), |m| format!("{:.3}", m.frequency_hz()));
+            let mut line = vec![label(row)];
+            line.extend(row.modes.iter().map(hz));
+            line.push(if row.mac < 1.0 { format!("{:.3}", row.mac) } else { "-".into() });
+            line
+        })
+        .collect();
+    terminal.table(&format!("Frequencies at {speed:.0} rpm"), &header, &text);
+    let rows: Vec<Value> = rows
+        .iter()
+        .map(|row| {
+            let of = |value: fn(&Mode) -> f64| -> Vec<Option<f64>> {
+                row.modes.iter().map(|m| m.map(value)).collect()
+            };
+            json!({
+                "label": label(row),
+                "frequency_hz": of(Mode::frequency_hz),
+                "zeta": of(Mode::zeta),
+                "labels": row.modes.iter().map(|m| m.map(|m| m.label.clone())).collect::<Vec<_>>(),
+                "least_mac": row.mac,
+            })
+        })
+        .collect();
+    json!({ "rpm": speed, "modes": rows })
+}
+
+/// Joins the modes of every variant with the rows opened so far, likest first.
+fn pair<'a>(variants: &'a [Variant], found: &[Option<&'a ModalResult>]) -> Vec<Row<'a>> {
+    let mut rows: Vec<Row> = Vec::new();
+    for (v, at) in found.iter().enumerate() {
+        let modes = at.map(|at| at.modes.as_slice()).unwrap_or_default();
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (r, row) in rows.iter().enumerate() {
+            let Some((opened_by, mode)) = row.modes.iter().enumerate().find_map(|(v, m)| Some((v, (*m)?)))
+            else {
+                continue;
+            };
+            let likeness = |m: &Mode| mac(&variants[opened_by].machine, mode, m);
+            pairs.extend(modes.iter().enumerate().map(|(m, other)| (likeness(other), r, m)));
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        rows.iter_mut().for_each(|row| row.modes.push(None));
+        let mut taken = vec![false; modes.len()];
+        for (mac, r, m) in pairs.into_iter().filter(|pair| pair.0 > PAIR) {
+            if rows[r].modes[v].is_none() && !taken[m] {
+                rows[r].modes[v] = Some(&modes[m]);
+                rows[r].mac = rows[r].mac.min(mac);
+                taken[m] = true;
+            }
+        }
+        for (m, _) in taken.iter().enumerate().filter(|(_, taken)| !**taken) {
+            let mut modes_of_row = vec![None; v];
+            modes_of_row.push(Some(&modes[m]));
+            rows.push(Row { modes: modes_of_row, mac: 1.0 });
+        }
+    }
+    let lowest =
+        |row: &Row| row.modes.iter().flatten().map(|m| m.frequency_hz()).fold(f64::INFINITY, f64::min);
+    rows.sort_by(|a, b| lowest(a).total_cmp(&lowest(b)));
+    rows
+}
+
+/// |aᴴ M b|² / (aᴴ M a · bᴴ M b) over the shaft's DOFs, which the variants share; 0 when their shafts differ.
+fn mac(machine: &Machine, a: &Mode, b: &Mode) -> f64 {
+    let shaft = 6 * machine.assembly.dofs.shaft_nodes;
+    let full = machine.assembly.dofs.full_len();
+    if b.full_shape.len() < shaft || b.whirl.len() != a.whirl.len() {
+        return 0.0;
+    }
+    let on_shaft = |mode: &Mode| {
+        let mut shape = mode.full_shape.clone();
+        shape.resize(full, Default::default());
+        shape[shaft..].fill(Default::default());
+        shape
+    };
+    let (a, b) = (on_shaft(a), on_shaft(b));
+    let mass = &machine.assembly.full_mass;
+    let (ma, mb) = (mass.mul_complex(&a), mass.mul_complex(&b));
+    let product = |x: &[rotordyn::linalg::Complex64], y: &[rotordyn::linalg::Complex64]| {
+        x.iter().zip(y).map(|(x, y)| x.conj() * y).sum::<rotordyn::linalg::Complex64>()
+    };
+    let size = product(&a, &ma).re * product(&b, &mb).re;
+    if size > 0.0 { product(&a, &mb).norm_sqr() / size } else { 0.0 }
+}

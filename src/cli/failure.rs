@@ -1,0 +1,93 @@
+//! How a command can fail, with its exit code.
+
+use rotordyn::error::Error;
+use rotordyn::model::ModelErrors;
+use serde_json::{Value, json};
+
+/// Why a command ended early.
+#[derive(Debug)]
+pub enum Failure {
+    /// Problems of the model file or of `--set`, each with its place.
+    Model(ModelErrors),
+    /// Anything else that is wrong with what was asked.
+    Input(String),
+    /// The library found no answer, or a file did not obey.
+    Library(Error),
+    /// Ctrl-C.
+    Interrupted,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Library(error)
+    }
+}
+
+impl From<ModelErrors> for Failure {
+    fn from(errors: ModelErrors) -> Self {
+        Self::Model(errors)
+    }
+}
+
+impl Failure {
+    /// A file operation that failed.
+    pub fn environment(operation: &'static str, path: &std::path::Path, source: std::io::Error) -> Self {
+        Self::Library(Error::Environment { operation, path: path.into(), source: source.into() })
+    }
+
+    /// 2 input, 3 physics, 4 environment, 130 Ctrl-C.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Model(_) | Self::Input(_) | Self::Library(Error::Signal(_)) => 2,
+            Self::Library(Error::Physics(_)) => 3,
+            Self::Library(Error::Environment { .. }) => 4,
+            Self::Interrupted => 130,
+        }
+    }
+
+    fn kind(&self) -> &'static str {
+        match self.exit_code() {
+            2 => "input",
+            3 => "physics",
+            4 => "environment",
+            _ => "interrupted",
+        }
+    }
+
+    /// One line in words.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Model(errors) => errors.to_string(),
+            Self::Input(message) => message.clone(),
+            Self::Library(error) => error.to_string(),
+            Self::Interrupted => "ended by Ctrl-C".into(),
+        }
+    }
+
+    /// For machines: kind, exit_code, message, and the places in the model file.
+    pub fn to_json(&self) -> Value {
+        let problems = match self {
+            Self::Model(errors) => errors
+                .diagnostics
+                .iter()
+                .map(|d| {
+                    json!({
+                        "kind": format!("{:?}", d.kind),
+                        "source": errors.sources.get(d.source).map(|s| &s.name),
+                        "span": [d.span.start, d.span.end],
+                        "message": d.message,
+                        "expected": d.expected,
+                        "hint": d.hint,
+                    })
+                })
+                .collect(),
+            _ => Vec::new(),
+        };
+        json!({
+            "kind": self.kind(),
+            "exit_code": self.exit_code(),
+            "message": self.message(),
+            "problems": problems,
+        })
+    }
+}

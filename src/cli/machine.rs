@@ -1,0 +1,90 @@
+//! From a model file to a machine: read, vary, check, look for overlapping parts.
+
+use std::path::{Path, PathBuf};
+
+use rotordyn::bearing::Bearing;
+use rotordyn::edge::parry::BearingShapes;
+use rotordyn::model::{self, Diagnostic, Kind, Loaded, ModelErrors, Options};
+
+use super::args::ModelArgs;
+use super::failure::Failure;
+
+/// How far a ball may stand in a race, as a share of its diameter: interference fits squeeze balls by some
+/// micrometres, a wrong groove or clearance by far more.
+const ELASTIC: f64 = 5e-3;
+
+/// The text of a model file, and what the user laid over it.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    /// What messages call the file.
+    pub name: String,
+    pub text: Vec<u8>,
+    pub options: Options,
+}
+
+impl Origin {
+    pub fn read(args: &ModelArgs) -> Result<Self, Failure> {
+        let text = std::fs::read(&args.model)
+            .map_err(|error| Failure::environment("read the model file", &args.model, error))?;
+        let variant = args.variant.clone().filter(|name| name != "base");
+        let options = Options { variant, set: args.set.clone() };
+        Ok(Self { name: args.model.display().to_string(), text, options })
+    }
+
+    /// The checked model, with settings of a command laid over those of the user.
+    pub fn load(&self, settings: &[(String, String)]) -> Result<Loaded, Failure> {
+        let mut options = self.options.clone();
+        options.set.extend_from_slice(settings);
+        let loaded = model::load(&self.name, &self.text, &options)?;
+        overlaps(&loaded)?;
+        Ok(loaded)
+    }
+
+    /// The same file with another variant; `base` is none.
+    pub fn with_variant(&self, variant: &str) -> Self {
+        let mut other = self.clone();
+        other.options.variant = Some(variant.to_string()).filter(|name| name != "base");
+        other
+    }
+
+    /// Names of the variants in the file.
+    pub fn variants(&self) -> Vec<String> {
+        std::str::from_utf8(&self.text).map(model::variants).unwrap_or_default()
+    }
+
+    /// `out/NAME` or `out/NAME_VARIANT`, unless told otherwise.
+    pub fn folder(&self, out: Option<&PathBuf>, model_name: &str) -> PathBuf {
+        let name = match &self.options.variant {
+            Some(variant) => format!("{model_name}_{variant}"),
+            None => model_name.to_string(),
+        };
+        out.cloned().unwrap_or_else(|| Path::new("out").join(name))
+    }
+}
+
+/// Balls, pockets and rings of every ball bearing must not share space.
+fn overlaps(loaded: &Loaded) -> Result<(), ModelErrors> {
+    let mut diagnostics = Vec::new();
+    for site in &loaded.model.bearings {
+        let Bearing::Ball(ball) = &site.bearing else { continue };
+        let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
+        let found = shapes.overlaps(&shapes.centred(ball.cage_angle), ELASTIC * ball.geometry.ball_diameter);
+        let Some(worst) = found.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)) else { continue };
+        let more = match found.len() {
+            1 => String::new(),
+            n => format!(" (the deepest of {n} overlaps)"),
+        };
+        diagnostics.push(Diagnostic {
+            kind: Kind::Geometry,
+            source: 0,
+            span: loaded.place_of(&["bearing", &site.name]),
+            message: format!("bearing.{}: {worst}{more}", site.name),
+            expected: None,
+            hint: Some("check ball and pitch diameter, osculation, clearance, pocket, bore and width".into()),
+        });
+    }
+    match diagnostics.is_empty() {
+        true => Ok(()),
+        false => Err(ModelErrors { sources: loaded.sources.clone(), diagnostics }),
+    }
+}

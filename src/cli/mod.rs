@@ -1,0 +1,264 @@
+//! The command line: arguments in, studies done, tables and files out, exit codes.
+
+mod args;
+mod catalogue;
+mod check;
+mod compare;
+mod diagnostics;
+mod export;
+mod failure;
+mod interrupt;
+mod machine;
+mod settings;
+mod store;
+mod stored;
+mod studies;
+mod tables;
+mod terminal;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use miette::Severity;
+use rotordyn::model::{Loaded, Model};
+use rotordyn::study::Machine;
+use serde_json::{Value, json};
+
+use args::{Cli, Command, StudyArgs};
+use failure::Failure;
+use machine::Origin;
+use settings::Settings;
+use studies::{Job, Study};
+use terminal::Terminal;
+
+/// What a command leaves: a document for machines, and studies that failed.
+struct Outcome {
+    document: Value,
+    failures: Vec<(&'static str, Failure)>,
+}
+
+impl From<Value> for Outcome {
+    fn from(document: Value) -> Self {
+        Self { document, failures: Vec::new() }
+    }
+}
+
+/// The whole program.
+pub fn run() -> ExitCode {
+    std::panic::set_hook(Box::new(|bug| {
+        eprintln!(
+            "rotordyn {} has met a bug of its own: {bug}\nPlease report it, with the model file and the command.",
+            env!("CARGO_PKG_VERSION")
+        );
+    }));
+    let cli = Cli::parse();
+    let terminal = Terminal::new(&cli.output);
+    if let Some(threads) = cli.output.threads {
+        // Fails only when there is a pool already, and this is the first thing done.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    }
+    interrupt::listen();
+    let outcome = perform(&cli.command, &terminal)
+        .unwrap_or_else(|failure| Outcome { document: json!({}), failures: vec![("", failure)] });
+    for (study, failure) in &outcome.failures {
+        report(&terminal, study, failure);
+    }
+    // Ctrl-C before all, then what failed first.
+    let code = |(_, failure): &(&str, Failure)| failure.exit_code();
+    let interrupted = outcome.failures.iter().map(code).find(|code| *code == 130);
+    let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(0);
+    if cli.output.json {
+        print_json(outcome, code);
+    }
+    code.into()
+}
+
+fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
+    let alone = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
+        studies_of(args, terminal, Some(study), settings)
+    };
+    match command {
+        Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
+        Command::Check(args) => check::run(args, terminal).map(Outcome::from),
+        Command::Static { study, speed, cage_as_placed } => alone(study, Study::Static, &|model| {
+            settings::equilibrium(model, speed.as_ref(), *cage_as_placed)
+        }),
+        Command::Modal { study, speed, modes } => {
+            alone(study, Study::Modal, &|model| settings::modal(model, speed.as_ref(), *modes))
+        }
+        Command::Campbell { study, max_speed, modes } => {
+            alone(study, Study::Campbell, &|model| settings::campbell(model, max_speed.as_ref(), *modes))
+        }
+        Command::Critical { study, max_speed, orders } => {
+            alone(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
+        }
+        Command::Frf { study, speed, max_frequency, quantity } => alone(study, Study::Frf, &|model| {
+            settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
+        }),
+        Command::Unbalance { study, max_speed } => {
+            alone(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
+        }
+        Command::RunUp { study, step, integrator, sample_rate } => alone(study, Study::RunUp, &|model| {
+            settings::run_up(model, step.as_ref(), integrator.as_ref(), sample_rate.as_ref())
+        }),
+        Command::Spectrogram(args) => stored::run(args, terminal, Study::Spectrogram),
+        Command::Orders(args) => stored::run(args, terminal, Study::Orders),
+        Command::Compare { study, variants, speed, modes } => {
+            compare::run(study, variants, speed.as_ref(), *modes, terminal)
+        }
+        Command::Catalogue { designation } => {
+            catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
+        }
+        Command::Export(args) => export::run(args, terminal).map(Outcome::from),
+    }
+}
+
+/// One study, or all that the file asks for.
+fn studies_of(
+    args: &StudyArgs,
+    terminal: &Terminal,
+    study: Option<Study>,
+    settings: &dyn Fn(&Model) -> Settings,
+) -> Result<Outcome, Failure> {
+    let origin = Origin::read(&args.model)?;
+    let mut loaded = origin.load(&[])?;
+    let settings = settings(&loaded.model);
+    if !settings.set.is_empty() {
+        loaded = origin.load(&settings.set)?;
+    }
+    if let Some(note) = &settings.note {
+        terminal.say(note);
+    }
+    let asked = |study: &Study| study.is_asked(&loaded.model.studies);
+    let wanted: Vec<Study> = match study {
+        Some(Study::RunUp) => {
+            let also = [Study::Spectrogram, Study::Orders].into_iter().filter(asked);
+            std::iter::once(Study::RunUp).chain(also).collect()
+        }
+        Some(study) => vec![study],
+        None => Study::ALL.into_iter().filter(asked).collect(),
+    };
+    if wanted.is_empty() {
+        let message = format!("{} asks for no study; add [study.modal] or another", origin.name);
+        return Err(Failure::Input(message));
+    }
+    let machine = Machine::new(loaded.model.clone())?;
+    let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
+    let store = store::open(&folder, &loaded, &origin, study.is_none(), terminal)?;
+    let mut job = Job::new(terminal, machine, folder, store);
+    job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
+    job.perform(&wanted);
+    let outcome = finish(job, !args.no_figures, study.map_or("run", Study::name))?;
+    warn(terminal, &loaded);
+    Ok(outcome)
+}
+
+/// Writes what came out of a job, says where it is, and what the user should know.
+fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Failure> {
+    let known = job.results.warnings.len();
+    doubts(&mut job);
+    job.write(draw)?;
+    let terminal = job.terminal;
+    let rows: Vec<Vec<String>> =
+        job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
+    terminal.table("Time taken", &["", "s"], &rows);
+    written(terminal, &job.folder, &job.files);
+    if job.files.len() > 1 {
+        terminal.say("  (every figure is there as SVG and as PNG)");
+    }
+    for warning in &job.results.warnings[known..] {
+        terminal.complain("warning", warning);
+    }
+    let mut document = rotordyn::edge::json::to_json(&job.results, &job.machine);
+    if let Some(object) = document.as_object_mut() {
+        object.insert("command".into(), command.into());
+        let seconds: serde_json::Map<_, _> =
+            job.seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
+        object.insert("seconds".into(), seconds.into());
+        object.insert("files".into(), json!(job.files));
+    }
+    Ok(Outcome { document, failures: job.failures })
+}
+
+/// What in the results deserves doubt.
+fn doubts(job: &mut Job) {
+    let mut found = Vec::new();
+    for at in &job.results.modal {
+        for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
+            let speed = terminal::rpm(at.speed);
+            let zeta = 100.0 * mode.zeta();
+            found.push(format!("{} is unstable at {speed:.0} rpm: zeta = {zeta:.3} %", mode.label));
+        }
+    }
+    if let Some(run) = &job.results.run_up {
+        let energy = &run.report.energy;
+        let open = energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE);
+        if open > 1e-3 {
+            found.push(format!(
+                "the run-up's energy balance is open by {:.2} %: shorten the step",
+                100.0 * open
+            ));
+        }
+        if run.frequency_error > 0.01 {
+            let error = 100.0 * run.frequency_error;
+            found.push(format!("the reduced model's frequencies are off by {error:.1} %: raise the cutoff"));
+        }
+    }
+    job.results.warnings.extend(found);
+}
+
+/// The list of files, in lines of bearable length.
+fn written(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
+    terminal.heading(&format!("Written to {}", folder.display()));
+    let mut line = String::from(" ");
+    for file in files {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        if line.len() + name.len() > 98 {
+            terminal.say(&line);
+            line = String::from(" ");
+        }
+        line.push(' ');
+        line.push_str(&name);
+    }
+    terminal.say(&line);
+}
+
+/// Shows what was doubtful in the model file.
+fn warn(terminal: &Terminal, loaded: &Loaded) {
+    if !loaded.warnings.is_empty() {
+        let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
+        eprint!("{text}");
+    }
+}
+
+fn report(terminal: &Terminal, study: &str, failure: &Failure) {
+    if let Failure::Model(errors) = failure {
+        let text =
+            diagnostics::render(&errors.diagnostics, &errors.sources, Severity::Error, terminal.colour);
+        eprint!("{text}");
+        return;
+    }
+    let place = if study.is_empty() { String::new() } else { format!("{study}: ") };
+    terminal.complain("error", &format!("{place}{}", failure.message()));
+}
+
+/// The document, with what failed.
+fn print_json(outcome: Outcome, code: u8) {
+    let mut document = outcome.document;
+    if let Some(object) = document.as_object_mut() {
+        let with_study = |(study, failure): &(&str, Failure)| {
+            let mut error = failure.to_json();
+            error["study"] = json!(study);
+            error
+        };
+        object.insert("program".into(), "rotordyn".into());
+        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+        object.insert("exit_code".into(), code.into());
+        object.insert("errors".into(), outcome.failures.iter().map(with_study).collect());
+    }
+    let mut out = std::io::stdout();
+    // A reader who has gone is no failure of ours.
+    let _ = serde_json::to_writer(&mut out, &document);
+    let _ = std::io::Write::write_all(&mut out, b"\n");
+}

@@ -1,0 +1,186 @@
+//! What flags and missing sections of the file lay over the model: every setting is a path and a value, as `--set`.
+
+use rotordyn::model::Model;
+
+use super::args::StoredArgs;
+
+/// Settings of one study, and what to tell the user about them.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    pub set: Vec<(String, String)>,
+    /// Why the file alone does not say what is done.
+    pub note: Option<String>,
+}
+
+/// Collects the settings of `study.<name>`.
+struct Draft {
+    name: &'static str,
+    settings: Settings,
+}
+
+impl Draft {
+    fn new(name: &'static str) -> Self {
+        Self { name, settings: Settings::default() }
+    }
+
+    /// A flag that was given.
+    fn flag(&mut self, key: &str, value: Option<String>) {
+        self.settings.set.extend(value.map(|value| (format!("study.{}.{key}", self.name), value)));
+    }
+
+    /// With no section in the file: what is done instead, unless a flag says otherwise.
+    fn defaults(mut self, missing: bool, words: &str, values: &[(&str, String)]) -> Settings {
+        if missing {
+            let path = |key: &str| format!("study.{}.{key}", self.name);
+            let given = |key: &str| self.settings.set.iter().any(|(p, _)| *p == path(key));
+            let mut set: Vec<(String, String)> =
+                values.iter().filter(|(key, _)| !given(key)).map(|(key, v)| (path(key), v.clone())).collect();
+            set.append(&mut self.settings.set);
+            self.settings.set = set;
+            self.settings.note = Some(format!("the file has no [study.{}]: {words}", self.name));
+        }
+        self.settings
+    }
+}
+
+pub fn equilibrium(model: &Model, speed: Option<&String>, as_placed: bool) -> Settings {
+    let mut draft = Draft::new("static");
+    draft.flag("speed", speed.map(quoted));
+    draft.flag("cage_average", as_placed.then(|| "false".into()));
+    let missing = model.studies.equilibrium.is_none();
+    draft.defaults(missing, "averaged over the cage's position", &[("cage_average", "true".into())])
+}
+
+pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Settings {
+    let mut draft = Draft::new("modal");
+    draft.flag("speeds", speed.map(quoted));
+    draft.flag("modes", modes.map(|n| n.to_string()));
+    let (speeds, words) = match top_speed(model) {
+        Some(top) => {
+            (format!("\"0, {top} rpm\""), format!("12 modes at 0 and {top} rpm unless told otherwise"))
+        }
+        None => ("\"0 rpm\"".to_string(), "12 modes at standstill unless told otherwise".to_string()),
+    };
+    draft.defaults(model.studies.modal.is_none(), &words, &[("speeds", speeds)])
+}
+
+pub fn campbell(model: &Model, max_speed: Option<&String>, modes: Option<usize>) -> Settings {
+    let mut draft = Draft::new("campbell");
+    draft.flag("speeds", max_speed.map(|top| sweep("0 rpm", top, 25)));
+    draft.flag("modes", modes.map(|n| n.to_string()));
+    let top = rpm_or(top_speed(model), 3000.0);
+    let words = format!("25 speeds up to {top} and 12 modes unless told otherwise");
+    draft.defaults(model.studies.campbell.is_none(), &words, &[("speeds", sweep("0 rpm", &top, 25))])
+}
+
+pub fn critical(model: &Model, max_speed: Option<&String>, orders: &[String]) -> Settings {
+    let mut draft = Draft::new("critical");
+    draft.flag("max_speed", max_speed.map(quoted));
+    draft.flag("orders", list(orders));
+    let top = rpm_or(top_speed(model).map(|top| 3.0 * top), 6000.0);
+    let words = format!("up to {top} unless told otherwise");
+    draft.defaults(model.studies.critical.is_none(), &words, &[("max_speed", quoted(&top))])
+}
+
+pub fn frf(
+    model: &Model,
+    speed: Option<&String>,
+    max_frequency: Option<&String>,
+    quantity: Option<&String>,
+) -> Settings {
+    let sweep = |top: &str| format!("{{ from = \"1 Hz\", to = {}, step = \"0.25 Hz\" }}", quoted(top));
+    let mut draft = Draft::new("frf");
+    draft.flag("speed", speed.map(quoted));
+    draft.flag("frequencies", max_frequency.map(|top| sweep(top)));
+    draft.flag("quantity", quantity.map(quoted));
+    let place = match (model.discs.first(), model.stations.first()) {
+        (Some(disc), _) => format!("disc.{}", disc.name),
+        (None, Some(station)) => format!("station.{}", station.name),
+        (None, None) => "ground".to_string(),
+    };
+    let blow = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", quoted(&place));
+    let words = format!("unit forces along x and y at {place}, 1 to 500 Hz unless told otherwise");
+    let values = [("frequencies", sweep("500 Hz")), ("excitation.x", blow("x")), ("excitation.y", blow("y"))];
+    draft.defaults(model.studies.frf.is_none(), &words, &values)
+}
+
+pub fn unbalance(model: &Model, max_speed: Option<&String>) -> Settings {
+    let mut draft = Draft::new("unbalance");
+    draft.flag("speeds", max_speed.map(|top| sweep("1 rpm", top, 200)));
+    let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
+    let words = format!("200 speeds up to {top} unless told otherwise");
+    draft.defaults(model.studies.unbalance.is_none(), &words, &[("speeds", sweep("1 rpm", &top, 200))])
+}
+
+pub fn run_up(
+    model: &Model,
+    step: Option<&String>,
+    integrator: Option<&String>,
+    sample_rate: Option<&String>,
+) -> Settings {
+    let mut draft = Draft::new("run_up");
+    draft.flag("step", step.map(quoted));
+    draft.flag("integrator", integrator.map(quoted));
+    draft.flag("sample_rate", sample_rate.map(quoted));
+    let words = "generalised-alpha, steps of 100 us, samples at 2 kHz unless told otherwise";
+    draft.defaults(model.studies.run_up.is_none(), words, &[("step", quoted("100 us"))])
+}
+
+pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
+    let mut draft = Draft::new("spectrogram");
+    draft.flag("channels", list(&args.channels));
+    draft.flag("window", args.window.as_ref().map(quoted));
+    draft.flag("length", args.length.as_ref().map(quoted));
+    draft.flag("overlap", args.overlap.clone());
+    draft.flag("max_frequency", args.max_frequency.as_ref().map(quoted));
+    draft.flag("orders", list(&args.orders));
+    let words = "Hann windows of 1 s unless told otherwise";
+    let settings = draft.defaults(model.studies.spectrogram.is_none(), words, &[("window", quoted("hann"))]);
+    with_run_up(model, settings)
+}
+
+pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
+    let mut draft = Draft::new("orders");
+    draft.flag("channels", list(&args.channels));
+    draft.flag("window", args.window.as_ref().map(quoted));
+    draft.flag("resolution", args.resolution.clone());
+    draft.flag("overlap", args.overlap.clone());
+    draft.flag("max_order", args.max_order.clone());
+    draft.flag("cuts", list(&args.orders));
+    let words = "resolution 0.05 up to order 20 unless told otherwise";
+    let settings = draft.defaults(model.studies.orders.is_none(), words, &[("window", quoted("hann"))]);
+    with_run_up(model, settings)
+}
+
+/// A run-up made with defaults left no section in the file, which its analyses need.
+fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
+    if model.studies.run_up.is_none() {
+        settings.set.insert(0, ("study.run_up.step".into(), quoted("100 us")));
+    }
+    settings
+}
+
+/// Highest speed of the profile \[rpm\], if it turns at all.
+fn top_speed(model: &Model) -> Option<f64> {
+    let top = super::terminal::rpm(model.profile.top_speed());
+    (top > 0.0).then(|| (top * 1e6).round() / 1e6)
+}
+
+fn rpm_or(speed: Option<f64>, other: f64) -> String {
+    format!("{} rpm", speed.unwrap_or(other))
+}
+
+/// A TOML text.
+fn quoted(text: impl AsRef<str>) -> String {
+    toml::Value::String(text.as_ref().into()).to_string()
+}
+
+fn sweep(from: &str, to: &str, count: usize) -> String {
+    format!("{{ from = {}, to = {}, count = {count} }}", quoted(from), quoted(to))
+}
+
+/// A TOML list: numbers as they are, everything else as text; none when empty.
+fn list(items: &[String]) -> Option<String> {
+    let item = |text: &String| if text.parse::<f64>().is_ok() { text.clone() } else { quoted(text) };
+    (!items.is_empty()).then(|| format!("[{}]", items.iter().map(item).collect::<Vec<_>>().join(", ")))
+}

@@ -1,0 +1,68 @@
+//! The results file of a folder: started anew, or added to when it belongs to the same machine.
+
+use std::path::Path;
+
+use rotordyn::edge::hdf5::{Attribute, Store};
+use rotordyn::edge::results_file::{self, Meta};
+use rotordyn::model::{Loaded, Options};
+
+use super::failure::Failure;
+use super::machine::Origin;
+use super::terminal::Terminal;
+
+/// Name of the results file in its folder.
+pub const FILE: &str = "results.h5";
+
+/// Opens the folder's results file; one of another version of the model is kept aside.
+pub fn open(
+    folder: &Path,
+    loaded: &Loaded,
+    origin: &Origin,
+    anew: bool,
+    terminal: &Terminal,
+) -> Result<Store, Failure> {
+    let path = folder.join(FILE);
+    if path.exists() && !anew {
+        let stored = Store::append(&path)?;
+        let same = stored_origin(&stored)
+            .is_ok_and(|other| other.text == loaded.text.as_bytes() && other.options == origin.options);
+        if same {
+            return Ok(stored);
+        }
+        drop(stored);
+        let aside = folder.join("results_previous.h5");
+        std::fs::rename(&path, &aside).map_err(|e| Failure::environment("rename", &path, e))?;
+        terminal.say(&format!(
+            "{} is of another version of the model: now {}",
+            path.display(),
+            aside.display()
+        ));
+    }
+    let store = Store::create(&path)?;
+    let set = &origin.options.set;
+    let settings: Vec<String> = set.iter().map(|(path, value)| format!("{path} = {value}")).collect();
+    let meta = Meta {
+        model: &loaded.text,
+        title: &loaded.model.title,
+        variant: origin.options.variant.as_deref().unwrap_or_default(),
+        settings: &settings,
+    };
+    results_file::write_meta(&store, &meta)?;
+    Ok(store)
+}
+
+/// The model text, variant and settings that a results file was made from.
+pub fn stored_origin(store: &Store) -> Result<Origin, Failure> {
+    let text = |name: &str| match store.attribute("/meta", name) {
+        Ok(Some(Attribute::Text(text))) => Ok(text),
+        _ => Err(Failure::Input(format!("{} holds no run of rotordyn", store.path().display()))),
+    };
+    let setting = |line: &str| line.split_once(" = ").map(|(path, value)| (path.into(), value.into()));
+    let variant = Some(text("variant")?).filter(|name| !name.is_empty());
+    let set = text("settings")?.lines().filter_map(setting).collect();
+    Ok(Origin {
+        name: format!("{} /meta model", store.path().display()),
+        text: text("model")?.into_bytes(),
+        options: Options { variant, set },
+    })
+}

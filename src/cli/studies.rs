@@ -1,0 +1,261 @@
+//! Does the studies of a machine one after another: computes, prints tables, keeps what came out.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use rotordyn::edge::hdf5::{ChannelStream, Store};
+use rotordyn::edge::{figures, results_file};
+use rotordyn::error::Error;
+use rotordyn::model::study::Studies;
+use rotordyn::results::{Results, RunUpResult};
+use rotordyn::study::{Machine, Recorder};
+use rotordyn::transient::run::End;
+
+use super::failure::Failure;
+use super::terminal::{Terminal, rpm};
+use super::{interrupt, tables};
+
+/// One study of a model file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Study {
+    Static,
+    Modal,
+    Campbell,
+    Critical,
+    Frf,
+    Unbalance,
+    RunUp,
+    Spectrogram,
+    Orders,
+}
+
+impl Study {
+    pub const ALL: [Self; 9] = [
+        Self::Static,
+        Self::Modal,
+        Self::Campbell,
+        Self::Critical,
+        Self::Frf,
+        Self::Unbalance,
+        Self::RunUp,
+        Self::Spectrogram,
+        Self::Orders,
+    ];
+
+    /// Name of the command that does it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Static => "static",
+            Self::Modal => "modal",
+            Self::Campbell => "campbell",
+            Self::Critical => "critical",
+            Self::Frf => "frf",
+            Self::Unbalance => "unbalance",
+            Self::RunUp => "run-up",
+            Self::Spectrogram => "spectrogram",
+            Self::Orders => "orders",
+        }
+    }
+
+    /// Whether a model asks for it.
+    pub fn is_asked(self, studies: &Studies) -> bool {
+        match self {
+            Self::Static => studies.equilibrium.is_some(),
+            Self::Modal => studies.modal.is_some(),
+            Self::Campbell => studies.campbell.is_some(),
+            Self::Critical => studies.critical.is_some(),
+            Self::Frf => studies.frf.is_some(),
+            Self::Unbalance => studies.unbalance.is_some(),
+            Self::RunUp => studies.run_up.is_some(),
+            Self::Spectrogram => studies.spectrogram.is_some(),
+            Self::Orders => studies.orders.is_some(),
+        }
+    }
+}
+
+/// A machine at work: where its results go, and what has come out so far.
+pub struct Job<'a> {
+    pub terminal: &'a Terminal,
+    pub machine: Machine,
+    pub folder: PathBuf,
+    pub store: Store,
+    pub results: Results,
+    /// Seconds that every study took.
+    pub seconds: Vec<(&'static str, f64)>,
+    /// Files written beside results.h5.
+    pub files: Vec<PathBuf>,
+    /// Studies that failed, and why.
+    pub failures: Vec<(&'static str, Failure)>,
+}
+
+impl<'a> Job<'a> {
+    pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, store: Store) -> Self {
+        let (results, seconds, files, failures) = Default::default();
+        Self { terminal, machine, folder, store, results, seconds, files, failures }
+    }
+
+    /// Does studies in order; one that fails does not keep the others from being done, Ctrl-C does.
+    pub fn perform(&mut self, wanted: &[Study]) {
+        for &study in wanted {
+            let analyses_run = matches!(study, Study::Spectrogram | Study::Orders);
+            if analyses_run && self.failures.iter().any(|(name, _)| *name == Study::RunUp.name()) {
+                continue;
+            }
+            let start = Instant::now();
+            let done = if interrupt::requested() { Err(Failure::Interrupted) } else { self.one(study) };
+            self.seconds.push((study.name(), start.elapsed().as_secs_f64()));
+            if let Err(failure) = done {
+                let interrupted = matches!(failure, Failure::Interrupted);
+                self.failures.push((study.name(), failure));
+                if interrupted {
+                    break;
+                }
+            }
+        }
+    }
+
+    fn one(&mut self, study: Study) -> Result<(), Failure> {
+        let (machine, terminal) = (&self.machine, self.terminal);
+        let asked = &machine.model.studies;
+        let spinner = terminal.spinner(study.name());
+        match study {
+            Study::Static => {
+                if let Some(settings) = &asked.equilibrium {
+                    let found = machine.equilibrium(settings)?;
+                    spinner.finish_and_clear();
+                    tables::equilibrium(terminal, &found);
+                    self.results.equilibrium = Some(found);
+                }
+            }
+            Study::Modal => {
+                if let Some(settings) = &asked.modal {
+                    let found = machine.modal(settings)?;
+                    spinner.finish_and_clear();
+                    tables::modes(terminal, &found, &machine.model);
+                    self.results.modal = found;
+                }
+            }
+            Study::Campbell => {
+                if let Some(settings) = &asked.campbell {
+                    let found = machine.campbell(settings)?;
+                    spinner.finish_and_clear();
+                    tables::campbell(terminal, &found);
+                    self.results.campbell = Some(found);
+                }
+            }
+            Study::Critical => {
+                if let Some(settings) = &asked.critical {
+                    let found = machine.critical(settings)?;
+                    spinner.finish_and_clear();
+                    tables::critical(terminal, &found);
+                    self.results.critical = Some(found);
+                }
+            }
+            Study::Frf => {
+                if let Some(settings) = &asked.frf {
+                    let found = machine.frf(settings)?;
+                    spinner.finish_and_clear();
+                    tables::frf(terminal, &found);
+                    self.results.frf = Some(found);
+                }
+            }
+            Study::Unbalance => {
+                if let Some(settings) = &asked.unbalance {
+                    let found = machine.unbalance(settings)?;
+                    spinner.finish_and_clear();
+                    tables::unbalance(terminal, &found);
+                    self.results.unbalance = Some(found);
+                }
+            }
+            Study::RunUp => {
+                spinner.finish_and_clear();
+                self.run_up()?;
+            }
+            Study::Spectrogram => {
+                if let (Some(settings), Some(run)) = (&asked.spectrogram, &self.results.run_up) {
+                    let found = machine.spectrograms(settings, &run.history)?;
+                    spinner.finish_and_clear();
+                    tables::spectrograms(terminal, &found);
+                    self.results.spectrograms = found;
+                }
+            }
+            Study::Orders => {
+                if let (Some(settings), Some(run)) = (&asked.orders, &self.results.run_up) {
+                    let found = machine.orders(settings, &run.history)?;
+                    spinner.finish_and_clear();
+                    tables::orders(terminal, &found);
+                    self.results.orders = found;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The run-up, streamed to the file sample by sample.
+    fn run_up(&mut self) -> Result<(), Failure> {
+        let machine = &self.machine;
+        let Some(settings) = &machine.model.studies.run_up else { return Ok(()) };
+        let profile = &machine.model.profile;
+        let reduction = machine.reduce(settings)?;
+        let frequency_error = machine.reduction_error(&reduction, settings.cutoff, profile.top_speed())?;
+        let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
+        results_file::remove_run(&self.store)?;
+        let channels = results_file::channels_of(&recorder.history);
+        let mut stream = ChannelStream::create(&self.store, "", &channels, settings.sample_rate, 0.0)?;
+        let bar = self.terminal.time_bar(profile.duration());
+        let mut disk: Result<(), Error> = Ok(());
+        let mut last = (0.0, 0.0);
+        let report = machine.run_up(settings, &reduction, |sample| {
+            let (time, spin) = (sample.state.time, &sample.state.spin);
+            last = (time, rpm(spin.speed));
+            disk = stream.push(time, spin.angle, spin.speed, recorder.take(sample));
+            if sample.index % 64 == 0 {
+                bar.set_position((1e3 * time) as u64);
+                bar.set_message(format!("{:.0} rpm", last.1));
+            }
+            if disk.is_err() || interrupt::requested() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        bar.finish_and_clear();
+        let failure = match (disk, &report.end) {
+            (Err(error), _) => Some(error.into()),
+            (Ok(()), End::Complete) => None,
+            (Ok(()), End::Stopped) => Some(Failure::Interrupted),
+            (Ok(()), End::Failed(error)) => Some(Failure::Library(error.clone().into())),
+        };
+        let state = match &failure {
+            None => "complete".to_string(),
+            Some(why) => format!("stopped: {} at t = {:.4} s, {:.1} rpm", why.message(), last.0, last.1),
+        };
+        stream.finish(&state)?;
+        let found = RunUpResult {
+            modes: reduction.modes,
+            corrections: reduction.corrections,
+            static_error: reduction.static_error,
+            frequency_error,
+            history: recorder.history,
+            report,
+        };
+        tables::run_up(self.terminal, &found);
+        self.results.run_up = Some(found);
+        failure.map_or(Ok(()), Err)
+    }
+
+    /// Writes what has come out, whatever failed, and draws it.
+    pub fn write(&mut self, draw: bool) -> Result<(), Failure> {
+        let start = Instant::now();
+        results_file::write_study(&self.store, &self.results, &self.machine)?;
+        self.files.push(self.store.path().to_path_buf());
+        if draw {
+            let spinner = self.terminal.spinner("figures");
+            self.files.extend(figures::draw(&self.results, &self.machine, &self.folder)?);
+            spinner.finish_and_clear();
+        }
+        self.seconds.push(("files and figures", start.elapsed().as_secs_f64()));
+        Ok(())
+    }
+}

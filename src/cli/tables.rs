@@ -1,0 +1,337 @@
+//! Tables of results on the terminal.
+
+use rotordyn::analysis::Mode;
+use rotordyn::analysis::critical_speed::CriticalSpeed;
+use rotordyn::analysis::equilibrium::{CageTreatment, Equilibrium};
+use rotordyn::analysis::unbalance::Orbit;
+use rotordyn::linalg::Complex64;
+use rotordyn::model::Model;
+use rotordyn::results::{
+    CampbellResult, CriticalResult, FrfResult, ModalResult, OrderResult, RunUpResult, SpectrogramResult,
+    UnbalanceResult, unit_of,
+};
+
+use super::terminal::{Terminal, number, rpm};
+
+/// Rows shown of a list that can be long; the rest is in the file.
+const MOST: usize = 40;
+
+pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
+    let cage = match found.cage {
+        CageTreatment::AsPlaced => "cage as placed",
+        CageTreatment::Averaged => "averaged over the cage's position",
+    };
+    if found.bearings.is_empty() {
+        terminal.heading("Static equilibrium: the machine has no bearings, only joints and springs");
+        return;
+    }
+    let rows: Vec<Vec<String>> = found
+        .bearings
+        .iter()
+        .map(|b| {
+            let mut row = vec![b.name.clone()];
+            row.extend(b.force[..5].iter().map(|f| number(*f, 4)));
+            row.extend(b.displacement[..3].iter().map(|d| format!("{:.2}", 1e6 * d)));
+            row
+        })
+        .collect();
+    terminal.table(
+        &format!("Bearing forces on the shaft at {:.0} rpm, {cage}", rpm(found.speed)),
+        &["bearing", "F_x N", "F_y N", "F_z N", "M_x N m", "M_y N m", "u_x um", "u_y um", "u_z um"],
+        &rows,
+    );
+    let rows: Vec<Vec<String>> = found
+        .bearings
+        .iter()
+        .map(|b| {
+            let mut row = vec![b.name.clone()];
+            row.extend((0..5).map(|k| number(b.tangent.stiffness[k][k], 4)));
+            row
+        })
+        .collect();
+    let header = ["bearing", "k_xx N/m", "k_yy N/m", "k_zz N/m", "k_tilt,x N m/rad", "k_tilt,y N m/rad"];
+    terminal.table("Bearing stiffness (diagonal; all of it is in results.h5)", &header, &rows);
+    let rows: Vec<Vec<String>> = found
+        .bearings
+        .iter()
+        .flat_map(|b| {
+            b.balls.iter().enumerate().filter(|(_, ball)| ball.load > 0.0).map(|(j, ball)| {
+                vec![
+                    b.name.clone(),
+                    (j + 1).to_string(),
+                    format!("{:.1}", ball.position.to_degrees()),
+                    number(ball.load, 4),
+                    format!("{:.2}", ball.contact_angle.to_degrees()),
+                    format!("{:.3}", 1e6 * ball.deflection),
+                    number(b.largest_ball_load, 4),
+                ]
+            })
+        })
+        .collect();
+    if !rows.is_empty() {
+        let header = ["bearing", "ball", "at deg", "load N", "angle deg", "deflection um", "largest N"];
+        terminal.table(
+            "Loaded balls at the model's cage angle; largest over all cage angles",
+            &header,
+            &rows,
+        );
+    }
+}
+
+pub fn modes(terminal: &Terminal, found: &[ModalResult], model: &Model) {
+    for at in found {
+        let rows: Vec<Vec<String>> = at
+            .modes
+            .iter()
+            .enumerate()
+            .map(|(k, mode)| {
+                vec![
+                    (k + 1).to_string(),
+                    format!("{:.3}", mode.frequency_hz()),
+                    format!("{:.1}", rpm(mode.omega())),
+                    format!("{:.3}", 100.0 * mode.zeta()),
+                    format!("{:.4}", mode.log_dec()),
+                    mode.kind.name().to_string(),
+                    mode.label.clone(),
+                    shares(mode, model),
+                ]
+            })
+            .collect();
+        let header = ["no", "Hz", "rpm", "zeta %", "log dec", "kind", "label", "energy %"];
+        terminal.table(&format!("Modes at {:.0} rpm", rpm(at.speed)), &header, &rows);
+    }
+}
+
+/// Where a mode's kinetic energy is: the two largest shares, in per cent.
+fn shares(mode: &Mode, model: &Model) -> String {
+    let e = &mode.energy;
+    let shaft = [("x", e.bending_x), ("y", e.bending_y), ("axial", e.axial), ("torsion", e.torsion)];
+    let mut all: Vec<(&str, f64)> = shaft.to_vec();
+    let bodies = model.bodies.iter().zip(&e.bodies);
+    all.extend(bodies.map(|(body, by_direction)| (body.name.as_str(), by_direction.iter().sum())));
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let shown = all.iter().take(2).filter(|(_, share)| *share >= 0.01);
+    shown.map(|(name, share)| format!("{name} {:.0}", 100.0 * share)).collect::<Vec<_>>().join(", ")
+}
+
+pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
+    let diagram = &found.diagram;
+    let (Some(first), Some(last)) = (diagram.speeds.first(), diagram.speeds.last()) else { return };
+    let hz = |mode: Option<&Mode>| mode.map_or("-".into(), |m| format!("{:.3}", m.frequency_hz()));
+    let rows: Vec<Vec<String>> = diagram
+        .branches
+        .iter()
+        .map(|branch| {
+            let end = branch.modes.last().and_then(Option::as_ref);
+            vec![
+                branch.label.clone(),
+                hz(branch.modes.first().and_then(Option::as_ref)),
+                hz(end),
+                end.map_or("-".into(), |m| format!("{:.3}", 100.0 * m.zeta())),
+            ]
+        })
+        .collect();
+    let (from, to) = (format!("Hz at {:.0} rpm", rpm(*first)), format!("Hz at {:.0} rpm", rpm(*last)));
+    let header = ["mode", from.as_str(), to.as_str(), "zeta % there"];
+    terminal.table(&format!("Campbell diagram over {} speeds", diagram.speeds.len()), &header, &rows);
+    if !found.crossings.is_empty() {
+        crossings(terminal, "Crossings with order lines", &found.crossings);
+    }
+    for threshold in &found.thresholds {
+        let side = if threshold.unstable_above { "above" } else { "below" };
+        terminal.say(&format!("  {} is unstable {side} {:.1} rpm", threshold.label, rpm(threshold.speed)));
+    }
+}
+
+pub fn critical(terminal: &Terminal, found: &CriticalResult) {
+    let title = format!("Critical speeds up to {:.0} rpm", rpm(found.max_speed));
+    if found.speeds.is_empty() {
+        terminal.heading(&format!("{title}: none"));
+    } else {
+        crossings(terminal, &title, &found.speeds);
+    }
+}
+
+fn crossings(terminal: &Terminal, title: &str, found: &[CriticalSpeed]) {
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .take(MOST)
+        .map(|c| {
+            vec![
+                format!("{:.2}", rpm(c.speed)),
+                format!("{:.3}", c.mode.frequency_hz()),
+                number(c.order, 4).trim_end_matches('0').trim_end_matches('.').to_string(),
+                c.mode.kind.name().to_string(),
+                format!("{:.3}", 100.0 * c.mode.zeta()),
+                format!("{:.4}", c.mode.log_dec()),
+                c.label.clone(),
+            ]
+        })
+        .collect();
+    terminal.table(title, &["rpm", "Hz", "order", "whirl", "zeta %", "log dec", "mode"], &rows);
+    more(terminal, found.len());
+}
+
+fn more(terminal: &Terminal, count: usize) {
+    if count > MOST {
+        terminal.say(&format!("  ... and {} more in results.h5", count - MOST));
+    }
+}
+
+pub fn frf(terminal: &Terminal, found: &FrfResult) {
+    let frequencies = &found.frf.frequencies;
+    let mut rows = Vec::new();
+    for (r, response) in found.responses.iter().enumerate() {
+        for (e, excitation) in found.excitations.iter().enumerate() {
+            let size = |k: &usize| found.frf.values[r][e][*k].norm();
+            let Some(peak) = (0..frequencies.len()).max_by(|a, b| size(a).total_cmp(&size(b))) else {
+                continue;
+            };
+            rows.push(vec![
+                excitation.clone(),
+                response.clone(),
+                number(frequencies[peak], 6),
+                number(size(&peak), 4),
+                found.units[r][e].clone(),
+            ]);
+        }
+    }
+    let count = rows.len();
+    rows.truncate(MOST);
+    let title =
+        format!("{} at {:.0} rpm, {} frequencies: peaks", found.name(), rpm(found.speed), frequencies.len());
+    terminal.table(&title, &["excitation", "response", "peak at Hz", "peak", "unit"], &rows);
+    more(terminal, count);
+}
+
+pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
+    let speeds = &found.response.speeds;
+    let peak = |sizes: Vec<f64>| {
+        let at = (0..sizes.len()).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b]))?;
+        Some((rpm(*speeds.get(at)?), sizes[at], at))
+    };
+    let mut rows = Vec::new();
+    for channel in &found.channels {
+        let sizes = channel.amplitude.iter().map(|[re, im]| re.hypot(*im)).collect();
+        if let Some((speed, size, _)) = peak(sizes) {
+            let unit =
+                unit_of(channel.probe.quantity, channel.probe.direction[..3].iter().all(|d| *d == 0.0));
+            rows.push(vec![channel.probe.name.clone(), format!("{speed:.1}"), number(size, 4), unit.into()]);
+        }
+    }
+    for disc in &found.orbits {
+        let orbit = |k: usize| {
+            let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
+            Orbit::new(complex(disc.x[k]), complex(disc.y[k]))
+        };
+        if let Some((speed, size, k)) = peak((0..disc.x.len()).map(|k| orbit(k).major).collect()) {
+            let whirl = if orbit(k).minor < 0.0 { "backward" } else { "forward" };
+            let name = format!("orbit of disc.{} ({whirl})", disc.name);
+            rows.push(vec![name, format!("{speed:.1}"), number(size, 4), "m".into()]);
+        }
+    }
+    let title = format!("Unbalance response over {} speeds: largest amplitudes", speeds.len());
+    terminal.table(&title, &["response", "at rpm", "amplitude", "unit"], &rows);
+}
+
+pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
+    let (report, history) = (&found.report, &found.history);
+    terminal.heading("Run-up");
+    let (end, speed) = (history.time.last().unwrap_or(&0.0), history.speed.last().unwrap_or(&0.0));
+    let newton = match report.iterations {
+        0 => String::new(),
+        n => format!(", {:.2} Newton iterations a step", n as f64 / report.steps.max(1) as f64),
+    };
+    terminal.say(&format!(
+        "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or refused, {} samples",
+        end,
+        rpm(*speed),
+        report.steps,
+        report.halvings,
+        report.samples
+    ));
+    terminal.say(&format!(
+        "  reduced model: {} modes and {} static corrections; error {:.1e} of the static deflection, {:.1e} of the\n  \
+         frequencies up to half the cutoff",
+        found.modes, found.corrections, found.static_error, found.frequency_error
+    ));
+    let e = &report.energy;
+    let rows: Vec<Vec<String>> = [
+        ("stored at the start", e.start),
+        ("work of loads, unbalance and drive", e.work),
+        ("work of turning cages", e.parametric),
+        ("lost in damping", -e.damping_loss),
+        ("lost in contacts", -e.contact_loss),
+        ("stored at the end", -(e.kinetic + e.strain + e.contact)),
+        ("unexplained", -e.residual()),
+    ]
+    .iter()
+    .map(|(name, value)| vec![(*name).to_string(), number(*value, 6)])
+    .collect();
+    terminal.table("Energy balance of the run-up", &["", "J"], &rows);
+    let rows: Vec<Vec<String>> = history
+        .channels
+        .iter()
+        .filter(|c| ["displacement", "velocity", "acceleration", "force"].contains(&c.quantity.as_str()))
+        .map(|c| {
+            let n = c.values.len().max(1) as f64;
+            let mean = c.values.iter().sum::<f64>() / n;
+            let rms = (c.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt();
+            let peak = c.values.iter().fold(0.0, |m: f64, v| m.max((v - mean).abs()));
+            vec![c.name.clone(), number(mean, 4), number(rms, 4), number(peak, 4), c.unit.clone()]
+        })
+        .collect();
+    let header = ["channel", "mean", "RMS about it", "largest from it", "unit"];
+    terminal.table("Channels of the run-up", &header, &rows);
+}
+
+pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) {
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .filter_map(|s| {
+            let bins = s.spectrogram.frequencies.len();
+            let amplitude = &s.spectrogram.amplitude;
+            // the mean is no vibration: leave out the window's main lobe about 0 Hz
+            let least = 3.min(bins.saturating_sub(1));
+            let at = (0..amplitude.len())
+                .filter(|k| k % bins >= least)
+                .max_by(|a, b| amplitude[*a].total_cmp(&amplitude[*b]))?;
+            Some(vec![
+                s.channel.clone(),
+                number(amplitude[at], 4),
+                s.unit.clone(),
+                number(s.spectrogram.frequencies[at % bins], 5),
+                format!("{:.1}", rpm(s.speed[at / bins])),
+            ])
+        })
+        .collect();
+    terminal.table(
+        "Spectrograms: largest amplitudes",
+        &["channel", "amplitude", "unit", "Hz", "at rpm"],
+        &rows,
+    );
+}
+
+pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
+    let mut rows = Vec::new();
+    for result in found {
+        for (line, cut) in &result.cuts {
+            let Some(at) = (0..cut.rms.len()).max_by(|a, b| cut.rms[*a].total_cmp(&cut.rms[*b])) else {
+                continue;
+            };
+            rows.push(vec![
+                result.channel.clone(),
+                line.label.clone(),
+                number(line.order, 5),
+                number(cut.rms[at], 4),
+                result.unit.clone(),
+                format!("{:.1}", cut.rpm[at]),
+            ]);
+        }
+    }
+    let count = rows.len();
+    rows.truncate(MOST);
+    let header = ["channel", "order", "value", "largest RMS", "unit", "at rpm"];
+    terminal.table("Order cuts: largest levels", &header, &rows);
+    more(terminal, count);
+}

@@ -1,0 +1,164 @@
+//! What is said and where: tables on standard output, everything else on standard error.
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use super::args::Output;
+
+/// Where to speak, and whether.
+#[derive(Clone, Copy, Debug)]
+pub struct Terminal {
+    tables: bool,
+    progress: bool,
+    bold: bool,
+    pub colour: bool,
+}
+
+impl Terminal {
+    pub fn new(output: &Output) -> Self {
+        let colour_allowed = std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        Self {
+            tables: !output.quiet && !output.json,
+            progress: !output.quiet && stderr().is_terminal(),
+            bold: colour_allowed && stdout().is_terminal(),
+            colour: colour_allowed && stderr().is_terminal(),
+        }
+    }
+
+    /// A line (or several) for the reader.
+    pub fn say(&self, text: &str) {
+        if self.tables {
+            // A reader who has gone (a closed pipe) is no reason to stop computing.
+            let _ = writeln!(stdout(), "{text}");
+        }
+    }
+
+    /// A heading with a blank line before it.
+    pub fn heading(&self, text: &str) {
+        if self.bold { self.say(&format!("\n\x1b[1m{text}\x1b[0m")) } else { self.say(&format!("\n{text}")) }
+    }
+
+    /// A heading, then a table (see [`table`]).
+    pub fn table(&self, title: &str, header: &[&str], rows: &[Vec<String>]) {
+        self.heading(title);
+        self.say(table(header, rows).trim_end());
+    }
+
+    /// A problem, whatever was asked about silence.
+    pub fn complain(&self, word: &str, text: &str) {
+        let code = if word == "error" { 31 } else { 33 };
+        let word = if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() };
+        let _ = writeln!(stderr(), "{word}: {text}");
+    }
+
+    /// Something that runs without telling how far it is.
+    pub fn spinner(&self, what: &str) -> ProgressBar {
+        let bar = self.bar(None);
+        bar.set_style(style("{spinner} {msg} {elapsed}"));
+        bar.set_message(what.to_string());
+        if self.progress {
+            bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        bar
+    }
+
+    /// A bar over simulated time in ms; its message is set by the caller.
+    pub fn time_bar(&self, duration: f64) -> ProgressBar {
+        let bar = self.bar(Some((1e3 * duration).round() as u64));
+        let seconds = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            let total = state.len().unwrap_or(0) as f64 / 1e3;
+            let _ = write!(out, "{:.2} of {total:.2} s", state.pos() as f64 / 1e3);
+        };
+        bar.set_style(
+            style("run-up {wide_bar} {simulated}, {msg}, {eta} left").with_key("simulated", seconds),
+        );
+        bar
+    }
+
+    fn bar(&self, length: Option<u64>) -> ProgressBar {
+        let target = if self.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        ProgressBar::with_draw_target(length, target)
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // The templates are fixed and sound; a plain bar is no harm if they were not.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// Aligned text: columns of numbers to the right, of words to the left, two spaces between.
+pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let cell = |row: &'_ [String], k: usize| row.get(k).map(String::as_str).unwrap_or_default().to_string();
+    let numeric = |k: usize| {
+        rows.iter().all(|row| {
+            let text = cell(row, k);
+            text.is_empty() || text == "-" || text.parse::<f64>().is_ok()
+        })
+    };
+    let columns: Vec<(usize, bool)> = header
+        .iter()
+        .enumerate()
+        .map(|(k, title)| {
+            let cells = rows.iter().map(|row| cell(row, k).chars().count());
+            (cells.chain([title.chars().count()]).max().unwrap_or(0), numeric(k))
+        })
+        .collect();
+    let mut out = String::new();
+    let titles: Vec<String> = header.iter().map(|h| (*h).to_string()).collect();
+    for row in std::iter::once(&titles).chain(rows) {
+        let mut line = String::new();
+        for (k, &(width, right)) in columns.iter().enumerate() {
+            let text = cell(row, k);
+            // Writing to a String cannot fail.
+            let _ = if right { write!(line, "  {text:>width$}") } else { write!(line, "  {text:<width$}") };
+        }
+        out += line.trim_end();
+        out.push('\n');
+    }
+    out
+}
+
+/// A number with about `digits` significant digits: plain where that is short, else with an exponent.
+pub fn number(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let exponent = value.abs().log10().floor();
+    if !exponent.is_finite() {
+        return value.to_string();
+    }
+    if (-3.0..6.0).contains(&exponent) {
+        let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", digits.saturating_sub(1))
+    }
+}
+
+/// rad/s as rpm.
+pub fn rpm(speed: f64) -> f64 {
+    speed * 30.0 / std::f64::consts::PI
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_go_right_and_words_left() {
+        let rows = vec![vec!["a".into(), "1.5".into()], vec!["long".into(), "-".into()]];
+        assert_eq!(table(&["name", "Hz"], &rows), "  name   Hz\n  a     1.5\n  long    -\n");
+    }
+
+    #[test]
+    fn numbers_keep_their_digits() {
+        assert_eq!(number(1234.5678, 5), "1234.6");
+        assert_eq!(number(0.012_345, 3), "0.0123");
+        assert_eq!(number(2.0e7, 3), "2.00e7");
+        assert_eq!(number(-0.5, 2), "-0.50");
+        assert_eq!(number(0.0, 2), "0");
+    }
+}

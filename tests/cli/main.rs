@@ -1,0 +1,34 @@
+//! The command as users meet it: every model, every command, exit codes, Ctrl-C, JSON.
+
+mod commands;
+mod failures;
+mod runs;
+
+use assert_cmd::Command;
+use std::path::{Path, PathBuf};
+
+/// The program, in the repository's root.
+fn rotordyn() -> Command {
+    let mut command = Command::cargo_bin("rotordyn").unwrap();
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("NO_COLOR");
+    command
+}
+
+/// Standard output of a command that must succeed.
+fn output_of(command: &mut Command) -> String {
+    String::from_utf8(command.assert().success().get_output().stdout.clone()).unwrap()
+}
+
+/// The document of a command that must succeed with `--json`.
+fn json_of(command: &mut Command) -> serde_json::Value {
+    serde_json::from_str(&output_of(command.arg("--json"))).unwrap()
+}
+
+fn models() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let mut models: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    models.retain(|path| path.extension().is_some_and(|e| e == "toml"));
+    models.sort();
+    assert!(models.len() >= 4);
+    models
+}

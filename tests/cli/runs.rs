@@ -1,0 +1,147 @@
+//! Run-ups: streamed, interrupted, failed, looked at afterwards, repeated.
+
+use crate::{json_of, output_of, rotordyn};
+use rotordyn::edge::hdf5::{Attribute, Store};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Half a second of the rig, with analyses that fit into it.
+const SHORT: [&str; 14] = [
+    "--set",
+    "study.run_up.sample_rate=2 kHz",
+    "--set",
+    "speed.settle=0.1 s",
+    "--set",
+    "speed.ramp=0.3 s",
+    "--set",
+    "speed.hold=0.1 s",
+    "--set",
+    "study.spectrogram.length=0.1 s",
+    "--set",
+    "study.orders.resolution=0.5",
+    "--set",
+    "study.orders.cuts=[1, 2]",
+];
+const RIG: &str = "models/overhung_rig.toml";
+
+fn state_of(file: &Path) -> String {
+    match Store::open(file).unwrap().attribute("/time", "run_state").unwrap() {
+        Some(Attribute::Text(state)) => state,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_run_up_is_stored_and_looked_at_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let text = output_of(rotordyn().args(["run-up", RIG, "--no-figures", "--out"]).arg(out).args(SHORT));
+    for part in ["Energy balance of the run-up", "0.500 s simulated", "Order cuts", "reduced model"] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    let file = out.join("results.h5");
+    assert_eq!(state_of(&file), "complete");
+    let store = Store::open(&file).unwrap();
+    // 2 kHz over half a second, both ends included.
+    assert_eq!(store.read("/channels/B_ax").unwrap().data.len(), 1001);
+    assert_eq!(store.read("/time/t").unwrap().data.len(), 1001);
+    drop(store);
+
+    let text =
+        output_of(rotordyn().arg("spectrogram").arg(out).args(["--channels", "B_ay", "--length", "0.2 s"]));
+    assert!(text.contains("B_ay") && !text.contains("B_ax"), "{text}");
+    assert!(out.join("spectrogram_B_ay.png").exists());
+    let flags = ["--resolution", "0.25", "--orders", "1,2 BPFO", "--no-figures"];
+    let text = output_of(rotordyn().arg("orders").arg(&file).args(flags));
+    assert!(text.contains("2 BPFO"), "{text}");
+
+    let exported = json_of(rotordyn().args(["export", RIG, "--out"]).arg(out));
+    let csv = std::fs::read_to_string(out.join("channels.csv")).unwrap();
+    assert!(csv.starts_with("time_s,A_ax_m_s2") && csv.lines().count() == 1002, "{exported}");
+    let glb = std::fs::read(out.join("machine.glb")).unwrap();
+    assert_eq!(&glb[..4], b"glTF");
+}
+
+/// An explicit method with a step far above its stability limit.
+#[test]
+fn a_run_that_diverges_leaves_what_it_had() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = rotordyn();
+    command.args(["run-up", RIG, "--no-figures", "--integrator", "rk4", "--step", "500 us", "--out"]);
+    // generalised-alpha's parameter does not go with another method
+    let sets = ["--set", "study.run_up={ step = \"500 us\", integrator = \"rk4\", cutoff = \"1500 Hz\" }"];
+    let assert = command.arg(folder.path()).args(SHORT).args(sets).assert().code(3);
+    let said = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
+    for part in ["run-up: the run diverged at t = ", "bearing ", "rpm"] {
+        assert!(said.contains(part), "{part} is not in\n{said}");
+    }
+    let file = folder.path().join("results.h5");
+    let state = state_of(&file);
+    assert!(state.starts_with("stopped: the run diverged"), "{state}");
+    assert!(!Store::open(&file).unwrap().read("/channels/B_ax").unwrap().data.is_empty());
+}
+
+#[test]
+fn ctrl_c_ends_a_run_cleanly() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("results.h5");
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
+        .args(["run", RIG, "--no-figures", "--set", "speed.hold=100000 s", "--out"])
+        .arg(folder.path())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first block of samples on disk says that the run-up goes on; a hundred thousand seconds do not end by
+    // themselves.
+    let begun = Instant::now();
+    let samples = || Store::open(&file).and_then(|s| s.read("/time/t")).map_or(0, |t| t.data.len());
+    while samples() == 0 {
+        assert!(begun.elapsed() < Duration::from_secs(300), "no samples after five minutes");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let state = state_of(&file);
+    assert!(state.starts_with("stopped: ended by Ctrl-C at t = "), "{state}");
+    // What was computed before it is there, and the run can be looked at.
+    let store = Store::open(&file).unwrap();
+    assert!(store.contains("/modes") && store.contains("/run_up"));
+    drop(store);
+    let flags = ["--no-figures", "--length", "0.5 s", "--channels", "disc_y"];
+    let assert = rotordyn().arg("spectrogram").arg(&file).args(flags).assert().success();
+    assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("did not end by itself: stopped"));
+}
+
+/// Every byte of the file, with one thread, with two, and again.
+#[test]
+fn numbers_do_not_depend_on_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |name: &str, threads: &str| {
+        let out = folder.path().join(name);
+        let mut command = rotordyn();
+        command.args(["run", RIG, "--no-figures", "--quiet", "--threads", threads, "--out"]).arg(&out);
+        command.args(SHORT).args(["--set", "study.campbell.modes=6"]).assert().success();
+        std::fs::read(out.join("results.h5")).unwrap()
+    };
+    let one = run("one", "1");
+    assert!(one == run("two", "2"), "one and two threads differ");
+    assert!(one == run("again", "2"), "a second run differs");
+}
+
+#[test]
+fn another_version_of_the_model_does_not_overwrite_a_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let modal = |set: &str| {
+        let mut command = rotordyn();
+        command.args(["modal", "models/jeffcott.toml", "--no-figures", "--set", set, "--out"]);
+        output_of(command.arg(folder.path()))
+    };
+    modal("disc.main.thickness=20 mm");
+    assert!(!modal("disc.main.thickness=20 mm").contains("another version"));
+    assert!(modal("disc.main.thickness=25 mm").contains("another version"));
+    assert!(folder.path().join("results_previous.h5").exists());
+}
