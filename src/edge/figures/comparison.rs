@@ -2,7 +2,8 @@
 
 use super::display::pretty;
 use super::response::frf_curve;
-use super::{Named, TO_RPM};
+use super::{Named, TO_RPM, speed};
+use crate::analysis::Mode;
 use crate::edge::plot::{Curve, Figure, Frf, Lines};
 use crate::results::{FrfResult, Results};
 
@@ -53,14 +54,16 @@ fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
 
 /// The branches of every variant in the style of the variant.
 fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
+    let found = || variants.iter().filter_map(|(name, results)| Some((name, results.campbell.as_ref()?)));
+    let top = found().map(|(_, c)| speed::top(&speed::branches(c), c)).fold(0.0, f64::max);
     let mut curves = Vec::new();
-    for (name, results) in variants {
-        let Some(found) = &results.campbell else { continue };
+    for (name, found) in found() {
         let mut curve = Curve { label: name.clone(), ..Curve::default() };
         for branch in &found.diagram.branches {
             for (speed, mode) in found.diagram.speeds.iter().zip(&branch.modes) {
                 curve.x.push(speed * TO_RPM);
-                curve.y.push(mode.as_ref().map_or(f64::NAN, |m| m.frequency_hz()));
+                let hz = mode.as_ref().map(Mode::frequency_hz).filter(|hz| *hz <= top);
+                curve.y.push(hz.unwrap_or(f64::NAN));
             }
             // A gap between branches.
             curve.x.push(f64::NAN);

@@ -7,8 +7,10 @@ use crate::edge::plot::{Branch, Campbell, Critical, Figure, OrderLine};
 use crate::results::{self, CampbellResult};
 use crate::study::Machine;
 
+/// A log decrement below this is what rounding leaves of an undamped mode's.
+const ROUND_OFF: f64 = 1e-6;
 /// Branches that a diagram shows at least.
-const LEAST: usize = 6;
+const LEAST: usize = 4;
 
 pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
     let mut branches = branches(found);
@@ -34,22 +36,27 @@ pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
     ("campbell".into(), Figure::Campbell(figure))
 }
 
-/// The branches of a diagram as curves.
+/// The branches of a diagram as curves; a machine without damping has no decrements.
 pub fn branches(found: &CampbellResult) -> Vec<Branch> {
     let rpm: Vec<f64> = found.diagram.speeds.iter().map(|s| s * TO_RPM).collect();
     let curve = |branch: &crate::analysis::campbell::Branch| {
         let values = |value: fn(&Mode) -> f64| {
             branch.modes.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect::<Vec<f64>>()
         };
+        let round_off = |d: f64| if d.abs() < ROUND_OFF { 0.0 } else { d };
         Branch {
             label: branch.label.clone(),
             whirl: whirl(branch.kind),
             rpm: rpm.clone(),
             hz: values(Mode::frequency_hz),
-            log_decrement: values(Mode::log_dec),
+            log_decrement: values(Mode::log_dec).into_iter().map(round_off).collect(),
         }
     };
-    found.diagram.branches.iter().map(curve).collect()
+    let mut branches: Vec<Branch> = found.diagram.branches.iter().map(curve).collect();
+    if branches.iter().all(|b| b.log_decrement.iter().all(|d| *d == 0.0 || d.is_nan())) {
+        branches.iter_mut().for_each(|b| b.log_decrement.clear());
+    }
+    branches
 }
 
 pub fn order_lines(orders: &[results::OrderLine]) -> Vec<OrderLine> {
@@ -58,14 +65,14 @@ pub fn order_lines(orders: &[results::OrderLine]) -> Vec<OrderLine> {
     orders.iter().map(line).collect()
 }
 
-/// Upper end of the frequency axis \[Hz\]: room for the lowest branches and for all that an order line meets.
-fn top(branches: &[Branch], found: &CampbellResult) -> f64 {
+/// Upper end of the frequency axis \[Hz\]: the lowest branches, and all that an order line meets or nearly meets.
+pub fn top(branches: &[Branch], found: &CampbellResult) -> f64 {
     let highest = |b: &Branch| b.hz.iter().copied().filter(|hz| hz.is_finite()).fold(0.0, f64::max);
     let mut ends: Vec<f64> = branches.iter().map(highest).collect();
     ends.sort_by(f64::total_cmp);
     let speed = found.diagram.speeds.last().copied().unwrap_or(0.0);
     let order = found.orders.iter().map(|o| o.order * speed / std::f64::consts::TAU).fold(0.0, f64::max);
-    let met = ends.iter().copied().filter(|hz| *hz <= order).fold(0.0, f64::max);
-    let shown = ends.get(LEAST - 1).or(ends.last()).copied().unwrap_or(1.0);
-    1.12 * met.max(shown)
+    let met = ends.partition_point(|hz| *hz <= 1.2 * order);
+    let last = met.max(LEAST).min(ends.len()).checked_sub(1);
+    1.12 * last.map_or(1.0, |last| ends[last])
 }
