@@ -1,4 +1,120 @@
 //! rotordyn: a multibody rotor-bearing simulator with a flexible shaft.
+//!
+//! One text describes a machine; from it come its modes, Campbell diagram, FRFs and nonlinear run-ups. The whole
+//! pipeline, on a small rotor:
+//!
+//! ```
+//! use rotordyn::model::{self, study};
+//! use rotordyn::study::{Machine, Recorder};
+//! use std::f64::consts::TAU;
+//! use std::ops::ControlFlow;
+//!
+//! // A model file: units in the values, stations by name, all problems reported at once.
+//! let text = r#"
+//!     [model]
+//!     name = "small_rotor"
+//!     [material.steel]
+//!     young = "207 GPa"
+//!     poisson = 0.3
+//!     density = "7850 kg/m^3"
+//!     [shaft]
+//!     element_length = "40 mm"
+//!     section = [{ length = "400 mm", outer_diameter = "20 mm" }]
+//!     [station]
+//!     A = "20 mm"
+//!     disc = "200 mm"
+//!     B = "380 mm"
+//!     [disc.main]
+//!     station = "disc"
+//!     outer_diameter = "160 mm"
+//!     thickness = "20 mm"
+//!     material = "steel"
+//!     [bearing.A]
+//!     station = "A"
+//!     model = "ball"
+//!     designation = "6204"
+//!     [bearing.B]
+//!     station = "B"
+//!     model = "ball"
+//!     designation = "6204"
+//!     [unbalance.disc]
+//!     station = "disc"
+//!     magnitude = "50 g mm"
+//!     [damping.modal]
+//!     frequency = "50 Hz"
+//!     ratio = 0.01
+//!     [drive]
+//!     kind = "prescribed"
+//!     station = "A"
+//!     [speed]
+//!     profile = "ramp"
+//!     ramp = "0.2 s"
+//!     to = "1200 rpm"
+//!     [probe.disc_y]
+//!     at = "disc.main"
+//!     direction = "y"
+//!     [study.run_up]
+//!     step = "100 us"
+//!     sample_rate = "2 kHz"
+//!     cutoff = "1500 Hz"
+//! "#;
+//! let model = model::load("small_rotor.toml", text, &Default::default())?.model;
+//!
+//! // Assembled, with its static equilibrium under gravity on the balls it rests on.
+//! let machine = Machine::new(model)?;
+//!
+//! // Linearised about it: modes, labelled by orbit and energy, and a Campbell diagram followed by MAC.
+//! let modes = machine.modal(&study::ModalStudy { speeds: vec![0.0, TAU * 20.0], modes: 6 })?;
+//! let bending = modes[1].modes.iter().find(|m| m.label == "1st bending forward");
+//! assert!(bending.is_some_and(|m| m.frequency_hz() > 20.0));
+//! let speeds = (0..5).map(|k| TAU * 5.0 * k as f64).collect();
+//! let orders = vec![1.0];
+//! let campbell =
+//!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, follow_bearings: false })?;
+//! assert_eq!(campbell.diagram.branches.len(), 4);
+//!
+//! // The nonlinear run-up: linear parts reduced to their modes, one Hertz contact per ball, every sample seen.
+//! let settings = machine.model.studies.run_up.clone().expect("asked for in the file");
+//! let reduction = machine.reduce(&settings)?;
+//! let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
+//! let report = machine.run_up(&settings, &reduction, |sample| {
+//!     recorder.take(sample);
+//!     ControlFlow::Continue(())
+//! });
+//! assert!(report.energy.residual().abs() < 1e-3 * report.energy.turnover());
+//!
+//! // What was measured in it, over the shaft's orders.
+//! let orders = study::OrderStudy {
+//!     channels: vec!["disc_y".into()],
+//!     resolution: 0.5,
+//!     max_order: 5.0,
+//!     overlap: 0.5,
+//!     window: study::WindowKind::Hann,
+//!     cuts: vec![1.0],
+//! };
+//! let found = machine.orders(&orders, &recorder.history)?;
+//! assert!(found[0].cuts[0].1.rms.iter().all(|level| level.is_finite()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`conventions`] | axes, order of DOFs, signs, symbols |
+//! | [`units`], [`material`] | quantities as text; material data |
+//! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
+//! | [`signal`] | spectra, STFT, order tracking, envelopes, orbits of sampled records |
+//! | [`contact`] | Hertz contacts |
+//! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
+//! | [`bearing`] | linear and ball bearings: force and both tangents |
+//! | [`model`] | the model file, read and checked; the machine in SI |
+//! | [`assembly`] | degrees of freedom, matrices, joints eliminated, free motions |
+//! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
+//! | [`transient`] | reduction, time integration, energy account |
+//! | [`results`], [`study`] | what studies give, and the studies: one method of [`study::Machine`] each |
+//! | [`edge`] | HDF5, JSON, CSV, VTK, glTF, figures, shapes: one owner per format or foreign crate |
+//! | [`error`] | input, physics, environment |
+//!
+//! Imports go down this table only.
 
 #![forbid(unsafe_code)]
 

@@ -136,6 +136,11 @@ fn quiet_prints_nothing_and_json_only_json() {
     let document: Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(document["command"], "modal");
     assert_eq!(document["exit_code"], 0);
+    assert_eq!(document["schema"], "rotordyn-results-1");
+    assert_eq!(document["errors"], serde_json::json!([]));
+    let modes = document["modal"][0]["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 10);
+    assert!(modes.iter().all(|mode| mode["frequency_hz"].as_f64().unwrap() > 0.0));
 }
 
 #[test]
@@ -175,4 +180,26 @@ fn the_catalogue_answers() {
     let sheet = output_of(rotordyn().args(["catalogue", "6205"]));
     assert!(sheet.contains("radial clearance C3") && sheet.contains("13 to 28 um"), "{sheet}");
     rotordyn().args(["catalogue", "nonsense"]).assert().code(2);
+}
+
+/// What the README shows works as shown.
+#[test]
+fn the_readme_is_true() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string("README.md").unwrap();
+    let (_, rest) = text.split_once("```toml\n").unwrap();
+    let (example, _) = rest.split_once("```").unwrap();
+    let model = folder.path().join("fan.toml");
+    std::fs::write(&model, example).unwrap();
+    let document = json_of(rotordyn().arg("check").arg(&model));
+    let names: Vec<&str> =
+        document["variants"].as_array().unwrap().iter().map(|v| v["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["base", "loose"]);
+    output_of(rotordyn().arg("modal").arg(&model).args(["--variant", "loose", "--out"]).arg(folder.path()));
+    for command in COMMANDS.iter().chain(&["catalogue"]) {
+        assert!(text.contains(&format!("`{command}")), "the README does not tell of {command}");
+    }
+    for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')) {
+        assert!(std::path::Path::new(link.0).exists(), "{} is not there", link.0);
+    }
 }
