@@ -62,7 +62,7 @@ const DIVERGED: f64 = 0.1;
 
 #[allow(clippy::large_enum_variant)] // there is one
 enum Stepper {
-    Implicit(GeneralisedAlpha),
+    Implicit(Box<GeneralisedAlpha>),
     Fixed(RungeKutta),
     Adaptive(StepControl),
 }
@@ -81,11 +81,12 @@ pub fn run(
     let substeps = (interval / settings.step * (1.0 - 1e-12)).ceil().max(1.0) as usize;
     let step = interval / substeps as f64;
     let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
+    let implicit_stepper = |scheme| Stepper::Implicit(Box::new(GeneralisedAlpha::new(system, scheme)));
     let mut stepper = match settings.integrator {
         Integrator::GeneralisedAlpha { rho_infinity } => {
-            Stepper::Implicit(GeneralisedAlpha::new(system, Scheme::generalised_alpha(rho_infinity)))
+            implicit_stepper(Scheme::generalised_alpha(rho_infinity))
         }
-        Integrator::Newmark => Stepper::Implicit(GeneralisedAlpha::new(system, Scheme::NEWMARK)),
+        Integrator::Newmark => implicit_stepper(Scheme::NEWMARK),
         Integrator::RungeKutta4 => Stepper::Fixed(RungeKutta::classical(system)),
         Integrator::DormandPrince { relative_tolerance, absolute_tolerance } => {
             Stepper::Adaptive(StepControl {

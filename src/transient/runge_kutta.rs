@@ -146,7 +146,7 @@ impl RungeKutta {
             let size = state.x.amax() + step * state.v.amax();
             let worst = self.x_error.amax().max(step * self.v_error.amax());
             estimate = worst / (absolute + relative * size);
-            if estimate.is_nan() || estimate > 1.0 {
+            if estimate > 1.0 || estimate.is_nan() {
                 return estimate;
             }
         }

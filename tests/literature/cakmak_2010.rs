@@ -123,8 +123,8 @@ fn static_loads_and_bearing_stiffness() {
     for bearing in &found.bearings {
         let name = bearing.name.as_str();
         let force = numbers(&expected["static"][format!("{name}_force_on_shaft_xy")]);
-        for (computed, expected) in bearing.force.iter().zip(&force) {
-            assert!((computed / expected - 1.0).abs() < 0.01, "{name}: {:?}", bearing.force);
+        for (ours, theirs) in bearing.force.iter().zip(&force) {
+            assert!((ours / theirs - 1.0).abs() < 0.01, "{name}: {:?}", bearing.force);
         }
         let load = expected["static"]["ball_Qmax"][name].as_f64().unwrap();
         assert!(
