@@ -6,12 +6,14 @@
 //! | [`band`] | node ordering, [`BandLayout`] and the banded [`BandLu`], real and complex |
 //! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
 //! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
+//! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
 //! | [`small`] | small dense systems |
 
 pub mod band;
 pub mod eigen;
 pub mod krylov;
+pub mod panel;
 pub mod pchip;
 pub mod small;
 pub mod sparse;

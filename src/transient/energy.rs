@@ -45,6 +45,7 @@ pub struct EnergyLedger {
     load: DVector<f64>,
     previous_load: DVector<f64>,
     linear: DVector<f64>,
+    scratch: Vec<f64>,
     moved: DVector<f64>,
     x: DVector<f64>,
     v: DVector<f64>,
@@ -61,13 +62,14 @@ impl EnergyLedger {
             load: zero(),
             previous_load: zero(),
             linear: zero(),
+            scratch: Vec::new(),
             moved: zero(),
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(state),
             time: state.time,
         };
-        effective_load(system, state, &mut ledger.previous_load);
+        effective_load(system, state, &mut ledger.scratch, &mut ledger.previous_load);
         ledger.stored(system, state);
         let e = &mut ledger.energy;
         e.start = e.kinetic + e.strain + e.contact;
@@ -79,13 +81,15 @@ impl EnergyLedger {
         let step = state.time - self.time;
         self.moved.copy_from(&state.x);
         self.moved -= &self.x;
-        effective_load(system, state, &mut self.load);
+        effective_load(system, state, &mut self.scratch, &mut self.load);
         let e = &mut self.energy;
         e.work += 0.5 * (self.load.dot(&self.moved) + self.previous_load.dot(&self.moved));
         std::mem::swap(&mut self.load, &mut self.previous_load);
         // C (v₀ + v₁)/2 along the path.
         self.v += &state.v;
-        self.linear.gemv(0.5, &system.damping, &self.v, 0.0);
+        self.v *= 0.5;
+        self.linear.fill(0.0);
+        system.panels.damping.mul_add(self.v.as_slice(), self.linear.as_mut_slice());
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
@@ -98,7 +102,7 @@ impl EnergyLedger {
 
     /// Goes on from a state whose coordinates were changed between steps (a torque drive's recentring).
     pub fn start_from(&mut self, system: &System, state: &State) {
-        effective_load(system, state, &mut self.previous_load);
+        effective_load(system, state, &mut self.scratch, &mut self.previous_load);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
     }
@@ -119,12 +123,10 @@ fn powers(state: &State) -> [f64; 2] {
 }
 
 /// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.
-fn effective_load(system: &System, state: &State, out: &mut DVector<f64>) {
+fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
     system.load(state.time, &state.spin, out);
-    if state.spin.acceleration != 0.0 {
-        out.gemv(-state.spin.acceleration, &system.spin_up, &state.x, 1.0);
-    }
-    if system.has_circulatory && state.spin.speed != 0.0 {
-        out.gemv(-state.spin.speed, &system.circulatory, &state.x, 1.0);
-    }
+    scratch.clear();
+    scratch.extend(state.x.iter().map(|x| -state.spin.acceleration * x));
+    scratch.extend(state.x.iter().map(|x| -state.spin.speed * x));
+    system.panels.effective.mul_add(scratch, out.as_mut_slice());
 }

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::cage;
 use super::system::{State, System};
 use crate::bearing::Reaction;
+use crate::linalg::panel::Panel;
 use crate::linalg::small::solve_in_place;
 use crate::model::Spin;
 
@@ -53,9 +54,9 @@ struct Factor {
     speed: f64,
     acceleration: f64,
     /// S₀⁻¹ and S₀⁻¹ S′ S₀⁻¹.
-    inverse: [DMatrix<f64>; 2],
-    /// S⁻¹ Wᵀ, coordinates × rows.
-    response: [DMatrix<f64>; 2],
+    inverse: Panel,
+    /// The same of S⁻¹ Wᵀ, coordinates × rows.
+    response: Panel,
     /// Y = W S⁻¹ Wᵀ, row-major.
     compliance: [Vec<f64>; 2],
 }
@@ -75,6 +76,7 @@ pub struct GeneralisedAlpha {
     factors: Vec<Factor>,
     /// External and linear force of the previous state, L₀ = C v + K x − p, and its bearing force Wᵀ f.
     previous: DVector<f64>,
+    scratch: Vec<f64>,
     right: DVector<f64>,
     linear: DVector<f64>,
     x: DVector<f64>,
@@ -111,6 +113,7 @@ impl GeneralisedAlpha {
             scheme,
             factors: Vec::new(),
             previous: zero(),
+            scratch: Vec::new(),
             right: zero(),
             linear: zero(),
             x: zero(),
@@ -147,7 +150,7 @@ impl GeneralisedAlpha {
             }
         }
         let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
-        let (n, m) = (system.size(), system.rows());
+        let n = system.size();
         let weight = 1.0 - alpha_f;
         let by_speed =
             (&system.gyroscopic * (gamma * step) + &system.circulatory * (beta * step * step)) * weight;
@@ -160,16 +163,16 @@ impl GeneralisedAlpha {
         // a singular one yields NaN, which the divergence check of the driver reports.
         let inverse = effective.try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
         let slope = &inverse * by_speed * &inverse;
-        let map = DMatrix::from_row_slice(m, n, &system.interface_map);
+        let map = &system.interface_map;
         let response = [&inverse * map.transpose(), &slope * map.transpose()];
         // Column-major of the transpose is row-major.
-        let compliance = [0, 1].map(|k| (&map * &response[k]).transpose().as_slice().to_vec());
+        let compliance = [0, 1].map(|k| (map * &response[k]).transpose().as_slice().to_vec());
         let factor = Factor {
             step,
             speed: spin.speed,
             acceleration: spin.acceleration,
-            inverse: [inverse, slope],
-            response,
+            inverse: Panel::new(&[&inverse, &slope]),
+            response: Panel::new(&[&response[0], &response[1]]),
             compliance,
         };
         self.refactored += 1;
@@ -215,25 +218,28 @@ impl GeneralisedAlpha {
         if alpha_f != 0.0 {
             system.load(state.time, &state.spin, &mut self.previous);
             self.previous.neg_mut();
-            system.add_linear(&state.spin, &state.x, &state.v, 1.0, &mut self.previous);
+            let at = [&state.x, &state.v];
+            system.add_linear(&state.spin, at, 1.0, &mut self.scratch, &mut self.previous);
             system.gather(&state.reactions, &mut self.force);
-            system.add_from_interface(&self.force, -1.0, &mut self.previous);
+            self.force.iter_mut().for_each(|f| *f = -*f);
+            system.add_from_interface(&self.force, &mut self.previous);
             self.right.axpy(-alpha_f, &self.previous, 1.0);
         }
         if alpha_m != 0.0 {
             self.right.axpy(-alpha_m, &state.a, 1.0);
         }
         system.load(state.time + step, &spin, &mut self.linear);
-        system.add_linear(&spin, &self.x, &self.v, -1.0, &mut self.linear);
+        system.add_linear(&spin, [&self.x, &self.v], -1.0, &mut self.scratch, &mut self.linear);
         self.right.axpy(1.0 - alpha_f, &self.linear, 1.0);
 
         // Without bearings' forces: a₁ = S⁻¹ r. With them: a₁ += (1−α_f) S⁻¹ Wᵀ f.
         let factor = &self.factors[k];
         let off = spin.speed - factor.speed;
-        self.a.gemv(1.0, &factor.inverse[0], &self.right, 0.0);
-        if off != 0.0 {
-            self.a.gemv(-off, &factor.inverse[1], &self.right, 1.0);
-        }
+        self.scratch.clear();
+        self.scratch.extend(self.right.iter());
+        self.scratch.extend(self.right.iter().map(|r| -off * r));
+        self.a.fill(0.0);
+        factor.inverse.mul_add(&self.scratch, self.a.as_mut_slice());
         if rows > 0 {
             for (y, (y0, y1)) in
                 self.compliance.iter_mut().zip(factor.compliance[0].iter().zip(&factor.compliance[1]))
@@ -261,13 +267,10 @@ impl GeneralisedAlpha {
             self.last_force.copy_from_slice(&self.row_buffer);
             self.last_step = step;
             let factor = &self.factors[k];
-            for (r, f) in self.force.iter().enumerate() {
-                let share = (1.0 - alpha_f) * f;
-                self.a.axpy(share, &factor.response[0].column(r), 1.0);
-                if off != 0.0 {
-                    self.a.axpy(-off * share, &factor.response[1].column(r), 1.0);
-                }
-            }
+            self.scratch.clear();
+            self.scratch.extend(self.force.iter().map(|f| (1.0 - alpha_f) * f));
+            self.scratch.extend(self.force.iter().map(|f| -off * (1.0 - alpha_f) * f));
+            factor.response.mul_add(&self.scratch, self.a.as_mut_slice());
         }
 
         state.x.copy_from(&self.x);

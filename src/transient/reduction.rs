@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::system::{Channel, Interface, LoadHistory, System};
+use super::system::{Channel, Interface, LoadHistory, Panels, System};
 use super::torque::TorqueDrive;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, linear_system};
@@ -111,7 +111,7 @@ pub fn reduce(
             element,
         });
         for r in &place.rows[..rows] {
-            map.extend_from_slice(row(r).as_slice());
+            map.push(row(r).transpose());
         }
     }
     let mut unbalance = [DVector::zeros(basis.ncols()), DVector::zeros(basis.ncols())];
@@ -138,14 +138,22 @@ pub fn reduce(
     let q0 = DVector::from_column_slice(&equilibrium.q);
     let x0 = &momentum * &q0;
     let static_error = (&basis * &x0 - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
-    let circulatory = project(&assembly.circulatory);
+    let matrices = [
+        &project(&damping),
+        &project(&structure),
+        &project(&assembly.gyroscopic),
+        &project(&assembly.spin_up),
+        &project(&assembly.circulatory),
+    ];
+    let interface_map =
+        if map.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&map) };
     let system = System {
-        stiffness: project(&structure),
-        damping: project(&damping),
-        gyroscopic: project(&assembly.gyroscopic),
-        spin_up: project(&assembly.spin_up),
-        has_circulatory: circulatory.amax() != 0.0,
-        circulatory,
+        panels: Panels::new(matrices, &interface_map),
+        damping: matrices[0].clone(),
+        stiffness: matrices[1].clone(),
+        gyroscopic: matrices[2].clone(),
+        spin_up: matrices[3].clone(),
+        circulatory: matrices[4].clone(),
         static_load: vector(&steady),
         unbalance,
         spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
@@ -153,7 +161,7 @@ pub fn reduce(
             .iter()
             .map(|(v, points)| LoadHistory { vector: vector(v), points: points.clone() })
             .collect(),
-        interface_map: map,
+        interface_map,
         interfaces,
         channels: model
             .probes

@@ -59,6 +59,7 @@ pub struct RungeKutta {
     d: Vec<f64>,
     d_rate: Vec<f64>,
     force: Vec<f64>,
+    scratch: Vec<f64>,
     rotations: Vec<Rotation>,
     reactions: Vec<Reaction>,
     /// Right-hand sides evaluated, for the run's report.
@@ -87,6 +88,7 @@ impl RungeKutta {
             d: vec![0.0; m],
             d_rate: vec![0.0; m],
             force: vec![0.0; m],
+            scratch: Vec::new(),
             rotations: vec![Rotation::default(); system.interfaces.len()],
             reactions: vec![Reaction::default(); system.interfaces.len()],
             evaluations: 0,
@@ -104,8 +106,8 @@ impl RungeKutta {
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
         system.load(time, spin, acceleration);
-        system.add_linear(spin, &self.x, &self.v, -1.0, acceleration);
-        system.add_from_interface(&self.force, 1.0, acceleration);
+        system.add_linear(spin, [&self.x, &self.v], -1.0, &mut self.scratch, acceleration);
+        system.add_from_interface(&self.force, acceleration);
     }
 
     /// Tries a step; returns the error estimate in units of the tolerance (0 without error control).

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::torque::TorqueDrive;
 use crate::bearing::{BearingElement, Reaction, Rotation};
+use crate::linalg::panel::Panel;
 use crate::model::{Quantity, SpeedCurve, Spin};
 
 /// A nonlinear bearing of the reduced system and the rows of W that are its relative displacement.
@@ -51,14 +52,48 @@ pub struct System {
     /// −Vᵀ M r: what a unit Ω̇ does to torsion.
     pub spin_inertia: DVector<f64>,
     pub histories: Vec<LoadHistory>,
-    /// Interface map W, rows × coordinates, row-major for fast products.
-    pub interface_map: Vec<f64>,
+    /// Interface map W, rows × coordinates.
+    pub interface_map: DMatrix<f64>,
     pub interfaces: Vec<Interface>,
     pub channels: Vec<Channel>,
     pub curve: SpeedCurve,
     /// Torque drive, when the shaft's speed follows from a torque balance instead of the profile.
     pub drive: Option<TorqueDrive>,
-    pub has_circulatory: bool,
+    pub panels: Panels,
+}
+
+/// The system's matrices laid out for the products of a time step.
+#[derive(Clone, Debug)]
+pub struct Panels {
+    /// \[C K G K_s\], and K_c where there is internal damping.
+    linear: Panel,
+    has_circulatory: bool,
+    /// C alone.
+    pub damping: Panel,
+    /// \[K_s K_c\]: the terms of the left side that are neither spring nor damper nor gyroscope.
+    pub effective: Panel,
+    /// W and Wᵀ.
+    to_interface: Panel,
+    from_interface: Panel,
+}
+
+impl Panels {
+    /// Lays out the matrices C, K, G, K_s, K_c and W.
+    pub fn new(
+        [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
+        interface_map: &DMatrix<f64>,
+    ) -> Self {
+        let has_circulatory = circulatory.amax() != 0.0;
+        let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
+        Self {
+            linear: Panel::new(&all[..if has_circulatory { 5 } else { 4 }]),
+            has_circulatory,
+            damping: Panel::new(&[damping]),
+            effective: Panel::new(&[spin_up, circulatory]),
+            to_interface: Panel::new(&[interface_map]),
+            from_interface: Panel::new(&[&interface_map.transpose()]),
+        }
+    }
 }
 
 /// Everything that changes during a run.
@@ -134,46 +169,35 @@ impl System {
         }
     }
 
-    /// Adds (C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x to `out`, times `weight`.
+    /// Adds weight × ((C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x) to `out`; `scratch` is for reuse.
     pub fn add_linear(
         &self,
         spin: &Spin,
-        x: &DVector<f64>,
-        v: &DVector<f64>,
+        [x, v]: [&DVector<f64>; 2],
         weight: f64,
+        scratch: &mut Vec<f64>,
         out: &mut DVector<f64>,
     ) {
-        out.gemv(weight, &self.damping, v, 1.0);
-        out.gemv(weight, &self.stiffness, x, 1.0);
-        if spin.speed != 0.0 {
-            out.gemv(weight * spin.speed, &self.gyroscopic, v, 1.0);
-            if self.has_circulatory {
-                out.gemv(weight * spin.speed, &self.circulatory, x, 1.0);
-            }
+        scratch.clear();
+        scratch.extend(v.iter().map(|v| weight * v));
+        scratch.extend(x.iter().map(|x| weight * x));
+        scratch.extend(v.iter().map(|v| weight * spin.speed * v));
+        scratch.extend(x.iter().map(|x| weight * spin.acceleration * x));
+        if self.panels.has_circulatory {
+            scratch.extend(x.iter().map(|x| weight * spin.speed * x));
         }
-        if spin.acceleration != 0.0 {
-            out.gemv(weight * spin.acceleration, &self.spin_up, x, 1.0);
-        }
+        self.panels.linear.mul_add(scratch, out.as_mut_slice());
     }
 
     /// W y for coordinates y, written to `out`.
     pub fn to_interface(&self, y: &DVector<f64>, out: &mut [f64]) {
-        let n = self.size();
-        for (value, row) in out.iter_mut().zip(self.interface_map.chunks_exact(n)) {
-            *value = row.iter().zip(y.iter()).map(|(a, b)| a * b).sum();
-        }
+        out.fill(0.0);
+        self.panels.to_interface.mul_add(y.as_slice(), out);
     }
 
-    /// Adds `weight` Wᵀ f to `out`.
-    pub fn add_from_interface(&self, force: &[f64], weight: f64, out: &mut DVector<f64>) {
-        let n = self.size();
-        for (f, row) in force.iter().zip(self.interface_map.chunks_exact(n)) {
-            if *f != 0.0 {
-                for (o, w) in out.iter_mut().zip(row) {
-                    *o += weight * f * w;
-                }
-            }
-        }
+    /// Adds Wᵀ f to `out`.
+    pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
+        self.panels.from_interface.mul_add(force, out.as_mut_slice());
     }
 
     /// Evaluates every bearing at relative displacements and velocities.
@@ -239,8 +263,8 @@ impl System {
         self.gather(&state.reactions, &mut force);
         let mut a = DVector::zeros(self.size());
         self.load(state.time, &state.spin, &mut a);
-        self.add_linear(&state.spin, &x, &v, -1.0, &mut a);
-        self.add_from_interface(&force, 1.0, &mut a);
+        self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);
+        self.add_from_interface(&force, &mut a);
         state.a = a;
     }
 

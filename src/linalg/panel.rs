@@ -1,0 +1,87 @@
+//! Dense matrix-vector products for the inner loop of a time step.
+
+use nalgebra::DMatrix;
+use pulp::Arch;
+
+/// Matrices side by side, \[A₁ A₂ …\], for y += A₁ x₁ + A₂ x₂ + …, in the widest vectors the processor has.
+///
+/// Each element of y is summed in the order of the columns on every processor, so results are the same to the bit.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    rows: usize,
+    /// Column-major, `rows` long columns, padded with zero columns to a multiple of [`COLUMNS`].
+    data: Vec<f64>,
+    columns: usize,
+    arch: Arch,
+}
+
+/// Columns taken at a time: y is loaded and stored once for all of them.
+const COLUMNS: usize = 4;
+
+impl Panel {
+    /// Panel of matrices with the same number of rows.
+    pub fn new(blocks: &[&DMatrix<f64>]) -> Self {
+        let rows = blocks.first().map_or(0, |b| b.nrows());
+        let columns = blocks.iter().map(|b| b.ncols()).sum::<usize>();
+        let mut data = Vec::with_capacity(rows * columns.next_multiple_of(COLUMNS));
+        for block in blocks {
+            data.extend_from_slice(block.as_slice());
+        }
+        data.resize(rows * columns.next_multiple_of(COLUMNS), 0.0);
+        Self { rows, data, columns, arch: Arch::new() }
+    }
+
+    /// Number of columns of all blocks together.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// y ← y + \[A₁ A₂ …\] x; `x` holds x₁, x₂, … one after the other, `y` has as many elements as there are rows.
+    pub fn mul_add(&self, x: &[f64], y: &mut [f64]) {
+        debug_assert!(x.len() == self.columns && y.len() == self.rows);
+        let (rows, data) = (self.rows, &self.data[..]);
+        self.arch.dispatch(
+            #[inline(always)]
+            || {
+                for (k, columns) in data.chunks_exact(COLUMNS * rows).enumerate() {
+                    let factor = |c: usize| x.get(COLUMNS * k + c).copied().unwrap_or(0.0);
+                    let f: [f64; COLUMNS] = [factor(0), factor(1), factor(2), factor(3)];
+                    let (a, rest) = columns.split_at(rows);
+                    let (b, rest) = rest.split_at(rows);
+                    let (c, d) = rest.split_at(rows);
+                    // Equal lengths in sight of the compiler: no bounds checks, whole vectors.
+                    let d = &d[..rows];
+                    let y = &mut y[..rows];
+                    for i in 0..rows {
+                        y[i] = (((y[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
+                    }
+                }
+            },
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equals_the_plain_product() {
+        for (rows, first, second) in [(1, 1, 1), (3, 4, 5), (41, 41, 10), (8, 2, 0)] {
+            let a = DMatrix::from_fn(rows, first, |i, j| (i * 7 + j * 3) as f64 * 0.1 - 1.0);
+            let b = DMatrix::from_fn(rows, second, |i, j| (i * 5 + j * 11) as f64 * 0.2 - 2.0);
+            let panel = Panel::new(&[&a, &b]);
+            assert_eq!(panel.columns(), first + second);
+            let x: Vec<f64> = (0..first + second).map(|k| 1.0 - 0.3 * k as f64).collect();
+            let mut y = vec![0.5; rows];
+            panel.mul_add(&x, &mut y);
+            for (i, value) in y.iter().enumerate() {
+                let mut exact = 0.5;
+                for (k, factor) in x.iter().enumerate() {
+                    exact += factor * if k < first { a[(i, k)] } else { b[(i, k - first)] };
+                }
+                assert_eq!(*value, exact, "row {i}");
+            }
+        }
+    }
+}
