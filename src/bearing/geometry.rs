@@ -28,10 +28,10 @@ pub struct BallGeometry {
 }
 
 impl BallGeometry {
-    /// Radius of the circle of inner groove centres R_i = D_pw/2 + r_i − D_w/2 − P_d/4 \[m\].
+    /// Radius of the circle of inner groove centres R_i = D_pw/2 + (r_i − D_w/2) cos α₀ − P_d/4 \[m\].
     pub fn inner_centre_radius(&self) -> f64 {
-        0.5 * self.pitch_diameter + self.inner_groove_radius
-            - 0.5 * self.ball_diameter
+        0.5 * self.pitch_diameter
+            + (self.inner_groove_radius - 0.5 * self.ball_diameter) * self.contact_angle.cos()
             - 0.25 * self.radial_clearance
     }
 

@@ -4,3 +4,4 @@
 mod bearing;
 
 mod ball_bearing;
+mod linear_bearing;
