@@ -68,7 +68,7 @@ pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result
     pairs.truncate(count + 1);
     let mut shapes: Vec<(Complex64, Vec<Complex64>)> =
         pairs.into_iter().map(|p| (p.value, normalised(p.vector, &system.mass))).collect();
-    align_planes(assembly, &mut shapes);
+    align_planes(assembly, system, &mut shapes);
     shapes.truncate(count);
     let mut modes: Vec<Mode> =
         shapes.into_iter().map(|(value, shape)| mode_kind::describe(assembly, value, shape)).collect();
@@ -108,14 +108,19 @@ pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
     a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 
+/// Eigenvalues nearer than this, relative to their size, may be one double eigenvalue that round-off has parted.
+const NEAR: f64 = 1e-5;
+/// They are when their turned shapes solve (λ² M + λ D + S) φ = 0 with one λ to this part of λ² M φ.
+const DOUBLE: f64 = 1e-7;
+
 /// Turns a pair of equal eigenvalues into one mode with the most and one with the least energy along x.
 ///
 /// An axisymmetric rotor at rest has such pairs, and an eigenvalue solver returns any two of their combinations.
-fn align_planes(assembly: &Assembly, pairs: &mut [(Complex64, Vec<Complex64>)]) {
+fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Complex64, Vec<Complex64>)]) {
     let mut k = 0;
     while k + 1 < pairs.len() {
         let (a, b) = (pairs[k].0, pairs[k + 1].0);
-        if (a - b).norm() > 1e-7 * a.norm() {
+        if (a - b).norm() > NEAR * a.norm() {
             k += 1;
             continue;
         }
@@ -140,8 +145,29 @@ fn align_planes(assembly: &Assembly, pairs: &mut [(Complex64, Vec<Complex64>)]) 
         let turn = 0.5 * (2.0 * e12.norm()).atan2(e11 - e22);
         let phase = if e12.norm() > 0.0 { e12.conj() / e12.norm() } else { Complex64::new(1.0, 0.0) };
         let (sin, cos) = turn.sin_cos();
-        pairs[k].1 = first.iter().zip(&second).map(|(f, s)| f * cos + s * phase * sin).collect();
-        pairs[k + 1].1 = first.iter().zip(&second).map(|(f, s)| s * phase * cos - f * sin).collect();
+        let x: Vec<Complex64> = first.iter().zip(&second).map(|(f, s)| f * cos + s * phase * sin).collect();
+        let y: Vec<Complex64> = first.iter().zip(&second).map(|(f, s)| s * phase * cos - f * sin).collect();
+        if projected_residual(system, 0.5 * (a + b), [&x, &y]) > DOUBLE {
+            k += 1;
+            continue;
+        }
+        (pairs[k].1, pairs[k + 1].1) = (x, y);
         k += 2;
     }
+}
+
+/// Largest |φᵢᴴ (λ² M + λ D + S) φⱼ| / |λ|² of shapes with φᴴ M φ = 1.
+///
+/// Projected, it is blind to the round-off of the stiffest motions that the shapes carry.
+fn projected_residual(system: &LinearSystem, value: Complex64, shapes: [&[Complex64]; 2]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for right in shapes {
+        let [m, d, s] =
+            [&system.mass, &system.damping, &system.stiffness].map(|matrix| matrix.mul_complex(right));
+        for left in shapes {
+            let rest = value * value * inner(left, &m) + value * inner(left, &d) + inner(left, &s);
+            largest = largest.max(rest.norm() / value.norm_sqr());
+        }
+    }
+    largest
 }

@@ -2,7 +2,7 @@
 
 use super::Complex64;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{self, ComputeEigenvectors, SelfAdjointEvdParams};
+use faer::linalg::evd::{self, ComputeEigenvectors, EvdParams, SelfAdjointEvdParams};
 use faer::{Auto, Par, Spec};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -29,10 +29,39 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     }
     let n = a.nrows();
     let source = faer::Mat::from_fn(n, n, |i, j| a[(i, j)]);
-    let pairs = faer::linalg::solvers::Eigen::new_from_real(source.as_ref())
-        .map_err(|_| EigenError::NoConvergence)?;
-    let values = (0..n).map(|i| Complex64::new(pairs.S()[i].re, pairs.S()[i].im)).collect();
-    let vectors = DMatrix::from_fn(n, n, |i, j| Complex64::new(pairs.U()[(i, j)].re, pairs.U()[(i, j)].im));
+    let params: Spec<EvdParams, f64> = Spec::default();
+    let (mut re, mut im) = (faer::diag::Diag::<f64>::zeros(n), faer::diag::Diag::<f64>::zeros(n));
+    let mut u = faer::Mat::<f64>::zeros(n, n);
+    let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
+    let scratch = evd::evd_scratch::<f64>(n, no, yes, Par::Seq, params);
+    // In sequence: the threads of faer wait for each other busily, which crawls where all cores are taken.
+    evd::evd_real(
+        source.as_ref(),
+        re.as_mut(),
+        im.as_mut(),
+        None,
+        Some(u.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        params,
+    )
+    .map_err(|_| EigenError::NoConvergence)?;
+    let values: Vec<Complex64> = (0..n).map(|j| Complex64::new(re[j], im[j])).collect();
+    // Columns j, j + 1 hold the real and the imaginary part of the first vector of a conjugate pair.
+    let mut vectors = DMatrix::zeros(n, n);
+    let mut j = 0;
+    while j < n {
+        let paired = im[j] != 0.0 && j + 1 < n;
+        for i in 0..n {
+            if paired {
+                vectors[(i, j)] = Complex64::new(u[(i, j)], u[(i, j + 1)]);
+                vectors[(i, j + 1)] = Complex64::new(u[(i, j)], -u[(i, j + 1)]);
+            } else {
+                vectors[(i, j)] = u[(i, j)].into();
+            }
+        }
+        j += if paired { 2 } else { 1 };
+    }
     Ok((values, vectors))
 }
 
@@ -92,16 +121,34 @@ fn back_substitute(t: &DMatrix<f64>, value: Complex64, k: usize, y: &mut [Comple
         i -= 1;
         let load = |row: usize, from: usize| (from..n).map(|j| y[j] * t[(row, j)]).sum::<Complex64>();
         if i > 0 && t[(i, i - 1)] != 0.0 {
-            let (f, g) = (load(i - 1, i + 1), load(i, i + 1));
-            let (a, d) = (t[(i - 1, i - 1)] - value, t[(i, i)] - value);
-            let (b, c) = (t[(i - 1, i)], t[(i, i - 1)]);
-            let det = safe(a * d - b * c);
-            (y[i - 1], y[i]) = ((g * b - f * d) / det, (f * c - g * a) / det);
+            let rows = [
+                [t[(i - 1, i - 1)] - value, t[(i - 1, i)].into(), -load(i - 1, i + 1)],
+                [t[(i, i - 1)].into(), t[(i, i)] - value, -load(i, i + 1)],
+            ];
+            [y[i - 1], y[i]] = solve_two(rows, safe);
             i -= 1;
         } else {
             y[i] = -load(i, i + 1) / safe(t[(i, i)] - value);
         }
     }
+}
+
+/// Solution of two equations [a, b, right side], by elimination with complete pivoting.
+///
+/// Where the block holds the eigenvalue once more, both rows say the same; Cramer's rule would give 0/0.
+fn solve_two(mut rows: [[Complex64; 3]; 2], safe: impl Fn(Complex64) -> Complex64) -> [Complex64; 2] {
+    let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+    let (row, column) = places
+        .into_iter()
+        .fold((0, 0), |a, b| if rows[b.0][b.1].norm() > rows[a.0][a.1].norm() { b } else { a });
+    rows.swap(0, row);
+    let (p, q) = (column, 1 - column);
+    let pivot = safe(rows[0][p]);
+    let factor = rows[1][p] / pivot;
+    let mut x = [Complex64::default(); 2];
+    x[q] = (rows[1][2] - factor * rows[0][2]) / safe(rows[1][q] - factor * rows[0][q]);
+    x[p] = (rows[0][2] - rows[0][q] * x[q]) / pivot;
+    x
 }
 
 /// Q y.

@@ -1,11 +1,11 @@
 //! The lowest eigenvalues of the quadratic problem by shift and invert.
 //!
-//! An Arnoldi process in real arithmetic about a small real shift σ. Unknowns that nothing couples are
-//! solved group by group. Without gyroscopic effect it works on blocks of two, which find the double eigenvalues
-//! of an axisymmetric rotor at rest; rotation parts them.
+//! An Arnoldi process in real arithmetic about a small real shift σ. Unknowns that nothing couples are searched
+//! group by group, always the one known least far. Without gyroscopic effect it works
+//! on blocks of two, which find the double eigenvalues of an axisymmetric rotor at rest; rotation parts them.
 
 use super::eigen::{self, EigenError};
-use super::{BandLayout, Complex64, SparseMatrix, Triplets};
+use super::{BandLayout, BandLu, Complex64, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
 
 /// Residual of an accepted Ritz pair relative to its value.
@@ -43,27 +43,31 @@ pub fn lowest(
     shift: f64,
 ) -> Result<Vec<QuadraticPair>, EigenError> {
     let layout = BandLayout::new(&[m, c, k]);
-    let mut groups: Vec<(usize, &[usize])> = layout.groups().enumerate().collect();
-    groups.sort_by_key(|(_, unknowns)| std::cmp::Reverse(unknowns.len()));
+    let groups: Vec<&[usize]> = layout.groups().collect();
+    let parts: Vec<Part> = groups.iter().map(|unknowns| Part::new([m, c, k], unknowns, shift)).collect();
+    let mut searches: Vec<Search> = parts.iter().map(Search::new).collect::<Result<_, _>>()?;
+    loop {
+        let mut sizes: Vec<f64> =
+            searches.iter().flat_map(|s| s.found.iter().map(|(value, _)| value.norm())).collect();
+        sizes.sort_by(f64::total_cmp);
+        let limit = sizes.get(count.max(1) - 1).copied().unwrap_or(f64::INFINITY);
+        // The group that is known least far goes on until all are known as far as the last of the wanted pairs.
+        let behind = searches.iter_mut().filter(|s| s.reach < limit);
+        let Some(least) = behind.min_by(|a, b| a.reach.total_cmp(&b.reach)) else { break };
+        // A group's share of the modes is about that of its unknowns.
+        least.extend((count * least.part.order()).div_ceil(layout.size()))?;
+    }
     let mut pairs: Vec<QuadraticPair> = Vec::new();
-    for (group, unknowns) in groups {
-        // Of a further group only what lies below the best so far is of use.
-        let limit = pairs.get(count.max(1) - 1).map_or(f64::INFINITY, |p| p.value.norm());
-        let [m, c, k] = [m, c, k].map(|a| restrict(a, unknowns));
-        let found = if unknowns.len() <= DENSE_BELOW {
-            eigen::quadratic(&m.to_dense(), &c.to_dense(), &k.to_dense())?
-        } else {
-            arnoldi(&m, &c, &k, Wanted { count, limit, shift })?
-        };
-        for (value, part) in found.into_iter().filter(|(value, _)| oscillatory(*value, shift)) {
+    for (group, (unknowns, search)) in groups.iter().zip(&searches).enumerate() {
+        for (value, coordinates) in &search.found {
             let mut vector = vec![Complex64::default(); layout.size()];
-            for (&i, v) in unknowns.iter().zip(part) {
+            for (&i, v) in unknowns.iter().zip(search.expand(coordinates)) {
                 vector[i] = v;
             }
-            pairs.push(QuadraticPair { value, vector, group });
+            pairs.push(QuadraticPair { value: *value, vector, group });
         }
-        pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));
     }
+    pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));
     Ok(pairs)
 }
 
@@ -89,74 +93,148 @@ fn restrict(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
     out.build()
 }
 
-type Pairs = Vec<(Complex64, Vec<Complex64>)>;
-
-/// What is asked of a group: `count` oscillatory pairs, or all up to |λ| = `limit`.
-#[derive(Clone, Copy)]
-struct Wanted {
-    count: usize,
-    limit: f64,
+/// One group of coupled unknowns.
+struct Part {
+    m: SparseMatrix,
+    c: SparseMatrix,
+    k: SparseMatrix,
+    /// C + σ M.
+    damp: SparseMatrix,
+    /// K + σ C + σ² M.
+    shifted: SparseMatrix,
+    layout: BandLayout,
     shift: f64,
 }
 
-/// Oscillatory eigenpairs of lowest |λ| of one group.
-fn arnoldi(
-    m: &SparseMatrix,
-    c: &SparseMatrix,
-    k: &SparseMatrix,
-    wanted: Wanted,
-) -> Result<Pairs, EigenError> {
-    let n = m.rows();
-    let shift = wanted.shift;
-    let damp = SparseMatrix::sum(&[(1.0, c), (shift, m)]);
-    let shifted = SparseMatrix::sum(&[(1.0, k), (shift, &damp)]);
-    let layout = BandLayout::new(&[&shifted]);
-    let lu = layout.factor(layout.scatter(&shifted)).map_err(|_| EigenError::SingularShift)?;
+impl Part {
+    fn new(matrices: [&SparseMatrix; 3], unknowns: &[usize], shift: f64) -> Self {
+        let [m, c, k] = matrices.map(|a| restrict(a, unknowns));
+        let damp = SparseMatrix::sum(&[(1.0, &c), (shift, &m)]);
+        let shifted = SparseMatrix::sum(&[(1.0, &k), (shift, &damp)]);
+        let layout = BandLayout::new(&[&shifted]);
+        Self { m, c, k, damp, shifted, layout, shift }
+    }
 
-    // State (q, v/σ) with v = λ q, which brings the halves of the wanted vectors nearer in size.
-    let apply = |x: &[f64]| {
+    fn order(&self) -> usize {
+        self.m.rows()
+    }
+
+    /// All its oscillatory eigenpairs.
+    fn solve_dense(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
+        let mut pairs = eigen::quadratic(&self.m.to_dense(), &self.c.to_dense(), &self.k.to_dense())?;
+        pairs.retain(|(value, _)| oscillatory(*value, self.shift));
+        Ok(pairs)
+    }
+}
+
+/// The search in one group.
+struct Search<'a> {
+    part: &'a Part,
+    /// Oscillatory eigenvalues, each with its vector: in the basis of the Arnoldi process, if there is one.
+    found: Vec<(Complex64, Vec<Complex64>)>,
+    /// All oscillatory eigenvalues up to this |λ| are found.
+    reach: f64,
+    arnoldi: Option<Arnoldi<'a>>,
+}
+
+impl<'a> Search<'a> {
+    fn new(part: &'a Part) -> Result<Self, EigenError> {
+        if part.order() <= DENSE_BELOW {
+            return Self::dense(part);
+        }
+        Ok(Self { part, found: Vec::new(), reach: 0.0, arnoldi: Some(Arnoldi::new(part)?) })
+    }
+
+    fn dense(part: &'a Part) -> Result<Self, EigenError> {
+        Ok(Self { part, found: part.solve_dense()?, reach: f64::INFINITY, arnoldi: None })
+    }
+
+    /// Goes on with a larger basis; the first is to do for `share` pairs.
+    fn extend(&mut self, share: usize) -> Result<(), EigenError> {
+        let Some(arnoldi) = &mut self.arnoldi else { return Ok(()) };
+        let size = match arnoldi.columns.len() {
+            0 => 12 + (2 + arnoldi.block) * share,
+            size => size + 8 + size / 8,
+        };
+        if size >= 2 * self.part.order() - arnoldi.block {
+            // Nearly the whole space: the dense solver is as fast.
+            *self = Self::dense(self.part)?;
+            return Ok(());
+        }
+        arnoldi.grow(size);
+        let mut ritz = ritz_pairs(&arnoldi.columns, &arnoldi.basis, size, self.part.shift)?;
+        // Overdamped values pile up at −1/β under damping β K and hardly converge: nothing waits for them.
+        ritz.retain(|r| r.residual < SPURIOUS && oscillatory(r.value, self.part.shift));
+        let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
+        let last = ritz[..converged].last().map_or(0.0, |r| r.value.norm());
+        // The next is known well enough to say that nothing else lies below half of it.
+        let next = ritz.get(converged).map_or(0.0, |r| 0.5 * r.value.norm());
+        self.reach = last.max(next);
+        ritz.truncate(converged);
+        self.found = ritz.into_iter().map(|r| (r.value, r.vector)).collect();
+        Ok(())
+    }
+
+    /// The vector of a found pair over the group's unknowns.
+    fn expand(&self, vector: &[Complex64]) -> Vec<Complex64> {
+        match &self.arnoldi {
+            Some(arnoldi) => expand(vector, &arnoldi.basis, self.part.order()),
+            None => vector.to_vec(),
+        }
+    }
+}
+
+/// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
+///
+/// The factor 1/σ brings the halves of the wanted vectors nearer in size.
+struct Arnoldi<'a> {
+    part: &'a Part,
+    lu: BandLu<'a, f64>,
+    /// Vectors that the space grows from.
+    block: usize,
+    basis: Vec<Vec<f64>>,
+    /// Column j holds the image of basis vector j in the basis.
+    columns: Vec<Vec<f64>>,
+    noise: Noise,
+}
+
+impl<'a> Arnoldi<'a> {
+    fn new(part: &'a Part) -> Result<Self, EigenError> {
+        let lu = part.layout.factor(part.layout.scatter(&part.shifted));
+        let lu = lu.map_err(|_| EigenError::SingularShift)?;
+        let largest = part.c.iter().map(|(_, _, v)| v.abs()).fold(0.0, f64::max);
+        // Beyond the round-off of modal damping.
+        let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
+        let block = if rotating { 1 } else { 2 };
+        let noise = Noise(0x9E37_79B9_7F4A_7C15);
+        let mut new = Self { part, lu, block, basis: Vec::new(), columns: Vec::new(), noise };
+        for _ in 0..block {
+            let random: Vec<f64> = (0..2 * part.order()).map(|_| new.noise.next()).collect();
+            let start = new.apply(&random);
+            orthonormalise(start, &mut new.basis, &mut new.noise);
+        }
+        Ok(new)
+    }
+
+    /// (A − σ)⁻¹ x.
+    fn apply(&self, x: &[f64]) -> Vec<f64> {
+        let (n, shift) = (self.part.order(), self.part.shift);
         let (a, b) = x.split_at(n);
         let mut q = vec![0.0; n];
-        m.mul_add(-shift, b, &mut q);
-        damp.mul_add(-1.0, a, &mut q);
-        lu.solve(&mut q);
+        self.part.m.mul_add(-shift, b, &mut q);
+        self.part.damp.mul_add(-1.0, a, &mut q);
+        self.lu.solve(&mut q);
         let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
         q.extend(v);
         q
-    };
-
-    // Column j of `columns` holds the image of basis vector j in the basis.
-    let rotating = c.iter().any(|(i, j, v)| i != j && v != c.get(j, i));
-    let block = if rotating { 1 } else { 2 };
-    let mut noise = Noise(0x9E37_79B9_7F4A_7C15);
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for _ in 0..block {
-        let start = apply(&(0..2 * n).map(|_| noise.next()).collect::<Vec<_>>());
-        orthonormalise(start, &mut basis, &mut noise);
     }
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    let mut size = if wanted.limit.is_finite() { 12 } else { 12 + (2 + block) * wanted.count };
-    loop {
-        if size >= 2 * n - block {
-            // Nearly the whole space: the dense solver is as fast.
-            return eigen::quadratic(&m.to_dense(), &c.to_dense(), &k.to_dense());
+
+    /// Continues to `size` columns.
+    fn grow(&mut self, size: usize) {
+        while self.columns.len() < size {
+            let image = self.apply(&self.basis[self.columns.len()]);
+            self.columns.push(orthonormalise(image, &mut self.basis, &mut self.noise));
         }
-        while columns.len() < size {
-            let image = apply(&basis[columns.len()]);
-            columns.push(orthonormalise(image, &mut basis, &mut noise));
-        }
-        let mut ritz = ritz_pairs(&columns, &basis, size, shift)?;
-        ritz.retain(|r| r.residual < SPURIOUS);
-        let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
-        let enough = ritz[..converged].iter().filter(|r| oscillatory(r.value, shift)).count() >= wanted.count;
-        // What comes next is known well enough to say that it lies beyond the limit.
-        let beyond = ritz.get(converged).is_some_and(|r| r.value.norm() > 2.0 * wanted.limit);
-        if enough || beyond {
-            ritz.truncate(converged);
-            ritz.retain(|r| oscillatory(r.value, shift));
-            return Ok(ritz.into_iter().map(|r| (r.value, expand(&r.vector, &basis, n))).collect());
-        }
-        size += 8 + size / 8;
     }
 }
 

@@ -7,7 +7,7 @@ use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
 use rotordyn::element::{Anchor, Bushing, Joint, PointMass, RigidBody};
-use rotordyn::linalg::{eigen, krylov};
+use rotordyn::linalg::{Complex64, SparseMatrix, eigen, krylov};
 use rotordyn::model::{BearingSite, Model};
 
 prop_compose! {
@@ -225,6 +225,14 @@ proptest! {
                 // The dense solver's round-off is that of the fastest mode: up to 1e-6 of a slow one.
                 let deviation = (pair.value.norm() / dense - 1.0).abs();
                 prop_assert!(deviation < 1e-5, "mode {k} at {speed} rad/s: {deviation:e} (round {round})");
+                // The vector belongs to the value: φᴴ (λ² M + λ D + S) φ = 0, in parts of λ² φᴴ M φ.
+                let form = |a: &SparseMatrix| -> Complex64 {
+                    let image = a.mul_complex(&pair.vector);
+                    pair.vector.iter().zip(&image).map(|(v, w)| v.conj() * w).sum()
+                };
+                let inertia = pair.value * pair.value * form(m);
+                let rest = (inertia + pair.value * form(d) + form(s)).norm() / inertia.norm();
+                prop_assert!(rest < 1e-6, "mode {k} at {speed} rad/s: {rest:e} (round {round})");
             }
         }
     }
