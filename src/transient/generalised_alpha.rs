@@ -32,7 +32,7 @@ pub struct Scheme {
 impl Scheme {
     /// Generalised-α with spectral radius ρ∞ in \[0, 1\] at infinite frequency.
     ///
-    /// x and v are second order; the a it carries along belongs to a time (α_f − α_m) h later than its step's end
+    /// x and v are second order; the a it carries along is that of a time (α_f − α_m) h before its step's end
     /// (0.11 h at ρ∞ = 0.8), which an acceleration channel shows as that shift. Newmark has none.
     pub fn generalised_alpha(rho: f64) -> Self {
         let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
