@@ -68,6 +68,7 @@ fn overlapping_parts_of_a_bearing() {
         &["bearing.B", "overlap by", "the inner groove", "[bearing.B]", "models/overhung_rig.toml"],
     );
     assert!(!text.contains("bearing.A:"), "{text}");
+    insta::assert_snapshot!("overlapping_parts", text.trim());
     let pockets = failure(&["check", RIG, "--variant", "wavy", "--set", "bearing.A.width=5 mm"], 2);
     assert_says(&pockets, &["bearing.A", "cage pocket", "overlap by"]);
 }
@@ -86,6 +87,7 @@ fn free_motions_are_physics_errors() {
     };
     let none = write("none.toml", "");
     let text = failure(&["check", &none], 3);
+    insta::assert_snapshot!("singular_system", text.trim());
     assert_says(&text, &["singular", "motion of the shaft", "free to move"]);
     // One bearing alone: the shaft tips over it.
     let one = write(
