@@ -2,7 +2,9 @@
 
 pub mod elliptic;
 pub mod hertz;
+pub mod lubricant;
 pub mod traction;
 
 pub use hertz::{EllipticContact, HertzPair};
+pub use lubricant::Lubricant;
 pub use traction::Traction;
