@@ -4,7 +4,7 @@
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q = K δ_j^{3/2} along the line that joins them.
 
 use super::{BallBearing, Cage, Reaction, Wave};
-use crate::contact::HertzPair;
+use crate::contact::{ContactDamping, HertzPair};
 
 /// A ball bearing made ready for evaluation: constants and per-ball data laid out as arrays.
 #[derive(Clone, Debug)]
@@ -70,14 +70,11 @@ impl BallElement {
     /// Prepares a bearing for evaluation.
     pub fn new(bearing: &BallBearing) -> Self {
         let g = &bearing.geometry;
-        let contacts = HertzPair::new(
-            g.ball_diameter,
-            g.pitch_diameter,
-            [g.inner_groove_radius, g.outer_groove_radius],
-            g.contact_angle,
-            &bearing.ball_material,
-            &bearing.ring_material,
-        );
+        let contacts = bearing.hertz();
+        let (damping, ramp) = match bearing.damping {
+            ContactDamping::Constant { coefficient, ramp } => (coefficient, ramp),
+            ContactDamping::HuntCrossley { .. } => (0.0, 1e-6),
+        };
         let a = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let spacing = (0..g.balls)
             .map(|j| {
@@ -93,8 +90,8 @@ impl BallElement {
                 a * g.contact_angle.cos() - 0.5 * g.radial_clearance,
                 a * g.contact_angle.sin() * g.thrust_direction,
             ],
-            damping: bearing.contact_damping,
-            ramp: bearing.damping_ramp,
+            damping,
+            ramp,
             cage: bearing.cage,
             ball_to_pitch: g.ball_diameter / g.pitch_diameter,
             nominal_cos: g.contact_angle.cos(),

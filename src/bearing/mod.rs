@@ -1,16 +1,18 @@
 //! Bearings: force and both tangents between a shaft node and its housing.
 
 pub mod ball;
+pub mod ball_bearing;
 pub mod element;
+pub mod fit;
 pub mod geometry;
 pub mod linear;
 
 pub use ball::{BallElement, BallLoad, Rotation};
+pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Wave};
 pub use element::BearingElement;
+pub use fit::Fit;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use linear::{LinearElement, SiteTangent};
-
-use crate::element::Material;
 
 /// A bearing model.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,48 +49,6 @@ pub struct LinearBearingRow {
     pub stiffness: [[f64; 6]; 6],
     /// Damping C, same order.
     pub damping: [[f64; 6]; 6],
-}
-
-/// Ball bearing with one Hertz force element per ball and a kinematic cage.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BallBearing {
-    pub geometry: BallGeometry,
-    /// Material of balls and of rings.
-    pub ball_material: Material,
-    pub ring_material: Material,
-    /// Contact damping per ball c \[N s/m\]; it ramps in smoothly over `damping_ramp` of deflection and
-    /// never makes the contact pull.
-    pub contact_damping: f64,
-    /// Deflection over which the contact damping ramps in \[m\].
-    pub damping_ramp: f64,
-    pub cage: Cage,
-    /// Cage angle ψ₀ of ball 0 at the start \[rad\], from +x towards +y.
-    pub cage_angle: f64,
-    /// Waviness of the races.
-    pub inner_waviness: Vec<Wave>,
-    pub outer_waviness: Vec<Wave>,
-    /// Cage pocket diameter and cage width \[m\] for the overlap check and pictures.
-    pub cage_pocket_diameter: f64,
-}
-
-/// How the cage turns with the shaft.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cage {
-    /// Rolling without slip at the mean current contact angle: Ω_c/Ω = ½ (1 − D_w cos α / D_pw).
-    Rolling,
-    /// Given ratio Ω_c/Ω.
-    Ratio(f64),
-}
-
-/// One harmonic of race waviness: radial deviation a cos(n φ + ϕ₀), positive towards the ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
-    /// Waves per circumference n.
-    pub order: u32,
-    /// Amplitude a \[m\].
-    pub amplitude: f64,
-    /// Phase ϕ₀ \[rad\].
-    pub phase: f64,
 }
 
 /// Force on the shaft with both tangents, at one relative displacement and velocity.

@@ -31,6 +31,8 @@ pub struct FreeBallSettings {
     pub cage: bool,
     /// Stiffness \[N/m\] and damping \[N s/m\] of ball against pocket and of ball against ball.
     pub pocket: [f64; 2],
+    /// Damping of the contacts of ball and race \[N s/m\].
+    pub race_damping: f64,
 }
 
 /// One bearing with free balls: outer ring at rest, inner ring turning steadily, balls and cage free.
@@ -41,7 +43,6 @@ pub struct FreeBallBearing {
     inner: ColliderHandle,
     outer: ColliderHandle,
     contacts: HertzPair,
-    race_damping: f64,
     settings: FreeBallSettings,
 }
 
@@ -109,15 +110,7 @@ impl FreeBallBearing {
                 .can_sleep(false);
             world.insert(body, collider(SharedShape::new(shapes.cage), ring_density, others)).0
         });
-        let contacts = HertzPair::new(
-            g.ball_diameter,
-            g.pitch_diameter,
-            [g.inner_groove_radius, g.outer_groove_radius],
-            g.contact_angle,
-            &bearing.ball_material,
-            &bearing.ring_material,
-        );
-        Self { world, balls, cage, inner, outer, contacts, race_damping: bearing.contact_damping, settings }
+        Self { world, balls, cage, inner, outer, contacts: bearing.hertz(), settings }
     }
 
     /// Advances by whole steps.
@@ -155,7 +148,8 @@ impl FreeBallBearing {
         // Damping never makes a contact pull.
         let (load, traction) = match race {
             Some(stiffness) => {
-                let load = (stiffness * depth * depth.sqrt() + self.race_damping * approach).max(0.0);
+                let load =
+                    (stiffness * depth * depth.sqrt() + self.settings.race_damping * approach).max(0.0);
                 let along = slip - touch.normal * slip.dot(touch.normal);
                 let force = self.settings.traction.force(load, &Vector3::new(along.x, along.y, along.z));
                 (load, vector(&force))

@@ -1,7 +1,8 @@
 //! The rig's 6205 as data, for tests that need a bearing and no model file.
 #![allow(dead_code)]
 
-use rotordyn::bearing::{BallBearing, BallGeometry, Cage};
+use rotordyn::bearing::{BallBearing, BallGeometry, BallInertia, Cage, Fit, Preload};
+use rotordyn::contact::{ContactDamping, ContactLaw};
 use rotordyn::element::Material;
 
 pub fn steel() -> Material {
@@ -26,8 +27,12 @@ pub fn rig_6205() -> BallBearing {
         },
         ball_material: steel(),
         ring_material: steel(),
-        contact_damping: 300.0,
-        damping_ramp: 1e-6,
+        contact: ContactLaw::Hertz,
+        damping: ContactDamping::Constant { coefficient: 300.0, ramp: 1e-6 },
+        inertia: BallInertia::None,
+        preload: Preload::None,
+        duplex: None,
+        fit: Fit::default(),
         cage: Cage::Rolling,
         cage_angle: 0.0,
         inner_waviness: vec![],

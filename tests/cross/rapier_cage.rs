@@ -22,13 +22,13 @@ fn settings(cage: bool, displacement: [f64; 3]) -> FreeBallSettings {
         traction: Traction { friction: 0.08, slip_speed: 0.05 },
         cage,
         pocket: [2e6, 20.0],
+        race_damping: 30.0,
     }
 }
 
 fn bearing(radial_clearance: f64) -> BallBearing {
     let mut bearing = rig_6205();
     bearing.geometry.radial_clearance = radial_clearance;
-    bearing.contact_damping = 30.0;
     bearing
 }
 

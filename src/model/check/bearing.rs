@@ -5,7 +5,11 @@ use super::loading::increasing;
 use super::material;
 use super::places::Places;
 use super::springs::{self, Family};
-use crate::bearing::{BallBearing, BallGeometry, Bearing, Cage, LinearBearing, LinearBearingRow, Wave};
+use crate::bearing::{
+    BallBearing, BallGeometry, BallInertia, Bearing, Cage, Fit, LinearBearing, LinearBearingRow, Preload,
+    Wave,
+};
+use crate::contact::{ContactDamping, ContactLaw};
 use crate::element::{Anchor, Material};
 use crate::model::BearingSite;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -81,8 +85,15 @@ fn ball(r: &Reader, materials: &[Material]) -> BallBearing {
     let bearing = BallBearing {
         ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
         ring_material: part("ring_material").unwrap_or(steel),
-        contact_damping: r.or("contact_damping", not_negative(DAMPING), 300.0),
-        damping_ramp: r.or("damping_ramp", positive(LENGTH), 1e-6),
+        contact: ContactLaw::Hertz,
+        damping: ContactDamping::Constant {
+            coefficient: r.or("contact_damping", not_negative(DAMPING), 300.0),
+            ramp: r.or("damping_ramp", positive(LENGTH), 1e-6),
+        },
+        inertia: BallInertia::None,
+        preload: Preload::None,
+        duplex: None,
+        fit: Fit::default(),
         cage: cage(r),
         cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
         inner_waviness: waviness(r, "inner_waviness"),

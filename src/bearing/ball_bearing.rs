@@ -1,0 +1,116 @@
+//! A ball bearing as its user describes it.
+
+use super::{BallGeometry, Fit};
+use crate::contact::{ContactDamping, ContactLaw, HertzPair};
+use crate::element::Material;
+
+/// Ball bearing with one force element per ball and a kinematic cage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BallBearing {
+    pub geometry: BallGeometry,
+    /// Material of balls and of rings.
+    pub ball_material: Material,
+    pub ring_material: Material,
+    /// How a ball's contacts carry load.
+    pub contact: ContactLaw,
+    /// How they dissipate.
+    pub damping: ContactDamping,
+    pub inertia: BallInertia,
+    pub preload: Preload,
+    /// Second row that makes a matched pair of this bearing; `None` for a single row.
+    pub duplex: Option<Duplex>,
+    pub fit: Fit,
+    pub cage: Cage,
+    /// Cage angle ψ₀ of ball 0 at the start \[rad\], from +x towards +y.
+    pub cage_angle: f64,
+    /// Waviness of the races.
+    pub inner_waviness: Vec<Wave>,
+    pub outer_waviness: Vec<Wave>,
+    /// Cage pocket diameter and cage width \[m\] for the overlap check and pictures.
+    pub cage_pocket_diameter: f64,
+}
+
+impl BallBearing {
+    /// The dry contacts of a ball at the nominal contact angle.
+    pub fn hertz(&self) -> HertzPair {
+        let g = &self.geometry;
+        HertzPair::new(
+            g.ball_diameter,
+            g.pitch_diameter,
+            [g.inner_groove_radius, g.outer_groove_radius],
+            g.contact_angle,
+            &self.ball_material,
+            &self.ring_material,
+        )
+    }
+}
+
+/// Centrifugal force and gyroscopic moment of the balls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BallInertia {
+    /// Massless balls: both contacts carry the same load on one line.
+    #[default]
+    None,
+    /// Two contact angles per ball; the outer race alone resists the gyroscopic moment.
+    OuterRaceControl,
+    /// The inner race alone resists it.
+    InnerRaceControl,
+    /// d'Alembert: shared in proportion to the contact loads.
+    Shared,
+}
+
+/// Axial preload, in the direction of the bearing's thrust.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Preload {
+    #[default]
+    None,
+    /// Axial approach of the rings from their nominal place δ₀ \[m\], rigid; the film adds to it.
+    Interference(f64),
+    /// The interference at which the dry bearing at rest carries this axial force \[N\] when centred.
+    DryForce(f64),
+    /// The interference at which the centred bearing carries this axial force \[N\] at its speed, with
+    /// film and ball inertia: adjusted by a load cell, then held.
+    Force(f64),
+    /// A spring pushes the outer ring, which slides axially without mass: axial force F₀ − k e, e the
+    /// ring's shift in the thrust direction.
+    Spring { stiffness: f64, force: f64 },
+}
+
+/// Two equal rows side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Duplex {
+    pub arrangement: Arrangement,
+    /// Axial distance of the ball planes \[m\]; the bearing's station is midway.
+    pub spacing: f64,
+}
+
+/// Arrangement of a matched pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// O: load lines meet the axis outside the pair; stiff against tilting.
+    BackToBack,
+    /// X: load lines meet the axis between the rows or near them.
+    FaceToFace,
+    /// Both rows carry thrust the same way, `thrust_direction`.
+    Tandem,
+}
+
+/// How the cage turns with the shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cage {
+    /// Rolling without slip at the mean current contact angle: Ω_c/Ω = ½ (1 − D_w cos α / D_pw).
+    Rolling,
+    /// Given ratio Ω_c/Ω.
+    Ratio(f64),
+}
+
+/// One harmonic of race waviness: radial deviation a cos(n φ + ϕ₀), positive towards the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Waves per circumference n.
+    pub order: u32,
+    /// Amplitude a \[m\].
+    pub amplitude: f64,
+    /// Phase ϕ₀ \[rad\].
+    pub phase: f64,
+}
