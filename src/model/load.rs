@@ -6,6 +6,8 @@ use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::tree::{Table, Value};
 use super::file::{Diagnostic, Kind, ModelErrors, Source};
+use super::study::Studies;
+use crate::bearing::{BallBearing, Bearing};
 use std::ops::Range;
 
 /// What is laid over a model file before it is checked.
@@ -83,58 +85,147 @@ fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
 /// assert_eq!(model.shaft.len(), 8);
 /// ```
 pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loaded, ModelErrors> {
-    let mut sources = Sources::default();
-    let log = Log::default();
-    let bytes = text.as_ref();
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let at = error.valid_up_to();
-            sources.push(name, String::from_utf8_lossy(bytes));
-            let problem = Problem::new(
-                Kind::Syntax,
-                &(at..at + '\u{fffd}'.len_utf8()),
-                format!("not a text: byte {at} is not UTF-8"),
-            );
-            log.error(problem.hint("a model file is TOML, saved as UTF-8"));
-            return Err(failed(sources, log));
-        }
-    };
-    // editors on Windows put a byte order mark in front
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    sources.push(name, text);
-    if text.trim().is_empty() {
-        let problem = Problem::new(Kind::Syntax, &(0..0), "the file is empty");
-        log.error(problem.hint("start from one of models/*.toml"));
-        return Err(failed(sources, log));
-    }
-    let mut root = match Table::parse(text, 0) {
-        Ok(root) => root,
-        Err(error) => {
-            let span = error.span().unwrap_or(0..0);
-            let message = error.message().lines().next().unwrap_or("not TOML").to_string();
-            let problem = Problem::new(Kind::Syntax, &span, format!("not TOML: {message}"));
-            log.error(problem.hint(match message.as_str() {
-                "duplicate key" => "a name can stand only once; to change it in a variant use [variant.NAME]",
-                _ => "TOML is described at https://toml.io",
-            }));
-            return Err(failed(sources, log));
-        }
-    };
-    apply_variant(&mut root, options.variant.as_deref(), &log);
-    for (path, value) in &options.set {
-        apply_set(&mut root, path, value, &mut sources, &log);
-    }
-    if log.count() > 0 {
-        return Err(failed(sources, log));
-    }
+    let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
     let model = check::build(&root, &log);
+    let (sources, warnings) = passed(sources, log)?;
+    Ok(Loaded { model, warnings, sources, text })
+}
+
+/// The ball bearings of a file, which is a whole machine or holds bearings alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedBearings {
+    /// Name and title of the file's `[model]`.
+    pub name: String,
+    pub title: String,
+    /// Ball bearings with their names, in file order; never empty.
+    pub bearings: Vec<(String, BallBearing)>,
+    pub studies: Studies,
+    /// The machine, when the file is one.
+    pub model: Option<Model>,
+    pub warnings: Vec<Diagnostic>,
+    /// The texts that the warnings point into: the file, then every `--set`.
+    pub sources: Vec<Source>,
+    /// Text of the file.
+    pub text: String,
+}
+
+/// Read, vary and check the ball bearings of a machine, or of a file of bearings alone.
+///
+/// A file of bearings alone has `[model]`, `[material.X]`, `[lubricant.X]`, `[bearing.X]` without station and
+/// housing, and `[study.bearing]`; a file with `[shaft]`, `[rotor]` or `[station]` is read as a machine.
+///
+/// # Errors
+/// Every problem of the file at once, each with its place; a file without ball bearings.
+///
+/// ```
+/// let text = r#"
+///     [model]
+///     name = "spindle_bearing"
+///     [bearing.front]
+///     model = "ball"
+///     designation = "7205C"
+///     thrust = "+z"
+/// "#;
+/// let file = rotordyn::model::load_bearings("spindle.toml", text, &Default::default()).unwrap();
+/// assert_eq!(file.bearings[0].1.geometry.balls, 13);
+/// ```
+pub fn load_bearings(
+    name: &str,
+    text: impl AsRef<[u8]>,
+    options: &Options,
+) -> Result<LoadedBearings, ModelErrors> {
+    let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
+    let is_machine = ["shaft", "rotor", "station"].iter().any(|key| root.get(key).is_some());
+    let (sites, name, title, studies, model);
+    if is_machine {
+        let machine = check::build(&root, &log);
+        sites = machine.bearings.iter().map(|b| (b.name.clone(), b.bearing.clone())).collect();
+        (name, title, studies) = (machine.name.clone(), machine.title.clone(), machine.studies.clone());
+        model = Some(machine);
+    } else {
+        (name, title, sites, studies) = check::build_bearings(&root, &log);
+        model = None;
+    }
+    let ball = |(name, bearing): (String, Bearing)| match bearing {
+        Bearing::Ball(ball) => Some((name, ball)),
+        Bearing::Linear(_) => None,
+    };
+    let bearings: Vec<_> = Vec::into_iter(sites).filter_map(ball).collect();
+    if bearings.is_empty() && log.count() == 0 {
+        let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
+        log.error(problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"));
+    }
+    let (sources, warnings) = passed(sources, log)?;
+    Ok(LoadedBearings { name, title, bearings, studies, model, warnings, sources, text })
+}
+
+/// A file as a tree, varied but not yet checked.
+struct Document {
+    root: Table,
+    sources: Sources,
+    log: Log,
+    text: String,
+}
+
+impl Document {
+    fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Self, ModelErrors> {
+        let mut sources = Sources::default();
+        let log = Log::default();
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => {
+                let at = error.valid_up_to();
+                sources.push(name, String::from_utf8_lossy(bytes));
+                let problem = Problem::new(
+                    Kind::Syntax,
+                    &(at..at + '\u{fffd}'.len_utf8()),
+                    format!("not a text: byte {at} is not UTF-8"),
+                );
+                log.error(problem.hint("a model file is TOML, saved as UTF-8"));
+                return Err(failed(sources, log));
+            }
+        };
+        // editors on Windows put a byte order mark in front
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        sources.push(name, text);
+        if text.trim().is_empty() {
+            let problem = Problem::new(Kind::Syntax, &(0..0), "the file is empty");
+            log.error(problem.hint("start from one of models/*.toml"));
+            return Err(failed(sources, log));
+        }
+        let mut root = match Table::parse(text, 0) {
+            Ok(root) => root,
+            Err(error) => {
+                let span = error.span().unwrap_or(0..0);
+                let message = error.message().lines().next().unwrap_or("not TOML").to_string();
+                let problem = Problem::new(Kind::Syntax, &span, format!("not TOML: {message}"));
+                log.error(problem.hint(match message.as_str() {
+                    "duplicate key" => {
+                        "a name can stand only once; to change it in a variant use [variant.NAME]"
+                    }
+                    _ => "TOML is described at https://toml.io",
+                }));
+                return Err(failed(sources, log));
+            }
+        };
+        apply_variant(&mut root, options.variant.as_deref(), &log);
+        for (path, value) in &options.set {
+            apply_set(&mut root, path, value, &mut sources, &log);
+        }
+        if log.count() > 0 {
+            return Err(failed(sources, log));
+        }
+        Ok(Self { root, sources, log, text: text.to_string() })
+    }
+}
+
+/// Sources and warnings of a file without errors.
+fn passed(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), ModelErrors> {
     if log.count() > 0 {
         return Err(failed(sources, log));
     }
-    let (_, warnings) = log.into_parts();
-    let warnings = sources.locate(warnings);
-    Ok(Loaded { model, warnings, sources: sources.into_vec(), text: text.to_string() })
+    let warnings = sources.locate(log.into_parts().1);
+    Ok((sources.into_vec(), warnings))
 }
 
 fn failed(sources: Sources, log: Log) -> ModelErrors {

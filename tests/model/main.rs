@@ -1,5 +1,6 @@
 //! Model files: what they say arrives in the model.
 
+mod bearing_file;
 mod catalogue;
 mod files;
 mod rig;

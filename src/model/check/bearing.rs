@@ -25,21 +25,35 @@ pub(super) fn read(top: &Reader, materials: &[Material], places: &Places) -> Vec
         let housing = places
             .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
             .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
-        if !r.has("model") {
-            r.missing("model", "\"ball\" or \"linear\"");
-        }
-        let bearing = match r.choice("model", &[("linear", false), ("ball", true)]) {
-            Some(true) => Bearing::Ball(ball(&r, materials)),
-            Some(false) => Bearing::Linear(linear(&r)),
-            None => {
-                r.entries();
-                Bearing::Linear(LinearBearing { table: Vec::new() })
-            }
-        };
+        let bearing = bearing(&r, materials);
         r.finish();
         BearingSite { name: name.into(), node, housing, bearing }
     };
     top.items("bearing").into_iter().map(read).collect()
+}
+
+/// Bearings of a file that has no shaft: neither station nor housing.
+pub(super) fn read_alone(top: &Reader, materials: &[Material]) -> Vec<(String, Bearing)> {
+    let read = |(name, r): (&str, Reader)| {
+        let bearing = bearing(&r, materials);
+        r.finish();
+        (name.to_string(), bearing)
+    };
+    top.items("bearing").into_iter().map(read).collect()
+}
+
+fn bearing(r: &Reader, materials: &[Material]) -> Bearing {
+    if !r.has("model") {
+        r.missing("model", "\"ball\" or \"linear\"");
+    }
+    match r.choice("model", &[("linear", false), ("ball", true)]) {
+        Some(true) => Bearing::Ball(ball(r, materials)),
+        Some(false) => Bearing::Linear(linear(r)),
+        None => {
+            r.entries();
+            Bearing::Linear(LinearBearing { table: Vec::new() })
+        }
+    }
 }
 
 fn linear(r: &Reader) -> LinearBearing {

@@ -15,6 +15,8 @@ use super::Model;
 use super::file::diagnostic::{Kind, Log, Problem};
 use super::file::reader::{Reader, any, not_negative, positive};
 use super::file::tree::Table;
+use super::study::Studies;
+use crate::bearing::Bearing;
 use crate::element::Material;
 use crate::units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};
 use places::Places;
@@ -61,7 +63,7 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
         drive: loading::drive(&top, &places),
         profile: loading::profile(&top),
         probes,
-        studies: super::study::Studies::default(),
+        studies: Studies::default(),
     };
     model.studies = study::read(&top, &model, &places);
     if log.count() == 0 {
@@ -69,6 +71,17 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
     }
     top.finish();
     model
+}
+
+/// Read a file of bearings alone: its name and title, bearings and studies.
+pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(String, Bearing)>, Studies) {
+    let top = Reader::new(root, "", 0..0, log);
+    let (name, title, _) = head(&top);
+    let materials = materials(&top);
+    let bearings = bearing::read_alone(&top, &materials);
+    let studies = study::read_for_bearings(&top);
+    top.finish();
+    (name, title, bearings, studies)
 }
 
 fn head(top: &Reader) -> (String, String, [f64; 3]) {

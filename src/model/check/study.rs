@@ -75,6 +75,13 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     studies
 }
 
+/// The studies of a file of bearings alone.
+pub(super) fn read_for_bearings(top: &Reader) -> Studies {
+    let all = top.table_or_empty("study");
+    all.finish();
+    Studies::default()
+}
+
 fn needs_run_up(r: &Reader, studies: &Studies) {
     if studies.run_up.is_none() {
         let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} needs [study.run_up]", r.path));
