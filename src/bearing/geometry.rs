@@ -21,6 +21,9 @@ pub struct BallGeometry {
     /// +1 when the inner ring carries thrust along +z (force on the shaft along −z), −1 for the other way;
     /// of no effect when α₀ = 0.
     pub thrust_direction: f64,
+    /// Radius at which the axial ball forces act \[m\] where it is to differ from the circle of inner groove
+    /// centres: some papers take D_pw/2.
+    pub moment_arm: Option<f64>,
     /// Bore d, outside diameter D and width B, for shapes, masses and pictures.
     pub bore: f64,
     pub outside_diameter: f64,
@@ -28,8 +31,12 @@ pub struct BallGeometry {
 }
 
 impl BallGeometry {
-    /// Radius of the circle of inner groove centres R_i = D_pw/2 + (r_i − D_w/2) cos α₀ − P_d/4 \[m\].
+    /// Moment arm of the axial ball forces: radius of the circle of inner groove centres
+    /// R_i = D_pw/2 + (r_i − D_w/2) cos α₀ − P_d/4 \[m\], or as given.
     pub fn inner_centre_radius(&self) -> f64 {
+        if let Some(arm) = self.moment_arm {
+            return arm;
+        }
         0.5 * self.pitch_diameter
             + (self.inner_groove_radius - 0.5 * self.ball_diameter) * self.contact_angle.cos()
             - 0.25 * self.radial_clearance

@@ -6,13 +6,28 @@ pub mod element;
 pub mod fit;
 pub mod geometry;
 pub mod linear;
+mod massless;
+mod ring_sum;
+mod row;
+mod waviness;
 
-pub use ball::{BallElement, BallLoad, Rotation};
+pub use ball::{BallElement, BallLoad};
 pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Wave};
 pub use element::BearingElement;
 pub use fit::Fit;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use linear::{LinearElement, SiteTangent};
+
+/// Where a bearing's moving parts are at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Rotation {
+    /// Cage angle ψ \[rad\] and speed ψ̇ \[rad/s\].
+    pub cage_angle: f64,
+    pub cage_speed: f64,
+    /// Shaft (inner race) angle θ \[rad\] and speed θ̇ \[rad/s\].
+    pub shaft_angle: f64,
+    pub shaft_speed: f64,
+}
 
 /// A bearing model.
 #[derive(Clone, Debug, PartialEq)]

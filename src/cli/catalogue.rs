@@ -38,6 +38,7 @@ fn geometry(e: &CatalogueEntry) -> BallGeometry {
         radial_clearance: 0.0,
         contact_angle: e.contact_angle,
         thrust_direction: 1.0,
+        moment_arm: None,
         bore: e.bore,
         outside_diameter: e.outside_diameter,
         width: e.width,

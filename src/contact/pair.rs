@@ -51,17 +51,14 @@ impl SpeedContacts<'_> {
     /// Limits: Q = 0 and slope 0 where the law says unloaded; Q and dQ/dδ continuous everywhere.
     pub fn series(&self, approach: f64) -> Loaded {
         match self {
-            Self::Hertz(pair) => hertz(pair.stiffness, approach),
+            Self::Hertz(pair) => pair.series(approach),
         }
     }
 
     /// One contact alone at its own approach \[m\].
     pub fn single(&self, race: Race, approach: f64) -> Loaded {
         match self {
-            Self::Hertz(pair) => match race {
-                Race::Inner => hertz(pair.inner.stiffness, approach),
-                Race::Outer => hertz(pair.outer.stiffness, approach),
-            },
+            Self::Hertz(pair) => pair.single(race, approach),
         }
     }
 
@@ -71,6 +68,24 @@ impl SpeedContacts<'_> {
     }
 }
 
+impl HertzPair {
+    /// Both contacts in series at the total approach: Q = K δ^{3/2}.
+    #[inline]
+    pub fn series(&self, approach: f64) -> Loaded {
+        hertz(self.stiffness, approach)
+    }
+
+    /// One contact alone.
+    #[inline]
+    pub fn single(&self, race: Race, approach: f64) -> Loaded {
+        match race {
+            Race::Inner => hertz(self.inner.stiffness, approach),
+            Race::Outer => hertz(self.outer.stiffness, approach),
+        }
+    }
+}
+
+#[inline]
 fn hertz(stiffness: f64, approach: f64) -> Loaded {
     if approach <= 0.0 {
         return Loaded::default();

@@ -21,6 +21,7 @@ pub fn rig_6205() -> BallBearing {
             radial_clearance: 10e-6,
             contact_angle: 0.0,
             thrust_direction: 1.0,
+            moment_arm: None,
             bore: 25e-3,
             outside_diameter: 52e-3,
             width: 15e-3,

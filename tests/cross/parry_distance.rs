@@ -68,7 +68,7 @@ fn gaps_add_up_to_the_deflection_of_the_element() {
             for ball in element.ball_loads(&d, &rotation) {
                 let (sin, cos) = ball.position.sin_cos();
                 let radial = d[0] * cos + d[1] * sin;
-                let axial = d[2] + element.inner_centre_radius * (d[3] * sin - d[4] * cos);
+                let axial = d[2] + bearing.geometry.inner_centre_radius() * (d[3] * sin - d[4] * cos);
                 let shift = Vector3::new(radial * cos, radial * sin, axial);
                 let ring = Isometry3::from_parts(Translation3::from(shift), UnitQuaternion::identity());
                 let radius = shapes.inner.centre_radius;

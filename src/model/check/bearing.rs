@@ -187,6 +187,7 @@ fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
         radial_clearance: clearance(r, bore, contact_angle),
         contact_angle,
         thrust_direction: thrust.unwrap_or(1.0),
+        moment_arm: None,
         bore,
         outside_diameter: r.or("outside_diameter", positive(LENGTH), outside),
         width: r.or("width", positive(LENGTH), entry.map_or(1.8 * ball_diameter, |e| e.width)),

@@ -1,0 +1,31 @@
+//! One bearing: force and tangents of its balls.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use rotordyn::bearing::{BallElement, Rotation};
+
+#[path = "../tests/common/bearing.rs"]
+mod bearing;
+
+/// Displacement that loads four of the rig's nine balls.
+const PLACE: [f64; 6] = [7.7e-6, -8.8e-6, 7.2e-6, 8.0e-4, -2.7e-4, 0.0];
+
+fn reaction(c: &mut Criterion) {
+    let dry = BallElement::new(&bearing::rig_6205());
+    let still = Rotation { cage_angle: 0.3, ..Rotation::default() };
+    let moving = Rotation { cage_angle: 0.3, cage_speed: 50.0, shaft_angle: 0.7, shaft_speed: 125.0 };
+    // Thrust puts all nine balls under load.
+    let thrust = [1e-6, 2e-6, 1e-4, 1e-5, 2e-5, 0.0];
+    for (name, place) in [("some", PLACE), ("all", thrust)] {
+        c.bench_function(&format!("dry_9_balls_{name}_loaded"), |b| {
+            b.iter(|| dry.reaction(black_box(&place), &[0.0; 6], &still));
+        });
+    }
+    c.bench_function("dry_9_balls_moving", |b| {
+        b.iter(|| dry.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &moving));
+    });
+}
+
+criterion_group!(benches, reaction);
+criterion_main!(benches);
