@@ -2,7 +2,7 @@
 
 use super::ring_sum::PlaneForce;
 use super::row::PlaneMotion;
-use crate::contact::{ContactDamping, Loaded};
+use crate::contact::{ContactDamping, Loaded, SpeedContacts};
 
 /// Plane force of a massless ball.
 ///
@@ -14,6 +14,7 @@ use crate::contact::{ContactDamping, Loaded};
 #[inline(always)]
 pub(super) fn react(
     series: impl Fn(f64) -> Loaded,
+    contacts: &SpeedContacts,
     damping: &ContactDamping,
     centre_distance: f64,
     motion: &PlaneMotion,
@@ -29,7 +30,7 @@ pub(super) fn react(
     let n = [radial * inverse, axial * inverse];
     let wave_rate = motion.wave_rates[0] + motion.wave_rates[1];
     let rate = n[0] * motion.rate[0] + n[1] * motion.rate[1] + wave_rate;
-    let damped = damped(damping, elastic, approach, rate);
+    let damped = damping.apply(contacts, &elastic, approach, rate);
     let load = damped.load;
     let mut out = PlaneForce {
         energy: elastic.energy,
@@ -55,41 +56,4 @@ pub(super) fn react(
         out.load_cos = load * n[0];
     }
     Some(out)
-}
-
-/// Load of a damped contact with its slopes.
-pub(super) struct Damped {
-    pub load: f64,
-    pub by_approach: f64,
-    pub by_rate: f64,
-}
-
-/// Elastic load plus damping along the line of contact; all zero where the sum would pull.
-#[inline(always)]
-pub(super) fn damped(damping: &ContactDamping, elastic: Loaded, approach: f64, rate: f64) -> Damped {
-    let damped = match *damping {
-        ContactDamping::Constant { coefficient, ramp } => {
-            let (weight, slope) = ramp_at(approach, ramp);
-            Damped {
-                load: elastic.load + coefficient * weight * rate,
-                by_approach: elastic.slope + coefficient * slope * rate,
-                by_rate: coefficient * weight,
-            }
-        }
-        ContactDamping::HuntCrossley { factor } => Damped {
-            load: elastic.load * (1.0 + factor * rate),
-            by_approach: elastic.slope * (1.0 + factor * rate),
-            by_rate: elastic.load * factor,
-        },
-    };
-    if damped.load > 0.0 { damped } else { Damped { load: 0.0, by_approach: 0.0, by_rate: 0.0 } }
-}
-
-/// Smooth start of the contact damping: 0 at δ = 0, 1 from `length` on, C¹; returns value and slope.
-fn ramp_at(deflection: f64, length: f64) -> (f64, f64) {
-    if deflection >= length {
-        return (1.0, 0.0);
-    }
-    let x = (deflection / length).max(0.0);
-    (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / length)
 }

@@ -91,12 +91,11 @@ impl Row {
         let a = self.centre_distance;
         // One loop per law, so that the law is known inside it.
         match operating.contacts {
-            SpeedContacts::Hertz(pair) => self.sum_of(d, v, rotation, operating, |motion| {
-                massless::react(|approach| pair.series(approach), &self.damping, a, motion)
+            dry @ SpeedContacts::Hertz(pair) => self.sum_of(d, v, rotation, operating, |motion| {
+                massless::react(|approach| pair.series(approach), &dry, &self.damping, a, motion)
             }),
-            #[allow(unreachable_patterns)]
             law => self.sum_of(d, v, rotation, operating, |motion| {
-                massless::react(|approach| law.series(approach), &self.damping, a, motion)
+                massless::react(|approach| law.series(approach), &law, &self.damping, a, motion)
             }),
         }
     }

@@ -16,6 +16,9 @@ use crate::material::Material;
 pub struct EllipticContact {
     /// Curvature sum Σρ \[1/m\].
     pub curvature_sum: f64,
+    /// Radius of relative curvature along the rolling direction R_x and across it R_y \[m\].
+    pub rolling_radius: f64,
+    pub transverse_radius: f64,
     /// Curvature difference F(ρ) in \[0, 1).
     pub curvature_difference: f64,
     /// Ratio of the semi-axes κ = a/b ≥ 1 (a across the rolling direction).
@@ -54,7 +57,16 @@ impl EllipticContact {
         let pi = std::f64::consts::PI;
         let delta_star = 2.0 * first / pi * (pi / (2.0 * ratio * ratio * second)).cbrt();
         let stiffness = 2.0 / 3.0 * curvature_sum * modulus * (2.0 / (delta_star * curvature_sum)).powf(1.5);
-        Self { curvature_sum, curvature_difference, ratio, integrals: [first, second], modulus, stiffness }
+        Self {
+            curvature_sum,
+            rolling_radius: 1.0 / along,
+            transverse_radius: 1.0 / across,
+            curvature_difference,
+            ratio,
+            integrals: [first, second],
+            modulus,
+            stiffness,
+        }
     }
 
     /// Ellipse, pressure and approach under a load Q ≥ 0 \[N\].

@@ -1,14 +1,16 @@
-//! Contact of ball and race: the dry Hertz law with exact elliptic integrals, and traction.
+//! Contact of ball and race: Hertz with exact elliptic integrals, the lubricant's film, damping, traction.
 
 pub mod damping;
 pub mod elliptic;
+pub mod film;
 pub mod hertz;
 pub mod law;
 pub mod lubricant;
 pub mod pair;
 pub mod traction;
 
-pub use damping::ContactDamping;
+pub use damping::{ContactDamping, Damped};
+pub use film::{FilmFormula, FilmSpring, lambda_ratio};
 pub use hertz::{EllipticContact, HertzPair};
 pub use law::{ContactLaw, PowerLaw};
 pub use lubricant::Lubricant;

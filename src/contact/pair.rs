@@ -1,6 +1,7 @@
 //! The two contacts of one ball under a bearing's contact law, at one entrainment speed.
 
-use super::{ContactLaw, HertzPair};
+use super::film::FilmGrowth;
+use super::{ContactLaw, FilmFormula, FilmSpring, HertzPair, Lubricant};
 
 /// One race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,24 +25,92 @@ pub struct Loaded {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BallContacts {
     pub hertz: HertzPair,
-    law: ContactLaw,
+    law: Law,
+}
+
+/// What a law fixes before the speed.
+#[derive(Clone, Debug, PartialEq)]
+enum Law {
+    Hertz,
+    Film { unit: FilmPair, speed_factor: f64 },
 }
 
 /// A ball's contacts at one entrainment speed, ready to be evaluated for every ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedContacts<'a> {
     Hertz(&'a HertzPair),
+    Film(FilmPair),
+}
+
+/// Film springs of a ball's two contacts, in series and each alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmPair {
+    series: FilmSpring,
+    inner: FilmSpring,
+    outer: FilmSpring,
+    formulas: [FilmFormula; 2],
+    /// Entrainment speed \[m/s\], the law's factor included.
+    speed: f64,
+}
+
+impl FilmPair {
+    /// Springs at u = 1 m/s.
+    fn new(pair: &HertzPair, lubricant: &Lubricant) -> Self {
+        let (inner, outer) = (&pair.inner, &pair.outer);
+        let formulas = [FilmFormula::new(inner, lubricant), FilmFormula::new(outer, lubricant)];
+        Self {
+            series: FilmSpring::new(&[(inner, &formulas[0]), (outer, &formulas[1])], pair.stiffness),
+            inner: FilmSpring::new(&[(inner, &formulas[0])], inner.stiffness),
+            outer: FilmSpring::new(&[(outer, &formulas[1])], outer.stiffness),
+            formulas,
+            speed: 1.0,
+        }
+    }
+
+    fn at_speed(&self, speed: f64) -> Self {
+        let growth = FilmGrowth::new(speed);
+        Self {
+            series: self.series.grown(&growth),
+            inner: self.inner.grown(&growth),
+            outer: self.outer.grown(&growth),
+            formulas: self.formulas,
+            speed,
+        }
+    }
+
+    fn of(&self, race: Race) -> (&FilmSpring, &FilmFormula) {
+        match race {
+            Race::Inner => (&self.inner, &self.formulas[0]),
+            Race::Outer => (&self.outer, &self.formulas[1]),
+        }
+    }
 }
 
 impl BallContacts {
     /// Contacts of a ball between grooves under a law.
     pub fn new(hertz: HertzPair, law: ContactLaw) -> Self {
+        let law = match law {
+            ContactLaw::Hertz | ContactLaw::PowerLaw(_) => Law::Hertz,
+            ContactLaw::Film { lubricant, speed_factor } => {
+                Law::Film { unit: FilmPair::new(&hertz, &lubricant), speed_factor }
+            }
+        };
         Self { hertz, law }
     }
 
-    /// The contacts at an entrainment speed u ≥ 0 \[m/s\], before the law's speed factor.
-    pub fn at_speed(&self, _speed: f64) -> SpeedContacts<'_> {
-        SpeedContacts::Hertz(&self.hertz)
+    /// The contacts at an entrainment speed u ≥ 0 \[m/s\], before the law's speed factor; dry at u = 0.
+    pub fn at_speed(&self, speed: f64) -> SpeedContacts<'_> {
+        match &self.law {
+            Law::Film { unit, speed_factor } => {
+                let films = unit.at_speed(speed * speed_factor);
+                if films.series.exists() {
+                    SpeedContacts::Film(films)
+                } else {
+                    SpeedContacts::Hertz(&self.hertz)
+                }
+            }
+            Law::Hertz => SpeedContacts::Hertz(&self.hertz),
+        }
     }
 }
 
@@ -52,6 +121,7 @@ impl SpeedContacts<'_> {
     pub fn series(&self, approach: f64) -> Loaded {
         match self {
             Self::Hertz(pair) => pair.series(approach),
+            Self::Film(films) => films.series.load(approach),
         }
     }
 
@@ -59,12 +129,45 @@ impl SpeedContacts<'_> {
     pub fn single(&self, race: Race, approach: f64) -> Loaded {
         match self {
             Self::Hertz(pair) => pair.single(race, approach),
+            Self::Film(films) => films.of(race).0.load(approach),
         }
     }
 
-    /// Central film thickness of a contact under a load \[m\]; 0 for a dry law.
-    pub fn film(&self, _race: Race, _load: f64) -> f64 {
-        0.0
+    /// Central film thickness of a contact under a load Q ≥ 0 \[m\]; 0 for a dry law.
+    pub fn film(&self, race: Race, load: f64) -> f64 {
+        match self {
+            Self::Hertz(_) => 0.0,
+            Self::Film(films) => films.of(race).0.film(load),
+        }
+    }
+
+    /// Minimum film thickness of a contact under a load Q > 0 \[m\]; 0 for a dry law.
+    pub fn minimum_film(&self, race: Race, load: f64) -> f64 {
+        match self {
+            Self::Hertz(_) => 0.0,
+            Self::Film(films) => films.of(race).1.minimum(films.speed, load.max(FilmSpring::THRESHOLD)),
+        }
+    }
+
+    /// Total approach \[m\] from which both contacts in series carry load: 0 for a dry law, −h₀ with a film.
+    #[inline]
+    pub fn onset(&self) -> f64 {
+        match self {
+            Self::Hertz(_) => 0.0,
+            Self::Film(films) => -films.series.reach(),
+        }
+    }
+
+    /// Film's damping coefficient of both contacts in series per unit of relaxation \[N s/m\] and its slope with
+    /// δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
+    pub(super) fn film_damping(&self, elastic: &Loaded) -> (f64, f64) {
+        match self {
+            Self::Hertz(_) => (0.0, 0.0),
+            Self::Film(films) => {
+                let (value, slope) = films.series.lag(elastic);
+                (value / films.speed, slope / films.speed)
+            }
+        }
     }
 }
 

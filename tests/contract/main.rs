@@ -4,4 +4,5 @@
 mod bearing;
 
 mod ball_bearing;
+mod contact_laws;
 mod linear_bearing;

@@ -5,6 +5,7 @@ mod rig;
 #[path = "../common/ross.rs"]
 mod ross;
 
+mod bal_2022_contacts;
 mod cakmak_2010;
 mod cakmak_2010_modes;
 mod nelson_mcvaugh_1976;

@@ -1,0 +1,274 @@
+//! The elastohydrodynamic film of Hamrock and Dowson, and the spring a Hertz contact makes behind it.
+
+use super::{EllipticContact, Loaded, Lubricant};
+use std::sync::LazyLock;
+
+/// Thickness of the film between two rolling bodies, for a fully flooded, isothermal contact.
+///
+/// With U = η₀ u/(E′ R_x), G = α E′, W = Q/(E′ R_x²), E′ = 2 E*, and κ the ellipse ratio (across/along rolling):
+/// h_c = 2.69 R_x U^0.67 G^0.53 W^−0.067 (1 − 0.61 e^{−0.73 κ}),
+/// h_min = 3.63 R_x U^0.68 G^0.49 W^−0.073 (1 − e^{−0.68 κ}).
+///
+/// Source: Hamrock & Dowson 1977; Bal 2022 eq. 5. Fitted for hard contacts with κ from 1 to 8; as Q → 0 the
+/// formula grows without bound, which no film does (see [`FilmSpring`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmFormula {
+    /// Thickness at u = 1 m/s and Q = 1 N \[m\].
+    central: f64,
+    minimum: f64,
+}
+
+impl FilmFormula {
+    /// Film of a contact under a lubricant.
+    pub fn new(contact: &EllipticContact, lubricant: &Lubricant) -> Self {
+        let modulus = 2.0 * contact.modulus;
+        let radius = contact.rolling_radius;
+        let speed = lubricant.viscosity / (modulus * radius);
+        let material = lubricant.pressure_viscosity * modulus;
+        let load = 1.0 / (modulus * radius * radius);
+        let slender = contact.transverse_radius.abs() >= radius;
+        let ellipticity = if slender { contact.ratio } else { 1.0 / contact.ratio };
+        Self {
+            central: 2.69
+                * radius
+                * speed.powf(0.67)
+                * material.powf(0.53)
+                * load.powf(-0.067)
+                * (1.0 - 0.61 * (-0.73 * ellipticity).exp()),
+            minimum: 3.63
+                * radius
+                * speed.powf(0.68)
+                * material.powf(0.49)
+                * load.powf(-0.073)
+                * (1.0 - (-0.68 * ellipticity).exp()),
+        }
+    }
+
+    /// Central thickness h_c \[m\] at an entrainment speed u \[m/s\] under a load Q > 0 \[N\].
+    pub fn central(&self, speed: f64, load: f64) -> f64 {
+        self.central * speed.powf(0.67) * load.powf(-0.067)
+    }
+
+    /// Minimum thickness h_min \[m\] at an entrainment speed u \[m/s\] under a load Q > 0 \[N\].
+    pub fn minimum(&self, speed: f64, load: f64) -> f64 {
+        self.minimum * speed.powf(0.68) * load.powf(-0.073)
+    }
+}
+
+/// Film thickness over roughness λ = h/√(R_q1² + R_q2²), the root-mean-square heights of the two surfaces \[m\].
+pub fn lambda_ratio(thickness: f64, roughness: [f64; 2]) -> f64 {
+    thickness / roughness[0].hypot(roughness[1])
+}
+
+/// One Hertz contact, or the two of a ball in series, behind films of central thickness h(Q) at one speed.
+///
+/// Q = K s^{3/2} with the elastic deformation s = δ + h(Q), h = C Q^−0.067 summed over the contacts. Below
+/// Q_t = [`FilmSpring::THRESHOLD`] the film is continued by its tangent in s, so that it ends at a finite
+/// thickness h₀ ≈ 1.1 h(Q_t): the contact is then a softer Hertz spring, unloaded for δ ≤ −h₀. Q and dQ/dδ are
+/// continuous, Q rises with δ, and without speed the dry contact is left.
+///
+/// In units of the length λ = (C K^−0.067)^{1/(1+q)}, q = 1.5 · 0.067, every such spring is the one curve
+/// σ − σ^−q = δ/λ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmSpring {
+    /// K \[N/m^1.5\].
+    stiffness: f64,
+    /// λ \[m\].
+    length: f64,
+    /// Deformation s/λ and film h/λ at the threshold load.
+    knee: f64,
+    knee_film: f64,
+    /// B in b = B √s, semi-axis of the contacts along rolling, weighted by their films \[m^0.5\].
+    width: f64,
+}
+
+/// Exponent of the load in h, and q = 1.5 times it.
+const LOAD_POWER: f64 = 0.067;
+const POWER: f64 = 1.5 * LOAD_POWER;
+
+/// How the springs of all contacts grow with the entrainment speed u: λ by u^{0.67/(1+q)}.
+pub(super) struct FilmGrowth {
+    length: f64,
+    /// Its power q.
+    film: f64,
+}
+
+impl FilmGrowth {
+    pub(super) fn new(speed: f64) -> Self {
+        let length = speed.powf(0.67 / (1.0 + POWER));
+        Self { length, film: length.powf(POWER) }
+    }
+}
+
+impl FilmSpring {
+    /// Load below which the film formula is no longer followed \[N\].
+    ///
+    /// A thousandth of a newton: far below any load that matters, far above rounding.
+    pub const THRESHOLD: f64 = 1e-3;
+
+    /// Spring at u = 1 m/s of contacts that carry the same load, with a stiffness K of all in series.
+    pub fn new(contacts: &[(&EllipticContact, &FilmFormula)], stiffness: f64) -> Self {
+        let film: f64 = contacts.iter().map(|(_, film)| film.central).sum();
+        let width: f64 = contacts
+            .iter()
+            .map(|(contact, film)| contact.patch(1.0).semi_minor * stiffness.cbrt() * film.central)
+            .sum();
+        let length = (film * stiffness.powf(-LOAD_POWER)).powf(1.0 / (1.0 + POWER));
+        let knee = (Self::THRESHOLD / stiffness).powf(2.0 / 3.0) / length;
+        Self { stiffness, length, knee, knee_film: knee.powf(-POWER), width: width / film }
+    }
+
+    /// The spring of the contacts at another speed, from that at 1 m/s.
+    pub(super) fn grown(&self, growth: &FilmGrowth) -> Self {
+        Self {
+            length: self.length * growth.length,
+            knee: self.knee / growth.length,
+            knee_film: self.knee_film * growth.film,
+            ..*self
+        }
+    }
+
+    /// Whether there is a film: not without speed or viscosity.
+    pub(super) fn exists(&self) -> bool {
+        self.length.is_normal() && self.knee.is_normal() && self.knee_film.is_normal()
+    }
+
+    /// Film h₀ \[m\] at which the contact lets go: no load for δ ≤ −h₀.
+    pub fn reach(&self) -> f64 {
+        self.length * self.knee_film * (1.0 + POWER)
+    }
+
+    /// Film under a load Q ≥ 0 \[m\]; h₀ at Q = 0.
+    pub fn film(&self, load: f64) -> f64 {
+        let deformation = (load.max(0.0) / self.stiffness).powf(2.0 / 3.0) / self.length;
+        if deformation > self.knee {
+            self.length * deformation.powf(-POWER)
+        } else {
+            self.length * self.knee_film * (1.0 + POWER * (1.0 - deformation / self.knee))
+        }
+    }
+
+    /// Load, slope and energy at the approach δ \[m\] of the bodies.
+    ///
+    /// dQ/dδ = (3/2) K √s/(1 + q h/s); ∫Q dδ = K (2/5 s^{5/2} + q/(3/2 − q) h s^{3/2}) + a constant, which makes
+    /// it zero where the load is.
+    pub fn load(&self, approach: f64) -> Loaded {
+        let (knee, knee_film) = (self.knee, self.knee_film);
+        let reduced = approach / self.length;
+        let force = self.stiffness * self.length * self.length.sqrt();
+        if reduced < knee - knee_film {
+            let stretch = 1.0 + POWER * knee_film / knee;
+            let s = (reduced + knee_film * (1.0 + POWER)) / stretch;
+            if s <= 0.0 {
+                return Loaded::default();
+            }
+            let load = force * s * s.sqrt();
+            return Loaded {
+                load,
+                slope: 1.5 * force * s.sqrt() / (stretch * self.length),
+                energy: 0.4 * load * stretch * s * self.length,
+            };
+        }
+        let (s, film) = deformation(reduced);
+        let root = s.sqrt();
+        let below = POWER * (0.4 - 1.0 / (1.5 - POWER)) * knee_film * knee * knee.sqrt();
+        Loaded {
+            load: force * s * root,
+            slope: 1.5 * force * root / ((1.0 + POWER * film / s) * self.length),
+            energy: force * self.length * ((0.4 * s + POWER / (1.5 - POWER) * film) * s * root + below),
+        }
+    }
+
+    /// Damping per unit of relaxation and speed, b K_f (1 − K_f/K_e) \[N\], and its slope with δ \[N/m\].
+    ///
+    /// K_e = (3/2) K √s is the stiffness at constant film, K_f = dQ/dδ of `elastic`; with r = K_e/K_f − 1 = q h/s
+    /// this is b K_e r/(1 + r)². See [`super::ContactDamping::Film`].
+    pub(super) fn lag(&self, elastic: &Loaded) -> (f64, f64) {
+        if elastic.load <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let root = (elastic.load / self.stiffness).cbrt();
+        let frozen = 1.5 * self.stiffness * root;
+        let r = frozen / elastic.slope - 1.0;
+        let value = self.width * root * elastic.slope * r / (1.0 + r);
+        // r falls as s^−(1+q) on the formula and is constant below the threshold.
+        let fall = if elastic.load > Self::THRESHOLD { 1.0 + POWER } else { 0.0 };
+        (value, value / (root * root) * (1.0 - fall * (1.0 - r) / (1.0 + r)) / (1.0 + r))
+    }
+}
+
+/// Solves σ − σ^−q = d for σ > 0; returns σ and σ^−q to machine precision.
+///
+/// Halley steps in ln σ from a table of the curve: one for d between −4 and 64, a few outside.
+fn deformation(d: f64) -> (f64, f64) {
+    let mut log = start(d);
+    for _ in 0..60 {
+        let (s, film) = (log.exp(), (-POWER * log).exp());
+        let residual = s - film - d;
+        let (first, second) = (s + POWER * film, s - POWER * POWER * film);
+        let newton = -residual / first;
+        let step = newton / (1.0 + 0.5 * newton * second / first);
+        // What is left after a step is of its third power: applied to σ and σ^−q as a series, it is exact.
+        if step.abs() < 1e-5 {
+            let grow = |x: f64| 1.0 + x * (1.0 + 0.5 * x * (1.0 + x / 3.0));
+            return (s * grow(step), film * grow(-POWER * step));
+        }
+        log += step;
+    }
+    (log.exp(), (-POWER * log).exp())
+}
+
+const LOW: f64 = -4.0;
+const HIGH: f64 = 64.0;
+const PER_UNIT: f64 = 16.0;
+
+/// ln σ and its slope over d from `LOW` to `HIGH`, where the curve is evaluated for nearly every ball.
+static CURVE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
+    let mut log: f64 = -13.8;
+    (0..=((HIGH - LOW) * PER_UNIT) as usize)
+        .map(|k| {
+            let d = LOW + k as f64 / PER_UNIT;
+            // Newton from the node before, which lies close.
+            let slope = (0..8).fold(0.0, |_, _| {
+                let (s, film) = (log.exp(), (-POWER * log).exp());
+                log -= (s - film - d) / (s + POWER * film);
+                1.0 / (s + POWER * film)
+            });
+            [log, slope]
+        })
+        .collect()
+});
+
+/// ln σ to about 1e-6 by the cubic through the table; outside it, what the far ends of the curve tend to.
+fn start(d: f64) -> f64 {
+    if d >= HIGH {
+        return (d + d.powf(-POWER)).ln();
+    }
+    if d < LOW {
+        return -(-d).ln() / POWER;
+    }
+    let x = (d - LOW) * PER_UNIT;
+    let k = x as usize;
+    let t = x - k as f64;
+    let ([y0, m0], [y1, m1]) = (CURVE[k], CURVE[k + 1]);
+    let (m0, m1) = (m0 / PER_UNIT, m1 / PER_UNIT);
+    let rise = y1 - y0;
+    y0 + t * (m0 + t * (3.0 * rise - 2.0 * m0 - m1 + t * (m0 + m1 - 2.0 * rise)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_is_solved_to_rounding_everywhere() {
+        let mut d = -30.0;
+        while d < 1e6 {
+            let (s, film) = deformation(d);
+            let scale = s + film;
+            assert!((s - film - d).abs() <= 4e-16 * scale * (1.0 + (-POWER * s.ln()).abs()), "d = {d}");
+            assert!((film / (-POWER * s.ln()).exp() - 1.0).abs() < 2e-15, "d = {d}");
+            d += 0.01 * (1.0 + d.abs() / 3.0);
+        }
+    }
+}

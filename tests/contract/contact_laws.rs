@@ -1,0 +1,205 @@
+//! What every contact law owes: slope and energy by differences, no jump, no pull, damping that dissipates.
+
+use crate::bearing::steel;
+use rotordyn::contact::{
+    BallContacts, ContactDamping, ContactLaw, FilmSpring, HertzPair, Loaded, Lubricant, Race, SpeedContacts,
+};
+
+fn pair() -> HertzPair {
+    HertzPair::new(9.5e-3, 46e-3, [4.9e-3, 5.06e-3], 0.6, &steel(), &steel())
+}
+
+fn oil() -> Lubricant {
+    Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.3e-8, density: 870.0 }
+}
+
+/// Every law at a crawl, at a usual speed and at a high one.
+fn laws() -> Vec<(BallContacts, f64)> {
+    let laws = [ContactLaw::Hertz, ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 }];
+    let speeds = [1e-4, 1.2, 40.0];
+    laws.iter().flat_map(|law| speeds.map(|speed| (BallContacts::new(pair(), law.clone()), speed))).collect()
+}
+
+/// Approaches close in every scale to where load begins, and up to 0.1 mm.
+fn approaches(contacts: &SpeedContacts) -> Vec<f64> {
+    (0..=140).map(|k| contacts.onset() + 1e-11 * 10f64.powf(f64::from(k) / 20.0)).collect()
+}
+
+#[test]
+fn slope_and_energy_equal_differences() {
+    for (contacts, speed) in laws() {
+        let at = contacts.at_speed(speed);
+        let pieces: [&dyn Fn(f64) -> Loaded; 3] =
+            [&|x| at.series(x), &|x| at.single(Race::Inner, x), &|x| at.single(Race::Outer, x)];
+        for law in pieces {
+            for x in approaches(&at) {
+                let here = law(x);
+                // Central differences over a small part of the length on which the curve bends.
+                let step = 1e-4 * here.load / here.slope;
+                let (low, high) = (law(x - step), law(x + step));
+                // dQ/dδ has a kink at the threshold.
+                let kink = low.load < FilmSpring::THRESHOLD && high.load > FilmSpring::THRESHOLD;
+                if here.load == 0.0 || low.load == 0.0 || kink {
+                    continue;
+                }
+                // Truncation, and rounding of δ against the step.
+                let tolerance = 1e-7 + 4.0 * f64::EPSILON * x.abs() / step;
+                let slope = (high.load - low.load) / (2.0 * step);
+                assert!((slope / here.slope - 1.0).abs() < tolerance, "speed {speed}, δ {x}: slope");
+                let load = (high.energy - low.energy) / (2.0 * step);
+                assert!((load / here.load - 1.0).abs() < tolerance, "speed {speed}, δ {x}: energy");
+            }
+        }
+    }
+}
+
+#[test]
+fn load_rises_from_nothing_without_a_jump() {
+    for (contacts, speed) in laws() {
+        let at = contacts.at_speed(speed);
+        let onset = at.onset();
+        assert_eq!(at.series(onset), Loaded::default());
+        assert_eq!(at.series(onset - 1e-6), Loaded::default());
+        let mut before = Loaded::default();
+        for x in approaches(&at) {
+            let here = at.series(x);
+            assert!(here.load > before.load && here.slope > before.slope && here.energy > before.energy);
+            before = here;
+        }
+    }
+}
+
+#[test]
+fn value_and_slope_meet_at_the_threshold() {
+    let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
+    for speed in [1e-4, 1.2, 40.0] {
+        let at = contacts.at_speed(speed);
+        let threshold = (FilmSpring::THRESHOLD / pair().stiffness).powf(2.0 / 3.0)
+            - at.film(Race::Inner, FilmSpring::THRESHOLD)
+            - at.film(Race::Outer, FilmSpring::THRESHOLD);
+        // Two points a rounding apart from the threshold, on either side of it.
+        let (low, high) = (at.series(threshold - 1e-18), at.series(threshold + 1e-18));
+        assert!((high.load / low.load - 1.0).abs() < 1e-6);
+        assert!((high.slope / low.slope - 1.0).abs() < 1e-6);
+        assert!((high.energy / low.energy - 1.0).abs() < 1e-6);
+        // Unloaded about a tenth beyond the film at the threshold, 1 + 1.5 · 0.067 to be exact.
+        let film = at.film(Race::Inner, FilmSpring::THRESHOLD) + at.film(Race::Outer, FilmSpring::THRESHOLD);
+        assert!((at.onset() / (-1.1005 * film) - 1.0).abs() < 1e-9);
+        assert!(
+            (at.film(Race::Inner, 0.0) / at.film(Race::Inner, FilmSpring::THRESHOLD) - 1.1005).abs() < 1e-9
+        );
+    }
+}
+
+#[test]
+fn without_speed_the_film_law_is_the_dry_one() {
+    let film = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
+    let dry = BallContacts::new(pair(), ContactLaw::Hertz);
+    for x in [-1e-6, 1e-9, 1e-6, 1e-5] {
+        assert_eq!(film.at_speed(0.0).series(x), dry.at_speed(3.0).series(x));
+        // And it tends to it: h ∝ u^0.67.
+        let (slow, bare) = (film.at_speed(1e-9).series(x).load, dry.at_speed(0.0).series(x).load);
+        assert!((slow - bare).abs() <= 1e-3 * bare + 1e-6, "δ {x}: {slow} and {bare}");
+    }
+}
+
+#[test]
+fn a_hopeless_film_is_still_a_number() {
+    for (viscosity, alpha) in [(0.0, 1e-8), (1e3, 1e-7)] {
+        let lubricant = Lubricant { viscosity, pressure_viscosity: alpha, ..oil() };
+        let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant, speed_factor: 1.0 });
+        let at = contacts.at_speed(1e3);
+        for x in [-1.0, -1e-3, 0.0, 1e-6, 1e-3] {
+            let here = at.series(x);
+            assert!(here.load.is_finite() && here.slope.is_finite() && here.energy.is_finite());
+        }
+    }
+}
+
+fn dampings() -> [ContactDamping; 3] {
+    [
+        ContactDamping::Constant { coefficient: 300.0, ramp: 1e-6 },
+        ContactDamping::HuntCrossley { factor: 0.3 },
+        ContactDamping::Film { factor: 1.0 },
+    ]
+}
+
+#[test]
+fn damped_load_and_its_derivatives() {
+    for (contacts, speed) in laws() {
+        let at = contacts.at_speed(speed);
+        for damping in dampings() {
+            let law = |x: f64, rate: f64| damping.apply(&at, &at.series(x), x, rate);
+            for x in approaches(&at) {
+                for rate in [-1.0, -1e-3, 0.0, 1e-3, 1.0] {
+                    let (here, elastic) = (law(x, rate), at.series(x));
+                    assert!(here.load >= 0.0 && here.by_rate >= 0.0);
+                    // What the damping takes is never negative.
+                    assert!((here.load - elastic.load) * rate >= 0.0);
+                    let step = 1e-4 * (x - at.onset());
+                    let (low, high) = (law(x - step, rate), law(x + step, rate));
+                    // The end of the ramp, the threshold and the point of letting go are kinks of the damping.
+                    let kink =
+                        [1e-6, 1e-6 - 2.0 * step].iter().any(|r| (x - at.onset() - r).abs() < 2.0 * step)
+                            || (at.series(x - step).load < FilmSpring::THRESHOLD
+                                && at.series(x + step).load > FilmSpring::THRESHOLD)
+                            || low.load == 0.0;
+                    if kink {
+                        continue;
+                    }
+                    let slope = (high.load - low.load) / (2.0 * step);
+                    let scale = elastic.slope.abs()
+                        + here.by_approach.abs()
+                        + here.by_rate * rate.abs() / x.abs().max(1e-9);
+                    assert!(
+                        (slope - here.by_approach).abs() < 1e-5 * scale,
+                        "{damping:?} δ {x} rate {rate}: {slope} {}",
+                        here.by_approach
+                    );
+                    let by_rate = (law(x, rate + 1e-5).load - law(x, rate - 1e-5).load) / 2e-5;
+                    if law(x, rate - 1e-5).load > 0.0 {
+                        assert!(
+                            (by_rate - here.by_rate).abs() < 1e-5 * here.by_rate + 1e-9 * here.load / 1e-5
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn film_damping_is_the_lag_of_the_film() {
+    // A film that follows the load's call with a lag of b/u: stepping it in time at a slow harmonic approach must
+    // give the damping coefficient. Outer and inner contact are made equal so that one lag is enough.
+    let one = HertzPair { outer: pair().inner, ..pair() };
+    let one = HertzPair { stiffness: one.inner.stiffness / 2f64.powf(1.5), ..one };
+    let contacts = BallContacts::new(one, ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
+    let speed = 1.2;
+    let at = contacts.at_speed(speed);
+    let middle = 1e-6;
+    let load = at.series(middle).load;
+    let lag = one.inner.patch(load).semi_minor / speed;
+    let (amplitude, omega) = (1e-11, 1e-3 / lag);
+    let film = |q: f64| 2.0 * at.film(Race::Inner, q);
+    let force = |delta: f64, h: f64| one.stiffness * (delta + h).powf(1.5);
+    let steps = 20_000;
+    let dt = std::f64::consts::TAU / omega / f64::from(steps);
+    let (mut h, mut work) = (film(load), 0.0);
+    for _ in 0..2 {
+        work = 0.0;
+        for k in 0..steps {
+            let t = (f64::from(k) + 0.5) * dt;
+            let delta = middle + amplitude * (omega * t).sin();
+            // Midpoint rule for τ ḣ = h(Q) − h.
+            let half = h + 0.5 * dt / lag * (film(force(delta, h)) - h);
+            let q = force(delta, half);
+            work += (q - load) * amplitude * omega * (omega * t).cos() * dt;
+            h += dt / lag * (film(q) - half);
+        }
+    }
+    let measured = work / (std::f64::consts::PI * omega * amplitude * amplitude);
+    let damped = ContactDamping::Film { factor: 1.0 }.apply(&at, &at.series(middle), middle, 0.0).by_rate;
+    // What is left is of second order in ω τ = 1e-3.
+    assert!((measured / damped - 1.0).abs() < 1e-5, "{measured} and {damped}");
+}
