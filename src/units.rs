@@ -7,7 +7,8 @@
 //!
 //! Decisions: a speed takes rpm, rad/s, deg/s, rev/s and Hz (turns per second); a frequency takes the same and is
 //! a number of Hz; `1/s` is neither. `lb` is a mass, `lbf` a force. Rotational stiffness may be written with or
-//! without `/rad`. A pure number may be written bare or in per cent.
+//! without `/rad`. A pure number may be written bare or in per cent. `degC` stands alone behind a temperature only;
+//! differences and everything per degree are written with K.
 
 use std::f64::consts::TAU;
 
@@ -23,6 +24,8 @@ pub struct Dimension {
     /// Powers of metre, kilogram, second.
     base: [i32; 3],
     angle: Angle,
+    /// Power of the kelvin.
+    kelvin: i32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +45,11 @@ const fn dimension(
     base: [i32; 3],
     angle: Angle,
 ) -> Dimension {
-    Dimension { name, unit, example, base, angle }
+    Dimension { name, unit, example, base, angle, kelvin: 0 }
+}
+
+const fn thermal(name: &'static str, unit: &'static str, example: &'static str, kelvin: i32) -> Dimension {
+    Dimension { name, unit, example, base: [0; 3], angle: Angle::Power(0), kelvin }
 }
 
 pub const LENGTH: Dimension = dimension("length", "m", "30 mm", [1, 0, 0], Angle::Power(0));
@@ -72,6 +79,16 @@ pub const CROSS_DAMPING: Dimension =
     dimension("damping between translation and tilt", "N s/rad", "10 N s/rad", [1, 1, -1], Angle::Free);
 pub const TILT_DAMPING: Dimension =
     dimension("rotational damping", "N m s/rad", "0.3 N m s/rad", [2, 1, -1], Angle::Free);
+pub const VISCOSITY: Dimension =
+    dimension("dynamic viscosity", "Pa s", "0.04 Pa s", [-1, 1, -1], Angle::Power(0));
+pub const PRESSURE_VISCOSITY: Dimension =
+    dimension("pressure-viscosity coefficient", "1/Pa", "2.2e-8 1/Pa", [1, -1, 2], Angle::Power(0));
+pub const INVERSE_SPEED: Dimension =
+    dimension("damping per speed of approach", "s/m", "0.1 s/m", [-1, 0, 1], Angle::Power(0));
+/// A temperature on its scale; `degC` is shifted to kelvins.
+pub const TEMPERATURE: Dimension = thermal("temperature", "K", "40 degC", 1);
+pub const TEMPERATURE_DIFFERENCE: Dimension = thermal("temperature difference", "K", "30 K", 1);
+pub const EXPANSION: Dimension = thermal("coefficient of thermal expansion", "1/K", "12e-6 1/K", -1);
 pub const NUMBER: Dimension = dimension("number", "", "0.5", [0, 0, 0], Angle::Power(0));
 
 /// Why a text is not the quantity asked for.
@@ -89,36 +106,55 @@ pub enum UnitError {
     BadPower(String),
     #[error("`{unit}` is a unit of {found}, not of {expected}")]
     WrongDimension { unit: String, found: String, expected: &'static str },
+    #[error("`{0}` is a point on a temperature scale, not a temperature difference")]
+    ScaleOfTemperature(String),
     #[error("{found} values where {expected} are expected")]
     WrongCount { found: usize, expected: usize },
 }
 
-/// Every unit name known, with its scale (numerator, divisor), turns, and powers of m, kg, s, rad.
+/// Every unit name known, with its scale (numerator, divisor), turns, and powers of m, kg, s, rad, K.
 #[rustfmt::skip]
-const UNITS: &[(&str, f64, f64, i32, [i32; 4])] = &[
-    ("1", 1.0, 1.0, 0, [0; 4]), ("%", 1.0, 100.0, 0, [0; 4]),
-    ("m", 1.0, 1.0, 0, [1, 0, 0, 0]), ("cm", 1.0, 100.0, 0, [1, 0, 0, 0]), ("mm", 1.0, 1e3, 0, [1, 0, 0, 0]),
-    ("um", 1.0, 1e6, 0, [1, 0, 0, 0]), ("µm", 1.0, 1e6, 0, [1, 0, 0, 0]), ("μm", 1.0, 1e6, 0, [1, 0, 0, 0]),
-    ("nm", 1.0, 1e9, 0, [1, 0, 0, 0]), ("in", 254.0, 1e4, 0, [1, 0, 0, 0]), ("ft", 3048.0, 1e4, 0, [1, 0, 0, 0]),
-    ("mil", 254.0, 1e7, 0, [1, 0, 0, 0]),
-    ("kg", 1.0, 1.0, 0, [0, 1, 0, 0]), ("g", 1.0, 1e3, 0, [0, 1, 0, 0]), ("mg", 1.0, 1e6, 0, [0, 1, 0, 0]),
-    ("t", 1e3, 1.0, 0, [0, 1, 0, 0]), ("lb", 45_359_237.0, 1e8, 0, [0, 1, 0, 0]),
-    ("oz", 45_359_237.0, 16e8, 0, [0, 1, 0, 0]),
-    ("s", 1.0, 1.0, 0, [0, 0, 1, 0]), ("ms", 1.0, 1e3, 0, [0, 0, 1, 0]), ("us", 1.0, 1e6, 0, [0, 0, 1, 0]),
-    ("µs", 1.0, 1e6, 0, [0, 0, 1, 0]), ("min", 60.0, 1.0, 0, [0, 0, 1, 0]), ("h", 3600.0, 1.0, 0, [0, 0, 1, 0]),
-    ("rad", 1.0, 1.0, 0, [0, 0, 0, 1]), ("mrad", 1.0, 1e3, 0, [0, 0, 0, 1]), ("urad", 1.0, 1e6, 0, [0, 0, 0, 1]),
-    ("deg", 1.0, 360.0, 1, [0, 0, 0, 1]), ("°", 1.0, 360.0, 1, [0, 0, 0, 1]), ("rev", 1.0, 1.0, 1, [0, 0, 0, 1]),
-    ("rpm", 1.0, 60.0, 1, [0, 0, -1, 1]), ("Hz", 1.0, 1.0, 1, [0, 0, -1, 1]), ("kHz", 1e3, 1.0, 1, [0, 0, -1, 1]),
-    ("N", 1.0, 1.0, 0, [1, 1, -2, 0]), ("mN", 1.0, 1e3, 0, [1, 1, -2, 0]), ("kN", 1e3, 1.0, 0, [1, 1, -2, 0]),
-    ("MN", 1e6, 1.0, 0, [1, 1, -2, 0]), ("lbf", 4.4482216152605, 1.0, 0, [1, 1, -2, 0]),
-    ("Pa", 1.0, 1.0, 0, [-1, 1, -2, 0]), ("kPa", 1e3, 1.0, 0, [-1, 1, -2, 0]),
-    ("MPa", 1e6, 1.0, 0, [-1, 1, -2, 0]), ("GPa", 1e9, 1.0, 0, [-1, 1, -2, 0]),
-    ("psi", 4.4482216152605e8, 64516.0, 0, [-1, 1, -2, 0]),
+const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
+    ("1", 1.0, 1.0, 0, [0; 5]), ("%", 1.0, 100.0, 0, [0; 5]),
+    ("m", 1.0, 1.0, 0, [1, 0, 0, 0, 0]), ("cm", 1.0, 100.0, 0, [1, 0, 0, 0, 0]),
+    ("mm", 1.0, 1e3, 0, [1, 0, 0, 0, 0]),
+    ("um", 1.0, 1e6, 0, [1, 0, 0, 0, 0]), ("µm", 1.0, 1e6, 0, [1, 0, 0, 0, 0]),
+    ("μm", 1.0, 1e6, 0, [1, 0, 0, 0, 0]),
+    ("nm", 1.0, 1e9, 0, [1, 0, 0, 0, 0]), ("in", 254.0, 1e4, 0, [1, 0, 0, 0, 0]),
+    ("ft", 3048.0, 1e4, 0, [1, 0, 0, 0, 0]),
+    ("mil", 254.0, 1e7, 0, [1, 0, 0, 0, 0]),
+    ("kg", 1.0, 1.0, 0, [0, 1, 0, 0, 0]), ("g", 1.0, 1e3, 0, [0, 1, 0, 0, 0]),
+    ("mg", 1.0, 1e6, 0, [0, 1, 0, 0, 0]),
+    ("t", 1e3, 1.0, 0, [0, 1, 0, 0, 0]), ("lb", 45_359_237.0, 1e8, 0, [0, 1, 0, 0, 0]),
+    ("oz", 45_359_237.0, 16e8, 0, [0, 1, 0, 0, 0]),
+    ("s", 1.0, 1.0, 0, [0, 0, 1, 0, 0]), ("ms", 1.0, 1e3, 0, [0, 0, 1, 0, 0]),
+    ("us", 1.0, 1e6, 0, [0, 0, 1, 0, 0]),
+    ("µs", 1.0, 1e6, 0, [0, 0, 1, 0, 0]), ("min", 60.0, 1.0, 0, [0, 0, 1, 0, 0]),
+    ("h", 3600.0, 1.0, 0, [0, 0, 1, 0, 0]),
+    ("rad", 1.0, 1.0, 0, [0, 0, 0, 1, 0]), ("mrad", 1.0, 1e3, 0, [0, 0, 0, 1, 0]),
+    ("urad", 1.0, 1e6, 0, [0, 0, 0, 1, 0]),
+    ("deg", 1.0, 360.0, 1, [0, 0, 0, 1, 0]), ("°", 1.0, 360.0, 1, [0, 0, 0, 1, 0]),
+    ("rev", 1.0, 1.0, 1, [0, 0, 0, 1, 0]),
+    ("rpm", 1.0, 60.0, 1, [0, 0, -1, 1, 0]), ("Hz", 1.0, 1.0, 1, [0, 0, -1, 1, 0]),
+    ("kHz", 1e3, 1.0, 1, [0, 0, -1, 1, 0]),
+    ("N", 1.0, 1.0, 0, [1, 1, -2, 0, 0]), ("mN", 1.0, 1e3, 0, [1, 1, -2, 0, 0]),
+    ("kN", 1e3, 1.0, 0, [1, 1, -2, 0, 0]),
+    ("MN", 1e6, 1.0, 0, [1, 1, -2, 0, 0]), ("lbf", 4.4482216152605, 1.0, 0, [1, 1, -2, 0, 0]),
+    ("Pa", 1.0, 1.0, 0, [-1, 1, -2, 0, 0]), ("kPa", 1e3, 1.0, 0, [-1, 1, -2, 0, 0]),
+    ("MPa", 1e6, 1.0, 0, [-1, 1, -2, 0, 0]), ("GPa", 1e9, 1.0, 0, [-1, 1, -2, 0, 0]),
+    ("mPa", 1.0, 1e3, 0, [-1, 1, -2, 0, 0]), ("P", 1.0, 10.0, 0, [-1, 1, -1, 0, 0]),
+    ("cP", 1.0, 1e3, 0, [-1, 1, -1, 0, 0]), ("K", 1.0, 1.0, 0, [0, 0, 0, 0, 1]),
+    ("psi", 4.4482216152605e8, 64516.0, 0, [-1, 1, -2, 0, 0]),
 ];
+
+/// Names of the one scale that does not start at zero.
+const CELSIUS: [&str; 2] = ["degC", "°C"];
+/// 0 °C \[K\].
+const ZERO_CELSIUS: f64 = 273.15;
 
 /// Names of every unit that [`parse`] knows.
 pub fn unit_names() -> impl Iterator<Item = &'static str> {
-    UNITS.iter().map(|unit| unit.0)
+    UNITS.iter().map(|unit| unit.0).chain(CELSIUS)
 }
 
 /// Product of units: value · numerator / divisor · (2π)^turns is in SI.
@@ -126,7 +162,7 @@ struct Scale {
     numerator: f64,
     divisor: f64,
     turns: i32,
-    powers: [i32; 4],
+    powers: [i32; 5],
 }
 
 /// Read one quantity, such as `"60 um"`, as a number in SI units (Hz for a frequency).
@@ -175,13 +211,25 @@ pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitErro
     if unit.is_empty() && dimension != NUMBER {
         return Err(UnitError::NoUnit(text.trim().into()));
     }
+    if CELSIUS.contains(&unit) {
+        values.iter_mut().for_each(|value| *value += ZERO_CELSIUS);
+        return match dimension {
+            TEMPERATURE => Ok(values),
+            _ if dimension.kelvin != 0 => Err(UnitError::ScaleOfTemperature(unit.into())),
+            _ => Err(UnitError::WrongDimension {
+                unit: unit.into(),
+                found: TEMPERATURE.name.into(),
+                expected: dimension.name,
+            }),
+        };
+    }
     let scale = parse_unit(unit)?;
     let angle_fits = match dimension.angle {
         Angle::Power(power) => scale.powers[3] == power,
         Angle::Free => scale.powers[3] <= 0,
         Angle::Turns => scale.powers[3] == 1,
     };
-    if scale.powers[..3] != dimension.base || !angle_fits {
+    if scale.powers[..3] != dimension.base || scale.powers[4] != dimension.kelvin || !angle_fits {
         let found = describe(scale.powers);
         return Err(UnitError::WrongDimension { unit: unit.into(), found, expected: dimension.name });
     }
@@ -224,7 +272,7 @@ fn leading_number(text: &str) -> Option<(f64, usize)> {
 }
 
 fn parse_unit(text: &str) -> Result<Scale, UnitError> {
-    let mut scale = Scale { numerator: 1.0, divisor: 1.0, turns: 0, powers: [0; 4] };
+    let mut scale = Scale { numerator: 1.0, divisor: 1.0, turns: 0, powers: [0; 5] };
     let mut divide = false;
     let mut rest = text;
     loop {
@@ -240,6 +288,9 @@ fn parse_unit(text: &str) -> Result<Scale, UnitError> {
         let (factor, after) = rest.split_at(end);
         rest = after;
         let (name, power) = split_power(factor)?;
+        if CELSIUS.contains(&name) {
+            return Err(UnitError::ScaleOfTemperature(name.into()));
+        }
         let &(_, numerator, divisor, turns, powers) =
             UNITS.iter().find(|unit| unit.0 == name).ok_or_else(|| UnitError::UnknownUnit(name.into()))?;
         let power = if divide { -power } else { power };
@@ -273,8 +324,8 @@ fn split_power(factor: &str) -> Result<(&str, i32), UnitError> {
 }
 
 /// Name of a dimension by its powers, or the powers themselves.
-fn describe(powers: [i32; 4]) -> String {
-    const KNOWN: [Dimension; 17] = [
+fn describe(powers: [i32; 5]) -> String {
+    const KNOWN: [Dimension; 22] = [
         LENGTH,
         MASS,
         TIME,
@@ -291,16 +342,23 @@ fn describe(powers: [i32; 4]) -> String {
         DAMPING,
         TILT_STIFFNESS,
         TILT_DAMPING,
+        VISCOSITY,
+        PRESSURE_VISCOSITY,
+        INVERSE_SPEED,
+        TEMPERATURE_DIFFERENCE,
+        EXPANSION,
         NUMBER,
     ];
     let angle_fits = |angle: Angle| match angle {
         Angle::Power(power) => powers[3] == power,
         Angle::Free | Angle::Turns => true,
     };
-    if powers == [0, 0, -1, 1] {
+    if powers == [0, 0, -1, 1, 0] {
         return "speed of rotation or frequency".into();
     }
-    if let Some(known) = KNOWN.iter().find(|d| d.base == powers[..3] && angle_fits(d.angle)) {
+    if let Some(known) =
+        KNOWN.iter().find(|d| d.base == powers[..3] && d.kelvin == powers[4] && angle_fits(d.angle))
+    {
         return known.name.into();
     }
     let factor = |(name, power): (&str, i32)| match power {
@@ -308,7 +366,7 @@ fn describe(powers: [i32; 4]) -> String {
         1 => Some(name.to_string()),
         _ => Some(format!("{name}^{power}")),
     };
-    ["m", "kg", "s", "rad"].into_iter().zip(powers).filter_map(factor).collect::<Vec<_>>().join(" ")
+    ["m", "kg", "s", "rad", "K"].into_iter().zip(powers).filter_map(factor).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -351,6 +409,24 @@ mod tests {
         assert_eq!(parse("90 deg", ANGLE), Ok(TAU / 4.0));
         assert!(matches!(parse("100 1/s", SPEED), Err(UnitError::WrongDimension { .. })));
         assert!(matches!(parse("5 rpm", RATE), Err(UnitError::WrongDimension { .. })));
+    }
+
+    #[test]
+    fn temperatures_and_oils() {
+        assert_eq!(parse("40 degC", TEMPERATURE), Ok(313.15));
+        assert_eq!(parse("-10 °C", TEMPERATURE), Ok(263.15));
+        assert_eq!(parse("300 K", TEMPERATURE), Ok(300.0));
+        assert_eq!(parse("30 K", TEMPERATURE_DIFFERENCE), Ok(30.0));
+        assert_eq!(parse("12e-6 1/K", EXPANSION), Ok(12e-6));
+        assert_eq!(parse("12 um/m/K", EXPANSION), Ok(12e-6));
+        assert_eq!(parse("0.04 Pa s", VISCOSITY), Ok(0.04));
+        assert_eq!(parse("40 mPa s", VISCOSITY), Ok(0.04));
+        assert_eq!(parse("40 cP", VISCOSITY), Ok(0.04));
+        assert_eq!(parse("2.3e-8 1/Pa", PRESSURE_VISCOSITY), Ok(2.3e-8));
+        assert_eq!(parse("23 1/GPa", PRESSURE_VISCOSITY), Ok(2.3e-8));
+        let shifted = Err(UnitError::ScaleOfTemperature("degC".into()));
+        assert_eq!(parse("30 degC", TEMPERATURE_DIFFERENCE), shifted);
+        assert_eq!(parse("12e-6 1/degC", EXPANSION), shifted);
     }
 
     #[test]

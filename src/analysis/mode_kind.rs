@@ -177,7 +177,8 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
     }
 }
 
-/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing_A u_x".
+/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing_A u_x"; a rigid rotor does not
+/// bend, and its modes are "1st rigid-body forward" and so on.
 ///
 /// Bending modes come in pairs: a forward (or x) mode counts the forward ones below it, a mixed one half of all.
 pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
@@ -186,6 +187,7 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
     for mode in modes {
         let name = match mode.kind {
             ModeKind::Body => body_name(assembly, &mode.energy),
+            kind if assembly.dofs.rigid => kind.name().replace("bending", "rigid-body"),
             kind => kind.name().into(),
         };
         let before = *count.entry(name.clone()).and_modify(|n| *n += 1).or_insert(1) - 1;

@@ -16,12 +16,15 @@ pub struct DofMap {
     pub free: Vec<usize>,
     /// Number of shaft nodes; bodies follow.
     pub shaft_nodes: usize,
+    /// Whether the shaft nodes are those of a rigid rotor.
+    pub rigid: bool,
     /// Name of every node.
     pub node_names: Vec<String>,
 }
 
 impl DofMap {
-    /// Eliminates the joints and, with a prescribed drive, the rotation of the driven node.
+    /// Eliminates the joints, the nodes of a rigid rotor but for its centre and, with a prescribed drive, the
+    /// rotation of the driven node.
     ///
     /// Every locked relative motion is a row r · q_full = 0. Gauss-Jordan elimination with the largest
     /// coefficient as pivot solves the rows for as many DOFs; rows that say nothing new vanish.
@@ -39,7 +42,7 @@ impl DofMap {
         if let Drive::Prescribed { node: Some(node) } = model.drive {
             rows.push(SparseRow::unit(6 * node + 5));
         }
-        let solved = eliminate(rows);
+        let solved = eliminate(rigid_rows(model), rows);
 
         let mut is_free = vec![true; full];
         for (pivot, _) in &solved {
@@ -57,7 +60,8 @@ impl DofMap {
             }
             basis[pivot] = combination;
         }
-        Self { basis, free, shaft_nodes: model.node_z.len(), node_names: node_names(model) }
+        let (shaft_nodes, rigid) = (model.node_z.len(), model.rigid_rotor.is_some());
+        Self { basis, free, shaft_nodes, rigid, node_names: node_names(model) }
     }
 
     /// Number of free DOFs.
@@ -140,9 +144,23 @@ pub(super) fn full_rows(anchor: &Anchor) -> [SparseRow; 6] {
     ]
 }
 
-/// Rows solved each for one DOF (coefficient 1), which appears in no other row.
-fn eliminate(rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
-    let mut solved: Vec<(usize, SparseRow)> = Vec::new();
+/// Rows that hold every node of a rigid rotor to the node of its centre, solved for the former.
+fn rigid_rows(model: &Model) -> Vec<(usize, SparseRow)> {
+    let Some(rotor) = &model.rigid_rotor else { return Vec::new() };
+    let mut solved = Vec::new();
+    for (node, z) in model.node_z.iter().enumerate().filter(|(node, _)| *node != rotor.node) {
+        let offset = [0.0, 0.0, z - model.node_z[rotor.node]];
+        for (i, held) in full_rows(&Anchor { node: Some(rotor.node), offset }).into_iter().enumerate() {
+            let mut row = SparseRow::unit(6 * node + i);
+            row.add_scaled(-1.0, &held);
+            solved.push((6 * node + i, row));
+        }
+    }
+    solved
+}
+
+/// Rows solved each for one DOF (coefficient 1), which appears in no other row; `solved` are so already.
+fn eliminate(mut solved: Vec<(usize, SparseRow)>, rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
     for mut row in rows {
         for (pivot, other) in &solved {
             let factor = row.0.iter().find(|(i, _)| i == pivot).map_or(0.0, |&(_, v)| v);
@@ -172,6 +190,9 @@ fn eliminate(rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
 fn node_names(model: &Model) -> Vec<String> {
     let mut names: Vec<String> =
         model.node_z.iter().enumerate().map(|(k, z)| format!("shaft node {k} (z = {z:.4} m)")).collect();
+    if let Some(rotor) = &model.rigid_rotor {
+        names[rotor.node].clone_from(&rotor.name);
+    }
     for station in &model.stations {
         if let Some(name) = names.get_mut(station.node) {
             name.clone_from(&station.name);

@@ -34,7 +34,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
             add12(&mut kc, e, &element.circulatory_stiffness(), 1.0);
         }
     }
-    for disc in &model.discs {
+    for disc in model.spinning() {
         let at = 6 * disc.node;
         let (mass, id, ip) = (disc.mass, disc.diametral_inertia, disc.polar_inertia);
         for (i, v) in [mass, mass, mass, id, id, ip].into_iter().enumerate() {

@@ -95,11 +95,17 @@ fn summary(terminal: &Terminal, found: &Checked) {
         (Some(a), Some(b)) => b - a,
         _ => 0.0,
     };
+    let shaft = match &model.rigid_rotor {
+        Some(rotor) => format!("rigid rotor, {} kg", number(rotor.mass, 4)),
+        None => format!(
+            "shaft {} mm in {} elements, {} kg",
+            number(1e3 * length, 4),
+            model.shaft.len(),
+            number(found.mass - discs - bodies, 4)
+        ),
+    };
     terminal.say(&format!(
-        "  shaft {} mm in {} elements, {} kg; {} discs, {} kg; {} bodies and sensors, {} kg;\n  total {} kg",
-        number(1e3 * length, 4),
-        model.shaft.len(),
-        number(found.mass - discs - bodies, 4),
+        "  {shaft}; {} discs, {} kg; {} bodies and sensors, {} kg;\n  total {} kg",
         model.discs.len(),
         number(discs, 4),
         model.bodies.len() + model.masses.len(),
@@ -107,7 +113,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
         number(found.mass, 4),
     ));
     terminal.say(&format!(
-        "  {} degrees of freedom, {} of them eliminated by joints and drive; {} bushings, {} joints, {} belts",
+        "  {} degrees of freedom, {} more eliminated by joints and drive; {} bushings, {} joints, {} belts",
         dofs.len(),
         dofs.full_len() - dofs.len(),
         model.bushings.len(),
@@ -168,7 +174,8 @@ fn carried(model: &Model, node: usize) -> String {
     let bearings = model.bearings.iter().filter(|b| b.node == node).map(|b| format!("bearing.{}", b.name));
     let unbalances =
         model.unbalances.iter().filter(|u| u.node == node).map(|u| format!("unbalance.{}", u.name));
-    discs.chain(bearings).chain(unbalances).collect::<Vec<_>>().join(", ")
+    let rotor = model.rigid_rotor.iter().filter(|r| r.node == node).map(|r| r.name.clone());
+    rotor.chain(discs).chain(bearings).chain(unbalances).collect::<Vec<_>>().join(", ")
 }
 
 fn to_json(found: &Checked) -> Value {

@@ -93,10 +93,11 @@ pub fn frf(
     draft.flag("speed", speed.map(quoted));
     draft.flag("frequencies", max_frequency.map(|top| sweep(top)));
     draft.flag("quantity", quantity.map(quoted));
-    let place = match (model.discs.first(), model.stations.first()) {
-        (Some(disc), _) => format!("disc.{}", disc.name),
-        (None, Some(station)) => format!("station.{}", station.name),
-        (None, None) => "ground".to_string(),
+    let place = match (model.discs.first(), &model.rigid_rotor, model.stations.first()) {
+        (Some(disc), ..) => format!("disc.{}", disc.name),
+        (None, Some(_), _) => "rotor".to_string(),
+        (None, None, Some(station)) => format!("station.{}", station.name),
+        (None, None, None) => "ground".to_string(),
     };
     let blow = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", quoted(&place));
     let words = format!("unit forces along x and y at {place}, 1 to 500 Hz unless told otherwise");

@@ -48,7 +48,8 @@ pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Resu
     make(folder)?;
     let grid = Grid::of_machine(&machine.model);
     let z = &machine.model.node_z;
-    let length = z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0);
+    let rotor = machine.model.rigid_rotor.as_ref().map_or(0.0, |rotor| super::scene::disc_size(rotor).1);
+    let length = (z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0)).max(rotor);
     let mut files = Vec::new();
     for found in &results.modal {
         let name = format!("modes_{:.0}rpm", found.speed * 60.0 / std::f64::consts::TAU);

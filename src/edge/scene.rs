@@ -36,20 +36,11 @@ impl Scene {
     /// inertias. Linear bearings, bushings and belts have no shape.
     pub fn of_machine(model: &Model) -> Self {
         let mut scene = Self { name: model.name.clone(), ..Self::default() };
-        for (k, element) in model.shaft.iter().enumerate() {
-            let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
-            let mesh = Mesh::frustum(
-                half(element.inner_diameter),
-                half(element.outer_diameter),
-                [0.0, element.length],
-                SECTORS,
-            );
-            scene.part(
-                format!("shaft {}", k + 1),
-                mesh,
-                SHAFT,
-                &Isometry3::translation(0.0, 0.0, model.node_z[k]),
-            );
+        for (k, section) in shaft_sections(model).iter().enumerate() {
+            let [start, end] = section.z;
+            let mesh = Mesh::frustum(section.inner, section.outer, [0.0, end - start], SECTORS);
+            let at = Isometry3::translation(0.0, 0.0, start);
+            scene.part(format!("shaft {}", k + 1), mesh, SHAFT, &at);
         }
         for disc in &model.discs {
             let (radius, thickness) = disc_size(disc);
@@ -103,8 +94,69 @@ impl Scene {
     }
 }
 
+/// A length of shaft as it is drawn, possibly tapered or hollow.
+pub(crate) struct ShaftSection {
+    /// Axial positions of the ends \[m\].
+    pub z: [f64; 2],
+    /// Outer and inner radius at the two ends \[m\].
+    pub outer: [f64; 2],
+    pub inner: [f64; 2],
+}
+
+/// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball bearings.
+pub(crate) fn shaft_sections(model: &Model) -> Vec<ShaftSection> {
+    let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
+    let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| ShaftSection {
+        z: [z[0], z[1]],
+        outer: half(e.outer_diameter),
+        inner: half(e.inner_diameter),
+    });
+    match &model.rigid_rotor {
+        None => elastic.collect(),
+        Some(rotor) => rigid_sections(model, rotor),
+    }
+}
+
+fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<ShaftSection> {
+    let (radius, length) = disc_size(rotor);
+    let centre = model.node_z[rotor.node];
+    // It reaches every node, whatever length was given or follows from its inertia.
+    let start = model.node_z.iter().copied().fold(centre - 0.5 * length, f64::min);
+    let end = model.node_z.iter().copied().fold(centre + 0.5 * length, f64::max);
+    let seats: Vec<([f64; 2], f64)> = ball_seats(model).filter(|seat| seat.1 < radius).collect();
+    let mut cuts: Vec<f64> =
+        seats.iter().flat_map(|seat| seat.0).filter(|z| *z > start && *z < end).collect();
+    cuts.extend([start, end]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    let section = |z: &[f64]| {
+        let middle = 0.5 * (z[0] + z[1]);
+        let at = |seat: &&([f64; 2], f64)| seat.0[0] < middle && middle < seat.0[1];
+        let outer = seats.iter().filter(at).map(|seat| seat.1).fold(radius, f64::min);
+        ShaftSection { z: [z[0], z[1]], outer: [outer; 2], inner: [0.0; 2] }
+    };
+    cuts.windows(2).map(section).collect()
+}
+
+/// Axial extent \[m\] and radius \[m\] of the seat of every ball bearing.
+fn ball_seats(model: &Model) -> impl Iterator<Item = ([f64; 2], f64)> {
+    model.bearings.iter().filter_map(|site| match &site.bearing {
+        Bearing::Ball(ball) => {
+            let (z, half) = (model.node_z[site.node], 0.5 * ball.geometry.width);
+            Some(([z - half, z + half], 0.5 * ball.geometry.bore))
+        }
+        Bearing::Linear(_) => None,
+    })
+}
+
 /// Outer diameter of the shaft at a node \[m\], the larger of its two sides.
 pub(crate) fn shaft_diameter(model: &Model, node: usize) -> f64 {
+    if model.rigid_rotor.is_some() {
+        let z = model.node_z[node];
+        let sections = shaft_sections(model);
+        let at = sections.iter().filter(|s| s.z[0] <= z && z <= s.z[1]);
+        return at.map(|s| 2.0 * s.outer[0]).fold(0.0, f64::max);
+    }
     let left = node.checked_sub(1).and_then(|k| model.shaft.get(k)).map_or(0.0, |e| e.outer_diameter[1]);
     let right = model.shaft.get(node).map_or(0.0, |e| e.outer_diameter[0]);
     left.max(right)

@@ -26,6 +26,9 @@ pub struct Model {
     pub node_z: Vec<f64>,
     /// Element k joins shaft nodes k and k+1.
     pub shaft: Vec<ShaftElement>,
+    /// Rigid rotor in place of shaft elements: its inertia at the node of its centre of mass, with which all shaft
+    /// nodes move.
+    pub rigid_rotor: Option<Disc>,
     pub stations: Vec<Station>,
     pub discs: Vec<Disc>,
     /// Body k is node `node_z.len() + k`.
@@ -48,6 +51,11 @@ impl Model {
     /// Number of nodes: shaft nodes, then bodies.
     pub fn node_count(&self) -> usize {
         self.node_z.len() + self.bodies.len()
+    }
+
+    /// Everything rigid that spins: discs, then the rigid rotor.
+    pub fn spinning(&self) -> impl Iterator<Item = &Disc> {
+        self.discs.iter().chain(&self.rigid_rotor)
     }
 }
 

@@ -173,8 +173,7 @@ impl Machine {
             .collect();
         let orbits = self
             .model
-            .discs
-            .iter()
+            .spinning()
             .map(|disc| {
                 let [x, y, ..] = self.assembly.anchor_rows(&Anchor::node(disc.node));
                 let along = |row| plain(response.at(row, crate::model::Quantity::Displacement));

@@ -6,4 +6,5 @@ mod bearing;
 mod machine;
 
 mod hertz;
+mod rigid_rotor;
 mod shaft_limits;

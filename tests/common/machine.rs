@@ -48,6 +48,7 @@ pub fn shaft(elements: Vec<ShaftElement>) -> Model {
         materials: Vec::new(),
         node_z,
         shaft: elements,
+        rigid_rotor: None,
         stations: Vec::new(),
         discs: Vec::new(),
         bodies: Vec::new(),

@@ -107,6 +107,7 @@ pub fn model(case: &Value) -> Model {
         materials: Vec::new(),
         node_z,
         shaft,
+        rigid_rotor: None,
         stations: Vec::new(),
         discs: discs
             .iter()

@@ -50,6 +50,7 @@ fn rig() -> Model {
         materials: vec![],
         node_z: (0..=50).map(|k| f64::from(k) / 80.0).collect(),
         shaft: vec![element; 50],
+        rigid_rotor: None,
         stations: vec![],
         discs: vec![
             disc("disc", 48, 11.0977, 0.124849, 0.0627944, [0.3, 0.02]),

@@ -1,6 +1,7 @@
 //! Each kind of bad input, and the message it gets.
 
 mod bad_input;
+mod bearings;
 mod mutations;
 
 #[path = "../../src/cli/diagnostics.rs"]

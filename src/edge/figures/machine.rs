@@ -20,12 +20,8 @@ const PLAIN_BEARING: [f64; 2] = [0.5, 0.35];
 
 pub fn rig(machine: &Machine) -> Named {
     let model = &machine.model;
-    let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
-    let sections = model.shaft.iter().enumerate().map(|(k, e)| RigSection {
-        z: [model.node_z[k], model.node_z[k + 1]],
-        outer: half(e.outer_diameter),
-        inner: half(e.inner_diameter),
-    });
+    let sections = scene::shaft_sections(model);
+    let sections = sections.into_iter().map(|s| RigSection { z: s.z, outer: s.outer, inner: s.inner });
     let discs = model.discs.iter().map(|disc| {
         let (radius, thickness) = scene::disc_size(disc);
         let z = model.node_z[disc.node];

@@ -1,31 +1,44 @@
 //! Bearings: linear ones, and ball bearings from the catalogue or by their geometry.
 
 use super::catalogue::{self, CatalogueEntry};
+use super::contact;
 use super::loading::increasing;
 use super::material;
+use super::mounting;
 use super::places::Places;
 use super::springs::{self, Family};
 use crate::bearing::{
-    BallBearing, BallGeometry, BallInertia, Bearing, Cage, Fit, LinearBearing, LinearBearingRow, Preload,
-    Wave,
+    BallBearing, BallGeometry, BallInertia, Bearing, Cage, LinearBearing, LinearBearingRow, Wave,
 };
-use crate::contact::{ContactDamping, ContactLaw};
+use crate::contact::{ContactLaw, Lubricant};
 use crate::element::{Anchor, Material};
 use crate::model::BearingSite;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
-use crate::units::{ANGLE, DAMPING, LENGTH, NUMBER, SPEED};
+use crate::units::{ANGLE, LENGTH, NUMBER, SPEED};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-pub(super) fn read(top: &Reader, materials: &[Material], places: &Places) -> Vec<BearingSite> {
+const INERTIAS: [(&str, BallInertia); 4] = [
+    ("none", BallInertia::None),
+    ("outer_race_control", BallInertia::OuterRaceControl),
+    ("inner_race_control", BallInertia::InnerRaceControl),
+    ("shared", BallInertia::Shared),
+];
+
+pub(super) fn read(
+    top: &Reader,
+    materials: &[Material],
+    lubricants: &[Lubricant],
+    places: &Places,
+) -> Vec<BearingSite> {
     let read = |(name, r): (&str, Reader)| {
         let (node, z) = places.station(&r, "station");
         let housing = r.text("housing").unwrap_or("ground");
         let housing = places
             .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
             .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
-        let bearing = bearing(&r, materials);
+        let bearing = bearing(&r, materials, lubricants);
         r.finish();
         BearingSite { name: name.into(), node, housing, bearing }
     };
@@ -33,21 +46,25 @@ pub(super) fn read(top: &Reader, materials: &[Material], places: &Places) -> Vec
 }
 
 /// Bearings of a file that has no shaft: neither station nor housing.
-pub(super) fn read_alone(top: &Reader, materials: &[Material]) -> Vec<(String, Bearing)> {
+pub(super) fn read_alone(
+    top: &Reader,
+    materials: &[Material],
+    lubricants: &[Lubricant],
+) -> Vec<(String, Bearing)> {
     let read = |(name, r): (&str, Reader)| {
-        let bearing = bearing(&r, materials);
+        let bearing = bearing(&r, materials, lubricants);
         r.finish();
         (name.to_string(), bearing)
     };
     top.items("bearing").into_iter().map(read).collect()
 }
 
-fn bearing(r: &Reader, materials: &[Material]) -> Bearing {
+fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> Bearing {
     if !r.has("model") {
         r.missing("model", "\"ball\" or \"linear\"");
     }
     match r.choice("model", &[("linear", false), ("ball", true)]) {
-        Some(true) => Bearing::Ball(ball(r, materials)),
+        Some(true) => Bearing::Ball(ball(r, materials, lubricants)),
         Some(false) => Bearing::Linear(linear(r)),
         None => {
             r.entries();
@@ -84,7 +101,7 @@ fn bearing_steel() -> Material {
     }
 }
 
-fn ball(r: &Reader, materials: &[Material]) -> BallBearing {
+fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBearing {
     let entry = designation(r);
     let geometry = geometry(r, entry.as_ref());
     let part = |key: &str| match (r.has(key), r.has("material")) {
@@ -99,15 +116,12 @@ fn ball(r: &Reader, materials: &[Material]) -> BallBearing {
     let bearing = BallBearing {
         ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
         ring_material: part("ring_material").unwrap_or(steel),
-        contact: ContactLaw::Hertz,
-        damping: ContactDamping::Constant {
-            coefficient: r.or("contact_damping", not_negative(DAMPING), 300.0),
-            ramp: r.or("damping_ramp", positive(LENGTH), 1e-6),
-        },
-        inertia: BallInertia::None,
-        preload: Preload::None,
-        duplex: None,
-        fit: Fit::default(),
+        contact: contact::law(r, lubricants),
+        damping: contact::damping(r),
+        inertia: r.choice("ball_inertia", &INERTIAS).unwrap_or_default(),
+        preload: mounting::preload(r),
+        duplex: mounting::duplex(r, geometry.contact_angle),
+        fit: mounting::fit(r, &geometry),
         cage: cage(r),
         cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
         inner_waviness: waviness(r, "inner_waviness"),
@@ -115,8 +129,15 @@ fn ball(r: &Reader, materials: &[Material]) -> BallBearing {
         cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
         geometry,
     };
+    if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+        let message = format!("{} cannot part the two contacts of a fitted law", r.name("ball_inertia"));
+        let problem = Problem::new(Kind::Conflict, &r.span_of("ball_inertia"), message);
+        r.log.error(problem.expected("contact = \"hertz\" or \"film\", which know each contact alone").hint(
+            "a power law holds both contacts, and the centrifugal force of the speed it was fitted at",
+        ));
+    }
     if r.sound() {
-        fits(r, &bearing);
+        buildable(r, &bearing);
     }
     bearing
 }
@@ -169,13 +190,7 @@ fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
     let inner_groove_radius = groove("inner_groove_radius", "inner_osculation", 0);
     let outer_groove_radius = groove("outer_groove_radius", "outer_osculation", 1);
     let contact_angle = r.or("contact_angle", not_negative(ANGLE), entry.map_or(0.0, |e| e.contact_angle));
-    let thrust = r.choice("thrust", &[("+z", 1.0), ("-z", -1.0)]);
-    if contact_angle > 0.0 && thrust.is_none() && !r.has("thrust") {
-        r.missing(
-            "thrust",
-            "\"+z\" (the way in which the inner ring can push the shaft's thrust into the housing)",
-        );
-    }
+    let thrust = thrust(r, contact_angle);
     let bore = r.or("bore", positive(LENGTH), entry.map_or(pitch_diameter - 2.2 * ball_diameter, |e| e.bore));
     let outside = entry.map_or(pitch_diameter + 2.2 * ball_diameter, |e| e.outside_diameter);
     BallGeometry {
@@ -186,12 +201,31 @@ fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
         outer_groove_radius,
         radial_clearance: clearance(r, bore, contact_angle),
         contact_angle,
-        thrust_direction: thrust.unwrap_or(1.0),
-        moment_arm: None,
+        thrust_direction: thrust,
+        moment_arm: r.get("moment_arm", positive(LENGTH)),
         bore,
         outside_diameter: r.or("outside_diameter", positive(LENGTH), outside),
         width: r.or("width", positive(LENGTH), entry.map_or(1.8 * ball_diameter, |e| e.width)),
     }
+}
+
+/// Direction of thrust: needed with a contact angle or a preload, save in a pair that takes thrust both ways.
+fn thrust(r: &Reader, contact_angle: f64) -> f64 {
+    let both_ways = matches!(r.text("arrangement"), Some("back_to_back" | "face_to_face"));
+    let thrust = r.choice("thrust", &[("+z", 1.0), ("-z", -1.0)]);
+    if both_ways && thrust.is_some() {
+        let message = format!("{} says nothing of a pair that takes thrust both ways", r.name("thrust"));
+        r.error(Kind::Conflict, "thrust", message);
+    }
+    // a misspelt arrangement was reported; whether it needs a direction is not known
+    let one_way = !r.has("arrangement") || r.text("arrangement") == Some("tandem");
+    if one_way && (contact_angle > 0.0 || r.has("preload")) && !r.has("thrust") {
+        r.missing(
+            "thrust",
+            "\"+z\" (the way in which the inner ring can push the shaft's thrust into the housing)",
+        );
+    }
+    thrust.unwrap_or(1.0)
 }
 
 /// Diametral clearance: as given, or the middle of the class (CN when nothing is said); an angular contact bearing
@@ -220,7 +254,7 @@ fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
 }
 
 /// Geometry that can be built: balls part from each other, grooves wider than balls, rings outside them.
-fn fits(r: &Reader, bearing: &BallBearing) {
+fn buildable(r: &Reader, bearing: &BallBearing) {
     let g = &bearing.geometry;
     let balls = g.balls as f64;
     let spacing = g.pitch_diameter * (PI / balls).sin();

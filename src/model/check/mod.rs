@@ -3,9 +3,12 @@
 mod bearing;
 pub mod catalogue;
 mod connections;
+mod contact;
 mod inertia;
 mod loading;
+mod mounting;
 mod places;
+mod rotor;
 mod shaft;
 mod springs;
 mod study;
@@ -29,15 +32,19 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
     let top = Reader::new(root, "", 0..0, log);
     let (name, title, gravity) = head(&top);
     let materials = materials(&top);
-    let line = shaft::read(&top, &materials);
+    let lubricants = contact::lubricants(&top);
+    let line = if top.has("rotor") { rotor::read(&top, &materials) } else { shaft::read(&top, &materials) };
     let mut places = Places::new(&line.stations);
+    if let Some(rotor) = &line.rigid {
+        places.add("rotor".into(), rotor.node, [0.0, 0.0, line.node_z[rotor.node]]);
+    }
     let discs = inertia::discs(&top, &materials, &mut places);
     let inertia::Bodies { bodies, mut bushings } = inertia::bodies(&top, &mut places, line.node_z.len());
     let masses = inertia::masses(&top, &places);
     bushings.extend(connections::bushings(&top, &places));
     let joints = connections::joints(&top, &places);
     let belts = connections::belts(&top, &places);
-    let bearings = bearing::read(&top, &materials, &places);
+    let bearings = bearing::read(&top, &materials, &lubricants, &places);
     let rotor_mass = line.mass() + discs.iter().map(|d| d.mass).sum::<f64>();
     let unbalances = loading::unbalances(&top, &places, rotor_mass);
     let loads = loading::loads(&top, &places);
@@ -49,6 +56,7 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
         materials,
         node_z: line.node_z,
         shaft: line.elements,
+        rigid_rotor: line.rigid,
         stations: line.stations,
         discs,
         bodies,
@@ -68,6 +76,7 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
     model.studies = study::read(&top, &model, &places);
     if log.count() == 0 {
         topology::check(&top, &model);
+        mounting::located(&top, &model);
     }
     top.finish();
     model
@@ -78,7 +87,7 @@ pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(S
     let top = Reader::new(root, "", 0..0, log);
     let (name, title, _) = head(&top);
     let materials = materials(&top);
-    let bearings = bearing::read_alone(&top, &materials);
+    let bearings = bearing::read_alone(&top, &materials, &contact::lubricants(&top));
     let studies = study::read_for_bearings(&top);
     top.finish();
     (name, title, bearings, studies)

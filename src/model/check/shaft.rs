@@ -1,7 +1,7 @@
 //! Shaft sections and stations to nodes and elements.
 
 use super::material;
-use crate::element::{Material, ShaftElement, ShearCoefficient};
+use crate::element::{Disc, Material, ShaftElement, ShearCoefficient};
 use crate::model::Station;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
@@ -14,16 +14,18 @@ pub(super) struct Line {
     pub node_z: Vec<f64>,
     pub elements: Vec<ShaftElement>,
     pub stations: Vec<Station>,
+    /// Rigid rotor in place of the elements.
+    pub rigid: Option<Disc>,
 }
 
 impl Line {
-    /// Mass of the shaft \[kg\]: frusta, exactly.
+    /// Mass of the shaft \[kg\]: frusta, exactly; or of the rigid rotor.
     pub fn mass(&self) -> f64 {
         let square = |[a, b]: [f64; 2]| (a * a + a * b + b * b) / 3.0;
         let mass = |e: &ShaftElement| {
             e.material.density * PI / 4.0 * e.length * (square(e.outer_diameter) - square(e.inner_diameter))
         };
-        self.elements.iter().map(mass).sum()
+        self.elements.iter().map(mass).sum::<f64>() + self.rigid.as_ref().map_or(0.0, |rotor| rotor.mass)
     }
 }
 
@@ -63,7 +65,10 @@ const MAX_NODES: f64 = 5000.0;
 pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     if !top.has("shaft") {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [shaft] table");
-        top.log.error(problem.hint("add [shaft] with material, element_length and [[shaft.section]]"));
+        top.log.error(
+            problem
+                .hint("add [shaft] with material, element_length and [[shaft.section]], or a rigid [rotor]"),
+        );
         top.table("station").inspect(|r| _ = r.entries());
         return Line::default();
     }
@@ -75,7 +80,8 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     let before = r.log.count();
     let sound = r.sound();
     r.finish();
-    let stations = stations(top, &sections, spacing);
+    let ends = sections.first().zip(sections.last()).map(|(first, last)| [first.z[0], last.z[1]]);
+    let stations = stations(top, ends, spacing);
     if !sound || sections.is_empty() || top.log.count() > before {
         // stations keep their names so that references to them still resolve
         return Line { stations, ..Line::default() };
@@ -167,14 +173,9 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
     sections
 }
 
-/// Stations in file order; their nodes are found by [`mesh`].
-fn stations(top: &Reader, sections: &[Section], spacing: f64) -> Vec<Station> {
+/// Stations in file order, between the ends if known; their nodes are found later.
+pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Vec<Station> {
     let Some(r) = top.table("station") else { return Vec::new() };
-    let ends = match sections {
-        [first, .., last] => Some([first.z[0], last.z[1]]),
-        [only] => Some(only.z),
-        [] => None,
-    };
     let mut stations: Vec<Station> = Vec::new();
     for entry in r.entries() {
         let before = r.log.count();

@@ -1,5 +1,6 @@
 //! What hangs on what: every body must be held by ground or by the shaft.
 
+use crate::bearing::Bearing;
 use crate::element::Anchor;
 use crate::model::Model;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -43,12 +44,67 @@ pub(super) fn check(top: &Reader, model: &Model) {
         top.log.error(Problem::new(Kind::Disconnected, &span, message).hint(hint));
     }
     if !reach(&[0])[1] {
-        let span = top.table("shaft").map_or(0..0, |r| r.span);
+        let span = top.table("shaft").or_else(|| top.table("rotor")).map_or(0..0, |r| r.span);
         let problem = Problem::new(Kind::Disconnected, &span, "nothing holds the shaft: it floats freely");
         top.log.warn(problem.hint("add a bearing, joint or bushing if that is not meant"));
     }
+    tilting(top, model);
+}
+
+/// Report every steady moment on a shaft whose one support lets it tilt, such as a ball joint.
+fn tilting(top: &Reader, model: &Model) {
+    let shaft = model.node_z.len();
+    let shaft_node = |a: &Anchor, b: &Anchor| match [a.node, b.node].map(|n| n.filter(|&n| n < shaft)) {
+        [Some(node), None] | [None, Some(node)] => Some(node),
+        _ => None,
+    };
+    // (node, holds sideways, holds against tilting, name)
+    let stiff = |k: &[[f64; 6]; 6], i: usize| k[i][i] != 0.0;
+    let joints = model.joints.iter().filter_map(|j| {
+        let holds = (j.locked[0] || j.locked[1], j.locked[3] && j.locked[4]);
+        Some((shaft_node(&j.a, &j.b)?, holds, format!("joint.{}", j.name)))
+    });
+    let bushings = model.bushings.iter().filter_map(|b| {
+        let k = &b.stiffness;
+        let holds = (stiff(k, 0) || stiff(k, 1), stiff(k, 3) && stiff(k, 4));
+        Some((shaft_node(&b.a, &b.b)?, holds, format!("bushing.{}", b.name)))
+    });
+    let bearings = model.bearings.iter().map(|site| {
+        let holds = match &site.bearing {
+            Bearing::Ball(_) => (true, true),
+            Bearing::Linear(linear) => {
+                let any = |i: usize| linear.table.iter().any(|row| stiff(&row.stiffness, i));
+                (any(0) || any(1), any(3) && any(4))
+            }
+        };
+        (site.node, holds, format!("bearing.{}", site.name))
+    });
+    let belts = model.belts.iter().map(|b| {
+        (b.node, (b.stiffness[0] != 0.0 || b.stiffness[1] != 0.0, false), format!("belt.{}", b.name))
+    });
+    let supports: Vec<_> = joints.chain(bushings).chain(bearings).chain(belts).collect();
+    let Some((node, _, name)) = supports.iter().find(|(_, (sideways, _), _)| *sideways) else { return };
+    if supports.iter().any(|(other, (sideways, tilt), _)| *tilt || *sideways && other != node) {
+        return;
+    }
+    let tilts = |force: &[f64; 6]| force[3] != 0.0 || force[4] != 0.0;
+    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, "load", &l.name)?))) {
+        let on_shaft = load.at.node.is_some_and(|node| node < shaft);
+        if on_shaft && load.history.is_empty() && tilts(&load.force) {
+            let message =
+                format!("load.{} tilts the shaft, which {name} alone lets tilt like a ball joint", load.name);
+            let problem = Problem::new(Kind::Disconnected, &r.span_of("moment"), message);
+            top.log.error(problem.expected("a second support, or one that resists tilting").hint(
+                "a joint of kind = \"revolute\" holds against tilting; so do two supports apart, a ball bearing, or k_tilt",
+            ));
+        }
+    }
+}
+
+fn item<'a>(top: &Reader<'a>, collection: &str, name: &str) -> Option<Reader<'a>> {
+    top.items(collection).into_iter().find(|(n, _)| *n == name).map(|(_, r)| r)
 }
 
 fn named(top: &Reader, collection: &str, name: &str) -> Option<std::ops::Range<usize>> {
-    top.items(collection).into_iter().find(|(n, _)| *n == name).map(|(_, r)| r.span)
+    item(top, collection, name).map(|r| r.span)
 }

@@ -7,6 +7,7 @@ use std::ops::Range;
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
 pub(crate) const COLLECTIONS: &[&str] = &[
     "material",
+    "lubricant",
     "disc",
     "body",
     "housing",

@@ -245,6 +245,8 @@ impl<'a> Reader<'a> {
                 problem(Kind::BadQuantity, format!("{name}: unknown unit `{unit}`"))
                     .suggest(unit, units::unit_names())
             }
+            UnitError::ScaleOfTemperature(_) => problem(Kind::WrongDimension, format!("{name}: {error}"))
+                .hint("write K, in which differences are the same"),
             UnitError::NotFinite(_) => problem(Kind::OutOfRange, format!("{name} is not a finite number")),
             _ => problem(Kind::BadQuantity, format!("{name}: {error}")),
         }

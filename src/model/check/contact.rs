@@ -1,0 +1,210 @@
+//! Lubricants, and how a bearing's contacts carry load and dissipate.
+
+use crate::contact::{ContactDamping, ContactLaw, Lubricant, PowerLaw};
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative, positive};
+use crate::model::file::tree::Value;
+use crate::units::{
+    self, DAMPING, DENSITY, FORCE, INVERSE_SPEED, LENGTH, NUMBER, PRESSURE_VISCOSITY, VISCOSITY,
+};
+
+/// Density of a mineral oil where the file gives none \[kg/m³\].
+const OIL_DENSITY: f64 = 870.0;
+/// Roelands' viscosity η_p \[Pa s\], to which all oils tend; an oil is more viscous.
+const ROELANDS_VISCOSITY: f64 = 6.315e-5;
+
+/// `[lubricant.x]`: oils at their operating temperature.
+pub(super) fn lubricants(top: &Reader) -> Vec<Lubricant> {
+    let read = |(name, r): (&str, Reader)| {
+        let oil = Lubricant {
+            name: name.into(),
+            viscosity: r.need("viscosity", positive(VISCOSITY)),
+            pressure_viscosity: r.need("pressure_viscosity", positive(PRESSURE_VISCOSITY)),
+            density: r.or("density", positive(DENSITY), OIL_DENSITY),
+        };
+        if oil.viscosity <= ROELANDS_VISCOSITY && r.sound() {
+            let message = format!("{} is too thin for an oil", r.name("viscosity"));
+            let problem = Problem::new(Kind::OutOfRange, &r.span_of("viscosity"), message);
+            r.log.error(problem.expected(format!("above {ROELANDS_VISCOSITY:e} Pa s (Roelands' limit)")));
+        }
+        r.finish();
+        oil
+    };
+    top.items("lubricant").into_iter().map(read).collect()
+}
+
+/// The oil that the key `lubricant` names; without the key, the only oil of the file.
+fn lubricant(r: &Reader, lubricants: &[Lubricant]) -> Option<Lubricant> {
+    match r.text("lubricant") {
+        Some(name) => {
+            let found = lubricants.iter().find(|oil| oil.name == name);
+            if found.is_none() {
+                let message = format!("unknown lubricant `{name}`");
+                let problem = Problem::new(Kind::UnknownName, &r.span_of("lubricant"), message);
+                let problem = problem.suggest(name, lubricants.iter().map(|oil| oil.name.as_str()));
+                r.log.error(match lubricants {
+                    [] => problem.hint(format!(
+                        "add [lubricant.{name}] with viscosity and pressure_viscosity, or grade and temperature"
+                    )),
+                    _ => problem,
+                });
+            }
+            found.cloned()
+        }
+        None if r.has("lubricant") => None,
+        None => match lubricants {
+            [only] => Some(only.clone()),
+            _ => {
+                let message = format!("{} has a film but no lubricant", r.path);
+                let problem = Problem::new(Kind::MissingKey, &r.span_of("contact"), message);
+                r.log.error(match lubricants {
+                    [] => problem
+                        .expected("an oil for the film")
+                        .hint("add lubricant = \"oil\" and [lubricant.oil] with grade = \"ISO VG 68\" and temperature = \"40 degC\""),
+                    [first, ..] => problem
+                        .expected("which of the lubricants")
+                        .hint(format!("add lubricant = \"{}\"", first.name)),
+                });
+                None
+            }
+        },
+    }
+}
+
+/// Words of the key `contact`.
+#[derive(Clone, Copy, PartialEq)]
+enum Law {
+    Hertz,
+    Film,
+    Fitted,
+}
+
+/// The contact law; [`ContactLaw::Hertz`] stands in after an error.
+pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
+    let words = [("hertz", Law::Hertz), ("film", Law::Film), ("power_law", Law::Fitted)];
+    let word = r.choice("contact", &words);
+    let law = word.unwrap_or(Law::Hertz);
+    if r.has("contact") && word.is_none() {
+        ["lubricant", "speed_factor", "power_law"].iter().for_each(|key| _ = r.entry(key));
+        return ContactLaw::Hertz;
+    }
+    let without = |key: &str, needed: &str| {
+        if r.has(key) {
+            let message = format!("{} says nothing without contact = \"{needed}\"", r.name(key));
+            r.error(Kind::Conflict, key, message);
+        }
+    };
+    if law != Law::Fitted {
+        without("power_law", "power_law");
+    }
+    if law != Law::Film {
+        without("speed_factor", "film");
+        without("lubricant", "film");
+    }
+    match law {
+        Law::Hertz => ContactLaw::Hertz,
+        Law::Film => {
+            let speed_factor = r.or("speed_factor", positive(NUMBER), 1.0);
+            lubricant(r, lubricants)
+                .map_or(ContactLaw::Hertz, |lubricant| ContactLaw::Film { lubricant, speed_factor })
+        }
+        Law::Fitted => power_law(r),
+    }
+}
+
+/// `power_law = { stiffness = "8.562e9 N/m^1.475", exponent = 1.475, offset = "30 N", range = "600, 2000 N" }`.
+fn power_law(r: &Reader) -> ContactLaw {
+    let Some(law) = r.table("power_law") else {
+        if !r.has("power_law") {
+            r.missing(
+                "power_law",
+                "{ stiffness = \"1e10 N/m^1.5\", exponent = 1.5, offset = \"0 N\", range = \"600, 2000 N\" }",
+            );
+        }
+        return ContactLaw::Hertz;
+    };
+    let exponent = law.need("exponent", positive(NUMBER));
+    if !(1.0..=3.0).contains(&exponent) && law.sound() {
+        let message = format!("{} is {exponent}", law.name("exponent"));
+        let problem = Problem::new(Kind::OutOfRange, &law.span_of("exponent"), message);
+        law.log.error(problem.expected("from 1 to 3; a dry point contact has 1.5"));
+    }
+    let stiffness = power_stiffness(&law, exponent);
+    let offset = law.or("offset", any(FORCE), 0.0);
+    let range = law.need_list("range", positive(FORCE));
+    let range = match range[..] {
+        [from, to] if from < to => [from, to],
+        _ => {
+            if law.sound() {
+                let message = format!("{} is not a range of loads", law.name("range"));
+                let problem = Problem::new(Kind::OutOfRange, &law.span_of("range"), message);
+                law.log
+                    .error(problem.expected("the least and the greatest load of the fit, \"600, 2000 N\""));
+            }
+            [0.0, 1.0]
+        }
+    };
+    if offset >= range[0] && law.sound() {
+        let message = format!("{} leaves nothing to the deflection", law.name("offset"));
+        let problem = Problem::new(Kind::OutOfRange, &law.span_of("offset"), message);
+        law.log.error(problem.expected(format!("less than the least load of the fit, {} N", range[0])));
+    }
+    law.finish();
+    ContactLaw::PowerLaw(PowerLaw { stiffness, exponent, offset, range })
+}
+
+/// K in N/mⁿ, whose unit must show the exponent: "8.562e9 N/m^1.475".
+fn power_stiffness(r: &Reader, exponent: f64) -> f64 {
+    const KEY: &str = "stiffness";
+    let unit = format!("N/m^{exponent}");
+    let Some(entry) = r.entry(KEY) else {
+        r.missing(KEY, &format!("\"1e10 {unit}\""));
+        return 1.0;
+    };
+    let problem = |kind, message: String| {
+        Problem::new(kind, &entry.node.span, message).expected(format!("a stiffness such as \"1e10 {unit}\""))
+    };
+    let name = r.name(KEY);
+    let Value::Text(text) = &entry.node.value else {
+        r.log.error(problem(Kind::MissingUnit, format!("{name} has no unit")));
+        return 1.0;
+    };
+    let number = text.split_once(|c: char| c.is_whitespace()).map(|(number, rest)| (number, rest.trim()));
+    let value = number.and_then(|(number, rest)| {
+        let power = rest.strip_prefix("N/m^")?.parse::<f64>().ok()?;
+        Some((units::parse(number, NUMBER).ok()?, power))
+    });
+    match value {
+        Some((_, power)) if (power - exponent).abs() > 1e-12 => {
+            let message = format!("{name} has the unit of exponent {power}, not of {exponent}");
+            r.log.error(problem(Kind::WrongDimension, message));
+            1.0
+        }
+        Some((value, _)) if value > 0.0 => value,
+        Some(_) => {
+            r.log.error(problem(Kind::OutOfRange, format!("{name} is not greater than zero")));
+            1.0
+        }
+        None => {
+            r.log.error(problem(Kind::BadQuantity, format!("{name}: `{text}` is not a stiffness in {unit}")));
+            1.0
+        }
+    }
+}
+
+/// Constant damping unless another kind is asked for.
+pub(super) fn damping(r: &Reader) -> ContactDamping {
+    match r.one_of(&["contact_damping", "hunt_crossley"]) {
+        Some("hunt_crossley") => {
+            if r.has("damping_ramp") {
+                let message = format!("{} says nothing beside hunt_crossley", r.name("damping_ramp"));
+                r.error(Kind::Conflict, "damping_ramp", message);
+            }
+            ContactDamping::HuntCrossley { factor: r.need("hunt_crossley", not_negative(INVERSE_SPEED)) }
+        }
+        _ => ContactDamping::Constant {
+            coefficient: r.or("contact_damping", not_negative(DAMPING), 300.0),
+            ramp: r.or("damping_ramp", positive(LENGTH), 1e-6),
+        },
+    }
+}

@@ -1,0 +1,123 @@
+//! The rigid rotor: its free motions, its precession, and a rigid rotor on two springs in closed form.
+
+use rotordyn::analysis::{ModeKind, modal};
+use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
+use rotordyn::model::{self, Model};
+use rotordyn::study::Machine;
+
+/// Solid cylinder of 4.8 kg, 0.55 m long and 40 mm thick, with its centre 0.25 m along the axis.
+const ROTOR: &str = r#"
+[model]
+name = "rigid"
+[rotor]
+length = "0.55 m"
+outer_diameter = "40 mm"
+mass = "4.8 kg"
+centre = "0.25 m"
+[station]
+A = "0.05 m"
+B = "0.5 m"
+"#;
+
+fn load(text: &str) -> Model {
+    model::load("rigid.toml", format!("{ROTOR}{text}"), &Default::default()).unwrap().model
+}
+
+/// Solid cylinder: I_p = m R²/2, I_d = m (3 R² + L²)/12.
+const INERTIA: [f64; 3] = [4.8, 4.8 * 4e-4 / 2.0, 4.8 * (12e-4 + 0.3025) / 12.0];
+
+#[test]
+fn free_rotor_has_six_rigid_motions_and_its_inertia() {
+    let assembly = Assembly::new(&load("")).unwrap();
+    let [mass, polar, diametral] = INERTIA;
+    assert_eq!((assembly.dofs.len(), assembly.dofs.full_len()), (6, 18));
+    for (i, expected) in [mass, mass, mass, diametral, diametral, polar].into_iter().enumerate() {
+        for j in 0..6 {
+            let expected = if i == j { expected } else { 0.0 };
+            assert!((assembly.mass.to_dense()[(i, j)] - expected).abs() < 1e-15 * mass);
+        }
+    }
+    assert!((assembly.polar_inertia - polar).abs() < 1e-18);
+    let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
+    assert_eq!(free_motion::free_motions_of(&assembly, &system).unwrap().len(), 6);
+    // The ends move as the centre and its tilts say: u_x = x + (z - z_c) θ_y, u_y = y - (z - z_c) θ_x.
+    let q = assembly.dofs.expand(&[1.0, 2.0, 3.0, 0.01, 0.02, 0.03]);
+    for (node, arm) in [(0, -0.2), (1, 0.0), (2, 0.25)] {
+        let expected = [1.0 + 0.02 * arm, 2.0 - 0.01 * arm, 3.0, 0.01, 0.02, 0.03];
+        for (i, value) in expected.into_iter().enumerate() {
+            assert!((q[6 * node + i] - value).abs() < 1e-15, "{node} {i}");
+        }
+    }
+}
+
+/// A free rotor's axis precesses at Ω I_p/I_d.
+#[test]
+fn free_precession() {
+    let assembly = Assembly::new(&load("")).unwrap();
+    let speed = 500.0;
+    let system = LinearSystem::new(&assembly, &[], speed).unwrap();
+    let modes = modal::modes(&assembly, &system, 6).unwrap();
+    let fastest = modes.iter().map(|m| m.eigenvalue.im.abs()).fold(0.0, f64::max);
+    let expected = speed * INERTIA[1] / INERTIA[2];
+    assert!((fastest / expected - 1.0).abs() < 1e-9, "{fastest} {expected}");
+}
+
+/// With r = u_x + j u_y and β = θ_y − j θ_x, a whirl e^{jωt} (ω < 0 backward) satisfies
+/// (Σ k − m ω²)(Σ k z² + I_p Ω ω − I_d ω²) = (Σ k z)², z from the centre of mass.
+#[test]
+fn rotor_on_two_springs() {
+    let springs = r#"
+[bearing.A]
+model = "linear"
+station = "A"
+k_xx = "2e7 N/m"
+k_yy = "2e7 N/m"
+k_zz = "1e8 N/m"
+[bearing.B]
+model = "linear"
+station = "B"
+k_xx = "5e6 N/m"
+k_yy = "5e6 N/m"
+[drive]
+kind = "prescribed"
+station = "A"
+"#;
+    let machine = Machine::new(load(springs)).unwrap();
+    let [mass, polar, diametral] = INERTIA;
+    let moment = |power: i32| 2e7 * (-0.2_f64).powi(power) + 5e6 * 0.25_f64.powi(power);
+    for speed in [0.1, 300.0, 3000.0, 30000.0] {
+        let value = |w: f64| {
+            let tilt = moment(2) + polar * speed * w - diametral * w * w;
+            (moment(0) - mass * w * w) * tilt - moment(1).powi(2)
+        };
+        let modes = modal::modes(&machine.assembly, &machine.linear_system(speed).unwrap(), 5).unwrap();
+        let mut found = 0;
+        for mode in modes.iter().filter(|mode| mode.kind != ModeKind::Axial) {
+            let w = match mode.kind {
+                ModeKind::Forward => mode.eigenvalue.im,
+                ModeKind::Backward => -mode.eigenvalue.im,
+                // an axis that the two ends whirl round in opposite senses belongs to one circular whirl all the same
+                kind => panic!("{kind:?} at {speed} rad/s"),
+            };
+            let h = 1e-6 * w;
+            let newton = value(w) / ((value(w + h) - value(w - h)) / (2.0 * h));
+            assert!((newton / w).abs() < 1e-8, "{speed} rad/s: {w} rad/s is {newton} off");
+            assert!(mode.label.contains("rigid-body"), "{}", mode.label);
+            found += 1;
+        }
+        assert_eq!(found, 4, "{speed}");
+    }
+}
+
+#[test]
+fn by_its_inertia() {
+    let [mass, polar, diametral] = INERTIA;
+    let text = format!(
+        "[model]\nname = \"r\"\n[rotor]\ncentre = \"0 m\"\nmass = \"{mass} kg\"\npolar_inertia = \"{polar} kg m^2\"\n\
+         diametral_inertia = \"{diametral} kg m^2\"\n[station]\nC = \"0 m\"\n"
+    );
+    let model = model::load("r.toml", text, &Default::default()).unwrap().model;
+    let rotor = model.rigid_rotor.unwrap();
+    assert_eq!([rotor.mass, rotor.polar_inertia, rotor.diametral_inertia], INERTIA);
+    assert_eq!((model.node_z, rotor.node), (vec![0.0], 0));
+}
