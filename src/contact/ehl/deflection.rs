@@ -136,13 +136,13 @@ fn folded(influence: &[f64], ny: usize) -> Vec<f64> {
 fn smooth_length(n: usize) -> usize {
     let smooth = |mut n: usize| {
         for factor in [2, 3, 5] {
-            while n % factor == 0 {
+            while n.is_multiple_of(factor) {
                 n /= factor;
             }
         }
         n == 1
     };
-    (n.max(2)..).find(|&n| n % 2 == 0 && smooth(n)).unwrap_or(n)
+    (n.max(2)..).find(|&n| n.is_multiple_of(2) && smooth(n)).unwrap_or(n)
 }
 
 /// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y) of a rectangle: differences of it give the rectangle.

@@ -8,7 +8,6 @@
 //! | `guess` | film and pressure to start from |
 //! | `newton` | film, rupture and load balance on one grid |
 //! | `solution` | fields and figures in SI |
-//! | `table` | mutual approach over load and speed |
 //!
 //! x lies along rolling (fluid flows towards +x), y across, p = 0 on the edges of the domain.
 
@@ -202,7 +201,7 @@ impl Problem {
                 return Err(Failure::Input { quantity, range, value: value as f64 });
             }
         }
-        if self.grid.ny % 2 == 0 {
+        if self.grid.ny.is_multiple_of(2) {
             let value = self.grid.ny as f64;
             return Err(Failure::Input { quantity: "number of nodes across rolling", range: "odd", value });
         }

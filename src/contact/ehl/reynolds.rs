@@ -69,7 +69,7 @@ fn row(s: &Scaled, fluid: &[Fluid], p: &[f64], h: &[f64], node: usize) -> Row {
     let along = s.dx.powi(-2);
     let across = s.aspect * s.dy.powi(-2);
     // On the line of symmetry the southern neighbour is the northern one.
-    let [south, north] = if node % s.ny == 0 { [0.0, 2.0 * across] } else { [across; 2] };
+    let [south, north] = if node.is_multiple_of(s.ny) { [0.0, 2.0 * across] } else { [across; 2] };
     for (point, factor) in [(1, along), (2, along), (3, south), (4, north)] {
         if factor == 0.0 {
             continue;
