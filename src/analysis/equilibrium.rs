@@ -1,7 +1,7 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
 use crate::assembly::Assembly;
-use crate::bearing::{BallLoad, BearingElement, Reaction, Rotation, SiteTangent};
+use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets};
 use crate::model::Model;
@@ -46,6 +46,8 @@ pub struct BearingState {
     pub balls: Vec<BallLoad>,
     /// Largest ball load over all cage angles at this displacement \[N\]; 0 for a linear bearing.
     pub largest_ball_load: f64,
+    /// Preload of the centred bearing at the speed; zero for a linear bearing.
+    pub preload: PreloadState,
 }
 
 impl Equilibrium {
@@ -198,6 +200,7 @@ pub fn equilibrium(
                     tangent: SiteTangent::from(&reactions[k]),
                     balls: element.ball_loads(&displacement, rotation),
                     largest_ball_load: largest_ball_load(element, &displacement, rotation),
+                    preload: element.preload_state(speed),
                 }
             })
             .collect(),
@@ -209,7 +212,7 @@ pub fn equilibrium(
 
 /// Largest ball load over [`CAGE_ANGLES`] positions within one ball pitch.
 fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
-    let balls = element.ball_loads(d, rotation).len();
+    let balls = element.balls();
     (0..if balls > 0 { CAGE_ANGLES } else { 0 })
         .flat_map(|k| {
             let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES * balls) as f64;

@@ -3,16 +3,18 @@
 //! Force law of Cakmak & Sanliturk 2010 §2.1 and §3.1 with massless balls: the groove centres of ball j are
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line that joins them.
 
+use super::duplex::{motion_at, seen_from_station};
 use super::row::Row;
-use super::{BallBearing, Cage, Reaction, Rotation};
-use crate::contact::HertzPair;
+use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
+use crate::contact::{ContactPatch, HertzPair};
 
-/// A ball bearing made ready for evaluation.
+/// A ball bearing made ready for evaluation: one row, or the two of a matched pair.
 #[derive(Clone, Debug)]
 pub struct BallElement {
     /// Dry contacts at the nominal contact angle.
     pub contacts: HertzPair,
-    row: Row,
+    /// Rows with their axial places from the bearing's station \[m\].
+    rows: Vec<(f64, Row)>,
     cage: Cage,
     ball_to_pitch: f64,
     nominal_cos: f64,
@@ -21,33 +23,56 @@ pub struct BallElement {
 /// What one ball carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallLoad {
+    /// Row of a matched pair: 0 towards −z, 1 towards +z; 0 in a single row.
+    pub row: usize,
     /// Angular position ψ_j \[rad\] from +x towards +y.
     pub position: f64,
-    /// Normal load Q \[N\].
+    /// Normal load of the inner contact Q_i \[N\].
     pub load: f64,
-    /// Contact angle α \[rad\].
+    /// Contact angle at the inner race α_i \[rad\].
     pub contact_angle: f64,
-    /// Approach δ of the races \[m\]; negative is the gap that is left.
+    /// Approach of the races δ_i + δ_o \[m\]; negative is the gap that is left.
     pub deflection: f64,
+    /// Normal load Q_o \[N\] and contact angle α_o \[rad\] at the outer race; those of the inner one when the ball
+    /// counts as massless.
+    pub outer_load: f64,
+    pub outer_contact_angle: f64,
+    /// Central film thickness at the inner and outer race \[m\]; 0 where dry or unloaded.
+    pub film: [f64; 2],
+}
+
+impl BallLoad {
+    /// Ellipse and maximum pressure at the inner and outer race.
+    pub fn patches(&self, contacts: &HertzPair) -> [ContactPatch; 2] {
+        [contacts.inner.patch(self.load), contacts.outer.patch(self.outer_load)]
+    }
 }
 
 impl BallElement {
     /// Prepares a bearing for evaluation.
     pub fn new(bearing: &BallBearing) -> Self {
         let g = &bearing.geometry;
-        let row = Row::new(bearing, g.thrust_direction);
-        Self {
-            contacts: row.contacts.hertz,
-            row,
+        let mut out = Self {
+            contacts: bearing.hertz(),
+            rows: Vec::new(),
             cage: bearing.cage,
             ball_to_pitch: g.ball_diameter / g.pitch_diameter,
             nominal_cos: g.contact_angle.cos(),
-        }
+        };
+        let ratio = out.cage_ratio(out.nominal_cos);
+        out.rows = match &bearing.duplex {
+            None => vec![(0.0, Row::new(bearing, g.thrust_direction, ratio))],
+            Some(pair) => pair
+                .rows(g.thrust_direction)
+                .map(|(place, direction)| (place, Row::new(bearing, direction, ratio)))
+                .into(),
+        };
+        out
     }
 
-    /// Number of balls Z.
+    /// Number of balls Z of a row.
     pub fn balls(&self) -> usize {
-        self.row.balls()
+        self.rows.first().map_or(0, |(_, row)| row.balls())
     }
 
     /// Cage speed over shaft speed at a mean contact angle: ½ (1 − D_w cos α / D_pw), or the given ratio.
@@ -65,11 +90,19 @@ impl BallElement {
         self.nominal_cos
     }
 
+    /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset, and the axial force that results.
+    pub fn preload_state(&self, speed: f64) -> PreloadState {
+        let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
+        self.rows.first().map_or_else(PreloadState::default, |(_, row)| row.preload_state(&rotation))
+    }
+
     /// Force on the shaft and both tangents at a displacement of the inner ring relative to the outer one.
     ///
-    /// δ_j = |s_j| − A + w_i + w_o with s_j = (A cos α₀ − P_d/2 + x cos ψ_j + y sin ψ_j,
-    /// A sin α₀ + z + R_i (θ_x sin ψ_j − θ_y cos ψ_j)), Q_j = max(0, Q(δ) + damping); f = −Σ Q_j ∂δ_j/∂d.
-    /// δ̇ is the full rate of approach: motion of the rings, of the cage and of the waves.
+    /// Ball j's inner groove centre is at s_j = (A cos α₀ − P_d/2 + x cos ψ_j + y sin ψ_j,
+    /// A sin α₀ + δ₀ + z + R_i (θ_x sin ψ_j − θ_y cos ψ_j)) from the outer one, δ₀ the preload. A massless ball
+    /// carries Q_j = max(0, Q(δ) + damping), δ_j = |s_j| − A + w_i + w_o; f = −Σ Q_j ∂δ_j/∂d. A ball with inertia
+    /// settles between the races first. δ̇ is the full rate of approach: motion of the rings, of the cage and of the
+    /// waves.
     ///
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all balls unloaded gives zero force and zero tangents; the force never pulls.
@@ -78,17 +111,31 @@ impl BallElement {
     }
 
     fn react(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, turning: f64, waves: bool) -> Reaction {
-        let operating = self.row.operating(rotation, turning, waves);
-        let sum = self.row.sum(d, v, rotation, &operating);
-        let mut out = self.row.reaction(&sum, &operating);
-        out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.nominal_cos };
+        let (mut load, mut load_cos) = (0.0, 0.0);
+        let mut row_reaction = |place: f64, row: &Row| {
+            let (d, v) = (motion_at(place, d), motion_at(place, v));
+            let out = row.react(&d, &v, rotation, turning, waves);
+            load += out.load;
+            load_cos += out.load_cos;
+            seen_from_station(place, &out.reaction)
+        };
+        let mut out = Reaction::default();
+        match self.rows.as_slice() {
+            [(place, row)] => out = row_reaction(*place, row),
+            rows => {
+                for (place, row) in rows {
+                    out.add(&row_reaction(*place, row), 1.0);
+                }
+            }
+        }
+        out.mean_cos = if load > 0.0 { load_cos / load } else { self.nominal_cos };
         out
     }
 
     /// Elastic force and stiffness averaged over one ball pitch of cage angles at fixed ring displacement.
     ///
-    /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average is a potential force, so its tangent is symmetric.
-    /// Waviness is left out: it averages to zero over a turn.
+    /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average of massless balls is a potential force, so its tangent is
+    /// symmetric. Waviness is left out: it averages to zero over a turn.
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         let pitch = std::f64::consts::TAU / self.balls() as f64;
         let mut out = Reaction::default();
@@ -100,9 +147,12 @@ impl BallElement {
         out
     }
 
-    /// Load, contact angle and approach of every ball under elastic forces alone.
+    /// Loads, contact angles, approach and film of every ball of every row under elastic forces alone.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
-        let operating = self.row.operating(rotation, 0.0, true);
-        self.row.ball_loads(d, rotation, &operating)
+        let mut out = Vec::with_capacity(self.balls() * self.rows.len());
+        for (k, (place, row)) in self.rows.iter().enumerate() {
+            row.ball_loads(&motion_at(*place, d), rotation, k, &mut out);
+        }
+        out
     }
 }

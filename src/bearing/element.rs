@@ -1,6 +1,6 @@
 //! One interface for every bearing model.
 
-use super::{BallElement, BallLoad, Bearing, LinearElement, Reaction, Rotation};
+use super::{BallElement, BallLoad, Bearing, LinearElement, PreloadState, Reaction, Rotation};
 
 /// A bearing made ready for evaluation.
 #[derive(Clone, Debug)]
@@ -35,11 +35,27 @@ impl BearingElement {
         }
     }
 
-    /// Load, contact angle and approach of every ball; empty for a bearing without balls.
+    /// Loads, contact angles, approach and film of every ball; empty for a bearing without balls.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
         match self {
             Self::Linear(_) => Vec::new(),
             Self::Ball(ball) => ball.ball_loads(d, rotation),
+        }
+    }
+
+    /// Axial preload of the centred bearing at a speed Ω \[rad/s\]; zero for a bearing without balls.
+    pub fn preload_state(&self, speed: f64) -> PreloadState {
+        match self {
+            Self::Linear(_) => PreloadState::default(),
+            Self::Ball(ball) => ball.preload_state(speed),
+        }
+    }
+
+    /// Number of balls of a row; 0 for a bearing without balls.
+    pub fn balls(&self) -> usize {
+        match self {
+            Self::Linear(_) => 0,
+            Self::Ball(ball) => ball.balls(),
         }
     }
 

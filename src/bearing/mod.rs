@@ -2,12 +2,16 @@
 
 pub mod ball;
 pub mod ball_bearing;
+mod duplex;
 pub mod element;
 pub mod fit;
 pub mod geometry;
+mod jones;
 pub mod linear;
 mod massless;
+mod preload;
 mod ring_sum;
+mod root;
 mod row;
 mod waviness;
 
@@ -17,6 +21,7 @@ pub use element::BearingElement;
 pub use fit::Fit;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use linear::{LinearElement, SiteTangent};
+pub use preload::PreloadState;
 
 /// Where a bearing's moving parts are at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

@@ -30,7 +30,6 @@ pub(super) struct PlaneForce {
 
 /// Moment of race friction about the inner groove centre, resisting a tilt of the ring in the ball's plane.
 #[derive(Clone, Copy, Debug, Default)]
-#[allow(dead_code)]
 pub(super) struct PlaneMoment {
     /// m \[N m\], conjugate to θ_x sin ψ − θ_y cos ψ.
     pub moment: f64,
@@ -94,13 +93,17 @@ impl RingSum {
     }
 
     /// Adds a ball's friction moment.
-    #[allow(dead_code)] // until balls have inertia
     pub fn add_moment(&mut self, cos: f64, sin: f64, ball: &PlaneMoment) {
         let basis = [1.0, cos, sin, cos * cos, cos * sin, sin * sin];
         add(&mut self.moment, ball.moment, &basis);
         for (sum, value) in self.moment_by_motion.iter_mut().zip(ball.by_motion) {
             add(sum, value, &basis);
         }
+    }
+
+    /// Axial force Σ p_z and stiffness Σ ∂p_z/∂s_z.
+    pub fn axial(&self) -> (f64, f64) {
+        (self.force[1][ONE], self.by_motion[3][ONE])
     }
 
     /// Force and tangents with moment arm R \[m\] while the cage turns at `turning` \[rad/s\].

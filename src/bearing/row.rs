@@ -1,10 +1,12 @@
 //! One row of balls between two rings: where every ball stands, and the sum of what they do.
 
-use super::massless;
-use super::ring_sum::{PlaneForce, RingSum};
+use super::jones::{Balls, Fling, Laws, Settled};
+use super::preload::Seat;
+use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
 use super::waviness::Waviness;
 use super::{BallBearing, BallLoad, Rotation};
-use crate::contact::{BallContacts, ContactDamping, SpeedContacts};
+use super::{massless, root};
+use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
 /// A row of balls made ready for evaluation: constants and per-ball data laid out as arrays.
 #[derive(Clone, Debug)]
@@ -17,6 +19,13 @@ pub(super) struct Row {
     /// Groove-centre offset of the centred bearing: radial A cos α₀ − P_d/2, axial A sin α₀ \[m\].
     offset: [f64; 2],
     damping: ContactDamping,
+    /// The balls' inertia; `None` when they count as massless.
+    inertia: Option<Balls>,
+    /// Cage speed over shaft speed at the nominal contact angle, for statics.
+    cage_ratio: f64,
+    /// ±1: the way in which preload brings the inner ring.
+    pub direction: f64,
+    pub seat: Seat,
     /// Entrainment speed over shaft speed D_pw/4 (1 − γ²) \[m\].
     entrainment: f64,
     /// cos and sin of 2πj/Z.
@@ -31,7 +40,11 @@ pub(super) struct Operating<'a> {
     pub contacts: SpeedContacts<'a>,
     /// Groove-centre offset with clearance change and preload \[m\].
     pub offset: [f64; 2],
-    /// Cage speed that counts as motion of the contacts \[rad/s\]; 0 in statics.
+    /// Rigid preload in it, in the direction of thrust \[m\].
+    pub preload: f64,
+    /// Inertia of the balls; `None` at rest and for massless balls.
+    fling: Option<Fling>,
+    /// Cage speed that counts as motion of the contacts \[rad/s\]; 0 in statics, where waves stand still too.
     pub turning: f64,
     /// Whether races are wavy.
     pub waves: bool,
@@ -50,7 +63,8 @@ pub(super) struct PlaneMotion {
 }
 
 impl Row {
-    pub fn new(bearing: &BallBearing, thrust_direction: f64) -> Self {
+    /// A row that carries thrust in a direction, with the cage's ratio at the nominal contact angle.
+    pub fn new(bearing: &BallBearing, thrust_direction: f64, cage_ratio: f64) -> Self {
         let g = &bearing.geometry;
         let a = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let gamma = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
@@ -60,7 +74,7 @@ impl Row {
                 [angle.cos(), angle.sin()]
             })
             .collect();
-        Self {
+        let mut row = Self {
             contacts: BallContacts::new(bearing.hertz(), bearing.contact.clone()),
             centre_distance: a,
             arm: g.inner_centre_radius(),
@@ -69,25 +83,99 @@ impl Row {
                 a * g.contact_angle.sin() * thrust_direction,
             ],
             damping: bearing.damping,
+            inertia: Balls::new(g, &bearing.ball_material, bearing.inertia),
+            cage_ratio,
+            direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
+            seat: Seat::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
             spacing,
             inner_waves: Waviness::new(&bearing.inner_waviness),
             outer_waves: Waviness::new(&bearing.outer_waviness),
-        }
+        };
+        let pair = bearing.hertz();
+        row.seat = Seat::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
+        row
+    }
+
+    /// Axial force and stiffness of the dry centred row with massless balls, in the direction of thrust.
+    fn dry_axial(&self, pair: &HertzPair, offset: f64) -> [f64; 2] {
+        let motion = PlaneMotion {
+            s: [self.offset[0], self.offset[1] + self.direction * offset],
+            ..Default::default()
+        };
+        let contacts = SpeedContacts::Hertz(pair);
+        let ball = massless::react(
+            |approach| pair.series(approach),
+            &contacts,
+            &self.damping,
+            self.centre_distance,
+            &motion,
+        );
+        let (ball, z) = (ball.unwrap_or_default(), self.balls() as f64);
+        [z * self.direction * ball.force[1], z * ball.by_motion[3]]
     }
 
     pub fn balls(&self) -> usize {
         self.spacing.len()
     }
 
-    /// What holds for all balls: `turning` is the cage speed that counts as motion.
+    /// What holds for all balls: `turning` is the cage speed that counts as motion of the contacts.
+    ///
+    /// The balls' inertia takes the cage's speed, or where none is given (statics) the shaft's times the ratio at the
+    /// nominal contact angle.
     pub fn operating(&self, rotation: &Rotation, turning: f64, waves: bool) -> Operating<'_> {
         let speed = self.entrainment * rotation.shaft_speed.abs();
-        Operating { contacts: self.contacts.at_speed(speed), offset: self.offset, turning, waves }
+        let contacts = self.contacts.at_speed(speed);
+        let orbit = if rotation.cage_speed != 0.0 {
+            rotation.cage_speed
+        } else {
+            self.cage_ratio * rotation.shaft_speed
+        };
+        let fling = self.inertia.and_then(|balls| {
+            let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
+            balls.fling(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
+        });
+        let offset = self.offset;
+        let mut out = Operating { contacts, offset, preload: 0.0, fling, turning, waves };
+        out.preload = match self.seat {
+            Seat::Fixed(offset) => offset,
+            Seat::Spring { .. } => 0.0,
+            Seat::Force { force, dry } => root::rising(
+                |offset| {
+                    let s = [out.offset[0], out.offset[1] + self.direction * offset];
+                    let (n, slope) = self.centred_axial(s, &out);
+                    [self.direction * n - force, slope]
+                },
+                dry,
+            ),
+        };
+        out.offset[1] += self.direction * out.preload;
+        out
+    }
+
+    /// Axial force and stiffness of a centred row: all balls alike.
+    fn centred_axial(&self, s: [f64; 2], operating: &Operating) -> (f64, f64) {
+        let motion = PlaneMotion { s, ..PlaneMotion::default() };
+        let ball = match &operating.fling {
+            None => massless::react(
+                |approach| operating.contacts.series(approach),
+                &operating.contacts,
+                &self.damping,
+                self.centre_distance,
+                &motion,
+            )
+            .unwrap_or_default(),
+            Some(fling) => self.flung(fling, operating, &motion).0,
+        };
+        let z = self.balls() as f64;
+        (z * ball.force[1], z * ball.by_motion[3])
     }
 
     /// Sum over all balls at displacement d and velocity v of the inner ring relative to the outer one.
     pub fn sum(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, operating: &Operating) -> RingSum {
+        if let Some(fling) = &operating.fling {
+            return self.sum_flung(d, v, rotation, operating, fling);
+        }
         let a = self.centre_distance;
         // One loop per law, so that the law is known inside it.
         match operating.contacts {
@@ -120,6 +208,59 @@ impl Row {
         sum
     }
 
+    /// The same with the balls' inertia.
+    fn sum_flung(
+        &self,
+        d: &[f64; 6],
+        v: &[f64; 6],
+        rotation: &Rotation,
+        operating: &Operating,
+        fling: &Fling,
+    ) -> RingSum {
+        let mut sum = RingSum::default();
+        self.each(d, v, rotation, operating, |[cos, sin], motion, turn| {
+            let (mut ball, moment) = self.flung(fling, operating, &motion);
+            ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
+            ball.power -= moment.moment * (v[3] * sin - v[4] * cos);
+            sum.add(cos, sin, &ball);
+            if fling.on_inner() {
+                sum.add_moment(cos, sin, &moment);
+            }
+        });
+        sum
+    }
+
+    /// A ball with inertia, settled and evaluated.
+    fn flung(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> (PlaneForce, PlaneMoment) {
+        let settled = self.settle(fling, operating, motion);
+        let stiffness = self.contacts.hertz.stiffness;
+        fling.react(&settled, &operating.contacts, &self.damping, stiffness, motion)
+    }
+
+    fn settle(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> Settled {
+        let hertz = &self.contacts.hertz;
+        match operating.contacts {
+            SpeedContacts::Hertz(pair) => fling.settle(
+                &Laws {
+                    series: |x| pair.series(x),
+                    single: |race, x| pair.single(race, x),
+                    guess: |race, load| dry_approach(hertz, race, load),
+                    stiffness: hertz.stiffness,
+                },
+                motion,
+            ),
+            law => fling.settle(
+                &Laws {
+                    series: |x| law.series(x),
+                    single: |race, x| law.single(race, x),
+                    guess: |race, load| dry_approach(hertz, race, load) - law.film(race, load),
+                    stiffness: hertz.stiffness,
+                },
+                motion,
+            ),
+        }
+    }
+
     /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate from the cage's turning.
     #[inline(always)]
     fn each(
@@ -134,6 +275,7 @@ impl Row {
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
         let inner = (operating.waves && !self.inner_waves.is_empty()).then(|| rotation.shaft_angle.sin_cos());
         let outer = operating.waves && !self.outer_waves.is_empty();
+        let waves_pass = if turned == 0.0 { [0.0; 2] } else { [turned - rotation.shaft_speed, turned] };
         for [cj, sj] in &self.spacing {
             let cos = cage_cos * cj - cage_sin * sj;
             let sin = cage_sin * cj + cage_cos * sj;
@@ -149,12 +291,12 @@ impl Row {
             if let Some((st, ct)) = inner {
                 let [w, slope] = self.inner_waves.at(cos * ct + sin * st, sin * ct - cos * st);
                 motion.waves[0] = w;
-                motion.wave_rates[0] = slope * (rotation.cage_speed - rotation.shaft_speed);
+                motion.wave_rates[0] = slope * waves_pass[0];
             }
             if outer {
                 let [w, slope] = self.outer_waves.at(cos, sin);
                 motion.waves[1] = w;
-                motion.wave_rates[1] = slope * rotation.cage_speed;
+                motion.wave_rates[1] = slope * waves_pass[1];
             }
             visit([cos, sin], motion, turn);
         }
@@ -165,19 +307,46 @@ impl Row {
         sum.reaction(self.arm, operating.turning)
     }
 
-    /// Every ball under elastic forces alone.
-    pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, operating: &Operating) -> Vec<BallLoad> {
-        let mut out = Vec::with_capacity(self.balls());
-        self.each(d, &[0.0; 6], rotation, operating, |[cos, sin], motion, _| {
-            let distance = motion.s[0].hypot(motion.s[1]);
-            let deflection = distance - self.centre_distance + motion.waves[0] + motion.waves[1];
+    /// Every ball under elastic forces alone; `row` says which of a matched pair this is.
+    pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
+        let operating = self.operating(rotation, 0.0, true);
+        let d = self.with_spring(d, rotation, true);
+        self.each(&d, &[0.0; 6], rotation, &operating, |[cos, sin], motion, _| {
+            let settled = operating.fling.map(|fling| self.settle(&fling, &operating, &motion));
+            let angle = |n: [f64; 2]| n[1].atan2(n[0]);
+            let (loads, angles, deflection) = match settled {
+                Some(ball) => {
+                    let (inner, outer) = (ball.inner, ball.outer);
+                    let loads = [inner.loaded.load, outer.loaded.load];
+                    (loads, [angle(inner.n), angle(outer.n)], inner.approach + outer.approach)
+                }
+                None => {
+                    let distance = motion.s[0].hypot(motion.s[1]);
+                    let deflection = distance - self.centre_distance + motion.waves[0] + motion.waves[1];
+                    let load = operating.contacts.series(deflection).load;
+                    ([load; 2], [angle(motion.s); 2], deflection)
+                }
+            };
             out.push(BallLoad {
+                row,
                 position: sin.atan2(cos),
-                load: operating.contacts.series(deflection).load,
-                contact_angle: motion.s[1].atan2(motion.s[0]),
+                load: loads[0],
+                contact_angle: angles[0],
                 deflection,
+                outer_load: loads[1],
+                outer_contact_angle: angles[1],
+                film: [(Race::Inner, loads[0]), (Race::Outer, loads[1])]
+                    .map(|(race, load)| if load > 0.0 { operating.contacts.film(race, load) } else { 0.0 }),
             });
         });
-        out
     }
+}
+
+/// Approach of a dry contact under a load Q ≥ 0: (Q/K)^{2/3}.
+fn dry_approach(pair: &HertzPair, race: Race, load: f64) -> f64 {
+    let stiffness = match race {
+        Race::Inner => pair.inner.stiffness,
+        Race::Outer => pair.outer.stiffness,
+    };
+    (load / stiffness).cbrt().powi(2)
 }

@@ -1,7 +1,6 @@
 //! Contact of ball and race: Hertz with exact elliptic integrals, the lubricant's film, damping, traction.
 
 pub mod damping;
-pub mod ehl;
 pub mod elliptic;
 pub mod film;
 pub mod hertz;
@@ -12,7 +11,7 @@ pub mod traction;
 
 pub use damping::{ContactDamping, Damped};
 pub use film::{FilmFormula, FilmSpring, lambda_ratio};
-pub use hertz::{EllipticContact, HertzPair};
+pub use hertz::{ContactPatch, EllipticContact, HertzPair};
 pub use law::{ContactLaw, PowerLaw};
 pub use lubricant::Lubricant;
 pub use pair::{BallContacts, Loaded, Race, SpeedContacts};

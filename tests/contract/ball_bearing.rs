@@ -4,13 +4,13 @@ use crate::bearing::rig_6205;
 use rotordyn::bearing::{BallElement, Rotation, Wave};
 
 /// Small deterministic generator; the seed is the test's own.
-struct Random(u64);
+pub struct Random(pub u64);
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         ((self.0 >> 11) as f64 / (1u64 << 53) as f64) * 2.0 - 1.0
     }
-    fn scaled(&mut self, scale: [f64; 6]) -> [f64; 6] {
+    pub fn scaled(&mut self, scale: [f64; 6]) -> [f64; 6] {
         scale.map(|s| s * self.next())
     }
 }

@@ -4,5 +4,6 @@
 mod bearing;
 
 mod ball_bearing;
+mod ball_combinations;
 mod contact_laws;
 mod linear_bearing;

@@ -1,7 +1,5 @@
 //! Fitted orders of convergence.
 
-#[path = "../common/ehl.rs"]
-mod lubricated;
 #[path = "../common/machine.rs"]
 #[allow(dead_code)]
 mod machine;
@@ -11,6 +9,5 @@ mod rig;
 #[allow(dead_code)]
 mod ross;
 
-mod ehl;
 mod integrators;
 mod shaft_element;

@@ -1,0 +1,43 @@
+//! Two rows side by side on one shaft and in one housing.
+
+use super::{Arrangement, Duplex, Reaction};
+
+impl Duplex {
+    /// Axial place of each row from the bearing's station \[m\] and the way in which it carries thrust.
+    ///
+    /// A row of direction +1 has its load lines meet the axis on its −z side: back-to-back puts +1 at −z.
+    pub(super) fn rows(&self, thrust_direction: f64) -> [(f64, f64); 2] {
+        let half = 0.5 * self.spacing;
+        match self.arrangement {
+            Arrangement::BackToBack => [(-half, 1.0), (half, -1.0)],
+            Arrangement::FaceToFace => [(-half, -1.0), (half, 1.0)],
+            Arrangement::Tandem => [(-half, thrust_direction), (half, thrust_direction)],
+        }
+    }
+}
+
+/// Motion of the ring at an axial place h from the station: u_x + h θ_y, u_y − h θ_x.
+pub(super) fn motion_at(place: f64, d: &[f64; 6]) -> [f64; 6] {
+    let mut out = *d;
+    out[0] += place * d[4];
+    out[1] -= place * d[3];
+    out
+}
+
+/// The reaction of a row at h as seen at the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`motion_at`].
+pub(super) fn seen_from_station(place: f64, row: &Reaction) -> Reaction {
+    let mut out = *row;
+    out.force[4] += place * row.force[0];
+    out.force[3] -= place * row.force[1];
+    for matrix in [&mut out.stiffness, &mut out.damping] {
+        for row in matrix.iter_mut() {
+            row[4] += place * row[0];
+            row[3] -= place * row[1];
+        }
+        for column in 0..6 {
+            matrix[4][column] += place * matrix[0][column];
+            matrix[3][column] -= place * matrix[1][column];
+        }
+    }
+    out
+}

@@ -1,0 +1,520 @@
+//! A ball with inertia: two contact angles, centrifugal force and gyroscopic moment (Jones 1960, Harris ch. 9).
+//!
+//! In the plane (radial, axial) the ball's centre is at b from the outer groove centre and the inner groove centre
+//! at s. With y = b, x = s − b, n = y/|y| or x/|x| at angle α, t = (−sin α, cos α), the approaches are
+//! δ_o = |y| − (r_o − D/2) + w_o and δ_i = |x| − (r_i − D/2) + w_i, and the ball is in equilibrium when
+//!
+//! Q_i n_i + f_i t_i − Q_o n_o − f_o t_o + F_c e_r = 0, F_c = ½ m D_pw ω_c².
+//!
+//! f_i = 2 φ M/D and f_o = 2 (1 − φ) M/D are the friction that turns the ball's spin round the axis with it:
+//! M = dL/dt = ω_c J ω_r, J = m D²/10, ω_r the radial part of the ball's rotation, outward for a positive contact
+//! angle. A ball that rolls on the outer race without spinning on it has ω_r = ω_c sin α_o / γ′, γ′ = D/D_pw, one
+//! that so rolls on the inner race ω_r = (Ω − ω_c) sin α_i / γ′: the same as Harris' attitude angles
+//! tan β = sin α_o/(cos α_o + γ′) and sin α_i/(cos α_i − γ′). The share φ of the inner race is 0 for outer-race
+//! control, 1 for inner-race control and Q_i/(Q_i + Q_o) when shared, with ω_r the mean by the same shares.
+//! Inner-race control lets go smoothly as Q_i falls below F_c, since an unloaded race has no friction.
+//!
+//! The signs follow from dL/dt and are those of a marble in a bowl: on the outer race alone, friction adds 2/5 to
+//! the centrifugal force along the race, F_c (7/5) sin α_o.
+
+use super::ring_sum::{PlaneForce, PlaneMoment};
+use super::row::PlaneMotion;
+use super::{BallGeometry, BallInertia, Rotation, root};
+use crate::contact::{ContactDamping, Loaded, Race, SpeedContacts};
+use crate::material::Material;
+
+const MAX_ITERATIONS: usize = 40;
+/// Newton steps taken in full before each must gain; nearly all balls need two to six in all.
+const FREE_ITERATIONS: usize = 8;
+
+type Matrix = [[f64; 2]; 2];
+
+/// Geometry and inertia of a row's balls.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Balls {
+    pub control: BallInertia,
+    /// ½ m D_pw, the centrifugal force per ω_c² \[kg m\].
+    centrifugal: f64,
+    /// D/D_pw.
+    gamma: f64,
+    /// r − D/2 at the inner and outer race \[m\].
+    lengths: [f64; 2],
+    /// r_i, the arm of friction about the inner groove centre \[m\].
+    groove_radius: f64,
+}
+
+/// The balls' inertia at one speed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fling {
+    balls: Balls,
+    /// Centrifugal force F_c \[N\].
+    force: f64,
+    /// (Ω − ω_c)/ω_c.
+    inner_to_orbit: f64,
+    /// Approach of the outer contact under F_c alone \[m\].
+    rest: f64,
+}
+
+/// A ball's contact with one race: unit vector and distance to its groove centre, approach and load.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Side {
+    pub n: [f64; 2],
+    length: f64,
+    pub approach: f64,
+    pub loaded: Loaded,
+}
+
+/// A ball in equilibrium.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settled {
+    pub inner: Side,
+    pub outer: Side,
+}
+
+/// A bearing's contact law: both contacts in series, each alone, and an approach near that of a load.
+pub(super) struct Laws<Series, Single, Guess> {
+    pub series: Series,
+    pub single: Single,
+    pub guess: Guess,
+    /// Dry stiffness of both in series \[N/m^1.5\].
+    pub stiffness: f64,
+}
+
+/// Where Newton starts.
+struct Start {
+    centre: [f64; 2],
+    approaches: [f64; 2],
+}
+
+/// What races exert on a ball: R = Q n + f t at each, with derivatives by x and y.
+struct Forces {
+    inner: [f64; 2],
+    outer: [f64; 2],
+    /// By x and by y.
+    inner_by: [Matrix; 2],
+    outer_by: [Matrix; 2],
+    /// f_i with its derivatives, f_o.
+    friction: [f64; 2],
+    friction_by: [[f64; 2]; 2],
+    /// Inner race's share φ.
+    share: f64,
+}
+
+impl Balls {
+    /// `None` for massless balls.
+    pub fn new(geometry: &BallGeometry, material: &Material, control: BallInertia) -> Option<Self> {
+        if control == BallInertia::None {
+            return None;
+        }
+        let d = geometry.ball_diameter;
+        let mass = material.density * std::f64::consts::PI / 6.0 * d.powi(3);
+        Some(Self {
+            control,
+            centrifugal: 0.5 * mass * geometry.pitch_diameter,
+            gamma: d / geometry.pitch_diameter,
+            lengths: [geometry.inner_groove_radius - 0.5 * d, geometry.outer_groove_radius - 0.5 * d],
+            groove_radius: geometry.inner_groove_radius,
+        })
+    }
+
+    /// Inertia while the cage turns at `orbit` \[rad/s\]; `None` at rest.
+    pub fn fling(
+        &self,
+        orbit: f64,
+        rotation: &Rotation,
+        outer_at: impl Fn(f64) -> Loaded,
+        guess: impl Fn(f64) -> f64,
+    ) -> Option<Fling> {
+        let force = self.centrifugal * orbit * orbit;
+        (force > 0.0).then(|| Fling {
+            balls: *self,
+            force,
+            inner_to_orbit: (rotation.shaft_speed - orbit) / orbit,
+            rest: root::rising(
+                |x| {
+                    let at = outer_at(x);
+                    [at.load - force, at.slope]
+                },
+                guess(force),
+            ),
+        })
+    }
+}
+
+impl Side {
+    /// Side whose groove centre is `to` from the ball's centre (or the other way at the outer race).
+    #[inline(always)]
+    fn at(to: [f64; 2], free_length: f64, wave: f64) -> Self {
+        let length = (to[0] * to[0] + to[1] * to[1]).sqrt();
+        let inverse = 1.0 / length;
+        Self {
+            n: [to[0] * inverse, to[1] * inverse],
+            length,
+            approach: length - free_length + wave,
+            loaded: Loaded::default(),
+        }
+    }
+
+    fn t(&self) -> [f64; 2] {
+        [-self.n[1], self.n[0]]
+    }
+
+    /// ∂(Q n + f t)/∂(vector) without the change of f: Q′ n nᵀ + (Q/l) t tᵀ − (f/l) n tᵀ.
+    #[inline(always)]
+    fn tangent(&self, friction: f64) -> Matrix {
+        let [nr, nz] = self.n;
+        let bend = self.loaded.load / self.length;
+        let drag = friction / self.length;
+        let (k, cross) = (self.loaded.slope, (self.loaded.slope - bend) * nr * nz);
+        [
+            [k * nr * nr + bend * nz * nz + drag * nr * nz, cross - drag * nr * nr],
+            [cross + drag * nz * nz, k * nz * nz + bend * nr * nr - drag * nr * nz],
+        ]
+    }
+}
+
+impl Fling {
+    /// Whether the inner race may take part of the friction, and so a moment.
+    pub fn on_inner(&self) -> bool {
+        self.balls.control != BallInertia::OuterRaceControl
+    }
+
+    /// Share φ of the inner race in the friction, and its slopes with Q_i and Q_o.
+    fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
+        match self.balls.control {
+            BallInertia::None | BallInertia::OuterRaceControl => (0.0, 0.0, 0.0),
+            BallInertia::InnerRaceControl => {
+                let x = (inner / self.force).min(1.0);
+                (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / self.force, 0.0)
+            }
+            BallInertia::Shared => {
+                let sum = inner + outer;
+                if sum <= 0.0 {
+                    return (0.0, 0.0, 0.0);
+                }
+                (inner / sum, outer / (sum * sum), -inner / (sum * sum))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn forces(&self, inner: &Side, outer: &Side) -> Forces {
+        let (share, by_inner, by_outer) = self.share(inner.loaded.load, outer.loaded.load);
+        // M/D for a ball that rolls on one race alone: J ω_c²/(γ′ D) = F_c/5.
+        let unit = [0.2 * self.force * self.inner_to_orbit, 0.2 * self.force];
+        let moments = [unit[0] * inner.n[1], unit[1] * outer.n[1]];
+        let moment = share * moments[0] + (1.0 - share) * moments[1];
+        let friction = [2.0 * share * moment, 2.0 * (1.0 - share) * moment];
+        let (ti, to) = (inner.t(), outer.t());
+        let mut out = Forces {
+            inner: [0, 1].map(|k| inner.loaded.load * inner.n[k] + friction[0] * ti[k]),
+            outer: [0, 1].map(|k| outer.loaded.load * outer.n[k] + friction[1] * to[k]),
+            inner_by: [inner.tangent(friction[0]), Matrix::default()],
+            outer_by: [Matrix::default(), outer.tangent(friction[1])],
+            friction,
+            friction_by: [[0.0; 2]; 2],
+            share,
+        };
+        // By x through α_i and Q_i, by y through α_o and Q_o.
+        let angle = [
+            share * unit[0] * inner.n[0] / inner.length,
+            (1.0 - share) * unit[1] * outer.n[0] / outer.length,
+        ];
+        let load = [by_inner * inner.loaded.slope, by_outer * outer.loaded.slope];
+        let spread = moments[0] - moments[1];
+        for (v, (t, n)) in [(ti, inner.n), (to, outer.n)].into_iter().enumerate() {
+            for k in 0..2 {
+                let moment_by = angle[v] * t[k] + load[v] * spread * n[k];
+                let share_by = load[v] * n[k];
+                let fi = 2.0 * (share_by * moment + share * moment_by);
+                let fo = 2.0 * ((1.0 - share) * moment_by - share_by * moment);
+                out.friction_by[v][k] = fi;
+                for r in 0..2 {
+                    out.inner_by[v][r][k] += ti[r] * fi;
+                    out.outer_by[v][r][k] += to[r] * fo;
+                }
+            }
+        }
+        out
+    }
+
+    /// Sum of the forces on the ball.
+    fn imbalance(&self, forces: &Forces) -> [f64; 2] {
+        [forces.inner[0] - forces.outer[0] + self.force, forces.inner[1] - forces.outer[1]]
+    }
+
+    /// Where the ball about is: aside of the line of groove centres by h, at which the load Q_i h/a, a the lengths'
+    /// harmonic sum, balances what pushes it aside, T = (7/5) F_c |sin α|; h adds h²/(2a) to the approach.
+    fn first_guess(
+        &self,
+        laws: &Laws<impl Fn(f64) -> Loaded, impl Fn(Race, f64) -> Loaded, impl Fn(Race, f64) -> f64>,
+        s: [f64; 2],
+        waves: f64,
+    ) -> Start {
+        let [li, lo] = self.balls.lengths;
+        let distance = (s[0] * s[0] + s[1] * s[1]).sqrt();
+        let n = [s[0] / distance, s[1] / distance];
+        let approach = distance - li - lo + waves;
+        let aside = 1.4 * self.force * n[1].abs();
+        let a = li * lo / (li + lo);
+        // h at δ = 0: K (h²/2a)^{3/2} h/a = T.
+        let free = (aside * (2.0 * a).powi(2) * (0.5 * a).sqrt() / laws.stiffness).sqrt();
+        let massless = (laws.series)(approach).load;
+        let square = if massless > 0.0 {
+            free.min((aside * a / massless).powi(2))
+        } else {
+            free - 2.0 * a * approach.min(0.0)
+        };
+        let h = square.sqrt().min(0.9 * lo);
+        let load = if h > 0.0 { aside * a / h } else { massless }.max(1e-3 * self.force);
+        let along = 0.5 * (distance * distance + lo * lo - li * li) / distance;
+        let side = if n[1] < 0.0 { -h } else { h };
+        Start {
+            centre: [along * n[0] + side * n[1], along * n[1] - side * n[0]],
+            approaches: [
+                (laws.guess)(Race::Inner, load),
+                (laws.guess)(Race::Outer, load + self.force * n[0].max(0.0)),
+            ],
+        }
+    }
+
+    /// The ball's equilibrium with the inner groove centre at s.
+    ///
+    /// A ball thrown against the outer race that leaves the inner one free is in equilibrium there, exactly. Any other
+    /// ball is loaded at both races: Newton in b with the approaches as unknowns of their own, e, bound to the
+    /// geometry only in the linear step. A stiff contact on a curved path so costs no small steps; e is the
+    /// geometric approach again at the end.
+    #[inline(always)]
+    pub fn settle(
+        &self,
+        laws: &Laws<impl Fn(f64) -> Loaded, impl Fn(Race, f64) -> Loaded, impl Fn(Race, f64) -> f64>,
+        motion: &PlaneMotion,
+    ) -> Settled {
+        let single = &laws.single;
+        let (s, [wi, wo]) = (motion.s, motion.waves);
+        let [li, lo] = self.balls.lengths;
+        let sides = |b: [f64; 2]| (Side::at([s[0] - b[0], s[1] - b[1]], li, wi), Side::at(b, lo, wo));
+        let mut b = [lo + self.rest - wo, 0.0];
+        let (mut inner, mut outer) = sides(b);
+        inner.loaded = single(Race::Inner, inner.approach);
+        if inner.loaded.load <= 0.0 {
+            outer.loaded = single(Race::Outer, outer.approach);
+            return Settled { inner, outer };
+        }
+        let first = self.first_guess(laws, s, wi + wo);
+        b = first.centre;
+        let mut e = first.approaches;
+        let mut loads = [single(Race::Inner, e[0]), single(Race::Outer, e[1])];
+        for iteration in 0..MAX_ITERATIONS {
+            (inner, outer) = sides(b);
+            (inner.loaded, outer.loaded) = (loads[0], loads[1]);
+            let slopes = loads.map(|l| l.slope);
+            let gap = [inner.approach - e[0], outer.approach - e[1]];
+            let forces = self.forces(&inner, &outer);
+            let force = self.imbalance(&forces);
+            let lag = [slopes[0] * gap[0], slopes[1] * gap[1]];
+            // What round-off in |x| and |y| makes of the loads.
+            let floor = 4e-16 * (slopes[0] * inner.length + slopes[1] * outer.length);
+            let left = force[0].abs().max(force[1].abs()).max(lag[0].abs()).max(lag[1].abs());
+            if left <= floor {
+                (inner, outer) = sides(b);
+                (inner.loaded, outer.loaded) =
+                    (single(Race::Inner, inner.approach), single(Race::Outer, outer.approach));
+                return Settled { inner, outer };
+            }
+            let residual = [0, 1].map(|k| -force[k] - lag[0] * inner.n[k] + lag[1] * outer.n[k]);
+            let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
+            let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
+            let step = solve(&difference(&by_y, &by_x), residual);
+            let along = |n: [f64; 2]| n[0] * step[0] + n[1] * step[1];
+            let de = [gap[0] - along(inner.n), gap[1] + along(outer.n)];
+            // Shorten while a contact that must stay loaded would open; far from the solution, while nothing is won.
+            let merit = |force: [f64; 2], gap: [f64; 2]| {
+                let lag = [slopes[0] * gap[0], slopes[1] * gap[1]];
+                force[0] * force[0] + force[1] * force[1] + lag[0] * lag[0] + lag[1] * lag[1]
+            };
+            let before = merit(force, gap);
+            let mut length = 1.0;
+            for _ in 0..50 {
+                let trial = [e[0] + length * de[0], e[1] + length * de[1]];
+                let at = [single(Race::Inner, trial[0]), single(Race::Outer, trial[1])];
+                let mut accept = at[0].load > 0.0 && at[1].load > 0.0;
+                let centre = [b[0] + length * step[0], b[1] + length * step[1]];
+                if accept && iteration >= FREE_ITERATIONS {
+                    let (mut i, mut o) = sides(centre);
+                    (i.loaded, o.loaded) = (at[0], at[1]);
+                    let force = self.imbalance(&self.forces(&i, &o));
+                    let gap = [i.approach - trial[0], o.approach - trial[1]];
+                    accept = merit(force, gap) <= (1.0 - 1e-3 * length) * before;
+                }
+                if accept {
+                    (b, e, loads) = (centre, trial, at);
+                    break;
+                }
+                length *= 0.5;
+            }
+        }
+        self.settle_by_bisection(single, s, &sides)
+    }
+
+    /// The same by bisection in polar coordinates about the outer groove centre: the balance along the line of the
+    /// outer contact gives its length, that across it the angle. Slow and sure.
+    #[cold]
+    fn settle_by_bisection(
+        &self,
+        single: &impl Fn(Race, f64) -> Loaded,
+        s: [f64; 2],
+        sides: &impl Fn([f64; 2]) -> (Side, Side),
+    ) -> Settled {
+        let at = |angle: f64, length: f64| {
+            let (mut inner, mut outer) = sides([length * angle.cos(), length * angle.sin()]);
+            inner.loaded = single(Race::Inner, inner.approach);
+            outer.loaded = single(Race::Outer, outer.approach);
+            let force = self.imbalance(&self.forces(&inner, &outer));
+            let (n, t) = (outer.n, outer.t());
+            (inner, outer, force[0] * n[0] + force[1] * n[1], force[0] * t[0] + force[1] * t[1])
+        };
+        let reach = self.balls.lengths[0] + self.balls.lengths[1];
+        let length = |angle: f64| {
+            bisect(|l| -at(angle, l).2, [1e-3 * self.balls.lengths[1], self.balls.lengths[1] + reach])
+        };
+        // Towards the inner groove centre from the direction in which the ball is thrown.
+        let line = s[1].atan2(s[0]);
+        let sign = if line < 0.0 { 1.0 } else { -1.0 };
+        let share = bisect(|x| sign * at(x * line, length(x * line)).3, [0.0, 1.0]);
+        let (inner, outer, ..) = at(share * line, length(share * line));
+        Settled { inner, outer }
+    }
+
+    /// What a settled ball does to the inner ring, with tangents by implicit differentiation.
+    ///
+    /// E(x, y) = 0 with x = s − b, y = b gives ∂b/∂s = S = −(∂E/∂b)⁻¹ ∂E/∂x, and p = R_i changes by
+    /// (∂R_i/∂x)(I − S) + (∂R_i/∂y) S. Damping acts along the inner contact as on the massless ball whose
+    /// contacts carry Q_i. Power at a fixed ring: the balls' inertia works along ḃ.
+    pub fn react(
+        &self,
+        settled: &Settled,
+        contacts: &SpeedContacts,
+        damping: &ContactDamping,
+        stiffness: f64,
+        motion: &PlaneMotion,
+    ) -> (PlaneForce, PlaneMoment) {
+        let Settled { inner, outer } = settled;
+        let energy = inner.loaded.energy + outer.loaded.energy;
+        if inner.loaded.load <= 0.0 {
+            return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());
+        }
+        let forces = self.forces(inner, outer);
+        let [rate, [wi, wo]] = [motion.rate, motion.wave_rates];
+        let (n, t) = (inner.n, inner.t());
+        let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
+        let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
+        let jacobian = difference(&by_y, &by_x);
+        // Columns of S.
+        let follow = [0, 1].map(|c| solve(&jacobian, [-by_x[0][c], -by_x[1][c]]));
+
+        let load = inner.loaded.load;
+        let equivalent = {
+            let series = |x: f64| {
+                let at = contacts.series(x);
+                [at.load - load, at.slope]
+            };
+            root::rising(series, (load / stiffness).cbrt().powi(2) + contacts.onset())
+        };
+        let elastic = contacts.series(equivalent);
+        let closing = dot(n, rate) + wi + wo;
+        let damped = damping.apply(contacts, &Loaded { load, ..elastic }, equivalent, closing);
+
+        let swing = damped.by_rate * dot(t, rate) / inner.length;
+        let side = Side {
+            loaded: Loaded {
+                load: damped.load,
+                slope: damped.by_approach * inner.loaded.slope / elastic.slope,
+                energy: 0.0,
+            },
+            ..*inner
+        };
+        let mut tangent = side.tangent(forces.friction[0]);
+        for r in 0..2 {
+            for c in 0..2 {
+                tangent[r][c] += swing * n[r] * t[c] + t[r] * forces.friction_by[0][c];
+            }
+        }
+        let along = |v: [f64; 2], c: usize| dot(v, follow[c]);
+        let force = [0, 1].map(|k| damped.load * n[k] + forces.friction[0] * t[k]);
+        let mut by_motion = [0.0; 4];
+        let mut moment =
+            PlaneMoment { moment: -self.balls.groove_radius * forces.friction[0], ..PlaneMoment::default() };
+        for c in 0..2 {
+            for r in 0..2 {
+                by_motion[2 * r + c] =
+                    tangent[r][c] - along(tangent[r], c) + t[r] * along(forces.friction_by[1], c);
+            }
+            let friction =
+                forces.friction_by[0][c] - along(forces.friction_by[0], c) + along(forces.friction_by[1], c);
+            moment.by_motion[c] = -self.balls.groove_radius * friction;
+        }
+
+        let dissipated = (damped.load - load) * closing;
+        let [no, to] = [outer.n, outer.t()];
+        let wave = [0, 1].map(|r| -dot(by_x[r], n) * wi - dot(by_y[r], no) * wo);
+        let wave = solve(&jacobian, wave);
+        let velocity = [0, 1].map(|k| follow[0][k] * rate[0] + follow[1][k] * rate[1] + wave[k]);
+        let pull =
+            [0, 1].map(|k| forces.friction[0] * t[k] - forces.friction[1] * to[k] + [self.force, 0.0][k]);
+        let stored = load * (dot(n, rate) + wi) + outer.loaded.load * wo + dot(pull, velocity);
+        let ball = PlaneForce {
+            force,
+            by_motion,
+            by_rate: [n[0] * n[0], n[0] * n[1], n[1] * n[1]].map(|v| damped.by_rate * v),
+            energy,
+            dissipated,
+            power: stored + dissipated - dot(force, rate),
+            load: damped.load,
+            load_cos: damped.load * self.cage_cosine(inner, outer, forces.share),
+        };
+        (ball, moment)
+    }
+
+    /// cos α of the massless ball that would turn the cage at the same ratio ½ (1 − γ′ cos α).
+    ///
+    /// Rolling on both races: ω_c/Ω = (1 − γ′ cos α_i)/(1 + cos Δ) when the outer race controls the spin and
+    /// (cos Δ − γ′ cos α_o)/(1 + cos Δ) when the inner does, Δ = α_i − α_o. Source: Harris.
+    fn cage_cosine(&self, inner: &Side, outer: &Side, share: f64) -> f64 {
+        let gamma = self.balls.gamma;
+        let cos = dot(inner.n, outer.n);
+        let ratio =
+            ((1.0 - share) * (1.0 - gamma * inner.n[0]) + share * (cos - gamma * outer.n[0])) / (1.0 + cos);
+        (1.0 - 2.0 * ratio) / gamma
+    }
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn difference(a: &Matrix, b: &Matrix) -> Matrix {
+    [0, 1].map(|r| [0, 1].map(|c| a[r][c] - b[r][c]))
+}
+
+/// Zero of a function that rises, between two arguments.
+fn bisect(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if f(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// x of A x = r.
+fn solve(a: &Matrix, r: [f64; 2]) -> [f64; 2] {
+    let determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    [(a[1][1] * r[0] - a[0][1] * r[1]) / determinant, (a[0][0] * r[1] - a[1][0] * r[0]) / determinant]
+}

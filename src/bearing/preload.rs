@@ -1,0 +1,170 @@
+//! Axial preload: how far the rings are brought together, and a ring on a spring.
+
+use super::row::Row;
+use super::{Preload, Reaction, Rotation, root};
+
+/// Preload of a bearing whose rings are centred, at a speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PreloadState {
+    /// Axial approach of the rings from their nominal place in the direction of thrust \[m\].
+    pub offset: f64,
+    /// Axial force that results \[N\]; with a matched pair, of each row.
+    pub axial_force: f64,
+}
+
+/// How a row is preloaded, with what can be known before the speed.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Seat {
+    /// Rigid, at this offset.
+    Fixed(f64),
+    /// Rigid, where the centred bearing carries this force at its speed; the dry offset to start from.
+    Force { force: f64, dry: f64 },
+    /// On a spring; the dry centred offset, and the share of an axial motion that the ring follows there.
+    Spring { stiffness: f64, force: f64, dry: f64, follows: f64 },
+}
+
+impl Seat {
+    /// Seat of a row whose dry axial force and stiffness at an offset are given.
+    pub fn new(preload: &Preload, dry: impl Fn(f64) -> [f64; 2]) -> Self {
+        let guess = 1e-6;
+        let carrying = |force: f64| {
+            root::rising(
+                |offset| {
+                    let [n, slope] = dry(offset);
+                    [n - force, slope]
+                },
+                guess,
+            )
+        };
+        match *preload {
+            Preload::None => Self::Fixed(0.0),
+            Preload::Interference(offset) => Self::Fixed(offset),
+            Preload::DryForce(force) => Self::Fixed(carrying(force)),
+            Preload::Force(force) => Self::Force { force, dry: carrying(force) },
+            Preload::Spring { stiffness, force } => {
+                let offset = root::rising(
+                    |e| {
+                        let [n, slope] = dry(e);
+                        [n + stiffness * e - force, slope + stiffness]
+                    },
+                    guess,
+                );
+                let slope = dry(offset)[1];
+                Self::Spring { stiffness, force, dry: offset, follows: slope / (slope + stiffness) }
+            }
+        }
+    }
+}
+
+/// A reaction with the sums that weigh the mean contact angle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RowReaction {
+    pub reaction: Reaction,
+    pub load: f64,
+    pub load_cos: f64,
+}
+
+impl Row {
+    /// Force on the inner ring and tangents, on whatever seat the outer ring has.
+    pub fn react(
+        &self,
+        d: &[f64; 6],
+        v: &[f64; 6],
+        rotation: &Rotation,
+        turning: f64,
+        waves: bool,
+    ) -> RowReaction {
+        let operating = self.operating(rotation, turning, waves);
+        let evaluate = |d: &[f64; 6], v: &[f64; 6]| {
+            let sum = self.sum(d, v, rotation, &operating);
+            let reaction = self.reaction(&sum, &operating);
+            RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
+        };
+        let Seat::Spring { stiffness, force, .. } = self.seat else {
+            return evaluate(d, v);
+        };
+        let shift = self.spring_shift(d, rotation, waves);
+        let moved = shifted(d, self.direction * shift);
+        let still = self.operating(rotation, 0.0, waves);
+        let sum = self.sum(&moved, &[0.0; 6], rotation, &still);
+        let elastic = self.reaction(&sum, &still);
+        let whole = elastic.stiffness[2][2] + stiffness;
+        // The ring's axial motion per motion of the shaft; at a loose ring without a spring, none.
+        let follow: [f64; 6] =
+            std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
+        let slip: f64 = follow.iter().zip(v).map(|(f, v)| f * v).sum();
+        let mut out = if turning == 0.0 && v.iter().all(|v| *v == 0.0) {
+            RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
+        } else {
+            evaluate(&moved, &shifted(v, slip))
+        };
+        condense(&mut out.reaction, &elastic, &follow);
+        out.reaction.elastic_energy += (0.5 * stiffness * shift - force) * shift;
+        out
+    }
+
+    /// Shift e of an outer ring on a spring, N(d, e) = F₀ − k e: one rising function of e.
+    fn spring_shift(&self, d: &[f64; 6], rotation: &Rotation, waves: bool) -> f64 {
+        let Seat::Spring { stiffness, force, dry, follows } = self.seat else { return 0.0 };
+        let still = self.operating(rotation, 0.0, waves);
+        root::rising(
+            |e| {
+                let at = shifted(d, self.direction * e);
+                let (n, slope) = self.sum(&at, &[0.0; 6], rotation, &still).axial();
+                [self.direction * n + stiffness * e - force, slope + stiffness]
+            },
+            dry - follows * self.direction * d[2],
+        )
+    }
+
+    /// Where a ring on a spring is, added to the displacement d.
+    pub fn with_spring(&self, d: &[f64; 6], rotation: &Rotation, waves: bool) -> [f64; 6] {
+        shifted(d, self.direction * self.spring_shift(d, rotation, waves))
+    }
+
+    /// Offset and axial force of the centred bearing.
+    pub fn preload_state(&self, rotation: &Rotation) -> PreloadState {
+        let operating = self.operating(rotation, 0.0, false);
+        let offset = match self.seat {
+            Seat::Fixed(offset) => offset,
+            Seat::Force { .. } => operating.preload,
+            Seat::Spring { .. } => self.spring_shift(&[0.0; 6], rotation, false),
+        };
+        let at = shifted(&[0.0; 6], self.direction * (offset - operating.preload));
+        let (axial, _) = self.sum(&at, &[0.0; 6], rotation, &operating).axial();
+        PreloadState { offset, axial_force: self.direction * axial }
+    }
+}
+
+fn shifted(d: &[f64; 6], by: f64) -> [f64; 6] {
+    let mut d = *d;
+    d[2] += by;
+    d
+}
+
+/// Static condensation of the ring's axial motion, ė = Σ follow_k v_k (in the direction of z).
+///
+/// Elastic part: K − k_e k_eᵀ/(K_zz + k). The damping part, force and tangents, goes through the same transformation
+/// T = 1 + e_z followᵀ as Tᵀ f, Tᵀ C T: the ring has no mass and no damper of its own. The change of T with d is left
+/// out of the damping part's stiffness, which vanishes at rest.
+fn condense(out: &mut Reaction, elastic: &Reaction, follow: &[f64; 6]) {
+    let project = |m: &[[f64; 6]; 6]| -> [[f64; 6]; 6] {
+        std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                m[a][b] + follow[a] * m[2][b] + m[a][2] * follow[b] + follow[a] * m[2][2] * follow[b]
+            })
+        })
+    };
+    let damping_force: [f64; 6] = std::array::from_fn(|k| out.force[k] - elastic.force[k]);
+    let damping_stiffness =
+        std::array::from_fn(|a| std::array::from_fn(|b| out.stiffness[a][b] - elastic.stiffness[a][b]));
+    let damping_stiffness = project(&damping_stiffness);
+    for a in 0..6 {
+        out.force[a] = elastic.force[a] + damping_force[a] + follow[a] * damping_force[2];
+        for b in 0..6 {
+            out.stiffness[a][b] =
+                elastic.stiffness[a][b] + elastic.stiffness[a][2] * follow[b] + damping_stiffness[a][b];
+        }
+    }
+    out.damping = project(&out.damping);
+}

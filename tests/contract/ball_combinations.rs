@@ -1,0 +1,244 @@
+//! Every allowed combination of contact law, ball inertia, preload and pairing owes the same.
+
+use crate::ball_bearing::Random;
+use crate::bearing::rig_6205;
+use rotordyn::bearing::{
+    Arrangement, BallBearing, BallElement, BallInertia, Duplex, Preload, Reaction, Rotation, Wave,
+};
+use rotordyn::contact::{ContactDamping, ContactLaw, Lubricant};
+
+fn film() -> ContactLaw {
+    let lubricant =
+        Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.2e-8, density: 870.0 };
+    ContactLaw::Film { lubricant, speed_factor: 1.0 }
+}
+
+const INERTIA: [BallInertia; 4] =
+    [BallInertia::None, BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared];
+
+const PRELOAD: [Preload; 5] = [
+    Preload::None,
+    Preload::Interference(8e-6),
+    Preload::DryForce(300.0),
+    Preload::Force(300.0),
+    Preload::Spring { stiffness: 2e6, force: 300.0 },
+];
+
+/// The rig's bearing at a contact angle.
+pub fn angular() -> BallBearing {
+    let mut bearing = rig_6205();
+    bearing.geometry.contact_angle = 0.4;
+    bearing.geometry.radial_clearance = 0.0;
+    bearing
+}
+
+fn each(mut visit: impl FnMut(&str, &BallBearing)) {
+    let pairs =
+        [None, Some(Arrangement::BackToBack), Some(Arrangement::FaceToFace), Some(Arrangement::Tandem)];
+    for law in [ContactLaw::Hertz, film()] {
+        for inertia in INERTIA {
+            for preload in PRELOAD {
+                for arrangement in pairs {
+                    for damping in [
+                        ContactDamping::Constant { coefficient: 300.0, ramp: 1e-6 },
+                        ContactDamping::HuntCrossley { factor: 0.05 },
+                    ] {
+                        let mut bearing = angular();
+                        bearing.contact = law.clone();
+                        bearing.inertia = inertia;
+                        bearing.preload = preload;
+                        bearing.duplex =
+                            arrangement.map(|arrangement| Duplex { arrangement, spacing: 15e-3 });
+                        bearing.damping = damping;
+                        bearing.inner_waviness = vec![Wave { order: 7, amplitude: 2e-7, phase: 0.4 }];
+                        bearing.outer_waviness = vec![Wave { order: 8, amplitude: 2e-7, phase: 0.3 }];
+                        let name = format!("{law:?} {inertia:?} {preload:?} {arrangement:?} {damping:?}");
+                        visit(&name, &bearing);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn sample(random: &mut Random) -> ([f64; 6], [f64; 6], Rotation) {
+    let d = random.scaled([4e-6, 4e-6, 6e-6, 2e-4, 2e-4, 0.0]);
+    let v = random.scaled([3e-3, 3e-3, 3e-3, 0.2, 0.2, 0.0]);
+    let rotation = Rotation {
+        cage_angle: 3.0 * random.next(),
+        cage_speed: 1000.0,
+        shaft_angle: 3.0 * random.next(),
+        shaft_speed: 2500.0,
+    };
+    (d, v, rotation)
+}
+
+/// Lever that makes moments and tilts comparable to forces and displacements.
+fn lever(k: usize) -> f64 {
+    if k < 3 { 1.0 } else { 0.02 }
+}
+
+fn largest(m: &[[f64; 6]; 6]) -> f64 {
+    let mut most: f64 = 0.0;
+    for (a, row) in m.iter().enumerate() {
+        for (b, v) in row.iter().enumerate() {
+            most = most.max(v.abs() / (lever(a) * lever(b)));
+        }
+    }
+    most
+}
+
+#[test]
+fn tangents_equal_differences() {
+    let mut random = Random(31);
+    let mut compared = 0;
+    each(|name, bearing| {
+        let element = BallElement::new(bearing);
+        let sprung = matches!(bearing.preload, Preload::Spring { .. });
+        for _ in 0..4 {
+            let (d, v, mut rotation) = sample(&mut random);
+            let mut v_for_stiffness = v;
+            if sprung {
+                // On a spring the stiffness is exact at rest; see the element.
+                v_for_stiffness = [0.0; 6];
+                rotation.cage_speed = 0.0;
+            }
+            let here = element.reaction(&d, &v, &rotation);
+            let (k_size, c_size) = (largest(&here.stiffness), largest(&here.damping));
+            for column in 0..5 {
+                let (step, rate) = (1e-10 / lever(column), 1e-4 / lever(column));
+                let shifted = |vector: [f64; 6], by: f64| {
+                    let mut w = vector;
+                    w[column] += by;
+                    w
+                };
+                let at = |by| element.reaction(&shifted(d, by), &v_for_stiffness, &rotation);
+                let (plus, minus) = (at(step), at(-step));
+                let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
+                let (faster, slower) = (along(rate), along(-rate));
+                for row in 0..5 {
+                    let scale = lever(row) * lever(column);
+                    let k = -(plus.force[row] - minus.force[row]) / (2.0 * step);
+                    // The mean of both ends follows a tangent that changes within the step, as where a ball unloads.
+                    let mean = 0.5 * (plus.stiffness[row][column] + minus.stiffness[row][column]);
+                    let c = -(faster.force[row] - slower.force[row]) / (2.0 * rate);
+                    let (dk, dc) = (k - mean, c - here.damping[row][column]);
+                    // A ball that unloads within the step costs √(0.1 nm/1 µm) of its own small stiffness.
+                    assert!(dk.abs() < 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
+                    assert!(dc.abs() < 1e-6 * c_size * scale, "{name} C[{row}][{column}] {c} off by {dc}");
+                    compared += 1;
+                }
+            }
+        }
+    });
+    assert!(compared > 10_000);
+}
+
+#[test]
+fn power_balance_closes() {
+    let mut random = Random(5);
+    each(|name, bearing| {
+        // On a spring the work of the balls' inertia along what the turning cage does to the ring is not booked.
+        if matches!(bearing.preload, Preload::Spring { .. }) && bearing.inertia != BallInertia::None {
+            return;
+        }
+        let element = BallElement::new(bearing);
+        let (d, v, start) = sample(&mut random);
+        let at = |t: f64| -> Reaction {
+            let q = std::array::from_fn(|k| d[k] + v[k] * t);
+            let rotation = Rotation {
+                cage_angle: start.cage_angle + start.cage_speed * t,
+                shaft_angle: start.shaft_angle + start.shaft_speed * t,
+                ..start
+            };
+            element.reaction(&q, &v, &rotation)
+        };
+        let h = 2e-9;
+        let rate = (at(h).elastic_energy - at(-h).elastic_energy) / (2.0 * h);
+        let here = at(0.0);
+        let work: f64 = here.force.iter().zip(&v).map(|(f, v)| f * v).sum();
+        let residual = rate + here.dissipated_power + work - here.parametric_power;
+        let size = work.abs() + here.parametric_power.abs() + here.dissipated_power.abs();
+        assert!(residual.abs() < 1e-5 * size, "{name}: {residual} of {size}");
+    });
+}
+
+#[test]
+fn rotating_load_and_cage_rotates_the_answer() {
+    let mut random = Random(3);
+    each(|name, bearing| {
+        let mut bearing = bearing.clone();
+        bearing.inner_waviness.clear();
+        bearing.outer_waviness.clear();
+        let element = BallElement::new(&bearing);
+        let (d, v, rotation) = sample(&mut random);
+        let angle: f64 = random.next() * 3.0;
+        let (s, c) = angle.sin_cos();
+        let turn = |w: [f64; 6]| {
+            [c * w[0] - s * w[1], s * w[0] + c * w[1], w[2], c * w[3] - s * w[4], s * w[3] + c * w[4], w[5]]
+        };
+        let turned = Rotation { cage_angle: rotation.cage_angle + angle, ..rotation };
+        let plain = element.reaction(&d, &v, &rotation);
+        let other = element.reaction(&turn(d), &turn(v), &turned);
+        let expected = turn(plain.force);
+        let size = plain.force.iter().enumerate().fold(0.0, |m: f64, (k, f)| m.max(f.abs() / lever(k)));
+        for k in 0..6 {
+            assert!((expected[k] - other.force[k]).abs() < 1e-9 * size * lever(k), "{name}");
+        }
+        // Averaged over the cage, a turn of the load alone does it, but for the harmonics that 12 angles miss.
+        let plain = turn(element.cage_average(&d, &rotation, 12).force);
+        let other = element.cage_average(&turn(d), &rotation, 12).force;
+        for k in 0..5 {
+            assert!((plain[k] - other[k]).abs() < 2e-3 * size * lever(k), "{name}: {plain:?} {other:?}");
+        }
+    });
+}
+
+#[test]
+fn at_rest_inertia_changes_nothing() {
+    let mut random = Random(8);
+    each(|name, bearing| {
+        let massless = BallElement::new(&BallBearing { inertia: BallInertia::None, ..bearing.clone() });
+        let element = BallElement::new(bearing);
+        let (d, v, _) = sample(&mut random);
+        // At rest, and creeping: the centrifugal force is 1e-11 N.
+        for (shaft_speed, tolerance) in [(0.0, 1e-15), (1e-3, 1e-10)] {
+            let rotation = Rotation { cage_angle: 0.3, shaft_speed, ..Rotation::default() };
+            let (a, b) = (element.reaction(&d, &v, &rotation), massless.reaction(&d, &v, &rotation));
+            for k in 0..5 {
+                let off = a.force[k] - b.force[k];
+                assert!(off.abs() <= tolerance * (1.0 + b.force[k].abs()), "{name}: force {k} off by {off}");
+                for m in 0..5 {
+                    let (x, y) = (a.stiffness[k][m], b.stiffness[k][m]);
+                    assert!((x - y).abs() <= 1e3 * tolerance * largest(&b.stiffness), "{name}: {x} {y}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn work_over_a_closed_path_of_the_dry_law_is_zero() {
+    for duplex in [None, Some(Duplex { arrangement: Arrangement::BackToBack, spacing: 15e-3 })] {
+        for preload in PRELOAD {
+            let element = BallElement::new(&BallBearing { preload, duplex, ..angular() });
+            let at = |t: f64| -> [f64; 6] {
+                let (s, c) = (std::f64::consts::TAU * t).sin_cos();
+                [6e-6 * c, 5e-6 * s, 4e-6 * s + 2e-6 * c, 2e-4 * c, 1e-4 * s, 0.0]
+            };
+            let rotation = Rotation { cage_angle: 0.2, ..Rotation::default() };
+            let n = 4000;
+            let (mut work, mut size) = (0.0, 0.0);
+            for k in 0..n {
+                let (a, b) = (at(f64::from(k) / f64::from(n)), at(f64::from(k + 1) / f64::from(n)));
+                let middle = at((f64::from(k) + 0.5) / f64::from(n));
+                let force = element.reaction(&middle, &[0.0; 6], &rotation).force;
+                let step: f64 = (0..5).map(|k| force[k] * (b[k] - a[k])).sum();
+                work += step;
+                size += step.abs();
+            }
+            // The midpoint rule on 4000 steps round the path; balls unload on the way.
+            assert!(work.abs() < 1e-5 * size, "{preload:?}: {work} of {size}");
+        }
+    }
+}
