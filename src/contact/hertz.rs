@@ -69,6 +69,18 @@ impl EllipticContact {
         }
     }
 
+    /// Semi-axes of the ellipse along and across the rolling direction \[m\] under a load Q ≥ 0 \[N\].
+    ///
+    /// The shorter lies in the direction of the larger curvature, so along rolling in a ball groove.
+    pub fn semi_axes(&self, load: f64) -> [f64; 2] {
+        let patch = self.patch(load);
+        if self.rolling_radius <= self.transverse_radius {
+            [patch.semi_minor, patch.semi_major]
+        } else {
+            [patch.semi_major, patch.semi_minor]
+        }
+    }
+
     /// Ellipse, pressure and approach under a load Q ≥ 0 \[N\].
     pub fn patch(&self, load: f64) -> ContactPatch {
         let pi = std::f64::consts::PI;

@@ -29,10 +29,21 @@ impl Lubricant {
         ((self.viscosity.ln() + 9.67) * (power - 1.0)).exp()
     }
 
+    /// d ln η/dp \[1/Pa\] at a pressure p ≥ 0 \[Pa\]; α at p = 0.
+    pub fn log_viscosity_slope(&self, pressure: f64) -> f64 {
+        let power = (1.0 + pressure / Self::REFERENCE).powf(self.roelands_exponent() - 1.0);
+        self.pressure_viscosity * power
+    }
+
     /// Density ratio ρ/ρ₀ at a pressure p ≥ 0 \[Pa\]: (5.9e8 + 1.34 p) / (5.9e8 + p).
     ///
     /// Source: Dowson & Higginson 1966.
     pub fn density_ratio(&self, pressure: f64) -> f64 {
         (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
+    }
+
+    /// d(ρ/ρ₀)/dp \[1/Pa\] at a pressure p ≥ 0 \[Pa\].
+    pub fn density_slope(&self, pressure: f64) -> f64 {
+        0.34 * 5.9e8 / (5.9e8 + pressure).powi(2)
     }
 }

@@ -1,6 +1,7 @@
 //! Contact of ball and race: Hertz with exact elliptic integrals, the lubricant's film, damping, traction.
 
 pub mod damping;
+pub mod ehl;
 pub mod elliptic;
 pub mod film;
 pub mod hertz;

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | [`sparse`] | [`Triplets`] to assemble into, [`SparseMatrix`] (compressed columns), [`SparseRow`] |
 //! | [`band`] | node ordering, [`BandLayout`] and the banded [`BandLu`], real and complex |
+//! | [`banded`] | the banded [`BandMatrix`] in natural order |
+//! | [`gmres`](mod@gmres) | preconditioned GMRES |
 //! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
 //! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
 //! | [`panel`] | dense matrix-vector products of a time step |
@@ -11,7 +13,9 @@
 //! | [`small`] | small dense systems |
 
 pub mod band;
+pub mod banded;
 pub mod eigen;
+pub mod gmres;
 pub mod krylov;
 pub mod panel;
 pub mod pchip;
@@ -19,6 +23,8 @@ pub mod small;
 pub mod sparse;
 
 pub use band::{BandLayout, BandLu, ZeroPivot};
+pub use banded::BandMatrix;
+pub use gmres::gmres;
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 
 pub use nalgebra::Complex;

@@ -1,5 +1,7 @@
 //! Fitted orders of convergence.
 
+#[path = "../common/ehl.rs"]
+mod lubricated;
 #[path = "../common/machine.rs"]
 #[allow(dead_code)]
 mod machine;
@@ -9,5 +11,6 @@ mod rig;
 #[allow(dead_code)]
 mod ross;
 
+mod ehl;
 mod integrators;
 mod shaft_element;

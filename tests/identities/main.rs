@@ -1,7 +1,10 @@
 //! Theorems that hold for any machine, on random ones.
 
+#[path = "../common/ehl.rs"]
+mod lubricated;
 #[path = "../common/machine.rs"]
 mod machine;
 
+mod ehl;
 mod linear;
 mod planes;
