@@ -8,12 +8,14 @@ pub mod hertz;
 pub mod law;
 pub mod lubricant;
 pub mod pair;
+pub mod power_law;
 pub mod traction;
 
 pub use damping::{ContactDamping, Damped};
 pub use film::{FilmFormula, FilmSpring, lambda_ratio};
 pub use hertz::{ContactPatch, EllipticContact, HertzPair};
-pub use law::{ContactLaw, PowerLaw};
+pub use law::ContactLaw;
 pub use lubricant::Lubricant;
 pub use pair::{BallContacts, Loaded, Race, SpeedContacts};
+pub use power_law::{PowerLaw, PowerSpring, fit_power_law};
 pub use traction::Traction;

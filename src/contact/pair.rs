@@ -1,7 +1,7 @@
 //! The two contacts of one ball under a bearing's contact law, at one entrainment speed.
 
 use super::film::FilmGrowth;
-use super::{ContactLaw, FilmFormula, FilmSpring, HertzPair, Lubricant};
+use super::{ContactLaw, EllipticContact, FilmFormula, FilmSpring, HertzPair, Lubricant, PowerSpring};
 
 /// One race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,7 @@ pub struct BallContacts {
 enum Law {
     Hertz,
     Film { unit: FilmPair, speed_factor: f64 },
+    Power(PowerSpring),
 }
 
 /// A ball's contacts at one entrainment speed, ready to be evaluated for every ball.
@@ -40,6 +41,11 @@ enum Law {
 pub enum SpeedContacts<'a> {
     Hertz(&'a HertzPair),
     Film(FilmPair),
+    /// Both contacts together; one alone takes its share of the dry compliance.
+    Power {
+        pair: &'a HertzPair,
+        spring: &'a PowerSpring,
+    },
 }
 
 /// Film springs of a ball's two contacts, in series and each alone.
@@ -90,7 +96,8 @@ impl BallContacts {
     /// Contacts of a ball between grooves under a law.
     pub fn new(hertz: HertzPair, law: ContactLaw) -> Self {
         let law = match law {
-            ContactLaw::Hertz | ContactLaw::PowerLaw(_) => Law::Hertz,
+            ContactLaw::Hertz => Law::Hertz,
+            ContactLaw::PowerLaw(law) => Law::Power(PowerSpring::new(law)),
             ContactLaw::Film { lubricant, speed_factor } => {
                 Law::Film { unit: FilmPair::new(&hertz, &lubricant), speed_factor }
             }
@@ -110,6 +117,7 @@ impl BallContacts {
                 }
             }
             Law::Hertz => SpeedContacts::Hertz(&self.hertz),
+            Law::Power(spring) => SpeedContacts::Power { pair: &self.hertz, spring },
         }
     }
 }
@@ -122,6 +130,7 @@ impl SpeedContacts<'_> {
         match self {
             Self::Hertz(pair) => pair.series(approach),
             Self::Film(films) => films.series.load(approach),
+            Self::Power { spring, .. } => spring.load(approach),
         }
     }
 
@@ -130,13 +139,18 @@ impl SpeedContacts<'_> {
         match self {
             Self::Hertz(pair) => pair.single(race, approach),
             Self::Film(films) => films.of(race).0.load(approach),
+            Self::Power { pair, spring } => {
+                let share = (pair.stiffness / pair.of(race).stiffness).powf(2.0 / 3.0);
+                let both = spring.load(approach / share);
+                Loaded { load: both.load, slope: both.slope / share, energy: both.energy * share }
+            }
         }
     }
 
     /// Central film thickness of a contact under a load Q ≥ 0 \[m\]; 0 for a dry law.
     pub fn film(&self, race: Race, load: f64) -> f64 {
         match self {
-            Self::Hertz(_) => 0.0,
+            Self::Hertz(_) | Self::Power { .. } => 0.0,
             Self::Film(films) => films.of(race).0.film(load),
         }
     }
@@ -144,7 +158,7 @@ impl SpeedContacts<'_> {
     /// Minimum film thickness of a contact under a load Q > 0 \[m\]; 0 for a dry law.
     pub fn minimum_film(&self, race: Race, load: f64) -> f64 {
         match self {
-            Self::Hertz(_) => 0.0,
+            Self::Hertz(_) | Self::Power { .. } => 0.0,
             Self::Film(films) => films.of(race).1.minimum(films.speed, load.max(FilmSpring::THRESHOLD)),
         }
     }
@@ -155,6 +169,15 @@ impl SpeedContacts<'_> {
         match self {
             Self::Hertz(_) => 0.0,
             Self::Film(films) => -films.series.reach(),
+            Self::Power { spring, .. } => spring.onset(),
+        }
+    }
+
+    /// Whether a ball's load \[N\] lies outside what the law was fitted to.
+    pub fn outside(&self, load: f64) -> bool {
+        match self {
+            Self::Hertz(_) | Self::Film(_) => false,
+            Self::Power { spring, .. } => spring.law.outside(load),
         }
     }
 
@@ -162,7 +185,7 @@ impl SpeedContacts<'_> {
     /// δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
     pub(super) fn film_damping(&self, elastic: &Loaded) -> (f64, f64) {
         match self {
-            Self::Hertz(_) => (0.0, 0.0),
+            Self::Hertz(_) | Self::Power { .. } => (0.0, 0.0),
             Self::Film(films) => {
                 let (value, slope) = films.series.lag(elastic);
                 (value / films.speed, slope / films.speed)
@@ -181,9 +204,15 @@ impl HertzPair {
     /// One contact alone.
     #[inline]
     pub fn single(&self, race: Race, approach: f64) -> Loaded {
+        hertz(self.of(race).stiffness, approach)
+    }
+
+    /// The contact of a race.
+    #[inline]
+    pub fn of(&self, race: Race) -> &EllipticContact {
         match race {
-            Race::Inner => hertz(self.inner.stiffness, approach),
-            Race::Outer => hertz(self.outer.stiffness, approach),
+            Race::Inner => &self.inner,
+            Race::Outer => &self.outer,
         }
     }
 }

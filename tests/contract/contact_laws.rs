@@ -2,7 +2,8 @@
 
 use crate::bearing::steel;
 use rotordyn::contact::{
-    BallContacts, ContactDamping, ContactLaw, FilmSpring, HertzPair, Loaded, Lubricant, Race, SpeedContacts,
+    BallContacts, ContactDamping, ContactLaw, FilmSpring, HertzPair, Loaded, Lubricant, PowerLaw, Race,
+    SpeedContacts, fit_power_law,
 };
 
 fn pair() -> HertzPair {
@@ -15,9 +16,23 @@ fn oil() -> Lubricant {
 
 /// Every law at a crawl, at a usual speed and at a high one.
 fn laws() -> Vec<(BallContacts, f64)> {
-    let laws = [ContactLaw::Hertz, ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 }];
+    let power = |stiffness, exponent, offset| {
+        ContactLaw::PowerLaw(PowerLaw { stiffness, exponent, offset, range: [600.0, 2000.0] })
+    };
+    let laws = [
+        ContactLaw::Hertz,
+        ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 },
+        power(8.562e9, 1.475, 30.207),
+        power(1.18e10, 1.51, -155.465),
+        power(2.149e9, 1.3255, 235.4),
+    ];
     let speeds = [1e-4, 1.2, 40.0];
     laws.iter().flat_map(|law| speeds.map(|speed| (BallContacts::new(pair(), law.clone()), speed))).collect()
+}
+
+/// Loads at which a law changes its form.
+fn kinks() -> [f64; 4] {
+    [FilmSpring::THRESHOLD, 150.0, 155.465, 417.7]
 }
 
 /// Approaches close in every scale to where load begins, and up to 0.1 mm.
@@ -38,7 +53,7 @@ fn slope_and_energy_equal_differences() {
                 let step = 1e-4 * here.load / here.slope;
                 let (low, high) = (law(x - step), law(x + step));
                 // dQ/dδ has a kink at the threshold.
-                let kink = low.load < FilmSpring::THRESHOLD && high.load > FilmSpring::THRESHOLD;
+                let kink = kinks().iter().any(|q| low.load < *q && high.load > *q);
                 if here.load == 0.0 || low.load == 0.0 || kink {
                     continue;
                 }
@@ -202,4 +217,56 @@ fn film_damping_is_the_lag_of_the_film() {
     let damped = ContactDamping::Film { factor: 1.0 }.apply(&at, &at.series(middle), middle, 0.0).by_rate;
     // What is left is of second order in ω τ = 1e-3.
     assert!((measured / damped - 1.0).abs() < 1e-5, "{measured} and {damped}");
+}
+
+#[test]
+fn power_law_as_it_stands_above_its_smooth_start() {
+    for (stiffness, exponent, offset) in
+        [(8.562e9, 1.475, 30.207), (1.18e10, 1.51, -155.465), (1e10, 1.5, 0.0)]
+    {
+        let law = PowerLaw { stiffness, exponent, offset, range: [600.0, 2000.0] };
+        let contacts = BallContacts::new(pair(), ContactLaw::PowerLaw(law));
+        let at = contacts.at_speed(0.0);
+        assert!(law.smooth_below() < 158.0);
+        assert!(PowerLaw { offset: 590.0, ..law }.smooth_below() <= 600.0);
+        assert!(PowerLaw { offset: -900.0, ..law }.smooth_below() <= 600.0);
+        for load in [158.0, 547.0, 600.0, 2000.0, 9000.0] {
+            let x = ((load - offset) / stiffness).powf(1.0 / exponent);
+            assert!((at.series(x).load / load - 1.0).abs() < 1e-13);
+            // Both races under this load share the approach.
+            let share = |race| (pair().stiffness / pair().of(race).stiffness).powf(2.0 / 3.0);
+            assert!((share(Race::Inner) + share(Race::Outer) - 1.0).abs() < 1e-13);
+            let inner = at.single(Race::Inner, x * share(Race::Inner)).load;
+            assert!((inner / load - 1.0).abs() < 1e-13);
+        }
+        assert!(at.outside(599.0) && at.outside(2001.0) && !at.outside(600.0) && !at.outside(0.0));
+    }
+    // Without an offset and n = 3/2 the smooth start is the law itself.
+    let law = PowerLaw { stiffness: 1e10, exponent: 1.5, offset: 0.0, range: [600.0, 2000.0] };
+    let contacts = BallContacts::new(pair(), ContactLaw::PowerLaw(law));
+    let at = contacts.at_speed(0.0);
+    for x in [1e-8, 1e-7, 1e-6, 1e-5_f64] {
+        assert!((at.series(x).load / (1e10 * x.powf(1.5)) - 1.0).abs() < 1e-9);
+    }
+    let anywhere = PowerLaw { range: [0.0, f64::INFINITY], ..law };
+    let contacts = BallContacts::new(pair(), ContactLaw::PowerLaw(anywhere));
+    assert_eq!(contacts.at_speed(0.0).series(0.0), Loaded::default());
+    assert!((contacts.at_speed(0.0).series(1e-6).load / (1e10 * 1e-9) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn fit_finds_the_law_it_was_given() {
+    for (stiffness, exponent, offset) in
+        [(8.562e9, 1.475, 30.207), (1.18e10, 1.51, -155.465), (2.1e9, 1.3, 235.0)]
+    {
+        let loads: Vec<f64> = (0..29).map(|k| 600.0 + 50.0 * f64::from(k)).collect();
+        let approaches: Vec<f64> =
+            loads.iter().map(|q| ((q - offset) / stiffness).powf(1.0 / exponent)).collect();
+        let fit = fit_power_law(&loads, &approaches).unwrap();
+        assert!((fit.exponent - exponent).abs() < 1e-10 && (fit.stiffness / stiffness - 1.0).abs() < 1e-9);
+        assert!((fit.offset - offset).abs() < 1e-7 && fit.range == [600.0, 2000.0]);
+    }
+    assert!(fit_power_law(&[1.0, 2.0], &[1e-6, 2e-6]).is_none());
+    assert!(fit_power_law(&[1.0, 2.0, 3.0], &[1e-6, f64::NAN, 3e-6]).is_none());
+    assert!(fit_power_law(&[1.0, 2.0, 3.0], &[1e-6, 2e-6]).is_none());
 }

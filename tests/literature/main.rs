@@ -14,3 +14,4 @@ mod ross_elements;
 mod ross_modes;
 mod ross_responses;
 mod ross_run_up;
+mod zhang_2016_contacts;
