@@ -45,6 +45,42 @@ impl BallBearing {
     }
 }
 
+impl BallBearing {
+    /// Why this bearing cannot be computed, one sentence each; empty when it can.
+    pub fn problems(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        let mut refuse = |wrong: bool, why: &str| {
+            if wrong {
+                out.push(why.to_string());
+            }
+        };
+        let split = self.inertia != BallInertia::None;
+        refuse(
+            split && matches!(self.contact, ContactLaw::PowerLaw(_)),
+            "ball inertia needs each contact alone; a fitted power law knows only both together",
+        );
+        refuse(
+            matches!(self.contact, ContactLaw::Hertz) && matches!(self.damping, ContactDamping::Film { .. }),
+            "film damping needs a film law",
+        );
+        refuse(self.geometry.balls < 2, "a ball bearing has two balls at least");
+        refuse(
+            matches!(self.preload, Preload::Spring { stiffness, .. } if stiffness < 0.0 || stiffness.is_nan()),
+            "the preload spring's stiffness is negative",
+        );
+        refuse(
+            matches!(self.preload, Preload::DryForce(f) | Preload::Force(f) | Preload::Spring { force: f, .. }
+                if f < 0.0 || f.is_nan()),
+            "a preload force is negative: the bearing carries thrust one way",
+        );
+        refuse(
+            self.duplex.is_some_and(|pair| pair.spacing <= 0.0 || pair.spacing.is_nan()),
+            "the rows of a matched pair are no distance apart",
+        );
+        out
+    }
+}
+
 /// Centrifugal force and gyroscopic moment of the balls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BallInertia {

@@ -17,17 +17,16 @@
 //! The signs follow from dL/dt and are those of a marble in a bowl: on the outer race alone, friction adds 2/5 to
 //! the centrifugal force along the race, F_c (7/5) sin α_o.
 
-use super::ring_sum::{PlaneForce, PlaneMoment};
 use super::row::PlaneMotion;
 use super::{BallGeometry, BallInertia, Rotation, root};
-use crate::contact::{ContactDamping, Loaded, Race, SpeedContacts};
+use crate::contact::{Loaded, Race};
 use crate::material::Material;
 
 const MAX_ITERATIONS: usize = 40;
 /// Newton steps taken in full before each must gain; nearly all balls need two to six in all.
 const FREE_ITERATIONS: usize = 8;
 
-type Matrix = [[f64; 2]; 2];
+pub(super) type Matrix = [[f64; 2]; 2];
 
 /// Geometry and inertia of a row's balls.
 #[derive(Clone, Copy, Debug)]
@@ -36,19 +35,19 @@ pub(super) struct Balls {
     /// ½ m D_pw, the centrifugal force per ω_c² \[kg m\].
     centrifugal: f64,
     /// D/D_pw.
-    gamma: f64,
+    pub gamma: f64,
     /// r − D/2 at the inner and outer race \[m\].
     lengths: [f64; 2],
     /// r_i, the arm of friction about the inner groove centre \[m\].
-    groove_radius: f64,
+    pub groove_radius: f64,
 }
 
 /// The balls' inertia at one speed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fling {
-    balls: Balls,
+    pub balls: Balls,
     /// Centrifugal force F_c \[N\].
-    force: f64,
+    pub force: f64,
     /// (Ω − ω_c)/ω_c.
     inner_to_orbit: f64,
     /// Approach of the outer contact under F_c alone \[m\].
@@ -59,7 +58,7 @@ pub(super) struct Fling {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Side {
     pub n: [f64; 2],
-    length: f64,
+    pub length: f64,
     pub approach: f64,
     pub loaded: Loaded,
 }
@@ -87,17 +86,17 @@ struct Start {
 }
 
 /// What races exert on a ball: R = Q n + f t at each, with derivatives by x and y.
-struct Forces {
+pub(super) struct Forces {
     inner: [f64; 2],
     outer: [f64; 2],
     /// By x and by y.
-    inner_by: [Matrix; 2],
-    outer_by: [Matrix; 2],
+    pub inner_by: [Matrix; 2],
+    pub outer_by: [Matrix; 2],
     /// f_i with its derivatives, f_o.
-    friction: [f64; 2],
-    friction_by: [[f64; 2]; 2],
+    pub friction: [f64; 2],
+    pub friction_by: [[f64; 2]; 2],
     /// Inner race's share φ.
-    share: f64,
+    pub share: f64,
 }
 
 impl Balls {
@@ -155,13 +154,13 @@ impl Side {
         }
     }
 
-    fn t(&self) -> [f64; 2] {
+    pub fn t(&self) -> [f64; 2] {
         [-self.n[1], self.n[0]]
     }
 
     /// ∂(Q n + f t)/∂(vector) without the change of f: Q′ n nᵀ + (Q/l) t tᵀ − (f/l) n tᵀ.
     #[inline(always)]
-    fn tangent(&self, friction: f64) -> Matrix {
+    pub fn tangent(&self, friction: f64) -> Matrix {
         let [nr, nz] = self.n;
         let bend = self.loaded.load / self.length;
         let drag = friction / self.length;
@@ -198,7 +197,7 @@ impl Fling {
     }
 
     #[inline(always)]
-    fn forces(&self, inner: &Side, outer: &Side) -> Forces {
+    pub fn forces(&self, inner: &Side, outer: &Side) -> Forces {
         let (share, by_inner, by_outer) = self.share(inner.loaded.load, outer.loaded.load);
         // M/D for a ball that rolls on one race alone: J ω_c²/(γ′ D) = F_c/5.
         let unit = [0.2 * self.force * self.inner_to_orbit, 0.2 * self.force];
@@ -385,115 +384,13 @@ impl Fling {
         let (inner, outer, ..) = at(share * line, length(share * line));
         Settled { inner, outer }
     }
-
-    /// What a settled ball does to the inner ring, with tangents by implicit differentiation.
-    ///
-    /// E(x, y) = 0 with x = s − b, y = b gives ∂b/∂s = S = −(∂E/∂b)⁻¹ ∂E/∂x, and p = R_i changes by
-    /// (∂R_i/∂x)(I − S) + (∂R_i/∂y) S. Damping acts along the inner contact as on the massless ball whose
-    /// contacts carry Q_i. Power at a fixed ring: the balls' inertia works along ḃ.
-    pub fn react(
-        &self,
-        settled: &Settled,
-        contacts: &SpeedContacts,
-        damping: &ContactDamping,
-        stiffness: f64,
-        motion: &PlaneMotion,
-    ) -> (PlaneForce, PlaneMoment) {
-        let Settled { inner, outer } = settled;
-        let energy = inner.loaded.energy + outer.loaded.energy;
-        if inner.loaded.load <= 0.0 {
-            return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());
-        }
-        let forces = self.forces(inner, outer);
-        let [rate, [wi, wo]] = [motion.rate, motion.wave_rates];
-        let (n, t) = (inner.n, inner.t());
-        let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
-        let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
-        let jacobian = difference(&by_y, &by_x);
-        // Columns of S.
-        let follow = [0, 1].map(|c| solve(&jacobian, [-by_x[0][c], -by_x[1][c]]));
-
-        let load = inner.loaded.load;
-        let equivalent = {
-            let series = |x: f64| {
-                let at = contacts.series(x);
-                [at.load - load, at.slope]
-            };
-            root::rising(series, (load / stiffness).cbrt().powi(2) + contacts.onset())
-        };
-        let elastic = contacts.series(equivalent);
-        let closing = dot(n, rate) + wi + wo;
-        let damped = damping.apply(contacts, &Loaded { load, ..elastic }, equivalent, closing);
-
-        let swing = damped.by_rate * dot(t, rate) / inner.length;
-        let side = Side {
-            loaded: Loaded {
-                load: damped.load,
-                slope: damped.by_approach * inner.loaded.slope / elastic.slope,
-                energy: 0.0,
-            },
-            ..*inner
-        };
-        let mut tangent = side.tangent(forces.friction[0]);
-        for r in 0..2 {
-            for c in 0..2 {
-                tangent[r][c] += swing * n[r] * t[c] + t[r] * forces.friction_by[0][c];
-            }
-        }
-        let along = |v: [f64; 2], c: usize| dot(v, follow[c]);
-        let force = [0, 1].map(|k| damped.load * n[k] + forces.friction[0] * t[k]);
-        let mut by_motion = [0.0; 4];
-        let mut moment =
-            PlaneMoment { moment: -self.balls.groove_radius * forces.friction[0], ..PlaneMoment::default() };
-        for c in 0..2 {
-            for r in 0..2 {
-                by_motion[2 * r + c] =
-                    tangent[r][c] - along(tangent[r], c) + t[r] * along(forces.friction_by[1], c);
-            }
-            let friction =
-                forces.friction_by[0][c] - along(forces.friction_by[0], c) + along(forces.friction_by[1], c);
-            moment.by_motion[c] = -self.balls.groove_radius * friction;
-        }
-
-        let dissipated = (damped.load - load) * closing;
-        let [no, to] = [outer.n, outer.t()];
-        let wave = [0, 1].map(|r| -dot(by_x[r], n) * wi - dot(by_y[r], no) * wo);
-        let wave = solve(&jacobian, wave);
-        let velocity = [0, 1].map(|k| follow[0][k] * rate[0] + follow[1][k] * rate[1] + wave[k]);
-        let pull =
-            [0, 1].map(|k| forces.friction[0] * t[k] - forces.friction[1] * to[k] + [self.force, 0.0][k]);
-        let stored = load * (dot(n, rate) + wi) + outer.loaded.load * wo + dot(pull, velocity);
-        let ball = PlaneForce {
-            force,
-            by_motion,
-            by_rate: [n[0] * n[0], n[0] * n[1], n[1] * n[1]].map(|v| damped.by_rate * v),
-            energy,
-            dissipated,
-            power: stored + dissipated - dot(force, rate),
-            load: damped.load,
-            load_cos: damped.load * self.cage_cosine(inner, outer, forces.share),
-        };
-        (ball, moment)
-    }
-
-    /// cos α of the massless ball that would turn the cage at the same ratio ½ (1 − γ′ cos α).
-    ///
-    /// Rolling on both races: ω_c/Ω = (1 − γ′ cos α_i)/(1 + cos Δ) when the outer race controls the spin and
-    /// (cos Δ − γ′ cos α_o)/(1 + cos Δ) when the inner does, Δ = α_i − α_o. Source: Harris.
-    fn cage_cosine(&self, inner: &Side, outer: &Side, share: f64) -> f64 {
-        let gamma = self.balls.gamma;
-        let cos = dot(inner.n, outer.n);
-        let ratio =
-            ((1.0 - share) * (1.0 - gamma * inner.n[0]) + share * (cos - gamma * outer.n[0])) / (1.0 + cos);
-        (1.0 - 2.0 * ratio) / gamma
-    }
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn difference(a: &Matrix, b: &Matrix) -> Matrix {
+pub(super) fn difference(a: &Matrix, b: &Matrix) -> Matrix {
     [0, 1].map(|r| [0, 1].map(|c| a[r][c] - b[r][c]))
 }
 
@@ -514,7 +411,7 @@ fn bisect(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
 }
 
 /// x of A x = r.
-fn solve(a: &Matrix, r: [f64; 2]) -> [f64; 2] {
+pub(super) fn solve(a: &Matrix, r: [f64; 2]) -> [f64; 2] {
     let determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     [(a[1][1] * r[0] - a[0][1] * r[1]) / determinant, (a[0][0] * r[1] - a[1][0] * r[0]) / determinant]
 }

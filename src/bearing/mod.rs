@@ -5,6 +5,7 @@ pub mod ball_bearing;
 mod duplex;
 pub mod element;
 pub mod fit;
+mod flung;
 pub mod geometry;
 mod jones;
 pub mod linear;

@@ -7,7 +7,7 @@ use rotordyn::bearing::{
 };
 use rotordyn::contact::{ContactDamping, ContactLaw, Lubricant};
 
-fn film() -> ContactLaw {
+pub fn film() -> ContactLaw {
     let lubricant =
         Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.2e-8, density: 870.0 };
     ContactLaw::Film { lubricant, speed_factor: 1.0 }

@@ -5,5 +5,7 @@ mod bearing;
 
 mod ball_bearing;
 mod ball_combinations;
+mod ball_inertia;
 mod contact_laws;
 mod linear_bearing;
+mod preload;

@@ -1,0 +1,129 @@
+//! Balls with inertia: their balance put together outside the element, angles, and the race they leave.
+
+use crate::ball_bearing::Random;
+use crate::ball_combinations::{angular, film};
+use crate::bearing::rig_6205;
+use rotordyn::bearing::{BallBearing, BallElement, BallInertia, BallLoad, Cage, Preload, Rotation};
+use rotordyn::contact::ContactLaw;
+
+const CAGE: f64 = 0.4;
+
+fn at_speed(speed: f64) -> Rotation {
+    Rotation { cage_angle: 0.3, cage_speed: CAGE * speed, shaft_speed: speed, ..Rotation::default() }
+}
+
+/// What is left of the force balance of a ball \[N\], by Harris' angles of attitude and his J ω_R ω_m sin β.
+fn imbalance(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
+    let (d, pitch) = (bearing.geometry.ball_diameter, bearing.geometry.pitch_diameter);
+    let mass = bearing.ball_material.density * std::f64::consts::PI / 6.0 * d.powi(3);
+    let (gamma, orbit) = (d / pitch, CAGE * shaft);
+    let centrifugal = 0.5 * mass * pitch * orbit * orbit;
+    let (ai, ao) = (ball.contact_angle, ball.outer_contact_angle);
+    // Spin relative to the cage from rolling on one race, about an axis at β in which there is no pivoting on it.
+    let moment = |beta: f64, spin: f64| 0.1 * mass * d * d * spin * orbit * beta.sin();
+    let outer = {
+        let beta = (ao.sin() / (ao.cos() + gamma)).atan();
+        moment(beta, orbit * (1.0 + gamma * ao.cos()) / (gamma * (beta - ao).cos()))
+    };
+    let inner = {
+        let beta = (ai.sin() / (ai.cos() - gamma)).atan();
+        moment(beta, (shaft - orbit) * (1.0 - gamma * ai.cos()) / (gamma * (beta - ai).cos()))
+    };
+    let share = match bearing.inertia {
+        BallInertia::None | BallInertia::OuterRaceControl => 0.0,
+        BallInertia::InnerRaceControl => {
+            let x = (ball.load / centrifugal).min(1.0);
+            x * x * (3.0 - 2.0 * x)
+        }
+        BallInertia::Shared => ball.load / (ball.load + ball.outer_load),
+    };
+    let moment = share * inner + (1.0 - share) * outer;
+    let (fi, fo) = (2.0 * share * moment / d, 2.0 * (1.0 - share) * moment / d);
+    let radial =
+        ball.load * ai.cos() - ball.outer_load * ao.cos() - fi * ai.sin() + fo * ao.sin() + centrifugal;
+    let axial = ball.load * ai.sin() - ball.outer_load * ao.sin() + fi * ai.cos() - fo * ao.cos();
+    radial.hypot(axial)
+}
+
+#[test]
+fn balls_are_in_balance_to_a_billionth_of_a_newton() {
+    let mut random = Random(17);
+    let (mut loaded, mut thrown) = (0, 0);
+    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+        for law in [ContactLaw::Hertz, film()] {
+            for base in [rig_6205(), angular()] {
+                let bearing = BallBearing { inertia, contact: law.clone(), ..base };
+                let element = BallElement::new(&bearing);
+                for _ in 0..400 {
+                    let speed = 10f64.powf(1.0 + 2.6 * (0.5 + 0.5 * random.next()));
+                    let d = random.scaled([20e-6, 20e-6, 80e-6, 1e-3, 1e-3, 0.0]);
+                    for ball in element.ball_loads(&d, &at_speed(speed)) {
+                        let left = imbalance(&bearing, &ball, speed);
+                        // Angles pass through atan2: 1e-16 of the load besides.
+                        let bound = 1e-9 + 1e-14 * ball.outer_load;
+                        assert!(left < bound, "{inertia:?} at {speed}: {left} N left, {ball:?}");
+                        assert!(ball.outer_load > 0.0, "a thrown ball lies on the outer race");
+                        if ball.load > 0.0 { loaded += 1 } else { thrown += 1 }
+                    }
+                }
+            }
+        }
+    }
+    assert!(loaded > 3000 && thrown > 3000, "{loaded} loaded, {thrown} thrown");
+}
+
+#[test]
+fn outer_angle_falls_and_inner_angle_rises_with_speed() {
+    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+        let element = BallElement::new(&BallBearing { inertia, ..angular() });
+        let mut before: Option<BallLoad> = None;
+        for k in 0..60 {
+            // At a fixed axial displacement.
+            let ball =
+                element.ball_loads(&[0.0, 0.0, 20e-6, 0.0, 0.0, 0.0], &at_speed(40.0 * f64::from(k)))[0];
+            if let Some(before) = before {
+                assert!(ball.outer_contact_angle < before.outer_contact_angle, "{inertia:?} at step {k}");
+                assert!(ball.contact_angle > before.contact_angle, "{inertia:?} at step {k}");
+                assert!(ball.outer_load > before.outer_load);
+            }
+            before = Some(ball);
+        }
+    }
+}
+
+#[test]
+fn a_ball_leaves_the_inner_race_without_a_jump() {
+    // The inner ring is drawn back along the thrust at speed until its balls are thrown free.
+    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+        let element = BallElement::new(&BallBearing { inertia, ..rig_6205() });
+        let force =
+            |x: f64| element.reaction(&[x, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6], &at_speed(2000.0)).force[0];
+        assert!(force(2e-6) == 0.0 && force(20e-6) < -100.0, "{} {}", force(2e-6), force(20e-6));
+        let (mut low, mut high) = (2e-6, 20e-6);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if force(middle) < 0.0 { high = middle } else { low = middle }
+        }
+        // Hertz: 1e-12 m beyond the last contact is 1e10 (1e-12)^1.5 N.
+        assert!(force(high + 1e-12).abs() < 1e-7, "{inertia:?}: {}", force(high + 1e-12));
+    }
+}
+
+#[test]
+fn cage_follows_the_kinematics_of_outer_race_control() {
+    // Without given cage speed the mean cosine must be the one of a ball with both contact angles.
+    let bearing = BallBearing {
+        inertia: BallInertia::OuterRaceControl,
+        cage: Cage::Rolling,
+        preload: Preload::Interference(15e-6),
+        ..angular()
+    };
+    let element = BallElement::new(&bearing);
+    let rotation = at_speed(2000.0);
+    let ball = element.ball_loads(&[0.0; 6], &rotation)[0];
+    let gamma = bearing.geometry.ball_diameter / bearing.geometry.pitch_diameter;
+    let expected = (1.0 - gamma * ball.contact_angle.cos())
+        / (1.0 + (ball.contact_angle - ball.outer_contact_angle).cos());
+    let ratio = element.cage_ratio(element.reaction(&[0.0; 6], &[0.0; 6], &rotation).mean_cos);
+    assert!((ratio - expected).abs() < 1e-12, "{ratio} {expected}");
+}
