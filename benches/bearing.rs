@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use rotordyn::bearing::{BallElement, Rotation};
+use rotordyn::bearing::{BallBearing, BallElement, BallInertia, Rotation};
 
 #[path = "../tests/common/bearing.rs"]
 mod bearing;
@@ -25,6 +25,17 @@ fn reaction(c: &mut Criterion) {
     c.bench_function("dry_9_balls_moving", |b| {
         b.iter(|| dry.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &moving));
     });
+    let fast = Rotation { cage_angle: 0.3, cage_speed: 600.0, shaft_angle: 0.7, shaft_speed: 1500.0 };
+    for (name, inertia) in [
+        ("outer_race_control", BallInertia::OuterRaceControl),
+        ("inner_race_control", BallInertia::InnerRaceControl),
+        ("shared", BallInertia::Shared),
+    ] {
+        let element = BallElement::new(&BallBearing { inertia, ..bearing::rig_6205() });
+        c.bench_function(&format!("jones_9_balls_{name}"), |b| {
+            b.iter(|| element.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &fast));
+        });
+    }
 }
 
 criterion_group!(benches, reaction);

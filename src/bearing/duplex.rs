@@ -34,9 +34,11 @@ pub(super) fn seen_from_station(place: f64, row: &Reaction) -> Reaction {
             row[4] += place * row[0];
             row[3] -= place * row[1];
         }
-        for column in 0..6 {
-            matrix[4][column] += place * matrix[0][column];
-            matrix[3][column] -= place * matrix[1][column];
+        let [x, y, ..] = *matrix;
+        for (row, by, from) in [(4, place, x), (3, -place, y)] {
+            for (entry, v) in matrix[row].iter_mut().zip(from) {
+                *entry += by * v;
+            }
         }
     }
     out

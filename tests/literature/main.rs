@@ -6,6 +6,7 @@ mod rig;
 mod ross;
 
 mod bal_2022_contacts;
+mod bal_2022_preload;
 mod cakmak_2010;
 mod cakmak_2010_modes;
 mod nelson_mcvaugh_1976;
@@ -14,4 +15,5 @@ mod ross_elements;
 mod ross_modes;
 mod ross_responses;
 mod ross_run_up;
+mod zhang_2016;
 mod zhang_2016_contacts;
