@@ -109,10 +109,10 @@ mod tests {
         let mut a = BandMatrix::zeros(n, lower, upper);
         let x: Vec<f64> = (0..n).map(|k| (k as f64).cos()).collect();
         let mut b = vec![0.0; n];
-        for r in 0..n {
-            for c in r.saturating_sub(lower)..=(r + upper).min(n - 1) {
+        for (r, sum) in b.iter_mut().enumerate() {
+            for (c, x) in x.iter().enumerate().filter(|(c, _)| c + lower >= r && *c <= r + upper) {
                 a.row_mut(r)[c + lower - r] = entry(r, c);
-                b[r] += entry(r, c) * x[c];
+                *sum += entry(r, c) * x;
             }
         }
         a.factor().unwrap();

@@ -2,10 +2,14 @@
 
 #[path = "../common/bearing.rs"]
 mod bearing;
+#[path = "../common/ehl.rs"]
+#[allow(dead_code)]
+mod lubricated;
 
 mod ball_bearing;
 mod ball_combinations;
 mod ball_inertia;
 mod contact_laws;
+mod ehl_table;
 mod linear_bearing;
 mod preload;

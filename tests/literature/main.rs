@@ -1,5 +1,8 @@
 //! Published figures; the file's name is its source.
 
+#[path = "../common/ehl.rs"]
+#[allow(dead_code)]
+mod lubricated;
 #[path = "../common/rig.rs"]
 mod rig;
 #[path = "../common/ross.rs"]
@@ -17,3 +20,4 @@ mod ross_responses;
 mod ross_run_up;
 mod zhang_2016;
 mod zhang_2016_contacts;
+mod zhang_2016_ehl;

@@ -8,17 +8,22 @@
 //! | `guess` | film and pressure to start from |
 //! | `newton` | film, rupture and load balance on one grid |
 //! | `solution` | fields and figures in SI |
+//! | `table`, `curve` | film over load and speed, and the contact law at one speed |
 //!
 //! x lies along rolling (fluid flows towards +x), y across, p = 0 on the edges of the domain.
 
+mod curve;
 mod deflection;
 mod guess;
 mod newton;
 mod reynolds;
 mod scaled;
 mod solution;
+mod table;
 
+pub use curve::Curve;
 pub use solution::Solution;
+pub use table::{Table, TableSpec, geometric};
 
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use scaled::Scaled;
@@ -76,7 +81,7 @@ pub enum Failure {
 }
 
 /// Coarsest grid of a nest: nodes along, and rows of the half domain.
-const COARSEST: [usize; 2] = [41, 9];
+const COARSEST: [usize; 2] = [25, 7];
 
 /// Least length in semi-axes that [`Grid::flooded`] resolves, so that no film asks for an endless grid.
 const THINNEST: f64 = 0.06;
@@ -110,6 +115,47 @@ pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Fa
         .rev()
         .fold(None, |near: Option<Solution>, grid| attempt(problem, grid, near.as_ref()).ok());
     attempt(problem, &problem.grid, near.as_ref())
+}
+
+/// Figures of a contact extrapolated to zero mesh width, and the fields on its grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extrapolated {
+    /// Central film h_c \[m\].
+    pub central_film: f64,
+    /// Mutual approach δ \[m\].
+    pub approach: f64,
+    /// Rolling resistance on each surface \[N\].
+    pub rolling_force: f64,
+    /// Solution on the problem's own grid.
+    pub fine: Solution,
+}
+
+impl Extrapolated {
+    /// By how much the film lessens the approach, δ_dry − δ \[m\].
+    pub fn film_shift(&self) -> f64 {
+        self.fine.dry_approach - self.approach
+    }
+}
+
+/// Solves on the problem's grid and on one of half as many intervals, and extrapolates: f + (f − c)/3 at second order.
+///
+/// A film too thin for the coarser grid is not extrapolated.
+///
+/// # Errors
+/// As [`solve`].
+pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, Failure> {
+    let coarse = solve(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
+    let fine = solve(problem, coarse.as_ref().or(start))?;
+    let limit = |figure: fn(&Solution) -> f64| {
+        let f = figure(&fine);
+        coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
+    };
+    Ok(Extrapolated {
+        central_film: limit(|s| s.central_film),
+        approach: limit(|s| s.approach),
+        rolling_force: limit(|s| s.rolling_force),
+        fine,
+    })
 }
 
 fn attempt(problem: &Problem, grid: &Grid, near: Option<&Solution>) -> Result<Solution, Failure> {
@@ -168,8 +214,9 @@ impl Grid {
         let intervals =
             |length: f64, unit: f64, points: usize| (length / unit * points as f64).ceil() as usize;
         let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(THINNEST);
-        let nx = intervals(domain.inlet + domain.outlet, inlet, points) + 1;
-        let rows = intervals(domain.side, across(1.0).hypot(1.0), 2 * points).max(8);
+        // Even numbers, so that the coarser grid has half of each.
+        let nx = intervals(domain.inlet + domain.outlet, inlet, points).next_multiple_of(2) + 1;
+        let rows = intervals(domain.side, across(1.0).hypot(1.0), 2 * points).next_multiple_of(2).max(8);
         Self { nx, ny: 2 * rows + 1, domain }
     }
 }

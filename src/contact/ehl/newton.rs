@@ -11,9 +11,9 @@ use crate::contact::Lubricant;
 use crate::linalg::{BandMatrix, gmres};
 
 /// Root mean square of min(P, R/d) at which the field has converged.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 60;
-const KRYLOV_TOLERANCE: f64 = 1e-3;
+const KRYLOV_TOLERANCE: f64 = 1e-2;
 const KRYLOV_SPACE: usize = 200;
 const HALVINGS: usize = 8;
 

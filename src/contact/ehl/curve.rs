@@ -1,0 +1,189 @@
+//! Contact law of a film at one speed, interpolated over the load.
+
+use crate::contact::Loaded;
+use crate::linalg::pchip::Pchip;
+
+/// Load and approach of a lubricated contact at one speed: δ = D − s(Q), Q = K D^{3/2}.
+///
+/// s = δ_dry − δ, the film's shift, is a monotone cubic of ln Q in its logarithm, so that δ rises with Q wherever s
+/// falls. Outside the loads it was computed at it goes over to s ~ Q^−0.067 within a decade (Hamrock and Dowson's
+/// film). Below [`Curve::THRESHOLD`] it goes on along its tangent in D, so that the contact lets go at a finite film: no
+/// load for δ ≤ −s(0). Q, dQ/dδ and ∫Q dδ are continuous.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    stiffness: f64,
+    film: Option<Film>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Film {
+    /// ln s and ln h_c over ln Q.
+    shift: Pchip,
+    central: Pchip,
+    /// ln Q of the knots and ∫ Q ds up to them, from the first.
+    knots: Vec<f64>,
+    work: Vec<f64>,
+    /// Where the tangent takes over: D, s, ds/dD, ∫ Q ds there.
+    threshold: [f64; 4],
+}
+
+/// Power of the load in Hamrock and Dowson's central film.
+const LOAD_POWER: f64 = -0.067;
+
+/// Nodes and weights of Gauss and Legendre on \[−1, 1\].
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+impl Curve {
+    /// Load below which the film follows its tangent \[N\]: far below any that matters.
+    pub const THRESHOLD: f64 = 1e-3;
+
+    /// Law without a film.
+    pub(super) fn dry(stiffness: f64) -> Self {
+        Self { stiffness, film: None }
+    }
+
+    /// Law from the logarithms of shift and central film at increasing loads.
+    pub(super) fn new(stiffness: f64, loads: &[f64], shift: &[f64], central: &[f64]) -> Self {
+        // Two more knots on either side that lie on the power law: a cubic joins it smoothly, and ends on it.
+        let step = 0.5 * std::f64::consts::LN_10;
+        let inside: Vec<f64> = loads.iter().map(|q| q.ln()).collect();
+        let extend = |values: &[f64], power: f64| -> Vec<f64> {
+            let (Some(first), Some(last)) = (values.first(), values.last()) else { return Vec::new() };
+            let end = |value: f64, steps: f64| value + power * steps * step;
+            let mut all = vec![end(*first, -2.0), end(*first, -1.0)];
+            all.extend(values);
+            all.extend([end(*last, 1.0), end(*last, 2.0)]);
+            all
+        };
+        let knots = extend(&inside, 1.0);
+        let pchip = |values: &[f64]| Pchip::new(&knots, &extend(values, LOAD_POWER));
+        let (Some(shift), Some(central)) = (pchip(shift), pchip(central)) else {
+            return Self::dry(stiffness);
+        };
+        let mut film = Film { shift, central, work: vec![0.0; knots.len()], knots, threshold: [0.0; 4] };
+        for k in 1..film.knots.len() {
+            film.work[k] = film.work[k - 1] + film.gauss(film.knots[k - 1], film.knots[k]);
+        }
+        let deformation = (Self::THRESHOLD / stiffness).powf(2.0 / 3.0);
+        let [s, power] = film.shift_at(Self::THRESHOLD.ln());
+        film.threshold = [deformation, s, 1.5 * power * s / deformation, film.work_at(Self::THRESHOLD.ln())];
+        Self { stiffness, film: Some(film) }
+    }
+
+    /// Approach δ \[m\] and its slope dδ/dQ \[m/N\] at a load Q > 0 \[N\].
+    pub fn approach(&self, load: f64) -> [f64; 2] {
+        let deformation = (load / self.stiffness).powf(2.0 / 3.0);
+        let [shift, slope] = self.shift(deformation);
+        [deformation - shift, (1.0 - slope) * deformation / (1.5 * load)]
+    }
+
+    /// Central film h_c \[m\] under a load Q > 0 \[N\]; 0 when dry.
+    pub fn central_film(&self, load: f64) -> f64 {
+        self.film.as_ref().map_or(0.0, |film| film.central.at(load.max(Self::THRESHOLD).ln())[0].exp())
+    }
+
+    /// Film −δ \[m\] at which the contact lets go.
+    pub fn reach(&self) -> f64 {
+        self.shift(0.0)[0]
+    }
+
+    /// Load, slope and energy at the approach δ \[m\].
+    ///
+    /// Newton's method in D, bracketed; dQ/dδ = (3/2) K √D/(1 − ds/dD), ∫Q dδ = (2/5) K D^{5/2} − ∫Q ds.
+    pub fn load(&self, approach: f64) -> Loaded {
+        let reach = self.reach();
+        if !(approach > -reach) {
+            return Loaded::default();
+        }
+        // δ(0) = −s(0) < δ, and s never exceeds s(0) where it falls with the load.
+        let (mut low, mut high) = (0.0, approach + reach);
+        let mut deformation = high.min((approach + self.shift(approach.max(0.0))[0]).max(0.5 * high));
+        let [mut shift, mut slope] = self.shift(deformation);
+        for _ in 0..100 {
+            let error = deformation - shift - approach;
+            if error > 0.0 {
+                high = deformation;
+            } else {
+                low = deformation;
+            }
+            let newton = deformation - error / (1.0 - slope);
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let moved = (next - deformation).abs();
+            deformation = next;
+            [shift, slope] = self.shift(deformation);
+            if moved <= 1e-15 * deformation || high - low <= f64::EPSILON * high {
+                break;
+            }
+        }
+        let root = self.stiffness * deformation.sqrt();
+        let load = root * deformation;
+        Loaded {
+            load,
+            slope: 1.5 * root / (1.0 - slope),
+            energy: 0.4 * load * deformation - self.work(deformation, load),
+        }
+    }
+
+    /// s and ds/dD at a deformation D ≥ 0.
+    fn shift(&self, deformation: f64) -> [f64; 2] {
+        let Some(film) = &self.film else { return [0.0; 2] };
+        let [knee, s, slope, _] = film.threshold;
+        if deformation <= knee {
+            return [s + slope * (deformation - knee), slope];
+        }
+        let [s, power] = film.shift_at(self.stiffness.ln() + 1.5 * deformation.ln());
+        [s, 1.5 * power * s / deformation]
+    }
+
+    /// ∫ Q ds from zero load.
+    fn work(&self, deformation: f64, load: f64) -> f64 {
+        let Some(film) = &self.film else { return 0.0 };
+        let [knee, _, slope, work] = film.threshold;
+        let tangent = |d: f64| 0.4 * slope * self.stiffness * d * d * d.sqrt();
+        if deformation <= knee {
+            return tangent(deformation);
+        }
+        tangent(knee) + film.work_at(load.ln()) - work
+    }
+}
+
+impl Film {
+    /// s and d ln s/d ln Q at ln Q.
+    fn shift_at(&self, log_load: f64) -> [f64; 2] {
+        let [value, slope, _] = self.shift.at(log_load);
+        [value.exp(), slope]
+    }
+
+    /// ∫ Q ds over ln Q between two of one interval.
+    fn gauss(&self, from: f64, to: f64) -> f64 {
+        let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let term = |(node, weight): (f64, f64)| {
+            let t = centre + half * node;
+            let [s, power] = self.shift_at(t);
+            weight * t.exp() * s * power
+        };
+        half * GAUSS.into_iter().map(term).sum::<f64>()
+    }
+
+    /// ∫ Q ds from the first knot; outside the knots the power law in closed form, m/(1 + m) Q s.
+    fn work_at(&self, log_load: f64) -> f64 {
+        let last = self.knots.len() - 1;
+        for (end, outside) in [(0, log_load <= self.knots[0]), (last, log_load >= self.knots[last])] {
+            if outside {
+                let closed = |t: f64| {
+                    let [s, power] = self.shift_at(t);
+                    power / (1.0 + power) * t.exp() * s
+                };
+                return self.work[end] + closed(log_load) - closed(self.knots[end]);
+            }
+        }
+        let k = self.knots.partition_point(|&knot| knot <= log_load) - 1;
+        self.work[k] + self.gauss(self.knots[k], log_load)
+    }
+}

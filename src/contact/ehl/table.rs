@@ -1,0 +1,142 @@
+//! Film of one contact over load and speed, as a contact law.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::curve::Curve;
+use super::{Extrapolated, Failure, Grid, Problem, Solution, extrapolate};
+use crate::contact::{EllipticContact, Lubricant};
+use crate::linalg::pchip::Pchip;
+
+/// What a [`Table`] is computed from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableSpec {
+    pub contact: EllipticContact,
+    pub lubricant: Lubricant,
+    /// Loads Q, increasing \[N\].
+    pub loads: Vec<f64>,
+    /// Entrainment speeds u, increasing \[m/s\].
+    pub speeds: Vec<f64>,
+    /// Fineness of the grids as in [`Grid::flooded`]; with 6 the film is good to about 1 %.
+    pub points: usize,
+}
+
+/// Film shift δ_dry − δ and central film at every load and speed of a [`TableSpec`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Table {
+    /// All inputs as text: equal keys, equal tables.
+    pub key: String,
+    /// Dry stiffness K in Q = K δ^{3/2} \[N/m^1.5\].
+    pub stiffness: f64,
+    pub loads: Vec<f64>,
+    pub speeds: Vec<f64>,
+    /// δ_dry − δ \[m\], one row of loads for each speed.
+    pub shift: Vec<Vec<f64>>,
+    /// Central film h_c \[m\], likewise.
+    pub central_film: Vec<Vec<f64>>,
+}
+
+/// `count` ≥ 2 values in geometric progression from `first` to `last`.
+pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
+    let ratio = last / first;
+    (0..count).map(|k| first * ratio.powf(k as f64 / (count.max(2) - 1) as f64)).collect()
+}
+
+impl TableSpec {
+    /// Text of all inputs, the same on every machine: what a table is stored under.
+    pub fn key(&self) -> String {
+        let Self { contact, lubricant, loads, speeds, points } = self;
+        format!(
+            "ehl table 1; Rx {:e} m; Ry {:e} m; E* {:e} Pa; eta {:e} Pa s; alpha {:e} 1/Pa; Q {loads:?} N; u {speeds:?} m/s; points {points}",
+            contact.rolling_radius,
+            contact.transverse_radius,
+            contact.modulus,
+            lubricant.viscosity,
+            lubricant.pressure_viscosity,
+        )
+    }
+
+    /// Solves the contact at every load and speed, on two grids each, extrapolated to zero mesh width.
+    ///
+    /// Speeds in parallel, each from the heaviest load down; the result does not depend on the number of threads.
+    /// `progress(done, total)` is called after every contact, from any thread.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for loads or speeds that do not increase from above zero; the first contact in the table's order that
+    /// does not converge.
+    pub fn compute(&self, progress: impl Fn(usize, usize) + Sync) -> Result<Table, Failure> {
+        for (quantity, values) in [("first load", &self.loads), ("first entrainment speed", &self.speeds)] {
+            let increasing = values.windows(2).all(|pair| pair[0] < pair[1]);
+            let value = values.first().copied().unwrap_or(f64::NAN);
+            if !(increasing && value > 0.0) {
+                return Err(Failure::Input {
+                    quantity,
+                    range: "positive and the least of increasing ones",
+                    value,
+                });
+            }
+        }
+        let done = AtomicUsize::new(0);
+        let total = self.loads.len() * self.speeds.len();
+        let count = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+        let rows: Vec<Result<Vec<Extrapolated>, Failure>> =
+            self.speeds.par_iter().map(|&speed| self.row(speed, &count)).collect();
+        let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let column = |value: fn(&Extrapolated) -> f64| {
+            rows.iter().map(|row| row.iter().map(value).collect()).collect()
+        };
+        Ok(Table {
+            key: self.key(),
+            stiffness: self.contact.stiffness,
+            loads: self.loads.clone(),
+            speeds: self.speeds.clone(),
+            shift: column(Extrapolated::film_shift),
+            central_film: column(|found| found.central_film),
+        })
+    }
+
+    /// All loads at one speed, each started from the next heavier.
+    fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<Extrapolated>, Failure> {
+        let mut near: Option<Solution> = None;
+        let mut row = Vec::with_capacity(self.loads.len());
+        for &load in self.loads.iter().rev() {
+            let grid = Grid::flooded(&self.contact, &self.lubricant, speed, load, self.points);
+            let problem =
+                Problem { contact: self.contact, lubricant: self.lubricant.clone(), speed, load, grid };
+            let found = extrapolate(&problem, near.as_ref())?;
+            near = Some(found.fine.clone());
+            row.push(found);
+            count();
+        }
+        row.reverse();
+        Ok(row)
+    }
+}
+
+impl Table {
+    /// The contact law at an entrainment speed u \[m/s\]: dry for u ≤ 0.
+    ///
+    /// Between the speeds film and shift are monotone cubics of ln u in their logarithms; below the slowest and beyond the
+    /// fastest powers of u (with a single speed u^0.67, Hamrock and Dowson's), so that both go to 0 with u.
+    pub fn at_speed(&self, speed: f64) -> Curve {
+        if !(speed > 0.0) {
+            return Curve::dry(self.stiffness);
+        }
+        let logs: Vec<f64> = self.speeds.iter().map(|u| u.ln()).collect();
+        let at = |rows: &[Vec<f64>]| -> Vec<f64> {
+            (0..self.loads.len())
+                .map(|k| {
+                    let values: Vec<f64> = rows.iter().map(|row| row[k].ln()).collect();
+                    let single = values.first().map_or(f64::NAN, |v| v + 0.67 * (speed.ln() - logs[0]));
+                    match Pchip::new(&logs, &values) {
+                        Some(curve) if logs.len() > 1 => curve.at(speed.ln())[0],
+                        _ => single,
+                    }
+                })
+                .collect()
+        };
+        Curve::new(self.stiffness, &self.loads, &at(&self.shift), &at(&self.central_film))
+    }
+}

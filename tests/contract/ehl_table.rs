@@ -1,0 +1,148 @@
+//! The numerical film as a contact law: interpolation, tangents, energy, limits, storage.
+
+use crate::lubricated::steel;
+use rotordyn::contact::ehl::{Curve, Failure, Table, TableSpec, geometric};
+use rotordyn::contact::{EllipticContact, Lubricant};
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn spec() -> TableSpec {
+    let contact = EllipticContact::new(160.0, 9.0, [&steel(2.07e11), &steel(2.07e11)]);
+    let lubricant =
+        Lubricant { name: "oil".into(), viscosity: 0.05, pressure_viscosity: 2e-8, density: 870.0 };
+    TableSpec {
+        contact,
+        lubricant,
+        loads: geometric(10.0, 1000.0, 4),
+        speeds: vec![2.0, 5.0, 12.0],
+        points: 3,
+    }
+}
+
+static TABLE: LazyLock<Table> = LazyLock::new(|| spec().compute(|_, _| ()).unwrap());
+
+fn loads() -> impl Iterator<Item = f64> {
+    geometric(1e-5, 1e5, 201).into_iter()
+}
+
+#[test]
+fn the_table_holds_its_own_figures() {
+    for (u, speed) in TABLE.speeds.iter().enumerate() {
+        let curve = TABLE.at_speed(*speed);
+        for (q, &load) in TABLE.loads.iter().enumerate() {
+            let dry = (load / TABLE.stiffness).powf(2.0 / 3.0);
+            let shift = dry - curve.approach(load)[0];
+            assert!((shift / TABLE.shift[u][q] - 1.0).abs() < 1e-10);
+            assert!((curve.central_film(load) / TABLE.central_film[u][q] - 1.0).abs() < 1e-10);
+            // The film takes a little more off the approach than its own thickness: the wedge carries load too.
+            let ratio = TABLE.shift[u][q] / TABLE.central_film[u][q];
+            assert!((1.0..1.8).contains(&ratio), "{ratio} at {speed} m/s, {load} N");
+        }
+    }
+}
+
+#[test]
+fn load_inverts_approach_with_its_tangent_and_energy() {
+    for speed in [0.0, 0.01, 2.0, 3.3, 12.0, 40.0] {
+        let curve = TABLE.at_speed(speed);
+        for load in loads() {
+            let [approach, slope] = curve.approach(load);
+            let found = curve.load(approach);
+            // δ cancels to rounding where film and deformation are alike, so the load is known to its tangent.
+            let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.reach()) / slope;
+            assert!((found.load - load).abs() < 1e3 * known, "{speed} {load}: {}", found.load);
+            assert!((found.slope * slope - 1.0).abs() < 1e-6, "{speed} {load}");
+            let step = 1e-4 * (load * slope).min(approach.abs() + curve.reach());
+            let [up, down] = [approach + step, approach - step].map(|a| curve.load(a));
+            let difference = (up.load - down.load) / (2.0 * step);
+            assert!(
+                (difference / found.slope - 1.0).abs() < 1e-3,
+                "{speed} {load}: {difference} {}",
+                found.slope
+            );
+            let power = (up.energy - down.energy) / (2.0 * step);
+            assert!((power / load - 1.0).abs() < 1e-3, "{speed} {load}: {power}");
+        }
+    }
+}
+
+#[test]
+fn unloaded_beyond_the_reach_of_the_film() {
+    let curve = TABLE.at_speed(5.0);
+    let reach = curve.reach();
+    assert!(reach > TABLE.central_film[1][0]);
+    assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::Loaded::default());
+    let just = curve.load(-reach * (1.0 - 1e-9));
+    assert!(just.load > 0.0 && just.load < 1e-6 && just.slope > 0.0 && just.energy > 0.0);
+    assert_eq!(curve.load(f64::NAN).load, 0.0);
+}
+
+#[test]
+fn monotone_in_load_and_speed_and_dry_without_speed() {
+    for pair in loads().collect::<Vec<_>>().windows(2) {
+        for speed in [0.1, 2.0, 7.0] {
+            let curve = TABLE.at_speed(speed);
+            assert!(curve.approach(pair[1])[0] > curve.approach(pair[0])[0]);
+        }
+    }
+    let speeds = geometric(1e-3, 100.0, 60);
+    let approaches =
+        |load: f64| speeds.iter().map(move |&u| TABLE.at_speed(u).approach(load)[0]).collect::<Vec<_>>();
+    for load in [1.0, 30.0, 500.0] {
+        assert!(approaches(load).windows(2).all(|pair| pair[1] < pair[0]));
+        let dry = (load / TABLE.stiffness).powf(2.0 / 3.0);
+        assert_eq!(TABLE.at_speed(0.0).approach(load)[0], dry);
+        assert!((TABLE.at_speed(1e-9).approach(load)[0] / dry - 1.0).abs() < 1e-4);
+    }
+    assert_eq!(TABLE.at_speed(0.0).reach(), 0.0);
+}
+
+/// Far outside its loads the film falls as Hamrock and Dowson's.
+#[test]
+fn power_law_outside_the_loads() {
+    let curve = TABLE.at_speed(5.0);
+    for load in [0.1, 1e5] {
+        let power = (curve.central_film(1.01 * load) / curve.central_film(load)).ln() / 1.01_f64.ln();
+        assert!((power + 0.067).abs() < 1e-9, "{power}");
+    }
+}
+
+#[test]
+fn the_same_from_any_number_of_threads_and_through_a_file() {
+    let calls = AtomicUsize::new(0);
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let small = TableSpec { loads: vec![50.0, 500.0], speeds: vec![2.0, 5.0], ..spec() };
+    let count = |done: usize, total: usize| {
+        assert!(done <= total && total == 4);
+        calls.fetch_add(1, Ordering::Relaxed);
+    };
+    let alone = one.install(|| small.compute(count)).unwrap();
+    assert_eq!(calls.load(Ordering::Relaxed), 4);
+    assert_eq!(alone, small.compute(|_, _| ()).unwrap());
+    let text = serde_json::to_string(&alone).unwrap();
+    assert_eq!(serde_json::from_str::<Table>(&text).unwrap(), alone);
+}
+
+#[test]
+fn the_key_tells_every_input() {
+    let base = spec();
+    let mut others = vec![base.clone(); 6];
+    others[0].points += 1;
+    others[1].speeds.push(20.0);
+    others[2].loads[0] *= 1.0 + 1e-15;
+    others[3].lubricant.viscosity *= 1.01;
+    others[4].lubricant.pressure_viscosity *= 1.01;
+    others[5].contact = EllipticContact::new(160.0, 9.1, [&steel(2.07e11), &steel(2.07e11)]);
+    assert!(others.iter().all(|other| other.key() != base.key()));
+    assert_eq!(base.key(), spec().key());
+    assert_eq!(TABLE.key, base.key());
+}
+
+#[test]
+fn a_table_without_order_is_refused() {
+    for (loads, speeds) in [(vec![10.0, 5.0], vec![1.0]), (vec![], vec![1.0]), (vec![1.0], vec![0.0, 1.0])] {
+        let wrong = TableSpec { loads, speeds, ..spec() };
+        assert!(matches!(wrong.compute(|_, _| ()), Err(Failure::Input { .. })));
+    }
+    let _: Curve = TABLE.at_speed(1.0);
+}
