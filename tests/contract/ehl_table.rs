@@ -1,7 +1,7 @@
 //! The numerical film as a contact law: interpolation, tangents, energy, limits, storage.
 
 use crate::lubricated::steel;
-use rotordyn::contact::ehl::{Curve, Failure, Table, TableSpec, geometric};
+use rotordyn::contact::ehl::{Failure, Table, TableSpec, geometric};
 use rotordyn::contact::{EllipticContact, Lubricant};
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -74,7 +74,7 @@ fn unloaded_beyond_the_reach_of_the_film() {
     assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::Loaded::default());
     let just = curve.load(-reach * (1.0 - 1e-9));
     assert!(just.load > 0.0 && just.load < 1e-6 && just.slope > 0.0 && just.energy > 0.0);
-    assert_eq!(curve.load(f64::NAN).load, 0.0);
+    assert!(curve.load(f64::NAN).load.is_nan());
 }
 
 #[test]
@@ -144,5 +144,4 @@ fn a_table_without_order_is_refused() {
         let wrong = TableSpec { loads, speeds, ..spec() };
         assert!(matches!(wrong.compute(|_, _| ()), Err(Failure::Input { .. })));
     }
-    let _: Curve = TABLE.at_speed(1.0);
 }

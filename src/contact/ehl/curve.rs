@@ -98,7 +98,7 @@ impl Curve {
     /// Newton's method in D, bracketed; dQ/dδ = (3/2) K √D/(1 − ds/dD), ∫Q dδ = (2/5) K D^{5/2} − ∫Q ds.
     pub fn load(&self, approach: f64) -> Loaded {
         let reach = self.reach();
-        if !(approach > -reach) {
+        if approach <= -reach {
             return Loaded::default();
         }
         // δ(0) = −s(0) < δ, and s never exceeds s(0) where it falls with the load.
@@ -183,7 +183,7 @@ impl Film {
                 return self.work[end] + closed(log_load) - closed(self.knots[end]);
             }
         }
-        let k = self.knots.partition_point(|&knot| knot <= log_load) - 1;
+        let k = self.knots.partition_point(|&knot| knot <= log_load).clamp(1, last) - 1;
         self.work[k] + self.gauss(self.knots[k], log_load)
     }
 }

@@ -121,7 +121,7 @@ impl Table {
     /// Between the speeds film and shift are monotone cubics of ln u in their logarithms; below the slowest and beyond the
     /// fastest powers of u (with a single speed u^0.67, Hamrock and Dowson's), so that both go to 0 with u.
     pub fn at_speed(&self, speed: f64) -> Curve {
-        if !(speed > 0.0) {
+        if speed <= 0.0 {
             return Curve::dry(self.stiffness);
         }
         let logs: Vec<f64> = self.speeds.iter().map(|u| u.ln()).collect();
