@@ -11,6 +11,9 @@
 //! | [`waterfall`] | spectra at chosen speeds |
 //! | [`ridge`] | peaks between bins, the ridge near a line |
 //! | [`orbit`] | filtered orbit, whirl, full spectrum |
+//! | [`poincare`] | stroboscopic section by a phase, groups of its points |
+//! | [`period`] | period of a section; quasi-periodic or chaotic by the 0–1 test |
+//! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`impact`] | H1, H2 and coherence from blows or random excitation |
 //! | [`envelope`] | analytic signal, envelope, envelope spectrum |
@@ -22,8 +25,11 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod impact;
+pub mod lyapunov;
 pub mod orbit;
 pub mod order;
+pub mod period;
+pub mod poincare;
 pub mod resample;
 pub mod ridge;
 pub mod segment;

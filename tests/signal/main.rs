@@ -6,6 +6,7 @@ mod oracle;
 mod orders;
 mod refusals;
 mod resampling;
+mod sections;
 
 use rotordyn::signal::Complex;
 

@@ -1,0 +1,172 @@
+//! The kind of a steady motion from its Poincaré section: periodic and of what period, quasi-periodic, or chaotic.
+
+use std::f64::consts::PI;
+
+use super::SignalError;
+use super::error::{check, check_length, check_record, check_same_length};
+
+/// Frequencies tried by the 0–1 test.
+const FREQUENCIES: usize = 100;
+/// The 0–1 test calls a section chaotic from this K on.
+const CHAOTIC: f64 = 0.5;
+/// Share of the first half's error below which the second half's counts as a decay.
+const DECAY: f64 = 0.3;
+
+/// What a steady motion is, seen once per period of its clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Repeats after this many periods of the clock.
+    Periodic(usize),
+    /// Approaches a motion of this period, but had not settled on it: the run should be longer.
+    Settling(usize),
+    /// Regular without a period that was found: two or more frequencies without a common multiple (or a period longer
+    /// than the longest tried).
+    QuasiPeriodic,
+    /// Irregular.
+    Chaotic,
+}
+
+impl Motion {
+    /// "period 2", "quasi-periodic", ...
+    pub fn name(&self) -> String {
+        match self {
+            Self::Periodic(k) => format!("period {k}"),
+            Self::Settling(k) => format!("settling to period {k}"),
+            Self::QuasiPeriodic => "quasi-periodic".into(),
+            Self::Chaotic => "chaotic".into(),
+        }
+    }
+}
+
+/// A motion with the figures that decided on its kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Classified {
+    pub motion: Motion,
+    /// Largest change over one period of the motion, relative to the size of the orbit; of the best period tried when
+    /// none was good enough.
+    pub recurrence: f64,
+    /// K of the 0–1 test, near 0 for regular, near 1 for chaotic motion; NaN for a periodic motion, not tested.
+    pub chaos: f64,
+}
+
+/// Tells the kind of a motion from its section.
+///
+/// `sections`: per channel its N section values; `sizes`: per channel the size of the whole orbit (peak to peak, not
+/// of the section: that of a motion of period 1 is a point); `tolerance` relative to the size; `longest` period tried,
+/// N/2 at most. The criterion, in this order:
+///
+/// 1. periodic(k): k is the smallest with |x_{n+k} − x_n| ≤ tolerance · size for every n and channel;
+/// 2. settling(k): k is the smallest whose error over the second half of the section is below a tenth of the size and
+///    below 0.3 of the error over the first half (a decay, not a wander);
+/// 3. chaotic when the 0–1 test ([`zero_one`]) gives K ≥ 0.5 for any channel whose section is wider than the
+///    tolerance, else quasi-periodic.
+///
+/// Errors: NaN, unequal lengths, no channel, fewer than eight points.
+pub fn classify(
+    sections: &[&[f64]],
+    sizes: &[f64],
+    tolerance: f64,
+    longest: usize,
+) -> Result<Classified, SignalError> {
+    check_same_length("sizes", sizes.len(), "the list of sections", sections.len())?;
+    check(tolerance > 0.0 && tolerance.is_finite(), "tolerance", "a positive number", tolerance)?;
+    check_length("list of sections", sections.len(), 1, "a period")?;
+    let n = sections[0].len();
+    for section in sections {
+        check_record("section", section)?;
+        check_same_length("section", section.len(), "the first section", n)?;
+    }
+    check_length("section", n, 8, "a period")?;
+    check_record("sizes", sizes)?;
+
+    let moving: Vec<(&[f64], f64)> =
+        sections.iter().zip(sizes).filter(|(_, size)| **size > 0.0).map(|(s, size)| (*s, *size)).collect();
+    // Largest relative change over k points, for points from..until.
+    let change = |k: usize, from: usize, until: usize| {
+        let of = |(s, size): &(&[f64], f64)| {
+            (from..until - k).map(|i| (s[i + k] - s[i]).abs() / size).fold(0.0, f64::max)
+        };
+        moving.iter().map(of).fold(0.0, f64::max)
+    };
+    let longest = longest.clamp(1, n / 2);
+    let mut best = (1, f64::INFINITY);
+    for k in 1..=longest {
+        let recurrence = change(k, 0, n);
+        if recurrence <= tolerance {
+            return Ok(Classified { motion: Motion::Periodic(k), recurrence, chaos: f64::NAN });
+        }
+        if recurrence < best.1 {
+            best = (k, recurrence);
+        }
+    }
+    // A half must hold the period at least once.
+    let half = n / 2;
+    let late = (1..=longest.min(half / 2)).map(|k| (k, change(k, half, n)));
+    let mut decays = late.filter(|(k, error)| *error < 0.1 && *error < DECAY * change(*k, 0, half));
+    if let Some((k, error)) = decays.next() {
+        return Ok(Classified { motion: Motion::Settling(k), recurrence: error, chaos: f64::NAN });
+    }
+    let mut chaos = f64::NAN;
+    for (section, size) in &moving {
+        let (low, high) = section.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (v.min(l), v.max(h)));
+        if high - low > tolerance * size {
+            chaos = zero_one(section)?.max(chaos);
+        }
+    }
+    let motion = if chaos >= CHAOTIC { Motion::Chaotic } else { Motion::QuasiPeriodic };
+    Ok(Classified { motion, recurrence: best.1, chaos })
+}
+
+/// The 0–1 test for chaos: K near 0 for regular, near 1 for chaotic motion.
+///
+/// p(n) = Σ_{j≤n} (x_j − x̄) cos jc, q(n) likewise with sin jc; the mean square displacement M_c(n) of (p, q) over n
+/// steps is bounded for regular and grows linearly for chaotic motion. K_c is the correlation of M_c(n) with
+/// n = 1 .. N/10, K the median over 100 values of c in (π/5, 4π/5), spread by the golden ratio. (Taking off the mean x̄
+/// stands for the source's term in x̄².)
+/// Validity: samples once per period of the forcing (densely sampled records look regular), 100 or more of them.
+/// Source: Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), §2 and §3.
+/// Errors: NaN, fewer than eight samples.
+pub fn zero_one(record: &[f64]) -> Result<f64, SignalError> {
+    check_record("record", record)?;
+    check_length("record", record.len(), 8, "the 0-1 test")?;
+    let n = record.len();
+    let spread = (n / 10).max(4);
+    let mean = record.iter().sum::<f64>() / n as f64;
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut p, mut q, mut growth) = (vec![0.0; n], vec![0.0; n], vec![0.0; spread]);
+    let mut found: Vec<f64> = (0..FREQUENCIES)
+        .map(|k| {
+            let c = PI * (0.2 + 0.6 * ((k + 1) as f64 * golden).fract());
+            let (mut a, mut b) = (0.0, 0.0);
+            for (j, x) in record.iter().enumerate() {
+                let (sin, cos) = ((j + 1) as f64 * c).sin_cos();
+                a += (x - mean) * cos;
+                b += (x - mean) * sin;
+                (p[j], q[j]) = (a, b);
+            }
+            let used = n - spread;
+            for (m, value) in growth.iter_mut().enumerate() {
+                let m = m + 1;
+                let square = |j: usize| (p[j + m] - p[j]).powi(2) + (q[j + m] - q[j]).powi(2);
+                *value = (0..used).map(square).sum::<f64>() / used as f64;
+            }
+            correlation_with_index(&growth)
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    Ok(0.5 * (found[FREQUENCIES / 2 - 1] + found[FREQUENCIES / 2]))
+}
+
+/// Correlation of values with 1, 2, 3, ...; 0 where the values are all equal.
+fn correlation_with_index(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let middle = 0.5 * (n - 1.0);
+    let mean = values.iter().sum::<f64>() / n;
+    let (mut both, mut own) = (0.0, 0.0);
+    for (k, v) in values.iter().enumerate() {
+        both += (k as f64 - middle) * (v - mean);
+        own += (v - mean) * (v - mean);
+    }
+    let of_index = n * (n * n - 1.0) / 12.0;
+    if own > 0.0 { both / (own * of_index).sqrt() } else { 0.0 }
+}

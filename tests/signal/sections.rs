@@ -1,0 +1,280 @@
+//! Poincaré sections, periods and Lyapunov exponents of systems whose answers are known.
+
+use std::f64::consts::TAU;
+
+use rotordyn::signal::SignalError;
+use rotordyn::signal::lyapunov::exponent;
+use rotordyn::signal::period::{Motion, classify, zero_one};
+use rotordyn::signal::poincare::{Strobe, clusters};
+
+use crate::assert_close;
+
+/// One step of classical Runge-Kutta for ẋ = f(t, x).
+fn rk4<const N: usize>(f: &impl Fn(f64, &[f64; N]) -> [f64; N], t: f64, x: &mut [f64; N], h: f64) {
+    let along = |x: &[f64; N], k: &[f64; N], s: f64| std::array::from_fn(|i| x[i] + s * k[i]);
+    let a = f(t, x);
+    let b = f(t + 0.5 * h, &along(x, &a, 0.5 * h));
+    let c = f(t + 0.5 * h, &along(x, &b, 0.5 * h));
+    let d = f(t + h, &along(x, &c, h));
+    for i in 0..N {
+        x[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+    }
+}
+
+/// Peak to peak.
+fn size(record: &[f64]) -> f64 {
+    let (low, high) = record.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (v.min(l), v.max(h)));
+    high - low
+}
+
+/// Iterates x → r x (1 − x), leaving out the first steps.
+fn logistic(r: f64, skip: usize, n: usize) -> Vec<f64> {
+    let mut x = 0.4;
+    let mut step = || {
+        x = r * x * (1.0 - x);
+        x
+    };
+    for _ in 0..skip {
+        step();
+    }
+    (0..n).map(|_| step()).collect()
+}
+
+fn motion(section: &[f64]) -> Motion {
+    classify(&[section], &[1.0], 1e-3, 32).unwrap().motion
+}
+
+#[test]
+fn a_section_is_the_value_at_the_phase() {
+    // A clock that runs unevenly, 24 samples and a fraction a turn.
+    let phase: Vec<f64> =
+        (0..4000).map(|n| 0.37 + n as f64 * TAU / 24.3 + 0.4 * (n as f64 * 0.013).sin()).collect();
+    for start in [0.0, 1.0, -17.3] {
+        let strobe = Strobe::new(&phase, start, TAU).unwrap();
+        assert!((163..=166).contains(&strobe.positions.len()), "{}", strobe.positions.len());
+        for order in [1.0, 2.0] {
+            let record: Vec<f64> = phase.iter().map(|p| (order * p).sin()).collect();
+            let inner = strobe.section(&record).unwrap();
+            let inner = &inner[1..inner.len() - 1];
+            let worst = inner.iter().map(|v| (v - (order * start).sin()).abs()).fold(0.0, f64::max);
+            // The stated bound with the shortest period of the uneven clock, 23.8 samples.
+            let bound = 0.005 * (TAU * order / 23.8).powi(6);
+            println!("order {order} at {start}: {worst:.1e}, bound {bound:.1e}");
+            assert!(worst < bound, "{worst}");
+        }
+        // The phase of every instant is start + k 2π.
+        let at = strobe.section(&phase).unwrap();
+        for (k, p) in at.iter().enumerate() {
+            assert_close("phase", *p, start + (strobe.first + k as i64) as f64 * TAU, 1e-9);
+        }
+    }
+}
+
+#[test]
+fn samples_on_the_section_are_taken_as_they_are() {
+    // 20 samples a turn: every 20th sample, the first and the last among them.
+    let phase: Vec<f64> = (0..=200).map(|n| n as f64 / 20.0).collect();
+    let record: Vec<f64> = (0..=200).map(|n| f64::from(n * n % 37)).collect();
+    let strobe = Strobe::new(&phase, 0.0, 1.0).unwrap();
+    let expected: Vec<f64> = record.iter().step_by(20).copied().collect();
+    let found = strobe.section(&record).unwrap();
+    assert_eq!(strobe.first, 0);
+    assert_eq!(found.len(), 11);
+    for (a, b) in found.iter().zip(&expected) {
+        assert_close("sample", *a, *b, 1e-9);
+    }
+}
+
+#[test]
+fn sines_are_periodic_or_quasi_periodic() {
+    let section = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..300).map(|n| f(n as f64)).collect() };
+    assert_eq!(motion(&section(&|t| (TAU * t + 0.3).sin())), Motion::Periodic(1));
+    assert_eq!(motion(&section(&|t| (TAU * t / 2.0 + 0.3).cos() + (TAU * t).sin())), Motion::Periodic(2));
+    assert_eq!(motion(&section(&|t| (TAU * t * 3.0 / 7.0).cos())), Motion::Periodic(7));
+    // Golden mean and √2: no common multiple.
+    for ratio in [0.5 * (5f64.sqrt() - 1.0), 2f64.sqrt()] {
+        let found =
+            classify(&[&section(&|t| (TAU * t * ratio).cos() + 0.5 * (TAU * t).cos())], &[3.0], 1e-3, 32)
+                .unwrap();
+        println!("{ratio}: {found:?}");
+        assert_eq!(found.motion, Motion::QuasiPeriodic);
+        assert!(found.chaos.abs() < 0.2, "{found:?}");
+    }
+}
+
+#[test]
+fn logistic_map_doubles_its_period_into_chaos() {
+    // Windows of the map: 2 from 3, 4 from 3.4495, 8 from 3.5441, 3 from 3.8284.
+    for (r, period) in [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.83, 3), (3.845, 6)] {
+        assert_eq!(motion(&logistic(r, 2000, 300)), Motion::Periodic(period), "r = {r}");
+    }
+    for r in [3.7, 3.9, 4.0] {
+        let found = classify(&[&logistic(r, 1000, 300)], &[1.0], 1e-3, 32).unwrap();
+        println!("r = {r}: {found:?}");
+        assert_eq!(found.motion, Motion::Chaotic);
+        assert!(found.chaos > 0.9, "r = {r}: {found:?}");
+    }
+    // At r = 2.9 the distance to the fixed point changes by −0.9 a step: 60 steps from the start are too few.
+    assert_eq!(motion(&logistic(2.9, 0, 60)), Motion::Settling(1));
+}
+
+/// ẍ + δ ẋ − x + x³ = γ cos ωt, sampled 100 times a period.
+fn duffing(gamma: f64, delta: f64, omega: f64, settle: usize, periods: usize) -> [Vec<f64>; 3] {
+    let f = |t: f64, s: &[f64; 2]| [s[1], gamma * (omega * t).cos() - delta * s[1] + s[0] - s[0].powi(3)];
+    let h = TAU / omega / 100.0;
+    let mut s = [1.0, 0.0];
+    let [mut phase, mut x, mut v] = [const { Vec::new() }; 3];
+    for n in 0..=100 * (settle + periods) {
+        let t = n as f64 * h;
+        if n >= 100 * settle {
+            phase.push(omega * t);
+            x.push(s[0]);
+            v.push(s[1]);
+        }
+        rk4(&f, t, &mut s, h);
+    }
+    [phase, x, v]
+}
+
+#[test]
+fn duffing_oscillator_doubles_its_period_into_chaos() {
+    // δ = 0.3, ω = 1.2: the sequence shown in every textbook since Moon and Holmes (Jordan and Smith, Nonlinear
+    // Ordinary Differential Equations, §13): period 1, 2, 4, 5, chaos, 2 at these forces.
+    let expected = [
+        (0.20, Motion::Periodic(1)),
+        (0.28, Motion::Periodic(2)),
+        (0.29, Motion::Periodic(4)),
+        (0.37, Motion::Periodic(5)),
+        (0.50, Motion::Chaotic),
+        (0.65, Motion::Periodic(2)),
+    ];
+    for (gamma, expected) in expected {
+        let [phase, x, v] = duffing(gamma, 0.3, 1.2, 400, 200);
+        // A section at any angle shows the same motion.
+        for start in [0.0, 2.0] {
+            let strobe = Strobe::new(&phase, start, TAU).unwrap();
+            let sections = [strobe.section(&x).unwrap(), strobe.section(&v).unwrap()];
+            let both = [&sections[0][..], &sections[1][..]];
+            let sizes = [size(&x), size(&v)];
+            let found = classify(&both, &sizes, 1e-3, 32).unwrap();
+            let groups = clusters(&both, &sizes.map(|s| 1e-3 * s)).unwrap();
+            println!("gamma {gamma}: {found:?}, {} groups", groups.len());
+            assert_eq!(found.motion, expected, "gamma = {gamma}");
+            if let Motion::Periodic(k) = expected {
+                assert_eq!(groups.len(), k);
+                assert!(groups.iter().all(|g| g.points >= 200 / k - 1));
+            } else {
+                assert!(groups.len() > 50);
+            }
+        }
+    }
+}
+
+/// Growth over every period of a perturbation of ẍ + δ ẋ = g(x) + F cos t, and the length of a period.
+fn growth(
+    g: impl Fn(f64) -> f64,
+    delta: f64,
+    force: f64,
+    settle: usize,
+    periods: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    const STEPS: usize = 200;
+    const SMALL: f64 = 1e-9;
+    let f = |t: f64, s: &[f64; 2]| [s[1], force * t.cos() - delta * s[1] + g(s[0])];
+    let h = TAU / STEPS as f64;
+    let (mut s, mut near) = ([1.0, 0.0], [1.0 + SMALL, 0.0]);
+    let mut found = Vec::new();
+    for period in 0..settle + periods {
+        for n in 0..STEPS {
+            let t = n as f64 * h;
+            rk4(&f, t, &mut s, h);
+            rk4(&f, t, &mut near, h);
+        }
+        let d: [f64; 2] = std::array::from_fn(|i| near[i] - s[i]);
+        let size = d[0].hypot(d[1]);
+        if period >= settle {
+            found.push((size / SMALL).ln());
+        }
+        near = std::array::from_fn(|i| s[i] + d[i] * SMALL / size);
+    }
+    let intervals = vec![TAU; found.len()];
+    (found, intervals)
+}
+
+#[test]
+fn exponents_of_known_systems() {
+    // The logistic map at r = 4 has λ = ln 2 exactly: growth |4 − 8x| per step.
+    let logs: Vec<f64> = logistic(4.0, 100, 20_000).iter().map(|x| (4.0 - 8.0 * x).abs().ln()).collect();
+    let found = exponent(&logs, &vec![1.0; logs.len()]).unwrap();
+    println!("logistic: {} ± {}", found.value, found.standard_error);
+    assert_close("ln 2", found.value, 2f64.ln(), 4.0 * found.standard_error);
+    assert!(found.standard_error < 0.01);
+    assert_eq!(found.history.len(), 20_000);
+    assert_eq!(found.history.last(), Some(&found.value));
+
+    // Sprott, Chaos and Time-Series Analysis (2003), table A.5: Ueda's oscillator ẍ + 0.05 ẋ + x³ = 7.5 cos t has
+    // λ = 0.1034, the two-well oscillator ẍ + 0.25 ẋ − x + x³ = 0.4 cos t has λ = 0.1571.
+    let ueda = growth(|x| -x.powi(3), 0.05, 7.5, 100, 4000);
+    let wells = growth(|x| x - x.powi(3), 0.25, 0.4, 100, 4000);
+    for (name, (logs, intervals), published) in [("Ueda", ueda, 0.1034), ("two wells", wells, 0.1571)] {
+        let found = exponent(&logs, &intervals).unwrap();
+        println!("{name}: {:.4} ± {:.4}, published {published}", found.value, found.standard_error);
+        assert!(found.standard_error < 0.003);
+        assert_close(name, found.value, published, 4.0 * found.standard_error);
+    }
+    // A damped linear oscillator loses −δ/2 whatever happens; its perturbation turns, so that one period's growth
+    // is not another's.
+    let (logs, intervals) = growth(|x| -1.7 * x, 0.1, 1.0, 50, 400);
+    let found = exponent(&logs, &intervals).unwrap();
+    println!("linear: {:.6} ± {:.6}", found.value, found.standard_error);
+    assert_close("linear", found.value, -0.05, 2e-4);
+}
+
+#[test]
+fn zero_one_test_does_not_see_offset_or_size() {
+    let regular: Vec<f64> = (0..500).map(|n| (n as f64 * 2.4).cos()).collect();
+    let wild = logistic(3.97, 100, 500);
+    for (shift, factor) in [(0.0, 1.0), (0.0, 1e-6), (10.0, 1.0), (-1e-3, 1e-6)] {
+        let moved = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| shift + factor * x).collect() };
+        let (low, high) = (zero_one(&moved(&regular)).unwrap(), zero_one(&moved(&wild)).unwrap());
+        println!("{shift} {factor}: {low:.3} {high:.3}");
+        assert!(low < 0.2 && high > 0.8, "{low} {high} at {shift}, {factor}");
+    }
+}
+
+#[test]
+fn groups_are_chains_of_near_points() {
+    // Two groups in the plane that overlap in either channel alone.
+    let x = [0.0, 0.1, 0.2, 0.05, 0.15, 0.25];
+    let y = [0.0, 0.1, 0.2, 1.0, 1.1, 1.2];
+    let found = clusters(&[&x, &y], &[0.11, 0.11]).unwrap();
+    assert_eq!(found.iter().map(|c| c.points).collect::<Vec<_>>(), [3, 3]);
+    assert_close("centre", found[0].centre[1], 0.1, 1e-12);
+    assert_close("radius", found[1].radius, 0.1, 1e-12);
+    assert_eq!(clusters(&[&x, &y], &[0.09, 0.09]).unwrap().len(), 6);
+    assert!(clusters(&[], &[]).unwrap().is_empty());
+}
+
+#[test]
+fn what_makes_no_section_is_refused() {
+    let phase: Vec<f64> = (0..50).map(f64::from).collect();
+    let bad = |result: Result<Strobe, SignalError>, words: &str| {
+        let text = result.unwrap_err().to_string();
+        assert!(text.contains(words), "{text}");
+    };
+    bad(Strobe::new(&[], 0.0, 1.0), "phase is empty");
+    bad(Strobe::new(&phase[..5], 0.0, 1.0), "at least 6");
+    bad(Strobe::new(&phase, 0.0, 0.0), "section period = 0");
+    bad(Strobe::new(&phase, f64::NAN, 1.0), "section phase");
+    let mut back = phase.clone();
+    back[20] = 18.5;
+    bad(Strobe::new(&back, 0.0, 7.0), "step of the phase = -0.5");
+    let strobe = Strobe::new(&phase, 0.0, 7.0).unwrap();
+    assert!(matches!(strobe.section(&phase[1..]), Err(SignalError::LengthMismatch { .. })));
+    assert!(matches!(classify(&[&phase[..7]], &[1.0], 1e-3, 3), Err(SignalError::TooShort { .. })));
+    assert!(matches!(classify(&[], &[], 1e-3, 3), Err(SignalError::TooShort { .. })));
+    assert!(matches!(classify(&[&phase], &[1.0], 0.0, 3), Err(SignalError::OutOfRange { .. })));
+    assert!(matches!(exponent(&[f64::NAN], &[1.0]), Err(SignalError::NotFinite { .. })));
+    // A motion that does not move is of period 1.
+    assert_eq!(classify(&[&[2.0; 20]], &[0.0], 1e-3, 5).unwrap().motion, Motion::Periodic(1));
+}
