@@ -33,6 +33,10 @@ pub enum PhysicsError {
     NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
     #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
     Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
+    #[error("the clock of the section stands still at {speed_rpm:.1} rpm")]
+    ClockStandsStill { speed_rpm: f64 },
+    #[error("no steady motion at any value: {reason}")]
+    NoMotion { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
 }

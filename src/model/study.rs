@@ -1,5 +1,6 @@
 //! What a model file asks to be computed.
 
+pub use super::steady_study::*;
 use super::{Probe, Quantity};
 use crate::element::Anchor;
 pub use crate::signal::WindowKind;
@@ -16,6 +17,9 @@ pub struct Studies {
     pub run_up: Option<RunUpStudy>,
     pub spectrogram: Option<SpectrogramStudy>,
     pub orders: Option<OrderStudy>,
+    pub poincare: Option<PoincareStudy>,
+    pub lyapunov: Option<LyapunovStudy>,
+    pub bifurcation: Option<BifurcationStudy>,
 }
 
 /// Static equilibrium.

@@ -37,6 +37,17 @@ pub struct Channel {
     pub quantity: Quantity,
 }
 
+impl Channel {
+    /// The channel's value at a state.
+    pub fn read(&self, state: &State) -> f64 {
+        self.row.dot(match self.quantity {
+            Quantity::Displacement => &state.x,
+            Quantity::Velocity => &state.v,
+            Quantity::Acceleration => &state.a,
+        })
+    }
+}
+
 /// The reduced machine; immutable during a run.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -251,6 +262,19 @@ impl System {
         state
     }
 
+    /// The state at a time other than 0, its cages at given angles.
+    pub fn state_at(&self, time: f64, cage_angles: &[f64], x: DVector<f64>, v: DVector<f64>) -> State {
+        let mut state = self.initial_state(x, v);
+        state.time = time;
+        state.spin = self.curve.at(time);
+        for (rotation, angle) in state.rotations.iter_mut().zip(cage_angles) {
+            rotation.cage_angle = *angle;
+            rotation.shaft_angle = state.spin.angle;
+        }
+        self.refresh(&mut state);
+        state
+    }
+
     /// Brings reactions and acceleration of a state up to date with its x, v, time and rotations.
     pub fn refresh(&self, state: &mut State) {
         let (x, v) = (state.x.clone(), state.v.clone());
@@ -271,11 +295,7 @@ impl System {
     /// Reads every channel at a state into `out`.
     pub fn read_channels(&self, state: &State, out: &mut [f64]) {
         for (value, channel) in out.iter_mut().zip(&self.channels) {
-            *value = channel.row.dot(match channel.quantity {
-                Quantity::Displacement => &state.x,
-                Quantity::Velocity => &state.v,
-                Quantity::Acceleration => &state.a,
-            });
+            *value = channel.read(state);
         }
     }
 }

@@ -11,6 +11,7 @@ mod places;
 mod rotor;
 mod shaft;
 mod springs;
+mod steady;
 mod study;
 mod topology;
 

@@ -2,6 +2,7 @@
 
 use super::loading::{QUANTITIES, aim, increasing};
 use super::places::Places;
+use super::steady;
 use crate::bearing::{Bearing, Cage};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, not_negative, positive};
@@ -71,6 +72,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         studies.orders = Some(order_spectra(&r, model));
         r.finish();
     }
+    steady::read(&all, model, &mut studies);
     all.finish();
     studies
 }
@@ -138,7 +140,7 @@ fn responses(r: &Reader, model: &Model, quantity: Quantity) -> Vec<Probe> {
     chosen
 }
 
-fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
+pub(super) fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
     let mut channels = Vec::new();
     for (name, span) in r.texts(key).unwrap_or_default() {
         if !model.probes.iter().any(|p| p.name == name) {
@@ -155,6 +157,17 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
     }
+    RunUpStudy {
+        integrator: integrator(r, Integrator::GeneralisedAlpha { rho_infinity: 0.8 }),
+        step: r.or("step", positive(TIME), 1e-4),
+        sample_rate: r.or("sample_rate", positive(FREQUENCY), 2000.0),
+        cutoff: r.or("cutoff", positive(FREQUENCY), f64::INFINITY),
+        from_equilibrium: r.flag("from_equilibrium", true),
+    }
+}
+
+/// The integrator asked for, or the default; its settings belong to it alone.
+pub(super) fn integrator(r: &Reader, default: Integrator) -> Integrator {
     #[derive(Clone, Copy)]
     enum Method {
         Alpha,
@@ -174,7 +187,14 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
     }
     let relative = r.get("relative_tolerance", positive(NUMBER));
     let absolute = r.get("absolute_tolerance", positive(LENGTH));
-    let method = r.choice("integrator", &methods).unwrap_or(Method::Alpha);
+    let Some(method) = r.choice("integrator", &methods) else {
+        return match (default, rho) {
+            (Integrator::GeneralisedAlpha { .. }, Some(rho_infinity)) => {
+                Integrator::GeneralisedAlpha { rho_infinity }
+            }
+            _ => default,
+        };
+    };
     let foreign = |key: &str, given: bool, owner: &str| {
         if given {
             r.error(Kind::Conflict, key, format!("{} belongs to integrator = \"{owner}\"", r.name(key)));
@@ -184,7 +204,7 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
     foreign("rho_infinity", rho.is_some() && !matches!(method, Method::Alpha), "generalised-alpha");
     foreign("relative_tolerance", relative.is_some() && !dopri, "dormand-prince");
     foreign("absolute_tolerance", absolute.is_some() && !dopri, "dormand-prince");
-    let integrator = match method {
+    match method {
         Method::Alpha => Integrator::GeneralisedAlpha { rho_infinity: rho.unwrap_or(0.8) },
         Method::Newmark => Integrator::Newmark,
         Method::Rk4 => Integrator::RungeKutta4,
@@ -192,13 +212,6 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
             relative_tolerance: relative.unwrap_or(1e-6),
             absolute_tolerance: absolute.unwrap_or(1e-12),
         },
-    };
-    RunUpStudy {
-        integrator,
-        step: r.or("step", positive(TIME), 1e-4),
-        sample_rate: r.or("sample_rate", positive(FREQUENCY), 2000.0),
-        cutoff: r.or("cutoff", positive(FREQUENCY), f64::INFINITY),
-        from_equilibrium: r.flag("from_equilibrium", true),
     }
 }
 

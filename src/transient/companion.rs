@@ -1,0 +1,142 @@
+//! A second run beside the first, from a slightly different state: how fast do they part?
+
+use nalgebra::{DMatrix, DVector};
+
+use super::stepper::Stepper;
+use super::system::{State, System};
+use crate::bearing::Rotation;
+use crate::error::PhysicsError;
+use crate::model::study::Integrator;
+
+/// A perturbed copy of a run that takes the same steps at the same shaft and cage angles.
+///
+/// The perturbation is one of displacements and velocities: shaft and cages turn as they do in the first run, as part
+/// of the drive. (Were a rolling cage perturbed too, every motion of a perfect bearing would have an exponent of zero,
+/// that of a shift in time.) Its size is measured by twice its energy, |δ|² = δẋᵀ δẋ + δxᵀ (K + Wᵀ K_b W + ε) δx with
+/// the bearings' stiffness K_b where the copy was made and ε = 1 s⁻² for motions that nothing holds: an undamped
+/// vibration keeps it.
+pub struct Companion {
+    state: State,
+    stepper: Stepper,
+    stiffness: DMatrix<f64>,
+    /// Size that the perturbation is scaled back to.
+    size: f64,
+    /// Where the first run's cages were before the step, and the mean cos α that drives them on.
+    cages: Vec<(Rotation, f64)>,
+    dx: DVector<f64>,
+    dv: DVector<f64>,
+}
+
+impl Companion {
+    /// Copies `reference` with a perturbation of equal energy in every coordinate, whose largest displacement in any
+    /// bearing is `displacement` \[m\] (small against clearances and ramps, large against round-off: 1e-9).
+    pub fn new(
+        system: &System,
+        reference: &State,
+        integrator: Integrator,
+        step: f64,
+        displacement: f64,
+    ) -> Self {
+        let n = system.size();
+        let stiffness = elastic_stiffness(system, reference);
+        // Spread by the golden ratio: no mode is left out, and every run gets the same.
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let spread = |k: usize| 2.0 * ((k + 1) as f64 * golden).fract() - 1.0;
+        let dx = DVector::from_fn(n, |i, _| spread(2 * i) / stiffness[(i, i)].sqrt());
+        let dv = DVector::from_fn(n, |i, _| spread(2 * i + 1));
+        let mut moved = vec![0.0; system.rows()];
+        system.to_interface(&dx, &mut moved);
+        let translations = system.interfaces.iter().flat_map(|i| &moved[i.first_row..i.first_row + 3]);
+        let largest = translations.fold(0.0, |m: f64, d| m.max(d.abs()));
+        let scale = displacement / if largest > 0.0 { largest } else { dx.amax() };
+        let mut companion = Self {
+            state: reference.clone(),
+            stepper: Stepper::new(system, integrator, step),
+            stiffness,
+            size: 1.0,
+            cages: Vec::new(),
+            dx: dx * scale,
+            dv: dv * scale,
+        };
+        companion.size = companion.energy_norm();
+        companion.state.x += &companion.dx;
+        companion.state.v += &companion.dv;
+        system.refresh(&mut companion.state);
+        companion.sync(reference);
+        companion
+    }
+
+    /// Takes the step that the first run has just taken; `reference` is that run's state now.
+    ///
+    /// # Errors
+    /// A step that does not converge here.
+    pub fn follow(&mut self, system: &System, reference: &State, step: f64) -> Result<(), PhysicsError> {
+        let state = &mut self.state;
+        for ((reaction, rotation), (cage, mean_cos)) in
+            state.reactions.iter_mut().zip(&mut state.rotations).zip(&self.cages)
+        {
+            (*rotation, reaction.mean_cos) = (*cage, *mean_cos);
+        }
+        self.stepper.follow(system, state, step)?;
+        self.sync(reference);
+        Ok(())
+    }
+
+    /// Takes over the first run's clock and cages.
+    pub fn sync(&mut self, reference: &State) {
+        (self.state.time, self.state.spin) = (reference.time, reference.spin);
+        self.cages.clear();
+        let cages = reference.rotations.iter().zip(&reference.reactions);
+        self.cages.extend(cages.map(|(rotation, reaction)| (*rotation, reaction.mean_cos)));
+    }
+
+    /// ln of the perturbation's growth since the last time, and back to its first size.
+    ///
+    /// The difference is scaled as a whole, the algorithm's own acceleration included.
+    pub fn renormalise(&mut self, system: &System, reference: &State) -> f64 {
+        let state = &mut self.state;
+        self.dx.copy_from(&state.x);
+        self.dx -= &reference.x;
+        self.dv.copy_from(&state.v);
+        self.dv -= &reference.v;
+        let norm = self.energy_norm();
+        let back = self.size / norm;
+        let state = &mut self.state;
+        // y ← y_ref + (y − y_ref) back
+        let scale = |y: &mut DVector<f64>, at: &DVector<f64>| {
+            *y -= at;
+            *y *= back;
+            *y += at;
+        };
+        scale(&mut state.x, &reference.x);
+        scale(&mut state.v, &reference.v);
+        scale(&mut state.a, &reference.a);
+        state.rotations.copy_from_slice(&reference.rotations);
+        system.to_interface(&state.x, &mut state.d);
+        system.to_interface(&state.v, &mut state.d_rate);
+        system.react(&state.d, &state.d_rate, &state.rotations, &mut state.reactions);
+        (norm / self.size).ln()
+    }
+
+    fn energy_norm(&self) -> f64 {
+        (self.dv.norm_squared() + self.dx.dot(&(&self.stiffness * &self.dx)).max(0.0)).sqrt()
+    }
+}
+
+/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state.
+fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
+    let still = |rotation: &Rotation| Rotation { cage_speed: 0.0, ..*rotation };
+    let rotations: Vec<Rotation> = state.rotations.iter().map(still).collect();
+    let mut reactions = state.reactions.clone();
+    system.react(&state.d, &vec![0.0; system.rows()], &rotations, &mut reactions);
+    let n = system.size();
+    let mut out = &system.stiffness + DMatrix::identity(n, n);
+    for (interface, reaction) in system.interfaces.iter().zip(&reactions) {
+        let (first, rows) = (interface.first_row, interface.rows);
+        let map = system.interface_map.rows(first, rows);
+        let block =
+            DMatrix::from_fn(rows, rows, |a, b| 0.5 * (reaction.stiffness[a][b] + reaction.stiffness[b][a]));
+        out += map.transpose() * block * map;
+    }
+    out
+}

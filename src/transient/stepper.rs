@@ -1,0 +1,226 @@
+//! One interface for every integrator: fixed steps that are halved where they fail, or steps under error control.
+
+use super::generalised_alpha::{GeneralisedAlpha, Scheme};
+use super::runge_kutta::RungeKutta;
+use super::system::{State, System};
+use crate::error::PhysicsError;
+use crate::model::study::Integrator;
+
+/// A step halved this often has no hope: 2⁻¹² of the step.
+const MAX_HALVINGS: u32 = 12;
+/// A bearing displacement beyond this \[m\] means the run has diverged.
+const DIVERGED: f64 = 0.1;
+
+/// An integrator at work on one system.
+pub struct Stepper {
+    method: Method,
+    /// Steps accepted.
+    pub steps: u64,
+    /// Steps that had to be halved (implicit) or were refused by error control (explicit).
+    pub halvings: u64,
+}
+
+#[allow(clippy::large_enum_variant)] // there is one
+enum Method {
+    Implicit(Box<GeneralisedAlpha>),
+    Fixed(RungeKutta),
+    Adaptive {
+        method: RungeKutta,
+        /// Relative, and absolute in mass-normalised coordinates.
+        tolerance: (f64, f64),
+        step: f64,
+    },
+}
+
+/// Called after every accepted step with its length.
+pub type Taken<'a> = &'a mut dyn FnMut(&mut State, f64) -> Result<(), PhysicsError>;
+
+impl Stepper {
+    /// `step` is the first one under error control, else unused.
+    pub fn new(system: &System, integrator: Integrator, step: f64) -> Self {
+        let implicit = |scheme| Method::Implicit(Box::new(GeneralisedAlpha::new(system, scheme)));
+        let method = match integrator {
+            Integrator::GeneralisedAlpha { rho_infinity } => {
+                implicit(Scheme::generalised_alpha(rho_infinity))
+            }
+            Integrator::Newmark => implicit(Scheme::NEWMARK),
+            Integrator::RungeKutta4 => Method::Fixed(RungeKutta::classical(system)),
+            Integrator::DormandPrince { relative_tolerance, absolute_tolerance } => Method::Adaptive {
+                method: RungeKutta::dormand_prince(system),
+                tolerance: (relative_tolerance, absolute_tolerance),
+                step,
+            },
+        };
+        Self { method, steps: 0, halvings: 0 }
+    }
+
+    /// Whether the steps' lengths follow from error control.
+    pub fn is_adaptive(&self) -> bool {
+        matches!(self.method, Method::Adaptive { .. })
+    }
+
+    /// Newton iterations spent and effective matrices inverted by an implicit method.
+    pub fn work(&self) -> (u64, u64) {
+        match &self.method {
+            Method::Implicit(method) => (method.iterations, method.refactored),
+            _ => (0, 0),
+        }
+    }
+
+    /// Advances `state` by `step` to the time `end`, which the caller counts so that the clock does not drift.
+    ///
+    /// # Errors
+    /// A step that fails however short it is, a state that is none any more, or what `taken` says.
+    pub fn advance(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+        end: f64,
+        taken: Taken,
+    ) -> Result<(), PhysicsError> {
+        match &self.method {
+            Method::Implicit(_) => self.implicit(system, state, step, 0, taken)?,
+            Method::Fixed(_) => {
+                self.follow(system, state, step)?;
+                taken(state, step)?;
+            }
+            Method::Adaptive { .. } => self.controlled(system, state, end, taken)?,
+        }
+        state.time = end;
+        Ok(())
+    }
+
+    /// Takes one step of just this length, neither halved nor refused: that of a run beside the one that chose it.
+    ///
+    /// # Errors
+    /// An implicit step that does not converge.
+    pub fn follow(&mut self, system: &System, state: &mut State, step: f64) -> Result<(), PhysicsError> {
+        match &mut self.method {
+            Method::Implicit(method) => {
+                let spin = system.spin_ahead(state.time, &state.spin, step);
+                method
+                    .step(system, state, step, spin)
+                    .map_err(|failure| no_convergence(system, state, failure))?;
+            }
+            Method::Fixed(method) | Method::Adaptive { method, .. } => {
+                explicit(system, state, method, step, None);
+            }
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// One implicit step, halved while Newton does not converge.
+    fn implicit(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+        depth: u32,
+        taken: Taken,
+    ) -> Result<(), PhysicsError> {
+        match self.follow(system, state, step) {
+            Ok(()) => taken(state, step),
+            Err(_) if depth < MAX_HALVINGS => {
+                self.halvings += 1;
+                self.implicit(system, state, 0.5 * step, depth + 1, taken)?;
+                self.implicit(system, state, 0.5 * step, depth + 1, taken)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    /// Steps to `end` exactly, adapting the step on the way.
+    fn controlled(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        end: f64,
+        taken: Taken,
+    ) -> Result<(), PhysicsError> {
+        let Method::Adaptive { method, tolerance, step: next } = &mut self.method else { return Ok(()) };
+        let smallest = 1e-12 * end.max(1e-3);
+        while end - state.time > smallest {
+            let left = end - state.time;
+            // Two equal steps rather than one full and one sliver.
+            let step = if *next >= left {
+                left
+            } else if 2.0 * *next > left {
+                0.5 * left
+            } else {
+                *next
+            };
+            let estimate = explicit(system, state, method, step, Some(*tolerance));
+            let factor = if estimate > 0.0 { 0.9 * estimate.powf(-0.2) } else { 5.0 };
+            if estimate <= 1.0 {
+                self.steps += 1;
+                taken(state, step)?;
+                *next = step * factor.clamp(0.2, 5.0);
+            } else {
+                self.halvings += 1;
+                *next = if estimate.is_finite() { step * factor.clamp(0.1, 0.9) } else { 0.1 * step };
+                if *next < smallest {
+                    return Err(PhysicsError::NoConvergence {
+                        item: "error control".into(),
+                        time: state.time,
+                        speed_rpm: rpm(state.spin.speed),
+                        residual: estimate,
+                        iterations: self.halvings as usize,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One explicit step; returns the error estimate, above 1 when the step was refused.
+fn explicit(
+    system: &System,
+    state: &mut State,
+    method: &mut RungeKutta,
+    step: f64,
+    tolerance: Option<(f64, f64)>,
+) -> f64 {
+    let (time, spin) = (state.time, state.spin);
+    let ahead = |offset| system.spin_ahead(time, &spin, offset);
+    method.step(system, state, step, &ahead, tolerance)
+}
+
+fn no_convergence(
+    system: &System,
+    state: &State,
+    failure: super::generalised_alpha::StepFailure,
+) -> PhysicsError {
+    PhysicsError::NoConvergence {
+        item: system.name_of_row(failure.row),
+        time: state.time,
+        speed_rpm: rpm(state.spin.speed),
+        residual: failure.residual,
+        iterations: failure.iterations,
+    }
+}
+
+/// Whether the state is still one: finite, and no bearing torn apart.
+///
+/// # Errors
+/// [`PhysicsError::Diverged`] naming the largest displacement.
+pub fn check(system: &System, state: &State) -> Result<(), PhysicsError> {
+    let finite = state.x.iter().chain(state.v.iter()).all(|v| v.is_finite());
+    let worst = state.d.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let (row, value) = worst.map_or((0, 0.0), |(r, v)| (r, *v));
+    if finite && value.abs() < DIVERGED {
+        return Ok(());
+    }
+    Err(PhysicsError::Diverged {
+        item: system.name_of_row(row),
+        time: state.time,
+        speed_rpm: rpm(state.spin.speed),
+        value,
+    })
+}
+
+fn rpm(speed: f64) -> f64 {
+    speed * 30.0 / std::f64::consts::PI
+}
