@@ -7,8 +7,11 @@ use crate::analysis::equilibrium::Equilibrium;
 use crate::analysis::frf::Frf;
 use crate::analysis::stability::Threshold;
 use crate::analysis::unbalance::UnbalanceResponse;
+use crate::model::study::Parameter;
 use crate::model::{Probe, Quantity};
+use crate::signal::lyapunov::Exponent;
 use crate::signal::order::{OrderCut, OrderSpectrogram};
+use crate::signal::period::Classified;
 use crate::signal::stft::Spectrogram;
 use crate::transient::run::Report;
 
@@ -24,6 +27,9 @@ pub struct Results {
     pub run_up: Option<RunUpResult>,
     pub spectrograms: Vec<SpectrogramResult>,
     pub orders: Vec<OrderResult>,
+    pub poincare: Option<PoincareResult>,
+    pub lyapunov: Option<LyapunovResult>,
+    pub bifurcation: Option<BifurcationResult>,
     /// What the user should know, once each.
     pub warnings: Vec<String>,
 }
@@ -171,6 +177,102 @@ pub struct OrderResult {
     pub unit: String,
     pub spectrogram: OrderSpectrogram,
     pub cuts: Vec<(OrderLine, OrderCut)>,
+}
+
+/// A signal that a section shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionChannel {
+    pub name: String,
+    pub unit: String,
+}
+
+/// What a section was taken by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionClock {
+    /// In words: "shaft turn", "cage turn of B", "ball passage of B".
+    pub name: String,
+    /// Phase at which the section is taken \[rad\].
+    pub phase: f64,
+    /// Sections a second, mean over the recorded periods \[Hz\].
+    pub frequency: f64,
+}
+
+/// Orbits at steady speed with their Poincaré sections.
+#[derive(Clone, Debug)]
+pub struct PoincareResult {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    pub clock: SectionClock,
+    pub motion: Classified,
+    /// Groups that the section points fall into, all planes together.
+    pub groups: usize,
+    pub planes: Vec<PlaneSection>,
+}
+
+/// One plane of an orbit.
+#[derive(Clone, Debug)]
+pub struct PlaneSection {
+    pub name: String,
+    pub axes: [SectionChannel; 2],
+    /// The orbit over its last periods, evenly sampled in time.
+    pub orbit: [Vec<f64>; 2],
+    /// Sampling rate of the orbit \[Hz\].
+    pub sample_rate: f64,
+    /// Section points, one per period of the clock.
+    pub section: [Vec<f64>; 2],
+}
+
+/// Largest Lyapunov exponent at steady speed.
+#[derive(Clone, Debug)]
+pub struct LyapunovResult {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    pub clock: SectionClock,
+    pub exponent: Exponent,
+}
+
+/// Poincaré sections over a parameter.
+#[derive(Clone, Debug)]
+pub struct BifurcationResult {
+    pub parameter: Parameter,
+    /// Name of the clock.
+    pub clock: String,
+    pub channels: Vec<SectionChannel>,
+    /// The sweeps done: up, down, or one from equilibrium.
+    pub sweeps: Vec<BifurcationSweep>,
+    /// Seams between chunks, and how many of the chunks had to be run again because they had met another branch.
+    pub seams: usize,
+    pub repaired: usize,
+}
+
+/// One sweep of a bifurcation diagram, in the order of its values.
+#[derive(Clone, Debug)]
+pub struct BifurcationSweep {
+    /// "up", "down", or "from equilibrium".
+    pub name: &'static str,
+    pub points: Vec<BifurcationPoint>,
+}
+
+/// The motion at one value of the parameter.
+#[derive(Clone, Debug)]
+pub struct BifurcationPoint {
+    /// In the parameter's unit.
+    pub value: f64,
+    pub found: Result<SteadyMotion, String>,
+}
+
+/// What a steady motion looks like.
+#[derive(Clone, Debug)]
+pub struct SteadyMotion {
+    /// Per channel its section.
+    pub sections: Vec<Vec<f64>>,
+    /// Per channel the least and largest value of the whole orbit.
+    pub extremes: Vec<[f64; 2]>,
+    /// Sections a second \[Hz\].
+    pub frequency: f64,
+    pub motion: Classified,
+    /// Largest Lyapunov exponent, where it was asked for.
+    pub exponent: Option<Exponent>,
 }
 
 /// Unit of a quantity of a translation, or of a rotation.

@@ -1,8 +1,12 @@
 //! The studies: from a model to its results, one method each.
 
+mod attractor;
+mod bifurcation;
 mod record;
 mod tracking;
 
+pub use attractor::{CarriedState, Progress};
+pub use bifurcation::bifurcation;
 pub use record::Recorder;
 
 use std::ops::ControlFlow;

@@ -49,6 +49,9 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             report,
         }),
         warnings: vec!["a warning".into()],
+        poincare: None,
+        lyapunov: None,
+        bifurcation: None,
     };
     results.spectrograms.retain(|s| s.channel == "B_ax");
     results.orders.retain(|s| s.channel == "B_ax");

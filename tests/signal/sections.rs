@@ -138,8 +138,8 @@ fn duffing(gamma: f64, delta: f64, omega: f64, settle: usize, periods: usize) ->
 
 #[test]
 fn duffing_oscillator_doubles_its_period_into_chaos() {
-    // δ = 0.3, ω = 1.2: the sequence shown in every textbook since Moon and Holmes (Jordan and Smith, Nonlinear
-    // Ordinary Differential Equations, §13): period 1, 2, 4, 5, chaos, 2 at these forces.
+    // δ = 0.3, ω = 1.2, the usual illustration of this oscillator (Jordan and Smith, Nonlinear Ordinary Differential
+    // Equations): period 1, 2, 4, 5, chaos, 2 at these forces.
     let expected = [
         (0.20, Motion::Periodic(1)),
         (0.28, Motion::Periodic(2)),
@@ -212,7 +212,7 @@ fn exponents_of_known_systems() {
     assert_eq!(found.history.len(), 20_000);
     assert_eq!(found.history.last(), Some(&found.value));
 
-    // Sprott, Chaos and Time-Series Analysis (2003), table A.5: Ueda's oscillator ẍ + 0.05 ẋ + x³ = 7.5 cos t has
+    // Sprott, Chaos and Time-Series Analysis (2003): Ueda's oscillator ẍ + 0.05 ẋ + x³ = 7.5 cos t has
     // λ = 0.1034, the two-well oscillator ẍ + 0.25 ẋ − x + x³ = 0.4 cos t has λ = 0.1571.
     let ueda = growth(|x| -x.powi(3), 0.05, 7.5, 100, 4000);
     let wells = growth(|x| x - x.powi(3), 0.25, 0.4, 100, 4000);

@@ -3,6 +3,7 @@
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod attractor;
 mod hammer;
 mod run_up;
 mod torque;

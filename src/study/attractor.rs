@@ -1,0 +1,223 @@
+//! Steady motions: where they start, what they look like in a Poincaré section, how fast neighbours part.
+
+use std::ops::ControlFlow;
+
+use nalgebra::DVector;
+
+use super::Machine;
+use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::error::Error;
+use crate::model::study::{Clock, LyapunovStudy, PoincareStudy, Steady};
+use crate::model::{Model, Probe, SpeedProfile};
+use crate::results::{
+    LyapunovResult, PlaneSection, PoincareResult, SectionChannel, SectionClock, SteadyMotion, is_rotation,
+    unit_of,
+};
+use crate::signal::lyapunov::exponent;
+use crate::signal::period::classify;
+use crate::signal::poincare::{Strobe, clusters};
+use crate::transient::reduction::{Reduction, reduce};
+use crate::transient::steady::{SteadyRun, run_steady};
+use crate::transient::system::{Channel, State};
+
+/// Periods of an orbit that are kept with its section.
+const ORBIT_PERIODS: usize = 32;
+
+/// A state of the machine that another model of it can start from: free DOFs and angles.
+#[derive(Clone, Debug)]
+pub struct CarriedState {
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    /// Shaft angle, and cage angles of the bearings \[rad\].
+    shaft: f64,
+    cages: Vec<f64>,
+}
+
+/// Told after every period of the clock what share is done; can stop the run.
+pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
+
+impl Machine {
+    /// Orbits and Poincaré sections at steady speed, with the kind of the motion; `None` when `progress` stopped it.
+    ///
+    /// # Errors
+    /// No equilibrium, or a run that fails.
+    pub fn poincare(
+        &self,
+        study: &PoincareStudy,
+        progress: Progress,
+    ) -> Result<Option<PoincareResult>, Error> {
+        let steady = &study.steady;
+        let probes: Vec<&Probe> = study.planes.iter().flat_map(|p| [&p.x, &p.y]).collect();
+        let (reduction, state) = self.steady_start(steady, None)?;
+        let Some(run) = self.steady_run(&reduction, state, steady, &probes, None, progress)? else {
+            return Ok(None);
+        };
+        let (strobe, motion) = sections(&run, steady, study.tolerance, study.longest_period)?;
+        let reach: Vec<f64> = motion.extremes.iter().map(|[l, h]| study.tolerance * (h - l)).collect();
+        let all: Vec<&[f64]> = motion.sections.iter().map(Vec::as_slice).collect();
+        let groups = clusters(&all, &reach)?.len();
+        // The orbit's last whole periods.
+        let (from, to) = {
+            let end = strobe.positions.len() - 1;
+            (strobe.positions[end - ORBIT_PERIODS.min(end)], strobe.positions[end])
+        };
+        let kept = from.floor() as usize..=to.ceil() as usize;
+        let planes = study.planes.iter().enumerate().map(|(k, plane)| PlaneSection {
+            name: plane.name.clone(),
+            axes: [&plane.x, &plane.y].map(described),
+            orbit: [2 * k, 2 * k + 1].map(|c| run.channels[c][kept.clone()].to_vec()),
+            sample_rate: 1.0 / run.step,
+            section: [2 * k, 2 * k + 1].map(|c| motion.sections[c].clone()),
+        });
+        Ok(Some(PoincareResult {
+            speed: steady.speed,
+            clock: section_clock(&self.model, steady, motion.frequency),
+            motion: motion.motion,
+            groups,
+            planes: planes.collect(),
+        }))
+    }
+
+    /// Largest Lyapunov exponent at steady speed; `None` when `progress` stopped it.
+    ///
+    /// # Errors
+    /// No equilibrium, or a run that fails.
+    pub fn lyapunov(
+        &self,
+        study: &LyapunovStudy,
+        progress: Progress,
+    ) -> Result<Option<LyapunovResult>, Error> {
+        let steady = &study.steady;
+        let (reduction, state) = self.steady_start(steady, None)?;
+        let perturbation = Some(study.perturbation);
+        let Some(run) = self.steady_run(&reduction, state, steady, &[], perturbation, progress)? else {
+            return Ok(None);
+        };
+        let time: f64 = run.intervals.iter().sum();
+        let clock = section_clock(&self.model, steady, run.intervals.len() as f64 / time);
+        let exponent = exponent(&run.log_growth, &run.intervals)?;
+        Ok(Some(LyapunovResult { speed: steady.speed, clock, exponent }))
+    }
+
+    /// The machine reduced at a steady speed, and the state to start from: static equilibrium, or carried over from a
+    /// run of a model with as many DOFs and bearings.
+    ///
+    /// # Errors
+    /// No equilibrium, or no modes.
+    pub fn steady_start(
+        &self,
+        steady: &Steady,
+        carried: Option<&CarriedState>,
+    ) -> Result<(Reduction, State), Error> {
+        let cage = CageTreatment::AsPlaced;
+        let rest = equilibrium(&self.model, &self.assembly, steady.speed, cage, Some(&self.base.q))?;
+        let mut reduction = reduce(&self.model, &self.assembly, &rest, steady.cutoff)?;
+        let system = &mut reduction.system;
+        system.curve = SpeedProfile::Constant { speed: steady.speed, duration: f64::INFINITY }.curve();
+        system.drive = None;
+        let n = self.assembly.dofs.len();
+        let fits = |c: &&CarriedState| c.displacement.len() == n && c.cages.len() == system.interfaces.len();
+        let state = match carried.filter(fits) {
+            None => {
+                let x = reduction.equilibrium.clone();
+                let v = &x * 0.0;
+                system.initial_state(x, v)
+            }
+            Some(carried) => {
+                // Vᵀ M q: the nearest motion in this model's basis.
+                let project =
+                    |q: &[f64]| reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
+                let time = carried.shaft.rem_euclid(std::f64::consts::TAU) / steady.speed;
+                let (x, v) = (project(&carried.displacement), project(&carried.velocity));
+                system.state_at(time, &carried.cages, x, v)
+            }
+        };
+        Ok((reduction, state))
+    }
+
+    /// A run of the reduced machine, recording probes.
+    pub(super) fn steady_run(
+        &self,
+        reduction: &Reduction,
+        state: State,
+        steady: &Steady,
+        probes: &[&Probe],
+        perturbation: Option<f64>,
+        progress: Progress,
+    ) -> Result<Option<SteadyRun>, Error> {
+        let channel = |probe: &&Probe| {
+            let mut row = vec![0.0; self.assembly.dofs.len()];
+            self.assembly.direction_row(&probe.at, &probe.direction).add_to(1.0, &mut row);
+            let row = reduction.basis.tr_mul(&DVector::from_vec(row));
+            Channel { name: probe.name.clone(), row, quantity: probe.quantity }
+        };
+        let channels: Vec<Channel> = probes.iter().map(channel).collect();
+        let total = (steady.settle + steady.periods) as f64;
+        let mut share = |periods: usize| progress(periods as f64 / total);
+        Ok(run_steady(&reduction.system, state, steady, &channels, perturbation, &mut share)?)
+    }
+}
+
+impl CarriedState {
+    /// The end of a run, for the next model to start from.
+    pub fn new(reduction: &Reduction, state: &State) -> Self {
+        let full = |x: &DVector<f64>| (&reduction.basis * x).as_slice().to_vec();
+        Self {
+            displacement: full(&state.x),
+            velocity: full(&state.v),
+            shaft: state.spin.angle,
+            cages: state.rotations.iter().map(|r| r.cage_angle.rem_euclid(std::f64::consts::TAU)).collect(),
+        }
+    }
+}
+
+/// Sections, extremes and kind of what a run recorded; the strobe has one instant more than the sections, the end of
+/// the last period.
+pub(super) fn sections(
+    run: &SteadyRun,
+    steady: &Steady,
+    tolerance: f64,
+    longest: usize,
+) -> Result<(Strobe, SteadyMotion), Error> {
+    let mut strobe = Strobe::new(&run.phase, steady.phase, std::f64::consts::TAU)?;
+    // The margins hold no further instant, unless the clock runs very unevenly.
+    strobe.positions.truncate(steady.periods + 1);
+    let whole = |channel: &Vec<f64>| -> Result<Vec<f64>, Error> {
+        let mut points = strobe.section(channel)?;
+        points.truncate(steady.periods);
+        Ok(points)
+    };
+    let found: Vec<Vec<f64>> = run.channels.iter().map(whole).collect::<Result<_, _>>()?;
+    let extreme = |channel: &Vec<f64>| {
+        channel.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [v.min(l), v.max(h)])
+    };
+    let extremes: Vec<[f64; 2]> = run.channels.iter().map(extreme).collect();
+    let sizes: Vec<f64> = extremes.iter().map(|[l, h]| h - l).collect();
+    let slices: Vec<&[f64]> = found.iter().map(Vec::as_slice).collect();
+    let motion = classify(&slices, &sizes, tolerance, longest)?;
+    let exponent = match run.log_growth[..] {
+        [] => None,
+        _ => Some(exponent(&run.log_growth, &run.intervals)?),
+    };
+    let (first, last) = (strobe.positions[0], strobe.positions[strobe.positions.len() - 1]);
+    let frequency = (strobe.positions.len() - 1) as f64 / ((last - first) * run.step);
+    Ok((strobe, SteadyMotion { sections: found, extremes, frequency, motion, exponent }))
+}
+
+pub(super) fn described(probe: &Probe) -> SectionChannel {
+    let unit = unit_of(probe.quantity, is_rotation(&probe.direction)).into();
+    SectionChannel { name: probe.name.clone(), unit }
+}
+
+fn section_clock(model: &Model, steady: &Steady, frequency: f64) -> SectionClock {
+    SectionClock { name: clock_name(model, steady.clock), phase: steady.phase, frequency }
+}
+
+/// A clock in words.
+pub(super) fn clock_name(model: &Model, clock: Clock) -> String {
+    match clock {
+        Clock::Shaft => "shaft turn".into(),
+        Clock::Cage { bearing } => format!("cage turn of {}", model.bearings[bearing].name),
+        Clock::BallPass { bearing, .. } => format!("ball passage of {}", model.bearings[bearing].name),
+    }
+}

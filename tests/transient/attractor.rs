@@ -1,0 +1,240 @@
+//! Steady motions against linear theory, Floquet multipliers and each other.
+
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+use crate::rig::variant;
+use nalgebra::DMatrix;
+use rotordyn::bearing::{Bearing, Cage};
+use rotordyn::linalg::Complex64;
+use rotordyn::model::study::{
+    Clock, Integrator, LyapunovStudy, ModalStudy, Plane, PoincareStudy, Steady, UnbalanceStudy,
+};
+use rotordyn::model::{Model, Options, Probe, Quantity, load};
+use rotordyn::signal::period::Motion;
+use rotordyn::study::Machine;
+use rotordyn::transient::steady::run_steady;
+
+const RPM: f64 = std::f64::consts::PI / 30.0;
+const EVERY_INTEGRATOR: [Integrator; 4] = [
+    Integrator::Newmark,
+    Integrator::GeneralisedAlpha { rho_infinity: 0.8 },
+    Integrator::RungeKutta4,
+    Integrator::DormandPrince { relative_tolerance: 1e-8, absolute_tolerance: 1e-14 },
+];
+
+fn jeffcott(set: &[(&str, &str)]) -> Model {
+    let set = set.iter().map(|(path, value)| ((*path).into(), (*value).into())).collect();
+    let options = Options { set, ..Options::default() };
+    load("jeffcott.toml", include_str!("../../models/jeffcott.toml"), &options).unwrap().model
+}
+
+fn steady(speed: f64, clock: Clock, step: f64, [settle, periods]: [usize; 2]) -> Steady {
+    let integrator = Integrator::Newmark;
+    Steady { speed, integrator, step, cutoff: 400.0, clock, phase: 0.0, settle, periods }
+}
+
+fn go(_: f64) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+fn plane(model: &Model, x: &str, y: &str) -> Plane {
+    let probe = |name: &str| model.probes.iter().find(|p| p.name == name).expect("a probe").clone();
+    Plane { name: "plane".into(), x: probe(x), y: probe(y) }
+}
+
+/// A linear rotor loses a perturbation as its least damped mode decays, λ = −ζω.
+#[test]
+fn exponent_of_a_linear_rotor_is_its_decay() {
+    let speed = 2400.0 * RPM;
+    let machine = Machine::new(jeffcott(&[("damping.modal.ratio", "0.02")])).unwrap();
+    let modes = machine.modal(&ModalStudy { speeds: vec![speed], modes: 12 }).unwrap();
+    let decay = modes[0].modes.iter().map(|m| m.eigenvalue.re).fold(f64::NEG_INFINITY, f64::max);
+    for integrator in EVERY_INTEGRATOR {
+        // The explicit methods must resolve the stiffest motion of the shaft's ends in their bearings.
+        let explicit = matches!(integrator, Integrator::RungeKutta4 | Integrator::DormandPrince { .. });
+        let step = if explicit { 1.5e-5 } else { 1e-4 };
+        let mut steady = steady(speed, Clock::Shaft, step, [160, 160]);
+        steady.cutoff = 150.0;
+        steady.integrator = integrator;
+        let study = LyapunovStudy { steady, perturbation: 1e-9 };
+        let found = machine.lyapunov(&study, &mut go).unwrap().unwrap();
+        let e = &found.exponent;
+        println!("{integrator:?}: {:.5} ± {:.5}, linear {decay:.5}", e.value, e.standard_error);
+        // Second-order steps of 1e-4 s lose (ωh)²/4 of the decay, 1e-4 at 160 rad/s.
+        assert!((e.value / decay - 1.0).abs() < 2e-3, "{} against {decay}", e.value);
+        assert!(e.standard_error < 0.02 * decay.abs());
+        assert!((found.clock.frequency / 40.0 - 1.0).abs() < 1e-9);
+        assert_eq!(e.history.len(), 160);
+    }
+}
+
+/// The section of a linear rotor is one point: sag and unbalance response at that shaft angle.
+#[test]
+fn section_of_a_linear_rotor_is_its_unbalance_response() {
+    let speed = 2000.0 * RPM;
+    let machine = Machine::new(jeffcott(&[("damping.modal.ratio", "0.05")])).unwrap();
+    let plane = plane(&machine.model, "disc_x", "disc_y");
+    let responses = vec![plane.x.clone(), plane.y.clone()];
+    let linear = machine.unbalance(&UnbalanceStudy { speeds: vec![speed], responses }).unwrap();
+    let rest = machine
+        .equilibrium(&rotordyn::model::study::EquilibriumStudy { speed, cage_average: false })
+        .unwrap();
+    for phase in [0.0, 1.3] {
+        let mut steady = steady(speed, Clock::Shaft, 5e-5, [150, 40]);
+        steady.cutoff = f64::INFINITY;
+        steady.phase = phase;
+        let study = PoincareStudy { steady, planes: vec![plane.clone()], tolerance: 1e-5, longest_period: 8 };
+        let found = machine.poincare(&study, &mut go).unwrap().unwrap();
+        println!("{:?}", found.motion);
+        assert_eq!(found.motion.motion, Motion::Periodic(1));
+        assert_eq!(found.groups, 1);
+        let shown = &found.planes[0];
+        assert_eq!(shown.section[0].len(), 40);
+        for (k, probe) in [&plane.x, &plane.y].into_iter().enumerate() {
+            let [re, im] = linear.channels[k].amplitude[0];
+            let amplitude = Complex64::new(re, im);
+            let sag = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&rest.q);
+            let expected = sag + (amplitude * Complex64::from_polar(1.0, phase)).re;
+            let worst = shown.section[k].iter().map(|v| (v - expected).abs()).fold(0.0, f64::max);
+            println!("{}: {expected:.6e} m, off by {worst:.1e}", probe.name);
+            // (ωh)²/12 of Newmark's period error near resonance, 1e-5 of the amplitude times the magnification.
+            assert!(worst < 2e-4 * amplitude.norm(), "{worst} of {}", amplitude.norm());
+        }
+        // The orbit is that of the response, run through forward.
+        let size = shown.orbit[0].iter().copied().fold(f64::MIN, f64::max)
+            - shown.orbit[0].iter().copied().fold(f64::MAX, f64::min);
+        let [re, im] = linear.channels[0].amplitude[0];
+        assert!((size / (2.0 * re.hypot(im)) - 1.0).abs() < 1e-3);
+    }
+}
+
+/// The rig on preloaded bearings whose cages turn at a given ratio: its ball passages repeat exactly.
+fn preloaded() -> Machine {
+    let clearance = |b: &str| format!("bearing.{b}.radial_clearance");
+    let set = [(clearance("A"), "-12 um"), (clearance("B"), "-12 um")];
+    let set: Vec<(&str, &str)> = set.iter().map(|(path, value)| (path.as_str(), *value)).collect();
+    let mut model = variant(None, &set);
+    model.unbalances.clear();
+    // The disc damped ten times as well: settled in seconds.
+    for bushing in &mut model.bushings {
+        bushing.damping.iter_mut().flatten().for_each(|c| *c *= 10.0);
+    }
+    for site in &mut model.bearings {
+        if let Bearing::Ball(ball) = &mut site.bearing {
+            ball.cage = Cage::Ratio(0.4);
+        }
+    }
+    Machine::new(model).unwrap()
+}
+
+/// A periodic motion's exponent is ln |ρ| / T of its largest Floquet multiplier ρ, here from a monodromy matrix by
+/// differences, column by column.
+#[test]
+fn exponent_of_a_periodic_motion_is_that_of_its_floquet_multipliers() {
+    let machine = preloaded();
+    let Bearing::Ball(ball) = &machine.model.bearings[0].bearing else { panic!("a ball bearing") };
+    let clock = Clock::BallPass { bearing: 0, balls: ball.geometry.balls };
+    let mut settings = steady(1200.0 * RPM, clock, 5e-5, [360, 12]);
+    settings.cutoff = 100.0;
+    let plane = plane(&machine.model, "disc_x", "disc_y");
+    let poincare =
+        PoincareStudy { steady: settings.clone(), planes: vec![plane], tolerance: 1e-3, longest_period: 4 };
+    let seen = machine.poincare(&poincare, &mut go).unwrap().unwrap();
+    println!("{:?} at {:.3} Hz", seen.motion, seen.clock.frequency);
+    assert_eq!(seen.motion.motion, Motion::Periodic(1));
+    assert!((seen.clock.frequency / (20.0 * 0.4 * ball.geometry.balls as f64) - 1.0).abs() < 1e-6);
+
+    // Settled, then one period from there and from beside there.
+    let (reduction, start) = machine.steady_start(&settings, None).unwrap();
+    let mut on = |_: usize| ControlFlow::Continue(());
+    let run = |state, [settle, periods]: [usize; 2], on: &mut dyn FnMut(usize) -> ControlFlow<()>| {
+        let settings = Steady { settle, periods, ..settings.clone() };
+        run_steady(&reduction.system, state, &settings, &[], None, on).unwrap().unwrap()
+    };
+    let settled = run(start, [360, 1], &mut on).state;
+    let n = reduction.system.size();
+    let once = |x: &nalgebra::DVector<f64>, v: &nalgebra::DVector<f64>| {
+        // Whole steps: the period is a whole number of them, so the map is one of fixed time.
+        let cages: Vec<f64> = settled.rotations.iter().map(|r| r.cage_angle).collect();
+        let mut state = reduction.system.state_at(settled.time, &cages, x.clone(), v.clone());
+        let mut stepper =
+            rotordyn::transient::stepper::Stepper::new(&reduction.system, settings.integrator, 0.0);
+        let period = TAU / (settings.speed * 0.4 * ball.geometry.balls as f64);
+        let steps = (period / settings.step).ceil() as usize;
+        let step = period / steps as f64;
+        for k in 1..=steps {
+            let end = settled.time + k as f64 * step;
+            stepper.advance(&reduction.system, &mut state, step, end, &mut |_, _| Ok(())).unwrap();
+        }
+        (state.x, state.v)
+    };
+    let at = once(&settled.x, &settled.v);
+    let mut monodromy = DMatrix::zeros(2 * n, 2 * n);
+    for c in 0..2 * n {
+        let (mut x, mut v) = (settled.x.clone(), settled.v.clone());
+        // Displacements of 1e-10 and velocities of 1e-7 in mass-normalised coordinates, scaled to one.
+        let (dx, dv) = (1e-10, 1e-7);
+        if c < n {
+            x[c] += dx
+        } else {
+            v[c - n] += dv
+        }
+        let (x, v) = once(&x, &v);
+        let size = if c < n { dx } else { dv };
+        for r in 0..n {
+            monodromy[(r, c)] = (x[r] - at.0[r]) / size;
+            monodromy[(n + r, c)] = (v[r] - at.1[r]) / size;
+        }
+    }
+    let largest = monodromy.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max);
+    let floquet = largest.ln() * seen.clock.frequency;
+    settings.periods = 400;
+    let study = LyapunovStudy { steady: settings, perturbation: 1e-9 };
+    let found = machine.lyapunov(&study, &mut go).unwrap().unwrap().exponent;
+    println!("{:.4} ± {:.4}, Floquet {floquet:.4}", found.value, found.standard_error);
+    assert!(floquet < 0.0);
+    assert!((found.value / floquet - 1.0).abs() < 0.01, "{} against {floquet}", found.value);
+}
+
+/// The rig with its clearances at low load: a smoke test with the physics that must hold.
+#[test]
+fn rig_with_clearance() {
+    let machine = Machine::new(variant(Some("clearance_33um"), &[])).unwrap();
+    let probe = |name: &str, node: usize, axis: usize| {
+        let mut direction = [0.0; 6];
+        direction[axis] = 1.0;
+        Probe {
+            name: name.into(),
+            at: rotordyn::element::Anchor::node(node),
+            direction,
+            quantity: Quantity::Displacement,
+        }
+    };
+    let at_b = machine.model.bearings[1].node;
+    let plane = Plane { name: "B".into(), x: probe("x", at_b, 0), y: probe("y", at_b, 1) };
+    let steady = steady(900.0 * RPM, Clock::Cage { bearing: 1 }, 5e-5, [40, 40]);
+    let study = PoincareStudy { steady, planes: vec![plane], tolerance: 1e-3, longest_period: 8 };
+    let found = machine.poincare(&study, &mut go).unwrap().unwrap();
+    println!("{:?}, {} groups, {:.4} Hz", found.motion, found.groups, found.clock.frequency);
+    // FTF of a 6205: 0.397 of the shaft, and a little less than that at any contact angle above zero.
+    assert!((found.clock.frequency / (15.0 * 0.3969) - 1.0).abs() < 2e-3, "{}", found.clock.frequency);
+    // The shaft turns 2.52 times while the cage turns once, and the load has both periods: never periodic.
+    assert!(!matches!(found.motion.motion, Motion::Periodic(_)), "{:?}", found.motion);
+    let shown = &found.planes[0];
+    for (orbit, section) in shown.orbit.iter().zip(&shown.section) {
+        let range = |v: &[f64]| v.iter().fold([f64::MAX, f64::MIN], |[l, h], v| [v.min(l), v.max(h)]);
+        let (o, s) = (range(orbit), range(section));
+        println!("orbit {o:?}, section {s:?}");
+        assert!(s[0] >= o[0] - 1e-9 && s[1] <= o[1] + 1e-9);
+        // Something moves, by no more than the clearance allows.
+        assert!(o[1] - o[0] > 1e-8 && o[1] - o[0] < 40e-6);
+    }
+    // Stopped when asked.
+    let mut calls = 0;
+    let stopped = machine.poincare(&study, &mut |_| {
+        calls += 1;
+        if calls == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(stopped.unwrap().is_none());
+}
