@@ -189,7 +189,7 @@ impl FilmSpring {
         }
         let root = (elastic.load / self.stiffness).cbrt();
         let frozen = 1.5 * self.stiffness * root;
-        let r = frozen / elastic.slope - 1.0;
+        let r = (frozen / elastic.slope - 1.0).max(0.0);
         let value = self.width * root * elastic.slope * r / (1.0 + r);
         // r falls as s^−(1+q) on the formula and is constant below the threshold.
         let fall = if elastic.load > Self::THRESHOLD { 1.0 + POWER } else { 0.0 };

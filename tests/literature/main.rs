@@ -12,6 +12,7 @@ mod bal_2022_contacts;
 mod bal_2022_preload;
 mod cakmak_2010;
 mod cakmak_2010_modes;
+mod iso_vg_oils;
 mod nelson_mcvaugh_1976;
 mod ross_critical;
 mod ross_elements;
