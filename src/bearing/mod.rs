@@ -19,7 +19,7 @@ mod waviness;
 pub use ball::{BallElement, BallLoad};
 pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Wave};
 pub use element::BearingElement;
-pub use fit::Fit;
+pub use fit::{Fit, FitMaterials};
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;

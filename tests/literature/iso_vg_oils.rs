@@ -53,9 +53,13 @@ fn viscosity_index_is_95() {
 #[test]
 fn typical_data_sheets_at_100_degrees() {
     // Mineral bearing oils with indices of 95 to 100, in mm²/s.
-    for (name, sheet) in
-        [("ISO VG 32", 5.4), ("ISO VG 46", 6.8), ("ISO VG 68", 8.7), ("ISO VG 100", 11.2), ("ISO VG 220", 19.0)]
-    {
+    for (name, sheet) in [
+        ("ISO VG 32", 5.4),
+        ("ISO VG 46", 6.8),
+        ("ISO VG 68", 8.7),
+        ("ISO VG 100", 11.2),
+        ("ISO VG 220", 19.0),
+    ] {
         let here = kinematic(name, 100.0);
         assert!((here / sheet - 1.0).abs() < 0.03, "{name}: {here}");
     }

@@ -1,0 +1,106 @@
+//! Clearance of a mounted bearing against closed forms of thick and thin rings.
+
+use crate::bearing::{rig_6205, steel};
+use rotordyn::bearing::{BallGeometry, Fit, FitMaterials};
+use rotordyn::element::Material;
+
+fn geometry() -> BallGeometry {
+    rig_6205().geometry
+}
+
+/// Diameters of the races F and E.
+fn races(g: &BallGeometry) -> [f64; 2] {
+    [g.pitch_diameter - g.ball_diameter, g.pitch_diameter + g.ball_diameter]
+}
+
+fn near(value: f64, exact: f64, tolerance: f64) {
+    assert!((value / exact - 1.0).abs() < tolerance, "{value} instead of {exact}");
+}
+
+#[test]
+fn solid_shaft_of_the_same_steel() {
+    // Pressure and modulus drop out: the race grows by I d/F, whatever the steel.
+    let (g, steel) = (geometry(), steel());
+    let fit = Fit { shaft_interference: 12e-6, ..Fit::default() };
+    let change = fit.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
+    near(change, -12e-6 * g.bore / races(&g)[0], 1e-13);
+    // A hollow shaft yields more, and the race grows less: by I (d/F)(1 − (d₁/d)²)/(1 − (d₁/F)²).
+    let hollow = Fit { shaft_bore: 15e-3, ..fit };
+    let [f, _] = races(&g);
+    let exact = -12e-6 * g.bore / f * (1.0 - (15e-3 / g.bore).powi(2)) / (1.0 - (15e-3 / f).powi(2));
+    near(hollow.clearance_change(&g, &FitMaterials::all(&steel), 0.0), exact, 1e-13);
+    // A shaft without stiffness leaves the race where it is.
+    let rubber = Material { young: 1.0, ..steel.clone() };
+    let materials = FitMaterials { shaft: &rubber, ..FitMaterials::all(&steel) };
+    assert!(fit.clearance_change(&g, &materials, 0.0).abs() < 1e-15);
+}
+
+#[test]
+fn housing_of_the_same_steel() {
+    // In a housing of infinite size of the same steel the race contracts by I E/D (1 over the ratio of the
+    // solid shaft's case seen from outside): p = I_h E_y (D² − E²)/(2 D · D²), 2u = 2 p E D²/(E_y (D² − E²)).
+    let (g, steel) = (geometry(), steel());
+    let [_, e] = races(&g);
+    let fit = Fit { housing_interference: 9e-6, housing_diameter: 1e3, ..Fit::default() };
+    let change = fit.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
+    near(change, -9e-6 * e / g.outside_diameter, 1e-8);
+    // A rigid housing squeezes more than any other.
+    let rigid = Fit { housing_diameter: 0.0, ..fit }.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
+    let ratio = (e / g.outside_diameter).powi(2);
+    near(rigid, -9e-6 * e / g.outside_diameter * 2.0 / (1.0 + ratio - 0.3 * (1.0 - ratio)), 1e-13);
+    // And a thin one hardly at all.
+    let thin = Fit { housing_diameter: g.outside_diameter * (1.0 + 1e-6), ..fit };
+    assert!(thin.clearance_change(&g, &FitMaterials::all(&steel), 0.0).abs() < 1e-9);
+}
+
+#[test]
+fn temperature() {
+    let (g, steel) = (geometry(), steel());
+    let fit = Fit {
+        inner_temperature_rise: 30.0,
+        outer_temperature_rise: 10.0,
+        expansion: 12e-6,
+        ..Fit::default()
+    };
+    near(fit.clearance_change(&g, &FitMaterials::all(&steel), 0.0), -12e-6 * 20.0 * g.pitch_diameter, 1e-13);
+    let even = Fit { outer_temperature_rise: 30.0, ..fit };
+    assert_eq!(even.clearance_change(&g, &FitMaterials::all(&steel), 0.0), 0.0);
+}
+
+#[test]
+fn rotation() {
+    let steel = steel();
+    let speed = 3000.0;
+    let fit = Fit { speed_growth: true, ..Fit::default() };
+    let free = fit.clearance_change(&geometry(), &FitMaterials::all(&steel), speed);
+    // Thin ring: u = ρ Ω² r³/E.
+    let thin = BallGeometry { bore: races(&geometry())[0] * (1.0 - 1e-9), ..geometry() };
+    let radius = 0.5 * races(&thin)[0];
+    let u = 7850.0 * speed * speed * radius.powi(3) / 207e9;
+    near(fit.clearance_change(&thin, &FitMaterials::all(&steel), speed), -2.0 * u, 1e-8);
+    // Disc: u = ρ Ω² r³ (1 − ν)/(4E).
+    let disc = BallGeometry { bore: 1e-9, ..geometry() };
+    near(fit.clearance_change(&disc, &FitMaterials::all(&steel), speed), -2.0 * u * 0.7 / 4.0, 1e-8);
+    assert!(free < -2.0 * u * 0.7 / 4.0 && free > -2.0 * u);
+    // Grows with the square of the speed, and not where it is not asked for.
+    near(fit.clearance_change(&geometry(), &FitMaterials::all(&steel), 2.0 * speed), 4.0 * free, 1e-13);
+    assert_eq!(Fit::default().clearance_change(&geometry(), &FitMaterials::all(&steel), speed), 0.0);
+}
+
+#[test]
+fn a_fit_that_holds_makes_ring_and_shaft_one_disc() {
+    // Shrunk on tightly, ring and solid shaft of one steel turn as one disc: growth by the fit plus the disc's.
+    let (g, steel) = (geometry(), steel());
+    let materials = FitMaterials::all(&steel);
+    let fit = Fit { shaft_interference: 20e-6, speed_growth: true, ..Fit::default() };
+    let speed = 3000.0;
+    let [f, _] = races(&g);
+    let disc = 7850.0 * speed * speed * (0.5 * f).powi(3) * 0.7 / (4.0 * 207e9);
+    near(fit.clearance_change(&g, &materials, speed), -20e-6 * g.bore / f - 2.0 * disc, 1e-12);
+    // The pressure falls with the speed until the ring turns loose; from there on it grows by itself.
+    assert!(fit.shaft_pressure(&g, &materials, speed) < fit.shaft_pressure(&g, &materials, 0.0));
+    let loose = 20_000.0;
+    assert_eq!(fit.shaft_pressure(&g, &materials, loose), 0.0);
+    let bare = Fit { shaft_interference: 0.0, ..fit };
+    assert_eq!(fit.clearance_change(&g, &materials, loose), bare.clearance_change(&g, &materials, loose));
+}
