@@ -8,6 +8,7 @@ pub mod fit;
 mod flung;
 pub mod geometry;
 mod jones;
+pub mod life;
 pub mod linear;
 mod massless;
 mod preload;

@@ -1,5 +1,7 @@
 //! Published figures; the file's name is its source.
 
+#[path = "../common/bearing.rs"]
+mod bearing;
 #[path = "../common/ehl.rs"]
 #[allow(dead_code)]
 mod lubricated;
@@ -12,6 +14,7 @@ mod bal_2022_contacts;
 mod bal_2022_preload;
 mod cakmak_2010;
 mod cakmak_2010_modes;
+mod iso_281_life;
 mod iso_vg_oils;
 mod nelson_mcvaugh_1976;
 mod ross_critical;
