@@ -2,11 +2,13 @@
 
 use rotordyn::model::{self, Options};
 
-const FILES: [&str; 4] = [
+const FILES: [&str; 6] = [
     include_str!("../../models/overhung_rig.toml"),
     include_str!("../../models/nelson_mcvaugh.toml"),
     include_str!("../../models/jeffcott.toml"),
     include_str!("../../models/two_disc_pedestals.toml"),
+    include_str!("../../models/bal_2022.toml"),
+    include_str!("../../models/zhang_2016.toml"),
 ];
 
 const VALUES: [&str; 12] = [

@@ -3,5 +3,6 @@
 mod bearing_file;
 mod catalogue;
 mod files;
+mod papers;
 mod rig;
 mod syntax;

@@ -194,13 +194,23 @@ fn power_stiffness(r: &Reader, exponent: f64) -> f64 {
 
 /// Constant damping unless another kind is asked for.
 pub(super) fn damping(r: &Reader) -> ContactDamping {
-    match r.one_of(&["contact_damping", "hunt_crossley"]) {
+    let key = r.one_of(&["contact_damping", "hunt_crossley", "film_damping"]);
+    if let Some(other @ ("hunt_crossley" | "film_damping")) = key
+        && r.has("damping_ramp")
+    {
+        let message = format!("{} says nothing beside {other}", r.name("damping_ramp"));
+        r.error(Kind::Conflict, "damping_ramp", message);
+    }
+    match key {
         Some("hunt_crossley") => {
-            if r.has("damping_ramp") {
-                let message = format!("{} says nothing beside hunt_crossley", r.name("damping_ramp"));
-                r.error(Kind::Conflict, "damping_ramp", message);
-            }
             ContactDamping::HuntCrossley { factor: r.need("hunt_crossley", not_negative(INVERSE_SPEED)) }
+        }
+        Some("film_damping") => {
+            if r.text("contact") != Some("film") {
+                let message = format!("{} says nothing without a film", r.name("film_damping"));
+                r.error(Kind::Conflict, "film_damping", message);
+            }
+            ContactDamping::Film { factor: r.need("film_damping", positive(NUMBER)) }
         }
         _ => ContactDamping::Constant {
             coefficient: r.or("contact_damping", not_negative(DAMPING), 300.0),
