@@ -139,6 +139,11 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     if r.sound() {
         buildable(r, &bearing);
     }
+    if r.sound() {
+        for why in bearing.problems() {
+            r.log.error(Problem::new(Kind::Conflict, &r.span, format!("{}: {why}", r.path)));
+        }
+    }
     bearing
 }
 
