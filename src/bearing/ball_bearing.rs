@@ -1,6 +1,6 @@
 //! A ball bearing as its user describes it.
 
-use super::{BallGeometry, Fit};
+use super::{BallGeometry, Fit, FitMaterials};
 use crate::contact::{ContactDamping, ContactLaw, HertzPair};
 use crate::element::Material;
 
@@ -42,6 +42,12 @@ impl BallBearing {
             &self.ball_material,
             &self.ring_material,
         )
+    }
+
+    /// Change of the diametral clearance by fits, temperatures and a speed Ω \[rad/s\] \[m\]; shaft and housing of the
+    /// rings' material.
+    pub fn clearance_change(&self, speed: f64) -> f64 {
+        self.fit.clearance_change(&self.geometry, &FitMaterials::all(&self.ring_material), speed)
     }
 }
 

@@ -16,8 +16,11 @@ pub(super) struct Row {
     centre_distance: f64,
     /// Radius of the circle of inner groove centres R_i \[m\].
     arm: f64,
-    /// Groove-centre offset of the centred bearing: radial A cos α₀ − P_d/2, axial A sin α₀ \[m\].
+    /// Groove-centre offset of the centred bearing: radial A cos α₀ − P_d/2, axial A sin α₀ \[m\]; P_d as mounted,
+    /// at rest.
     offset: [f64; 2],
+    /// The bearing whose clearance changes with speed.
+    growing: Option<Box<BallBearing>>,
     damping: ContactDamping,
     /// The balls' inertia; `None` when they count as massless.
     inertia: Option<Balls>,
@@ -79,9 +82,10 @@ impl Row {
             centre_distance: a,
             arm: g.inner_centre_radius(),
             offset: [
-                a * g.contact_angle.cos() - 0.5 * g.radial_clearance,
+                a * g.contact_angle.cos() - 0.5 * (g.radial_clearance + bearing.clearance_change(0.0)),
                 a * g.contact_angle.sin() * thrust_direction,
             ],
+            growing: bearing.fit.speed_growth.then(|| Box::new(bearing.clone())),
             damping: bearing.damping,
             inertia: Balls::new(g, &bearing.ball_material, bearing.inertia),
             cage_ratio,
@@ -135,7 +139,11 @@ impl Row {
             let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
             balls.fling(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
         });
-        let offset = self.offset;
+        let mut offset = self.offset;
+        if let Some(bearing) = &self.growing {
+            let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
+            offset[0] -= 0.5 * change;
+        }
         let mut out = Operating { contacts, offset, preload: 0.0, fling, turning, waves };
         out.preload = match self.seat {
             Seat::Fixed(offset) => offset,

@@ -1,7 +1,7 @@
 //! The ball bearing's tangents by differences, its symmetry, its energy.
 
 use crate::bearing::rig_6205;
-use rotordyn::bearing::{BallElement, Rotation, Wave};
+use rotordyn::bearing::{BallElement, Fit, Rotation, Wave};
 
 /// Small deterministic generator; the seed is the test's own.
 pub struct Random(pub u64);
@@ -172,4 +172,30 @@ fn rotating_load_and_cage_together_rotates_the_answer() {
             assert!((plain[k] - turned[k]).abs() < 1e-9 * (1.0 + plain[k].abs()));
         }
     }
+}
+
+#[test]
+fn a_mounted_bearing_has_the_clearance_its_fit_leaves() {
+    let mut mounted = rig_6205();
+    mounted.fit = Fit {
+        shaft_interference: 6e-6,
+        inner_temperature_rise: 15.0,
+        expansion: 12e-6,
+        speed_growth: true,
+        ..Fit::default()
+    };
+    let place = [12e-6, -4e-6, 30e-6, 0.0, 0.0, 0.0];
+    for speed in [0.0, 1500.0] {
+        let change = mounted.clearance_change(speed);
+        assert!(change < -10e-6);
+        let mut bare = rig_6205();
+        bare.geometry.radial_clearance += change;
+        let rotation = Rotation { cage_angle: 0.4, shaft_speed: speed, ..Rotation::default() };
+        let force = |bearing| BallElement::new(bearing).reaction(&place, &[0.0; 6], &rotation).force;
+        let (here, there) = (force(&mounted), force(&bare));
+        for axis in 0..3 {
+            assert!((here[axis] - there[axis]).abs() < 1e-9 * there[axis].abs(), "{here:?} {there:?}");
+        }
+    }
+    assert!(mounted.clearance_change(1500.0) < mounted.clearance_change(0.0));
 }
