@@ -113,11 +113,12 @@ impl Curve {
                 low = deformation;
             }
             let newton = deformation - error / (1.0 - slope);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if (low..=high).contains(&newton) { newton } else { 0.5 * (low + high) };
             let moved = (next - deformation).abs();
             deformation = next;
             [shift, slope] = self.shift(deformation);
-            if moved <= 1e-15 * deformation || high - low <= f64::EPSILON * high {
+            // Rounding of the logarithms leaves a few units in the last place of D + s.
+            if moved <= 2e-15 * (deformation + shift) {
                 break;
             }
         }

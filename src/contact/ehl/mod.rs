@@ -68,13 +68,15 @@ pub enum Failure {
     Input { quantity: &'static str, range: &'static str, value: f64 },
     #[error(
         "the film of a contact under {load:.4} N at an entrainment speed of {speed:.4} m/s did not converge: \
-         residual {residual:.3e} after {iterations} iterations"
+         residual {residual:.3e} after {iterations} iterations, least film {least_film:.2e} m"
     )]
     NoConvergence {
         load: f64,
         speed: f64,
         residual: f64,
         iterations: usize,
+        /// Least film of the last iterate \[m\]; below zero the grid is too coarse for the edges of the ellipse.
+        least_film: f64,
         /// The last fields, to be looked at.
         last: Box<Solution>,
     },
@@ -84,7 +86,7 @@ pub enum Failure {
 const COARSEST: [usize; 2] = [25, 7];
 
 /// Least length in semi-axes that [`Grid::flooded`] resolves, so that no film asks for an endless grid.
-const THINNEST: f64 = 0.06;
+const THINNEST: f64 = 0.08;
 
 /// Solves the film, on nested grids from coarse to fine.
 ///
@@ -99,6 +101,12 @@ const THINNEST: f64 = 0.06;
 ///
 /// Validity: flooded inlet, Newtonian fluid, no heat, half-spaces. Source: Venner & Lubrecht 2000.
 pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
+    let found = nested(problem, start)?;
+    if found.minimum_film > 0.0 { Ok(found) } else { Err(Failure::new(problem, found)) }
+}
+
+/// As [`solve`], but the film may be below zero at the edges of the ellipse, as it is on grids too coarse for it.
+fn nested(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
     problem.check()?;
     if let Some(found) = start.and_then(|near| attempt(problem, &problem.grid, Some(near)).ok()) {
         return Ok(found);
@@ -109,7 +117,6 @@ pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Fa
         coarse.push(grid);
         grid = grid.coarser();
     }
-    // A grid too coarse for a thin film may have no solution: the next one then starts afresh.
     let near = coarse
         .iter()
         .rev()
@@ -139,13 +146,19 @@ impl Extrapolated {
 
 /// Solves on the problem's grid and on one of half as many intervals, and extrapolates: f + (f − c)/3 at second order.
 ///
-/// A film too thin for the coarser grid is not extrapolated.
+/// A film that the coarser grid has no solution for is not extrapolated.
+///
+/// What is extrapolated belongs to the whole contact or its centre, so the grids may be too coarse for the edges of a
+/// thin film: its least film is then below zero, which [`solve`] would refuse.
 ///
 /// # Errors
-/// As [`solve`].
+/// As [`solve`], save that the film at the centre alone must be above zero.
 pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, Failure> {
-    let coarse = solve(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
-    let fine = solve(problem, coarse.as_ref().or(start))?;
+    let coarse = nested(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
+    let fine = nested(problem, coarse.as_ref().or(start))?;
+    if fine.central_film <= 0.0 {
+        return Err(Failure::new(problem, fine));
+    }
     let limit = |figure: fn(&Solution) -> f64| {
         let f = figure(&fine);
         coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
@@ -170,13 +183,20 @@ fn attempt(problem: &Problem, grid: &Grid, near: Option<&Solution>) -> Result<So
     if converged {
         return Ok(solution);
     }
-    Err(Failure::NoConvergence {
-        load: problem.load,
-        speed: problem.speed,
-        residual: solution.residual,
-        iterations: solution.iterations,
-        last: Box::new(solution),
-    })
+    Err(Failure::new(problem, solution))
+}
+
+impl Failure {
+    fn new(problem: &Problem, last: Solution) -> Self {
+        Self::NoConvergence {
+            load: problem.load,
+            speed: problem.speed,
+            residual: last.residual,
+            iterations: last.iterations,
+            least_film: last.minimum_film,
+            last: Box::new(last),
+        }
+    }
 }
 
 impl Grid {

@@ -211,7 +211,6 @@ impl<'a> Newton<'a> {
     fn search(&mut self, field: &Field, step: &[f64]) -> Option<Field> {
         let n = field.pressure.len();
         let (by_pressure, by_separation) = (&step[..n], step[n]);
-        let lowest = field.film.iter().copied().fold(f64::INFINITY, f64::min);
         let mut best: Option<Field> = None;
         let mut rows = Vec::with_capacity(n);
         let mut length = 1.0;
@@ -220,16 +219,13 @@ impl<'a> Newton<'a> {
                 field.pressure.iter().zip(by_pressure).map(|(p, d)| (p + length * d).max(0.0)).collect();
             let separation = field.separation + length * by_separation;
             let film = self.film(&pressure, separation);
-            // The surfaces must not touch: the equation means nothing there.
-            if film.iter().all(|&h| h > 0.1 * lowest) {
-                reynolds::rows(self.s, self.lubricant, &pressure, &film, &mut rows);
-                let residual = self.merit(&pressure, &rows);
-                if residual.is_finite() && best.as_ref().is_none_or(|b| residual < b.residual) {
-                    best = Some(Field { pressure, film, separation, residual, ..*field });
-                }
-                if residual < (1.0 - 0.1 * length) * field.residual {
-                    break;
-                }
+            reynolds::rows(self.s, self.lubricant, &pressure, &film, &mut rows);
+            let residual = self.merit(&pressure, &rows);
+            if residual.is_finite() && best.as_ref().is_none_or(|b| residual < b.residual) {
+                best = Some(Field { pressure, film, separation, residual, ..*field });
+            }
+            if residual < (1.0 - 0.1 * length) * field.residual {
+                break;
             }
             length *= 0.5;
         }

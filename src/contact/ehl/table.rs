@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::curve::Curve;
-use super::{Extrapolated, Failure, Grid, Problem, Solution, extrapolate};
-use crate::contact::{EllipticContact, Lubricant};
+use super::{Failure, Grid, Problem, Solution, extrapolate};
+use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::linalg::pchip::Pchip;
 
 /// What a [`Table`] is computed from.
@@ -38,6 +38,14 @@ pub struct Table {
     pub central_film: Vec<Vec<f64>>,
 }
 
+/// Least h R_x/b_x² of a table (Hamrock and Dowson's h) that is solved: a thinner film is taken from the speed at which
+/// it would be as thick as this, by their power of the speed. It changes the approach by 5 % or less, and is
+/// known to a tenth of that.
+const THINNEST_FILM: f64 = 0.05;
+
+/// Power of the speed in Hamrock and Dowson's central film.
+const SPEED_POWER: f64 = 0.67;
+
 /// `count` ≥ 2 values in geometric progression from `first` to `last`.
 pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
     let ratio = last / first;
@@ -49,7 +57,7 @@ impl TableSpec {
     pub fn key(&self) -> String {
         let Self { contact, lubricant, loads, speeds, points } = self;
         format!(
-            "ehl table 1; Rx {:e} m; Ry {:e} m; E* {:e} Pa; eta {:e} Pa s; alpha {:e} 1/Pa; Q {loads:?} N; u {speeds:?} m/s; points {points}",
+            "ehl table 2; Rx {:e} m; Ry {:e} m; E* {:e} Pa; eta {:e} Pa s; alpha {:e} 1/Pa; Q {loads:?} N; u {speeds:?} m/s; points {points}",
             contact.rolling_radius,
             contact.transverse_radius,
             contact.modulus,
@@ -81,33 +89,36 @@ impl TableSpec {
         let done = AtomicUsize::new(0);
         let total = self.loads.len() * self.speeds.len();
         let count = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
-        let rows: Vec<Result<Vec<Extrapolated>, Failure>> =
+        let rows: Vec<Result<Vec<[f64; 2]>, Failure>> =
             self.speeds.par_iter().map(|&speed| self.row(speed, &count)).collect();
         let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let column = |value: fn(&Extrapolated) -> f64| {
-            rows.iter().map(|row| row.iter().map(value).collect()).collect()
-        };
+        let figure = |k: usize| rows.iter().map(|row| row.iter().map(|pair| pair[k]).collect()).collect();
         Ok(Table {
             key: self.key(),
             stiffness: self.contact.stiffness,
             loads: self.loads.clone(),
             speeds: self.speeds.clone(),
-            shift: column(Extrapolated::film_shift),
-            central_film: column(|found| found.central_film),
+            shift: figure(0),
+            central_film: figure(1),
         })
     }
 
-    /// All loads at one speed, each started from the next heavier.
-    fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<Extrapolated>, Failure> {
+    /// Shift and central film at all loads and one speed, each started from the next heavier load.
+    fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<[f64; 2]>, Failure> {
+        let Self { contact, lubricant, points, .. } = self;
+        let formula = FilmFormula::new(contact, lubricant);
         let mut near: Option<Solution> = None;
         let mut row = Vec::with_capacity(self.loads.len());
         for &load in self.loads.iter().rev() {
-            let grid = Grid::flooded(&self.contact, &self.lubricant, speed, load, self.points);
-            let problem =
-                Problem { contact: self.contact, lubricant: self.lubricant.clone(), speed, load, grid };
+            let depth = contact.semi_axes(load)[0].powi(2) / contact.rolling_radius;
+            // Share of the thinnest film to be solved; h ~ u^SPEED_POWER below it.
+            let share = (formula.central(speed, load) / (THINNEST_FILM * depth)).min(1.0);
+            let speed = speed * share.powf(-1.0 / SPEED_POWER);
+            let grid = Grid::flooded(contact, lubricant, speed, load, *points);
+            let problem = Problem { contact: *contact, lubricant: lubricant.clone(), speed, load, grid };
             let found = extrapolate(&problem, near.as_ref())?;
-            near = Some(found.fine.clone());
-            row.push(found);
+            row.push([share * found.film_shift(), share * found.central_film]);
+            near = Some(found.fine);
             count();
         }
         row.reverse();
@@ -129,7 +140,8 @@ impl Table {
             (0..self.loads.len())
                 .map(|k| {
                     let values: Vec<f64> = rows.iter().map(|row| row[k].ln()).collect();
-                    let single = values.first().map_or(f64::NAN, |v| v + 0.67 * (speed.ln() - logs[0]));
+                    let single =
+                        values.first().map_or(f64::NAN, |v| v + SPEED_POWER * (speed.ln() - logs[0]));
                     match Pchip::new(&logs, &values) {
                         Some(curve) if logs.len() > 1 => curve.at(speed.ln())[0],
                         _ => single,
