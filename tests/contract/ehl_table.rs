@@ -67,6 +67,22 @@ fn load_inverts_approach_with_its_tangent_and_energy() {
 }
 
 #[test]
+fn two_contacts_in_series_add_their_approaches() {
+    let (slow, fast, dry) = (TABLE.at_speed(2.0), TABLE.at_speed(12.0), TABLE.at_speed(0.0));
+    for (first, second) in [(&slow, &fast), (&fast, &dry), (&dry, &slow), (&dry, &dry)] {
+        let both = first.in_series(second);
+        for &load in &TABLE.loads {
+            let sum = first.approach(load)[0] + second.approach(load)[0];
+            let scale = (load / TABLE.stiffness).powf(2.0 / 3.0);
+            assert!((both.approach(load)[0] - sum).abs() < 1e-12 * scale);
+        }
+        let [sum, sum_slope] = [0, 1].map(|k| first.approach(77.0)[k] + second.approach(77.0)[k]);
+        let [approach, slope] = both.approach(77.0);
+        assert!((approach / sum - 1.0).abs() < 5e-3 && (slope / sum_slope - 1.0).abs() < 2e-2);
+    }
+}
+
+#[test]
 fn unloaded_beyond_the_reach_of_the_film() {
     let curve = TABLE.at_speed(5.0);
     let reach = curve.reach();

@@ -76,6 +76,30 @@ impl Curve {
         Self { stiffness, film: Some(film) }
     }
 
+    /// Law of this contact and another under the same load: both deformations and both films add up.
+    ///
+    /// K⁻²ᐟ³ = Σ Kᵢ⁻²ᐟ³, s = Σ sᵢ, taken at this contact's loads; exact there when both come from the same loads.
+    pub fn in_series(&self, other: &Self) -> Self {
+        let compliance = self.stiffness.powf(-2.0 / 3.0) + other.stiffness.powf(-2.0 / 3.0);
+        let stiffness = compliance.powf(-1.5);
+        let (first, second) = match (&self.film, &other.film) {
+            (Some(first), Some(second)) => (first, Some(second)),
+            (Some(film), None) | (None, Some(film)) => (film, None),
+            (None, None) => return Self::dry(stiffness),
+        };
+        // The two outermost knots on either side are the power law's, and come back with it.
+        let knots = &first.knots[2..first.knots.len() - 2];
+        let sum = |of: fn(&Film) -> &Pchip| -> Vec<f64> {
+            let value = |film: &Film, knot: f64| of(film).at(knot)[0].exp();
+            knots
+                .iter()
+                .map(|&t| (value(first, t) + second.map_or(0.0, |film| value(film, t))).ln())
+                .collect()
+        };
+        let loads: Vec<f64> = knots.iter().map(|t| t.exp()).collect();
+        Self::new(stiffness, &loads, &sum(|film| &film.shift), &sum(|film| &film.central))
+    }
+
     /// Approach δ \[m\] and its slope dδ/dQ \[m/N\] at a load Q > 0 \[N\].
     pub fn approach(&self, load: f64) -> [f64; 2] {
         let deformation = (load / self.stiffness).powf(2.0 / 3.0);
