@@ -1,11 +1,18 @@
-//! STFT and order analysis of a run-up record: 13 s at 20 kHz, 260 thousand samples.
+//! STFT and order analysis of a run-up record: 13 s at 20 kHz, 260 thousand samples; tools of fault finding on 120
+//! thousand samples.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::signal::WindowKind;
+use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
+use rotordyn::signal::cyclic::cyclic_coherence;
+use rotordyn::signal::diagnosis::{BandRule, diagnose};
+use rotordyn::signal::filter_bank::deepest;
+use rotordyn::signal::kurtogram::fast_kurtogram;
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
+use rotordyn::signal::spectrum::Welch;
 use rotordyn::signal::stft::{Stft, StftSettings};
 
 const RATE: f64 = 20_000.0;
@@ -44,5 +51,33 @@ fn signal(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, signal);
+/// Noise with pulses at BPFO of a 6205 at 1797 rpm, 12 kHz.
+fn faults(c: &mut Criterion) {
+    const N: usize = 120_000;
+    let mut state = 1u32;
+    let x: Vec<f64> = (0..N)
+        .map(|n| {
+            state = state.wrapping_mul(1664525).wrapping_add(1013904223);
+            let pulse = if n % 112 == 0 { 5.0 } else { 0.0 };
+            f64::from(state) / 2f64.powi(31) - 1.0 + pulse
+        })
+        .collect();
+    let rates = BearingRates { shaft: 29.95, cage: 11.93, outer: 107.36, inner: 162.19, ball: 70.58 };
+    let mut group = c.benchmark_group("faults");
+    group.sample_size(20);
+    let depth = deepest(N);
+    group.bench_function("fast_kurtogram_120k", |b| b.iter(|| fast_kurtogram(black_box(&x), 12e3, depth)));
+    for (name, rule) in [("kurtosis", BandRule::Kurtosis), ("lines", BandRule::Lines)] {
+        let run = || diagnose(black_box(&x), 12e3, &rates, rule, &LineSettings::default());
+        group.bench_function(format!("diagnosis_by_{name}_120k"), |b| b.iter(run));
+    }
+    let alphas: Vec<f64> = (1..=100).map(|k| 0.1 * f64::from(k)).collect();
+    let welch = Welch { overlap: 192, ..Welch::hann(256) };
+    group.bench_function("cyclic_coherence_120k_100", |b| {
+        b.iter(|| cyclic_coherence(black_box(&x), 12e3, &alphas, &welch))
+    });
+    group.finish();
+}
+
+criterion_group!(benches, signal, faults);
 criterion_main!(benches);

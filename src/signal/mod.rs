@@ -16,26 +16,44 @@
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`impact`] | H1, H2 and coherence from blows or random excitation |
-//! | [`envelope`] | analytic signal, envelope, envelope spectrum |
+//! | [`envelope`] | analytic signal, envelope, envelope spectrum, squared envelope, of a band |
+//! | [`kurtogram`] | spectral kurtosis, fast kurtogram, bands scored by anything ([`filter_bank`]) |
+//! | [`bearing_lines`] | lines at FTF, BPFO, BPFI, 2 BSF with side bands over background; which part is damaged |
+//! | [`diagnosis`] | from a record to that verdict |
+//! | [`race_defects`] | dents and bumps of a race: angle, width, kind ([`jerk`]) |
+//! | [`cepstrum`] | real and power cepstrum, liftering |
+//! | [`cyclic`] | cyclic spectral coherence |
+//! | [`tacho`] | shaft angle from pulses |
+//! | [`synchronous`] | time-synchronous average |
 //!
 //! Sample n of a record is at t = n/f_s; every function refuses empty records, NaN and infinity with a
 //! [`SignalError`].
 
+pub mod bearing_lines;
+pub mod cepstrum;
+pub mod cyclic;
+pub mod diagnosis;
 pub mod envelope;
 pub mod error;
 pub mod filter;
+pub mod filter_bank;
 pub mod impact;
+pub mod jerk;
+pub mod kurtogram;
 pub mod lyapunov;
 pub mod orbit;
 pub mod order;
 pub mod period;
 pub mod poincare;
+pub mod race_defects;
 pub mod resample;
 pub mod ridge;
 pub mod segment;
 pub mod spectrum;
 pub mod statistics;
 pub mod stft;
+pub mod synchronous;
+pub mod tacho;
 pub mod waterfall;
 pub mod window;
 

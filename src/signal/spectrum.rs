@@ -43,7 +43,7 @@ impl Welch {
         Welch { window: WindowKind::Hann, segment, overlap: segment / 2, remove_mean: true }
     }
 
-    fn check(&self, length: usize, sample_rate: f64) -> Result<(), SignalError> {
+    pub(crate) fn check(&self, length: usize, sample_rate: f64) -> Result<(), SignalError> {
         check_rate(sample_rate)?;
         check(self.segment >= 2, "segment", "two samples or more", self.segment as f64)?;
         check(self.overlap < self.segment, "overlap", "fewer samples than a segment", self.overlap as f64)?;

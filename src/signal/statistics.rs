@@ -17,6 +17,14 @@ pub struct Statistics {
     pub peak_to_peak: f64,
     /// Peak over RMS; √2 for a sine, `None` for a record of zeros.
     pub crest_factor: Option<f64>,
+    /// Σ|x|/N.
+    pub mean_absolute: f64,
+    /// RMS over mean absolute; π/√8 for a sine, `None` for a record of zeros.
+    pub shape_factor: Option<f64>,
+    /// Peak over mean absolute; π/2 for a sine, `None` for a record of zeros.
+    pub impulse_factor: Option<f64>,
+    /// Peak over (Σ√|x|/N)²; `None` for a record of zeros.
+    pub clearance_factor: Option<f64>,
     /// m₃ / m₂^{3/2}; `None` for a constant record.
     pub skewness: Option<f64>,
     /// m₄ / m₂², Pearson's, without −3: 3 for a normal distribution, 1.5 for a sine; `None` for a constant record.
@@ -29,6 +37,7 @@ pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
     let n = record.len() as f64;
     let mean = record.iter().sum::<f64>() / n;
     let (mut m2, mut m3, mut m4, mut square) = (0.0, 0.0, 0.0, 0.0);
+    let (mut absolute, mut root) = (0.0, 0.0);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for &x in record {
         let d = x - mean;
@@ -36,10 +45,13 @@ pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
         m3 += d * d * d;
         m4 += d * d * d * d;
         square += x * x;
+        absolute += x.abs();
+        root += x.abs().sqrt();
         low = low.min(x);
         high = high.max(x);
     }
     (m2, m3, m4) = (m2 / n, m3 / n, m4 / n);
+    (absolute, root) = (absolute / n, root / n);
     let rms = (square / n).sqrt();
     let peak = high.max(-low);
     // A constant record's spread is what rounding of its mean leaves, not a shape.
@@ -51,6 +63,10 @@ pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
         peak,
         peak_to_peak: high - low,
         crest_factor: (rms > 0.0).then(|| peak / rms),
+        mean_absolute: absolute,
+        shape_factor: (absolute > 0.0).then(|| rms / absolute),
+        impulse_factor: (absolute > 0.0).then(|| peak / absolute),
+        clearance_factor: (absolute > 0.0).then(|| peak / (root * root)),
         skewness: varies.then(|| m3 / (m2 * m2.sqrt())),
         kurtosis: varies.then(|| m4 / (m2 * m2)),
     })

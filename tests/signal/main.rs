@@ -1,12 +1,17 @@
 //! Signal tools: closed forms, scipy as oracle, and refusal of unusable records.
 
+mod bearing_faults;
 mod closed_forms;
+mod defects;
+mod dented_bearing;
 mod impact;
 mod oracle;
+mod oracle_bearing;
 mod orders;
 mod refusals;
 mod resampling;
 mod sections;
+mod tacho;
 
 use rotordyn::signal::Complex;
 

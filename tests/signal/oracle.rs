@@ -25,11 +25,11 @@ fn inputs() -> (Vec<f64>, Vec<f64>) {
     (x, y)
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
 }
 
-fn complex(value: &Value) -> Vec<Complex<f64>> {
+pub fn complex(value: &Value) -> Vec<Complex<f64>> {
     numbers(&value["re"])
         .into_iter()
         .zip(numbers(&value["im"]))
@@ -37,7 +37,7 @@ fn complex(value: &Value) -> Vec<Complex<f64>> {
         .collect()
 }
 
-fn count(value: &Value) -> usize {
+pub fn count(value: &Value) -> usize {
     value.as_u64().expect("a whole number") as usize
 }
 
@@ -53,7 +53,7 @@ fn kind(value: &Value) -> WindowKind {
 }
 
 #[track_caller]
-fn assert_all(what: &str, got: &[f64], expected: &[f64]) {
+pub fn assert_all(what: &str, got: &[f64], expected: &[f64]) {
     assert_eq!(got.len(), expected.len(), "{what}");
     for (k, (g, e)) in got.iter().zip(expected).enumerate() {
         assert_close(&format!("{what} at {k}"), *g, *e, TOLERANCE);
@@ -61,7 +61,7 @@ fn assert_all(what: &str, got: &[f64], expected: &[f64]) {
 }
 
 #[track_caller]
-fn assert_all_complex(what: &str, got: &[Complex<f64>], expected: &[Complex<f64>]) {
+pub fn assert_all_complex(what: &str, got: &[Complex<f64>], expected: &[Complex<f64>]) {
     assert_eq!(got.len(), expected.len(), "{what}");
     for (k, (g, e)) in got.iter().zip(expected).enumerate() {
         assert_close_complex(&format!("{what} at {k}"), *g, *e, TOLERANCE);

@@ -1,10 +1,19 @@
 //! Unusable records and settings: an error that says what was expected and what was given, never a panic.
 
-use rotordyn::signal::envelope::{analytic_signal, envelope_spectrum};
+use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
+use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
+use rotordyn::signal::cyclic::cyclic_coherence;
+use rotordyn::signal::diagnosis::{BandRule, diagnose};
+use rotordyn::signal::envelope::{
+    analytic_signal, band_analytic_signal, envelope_spectrum, squared_envelope_spectrum,
+};
 use rotordyn::signal::filter::{Band, butterworth};
 use rotordyn::signal::impact::{Blow, ImpactWindows, frf_from_blows};
+use rotordyn::signal::jerk::{impulses, jerk, jerk_jumps};
+use rotordyn::signal::kurtogram::{fast_kurtogram, scored_bands, spectral_kurtosis};
 use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
+use rotordyn::signal::race_defects::{BallPassage, race_defects};
 use rotordyn::signal::resample::{AngleResampler, integrate_speed, to_uniform_time, uniform_rate};
 use rotordyn::signal::ridge::{find_peaks, follow_line};
 use rotordyn::signal::spectrum::{
@@ -12,6 +21,8 @@ use rotordyn::signal::spectrum::{
 };
 use rotordyn::signal::statistics::statistics;
 use rotordyn::signal::stft::{Stft, StftSettings};
+use rotordyn::signal::synchronous::synchronous_average;
+use rotordyn::signal::tacho::rising_edges;
 use rotordyn::signal::waterfall::waterfall;
 use rotordyn::signal::{SignalError, WindowKind};
 
@@ -22,6 +33,8 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
     let stft = || Stft::new(StftSettings::new(hann, 16, 0.5)?, rate)?.spectrogram(x);
     let filter = || butterworth(2, Band::LowPass(0.1 * rate), rate)?.filter_zero_phase(x);
     let once = || butterworth(2, Band::LowPass(0.1 * rate), rate)?.filter(x);
+    let rates = BearingRates { shaft: 1.0, cage: 0.4, outer: 3.6, inner: 5.4, ball: 2.4 };
+    let passage = BallPassage { frequency: 3.6, balls: 9, race_speed: 0.0, datum: 0.0 };
     let blow = [Blow { force: x, response: x }];
     vec![
         ("amplitude", amplitude_spectrum(x, rate, hann, Level::Rms).err()),
@@ -45,12 +58,32 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
         ("peaks", find_peaks(x, x, 0.0).err()),
         ("ridge", follow_line(x, x, &[1.0], 1.0).err()),
         ("waterfall", waterfall(x, x, &[1.0], &[1.0], 1.0).err()),
+        ("band", band_analytic_signal(x, rate, (0.1 * rate, 0.2 * rate)).err()),
+        (
+            "squared envelope",
+            squared_envelope_spectrum(x, rate, Some((0.0, 0.5 * rate)), hann, Level::Peak).err(),
+        ),
+        ("cepstrum", real_cepstrum(x, rate).err()),
+        ("power cepstrum", power_cepstrum(x, rate).err()),
+        ("lifter", lifter(x, rate, Lifter::LowTime(1.0)).err()),
+        ("liftered spectrum", liftered_spectrum(x, rate, Lifter::HighTime(1.0)).err()),
+        ("kurtogram", fast_kurtogram(x, rate, 1).err()),
+        ("scored bands", scored_bands(x, rate, 1, |_| 0.0).err()),
+        ("spectral kurtosis", spectral_kurtosis(x, rate, &welch).err()),
+        ("cyclic", cyclic_coherence(x, rate, &[0.1], &welch).err()),
+        ("synchronous", synchronous_average(x, 4).err()),
+        ("jerk", jerk(x, rate).err()),
+        ("jumps", jerk_jumps(x, rate, 8.0).err()),
+        ("impulses", impulses(&[x, x], rate, 0.01, 0.1, 0.5).err()),
+        ("edges", rising_edges(x, rate, None, 0.1).err()),
+        ("defects", race_defects(x, Some(x), rate, &passage).err()),
+        ("diagnosis", diagnose(x, rate, &rates, BandRule::Lines, &LineSettings::default()).err()),
     ]
 }
 
 /// Functions that only look at values need no sampling rate.
-const RATELESS: [&str; 8] =
-    ["analytic", "orbit", "statistics", "rate", "peaks", "ridge", "waterfall", "filter"];
+const RATELESS: [&str; 9] =
+    ["analytic", "orbit", "statistics", "rate", "peaks", "ridge", "waterfall", "filter", "synchronous"];
 
 #[test]
 fn empty_records() {
@@ -92,6 +125,9 @@ fn very_short_records_do_not_panic() {
         let names: Vec<_> = refused.iter().map(|(name, _)| *name).collect();
         assert_eq!(names.contains(&"psd"), n < 16, "{n}: {names:?}");
         assert_eq!(names.contains(&"stft"), n < 16, "{n}: {names:?}");
+        for always in ["kurtogram", "diagnosis", "defects", "jumps"] {
+            assert!(names.contains(&always), "{n}: {names:?}");
+        }
         let spectrum = amplitude_spectrum(&x, 100.0, WindowKind::Rectangular, Level::Peak).unwrap();
         assert!(spectrum.values.iter().all(|v| v.is_finite()));
     }
