@@ -24,6 +24,7 @@
 //! | [`cepstrum`] | real and power cepstrum, liftering |
 //! | [`cyclic`] | cyclic spectral coherence |
 //! | [`tacho`] | shaft angle from pulses |
+//! | [`speed_line`] | shaft angle from a line of the record itself |
 //! | [`synchronous`] | time-synchronous average |
 //!
 //! Sample n of a record is at t = n/f_s; every function refuses empty records, NaN and infinity with a
@@ -50,6 +51,7 @@ pub mod resample;
 pub mod ridge;
 pub mod segment;
 pub mod spectrum;
+pub mod speed_line;
 pub mod statistics;
 pub mod stft;
 pub mod synchronous;

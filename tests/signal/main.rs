@@ -11,6 +11,7 @@ mod orders;
 mod refusals;
 mod resampling;
 mod sections;
+mod speed_line;
 mod tacho;
 
 use rotordyn::signal::Complex;

@@ -1,0 +1,163 @@
+//! Shaft speed and angle from a record alone: the ridge of one order, sharpened by its phase.
+
+use std::f64::consts::TAU;
+
+use rustfft::num_complex::Complex;
+
+use super::SignalError;
+use super::error::{check, check_rate, check_record, check_same_length};
+use super::filter::{Band, butterworth};
+use super::ridge::{Peak, interpolate_peak};
+use super::segment::Level;
+use super::stft::{Stft, StftSettings, sample_at};
+use super::window::WindowKind;
+
+/// Which line of the record shows the speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineSettings {
+    /// Its order: how often it repeats in a turn of the shaft.
+    pub order: f64,
+    /// Frequencies between which it stays \[Hz\]; no stronger line may do so.
+    pub low: f64,
+    pub high: f64,
+    /// Fastest change of its frequency \[Hz/s\].
+    pub most_change: f64,
+    /// Samples of a frame of the spectrogram, a few tens of periods of the line.
+    pub frame: usize,
+}
+
+/// Speed and angle of the shaft, as a line of the record shows them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineSpeed {
+    /// Shaft angle at each sample \[rad\], 0 at the first; true up to the line's phase.
+    pub theta: Vec<f64>,
+    /// Shaft speed at each sample \[rpm\].
+    pub rpm: Vec<f64>,
+}
+
+/// The path of largest Σ ln A through the rows of a spectrogram that moves at most `most_bins` from row to row.
+///
+/// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `range` of values on the axis in which the path stays:
+/// dynamic programming (Viterbi), so that a gap or a stronger line that crosses does not lead it off. Errors: NaN, sizes
+/// that do not fit, a range without bins.
+pub fn follow_ridge(
+    axis: &[f64],
+    amplitude: &[f64],
+    range: (f64, f64),
+    most_bins: usize,
+) -> Result<Vec<Peak>, SignalError> {
+    check_record("axis", axis)?;
+    check_record("amplitude", amplitude)?;
+    let bins = axis.len();
+    check_same_length("amplitude", amplitude.len() % bins, "whole rows of the axis", 0)?;
+    let first = axis.partition_point(|f| *f < range.0);
+    let end = axis.partition_point(|f| *f <= range.1);
+    check(first < end, "lower end of the range", "a range that holds a bin", range.0)?;
+    let width = end - first;
+    let floor = f64::MIN_POSITIVE;
+    let mut came_from: Vec<Vec<usize>> = Vec::new();
+    let mut score = vec![0.0f64; width];
+    for row in amplitude.chunks_exact(bins) {
+        let mut from = vec![0; width];
+        let mut next = vec![0.0f64; width];
+        for k in 0..width {
+            let reach = k.saturating_sub(most_bins)..(k + most_bins + 1).min(width);
+            let near = |i: &usize| i.abs_diff(k);
+            let best = reach
+                .max_by(|a, b| score[*a].total_cmp(&score[*b]).then(near(b).cmp(&near(a))))
+                .expect("the reach holds the bin itself");
+            from[k] = best;
+            next[k] = score[best] + row[first + k].max(floor).ln();
+        }
+        score = next;
+        came_from.push(from);
+    }
+    let mut k = (0..width).max_by(|&a, &b| score[a].total_cmp(&score[b])).expect("the range holds a bin");
+    let mut path = Vec::with_capacity(came_from.len());
+    for (row, from) in amplitude.chunks_exact(bins).zip(&came_from).rev() {
+        path.push(interpolate_peak(axis, row, first + k));
+        k = from[k];
+    }
+    path.reverse();
+    Ok(path)
+}
+
+/// Shaft speed and angle from the line of one order.
+///
+/// The ridge of a spectrogram (Hann, seven eighths overlap) gives the line's frequency to a fraction of a bin and by its
+/// integral a phase φ₀; the record turned by e^{−jφ₀} and low-passed below 2 f_s/frame has the slowly varying phase that is
+/// left, and φ = φ₀ + arg. The low-pass is a Butterworth of order 2, there and back. At the ends of the record, half a
+/// frame, the frequency is held.
+/// `record` (N), `sample_rate` \[Hz\]. Errors: NaN, record shorter than a frame, settings out of range.
+/// Source: Bonnardot et al., Mech. Syst. Signal Process. 19 (2005); Leclère, André and Antoni, ibid. 81 (2016).
+pub fn speed_from_line(
+    record: &[f64],
+    sample_rate: f64,
+    settings: &LineSettings,
+) -> Result<LineSpeed, SignalError> {
+    check_record("record", record)?;
+    check_rate(sample_rate)?;
+    let LineSettings { order, low, high, most_change, frame } = *settings;
+    check(order > 0.0 && order.is_finite(), "order", "a positive number", order)?;
+    check(
+        low > 0.0 && low < 0.5 * sample_rate,
+        "lower end of the line [Hz]",
+        "0 to half the sampling rate",
+        low,
+    )?;
+    check(
+        high > low && high <= 0.5 * sample_rate,
+        "upper end of the line [Hz]",
+        "above the lower, up to half the sampling rate",
+        high,
+    )?;
+    check(most_change > 0.0, "fastest change of the line [Hz/s]", "a positive number", most_change)?;
+    check(frame >= 16, "samples of a frame", "16 or more", frame as f64)?;
+    let hop = frame.div_ceil(8);
+    let stft = StftSettings {
+        window: WindowKind::Hann,
+        length: frame,
+        hop,
+        fft_length: 2 * frame,
+        level: Level::Peak,
+    };
+    let map = Stft::new(stft, sample_rate)?.spectrogram(record)?;
+    let per_bin = map.frequencies[1];
+    let most_bins = (most_change * hop as f64 / sample_rate / per_bin).ceil() as usize;
+    let path = follow_ridge(&map.frequencies, &map.amplitude, (low, high), most_bins.max(1))?;
+    let places: Vec<f64> = path.iter().map(|p| p.position).collect();
+    // Frame k is centred at sample k hop + frame/2.
+    let at = |n: usize| sample_at(&places, (n as f64 - 0.5 * frame as f64) / hop as f64);
+    let mut phase = Vec::with_capacity(record.len());
+    let mut total = 0.0;
+    for n in 0..record.len() {
+        phase.push(total);
+        total += 0.5 * TAU * (at(n) + at(n + 1)) / sample_rate;
+    }
+    let mean = record.iter().sum::<f64>() / record.len() as f64;
+    let turned = |part: fn(f64) -> f64| -> Vec<f64> {
+        record.iter().zip(&phase).map(|(x, phi)| (x - mean) * part(*phi)).collect()
+    };
+    let corner = (2.0 * sample_rate / frame as f64).min(0.4 * low);
+    let low_pass = butterworth(2, Band::LowPass(corner), sample_rate)?;
+    let re = low_pass.filter_zero_phase(&turned(f64::cos))?;
+    let im = low_pass.filter_zero_phase(&turned(|phi| -phi.sin()))?;
+    let rest: Vec<Complex<f64>> = re.into_iter().zip(im).map(|(re, im)| Complex::new(re, im)).collect();
+    let start = rest[0].arg();
+    let mut before = rest[0];
+    let mut left = start;
+    for (phi, z) in phase.iter_mut().zip(&rest) {
+        // The turn from sample to sample is far below half a revolution: it unwraps itself.
+        let step = (z * before.conj()).arg();
+        left += step;
+        before = *z;
+        *phi += left - start;
+    }
+    let theta: Vec<f64> = phase.iter().map(|phi| phi / order).collect();
+    let last = theta.len() - 1;
+    let speed = |n: usize| {
+        let (a, b) = (n.saturating_sub(1), (n + 1).min(last));
+        (theta[b] - theta[a]) * sample_rate / (b - a).max(1) as f64 * 60.0 / TAU
+    };
+    Ok(LineSpeed { rpm: (0..=last).map(speed).collect(), theta })
+}
