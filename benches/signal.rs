@@ -8,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::signal::WindowKind;
 use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, diagnose};
+use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
 use rotordyn::signal::filter_bank::deepest;
 use rotordyn::signal::kurtogram::fast_kurtogram;
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
@@ -68,7 +68,7 @@ fn faults(c: &mut Criterion) {
     let depth = deepest(N);
     group.bench_function("fast_kurtogram_120k", |b| b.iter(|| fast_kurtogram(black_box(&x), 12e3, depth)));
     for (name, rule) in [("kurtosis", BandRule::Kurtosis), ("lines", BandRule::Lines)] {
-        let run = || diagnose(black_box(&x), 12e3, &rates, rule, &LineSettings::default());
+        let run = || diagnose(black_box(&x), 12e3, Turning::Steady, &rates, rule, &LineSettings::default());
         group.bench_function(format!("diagnosis_by_{name}_120k"), |b| b.iter(run));
     }
     let alphas: Vec<f64> = (1..=100).map(|k| 0.1 * f64::from(k)).collect();

@@ -6,7 +6,7 @@ use rotordyn::signal::WindowKind;
 use rotordyn::signal::bearing_lines::{BearingPart, BearingRates, LineSettings, Modulation};
 use rotordyn::signal::cepstrum::{Lifter, lifter, real_cepstrum};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, diagnose};
+use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
 use rotordyn::signal::envelope::{analytic_signal, band_analytic_signal, squared_envelope_spectrum};
 use rotordyn::signal::jerk::jerk;
 use rotordyn::signal::kurtogram::{depth_for_width, fast_kurtogram, scored_bands, spectral_kurtosis};
@@ -189,10 +189,10 @@ fn lines_choose_the_band_where_kurtosis_is_misled() {
     let knocks = shaken_ringing(n, 2.3, 0.5, 1300.0, 900.0, 7, |_| 60.0);
     let x = sum(&sum(&gaussian(11, n), &bearing, 1.0), &knocks, 1.0);
     let settings = LineSettings::default();
-    let by_kurtosis = diagnose(&x, RATE, &rates(), BandRule::Kurtosis, &settings).unwrap();
+    let by_kurtosis = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Kurtosis, &settings).unwrap();
     assert!(by_kurtosis.band.0 <= 1300.0 && by_kurtosis.band.1 <= 3000.0, "{:?}", by_kurtosis.band);
     assert_eq!(by_kurtosis.lines.verdict, None, "{:?}", by_kurtosis.lines.strongest_line());
-    let by_lines = diagnose(&x, RATE, &rates(), BandRule::Lines, &settings).unwrap();
+    let by_lines = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Lines, &settings).unwrap();
     assert!(
         by_lines.band.0 >= 3000.0 && (by_lines.band.0..by_lines.band.1).contains(&4200.0),
         "{:?}",
@@ -229,7 +229,7 @@ fn verdicts() {
     ] {
         let x = sum(&back, &record, 1.0);
         for rule in [BandRule::Given(2000.0, 5000.0), BandRule::Whole, BandRule::Kurtosis, BandRule::Lines] {
-            let got = diagnose(&x, RATE, &r, rule, &settings).unwrap();
+            let got = diagnose(&x, RATE, Turning::Steady, &r, rule, &settings).unwrap();
             assert_eq!(got.lines.verdict, Some(part), "{rule:?} {:?}", got.lines.strongest_line());
             let strongest = got.lines.strongest_line().unwrap();
             assert_eq!((strongest.part, strongest.modulation), (part, None));
@@ -243,7 +243,7 @@ fn verdicts() {
             _ => None,
         };
         if let Some(modulation) = expected {
-            let got = diagnose(&x, RATE, &r, BandRule::Whole, &settings).unwrap();
+            let got = diagnose(&x, RATE, Turning::Steady, &r, BandRule::Whole, &settings).unwrap();
             let family = got.lines.family(part);
             let band = family.lines.iter().find(|l| l.modulation == Some(modulation)).unwrap();
             assert!(band.significant, "{band:?}");
@@ -267,7 +267,7 @@ fn a_sound_machine_has_no_bearing_line() {
         });
         let x = sum(&back, &gear, f64::from(seed % 2));
         for rule in [BandRule::Whole, BandRule::Kurtosis, BandRule::Lines] {
-            let got = diagnose(&x, RATE, &rates(), rule, &LineSettings::default()).unwrap();
+            let got = diagnose(&x, RATE, Turning::Steady, &rates(), rule, &LineSettings::default()).unwrap();
             assert_eq!(
                 got.lines.verdict_name(),
                 "no bearing line",
@@ -278,13 +278,55 @@ fn a_sound_machine_has_no_bearing_line() {
     }
 }
 
+/// A run-up from 10 to 30 rev/s: BPFI is smeared over 100 Hz and stands still in orders, in a resonance that stays in Hz.
+#[test]
+fn verdict_of_a_run_up_by_shaft_angle() {
+    let n = 120_000;
+    let turns = |t: f64| 10.0 * t + t * t;
+    let theta = sampled(n, RATE, |t| TAU * turns(t));
+    let order = BearingRates { shaft: 1.0, ..rates() };
+    let orders = BearingRates {
+        cage: order.cage / SHAFT,
+        outer: order.outer / SHAFT,
+        inner: order.inner / SHAFT,
+        ball: order.ball / SHAFT,
+        ..order
+    };
+    // Pulse k at the time when the shaft has turned k/BPFI.
+    let time = |turn: f64| -5.0 + (25.0 + turn).sqrt();
+    let mut x = gaussian(31, n);
+    for k in 0..(turns(10.0) * orders.inner) as usize {
+        let start = time(k as f64 / orders.inner);
+        let load = 1.0 + 0.8 * (TAU * k as f64 / orders.inner).cos();
+        let first = (start * RATE).ceil() as usize;
+        for (i, value) in x.iter_mut().enumerate().skip(first).take(60) {
+            let t = i as f64 / RATE - start;
+            *value += 4.0 * load * (-1500.0 * t).exp() * (TAU * 3500.0 * t).sin();
+        }
+    }
+    let settings = LineSettings::default();
+    for rule in [BandRule::Given(2500.0, 4500.0), BandRule::Kurtosis, BandRule::Lines] {
+        let got = diagnose(&x, RATE, Turning::Angle(&theta), &orders, rule, &settings).unwrap();
+        assert_eq!(got.lines.verdict, Some(BearingPart::InnerRace), "{rule:?}");
+        let line = got.lines.strongest_line().unwrap();
+        assert_close("order", line.frequency, line.harmonic as f64 * orders.inner, 0.005);
+        assert!((got.band.0..got.band.1).contains(&3500.0), "{rule:?} {:?}", got.band);
+    }
+    let text =
+        diagnose(&x[..9000], RATE, Turning::Angle(&theta[..9000]), &orders, BandRule::Whole, &settings)
+            .unwrap_err()
+            .to_string();
+    assert!(text.contains("25.10") && text.contains("ten turns of the cage"), "{text}");
+}
+
 /// A record too short, a record sampled too slowly, a band that is none: said, not guessed.
 #[test]
 fn refusals_of_a_diagnosis() {
     let x = noise(1, 4000);
     let settings = LineSettings::default();
-    let message =
-        |rate: f64, rule: BandRule| diagnose(&x, rate, &rates(), rule, &settings).unwrap_err().to_string();
+    let message = |rate: f64, rule: BandRule| {
+        diagnose(&x, rate, Turning::Steady, &rates(), rule, &settings).unwrap_err().to_string()
+    };
     assert_eq!(
         message(RATE, BandRule::Whole),
         "record has 4000 samples: at least 10060 are needed for ten turns of the cage, to tell its lines apart"
@@ -295,11 +337,12 @@ fn refusals_of_a_diagnosis() {
         "{text}"
     );
     let x = noise(1, 12_000);
-    let text =
-        diagnose(&x, RATE, &rates(), BandRule::Given(500.0, 7000.0), &settings).unwrap_err().to_string();
+    let text = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Given(500.0, 7000.0), &settings)
+        .unwrap_err()
+        .to_string();
     assert!(text.starts_with("upper end of the band = 7000 is not possible"), "{text}");
     let bad = BearingRates { inner: f64::NAN, ..rates() };
-    let text = diagnose(&x, RATE, &bad, BandRule::Whole, &settings).unwrap_err().to_string();
+    let text = diagnose(&x, RATE, Turning::Steady, &bad, BandRule::Whole, &settings).unwrap_err().to_string();
     assert!(text.starts_with("BPFI = NaN is not possible"), "{text}");
 }
 

@@ -3,7 +3,7 @@
 use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
 use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, diagnose};
+use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
 use rotordyn::signal::envelope::{
     analytic_signal, band_analytic_signal, envelope_spectrum, squared_envelope_spectrum,
 };
@@ -77,7 +77,10 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
         ("impulses", impulses(&[x, x], rate, 0.01, 0.1, 0.5).err()),
         ("edges", rising_edges(x, rate, None, 0.1).err()),
         ("defects", race_defects(x, Some(x), rate, &passage).err()),
-        ("diagnosis", diagnose(x, rate, &rates, BandRule::Lines, &LineSettings::default()).err()),
+        (
+            "diagnosis",
+            diagnose(x, rate, Turning::Steady, &rates, BandRule::Lines, &LineSettings::default()).err(),
+        ),
     ]
 }
 
