@@ -11,6 +11,12 @@ pub enum Error {
     /// A record or setting that a signal function cannot work with.
     #[error(transparent)]
     Signal(#[from] crate::signal::SignalError),
+    /// A record that cannot serve as what was asked of it.
+    #[error(transparent)]
+    Record(#[from] crate::signal::record::RecordError),
+    /// A file whose content cannot be used: what is wrong with it, and what to do.
+    #[error("{}: {problem}; {advice}", path.display())]
+    Content { path: PathBuf, problem: String, advice: String },
     /// A file or folder did not obey.
     #[error("{operation} {}: {source}", path.display())]
     Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },

@@ -1,4 +1,4 @@
-//! Quantities as text, "60 um" or "3000 rpm", to plain SI numbers; used by model files only.
+//! Quantities as text, "60 um" or "3000 rpm", to plain SI numbers; for model files, and for labels of measured ones.
 //!
 //! A unit is a product of names with integer powers: factors are joined by a space, `*` or `·`, a `/` divides by
 //! the one factor behind it, powers are written `^2`, `²` or `³`: `N m/rad`, `kg m^2`, `m/s²`, `kg/m^3`, `1/s`.
@@ -155,6 +155,12 @@ const ZERO_CELSIUS: f64 = 273.15;
 /// Names of every unit that [`parse`] knows.
 pub fn unit_names() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|unit| unit.0).chain(CELSIUS)
+}
+
+/// Size of a named unit in SI and its powers of m, kg, s, rad: value · numerator / divisor is in SI.
+pub fn named(name: &str) -> Option<(f64, f64, [i32; 4])> {
+    let unit = UNITS.iter().find(|unit| unit.0 == name)?;
+    Some((unit.1 * TAU.powi(unit.3), unit.2, unit.4))
 }
 
 /// Product of units: value · numerator / divisor · (2π)^turns is in SI.

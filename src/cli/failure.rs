@@ -38,7 +38,8 @@ impl Failure {
     /// 2 input, 3 physics, 4 environment, 130 Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Model(_) | Self::Input(_) | Self::Library(Error::Signal(_)) => 2,
+            Self::Model(_) | Self::Input(_) => 2,
+            Self::Library(Error::Signal(_) | Error::Record(_) | Error::Content { .. }) => 2,
             Self::Library(Error::Physics(_)) => 3,
             Self::Library(Error::Environment { .. }) => 4,
             Self::Interrupted => 130,

@@ -26,6 +26,7 @@
 //! | [`tacho`] | shaft angle from pulses |
 //! | [`speed_line`] | shaft angle from a line of the record itself |
 //! | [`synchronous`] | time-synchronous average |
+//! | [`record`] | records, FRFs, geometry and shapes as files hold them |
 //!
 //! Sample n of a record is at t = n/f_s; every function refuses empty records, NaN and infinity with a
 //! [`SignalError`].
@@ -47,6 +48,7 @@ pub mod order;
 pub mod period;
 pub mod poincare;
 pub mod race_defects;
+pub mod record;
 pub mod resample;
 pub mod ridge;
 pub mod segment;

@@ -42,11 +42,16 @@ pub fn write_example(path: &Path) {
 
 /// Whether this Python has h5py; without it the test is skipped, but not where everything must run.
 pub fn has_h5py(python: &str) -> bool {
-    let h5py = Command::new(python).args(["-c", "import h5py, numpy"]).output();
-    if h5py.is_ok_and(|output| output.status.success()) {
+    has_modules(python, "h5py, numpy")
+}
+
+/// Whether this Python has modules, as [`has_h5py`].
+pub fn has_modules(python: &str, modules: &str) -> bool {
+    let import = Command::new(python).args(["-c", &format!("import {modules}")]).output();
+    if import.is_ok_and(|output| output.status.success()) {
         return true;
     }
-    let message = format!("{python} with h5py is not there");
+    let message = format!("{python} with {modules} is not there");
     let must_run = std::env::var_os("CI").is_some() && std::env::var_os("ROTORDYN_ALLOW_SKIP").is_none();
     assert!(!must_run, "{message}; set ROTORDYN_ALLOW_SKIP to go on without it");
     eprintln!("SKIPPED: {message}");

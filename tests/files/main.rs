@@ -1,10 +1,16 @@
 //! Files that rotordyn writes: read back in Rust, and by the programs that users open them with.
 
+mod example_records;
 mod hdf5_h5py;
 mod hdf5_round_trip;
 mod hdf5_stream;
+#[path = "../common/measured_data.rs"]
+mod measured_data;
 mod report;
 mod results_file;
 #[path = "../common/rig.rs"]
 mod rig;
 mod rig_results;
+mod uff;
+mod uff_measured;
+mod uff_pyuff;

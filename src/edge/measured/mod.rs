@@ -1,0 +1,3 @@
+//! Measured files of any known format.
+
+pub mod unit;

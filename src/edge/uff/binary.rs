@@ -1,0 +1,119 @@
+//! The binary data of set 58b: where it ends, and what its bytes mean.
+
+use super::Fault;
+use super::block::{Block, CUT, is_mark};
+use super::function::Layout;
+
+/// What the first line of a 58b says.
+pub(super) struct Form {
+    little_endian: bool,
+    /// Lines of text before the data.
+    pub header_lines: usize,
+    /// Bytes of data as stated; programs err here.
+    stated: usize,
+}
+
+/// Binary data of a block.
+pub(super) struct Binary<'a> {
+    pub form: Form,
+    pub data: &'a [u8],
+}
+
+impl Form {
+    /// Reads byte order, float format, header lines and byte count, `(I6,I6,I12,I12)`, behind `58b`.
+    pub fn of_header(fields: &str, line: usize) -> Result<Form, Fault> {
+        let values: Vec<usize> = fields.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        let fault = |problem: String, advice| Fault { line, problem, advice };
+        let [order, format, header_lines, stated, ..] = values[..] else {
+            let problem = format!("the header of binary set 58b is `{}`", fields.trim());
+            return Err(fault(problem, "export the file again, as ASCII if need be"));
+        };
+        if format != 2 {
+            let problem = format!("binary floats of format {format} (1 is DEC, 3 is IBM) are not read");
+            return Err(fault(problem, "export the file with IEEE 754 floats (format 2), or as ASCII"));
+        }
+        if !matches!(order, 1 | 2) {
+            let problem = format!("byte order {order} is neither 1 (little endian) nor 2 (big endian)");
+            return Err(fault(problem, "export the file again, as ASCII if need be"));
+        }
+        Ok(Form { little_endian: order == 1, header_lines, stated })
+    }
+
+    /// The data at the start of `rest`, the bytes used up to the line behind the closing -1, and whether it was
+    /// there.
+    ///
+    /// The stated byte count and the one that follows from the number of values are tried: right is the one
+    /// behind which the block ends. Programs add line ends, pad with zeros or count wrongly.
+    pub fn extent<'a>(&self, block: &Block, rest: &'a [u8]) -> Result<(&'a [u8], usize, bool), Fault> {
+        let layout = Layout::of(block)?;
+        let sizes = layout.binary_sizes();
+        for size in [self.stated].into_iter().chain(sizes) {
+            if let Some(end) = rest.get(size..).filter(|_| size > 0).and_then(closing) {
+                return Ok((&rest[..size], size + end, true));
+            }
+        }
+        // A file may end right behind the data.
+        for size in sizes {
+            if rest.len() >= size && rest[size..].iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
+                return Ok((&rest[..size], rest.len(), false));
+            }
+        }
+        // Padded, or fewer values than promised: up to the next end mark.
+        let from = rest.windows(6).position(|w| w == b"    -1");
+        let marks = from
+            .into_iter()
+            .flat_map(|first| (first..rest.len()).filter(|&at| rest[at..].starts_with(b"    -1")));
+        for mark in marks {
+            if let Some(end) = closing(&rest[mark..]) {
+                return Ok((&rest[..mark], mark + end, true));
+            }
+        }
+        let needed = sizes[0];
+        Err(block.fault(
+            self.header_lines,
+            format!(
+                "the binary data is cut off: {} values need {needed} bytes, {} are left in the file",
+                layout.count,
+                rest.len()
+            ),
+            CUT,
+        ))
+    }
+}
+
+/// Where the line behind a closing -1 begins, if that -1 is next but for line ends and zeros.
+fn closing(rest: &[u8]) -> Option<usize> {
+    let start = rest.iter().position(|&b| !(b == b'\r' || b == b'\n' || b == 0))?;
+    let end = rest[start..].iter().position(|&b| b == b'\n').map_or(rest.len(), |at| start + at + 1);
+    is_mark(&rest[start..end]).then_some(end)
+}
+
+impl Binary<'_> {
+    /// The numbers of the block, abscissae among them.
+    ///
+    /// Beside double-precision values the abscissa has 4 bytes by the format, 8 in what some programs write.
+    pub fn numbers(&self, layout: &Layout) -> Vec<f64> {
+        let ordinate = if layout.double { 8 } else { 4 };
+        let abscissa = match (layout.even, layout.double) {
+            (false, true) if self.data.len() < layout.binary_sizes()[0] => 4,
+            _ => ordinate,
+        };
+        let mut numbers = Vec::with_capacity(layout.count * layout.width());
+        let (mut rest, mut column) = (self.data, 0);
+        loop {
+            let size = if column == 0 { abscissa } else { ordinate };
+            let Some((bytes, after)) = rest.split_at_checked(size) else { return numbers };
+            numbers.push(self.number(bytes));
+            rest = after;
+            column = (column + 1) % layout.width();
+        }
+    }
+
+    fn number(&self, bytes: &[u8]) -> f64 {
+        let ordered = |k: usize| bytes[if self.form.little_endian { k } else { bytes.len() - 1 - k }];
+        match bytes.len() {
+            4 => f64::from(f32::from_le_bytes(std::array::from_fn(ordered))),
+            _ => f64::from_le_bytes(std::array::from_fn(ordered)),
+        }
+    }
+}

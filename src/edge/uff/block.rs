@@ -1,0 +1,143 @@
+//! A universal file as blocks: text between two lines of -1, and binary data within.
+
+use std::borrow::Cow;
+
+use super::binary::{self, Binary};
+use super::{Fault, field};
+
+/// One data set.
+pub(super) struct Block<'a> {
+    /// Number of the data set, 58 for 58b too.
+    pub set: u32,
+    /// Line of the set's number, from 1.
+    pub line: usize,
+    /// Lines behind the set's number; the header lines alone if there is binary data.
+    pub lines: Vec<Cow<'a, str>>,
+    pub binary: Option<Binary<'a>>,
+    /// Whether a line of -1 ended it.
+    pub closed: bool,
+}
+
+impl Block<'_> {
+    /// Line k behind the set's number, without the blanks around it.
+    pub fn text(&self, k: usize) -> Option<&str> {
+        self.lines.get(k).map(|line| line.trim())
+    }
+
+    /// Line k, which must be there.
+    pub fn record(&self, k: usize) -> Result<&str, Fault> {
+        self.lines.get(k).map(|line| line.as_ref()).ok_or_else(|| {
+            self.fault(k, format!("data set {} ends after {} lines", self.set, self.lines.len()), CUT)
+        })
+    }
+
+    /// Whole numbers of line k.
+    pub fn integers(&self, k: usize) -> Result<Vec<i64>, Fault> {
+        let line = self.record(k)?;
+        line.split_whitespace()
+            .map(|word| word.parse().ok())
+            .collect::<Option<Vec<i64>>>()
+            .ok_or_else(|| self.fault(k, format!("whole numbers are expected in `{}`", line.trim()), DAMAGED))
+    }
+
+    /// Numbers of line k.
+    pub fn numbers(&self, k: usize) -> Result<Vec<f64>, Fault> {
+        let line = self.record(k)?;
+        field::numbers(line)
+            .map_err(|word| self.fault(k, format!("`{word}` is expected to be a number"), DAMAGED))
+    }
+
+    /// Something wrong in line k.
+    pub fn fault(&self, k: usize, problem: String, advice: &'static str) -> Fault {
+        Fault { line: self.line + 1 + k.min(self.lines.len()), problem, advice }
+    }
+}
+
+pub(super) const CUT: &str = "the file is cut off: copy or export it again";
+pub(super) const DAMAGED: &str = "the file is damaged: copy or export it again";
+
+/// Walks through the blocks of a file.
+pub(super) struct Blocks<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+}
+
+impl<'a> Blocks<'a> {
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Blocks { bytes, at: 0, line: 0 }
+    }
+
+    /// The next block; `None` at the end of the file.
+    pub fn next(&mut self) -> Result<Option<Block<'a>>, Fault> {
+        // What stands between two blocks is no data.
+        loop {
+            match self.next_line() {
+                None => return Ok(None),
+                Some(line) if is_mark(line) => break,
+                Some(_) => {}
+            }
+        }
+        let header = loop {
+            match self.next_line() {
+                None => return Ok(None),
+                Some(line) if is_mark(line) || line.trim_ascii().is_empty() => {}
+                Some(line) => break decode(line),
+            }
+        };
+        let line = self.line;
+        let name = header.trim_start();
+        let digits = name.bytes().take_while(u8::is_ascii_digit).count();
+        let set = name[..digits].parse().map_err(|_| Fault {
+            line,
+            problem: format!("`{}` is expected to be the number of a data set", name.trim_end()),
+            advice: "is this a universal file? export it again as one",
+        })?;
+        let mut block = Block { set, line, lines: Vec::new(), binary: None, closed: false };
+        if set == 58 && name[digits..].starts_with(['b', 'B']) {
+            let form = binary::Form::of_header(&name[digits + 1..], line)?;
+            for _ in 0..form.header_lines {
+                block.lines.extend(self.next_line().map(decode));
+            }
+            let (data, used, closed) = form.extent(&block, &self.bytes[self.at..])?;
+            block.binary = Some(Binary { form, data });
+            block.closed = closed;
+            self.line += self.bytes[self.at..self.at + used].iter().filter(|&&b| b == b'\n').count();
+            self.at += used;
+            return Ok(Some(block));
+        }
+        while let Some(line) = self.next_line() {
+            if is_mark(line) {
+                block.closed = true;
+                break;
+            }
+            block.lines.push(decode(line));
+        }
+        Ok(Some(block))
+    }
+
+    fn next_line(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.iter().position(|&b| b == b'\n');
+        self.at += end.map_or(rest.len(), |end| end + 1);
+        self.line += 1;
+        let line = &rest[..end.unwrap_or(rest.len())];
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
+    }
+}
+
+/// Whether a line is the -1 that opens and closes a block.
+pub(super) fn is_mark(line: &[u8]) -> bool {
+    line.trim_ascii() == b"-1"
+}
+
+/// UTF-8, else Latin-1, which older programs write.
+fn decode(line: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(line) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(line.iter().map(|&b| char::from(b)).collect()),
+    }
+}

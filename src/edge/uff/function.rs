@@ -1,0 +1,252 @@
+//! Set 58: a function at a point.
+
+use super::block::{Block, CUT, DAMAGED};
+use super::ordinate::{Characteristics, ratio};
+use super::{Fault, UnitSystem, field};
+use crate::edge::measured::unit;
+use crate::signal::Complex;
+use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Points, Record, Values};
+
+/// Kinds of functions by their number in record 6.
+pub(super) const KINDS: [(i64, Kind); 9] = [
+    (0, Kind::General),
+    (1, Kind::Time),
+    (2, Kind::AutoSpectrum),
+    (3, Kind::CrossSpectrum),
+    (4, Kind::Frf),
+    (5, Kind::Transmissibility),
+    (6, Kind::Coherence),
+    (9, Kind::Psd),
+    (12, Kind::Spectrum),
+];
+
+/// Lines of text before the values.
+pub(super) const HEADER_LINES: usize = 11;
+/// Records 6 and 7, counted from the first ID line.
+const RECORD_6: usize = 5;
+const RECORD_7: usize = 6;
+
+/// Record 7: how the values stand in the file.
+pub(super) struct Layout {
+    pub complex: bool,
+    pub double: bool,
+    /// Values, or pairs of abscissa and value.
+    pub count: usize,
+    pub even: bool,
+    start: f64,
+    step: f64,
+    z_value: f64,
+}
+
+impl Layout {
+    /// Reads `(3I10,3E13.5)`.
+    pub fn of(block: &Block) -> Result<Self, Fault> {
+        let line = block.record(RECORD_7)?;
+        let fault = |problem: String, advice| block.fault(RECORD_7, problem, advice);
+        let words: Vec<f64> = field::numbers(line)
+            .map_err(|word| fault(format!("`{word}` is expected to be a number"), DAMAGED))?;
+        let [kind, count, even, start, step, ..] = words[..] else {
+            return Err(fault(format!("`{}` does not hold the form of the data", line.trim()), DAMAGED));
+        };
+        let (complex, double) = match kind as i64 {
+            2 => (false, false),
+            4 => (false, true),
+            5 => (true, false),
+            6 => (true, true),
+            other => {
+                let problem = format!("ordinate data type {other} is none of 2, 4, 5, 6");
+                return Err(fault(problem, DAMAGED));
+            }
+        };
+        if !(count >= 1.0 && count < 1e12) {
+            return Err(fault(format!("the function has {count} values"), "leave the empty function out"));
+        }
+        let even = even as i64 == 1;
+        if even && !(step.is_finite() && step > 0.0 && start.is_finite()) && count > 1.0 {
+            let problem = format!("the function is evenly spaced with a step of {step}");
+            return Err(fault(problem, "export it with its sampling rate or frequency step"));
+        }
+        let z_value = words.get(5).copied().unwrap_or(0.0);
+        Ok(Layout { complex, double, count: count as usize, even, start, step: snapped(step), z_value })
+    }
+
+    /// Numbers per value: abscissa if uneven, real part, imaginary part.
+    pub fn width(&self) -> usize {
+        usize::from(!self.even) + 1 + usize::from(self.complex)
+    }
+
+    /// Bytes of the binary data, with abscissae as wide as the values and with abscissae of 4 bytes.
+    pub fn binary_sizes(&self) -> [usize; 2] {
+        let value = if self.double { 8 } else { 4 };
+        let alike = self.count * self.width() * value;
+        let narrow = self.count * (4 * usize::from(!self.even) + (1 + usize::from(self.complex)) * value);
+        [alike, narrow]
+    }
+}
+
+/// The step whose inverse is a whole number, if it is the only such step that prints as `step` does.
+///
+/// Record 7 has six digits: 1/65536 s stands there as 1.52588E-05.
+fn snapped(step: f64) -> f64 {
+    let print = |x: f64| format!("{x:.5e}");
+    let whole = (1.0 / step).round();
+    let printed = print(step);
+    let ambiguous = [whole - 1.0, whole + 1.0].iter().any(|&other| print(1.0 / other) == printed);
+    let exact = printed.parse() == Ok(step);
+    if exact && !ambiguous && print(1.0 / whole) == printed { 1.0 / whole } else { step }
+}
+
+/// Record 6: which function of what.
+struct Identity {
+    kind: Kind,
+    response: Dof,
+    reference: Dof,
+    entity: String,
+}
+
+impl Identity {
+    /// Reads `(2(I5,I10),2(1X,10A1,I10,I4))`.
+    fn of(block: &Block, notes: &mut Vec<String>) -> Result<Self, Fault> {
+        let line = block.record(RECORD_6)?;
+        let [kind, _, _, _, _, entity, node, direction, _, _, reference, its_direction] =
+            field::columns(line, [5, 10, 5, 10, 1, 10, 10, 4, 1, 10, 10, 4]);
+        let number: i64 = kind.parse().map_err(|_| {
+            block.fault(RECORD_6, format!("`{kind}` is expected to be a function type"), DAMAGED)
+        })?;
+        let kind = KINDS.iter().find(|k| k.0 == number).map_or(Kind::General, |k| k.1);
+        if kind == Kind::General && number != 0 {
+            notes.push(format!("line {}: function type {number} is kept as a general function", block.line));
+        }
+        let whole = |text: &str| text.parse().unwrap_or(0);
+        let way = |text: &str| whole(text).clamp(-6, 6) as i8;
+        Ok(Identity {
+            kind,
+            response: Dof::new(whole(&node), way(&direction)),
+            reference: Dof::new(whole(&reference), way(&its_direction)),
+            entity: if entity == "NONE" { String::new() } else { entity },
+        })
+    }
+
+    /// Entity name; the whole ID line 1 if the entity is its cut-off beginning; else the DOFs; else ID line 1.
+    fn name(&self, id: &str) -> String {
+        let folded: String = field::ascii(id).chars().take(10).collect();
+        if !self.entity.is_empty() {
+            return if folded.trim() == self.entity { id.to_owned() } else { self.entity.clone() };
+        }
+        match (self.response, self.reference) {
+            (Dof::NONE, _) if !id.is_empty() => id.to_owned(),
+            (Dof::NONE, _) => "function".into(),
+            (response, Dof::NONE) => response.to_string(),
+            (response, reference) => format!("{response}/{reference}"),
+        }
+    }
+}
+
+/// Reads a function, in ASCII or binary, and what has to be said about it.
+pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured) -> Result<(), Fault> {
+    let identity = Identity::of(block, &mut out.notes)?;
+    let layout = Layout::of(block)?;
+    let id_line = |k: usize| block.text(k).filter(|text| *text != "NONE").unwrap_or_default();
+    let name = identity.name(id_line(0));
+    let numbers = match &block.binary {
+        Some(binary) => binary.numbers(&layout),
+        None => {
+            let mut numbers = Vec::with_capacity(layout.count * layout.width());
+            for k in HEADER_LINES..block.lines.len() {
+                numbers.extend(block.numbers(k)?);
+            }
+            numbers
+        }
+    };
+    let width = layout.width();
+    let count = (numbers.len() / width).min(layout.count);
+    if count < layout.count && !block.closed || count == 0 {
+        let problem = format!("`{name}` is cut off: {count} of {} values", layout.count);
+        return Err(block.fault(block.lines.len(), problem, CUT));
+    }
+    if numbers.len() != layout.count * width {
+        let found = numbers.len() / width;
+        out.notes.push(format!("`{name}` has {found} values where its header says {}", layout.count));
+    }
+    let last = width - 1 - usize::from(layout.complex);
+    let rows = numbers.chunks_exact(width).take(count);
+    let mut values = match layout.complex {
+        true => Values::Complex(rows.clone().map(|row| Complex::new(row[last], row[last + 1])).collect()),
+        false => Values::Real(rows.clone().map(|row| row[last]).collect()),
+    };
+
+    let [abscissa, over, under, z] = [7, 8, 9, 10].map(|k| Characteristics::of(block, k));
+    let (abscissa, over, under, z) = (abscissa?, over?, under?, z?);
+    let scale = abscissa.si(false, None);
+    let (up, down) = scale.as_ref().map_or((1.0, 1.0), |s| (s.numerator, s.divisor));
+    let quantity = quantity(&abscissa, scale.map(|s| s.name), identity.kind);
+    let axis = match layout.even {
+        true => Axis::even(quantity, layout.start * up / down, layout.step * up / down),
+        false => Axis::through(quantity, rows.map(|row| row[0] * up / down).collect()),
+    };
+    if axis_runs_back(&axis) {
+        let problem = format!("the abscissae of `{name}` do not increase");
+        return Err(block.fault(HEADER_LINES, problem, DAMAGED));
+    }
+
+    let stated = ratio(&over.unit_label, &under.unit_label);
+    let top = over.si(identity.response.is_rotation(), system);
+    let bottom = under.si(identity.reference.is_rotation(), system);
+    let needs_bottom = under.kind != 0 || !under.unit_label.is_empty();
+    let plain = identity.kind == Kind::Coherence && top.is_none();
+    if system.is_none() && over.unit_label.is_empty() && top.is_some() {
+        let note = "neither labels nor a set 164 tell the units: SI is taken";
+        if !out.notes.iter().any(|n| n == note) {
+            out.notes.push(note.into());
+        }
+    }
+    let unit = match (top, bottom) {
+        (Some(top), Some(bottom)) if needs_bottom => {
+            values.scale(top.numerator * bottom.divisor, top.divisor * bottom.numerator);
+            let joined = ratio(&top.name, &bottom.name);
+            unit::si(&joined).map_or(joined, |known| known.name)
+        }
+        (Some(top), _) if !needs_bottom => {
+            values.scale(top.numerator, top.divisor);
+            top.name
+        }
+        _ if plain => "1".into(),
+        _ => String::new(),
+    };
+    let is_speed = z.kind == 19 || unit::si(&z.unit_label).is_some_and(|u| u.name == "rpm");
+    out.records.push(Record {
+        name,
+        kind: identity.kind,
+        axis,
+        values,
+        stated_unit: if stated.is_empty() { unit.clone() } else { stated },
+        unit,
+        response: identity.response,
+        reference: identity.reference,
+        speed_rpm: is_speed.then_some(layout.z_value),
+        date: id_line(2).to_owned(),
+    });
+    Ok(())
+}
+
+/// What the abscissa is over: by its type, its unit, or the kind of function.
+fn quantity(abscissa: &Characteristics, unit: Option<String>, kind: Kind) -> AxisQuantity {
+    match (abscissa.kind, unit.as_deref(), kind) {
+        (17, _, _) | (_, Some("s"), _) => AxisQuantity::Time,
+        (18, _, _) | (_, Some("Hz"), _) => AxisQuantity::Frequency,
+        (19, _, _) | (_, Some("rpm"), _) => AxisQuantity::Speed,
+        (20, _, _) => AxisQuantity::Order,
+        (_, _, Kind::General) => AxisQuantity::Unknown,
+        (_, _, Kind::Time) => AxisQuantity::Time,
+        _ => AxisQuantity::Frequency,
+    }
+}
+
+fn axis_runs_back(axis: &Axis) -> bool {
+    match &axis.points {
+        Points::Listed(points) => points
+            .windows(2)
+            .any(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less))),
+        Points::Even { .. } | Points::Unknown => false,
+    }
+}

@@ -1,0 +1,119 @@
+//! Axes of records: even, listed, or not told.
+
+/// What a record is sampled over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    pub quantity: AxisQuantity,
+    pub points: Points,
+}
+
+/// Quantity of an axis with its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AxisQuantity {
+    #[default]
+    Unknown,
+    /// s.
+    Time,
+    /// Hz.
+    Frequency,
+    /// rpm.
+    Speed,
+    /// Multiples of the speed of rotation.
+    Order,
+}
+
+/// Places of the values on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Points {
+    /// x_k = start + k step.
+    Even { start: f64, step: f64 },
+    /// x_k one by one, at uneven steps.
+    Listed(Vec<f64>),
+    /// The file does not tell.
+    Unknown,
+}
+
+/// Deviation from even points, over the step, that printed digits and clocks explain.
+const JITTER: f64 = 0.05;
+
+impl Axis {
+    /// An axis the file does not describe.
+    pub const UNKNOWN: Axis = Axis { quantity: AxisQuantity::Unknown, points: Points::Unknown };
+
+    /// An even axis.
+    pub fn even(quantity: AxisQuantity, start: f64, step: f64) -> Self {
+        Axis { quantity, points: Points::Even { start, step } }
+    }
+
+    /// The axis through given points: even where they lie within a twentieth of a step of an even one.
+    ///
+    /// Where 1/step is within the points' own scatter of a whole number it is taken as that: times printed
+    /// with few digits then still give 12000 Hz.
+    pub fn through(quantity: AxisQuantity, points: Vec<f64>) -> Self {
+        let even = even_through(&points);
+        Axis { quantity, points: even.unwrap_or(Points::Listed(points)) }
+    }
+
+    /// The first `count` points; `None` where the file does not tell.
+    pub fn points(&self, count: usize) -> Option<Vec<f64>> {
+        match &self.points {
+            Points::Even { start, step } => Some((0..count).map(|k| start + k as f64 * step).collect()),
+            Points::Listed(points) => Some(points[..count.min(points.len())].to_vec()),
+            Points::Unknown => None,
+        }
+    }
+
+    /// The axis in words, "401 points from 0 Hz by 0.5 Hz".
+    pub fn describe(&self, count: usize) -> String {
+        let unit = self.quantity.unit();
+        match &self.points {
+            Points::Even { start, step } => format!("{count} points from {start} {unit} by {step} {unit}"),
+            Points::Listed(p) => {
+                let (first, last) = (p.first().unwrap_or(&f64::NAN), p.last().unwrap_or(&f64::NAN));
+                format!("{count} uneven points from {first} {unit} to {last} {unit}")
+            }
+            Points::Unknown => format!("{count} points without an axis"),
+        }
+    }
+}
+
+impl AxisQuantity {
+    /// Unit of the axis; empty where it has none.
+    pub fn unit(self) -> &'static str {
+        match self {
+            AxisQuantity::Unknown | AxisQuantity::Order => "",
+            AxisQuantity::Time => "s",
+            AxisQuantity::Frequency => "Hz",
+            AxisQuantity::Speed => "rpm",
+        }
+    }
+}
+
+fn even_through(points: &[f64]) -> Option<Points> {
+    let (first, last) = (*points.first()?, *points.last()?);
+    let intervals = points.len().checked_sub(1).filter(|&n| n > 0)? as f64;
+    let step = (last - first) / intervals;
+    let off = points
+        .iter()
+        .enumerate()
+        .map(|(k, x)| (x - (first + k as f64 * step)).abs())
+        // NaN must not pass for even.
+        .fold(0.0, |worst: f64, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) });
+    if !(step > 0.0 && off <= JITTER * step) {
+        return None;
+    }
+    let whole = 1.0 / (1.0 / step).round();
+    let scatter = 2.0 * off + 1e-12 * last.abs().max(first.abs());
+    let step = if whole.is_finite() && intervals * (whole - step).abs() <= scatter { whole } else { step };
+    Some(Points::Even { start: first, step })
+}
+
+/// The step farthest from the mean: the index of its first point, the step, the mean.
+pub(super) fn worst_step(points: &[f64]) -> (usize, f64, f64) {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return (0, f64::NAN, f64::NAN) };
+    let mean = (last - first) / (points.len() - 1).max(1) as f64;
+    let steps = points.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
+    let distance = |step: f64| if step.is_nan() { f64::INFINITY } else { (step - mean).abs() };
+    let (index, step) = steps.max_by(|a, b| distance(a.1).total_cmp(&distance(b.1))).unwrap_or((0, f64::NAN));
+    (index, step, mean)
+}

@@ -1,0 +1,123 @@
+//! FRFs of a test as a matrix over responses, references and frequencies.
+
+use super::{Dof, Kind, Measured, Record, RecordError, Values};
+use crate::signal::Complex;
+
+/// FRFs between every response and every reference, over one frequency axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrfMatrix {
+    /// Frequencies \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// Increasing.
+    pub responses: Vec<Dof>,
+    /// Increasing.
+    pub references: Vec<Dof>,
+    /// `values[response][reference][line]`, in `units`.
+    pub values: Vec<Vec<Vec<Complex<f64>>>>,
+    /// SI unit of each, `units[response][reference]`; empty where unknown.
+    pub units: Vec<Vec<String>>,
+    /// γ² alike, where the file holds it for all.
+    pub coherence: Option<Vec<Vec<Vec<f64>>>>,
+}
+
+impl Measured {
+    /// All FRFs of the file as one matrix, with their coherence where it is there for all.
+    ///
+    /// # Errors
+    /// No FRF, frequency axes that differ, a pair of response and reference missing or there twice.
+    pub fn frf_matrix(&self) -> Result<FrfMatrix, RecordError> {
+        let frfs: Vec<&Record> = self.records.iter().filter(|r| r.kind == Kind::Frf).collect();
+        let Some(first) = frfs.first() else {
+            return Err(RecordError::NoFrf { found: self.kinds() });
+        };
+        let count = first.frf()?.len();
+        let frequencies = first.axis.points(count);
+        for other in &frfs {
+            let length = other.frf()?.len();
+            let same = length == count
+                && match (&frequencies, other.axis.points(count)) {
+                    (Some(a), Some(b)) => same_axis(a, &b),
+                    _ => false,
+                };
+            if !same {
+                return Err(RecordError::AxesDiffer {
+                    first: first.name.clone(),
+                    first_axis: first.axis.describe(count),
+                    second: other.name.clone(),
+                    second_axis: other.axis.describe(length),
+                });
+            }
+        }
+        let responses = sorted(frfs.iter().map(|r| r.response));
+        let references = sorted(frfs.iter().map(|r| r.reference));
+        let (mut values, mut units) = (Vec::new(), Vec::new());
+        for &response in &responses {
+            let (mut row, mut row_units) = (Vec::new(), Vec::new());
+            for &reference in &references {
+                let mut here = frfs.iter().filter(|r| (r.response, r.reference) == (response, reference));
+                let record = here.next().ok_or_else(|| RecordError::MissingFrf {
+                    response: response.to_string(),
+                    reference: reference.to_string(),
+                    few_references: references.len() < responses.len(),
+                })?;
+                if let Some(second) = here.next() {
+                    return Err(RecordError::DoubleFrf {
+                        first: record.name.clone(),
+                        second: second.name.clone(),
+                        response: response.to_string(),
+                        reference: reference.to_string(),
+                    });
+                }
+                row.push(record.frf()?.to_vec());
+                row_units.push(record.unit.clone());
+            }
+            values.push(row);
+            units.push(row_units);
+        }
+        let coherence = self.coherences(&responses, &references, count);
+        let frequencies = frequencies.unwrap_or_default();
+        Ok(FrfMatrix { frequencies, responses, references, values, units, coherence })
+    }
+
+    fn coherences(&self, responses: &[Dof], references: &[Dof], count: usize) -> Option<Vec<Vec<Vec<f64>>>> {
+        let between = |response: Dof, reference: Dof| {
+            self.records.iter().find_map(|r| match &r.values {
+                Values::Real(values)
+                    if r.kind == Kind::Coherence
+                        && (r.response, r.reference) == (response, reference)
+                        && values.len() == count =>
+                {
+                    Some(values.clone())
+                }
+                _ => None,
+            })
+        };
+        let row =
+            |&response: &Dof| references.iter().map(|&reference| between(response, reference)).collect();
+        responses.iter().map(row).collect()
+    }
+
+    /// How many records of which kind there are, "3 time, 1 PSD".
+    fn kinds(&self) -> String {
+        let count = |kind: Kind| self.records.iter().filter(|r| r.kind == kind).count();
+        let found: Vec<String> = Kind::WORDS
+            .iter()
+            .filter(|(kind, _)| count(*kind) > 0)
+            .map(|(kind, word)| format!("{} {word}", count(*kind)))
+            .collect();
+        if found.is_empty() { "there are none".into() } else { found.join(", ") }
+    }
+}
+
+/// Whether two axes agree within a thousandth of their step, which is what printed digits leave.
+fn same_axis(a: &[f64], b: &[f64]) -> bool {
+    let step = if a.len() > 1 { (a[a.len() - 1] - a[0]).abs() / (a.len() - 1) as f64 } else { 1.0 };
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-3 * step)
+}
+
+fn sorted(dofs: impl Iterator<Item = Dof>) -> Vec<Dof> {
+    let mut list: Vec<Dof> = dofs.collect();
+    list.sort();
+    list.dedup();
+    list
+}

@@ -1,0 +1,307 @@
+//! Records as plain data: what measured files hold and what is written for other programs.
+//!
+//! Values are SI where the file's unit is known, see [`Record::unit`]. Nothing here knows files or rotors; a
+//! point and a direction are labels ([`Dof`]).
+
+mod axis;
+mod frf_matrix;
+mod shape;
+
+pub use axis::{Axis, AxisQuantity, Points};
+pub use frf_matrix::FrfMatrix;
+pub use shape::{Analysis, Element, Geometry, Node, Polyline, Shape};
+
+use super::Complex;
+
+/// All that a file holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Title of the file; empty if it has none.
+    pub title: String,
+    /// Time records, spectra and FRFs in the file's order; no two have the same name.
+    pub records: Vec<Record>,
+    /// Single numbers with their names, such as a speed of rotation.
+    pub scalars: Vec<(String, f64)>,
+    pub geometry: Geometry,
+    pub shapes: Vec<Shape>,
+    /// What a reader had to assume or to put right, in words.
+    pub notes: Vec<String>,
+}
+
+/// One channel of sampled values over an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    pub name: String,
+    pub kind: Kind,
+    pub axis: Axis,
+    pub values: Values,
+    /// SI unit, such as "m/s^2" or "(m/s^2)/N"; "1" without dimension, empty when the file does not tell. Speeds
+    /// of rotation may be in "rpm".
+    pub unit: String,
+    /// Unit as the file states it; values were converted from it if `unit` is not empty.
+    pub stated_unit: String,
+    /// Where and which way it was measured.
+    pub response: Dof,
+    /// Where and which way the reference (force) acts; [`Dof::NONE`] without one.
+    pub reference: Dof,
+    /// Speed of rotation \[rpm\].
+    pub speed_rpm: Option<f64>,
+    /// Date and time as the file states them.
+    pub date: String,
+}
+
+/// What a record is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    #[default]
+    General,
+    Time,
+    AutoSpectrum,
+    CrossSpectrum,
+    Frf,
+    Transmissibility,
+    Coherence,
+    /// Power spectral density \[unit²/Hz\].
+    Psd,
+    Spectrum,
+}
+
+impl Kind {
+    /// Every kind with its word.
+    pub const WORDS: [(Kind, &'static str); 9] = [
+        (Kind::General, "general"),
+        (Kind::Time, "time"),
+        (Kind::AutoSpectrum, "auto-spectrum"),
+        (Kind::CrossSpectrum, "cross-spectrum"),
+        (Kind::Frf, "FRF"),
+        (Kind::Transmissibility, "transmissibility"),
+        (Kind::Coherence, "coherence"),
+        (Kind::Psd, "PSD"),
+        (Kind::Spectrum, "spectrum"),
+    ];
+
+    /// The kind in a word, "FRF".
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize].1
+    }
+}
+
+/// Sampled values.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    Real(Vec<f64>),
+    Complex(Vec<Complex<f64>>),
+}
+
+impl Values {
+    pub fn len(&self) -> usize {
+        match self {
+            Values::Real(values) => values.len(),
+            Values::Complex(values) => values.len(),
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Every value times `numerator` over `divisor`; a ratio of 1 leaves them as they are to the bit.
+    pub fn scale(&mut self, numerator: f64, divisor: f64) {
+        if numerator == divisor {
+            return;
+        }
+        match self {
+            Values::Real(values) => values.iter_mut().for_each(|v| *v = *v * numerator / divisor),
+            Values::Complex(values) => values.iter_mut().for_each(|v| *v = *v * numerator / divisor),
+        }
+    }
+
+    /// Number of NaN and infinite values, and the place of the first.
+    pub fn not_finite(&self) -> Option<(usize, usize)> {
+        let places: Vec<usize> = match self {
+            Values::Real(v) => (0..v.len()).filter(|&k| !v[k].is_finite()).collect(),
+            Values::Complex(v) => {
+                (0..v.len()).filter(|&k| !(v[k].re.is_finite() && v[k].im.is_finite())).collect()
+            }
+        };
+        places.first().map(|&first| (places.len(), first))
+    }
+}
+
+/// A point and a direction: ±1 ±2 ±3 are ±x ±y ±z, ±4 ±5 ±6 the rotations about them, 0 is a scalar.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Dof {
+    /// Number of the point; 0 for none.
+    pub node: i64,
+    pub direction: i8,
+}
+
+impl Dof {
+    /// No point, no direction.
+    pub const NONE: Dof = Dof { node: 0, direction: 0 };
+
+    pub fn new(node: i64, direction: i8) -> Self {
+        Dof { node, direction }
+    }
+
+    /// Whether the direction is a rotation.
+    pub fn is_rotation(self) -> bool {
+        self.direction.unsigned_abs() > 3
+    }
+}
+
+/// "12:+y", "12:-Rz", "12" for a scalar.
+impl std::fmt::Display for Dof {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "{}", self.node)?;
+        let axis = match self.direction.unsigned_abs() {
+            1 => "x",
+            2 => "y",
+            3 => "z",
+            4 => "Rx",
+            5 => "Ry",
+            6 => "Rz",
+            _ => return Ok(()),
+        };
+        write!(f, ":{}{axis}", if self.direction < 0 { '-' } else { '+' })
+    }
+}
+
+/// A record that cannot serve as what was asked of it: what is wrong, and what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordError {
+    #[error("there is no channel `{name}`; there are {known}")]
+    NoChannel { name: String, known: String },
+    #[error("`{channel}` does not state its sampling rate; give it, such as \"12 kHz\"")]
+    NoRate { channel: String },
+    #[error(
+        "`{channel}` is not sampled at even steps: after value {index} the step is {given:.6e}, on average it is {mean:.6e}; resample it at a constant rate first"
+    )]
+    NotEven { channel: String, index: usize, given: f64, mean: f64 },
+    #[error("`{channel}` is {given}, not a time record; choose a channel of samples over time")]
+    NotTime { channel: String, given: &'static str },
+    #[error("`{channel}` is {given}, not an FRF over frequency; choose channels with complex values over Hz")]
+    NotFrf { channel: String, given: &'static str },
+    #[error(
+        "the unit of `{channel}` is unknown ({}); state it, such as \"m/s^2\"",
+        if stated.is_empty() { "the file does not tell".into() } else { format!("the file says \"{stated}\"") }
+    )]
+    UnknownUnit { channel: String, stated: String },
+    #[error(
+        "the axes of `{first}` and `{second}` differ: {first_axis} against {second_axis}; measure them alike, or leave one out"
+    )]
+    AxesDiffer { first: String, first_axis: String, second: String, second_axis: String },
+    #[error(
+        "there is no FRF between response {response} and reference {reference}; add it, or leave that {} out",
+        if *few_references { "reference" } else { "response" }
+    )]
+    MissingFrf { response: String, reference: String, few_references: bool },
+    #[error(
+        "`{first}` and `{second}` are both the FRF of response {response} to reference {reference}; leave one out"
+    )]
+    DoubleFrf { first: String, second: String, response: String, reference: String },
+    #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
+    NotFinite { channel: String, index: usize },
+    #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
+    NoFrf { found: String },
+}
+
+impl Record {
+    /// A record of a kind over an axis, in a unit that is SI already; the rest is empty.
+    pub fn new(name: &str, kind: Kind, axis: Axis, values: Values, unit: &str) -> Self {
+        Record {
+            name: name.into(),
+            kind,
+            axis,
+            values,
+            unit: unit.into(),
+            stated_unit: unit.into(),
+            response: Dof::NONE,
+            reference: Dof::NONE,
+            speed_rpm: None,
+            date: String::new(),
+        }
+    }
+
+    /// Samples at a constant rate \[Hz\] from `start` \[s\].
+    pub fn samples(name: &str, rate: f64, start: f64, values: Vec<f64>, unit: &str) -> Self {
+        let axis = Axis { quantity: AxisQuantity::Time, points: Points::Even { start, step: 1.0 / rate } };
+        Record::new(name, Kind::Time, axis, Values::Real(values), unit)
+    }
+
+    /// The samples of a time record.
+    ///
+    /// # Errors
+    /// It is complex or over another axis than time.
+    pub fn time_samples(&self) -> Result<&[f64], RecordError> {
+        match (&self.values, self.axis.quantity) {
+            (Values::Real(values), AxisQuantity::Time | AxisQuantity::Unknown) => Ok(values),
+            _ => Err(RecordError::NotTime { channel: self.name.clone(), given: self.kind.word() }),
+        }
+    }
+
+    /// Sampling rate \[Hz\] of a time record.
+    ///
+    /// # Errors
+    /// The file does not state it, the steps differ, or it is no time record.
+    pub fn sample_rate(&self) -> Result<f64, RecordError> {
+        self.time_samples()?;
+        match &self.axis.points {
+            Points::Even { step, .. } => Ok(1.0 / step),
+            Points::Unknown => Err(RecordError::NoRate { channel: self.name.clone() }),
+            Points::Listed(points) => {
+                let (index, given, mean) = axis::worst_step(points);
+                Err(RecordError::NotEven { channel: self.name.clone(), index, given, mean })
+            }
+        }
+    }
+
+    /// Values of an FRF over frequencies in Hz.
+    ///
+    /// # Errors
+    /// It is real, or over another axis than frequency.
+    pub fn frf(&self) -> Result<&[Complex<f64>], RecordError> {
+        match (&self.values, self.axis.quantity) {
+            (Values::Complex(values), AxisQuantity::Frequency) => Ok(values),
+            _ => Err(RecordError::NotFrf { channel: self.name.clone(), given: self.kind.word() }),
+        }
+    }
+
+    /// The SI unit.
+    ///
+    /// # Errors
+    /// The file states none, or one that is not known.
+    pub fn si_unit(&self) -> Result<&str, RecordError> {
+        match self.unit.as_str() {
+            "" => {
+                Err(RecordError::UnknownUnit { channel: self.name.clone(), stated: self.stated_unit.clone() })
+            }
+            unit => Ok(unit),
+        }
+    }
+}
+
+impl Measured {
+    /// The record of this name.
+    ///
+    /// # Errors
+    /// There is none; says which there are.
+    pub fn record(&self, name: &str) -> Result<&Record, RecordError> {
+        self.records.iter().find(|r| r.name == name).ok_or_else(|| {
+            let known: Vec<&str> = self.records.iter().map(|r| r.name.as_str()).take(20).collect();
+            let more = if self.records.len() > 20 { ", ..." } else { "" };
+            RecordError::NoChannel { name: name.into(), known: known.join(", ") + more }
+        })
+    }
+
+    /// Gives every time record whose file does not state its rate this one \[Hz\].
+    pub fn set_missing_rate(&mut self, rate: f64) {
+        let unknown = |r: &&mut Record| {
+            r.axis.points == Points::Unknown && matches!(r.values, Values::Real(_)) && r.kind == Kind::Time
+        };
+        for record in self.records.iter_mut().filter(unknown) {
+            let points = Points::Even { start: 0.0, step: 1.0 / rate };
+            record.axis = Axis { quantity: AxisQuantity::Time, points };
+        }
+    }
+}
