@@ -157,8 +157,8 @@ pub fn unit_names() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|unit| unit.0).chain(CELSIUS)
 }
 
-/// Size of a named unit in SI and its powers of m, kg, s, rad: value · numerator / divisor is in SI.
-pub fn named(name: &str) -> Option<(f64, f64, [i32; 4])> {
+/// Size of a named unit in SI and its powers of m, kg, s, rad, K: value · numerator / divisor is in SI.
+pub fn named(name: &str) -> Option<(f64, f64, [i32; 5])> {
     let unit = UNITS.iter().find(|unit| unit.0 == name)?;
     Some((unit.1 * TAU.powi(unit.3), unit.2, unit.4))
 }

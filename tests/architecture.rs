@@ -19,11 +19,13 @@ const LAYERS: [&[&str]; 11] = [
 ];
 
 /// Foreign crates and the places that may use them.
-const OWNERS: [(&[&str], &[&str]); 6] = [
+const OWNERS: [(&[&str], &[&str]); 8] = [
     (&["faer"], &["linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["edge/rapier"]),
     (&["parry3d", "parry3d_f64"], &["edge/parry"]),
     (&["hdf5"], &["edge/hdf5"]),
+    (&["flate2"], &["edge/inflate"]),
+    (&["hound"], &["edge/wav"]),
     (&["resvg", "usvg", "tiny_skia", "png"], &["edge/plot"]),
     (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
 ];

@@ -96,6 +96,29 @@ pub struct StudyArgs {
     pub no_figures: bool,
 }
 
+/// What to export.
+#[derive(Args, Clone, Debug)]
+pub struct ExportArgs {
+    #[command(flatten)]
+    pub study: StudyArgs,
+    /// Formats of a run's channels, separated by commas
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"])]
+    pub formats: Vec<ChannelFormat>,
+    /// Number in the names of channels.mat
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub number: u32,
+}
+
+/// A format of channels.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChannelFormat {
+    Csv,
+    Uff,
+    Mat,
+    Npz,
+    Wav,
+}
+
 /// A stored run.
 #[derive(Args, Clone, Debug)]
 pub struct StoredArgs {
@@ -355,14 +378,19 @@ Examples:
         designation: Option<String>,
     },
 
-    /// Export for viewing and for other programs: glb, VTK, CSV
+    /// Export for viewing and for other programs: glb, VTK, universal files, MATLAB, NumPy, CSV, WAV
     ///
-    /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer), mode shapes as
-    /// VTK for ParaView, and, when the folder holds a run-up, its channels as CSV.
+    /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer); mode shapes as
+    /// VTK for ParaView; mode shapes and, where the file has [study.frf], FRFs as universal files for modal programs;
+    /// and, when the folder holds a run-up, its channels in each of the formats.
     #[command(after_long_help = "\
+Names: channels.mat has X001_B_ax_time, fs is the rate in Hz, X001RPM is the mean speed. A WAV file holds one channel as \
+32-bit floats of its values in SI units.
+
 Examples:
-  rotordyn export models/overhung_rig.toml")]
-    Export(StudyArgs),
+  rotordyn export models/overhung_rig.toml
+  rotordyn export models/overhung_rig.toml --formats mat,wav --number 105")]
+    Export(ExportArgs),
 }
 
 /// PATH=VALUE.

@@ -1,44 +1,86 @@
-//! `export`: the machine for viewers, its modes for ParaView, a stored run-up as CSV.
+//! `export`: the machine for viewers, its modes for ParaView, runs, modes and FRFs for measurement programs.
 
-use rotordyn::edge::csv::{self, Column};
+use std::path::{Path, PathBuf};
+
 use rotordyn::edge::export::{export_geometry, export_modes};
 use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::results_file;
+use rotordyn::edge::{exchange, measured, results_file};
+use rotordyn::error::Error;
 use rotordyn::results::Results;
+use rotordyn::signal::record::{Measured, RecordError};
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
 
-use super::args::StudyArgs;
+use super::args::{ChannelFormat, ExportArgs};
 use super::failure::Failure;
 use super::machine::Origin;
 use super::terminal::Terminal;
 use super::{settings, store, written};
 
-pub fn run(args: &StudyArgs, terminal: &Terminal) -> Result<Value, Failure> {
-    let origin = Origin::read(&args.model)?;
+pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
+    let origin = Origin::read(&args.study.model)?;
     let base = origin.load(&[])?;
     let loaded = origin.load(&settings::modal(&base.model, None, None).set)?;
     let machine = Machine::new(loaded.model)?;
-    let folder = origin.folder(args.out.as_ref(), &machine.model.name);
+    let folder = origin.folder(args.study.out.as_ref(), &machine.model.name);
     let mut files = export_geometry(&machine, &folder)?;
     let modal = machine.model.studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?;
     let results = Results { modal: modal.unwrap_or_default(), ..Results::default() };
     files.extend(export_modes(&results, &machine, &folder)?);
+    if args.formats.contains(&ChannelFormat::Uff) {
+        let mut write = |name: &str, content: &Measured| {
+            let path = folder.join(name);
+            files.push(path.clone());
+            measured::write(&path, content)
+        };
+        write("modes.uff", &exchange::modes(&results.modal, &machine))?;
+        if let Some(study) = &machine.model.studies.frf {
+            write("frf.uff", &exchange::frf(&machine.frf(study)?, &machine))?;
+        }
+    }
     let stored = folder.join(store::FILE);
     if stored.exists() {
         let file = Store::open(&stored)?;
         if file.contains("/time/t") {
             let history = results_file::read_history(&file)?;
-            let columns: Vec<Column> = history
-                .channels
-                .iter()
-                .map(|c| Column { name: &c.name, unit: &c.unit, values: &c.values })
-                .collect();
-            let path = folder.join("channels.csv");
-            csv::write_series(&path, history.sample_rate, 0.0, &columns)?;
-            files.push(path);
+            let run = exchange::run(&history, &machine.model);
+            for format in &args.formats {
+                files.extend(channels(&run, *format, args.number, &folder)?);
+            }
         }
     }
     written(terminal, &folder, &files);
     Ok(json!({ "command": "export", "files": files }))
+}
+
+/// Writes the channels of a run in one format; WAV has a file for every channel.
+fn channels(
+    run: &Measured,
+    format: ChannelFormat,
+    number: u32,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    let named = |extension: &str| folder.join(format!("channels.{extension}"));
+    let (path, content) = match format {
+        ChannelFormat::Csv => (named("csv"), run.clone()),
+        ChannelFormat::Uff => (named("uff"), run.clone()),
+        ChannelFormat::Npz => (named("npz"), run.clone()),
+        ChannelFormat::Mat => (named("mat"), exchange::numbered(run, number)),
+        ChannelFormat::Wav => {
+            let audible: Vec<_> = run.records.iter().filter(|r| exchange::is_audible(r)).collect();
+            if audible.is_empty() {
+                return Err(RecordError::NoChannel { name: "vibration".into(), known: "none".into() }.into());
+            }
+            let mut files = Vec::new();
+            for record in audible {
+                let path = folder.join(format!("{}.wav", record.name));
+                let one = Measured { records: vec![record.clone()], ..Measured::default() };
+                measured::write(&path, &one)?;
+                files.push(path);
+            }
+            return Ok(files);
+        }
+    };
+    measured::write(&path, &content)?;
+    Ok(vec![path])
 }

@@ -1,9 +1,14 @@
 //! CSV with a header of names and units, '.' as decimal sign, constant step.
 
+mod read;
+
+pub use read::read;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::error::Error;
+use crate::signal::record::{AxisQuantity, Record, RecordError, Values};
 
 /// One column: a name such as `B_ax`, its unit such as `m/s^2`, and its values.
 #[derive(Clone, Copy, Debug)]
@@ -78,5 +83,43 @@ pub fn write_series(path: &Path, rate: f64, start: f64, channels: &[Column]) -> 
     let time: Vec<f64> = (0..rows).map(|k| start + k as f64 / rate).collect();
     let mut columns = vec![Column { name: "time", unit: "s", values: &time }];
     columns.extend(channels);
+    write(path, &columns)
+}
+
+/// Writes records over one axis, led by the column `time_s` or `frequency_Hz`; complex ones as `name_re`, `name_im`.
+///
+/// # Errors
+/// No record, axes that differ or are not told, or a file that cannot be written.
+pub fn write_records(path: &Path, records: &[&Record]) -> Result<(), Error> {
+    let Some(first) = records.first() else { return write(path, &[]) };
+    let count = first.values.len();
+    for other in records {
+        if other.axis != first.axis || other.values.len() != count {
+            return Err(RecordError::axes_differ(first, other).into());
+        }
+    }
+    let points =
+        first.axis.points(count).ok_or_else(|| RecordError::NoRate { channel: first.name.clone() })?;
+    let name = match first.axis.quantity {
+        AxisQuantity::Time => "time",
+        AxisQuantity::Frequency => "frequency",
+        AxisQuantity::Speed => "speed",
+        AxisQuantity::Order => "order",
+        AxisQuantity::Unknown => "x",
+    };
+    let mut parts: Vec<(String, &str, Vec<f64>)> = vec![(name.into(), first.axis.quantity.unit(), points)];
+    for record in records {
+        let unit = if record.unit == "1" { "" } else { record.unit.as_str() };
+        match &record.values {
+            Values::Real(values) => parts.push((record.name.clone(), unit, values.clone())),
+            Values::Complex(values) => {
+                let part = |end: &str| format!("{}_{end}", record.name);
+                parts.push((part("re"), unit, values.iter().map(|v| v.re).collect()));
+                parts.push((part("im"), unit, values.iter().map(|v| v.im).collect()));
+            }
+        }
+    }
+    let columns: Vec<Column> =
+        parts.iter().map(|(name, unit, values)| Column { name, unit, values }).collect();
     write(path, &columns)
 }

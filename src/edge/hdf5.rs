@@ -13,7 +13,7 @@ pub use stream::{Channel, ChannelStream, Recording, read_recording};
 
 use crate::error::Error;
 use hdf5::file::LibraryVersion;
-use hdf5::types::VarLenUnicode;
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, File, Group, H5Type, OpenMode};
 use nalgebra::Complex;
 use std::path::{Path, PathBuf};
@@ -30,6 +30,19 @@ const DEFLATE: u8 = 1;
 pub struct Store {
     file: File,
     path: PathBuf,
+}
+
+/// What a name in a file stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Item {
+    Group,
+    /// Numbers that are read as f64, and the shape.
+    Real(Vec<usize>),
+    /// Compounds {r, i}.
+    Complex(Vec<usize>),
+    Text(Vec<usize>),
+    /// Anything that is not read here.
+    Other,
 }
 
 /// An N-dimensional data set in row-major order.
@@ -166,6 +179,25 @@ impl Store {
             .collect::<hdf5::Result<Vec<_>>>()
             .and_then(|texts| self.dataset(name, shape, &texts, attributes));
         self.writing(name, written)
+    }
+
+    /// What stands under a name, with its shape.
+    pub fn item(&self, name: &str) -> Result<Item, Error> {
+        let Ok(dataset) = self.file.dataset(name) else { return Ok(Item::Group) };
+        let shape = dataset.shape();
+        let descriptor = self.reading(name, dataset.dtype().and_then(|t| t.to_descriptor()));
+        Ok(match descriptor {
+            Ok(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) | TypeDescriptor::Float(_)) => {
+                Item::Real(shape)
+            }
+            Ok(TypeDescriptor::VarLenUnicode) => Item::Text(shape),
+            Ok(TypeDescriptor::Compound(compound))
+                if compound.fields.iter().map(|f| f.name.as_str()).eq(["r", "i"]) =>
+            {
+                Item::Complex(shape)
+            }
+            _ => Item::Other,
+        })
     }
 
     /// Reads a data set of numbers.

@@ -1,13 +1,17 @@
 //! Edges: one owner per foreign crate or file format.
 
 pub mod csv;
+pub mod exchange;
 pub mod export;
 pub mod figures;
 pub mod gltf;
 pub mod hdf5;
+pub mod inflate;
 pub mod json;
+pub mod mat;
 pub mod measured;
 pub mod mesh;
+pub mod npy;
 pub mod parry;
 pub mod plot;
 pub mod rapier;
@@ -15,3 +19,4 @@ pub mod results_file;
 pub mod scene;
 pub mod uff;
 pub mod vtk;
+pub mod wav;

@@ -2,6 +2,7 @@
 
 use crate::{json_of, output_of, rotordyn};
 use rotordyn::edge::hdf5::{Attribute, Store};
+use rotordyn::edge::measured;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -59,6 +60,24 @@ fn a_run_up_is_stored_and_looked_at_again() {
     let exported = json_of(rotordyn().args(["export", RIG, "--out"]).arg(out));
     let csv = std::fs::read_to_string(out.join("channels.csv")).unwrap();
     assert!(csv.starts_with("time_s,A_ax_m_s2") && csv.lines().count() == 1002, "{exported}");
+    // The same channels for measurement programs, each with its point and direction.
+    for file in ["channels.uff", "channels.mat"] {
+        let run = measured::read(&out.join(file)).unwrap();
+        let name = if file == "channels.mat" { "X001_B_ax_time" } else { "B_ax" };
+        let channel = run.record(name).unwrap();
+        assert_eq!((channel.values.len(), channel.unit.as_str()), (1001, "m/s^2"), "{file}");
+        assert_eq!((channel.sample_rate(), channel.response.direction), (Ok(2000.0), 1));
+        assert!(channel.response.node > 0 && (run.geometry.nodes.len() > 20 || file == "channels.mat"));
+    }
+    let modes = measured::read(&out.join("modes.uff")).unwrap();
+    assert!(modes.shapes.len() >= 12 && modes.shapes.iter().all(|s| s.components == 6));
+    let frfs = measured::read(&out.join("frf.uff")).unwrap().frf_matrix().unwrap();
+    assert!(frfs.frequencies.len() > 100 && frfs.units[0].iter().any(|unit| unit == "(m/s^2)/N"));
+    let flags = ["--formats", "wav,npz", "--out"];
+    let exported = json_of(rotordyn().args(["export", RIG]).args(flags).arg(out));
+    assert!(exported["files"].to_string().contains("channels.npz"));
+    let sound = measured::read(&out.join("B_ax.wav")).unwrap();
+    assert_eq!(sound.records[0].sample_rate(), Ok(2000.0));
     let glb = std::fs::read(out.join("machine.glb")).unwrap();
     assert_eq!(&glb[..4], b"glTF");
 }

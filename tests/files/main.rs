@@ -1,16 +1,20 @@
 //! Files that rotordyn writes: read back in Rust, and by the programs that users open them with.
 
+mod arrays;
 mod example_records;
+mod formats;
 mod hdf5_h5py;
 mod hdf5_round_trip;
 mod hdf5_stream;
 #[path = "../common/measured_data.rs"]
 mod measured_data;
+mod measured_files;
 mod report;
 mod results_file;
 #[path = "../common/rig.rs"]
 mod rig;
 mod rig_results;
+mod tables;
 mod uff;
 mod uff_measured;
 mod uff_pyuff;

@@ -79,7 +79,9 @@ pub(super) fn get(object: &Location, name: &str) -> hdf5::Result<Option<Attribut
         (TypeDescriptor::VarLenUnicode, false) => {
             Attribute::Texts(attribute.read_raw::<VarLenUnicode>()?.iter().map(|t| t.to_string()).collect())
         }
-        (TypeDescriptor::Integer(_), true) => Attribute::Integer(attribute.read_scalar()?),
+        (TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_), true) => {
+            Attribute::Integer(attribute.read_scalar()?)
+        }
         (TypeDescriptor::Float(_), true) => Attribute::Number(attribute.read_scalar()?),
         (TypeDescriptor::Float(_), false) => Attribute::Numbers(attribute.read_raw()?),
         (other, _) => {

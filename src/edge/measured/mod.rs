@@ -1,3 +1,173 @@
-//! Measured files of any known format.
+//! Measured files of any known format: read by what they hold, written by their extension.
+//!
+//! | format | read | written | holds |
+//! |---|---|---|---|
+//! | universal file | .uff .unv .uf | .uff (ASCII), .unv | all |
+//! | MATLAB v5 | .mat | .mat | records |
+//! | NumPy | .npz .npy | .npz | records |
+//! | WAV | .wav | .wav | time records of one rate, without units |
+//! | table | .csv .txt .tsv .dat | .csv | records over one axis |
+//! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
+pub mod arrays;
+pub mod datasets;
+mod signal_calc;
 pub mod unit;
+
+use std::io::Read;
+use std::path::Path;
+
+use super::{csv, mat, npy, uff, wav};
+use crate::error::Error;
+use crate::signal::record::{Measured, Points, Record};
+
+/// A file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    Universal,
+    Mat,
+    Numpy,
+    Wav,
+    Table,
+    Hdf5,
+}
+
+/// Bytes from the start that tell a format; a user block of 512 bytes may stand before HDF5.
+const HEAD: usize = 520;
+
+impl Format {
+    /// The format of a file by its first bytes; text that is no universal file is a table.
+    pub fn of_content(head: &[u8]) -> Option<Format> {
+        let hdf5 = b"\x89HDF\r\n\x1a\n";
+        let first_line = head.split(|&b| b == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
+        match head {
+            _ if [0, 512].iter().any(|&at| head.get(at..).is_some_and(|h| h.starts_with(hdf5))) => {
+                Some(Format::Hdf5)
+            }
+            _ if mat::is_mat(head) => Some(Format::Mat),
+            _ if npy::is_npy(head) || npy::is_npz(head) => Some(Format::Numpy),
+            _ if wav::is_wav(head) => Some(Format::Wav),
+            _ if first_line == Some(b"-1") => Some(Format::Universal),
+            // Control characters other than tabs and line ends stand in no text.
+            _ if head.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r')) => Some(Format::Table),
+            _ => None,
+        }
+    }
+
+    /// The format that an extension names.
+    pub fn of_extension(path: &Path) -> Option<Format> {
+        let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+        Some(match extension.as_str() {
+            "uff" | "unv" | "uf" => Format::Universal,
+            "mat" => Format::Mat,
+            "npz" | "npy" => Format::Numpy,
+            "wav" => Format::Wav,
+            "csv" | "txt" | "tsv" | "dat" => Format::Table,
+            "h5" | "hdf5" => Format::Hdf5,
+            _ => return None,
+        })
+    }
+}
+
+/// Reads every channel of a file, whatever its format.
+///
+/// Records have names of their own afterwards, and values that are no numbers are pointed out in the notes.
+///
+/// # Errors
+/// The file cannot be read, is of no known format, damaged or cut off; each says what to do.
+pub fn read(path: &Path) -> Result<Measured, Error> {
+    let mut head = Vec::new();
+    let file = std::fs::File::open(path);
+    file.and_then(|file| file.take(HEAD as u64).read_to_end(&mut head)).map_err(|source| {
+        Error::Environment { operation: "read", path: path.into(), source: source.into() }
+    })?;
+    let content = |problem: &str, advice: &str| Error::Content {
+        path: path.into(),
+        problem: problem.into(),
+        advice: advice.into(),
+    };
+    if head.is_empty() {
+        return Err(content("the file is empty", "copy or export it again"));
+    }
+    let of_arrays = |(arrays, left_out): (Vec<arrays::Array>, Vec<String>)| {
+        let mut out = arrays::to_records(arrays);
+        if !left_out.is_empty() {
+            out.notes.push(format!("not read, since they are no plain arrays: {}", left_out.join(", ")));
+        }
+        out
+    };
+    let mut out = match Format::of_content(&head) {
+        Some(Format::Universal) => uff::read(path)?,
+        Some(Format::Mat) => of_arrays(mat::read(path)?),
+        Some(Format::Numpy) => of_arrays(npy::read(path)?),
+        Some(Format::Wav) => wav::read(path)?,
+        Some(Format::Hdf5) => datasets::read(path)?,
+        Some(Format::Table) => csv::read(path)?,
+        None if Format::of_extension(path) == Some(Format::Mat) => {
+            return Err(content("it is no MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
+        }
+        None => {
+            let advice = "use a universal file, MATLAB, NumPy, WAV, CSV or HDF5 file";
+            return Err(content("the file's format is not known", advice));
+        }
+    };
+    if out.records.is_empty() && out.shapes.is_empty() && out.geometry.nodes.is_empty() {
+        return Err(content("the file holds no channel", "export the records themselves"));
+    }
+    finish(&mut out);
+    Ok(out)
+}
+
+/// Makes names unique and points out values that are no numbers.
+fn finish(out: &mut Measured) {
+    for k in 1..out.records.len() {
+        let (before, here) = out.records.split_at_mut(k);
+        let taken = |name: &str| before.iter().any(|r| r.name == name);
+        let name = here[0].name.clone();
+        let mut number = 1;
+        while taken(&here[0].name) {
+            number += 1;
+            here[0].name = format!("{name} ({number})");
+        }
+    }
+    for record in &out.records {
+        if let Some((count, first)) = record.values.not_finite() {
+            let (name, length) = (&record.name, record.values.len());
+            out.notes.push(format!(
+                "`{name}` holds {count} values of {length} that are no finite numbers, the first at value {first}"
+            ));
+        }
+    }
+    let without: Vec<&str> =
+        out.records.iter().filter(|r| r.axis.points == Points::Unknown).map(|r| r.name.as_str()).collect();
+    if !without.is_empty() {
+        let more = if without.len() > 6 { ", ..." } else { "" };
+        let some = without[..without.len().min(6)].join(", ");
+        out.notes.push(format!("no sampling rate or frequency step is stated for {some}{more}"));
+    }
+}
+
+/// Writes a file in the format that its extension names.
+///
+/// # Errors
+/// An extension that names no format, records that the format cannot hold, or a file that cannot be written.
+pub fn write(path: &Path, measured: &Measured) -> Result<(), Error> {
+    let all: Vec<&Record> = measured.records.iter().collect();
+    match Format::of_extension(path) {
+        Some(Format::Universal) => {
+            let modern = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("unv"));
+            let geometry = if modern { uff::Geometries::Modern } else { uff::Geometries::Classic };
+            uff::write(path, measured, uff::Options { geometry, ..uff::Options::default() })
+        }
+        Some(Format::Mat) => mat::write(path, &arrays::of_records(measured, mat::NAME_LENGTH)),
+        Some(Format::Numpy) => npy::write(path, &arrays::of_records(measured, usize::MAX)),
+        Some(Format::Wav) => wav::write(path, &all, wav::Samples::Float),
+        Some(Format::Table) => csv::write_records(path, &all),
+        Some(Format::Hdf5) => datasets::write(path, measured),
+        None => Err(Error::Content {
+            path: path.into(),
+            problem: "its extension names no format".into(),
+            advice: "use .uff, .unv, .mat, .npz, .wav, .csv or .h5".into(),
+        }),
+    }
+}

@@ -86,18 +86,25 @@ pub fn behind(name: &str) -> Option<(&str, SiUnit)> {
     let starts: Vec<usize> = name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0).collect();
     starts.into_iter().find_map(|at| {
         let parts: Vec<&str> = name[at + 1..].split('_').collect();
-        let known = |part: &&str| {
-            IN_NAMES.contains(part) || part.strip_suffix(['2', '3']).is_some_and(|p| IN_NAMES.contains(&p))
+        let known = |part: &str| {
+            let base = part.strip_suffix(['2', '3']);
+            IN_NAMES.contains(&part) || base.is_some_and(|base| IN_NAMES.contains(&base))
         };
-        if !parts.iter().all(|part| known(&part)) {
-            return None;
-        }
         let moment = parts.ends_with(&["N", "m"]);
-        let joined = match (moment, parts.len()) {
-            (true, 2) => "N m".to_owned(),
-            (true, count) => format!("{}/(N m)", parts[..count - 2].join("/")),
-            (false, _) => parts.join("/"),
-        };
+        let factors = &parts[..parts.len() - if moment { 2 } else { 0 }];
+        let mut joined = String::new();
+        for (k, part) in factors.iter().enumerate() {
+            joined = match *part {
+                part if known(part) && k == 0 => part.to_owned(),
+                part if known(part) => format!("{joined}/{part}"),
+                // "(m/s^2)^2" was written so.
+                "2" | "3" if k > 0 => format!("({joined})^{part}"),
+                _ => return None,
+            };
+        }
+        if moment {
+            joined = if joined.is_empty() { "N m".into() } else { format!("{joined}/(N m)") };
+        }
         Some((&name[..at], si(&joined)?))
     })
 }
@@ -189,8 +196,8 @@ fn named(name: &str) -> Option<(f64, f64, Powers)> {
     if let Some(unit) = EXTRA.iter().find(|unit| unit.0 == name) {
         return Some((unit.1, unit.2, unit.3));
     }
-    let (numerator, divisor, [m, kg, s, rad]) = units::named(name)?;
-    Some((numerator, divisor, [m, kg, s, rad, 0, 0]))
+    let (numerator, divisor, [m, kg, s, rad, kelvin]) = units::named(name)?;
+    Some((numerator, divisor, [m, kg, s, rad, 0, kelvin]))
 }
 
 /// "m^2 kg s^-1" of powers that have no name.
@@ -247,6 +254,8 @@ mod tests {
         assert_eq!(behind("drive_N_m"), some("drive", "N m"));
         assert_eq!(behind("rim_disc_y_m_s2_N"), some("rim_disc_y", "(m/s^2)/N"));
         assert_eq!(behind("twist_rad_s2_N_m"), some("twist", "(rad/s^2)/(N m)"));
+        assert_eq!(behind("density_m_s2_2_Hz"), some("density", "(m/s^2)^2/Hz"));
+        assert_eq!(behind("channel_2_m_s2"), some("channel_2", "m/s^2"));
         assert_eq!(behind("X105_DE_time"), None);
         assert_eq!(behind("A_ax"), None);
         assert_eq!(behind("s"), None);

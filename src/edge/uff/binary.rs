@@ -98,7 +98,7 @@ impl Binary<'_> {
             (false, true) if self.data.len() < layout.binary_sizes()[0] => 4,
             _ => ordinate,
         };
-        let mut numbers = Vec::with_capacity(layout.count * layout.width());
+        let mut numbers = Vec::with_capacity(self.data.len() / ordinate);
         let (mut rest, mut column) = (self.data, 0);
         loop {
             let size = if column == 0 { abscissa } else { ordinate };

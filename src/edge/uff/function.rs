@@ -58,7 +58,7 @@ impl Layout {
                 return Err(fault(problem, DAMAGED));
             }
         };
-        if !(count >= 1.0 && count < 1e12) {
+        if !(1.0..1e12).contains(&count) {
             return Err(fault(format!("the function has {count} values"), "leave the empty function out"));
         }
         let even = even as i64 == 1;
@@ -151,7 +151,7 @@ pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured
     let numbers = match &block.binary {
         Some(binary) => binary.numbers(&layout),
         None => {
-            let mut numbers = Vec::with_capacity(layout.count * layout.width());
+            let mut numbers = Vec::new();
             for k in HEADER_LINES..block.lines.len() {
                 numbers.extend(block.numbers(k)?);
             }

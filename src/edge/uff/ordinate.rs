@@ -14,14 +14,17 @@ pub(super) struct Characteristics {
     pub unit_label: String,
 }
 
-/// SI units by specific data type, translational and rotational, with exponents of length and force.
+/// An SI unit with its exponents of length and force.
+type Unit = (&'static str, [i64; 2]);
+
+/// Units by specific data type, translational and rotational.
 #[rustfmt::skip]
-const TYPES: [(i64, &str, [i64; 2], &str, [i64; 2]); 11] = [
-    (2, "Pa", [-2, 1], "Pa", [-2, 1]), (3, "1", [0, 0], "1", [0, 0]),
-    (8, "m", [1, 0], "rad", [0, 0]), (9, "N", [0, 1], "N m", [1, 1]),
-    (11, "m/s", [1, 0], "rad/s", [0, 0]), (12, "m/s^2", [1, 0], "rad/s^2", [0, 0]),
-    (13, "N", [0, 1], "N m", [1, 1]), (15, "Pa", [-2, 1], "Pa", [-2, 1]),
-    (16, "kg", [-1, 1], "m^2 kg", [1, 1]), (17, "s", [0, 0], "s", [0, 0]), (18, "Hz", [0, 0], "Hz", [0, 0]),
+const TYPES: [(i64, Unit, Unit); 11] = [
+    (2, ("Pa", [-2, 1]), ("Pa", [-2, 1])), (3, ("1", [0, 0]), ("1", [0, 0])),
+    (8, ("m", [1, 0]), ("rad", [0, 0])), (9, ("N", [0, 1]), ("N m", [1, 1])),
+    (11, ("m/s", [1, 0]), ("rad/s", [0, 0])), (12, ("m/s^2", [1, 0]), ("rad/s^2", [0, 0])),
+    (13, ("N", [0, 1]), ("N m", [1, 1])), (15, ("Pa", [-2, 1]), ("Pa", [-2, 1])),
+    (16, ("kg", [-1, 1]), ("m^2 kg", [1, 1])), (17, ("s", [0, 0]), ("s", [0, 0])), (18, ("Hz", [0, 0]), ("Hz", [0, 0])),
 ];
 
 impl Characteristics {
@@ -48,8 +51,8 @@ impl Characteristics {
         let system = system.unwrap_or(super::SI);
         let listed = TYPES.iter().find(|t| t.0 == self.kind);
         let (name, [length, force]) = match listed {
-            Some(&(_, _, _, name, exponents)) if rotation => (name, exponents),
-            Some(&(_, name, exponents, _, _)) => (name, exponents),
+            Some(&(_, _, rotational)) if rotation => rotational,
+            Some(&(_, translational, _)) => translational,
             None if self.kind == 1 && self.exponents != [0, 0] => match self.exponents {
                 [1, 1] => ("N m", [1, 1]),
                 [1, 0] => ("m", [1, 0]),

@@ -33,19 +33,13 @@ impl Measured {
         let count = first.frf()?.len();
         let frequencies = first.axis.points(count);
         for other in &frfs {
-            let length = other.frf()?.len();
-            let same = length == count
+            let same = other.frf()?.len() == count
                 && match (&frequencies, other.axis.points(count)) {
                     (Some(a), Some(b)) => same_axis(a, &b),
                     _ => false,
                 };
             if !same {
-                return Err(RecordError::AxesDiffer {
-                    first: first.name.clone(),
-                    first_axis: first.axis.describe(count),
-                    second: other.name.clone(),
-                    second_axis: other.axis.describe(length),
-                });
+                return Err(RecordError::axes_differ(first, other));
             }
         }
         let responses = sorted(frfs.iter().map(|r| r.response));
@@ -64,8 +58,7 @@ impl Measured {
                     return Err(RecordError::DoubleFrf {
                         first: record.name.clone(),
                         second: second.name.clone(),
-                        response: response.to_string(),
-                        reference: reference.to_string(),
+                        between: format!("response {response} to reference {reference}"),
                     });
                 }
                 row.push(record.frf()?.to_vec());

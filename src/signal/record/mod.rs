@@ -182,28 +182,38 @@ pub enum RecordError {
     NotTime { channel: String, given: &'static str },
     #[error("`{channel}` is {given}, not an FRF over frequency; choose channels with complex values over Hz")]
     NotFrf { channel: String, given: &'static str },
+    #[error("`{channel}` does not state its frequencies; give their step, such as \"0.5 Hz\"")]
+    NoFrequencies { channel: String },
     #[error(
         "the unit of `{channel}` is unknown ({}); state it, such as \"m/s^2\"",
         if stated.is_empty() { "the file does not tell".into() } else { format!("the file says \"{stated}\"") }
     )]
     UnknownUnit { channel: String, stated: String },
-    #[error(
-        "the axes of `{first}` and `{second}` differ: {first_axis} against {second_axis}; measure them alike, or leave one out"
-    )]
-    AxesDiffer { first: String, first_axis: String, second: String, second_axis: String },
+    #[error("the axes of `{first}` and `{second}` differ: {axes}; measure them alike, or leave one out")]
+    AxesDiffer { first: String, second: String, axes: String },
     #[error(
         "there is no FRF between response {response} and reference {reference}; add it, or leave that {} out",
         if *few_references { "reference" } else { "response" }
     )]
     MissingFrf { response: String, reference: String, few_references: bool },
-    #[error(
-        "`{first}` and `{second}` are both the FRF of response {response} to reference {reference}; leave one out"
-    )]
-    DoubleFrf { first: String, second: String, response: String, reference: String },
+    #[error("`{first}` and `{second}` are both the FRF of {between}; leave one out")]
+    DoubleFrf { first: String, second: String, between: String },
     #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
     NotFinite { channel: String, index: usize },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
     NoFrf { found: String },
+}
+
+impl RecordError {
+    /// Two records that cannot go together because of their axes.
+    pub fn axes_differ(first: &Record, second: &Record) -> Self {
+        let axis = |r: &Record| r.axis.describe(r.values.len());
+        RecordError::AxesDiffer {
+            first: first.name.clone(),
+            second: second.name.clone(),
+            axes: format!("{} against {}", axis(first), axis(second)),
+        }
+    }
 }
 
 impl Record {
@@ -263,6 +273,9 @@ impl Record {
     pub fn frf(&self) -> Result<&[Complex<f64>], RecordError> {
         match (&self.values, self.axis.quantity) {
             (Values::Complex(values), AxisQuantity::Frequency) => Ok(values),
+            (Values::Complex(_), _) if self.axis.points == Points::Unknown => {
+                Err(RecordError::NoFrequencies { channel: self.name.clone() })
+            }
             _ => Err(RecordError::NotFrf { channel: self.name.clone(), given: self.kind.word() }),
         }
     }
@@ -292,6 +305,18 @@ impl Measured {
             let more = if self.records.len() > 20 { ", ..." } else { "" };
             RecordError::NoChannel { name: name.into(), known: known.join(", ") + more }
         })
+    }
+
+    /// Gives every complex record whose file does not state its axis frequencies from 0 by this step \[Hz\]: an FRF.
+    pub fn set_missing_frequency_step(&mut self, step: f64) {
+        let unknown =
+            |r: &&mut Record| r.axis.points == Points::Unknown && matches!(r.values, Values::Complex(_));
+        for record in self.records.iter_mut().filter(unknown) {
+            record.axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
+            if record.kind == Kind::General {
+                record.kind = Kind::Frf;
+            }
+        }
     }
 
     /// Gives every time record whose file does not state its rate this one \[Hz\].

@@ -1,0 +1,138 @@
+//! What a machine and its runs hold, as records, geometry and shapes for measurement programs.
+//!
+//! Node k of the machine is point k + 1: shaft nodes first, then bodies. Directions x y z are 1 2 3, rotations
+//! about them 4 5 6.
+
+use std::f64::consts::TAU;
+
+use crate::edge::measured::datasets::direction;
+use crate::model::Model;
+use crate::results::{FrfResult, History, ModalResult};
+use crate::signal::record::{
+    Analysis, Axis, AxisQuantity, Dof, Geometry, Kind, Measured, Node, Points, Polyline, Record, Shape,
+    Values,
+};
+use crate::study::Machine;
+
+/// Channels of a run with the shaft's angle and speed \[rpm\], at the points where they are.
+pub fn run(history: &History, model: &Model) -> Measured {
+    let start = history.time.first().copied().unwrap_or(0.0);
+    let axis = Axis::even(AxisQuantity::Time, start, 1.0 / history.sample_rate);
+    let record = |name: &str, unit: &str, values: Vec<f64>| {
+        Record::new(name, Kind::Time, axis.clone(), Values::Real(values), unit)
+    };
+    let channel = |c: &crate::results::HistoryChannel| Record {
+        response: Dof::new(point(model, &c.station), direction(&c.direction)),
+        ..record(&c.name, &c.unit, c.values.clone())
+    };
+    let mut records: Vec<Record> = history.channels.iter().map(channel).collect();
+    records.push(record("shaft_angle", "rad", history.angle.clone()));
+    let rpm = history.speed.iter().map(|speed| speed * 60.0 / TAU).collect();
+    records.push(record("shaft_speed", "rpm", rpm));
+    Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
+}
+
+/// Point of a station, bearing or body; 0 for anything else.
+fn point(model: &Model, place: &str) -> i64 {
+    let station = model.stations.iter().find(|s| s.name == place).map(|s| s.node);
+    let bearing = || model.bearings.iter().find(|b| b.name == place).map(|b| b.node);
+    let body = || model.bodies.iter().position(|b| b.name == place).map(|k| model.node_z.len() + k);
+    station.or_else(bearing).or_else(body).map_or(0, |node| node as i64 + 1)
+}
+
+/// Computed FRFs between the points that are excited and seen.
+pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
+    let model = &machine.model;
+    let Some(study) = &model.studies.frf else { return Measured::default() };
+    let dof = |node: Option<usize>, weights: &[f64; 6]| {
+        Dof::new(node.map_or(0, |node| node as i64 + 1), single_direction(weights))
+    };
+    let axis = Axis::through(AxisQuantity::Frequency, found.frf.frequencies.clone());
+    let mut records = Vec::new();
+    for (r, probe) in study.responses.iter().enumerate() {
+        for (e, excitation) in study.excitations.iter().enumerate() {
+            let values = Values::Complex(found.frf.values[r][e].clone());
+            let name = format!("{}/{}", probe.name, excitation.name);
+            records.push(Record {
+                response: dof(probe.at.node, &probe.direction),
+                reference: dof(excitation.at.node, &excitation.direction),
+                speed_rpm: Some(found.speed * 60.0 / TAU),
+                ..Record::new(&name, Kind::Frf, axis.clone(), values, &found.units[r][e])
+            });
+        }
+    }
+    Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
+}
+
+/// Number of a direction along one axis, with its sign; 0 for any other.
+fn single_direction(weights: &[f64; 6]) -> i8 {
+    let mut along = weights.iter().enumerate().filter(|(_, w)| **w != 0.0);
+    match (along.next(), along.next()) {
+        (Some((k, w)), None) => (k as i8 + 1) * w.signum() as i8,
+        _ => 0,
+    }
+}
+
+/// Damped modes at every speed, as complex shapes over all points.
+pub fn modes(found: &[ModalResult], machine: &Machine) -> Measured {
+    let model = &machine.model;
+    let mut shapes = Vec::new();
+    for at in found {
+        for (k, mode) in at.modes.iter().enumerate() {
+            shapes.push(Shape {
+                name: format!("{:.0} rpm {}", at.speed * 60.0 / TAU, mode.label),
+                analysis: Analysis::ComplexMode {
+                    eigenvalue: mode.eigenvalue,
+                    modal_a: 0.0.into(),
+                    modal_b: 0.0.into(),
+                },
+                number: k as i64 + 1,
+                components: 6,
+                nodes: (1..=model.node_count() as i64).collect(),
+                values: mode.full_shape.clone(),
+                complex: true,
+                unit: "m".into(),
+            });
+        }
+    }
+    Measured { title: model.title.clone(), shapes, geometry: geometry(model), ..Measured::default() }
+}
+
+/// Points of shaft and bodies, the shaft as a line, every bearing's line to its housing.
+fn geometry(model: &Model) -> Geometry {
+    let shaft = model.node_z.iter().map(|&z| [0.0, 0.0, z]);
+    let places = shaft.chain(model.bodies.iter().map(|b| b.position));
+    let nodes =
+        places.zip(1..).map(|(position, number)| Node { number, position, local_system: 0 }).collect();
+    let mut lines =
+        vec![Polyline { name: "shaft".into(), strokes: vec![(1..=model.node_z.len() as i64).collect()] }];
+    for site in &model.bearings {
+        if let Some(body) = site.housing.node {
+            let stroke = vec![site.node as i64 + 1, body as i64 + 1];
+            lines.push(Polyline { name: format!("bearing {}", site.name), strokes: vec![stroke] });
+        }
+    }
+    Geometry { nodes, lines, elements: Vec::new() }
+}
+
+/// Records named as bearing data sets name them: `X<number>_<name>_time`, with `X<number>RPM`, the mean speed.
+///
+/// `number` is written with three digits.
+pub fn numbered(measured: &Measured, number: u32) -> Measured {
+    let mut out = measured.clone();
+    let speed = measured.record("shaft_speed").ok().and_then(|r| r.time_samples().ok());
+    if let Some(rpm) = speed.filter(|rpm| !rpm.is_empty()) {
+        let mean = rpm.iter().sum::<f64>() / rpm.len() as f64;
+        out.scalars.push((format!("X{number:03}RPM"), mean));
+    }
+    for record in &mut out.records {
+        record.name = format!("X{number:03}_{}_time", record.name);
+    }
+    out
+}
+
+/// Whether a record vibrates: it has an even axis and is an acceleration, velocity, displacement or force.
+pub fn is_audible(record: &Record) -> bool {
+    let even = matches!(record.axis.points, Points::Even { .. });
+    even && matches!(record.unit.as_str(), "m" | "m/s" | "m/s^2" | "N")
+}
