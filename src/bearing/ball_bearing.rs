@@ -1,7 +1,7 @@
 //! A ball bearing as its user describes it.
 
 use super::{BallGeometry, Fit, FitMaterials};
-use crate::contact::{ContactDamping, ContactLaw, HertzPair};
+use crate::contact::{ContactDamping, ContactLaw, HertzPair, Lubricant};
 use crate::element::Material;
 
 /// Ball bearing with one force element per ball and a kinematic cage.
@@ -28,9 +28,47 @@ pub struct BallBearing {
     pub outer_waviness: Vec<Wave>,
     /// Cage pocket diameter and cage width \[m\] for the overlap check and pictures.
     pub cage_pocket_diameter: f64,
+    pub service: Service,
+}
+
+/// What a bearing's rating life is reckoned with beside its loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Service {
+    /// Load ratings C and C₀ and fatigue load limit C_u by the maker \[N\]; `None`: by the geometry.
+    pub dynamic_rating: Option<f64>,
+    pub static_rating: Option<f64>,
+    pub fatigue_limit: Option<f64>,
+    /// Oil of a bearing whose contact law has none.
+    pub lubricant: Option<Lubricant>,
+    /// Contamination factor e_C from 0 (very severe) to 1 (extreme cleanliness).
+    pub contamination: f64,
+    /// Reliability from 0.9 to 0.999.
+    pub reliability: f64,
+}
+
+impl Default for Service {
+    /// Normal cleanliness of a small bearing (ISO 281 table 13), reliability of 90 %.
+    fn default() -> Self {
+        Self {
+            dynamic_rating: None,
+            static_rating: None,
+            fatigue_limit: None,
+            lubricant: None,
+            contamination: 0.5,
+            reliability: 0.9,
+        }
+    }
 }
 
 impl BallBearing {
+    /// The oil it runs in: of its contact law, else of its service.
+    pub fn lubricant(&self) -> Option<&Lubricant> {
+        match &self.contact {
+            ContactLaw::Film { lubricant, .. } => Some(lubricant),
+            ContactLaw::Hertz | ContactLaw::PowerLaw(_) => self.service.lubricant.as_ref(),
+        }
+    }
+
     /// The dry contacts of a ball at the nominal contact angle.
     pub fn hertz(&self) -> HertzPair {
         let g = &self.geometry;

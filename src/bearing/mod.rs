@@ -18,7 +18,7 @@ mod row;
 mod waviness;
 
 pub use ball::{BallElement, BallLoad};
-pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Wave};
+pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Service, Wave};
 pub use element::BearingElement;
 pub use fit::{Fit, FitMaterials};
 pub use geometry::{BallGeometry, CharacteristicOrders};

@@ -39,5 +39,6 @@ pub fn rig_6205() -> BallBearing {
         inner_waviness: vec![],
         outer_waviness: vec![],
         cage_pocket_diameter: 8.1e-3,
+        service: Default::default(),
     }
 }

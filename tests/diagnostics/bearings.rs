@@ -113,6 +113,11 @@ cases! {
     fit_by_a_scale_of_temperature: changed("\"20 K\"", "\"20 degC\"");
     two_dampings: added("contact_damping = \"200 N s/m\"\nhunt_crossley = \"0.1 s/m\"");
     film_damping_without_film: refused(&GOOD.replace("contact = \"film\"\nlubricant = \"oil\"\nfit", "film_damping = 1\nfit"));
+    unknown_grade: changed("viscosity = \"0.04 Pa s\"\n", "grade = \"ISO VG 86\"\ntemperature = \"40 degC\"\n");
+    grade_too_hot: changed("viscosity = \"0.04 Pa s\"\n", "grade = \"ISO VG 68\"\ntemperature = \"400 degC\"\n");
+    grade_without_temperature: changed("viscosity = \"0.04 Pa s\"\n", "grade = \"ISO VG 68\"\n");
+    grade_and_viscosity: changed("viscosity = \"0.04 Pa s\"\n", "viscosity = \"0.04 Pa s\"\ngrade = \"ISO VG 68\"\ntemperature = \"40 degC\"\n");
+    more_than_clean: added("contamination = 2\nreliability = 0.5");
     several_at_once: refused(&GOOD.replace("lubricant = \"oil\"\nfit", "lubricant = \"oyl\"\nfit").replace("\"150 N\"", "\"150\"").replace("outer_race_control", "jones"));
     moment_on_a_ball_joint: refused("[model]\nname = \"pole\"\n[material.steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n[shaft]\nelement_length = \"50 mm\"\nsection = [{ length = \"400 mm\", outer_diameter = \"30 mm\" }]\n[station]\nA = \"200 mm\"\n[joint.A]\nbetween = [\"A\", \"ground\"]\nkind = \"spherical\"\n[load.tilt]\nat = \"A\"\nmoment = \"10, 0, 0 N m\"\n");
 }

@@ -44,6 +44,7 @@ fn bearing(contact: ContactLaw, preload: Preload) -> BallElement {
         inner_waviness: vec![],
         outer_waviness: vec![],
         cage_pocket_diameter: 9.7e-3,
+        service: Default::default(),
     })
 }
 

@@ -55,6 +55,7 @@ fn bearing([stiffness, exponent, offset]: [f64; 3]) -> BallElement {
         inner_waviness: vec![],
         outer_waviness: vec![],
         cage_pocket_diameter: 17.2e-3,
+        service: Default::default(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Model files: what they say arrives in the model.
 
 mod bearing_file;
+mod bearing_keys;
 mod catalogue;
 mod files;
 mod papers;

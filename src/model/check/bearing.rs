@@ -116,6 +116,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     let bearing = BallBearing {
         ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
         ring_material: part("ring_material").unwrap_or(steel),
+        service: contact::service(r, lubricants),
         contact: contact::law(r, lubricants),
         damping: contact::damping(r),
         inertia: r.choice("ball_inertia", &INERTIAS).unwrap_or_default(),

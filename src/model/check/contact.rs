@@ -1,11 +1,12 @@
 //! Lubricants, and how a bearing's contacts carry load and dissipate.
 
+use crate::bearing::Service;
 use crate::contact::{ContactDamping, ContactLaw, Lubricant, PowerLaw};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
 use crate::units::{
-    self, DAMPING, DENSITY, FORCE, INVERSE_SPEED, LENGTH, NUMBER, PRESSURE_VISCOSITY, VISCOSITY,
+    self, DAMPING, DENSITY, FORCE, INVERSE_SPEED, LENGTH, NUMBER, PRESSURE_VISCOSITY, TEMPERATURE, VISCOSITY,
 };
 
 /// Density of a mineral oil where the file gives none \[kg/m³\].
@@ -16,11 +17,31 @@ const ROELANDS_VISCOSITY: f64 = 6.315e-5;
 /// `[lubricant.x]`: oils at their operating temperature.
 pub(super) fn lubricants(top: &Reader) -> Vec<Lubricant> {
     let read = |(name, r): (&str, Reader)| {
-        let oil = Lubricant {
-            name: name.into(),
-            viscosity: r.need("viscosity", positive(VISCOSITY)),
-            pressure_viscosity: r.need("pressure_viscosity", positive(PRESSURE_VISCOSITY)),
-            density: r.or("density", positive(DENSITY), OIL_DENSITY),
+        let oil = match r.one_of(&["grade", "viscosity"]) {
+            Some("grade") => {
+                let oil = grade(&r).unwrap_or_else(|| Lubricant {
+                    name: String::new(),
+                    viscosity: 1.0,
+                    pressure_viscosity: 1.0,
+                    density: 1.0,
+                });
+                Lubricant {
+                    name: name.into(),
+                    pressure_viscosity: r.or(
+                        "pressure_viscosity",
+                        positive(PRESSURE_VISCOSITY),
+                        oil.pressure_viscosity,
+                    ),
+                    density: r.or("density", positive(DENSITY), oil.density),
+                    ..oil
+                }
+            }
+            _ => Lubricant {
+                name: name.into(),
+                viscosity: r.need("viscosity", positive(VISCOSITY)),
+                pressure_viscosity: r.need("pressure_viscosity", positive(PRESSURE_VISCOSITY)),
+                density: r.or("density", positive(DENSITY), OIL_DENSITY),
+            },
         };
         if oil.viscosity <= ROELANDS_VISCOSITY && r.sound() {
             let message = format!("{} is too thin for an oil", r.name("viscosity"));
@@ -31,6 +52,53 @@ pub(super) fn lubricants(top: &Reader) -> Vec<Lubricant> {
         oil
     };
     top.items("lubricant").into_iter().map(read).collect()
+}
+
+/// `grade = "ISO VG 68"` at `temperature`.
+fn grade(r: &Reader) -> Option<Lubricant> {
+    let temperature = r.need("temperature", positive(TEMPERATURE));
+    let [coldest, hottest] = Lubricant::GRADE_TEMPERATURES;
+    if r.sound() && !(coldest..=hottest).contains(&temperature) {
+        let message = format!("{} is outside what is known of the grades", r.name("temperature"));
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of("temperature"), message);
+        let celsius = |kelvin: f64| kelvin - 273.15;
+        r.log.error(problem.expected(format!("{:.0} to {:.0} degC", celsius(coldest), celsius(hottest))));
+    }
+    let name = r.text("grade")?;
+    if !Lubricant::grades().any(|grade| grade == name) {
+        let message = format!("unknown grade `{name}`");
+        let problem = Problem::new(Kind::UnknownName, &r.span_of("grade"), message);
+        r.log.error(problem.suggest(name, Lubricant::grades()));
+    }
+    Lubricant::grade(name, temperature)
+}
+
+/// Whether the contact law is asked to be one with a film.
+fn has_film(r: &Reader) -> bool {
+    matches!(r.entry("contact").map(|e| &e.node.value), Some(Value::Text(word)) if word == "film")
+}
+
+/// Ratings, oil and cleanliness for the rating life; the oil of a bearing with a film is the film's.
+pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
+    let default = Service::default();
+    let rating = |key: &str| r.get(key, positive(FORCE));
+    let between = |key: &str, [low, high]: [f64; 2], default: f64| {
+        let value = r.or(key, not_negative(NUMBER), default);
+        if !(low..=high).contains(&value) {
+            let problem =
+                Problem::new(Kind::OutOfRange, &r.span_of(key), format!("{} is out of range", r.name(key)));
+            r.log.error(problem.expected(format!("from {low} to {high}")));
+        }
+        value
+    };
+    Service {
+        dynamic_rating: rating("dynamic_rating"),
+        static_rating: rating("static_rating"),
+        fatigue_limit: rating("fatigue_limit"),
+        lubricant: if has_film(r) || !r.has("lubricant") { None } else { lubricant(r, lubricants) },
+        contamination: between("contamination", [0.0, 1.0], default.contamination),
+        reliability: between("reliability", [0.9, 0.999], default.reliability),
+    }
 }
 
 /// The oil that the key `lubricant` names; without the key, the only oil of the file.
@@ -85,7 +153,7 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
     let word = r.choice("contact", &words);
     let law = word.unwrap_or(Law::Hertz);
     if r.has("contact") && word.is_none() {
-        ["lubricant", "speed_factor", "power_law"].iter().for_each(|key| _ = r.entry(key));
+        ["speed_factor", "power_law"].iter().for_each(|key| _ = r.entry(key));
         return ContactLaw::Hertz;
     }
     let without = |key: &str, needed: &str| {
@@ -99,7 +167,6 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
     }
     if law != Law::Film {
         without("speed_factor", "film");
-        without("lubricant", "film");
     }
     match law {
         Law::Hertz => ContactLaw::Hertz,
@@ -206,7 +273,7 @@ pub(super) fn damping(r: &Reader) -> ContactDamping {
             ContactDamping::HuntCrossley { factor: r.need("hunt_crossley", not_negative(INVERSE_SPEED)) }
         }
         Some("film_damping") => {
-            if r.text("contact") != Some("film") {
+            if !has_film(r) {
                 let message = format!("{} says nothing without a film", r.name("film_damping"));
                 r.error(Kind::Conflict, "film_damping", message);
             }
