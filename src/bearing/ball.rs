@@ -90,6 +90,11 @@ impl BallElement {
         self.nominal_cos
     }
 
+    /// Whether the force at given displacement and velocity changes with speed: film, balls' inertia, ring growth.
+    pub fn depends_on_speed(&self) -> bool {
+        self.rows.iter().any(|(_, row)| row.depends_on_speed())
+    }
+
     /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset, and the axial force that results.
     pub fn preload_state(&self, speed: f64) -> PreloadState {
         let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };

@@ -51,6 +51,14 @@ impl BearingElement {
         }
     }
 
+    /// Whether its force at given displacement and velocity changes with speed.
+    pub fn depends_on_speed(&self) -> bool {
+        match self {
+            Self::Linear(linear) => linear.depends_on_speed(),
+            Self::Ball(ball) => ball.depends_on_speed(),
+        }
+    }
+
     /// Number of balls of a row; 0 for a bearing without balls.
     pub fn balls(&self) -> usize {
         match self {

@@ -24,6 +24,7 @@ impl From<&Reaction> for SiteTangent {
 /// A linear bearing made ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct LinearElement {
+    constant: bool,
     /// Entries that are not zero at every speed: row, column, curve over speed.
     stiffness: Vec<(usize, usize, Pchip)>,
     damping: Vec<(usize, usize, Pchip)>,
@@ -48,9 +49,15 @@ impl LinearElement {
             out
         };
         Self {
+            constant: speeds.len() < 2,
             stiffness: curves(&|k, a, b| bearing.table[k].stiffness[a][b]),
             damping: curves(&|k, a, b| bearing.table[k].damping[a][b]),
         }
+    }
+
+    /// Whether stiffness or damping is tabulated over speed.
+    pub fn depends_on_speed(&self) -> bool {
+        !self.constant
     }
 
     /// Stiffness K and damping C at a speed Ω \[rad/s\], order u_x u_y u_z θ_x θ_y θ_z.

@@ -123,6 +123,12 @@ impl Row {
         self.spacing.len()
     }
 
+    /// Whether the force at given displacement and velocity changes with speed.
+    pub fn depends_on_speed(&self) -> bool {
+        let dry = |contacts| matches!(contacts, SpeedContacts::Hertz(_) | SpeedContacts::Power { .. });
+        !dry(self.contacts.at_speed(1.0)) || self.growing.is_some() || self.inertia.is_some()
+    }
+
     /// What holds for all balls: `turning` is the cage speed that counts as motion of the contacts.
     ///
     /// The balls' inertia takes the cage's speed, or where none is given (statics) the shaft's times the ratio at the

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::system::{State, System};
+use crate::bearing::{Reaction, Rotation};
 
 /// Running energy account \[J\]: kinetic + strain + contact = start + work − losses, up to the integrator's error.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -15,7 +16,7 @@ pub struct Energy {
     pub contact: f64,
     /// Work of loads, unbalance, angular acceleration and circulatory terms since the start.
     pub work: f64,
-    /// Work of turning cages and passing waves since the start.
+    /// Work of turning cages, passing waves and changing speed on the bearings since the start.
     pub parametric: f64,
     /// Loss in linear damping since the start.
     pub damping_loss: f64,
@@ -51,6 +52,7 @@ pub struct EnergyLedger {
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
+    rotations: Vec<Rotation>,
     time: f64,
 }
 
@@ -67,6 +69,7 @@ impl EnergyLedger {
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(state),
+            rotations: state.rotations.clone(),
             time: state.time,
         };
         effective_load(system, state, &mut ledger.scratch, &mut ledger.previous_load);
@@ -93,8 +96,10 @@ impl EnergyLedger {
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
+        e.parametric += by_speed(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
         self.powers = now;
+        self.rotations.copy_from_slice(&state.rotations);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
         self.time = state.time;
@@ -118,8 +123,28 @@ impl EnergyLedger {
 }
 
 fn powers(state: &State) -> [f64; 2] {
-    let sum = |pick: fn(&crate::bearing::Reaction) -> f64| state.reactions.iter().map(pick).sum();
+    let sum = |pick: fn(&Reaction) -> f64| state.reactions.iter().map(pick).sum();
     [sum(|r| r.parametric_power), sum(|r| r.dissipated_power)]
+}
+
+/// Energy that bearings took in by their speed's change alone since `before` \[J\]: film, balls' inertia, preload and
+/// clearance change with it.
+fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
+    let mut sum = 0.0;
+    for ((interface, reaction), (now, before)) in
+        system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))
+    {
+        let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
+        if before != *now && interface.element.depends_on_speed() {
+            let (mut d, mut rate) = ([0.0; 6], [0.0; 6]);
+            let rows = interface.first_row..interface.first_row + interface.rows;
+            d[..interface.rows].copy_from_slice(&state.d[rows.clone()]);
+            rate[..interface.rows].copy_from_slice(&state.d_rate[rows]);
+            let slower = interface.element.reaction(&d, &rate, &before);
+            sum += reaction.elastic_energy - slower.elastic_energy;
+        }
+    }
+    sum
 }
 
 /// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.

@@ -182,8 +182,8 @@ fn rotating_load_and_cage_rotates_the_answer() {
         let other = element.reaction(&turn(d), &turn(v), &turned);
         let expected = turn(plain.force);
         let size = plain.force.iter().enumerate().fold(0.0, |m: f64, (k, f)| m.max(f.abs() / lever(k)));
-        for k in 0..6 {
-            assert!((expected[k] - other.force[k]).abs() < 1e-9 * size * lever(k), "{name}");
+        for (k, (a, b)) in expected.into_iter().zip(other.force).enumerate() {
+            assert!((a - b).abs() < 1e-9 * size * lever(k), "{name}");
         }
         // Averaged over the cage, a turn of the load alone does it, but for the harmonics that 12 angles miss.
         let plain = turn(element.cage_average(&d, &rotation, 12).force);

@@ -127,3 +127,17 @@ fn cage_follows_the_kinematics_of_outer_race_control() {
     let ratio = element.cage_ratio(element.reaction(&[0.0; 6], &[0.0; 6], &rotation).mean_cos);
     assert!((ratio - expected).abs() < 1e-12, "{ratio} {expected}");
 }
+
+#[test]
+fn what_changes_with_speed_says_so() {
+    assert!(!BallElement::new(&angular()).depends_on_speed());
+    for bearing in [
+        BallBearing { contact: film(), ..angular() },
+        BallBearing { inertia: BallInertia::Shared, ..angular() },
+    ] {
+        let element = BallElement::new(&bearing);
+        let energy = |speed| element.reaction(&[0.0, 0.0, 20e-6, 0.0, 0.0, 0.0], &[0.0; 6], &at_speed(speed));
+        assert!(element.depends_on_speed());
+        assert!(energy(500.0).elastic_energy != energy(1500.0).elastic_energy);
+    }
+}

@@ -5,5 +5,6 @@ mod rig;
 
 mod attractor;
 mod hammer;
+mod high_speed;
 mod run_up;
 mod torque;

@@ -1,0 +1,76 @@
+//! A fast run-up on preloaded balls with inertia: it runs, and its energy account closes.
+
+use rotordyn::model::{Options, load};
+use rotordyn::study::Machine;
+use std::ops::ControlFlow;
+
+const ROTOR: &str = r#"
+[model]
+name = "spindle"
+[material.steel]
+young = "207 GPa"
+poisson = 0.3
+density = "7850 kg/m^3"
+[shaft]
+element_length = "40 mm"
+section = [{ length = "400 mm", outer_diameter = "25 mm" }]
+[station]
+A = "20 mm"
+disc = "200 mm"
+B = "380 mm"
+[disc.main]
+station = "disc"
+outer_diameter = "120 mm"
+thickness = "10 mm"
+material = "steel"
+[bearing.A]
+station = "A"
+model = "ball"
+designation = "7205C"
+thrust = "+z"
+INERTIA
+preload = { interference = "3 um" }
+[bearing.B]
+station = "B"
+model = "ball"
+designation = "7205C"
+thrust = "-z"
+INERTIA
+preload = { interference = "3 um" }
+[unbalance.disc]
+station = "disc"
+magnitude = "5 g mm"
+[damping.modal]
+frequency = "100 Hz"
+ratio = 0.01
+[drive]
+kind = "prescribed"
+station = "A"
+[speed]
+profile = "ramp"
+from = "0 rpm"
+ramp = "0.3 s"
+to = "12000 rpm"
+[probe.disc_y]
+at = "disc.main"
+direction = "y"
+[study.run_up]
+step = "20 us"
+sample_rate = "5 kHz"
+cutoff = "2500 Hz"
+"#;
+
+#[test]
+fn a_run_up_on_balls_with_inertia_keeps_its_energy_account() {
+    let text = ROTOR.replace("INERTIA", "ball_inertia = \"outer_race_control\"");
+    let model =
+        load("spindle.toml", &text, &Options::default()).map_err(|e| format!("{e:?}")).expect("sound").model;
+    let machine = Machine::new(model).expect("stands");
+    let study = machine.model.studies.run_up.clone().expect("asked for");
+    let reduction = machine.reduce(&study).expect("modes");
+    let report = machine.run_up(&study, &reduction, |_| ControlFlow::Continue(()));
+    let energy = report.energy;
+    // The balls' inertia alone puts a tenth of the turnover into the contacts on the way up.
+    assert!(energy.residual().abs() < 5e-3 * energy.turnover(), "{energy:?}: {} left", energy.residual());
+    assert!(energy.contact > energy.start);
+}
