@@ -3,7 +3,9 @@
 use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
 use rotordyn::model::{self, Model};
-use rotordyn::study::Machine;
+use rotordyn::study::{Machine, Recorder};
+use rotordyn::transient::run::End;
+use std::ops::ControlFlow;
 
 /// Solid cylinder of 4.8 kg, 0.55 m long and 40 mm thick, with its centre 0.25 m along the axis.
 const ROTOR: &str = r#"
@@ -120,4 +122,80 @@ fn by_its_inertia() {
     let rotor = model.rigid_rotor.unwrap();
     assert_eq!([rotor.mass, rotor.polar_inertia, rotor.diametral_inertia], INERTIA);
     assert_eq!((model.node_z, rotor.node), (vec![0.0], 0));
+}
+
+/// Unbalance U at the centre of a rotor midway between equal springs, run at a steady speed until its start is forgotten:
+/// r = U Ω²/(2 k − m Ω² + 2 j c Ω), to what the step leaves of its order.
+#[test]
+fn whirl_under_unbalance() {
+    let text = r#"
+[model]
+name = "whirl"
+gravity = "0 m/s^2"
+[rotor]
+length = "0.55 m"
+outer_diameter = "40 mm"
+mass = "4.8 kg"
+centre = "0 m"
+[station]
+A = "-0.2 m"
+C = "0 m"
+B = "0.2 m"
+[bearing.A]
+model = "linear"
+station = "A"
+k_xx = "1e6 N/m"
+k_yy = "1e6 N/m"
+k_zz = "1e6 N/m"
+c_xx = "300 N s/m"
+c_yy = "300 N s/m"
+[bearing.B]
+model = "linear"
+station = "B"
+k_xx = "1e6 N/m"
+k_yy = "1e6 N/m"
+c_xx = "300 N s/m"
+c_yy = "300 N s/m"
+[unbalance.u]
+station = "C"
+magnitude = "100 g mm"
+[drive]
+kind = "prescribed"
+station = "A"
+[speed]
+profile = "constant"
+speed = "500 rad/s"
+duration = "1 s"
+[probe.x]
+at = "rotor"
+direction = "x"
+[study.run_up]
+step = "20 us"
+sample_rate = "2 kHz"
+[study.unbalance]
+speeds = "500 rad/s"
+"#;
+    let machine = Machine::new(model::load("whirl.toml", text, &Default::default()).unwrap().model).unwrap();
+    let (mass, speed) = (INERTIA[0], 500.0_f64);
+    let (real, imaginary) = (2e6 - mass * speed * speed, 600.0 * speed);
+    let expected = 1e-4 * speed * speed / real.hypot(imaginary);
+
+    let linear = machine.unbalance(machine.model.studies.unbalance.as_ref().unwrap()).unwrap();
+    let [re, im] = linear.channels[0].amplitude[0];
+    assert!((re.hypot(im) / expected - 1.0).abs() < 1e-10);
+
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        recorder.take(sample);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    let history = recorder.history;
+    let x = &history.channels.iter().find(|c| c.name == "x").unwrap().values;
+    let late = &x[x.len() * 3 / 4..];
+    // 20 turns: the RMS does not care where they start.
+    let rms = (late.iter().map(|v| v * v).sum::<f64>() / late.len() as f64).sqrt();
+    assert!((rms * 2.0_f64.sqrt() / expected - 1.0).abs() < 2e-3, "{rms} {expected}");
 }
