@@ -3,6 +3,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use rotordyn::analysis::bearing_stiffness::{BearingSolver, Condition};
+use rotordyn::analysis::equilibrium::CageTreatment;
 use rotordyn::bearing::{BallBearing, BallElement, BallInertia, Rotation};
 
 #[path = "../tests/common/bearing.rs"]
@@ -38,5 +40,21 @@ fn reaction(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, reaction);
+/// 20 loads by 20 cage angles of one ball pitch: equilibrium and 5x5 stiffness of each.
+fn stiffness_map(c: &mut Criterion) {
+    let solver = BearingSolver::new("6205", &bearing::rig_6205());
+    let at = |angle: usize, load: usize| Condition {
+        load: [0.0, -100.0 * (load + 1) as f64, 20.0 * (load + 1) as f64, 0.2, 0.0],
+        held: [None; 5],
+        speed: 0.0,
+        cage: CageTreatment::AsPlaced,
+        cage_angle: std::f64::consts::TAU / 9.0 * angle as f64 / 20.0,
+    };
+    let rows: Vec<Vec<Condition>> = (0..20).map(|a| (0..20).map(|l| at(a, l)).collect()).collect();
+    c.bench_function("stiffness_map_400_points", |b| {
+        b.iter(|| solver.map(black_box(&rows)).map(|m| m.len()))
+    });
+}
+
+criterion_group!(benches, reaction, stiffness_map);
 criterion_main!(benches);

@@ -43,6 +43,11 @@ pub enum PhysicsError {
     ClockStandsStill { speed_rpm: f64 },
     #[error("no steady motion at any value: {reason}")]
     NoMotion { reason: String },
+    #[error(
+        "bearing {bearing} has no equilibrium under F = ({:.4}, {:.4}, {:.4}) N, M = ({:.4}, {:.4}) N m at {speed_rpm:.1} rpm: residual {residual:.3e} N after {iterations} iterations",
+        load[0], load[1], load[2], load[3], load[4]
+    )]
+    NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
 }

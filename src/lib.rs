@@ -70,7 +70,7 @@
 //! let speeds = (0..5).map(|k| TAU * 5.0 * k as f64).collect();
 //! let orders = vec![1.0];
 //! let campbell =
-//!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, follow_bearings: false })?;
+//!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, follow_bearings: true })?;
 //! assert_eq!(campbell.diagram.branches.len(), 4);
 //!
 //! // The nonlinear run-up: linear parts reduced to their modes, one Hertz contact per ball, every sample seen.

@@ -1,5 +1,11 @@
 //! What the studies of a model give: plain data, as computed, in SI.
 
+mod bearing;
+
+pub use bearing::{
+    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
+};
+
 use crate::analysis::Mode;
 use crate::analysis::campbell::Campbell;
 use crate::analysis::critical_speed::CriticalSpeed;
@@ -30,6 +36,7 @@ pub struct Results {
     pub poincare: Option<PoincareResult>,
     pub lyapunov: Option<LyapunovResult>,
     pub bifurcation: Option<BifurcationResult>,
+    pub bearings: Vec<BearingResult>,
     /// What the user should know, once each.
     pub warnings: Vec<String>,
 }
@@ -88,6 +95,13 @@ impl FrfResult {
             Quantity::Velocity => "mobility",
             Quantity::Acceleration => "accelerance",
         }
+    }
+}
+
+impl FrfResult {
+    /// Whether an excitation moves a response at any frequency; what it cannot reach has no curve and no peak.
+    pub fn moves(&self, response: usize, excitation: usize) -> bool {
+        self.frf.values[response][excitation].iter().any(|h| h.norm_sqr() > 0.0)
     }
 }
 

@@ -248,7 +248,7 @@ fn full_pattern(assembly: &Assembly) -> SparseMatrix {
 }
 
 fn max_abs(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |m, x| if x.is_nan() { f64::NAN } else { f64::max(m, x.abs()) })
+    v.iter().fold(0.0, |m: f64, x| if x.is_nan() || m.is_nan() { f64::NAN } else { m.max(x.abs()) })
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -3,6 +3,7 @@
 //! | module | answers |
 //! |---|---|
 //! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangents |
+//! | [`bearing_stiffness`] | equilibrium and stiffness of one bearing alone under any load |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | the same over speed, tracked by MAC |
 //! | [`critical_speed`] | speeds where a mode meets an order line |
@@ -10,6 +11,7 @@
 //! | [`frf`] | frequency response functions at a fixed speed |
 //! | [`unbalance`] | steady response to unbalance over speed |
 
+pub mod bearing_stiffness;
 pub mod campbell;
 pub mod critical_speed;
 pub mod equilibrium;

@@ -177,7 +177,7 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
     }
 }
 
-/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing_A u_x"; a rigid rotor does not
+/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing A, u_x"; a rigid rotor does not
 /// bend, and its modes are "1st rigid-body forward" and so on.
 ///
 /// Bending modes come in pairs: a forward (or x) mode counts the forward ones below it, a mixed one half of all.
@@ -210,7 +210,9 @@ fn body_name(assembly: &Assembly, energy: &Energy) -> String {
     let all = energy.bodies.iter().enumerate().flat_map(|(b, e)| (0..6).map(move |d| (b, d, e[d])));
     let (body, dof, _) = all.max_by(|a, b| a.2.total_cmp(&b.2)).unwrap_or_default();
     let name = &assembly.dofs.node_names[assembly.dofs.shaft_nodes + body];
-    format!("{name} {}", crate::assembly::dofs::DOF_NAMES[dof])
+    // A housing goes by the name of its bearing.
+    let housing = if assembly.sites.iter().any(|site| site.name == *name) { "housing " } else { "" };
+    format!("{housing}{name}, {}", crate::assembly::dofs::DOF_NAMES[dof])
 }
 
 /// 1st, 2nd, 3rd, 4th ...

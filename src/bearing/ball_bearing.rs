@@ -69,6 +69,12 @@ impl BallBearing {
         }
     }
 
+    /// Whether forces at a given displacement change with the shaft's speed: film, ball inertia, growing ring.
+    pub fn depends_on_speed(&self) -> bool {
+        let dry = matches!(self.contact, ContactLaw::Hertz | ContactLaw::PowerLaw(_));
+        !dry || self.inertia != BallInertia::None || self.fit.speed_growth
+    }
+
     /// The dry contacts of a ball at the nominal contact angle.
     pub fn hertz(&self) -> HertzPair {
         let g = &self.geometry;

@@ -19,6 +19,7 @@ Examples:
   rotordyn run-up my_machine.toml --set bearing.B.radial_clearance=\"20 um\"
   rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
   rotordyn spectrogram out/overhung_rig --channels B_ax        of a run-up that is on disk
+  rotordyn bearing models/overhung_rig.toml --bearing A        loads, contacts, stiffness of one bearing
   rotordyn catalogue 6205
 
 Units are written in values: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A number without its unit is an error.
@@ -151,6 +152,38 @@ pub struct StoredArgs {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+}
+
+/// Which bearings, under what.
+#[derive(Args, Clone, Debug)]
+pub struct BearingArgs {
+    #[command(flatten)]
+    pub study: StudyArgs,
+    /// Names of bearings, separated by commas [default: every ball bearing]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub bearing: Vec<String>,
+    /// Load of the shaft on the bearing F_x, F_y, F_z, such as "0, -500, 100 N"
+    #[arg(long, value_name = "FORCES", allow_hyphen_values = true)]
+    pub load: Option<String>,
+    /// Moments M_x, M_y, such as "0, 4 N m"
+    #[arg(long, value_name = "MOMENTS", allow_hyphen_values = true)]
+    pub moment: Option<String>,
+    /// Shaft speed, such as "3000 rpm" [default: the highest of the speed profile]
+    #[arg(long, value_name = "SPEED")]
+    pub speed: Option<String>,
+    /// Motions held at the centred place, such as z,theta_x,theta_y
+    #[arg(long, value_name = "MOTIONS", value_delimiter = ',')]
+    pub hold: Vec<String>,
+    /// What to vary: load, displacement, speed or cage_angle, with its range or one of its own, such as
+    /// load="0 N .. 2 kN" or speed; can be repeated
+    #[arg(long, value_name = "NAME[=RANGE]")]
+    pub sweep: Vec<String>,
+    /// What loads and displacements go along: load (all components in proportion), x, y, z, theta_x, theta_y
+    #[arg(long, value_name = "MOTION")]
+    pub along: Option<String>,
+    /// Average over the cage's position instead of the cage angle of the model
+    #[arg(long)]
+    pub averaged: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -341,6 +374,24 @@ Examples:
   rotordyn orders out/overhung_rig
   rotordyn orders out/overhung_rig --resolution 0.02 --orders 7,\"2 BPFO\"")]
     Orders(StoredArgs),
+
+    /// Ball bearings one by one: loads, contacts, stiffness, film, frequencies, life
+    ///
+    /// Takes a machine, or a file that holds bearings alone. The operating load is that of the machine's equilibrium
+    /// unless one is given; a bearing alone gets a tenth of its dynamic load rating. Prints ball loads, contact
+    /// angles, pressures, film, the 5x5 stiffness and the characteristic frequencies; sweeps load, cage angle and, where
+    /// it matters, speed unless told otherwise. Settings come from [study.bearing]; flags override them.
+    #[command(after_long_help = "\
+Loads are those of the shaft on the bearing. Motions are x, y, z (along the shaft), theta_x, theta_y. With a given \
+load the tilts are held unless a moment is given; in a machine the shaft holds tilts and axial place in the sweeps.
+
+Examples:
+  rotordyn bearing models/overhung_rig.toml
+  rotordyn bearing models/overhung_rig.toml --bearing A --load \"0, -500, 100 N\" --speed \"3000 rpm\"
+  rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --averaged
+  rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --hold x,y,theta_x,theta_y
+  rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
+    Bearing(Box<BearingArgs>),
 
     /// Compare variants of one machine: frequencies side by side, FRFs overlaid
     ///

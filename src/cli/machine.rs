@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::bearing::Bearing;
+use rotordyn::bearing::{BallBearing, Bearing};
 use rotordyn::edge::parry::BearingShapes;
-use rotordyn::model::{self, Diagnostic, Kind, Loaded, ModelErrors, Options};
+use rotordyn::model::{self, Diagnostic, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source};
 
 use super::args::ModelArgs;
 use super::failure::Failure;
@@ -36,7 +36,21 @@ impl Origin {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
         let loaded = model::load(&self.name, &self.text, &options)?;
-        overlaps(&loaded)?;
+        let balls = loaded.model.bearings.iter().filter_map(|site| match &site.bearing {
+            Bearing::Ball(ball) => Some((site.name.as_str(), ball)),
+            Bearing::Linear(_) => None,
+        });
+        overlaps(balls, &loaded.text, &loaded.sources)?;
+        Ok(loaded)
+    }
+
+    /// The checked ball bearings of a machine or of a file of bearings alone, with settings laid over.
+    pub fn load_bearings(&self, settings: &[(String, String)]) -> Result<LoadedBearings, Failure> {
+        let mut options = self.options.clone();
+        options.set.extend_from_slice(settings);
+        let loaded = model::load_bearings(&self.name, &self.text, &options)?;
+        let balls = loaded.bearings.iter().map(|(name, ball)| (name.as_str(), ball));
+        overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
     }
 
@@ -63,10 +77,13 @@ impl Origin {
 }
 
 /// Balls, pockets and rings of every ball bearing must not share space.
-fn overlaps(loaded: &Loaded) -> Result<(), ModelErrors> {
+fn overlaps<'a>(
+    bearings: impl Iterator<Item = (&'a str, &'a BallBearing)>,
+    text: &str,
+    sources: &[Source],
+) -> Result<(), ModelErrors> {
     let mut diagnostics = Vec::new();
-    for site in &loaded.model.bearings {
-        let Bearing::Ball(ball) = &site.bearing else { continue };
+    for (name, ball) in bearings {
         let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
         let found = shapes.overlaps(&shapes.centred(ball.cage_angle), ELASTIC * ball.geometry.ball_diameter);
         let Some(worst) = found.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)) else { continue };
@@ -77,14 +94,14 @@ fn overlaps(loaded: &Loaded) -> Result<(), ModelErrors> {
         diagnostics.push(Diagnostic {
             kind: Kind::Geometry,
             source: 0,
-            span: loaded.place_of(&["bearing", &site.name]),
-            message: format!("bearing.{}: {worst}{more}", site.name),
+            span: model::place_of(text, &["bearing", name]),
+            message: format!("bearing.{name}: {worst}{more}"),
             expected: None,
             hint: Some("check ball and pitch diameter, osculation, clearance, pocket, bore and width".into()),
         });
     }
     match diagnostics.is_empty() {
         true => Ok(()),
-        false => Err(ModelErrors { sources: loaded.sources.clone(), diagnostics }),
+        false => Err(ModelErrors { sources: sources.to_vec(), diagnostics }),
     }
 }

@@ -1,6 +1,8 @@
 //! The command line: arguments in, studies done, tables and files out, exit codes.
 
 mod args;
+mod bearing;
+mod bearing_tables;
 mod catalogue;
 mod check;
 mod compare;
@@ -104,6 +106,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         }),
         Command::Spectrogram(args) => stored::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored::run(args, terminal, Study::Orders),
+        Command::Bearing(args) => bearing::run(args, terminal),
         Command::Compare { study, variants, speed, modes } => {
             compare::run(study, variants, speed.as_ref(), *modes, terminal)
         }
@@ -145,7 +148,7 @@ fn studies_of(
     }
     let machine = Machine::new(loaded.model.clone())?;
     let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
-    let store = store::open(&folder, &loaded, &origin, study.is_none(), terminal)?;
+    let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);

@@ -1,8 +1,10 @@
 //! What flags and missing sections of the file lay over the model: every setting is a path and a value, as `--set`.
 
 use rotordyn::model::Model;
+use rotordyn::model::study::Swept;
 
-use super::args::StoredArgs;
+use super::args::{BearingArgs, StoredArgs};
+use super::failure::Failure;
 
 /// Settings of one study, and what to tell the user about them.
 #[derive(Clone, Debug, Default)]
@@ -125,6 +127,41 @@ pub fn run_up(
     draft.flag("sample_rate", sample_rate.map(quoted));
     let words = "generalised-alpha, steps of 100 us, samples at 2 kHz unless told otherwise";
     draft.defaults(model.studies.run_up.is_none(), words, &[("step", quoted("100 us"))])
+}
+
+/// Points of a sweep whose range is given in a flag.
+const POINTS: usize = 41;
+
+/// Settings of `study.bearing`; for files without it the study has defaults of its own.
+///
+/// # Errors
+/// A sweep that is neither a name nor a name with a range.
+pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
+    let mut draft = Draft::new("bearing");
+    draft.flag("bearings", list(&args.bearing));
+    draft.flag("load", args.load.as_ref().map(quoted));
+    draft.flag("moment", args.moment.as_ref().map(quoted));
+    draft.flag("speed", args.speed.as_ref().map(quoted));
+    draft.flag("hold", list(&args.hold));
+    draft.flag("along", args.along.as_ref().map(quoted));
+    draft.flag("cage_average", args.averaged.then(|| "true".into()));
+    let mut plain = Vec::new();
+    for text in &args.sweep {
+        let Some((name, range)) = text.split_once('=') else {
+            plain.push(text.clone());
+            continue;
+        };
+        let known = Swept::ALL.iter().find(|(of, _)| of.name() == name.trim());
+        let (Some((_, key)), Some((from, to))) = (known, range.split_once("..")) else {
+            let message = format!(
+                "--sweep {text}: expected load, displacement, speed or cage_angle with a range, such as load=\"0 N .. 2 kN\""
+            );
+            return Err(Failure::Input(message));
+        };
+        draft.flag(key, Some(sweep(from.trim(), to.trim(), POINTS)));
+    }
+    draft.flag("sweep", list(&plain));
+    Ok(draft.settings)
 }
 
 pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {

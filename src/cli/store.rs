@@ -13,10 +13,24 @@ use super::terminal::Terminal;
 /// Name of the results file in its folder.
 pub const FILE: &str = "results.h5";
 
+/// What a results file is of.
+#[derive(Clone, Copy)]
+pub struct Text<'a> {
+    /// Text of the model file.
+    pub model: &'a str,
+    pub title: &'a str,
+}
+
+impl<'a> From<&'a Loaded> for Text<'a> {
+    fn from(loaded: &'a Loaded) -> Self {
+        Self { model: &loaded.text, title: &loaded.model.title }
+    }
+}
+
 /// Opens the folder's results file; one of another version of the model is kept aside.
 pub fn open(
     folder: &Path,
-    loaded: &Loaded,
+    text: Text,
     origin: &Origin,
     anew: bool,
     terminal: &Terminal,
@@ -25,7 +39,7 @@ pub fn open(
     if path.exists() && !anew {
         let stored = Store::append(&path)?;
         let same = stored_origin(&stored)
-            .is_ok_and(|other| other.text == loaded.text.as_bytes() && other.options == origin.options);
+            .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
         if same {
             return Ok(stored);
         }
@@ -42,8 +56,8 @@ pub fn open(
     let set = &origin.options.set;
     let settings: Vec<String> = set.iter().map(|(path, value)| format!("{path} = {value}")).collect();
     let meta = Meta {
-        model: &loaded.text,
-        title: &loaded.model.title,
+        model: text.model,
+        title: text.title,
         variant: origin.options.variant.as_deref().unwrap_or_default(),
         settings: &settings,
     };

@@ -14,7 +14,7 @@ use rotordyn::transient::run::End;
 
 use super::failure::Failure;
 use super::terminal::{Terminal, rpm};
-use super::{interrupt, tables};
+use super::{bearing_tables, interrupt, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,10 +28,11 @@ pub enum Study {
     RunUp,
     Spectrogram,
     Orders,
+    Bearing,
 }
 
 impl Study {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Static,
         Self::Modal,
         Self::Campbell,
@@ -41,6 +42,7 @@ impl Study {
         Self::RunUp,
         Self::Spectrogram,
         Self::Orders,
+        Self::Bearing,
     ];
 
     /// Name of the command that does it.
@@ -55,6 +57,7 @@ impl Study {
             Self::RunUp => "run-up",
             Self::Spectrogram => "spectrogram",
             Self::Orders => "orders",
+            Self::Bearing => "bearing",
         }
     }
 
@@ -70,6 +73,7 @@ impl Study {
             Self::RunUp => studies.run_up.is_some(),
             Self::Spectrogram => studies.spectrogram.is_some(),
             Self::Orders => studies.orders.is_some(),
+            Self::Bearing => studies.bearing.is_some(),
         }
     }
 }
@@ -186,6 +190,15 @@ impl<'a> Job<'a> {
                     spinner.finish_and_clear();
                     tables::orders(terminal, &found);
                     self.results.orders = found;
+                }
+            }
+            Study::Bearing => {
+                if let Some(settings) = &asked.bearing {
+                    let found = machine.bearings(settings)?;
+                    spinner.finish_and_clear();
+                    found.iter().for_each(|found| bearing_tables::bearing(terminal, found));
+                    self.results.warnings.extend(found.iter().flat_map(|b| b.warnings.clone()));
+                    self.results.bearings = found;
                 }
             }
         }

@@ -182,7 +182,7 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
     let frequencies = &found.frf.frequencies;
     let mut rows = Vec::new();
     for (r, response) in found.responses.iter().enumerate() {
-        for (e, excitation) in found.excitations.iter().enumerate() {
+        for (e, excitation) in found.excitations.iter().enumerate().filter(|(e, _)| found.moves(r, *e)) {
             let size = |k: &usize| found.frf.values[r][e][*k].norm();
             let Some(peak) = (0..frequencies.len()).max_by(|a, b| size(a).total_cmp(&size(b))) else {
                 continue;

@@ -17,6 +17,7 @@
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
+//! | `bearings` | per ball bearing on its own {name, load_from, nominal_orders, operating, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | sentences |
 
 use serde_json::{Map, Value, json};
@@ -25,8 +26,9 @@ use crate::analysis::Mode;
 use crate::analysis::critical_speed::CriticalSpeed;
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
-    CampbellResult, FrfResult, HistoryChannel, ModalResult, OrderResult, Results, RunUpResult,
-    SpectrogramResult, UnbalanceResult, is_rotation, unit_of,
+    BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
+    HistoryChannel, ModalResult, OrderResult, Results, RunUpResult, SpectrogramResult, UnbalanceResult,
+    is_rotation, unit_of,
 };
 use crate::study::Machine;
 use crate::transient::run::End;
@@ -79,8 +81,61 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
     if !results.orders.is_empty() {
         put("orders", results.orders.iter().map(orders).collect());
     }
+    if !results.bearings.is_empty() {
+        put("bearings", results.bearings.iter().map(bearing).collect());
+    }
     put("warnings", results.warnings.clone().into());
     Value::Object(out)
+}
+
+/// Ball bearings on their own as a document of the same form, where there is no machine.
+pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
+    json!({
+        "schema": "rotordyn-results-1", "program": "rotordyn", "version": env!("CARGO_PKG_VERSION"),
+        "model": name, "title": title, "warnings": results.warnings,
+        "bearings": results.bearings.iter().map(bearing).collect::<Value>(),
+    })
+}
+
+fn bearing(found: &BearingResult) -> Value {
+    let o = &found.nominal_orders;
+    let sweep = |s: &BearingSweepResult| {
+        json!({
+            "of": s.of.name(), "label": s.label, "unit": s.unit, "values": s.values,
+            "points": s.points.iter().map(point).collect::<Value>(),
+        })
+    };
+    json!({
+        "name": found.name,
+        "load_from": found.load_from,
+        "held": found.held,
+        "rating": {
+            "dynamic": found.rating.dynamic, "static": found.rating.stationary, "fatigue": found.rating.fatigue,
+        },
+        "preload": { "offset": found.preload.offset, "axial_force": found.preload.axial_force },
+        "nominal_orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
+        "operating": point(&found.point),
+        "sweeps": found.sweeps.iter().map(sweep).collect::<Value>(),
+        "warnings": found.warnings,
+    })
+}
+
+fn point(p: &BearingPoint) -> Value {
+    let contact = |c: &ContactState| -> Value {
+        let values =
+            ContactState::COLUMNS.iter().map(|(name, _, value)| ((*name).to_string(), json!(value(c))));
+        Value::Object(values.collect())
+    };
+    let ball = |b: &BallState| json!({ "row": b.row, "position": b.position, "inner": contact(&b.inner), "outer": contact(&b.outer) });
+    let mut out = json!({
+        "load": p.state.load, "displacement": p.state.displacement, "stiffness": p.state.stiffness,
+        "balls": p.balls.iter().map(ball).collect::<Value>(),
+    });
+    // What a standard does not give is left out.
+    for (name, _, value) in BearingPoint::COLUMNS.iter().filter(|(_, _, value)| !value(p).is_nan()) {
+        out[*name] = json!(value(p));
+    }
+    out
 }
 
 fn equilibrium(found: &Equilibrium, machine: &Machine) -> Value {

@@ -34,17 +34,22 @@ impl Loaded {
     /// Where the file states an item, such as `["bearing", "B"]`: in the model itself, else in a variant; the start of
     /// the file when it is nowhere (set by `--set`).
     pub fn place_of(&self, path: &[&str]) -> Range<usize> {
-        let root = Table::parse(&self.text, 0).unwrap_or_default();
-        let variants = match root.get("variant").map(|e| &e.node.value) {
-            Some(Value::Table(variants)) => variants.entries.as_slice(),
-            _ => &[],
-        };
-        let tables = variants.iter().filter_map(|e| match &e.node.value {
-            Value::Table(table) => Some(table),
-            _ => None,
-        });
-        std::iter::once(&root).chain(tables).find_map(|table| place_in(table, path)).unwrap_or(0..0)
+        place_of(&self.text, path)
     }
+}
+
+/// Where the text of a model file states an item, as [`Loaded::place_of`].
+pub fn place_of(text: &str, path: &[&str]) -> Range<usize> {
+    let root = Table::parse(text, 0).unwrap_or_default();
+    let variants = match root.get("variant").map(|e| &e.node.value) {
+        Some(Value::Table(variants)) => variants.entries.as_slice(),
+        _ => &[],
+    };
+    let tables = variants.iter().filter_map(|e| match &e.node.value {
+        Value::Table(table) => Some(table),
+        _ => None,
+    });
+    std::iter::once(&root).chain(tables).find_map(|table| place_in(table, path)).unwrap_or(0..0)
 }
 
 fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {

@@ -9,7 +9,7 @@ pub mod study;
 
 pub use check::catalogue;
 pub use file::{Diagnostic, Kind, ModelErrors, Source};
-pub use load::{Loaded, LoadedBearings, Options, load, load_bearings, variants};
+pub use load::{Loaded, LoadedBearings, Options, load, load_bearings, place_of, variants};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;

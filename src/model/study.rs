@@ -20,6 +20,7 @@ pub struct Studies {
     pub poincare: Option<PoincareStudy>,
     pub lyapunov: Option<LyapunovStudy>,
     pub bifurcation: Option<BifurcationStudy>,
+    pub bearing: Option<BearingStudy>,
 }
 
 /// Static equilibrium.
@@ -48,7 +49,7 @@ pub struct CampbellStudy {
     pub modes: usize,
     /// Order lines to draw, and to intersect for critical speeds.
     pub orders: Vec<f64>,
-    /// Recompute the equilibrium and bearing stiffness at every speed instead of once.
+    /// Take ball bearings at every speed, with their film and ball inertia there, instead of at standstill.
     pub follow_bearings: bool,
 }
 
@@ -147,3 +148,97 @@ pub struct OrderStudy {
     /// Orders whose level is cut out against rpm.
     pub cuts: Vec<f64>,
 }
+
+/// Ball bearings each on its own: loads, contacts, stiffness, film and life, at an operating point and in sweeps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingStudy {
+    /// Names of the bearings; empty means every ball bearing of the file.
+    pub bearings: Vec<String>,
+    /// Load of the shaft on the bearing F_x F_y F_z \[N\]; `None`: what it carries in the machine's equilibrium,
+    /// or a tenth of its dynamic load rating where the file is no machine.
+    pub force: Option<[f64; 3]>,
+    /// M_x M_y \[N m\].
+    pub moment: Option<[f64; 2]>,
+    /// Motions u_x u_y u_z θ_x θ_y held where the bearing is centred and aligned; `None`: with a given force the
+    /// tilts unless a moment is given, and u_z of a preloaded single row unless an axial force is given.
+    pub held: Option<[bool; 5]>,
+    /// Speed of the operating point \[rad/s\]; `None`: the highest of the speed profile.
+    pub speed: Option<f64>,
+    /// Average over one ball pitch of cage angles instead of the cage angle in the model.
+    pub cage_average: bool,
+    /// Composite roughness of ball and race √(R_q1² + R_q2²) \[m\], for the film ratio λ.
+    pub roughness: f64,
+    /// What the sweeps of load and of displacement go along.
+    pub along: Along,
+    /// The sweeps; with none given those of load, of speed where it matters, and of cage angle, over ranges of their
+    /// own.
+    pub sweeps: Vec<BearingSweep>,
+}
+
+impl Default for BearingStudy {
+    fn default() -> Self {
+        Self {
+            bearings: Vec::new(),
+            force: None,
+            moment: None,
+            held: None,
+            speed: None,
+            cage_average: false,
+            // ground races of a bearing of normal precision, balls far smoother
+            roughness: 0.1e-6,
+            along: Along::default(),
+            sweeps: Vec::new(),
+        }
+    }
+}
+
+/// One sweep of a bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingSweep {
+    pub of: Swept,
+    /// Loads \[N, N m\], displacements \[m, rad\], speeds \[rad/s\] or cage angles \[rad\], increasing; empty means a
+    /// range that suits the bearing.
+    pub values: Vec<f64>,
+}
+
+/// What a sweep varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Swept {
+    Load,
+    Displacement,
+    Speed,
+    CageAngle,
+}
+
+impl Swept {
+    /// Every kind, with the key of its values in the model file.
+    pub const ALL: [(Self, &'static str); 4] = [
+        (Self::Load, "loads"),
+        (Self::Displacement, "displacements"),
+        (Self::Speed, "speeds"),
+        (Self::CageAngle, "cage_angles"),
+    ];
+
+    /// Name in results and figures.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Displacement => "displacement",
+            Self::Speed => "speed",
+            Self::CageAngle => "cage_angle",
+        }
+    }
+}
+
+/// Direction of a sweep of load or displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Along {
+    /// Along the operating load, all its components in proportion; a displacement along its largest force.
+    #[default]
+    Load,
+    /// One component of u_x u_y u_z θ_x θ_y, the others as at the operating point.
+    Axis(usize),
+}
+
+/// Names of a bearing's five motions.
+pub const MOTIONS: [&str; 5] = ["x", "y", "z", "theta_x", "theta_y"];

@@ -1,11 +1,13 @@
 //! The studies: from a model to its results, one method each.
 
 mod attractor;
+mod bearing;
 mod bifurcation;
 mod record;
 mod tracking;
 
 pub use attractor::{CarriedState, Progress};
+pub use bearing::bearings_alone;
 pub use bifurcation::bifurcation;
 pub use record::Recorder;
 
@@ -63,13 +65,15 @@ impl Machine {
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.base.q))
     }
 
-    /// Bearing tangents at a speed: ball bearings about the equilibrium at standstill, or with `follow` about
-    /// the equilibrium at that speed; linear bearings by their tables.
+    /// Bearing tangents at a speed: with `follow` about the equilibrium at that speed, film and ball inertia
+    /// included; else ball bearings as at standstill and linear bearings by their tables.
+    ///
+    /// Where nothing changes with speed the equilibrium at standstill serves for all.
     ///
     /// # Errors
     /// No equilibrium at that speed.
     pub fn tangents(&self, speed: f64, follow: bool) -> Result<Vec<SiteTangent>, Error> {
-        if follow {
+        if follow && speed != 0.0 && self.bearings_follow_speed() {
             let found =
                 equilibrium(&self.model, &self.assembly, speed, CageTreatment::Averaged, Some(&self.base.q))?;
             return Ok(found.tangents());
@@ -81,12 +85,24 @@ impl Machine {
         Ok(self.bearings.iter().zip(self.base.tangents()).map(tangent).collect())
     }
 
-    /// The linear equations at a speed.
+    /// Whether the ball bearings' tangents change with speed: by themselves, or because a linear bearing beside
+    /// them changes and shifts the load.
+    fn bearings_follow_speed(&self) -> bool {
+        let sites = &self.model.bearings;
+        let any_ball = sites.iter().any(|site| matches!(site.bearing, Bearing::Ball(_)));
+        any_ball
+            && sites.iter().any(|site| match &site.bearing {
+                Bearing::Ball(ball) => ball.depends_on_speed(),
+                Bearing::Linear(linear) => linear.table.len() > 1,
+            })
+    }
+
+    /// The linear equations about the equilibrium at a speed.
     ///
     /// # Errors
     /// As [`LinearSystem::new`].
     pub fn linear_system(&self, speed: f64) -> Result<LinearSystem, Error> {
-        LinearSystem::new(&self.assembly, &self.tangents(speed, false)?, speed)
+        LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
     /// Damped modes at every speed asked for.
@@ -122,7 +138,7 @@ impl Machine {
         const MODES: usize = 12;
         let speeds: Vec<f64> =
             (0..SPEEDS).map(|k| study.max_speed * k as f64 / (SPEEDS - 1) as f64).collect();
-        let tangents = |speed| self.tangents(speed, false);
+        let tangents = |speed| self.tangents(speed, true);
         let diagram: Campbell = campbell::campbell(&self.assembly, &speeds, MODES, &tangents)?;
         let mut speeds = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
         // The crossing at standstill of a motion at 0 Hz is none.
@@ -163,7 +179,7 @@ impl Machine {
     /// # Errors
     /// A singular dynamic stiffness.
     pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, Error> {
-        let tangents = |speed| self.tangents(speed, false);
+        let tangents = |speed| self.tangents(speed, true);
         let response = unbalance::response(&self.assembly, &study.speeds, &tangents)?;
         let plain = |values: Vec<Complex64>| values.iter().map(|v| [v.re, v.im]).collect();
         let channels = study

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "check",
     "static",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 13] = [
     "run-up",
     "spectrogram",
     "orders",
+    "bearing",
     "compare",
     "export",
 ];

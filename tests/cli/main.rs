@@ -1,5 +1,6 @@
 //! The command as users meet it: every model, every command, exit codes, Ctrl-C, JSON.
 
+mod bearings;
 mod commands;
 mod failures;
 mod runs;

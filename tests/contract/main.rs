@@ -9,6 +9,7 @@ mod lubricated;
 mod ball_bearing;
 mod ball_combinations;
 mod ball_inertia;
+mod bearing_solver;
 mod contact_laws;
 mod ehl_table;
 mod linear_bearing;

@@ -122,3 +122,20 @@ with h5py.File(sys.argv[1], "r") as file:
     same(orders["cuts/rms"], [cut["rms"] for cut in cuts])
     assert texts(orders["cuts/label"]) == [cut["label"] for cut in cuts]
     same(orders["cuts/rms"].dims[1][0], cuts[0]["speed_rpm"])
+
+    bearing, group = want["bearings"][0], file["bearings/B"]
+    assert group.attrs["load_from"] == bearing["load_from"] and group.attrs["bpfo"] == bearing["nominal_orders"]["bpfo"]
+    singles = ("load", "displacement", "stiffness", "radial_stiffness", "largest_pressure", "bpfo")
+    for name in singles:
+        same(group["operating"][name], bearing["operating"][name])
+    for sweep in bearing["sweeps"]:
+        over = group["over_" + sweep["of"]]
+        same(over["over"], sweep["values"])
+        assert over["over"].attrs["unit"] == sweep["unit"]
+        for name in singles:
+            same(over[name], [point[name] for point in sweep["points"]])
+            assert over[name].dims[0][0] == over["over"]
+        for race in ("inner", "outer"):
+            for name in ("load", "contact_angle", "pressure", "film"):
+                balls = [[ball[race][name] for ball in point["balls"]] for point in sweep["points"]]
+                same(over["balls"][race][name], balls)

@@ -56,6 +56,7 @@ fn a_stored_run_comes_back_and_studies_are_replaced() {
     assert_eq!(&read_history(&Store::open(&path).unwrap()).unwrap(), history);
     let groups = Store::open(&path).unwrap().members("/").unwrap();
     let expected = [
+        "bearings",
         "campbell",
         "channels",
         "critical_speeds",

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
+use rotordyn::model::study::BearingStudy;
 use rotordyn::results::{Results, RunUpResult};
 use rotordyn::study::{Machine, Recorder};
 
@@ -38,6 +39,9 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
         critical: Some(machine.critical(&ask.critical.unwrap()).unwrap()),
         frf: Some(machine.frf(&ask.frf.unwrap()).unwrap()),
         unbalance: Some(machine.unbalance(&ask.unbalance.unwrap()).unwrap()),
+        bearings: machine
+            .bearings(&BearingStudy { bearings: vec!["B".into()], ..Default::default() })
+            .unwrap(),
         spectrograms: machine.spectrograms(&ask.spectrogram.unwrap(), &history).unwrap(),
         orders: machine.orders(&ask.orders.unwrap(), &history).unwrap(),
         run_up: Some(RunUpResult {

@@ -6,5 +6,6 @@ mod lubricated;
 mod machine;
 
 mod ehl;
+mod follow_speed;
 mod linear;
 mod planes;

@@ -171,6 +171,27 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
         }),
         lines(&x, &y, &name, false),
         lines(&x, &y, &name, true),
+        Figure::Grid(Grid {
+            title: name.clone(),
+            note: name.clone(),
+            x_name: labelled("load"),
+            x_unit: labelled("N"),
+            legend: vec![name.clone(), labelled("other")],
+            columns: 3,
+            mark: x.get(1).copied(),
+            panels: (0..4)
+                .map(|k| GridPanel {
+                    name: name.clone(),
+                    unit: labelled("N/m"),
+                    curves: vec![
+                        Curve { label: name.clone(), x: x.clone(), y: y.clone(), points: k == 3 },
+                        Curve { x: y.clone(), y: x.clone(), ..Default::default() },
+                    ],
+                    from_zero: k == 1,
+                    log_y: k == 2,
+                })
+                .collect(),
+        }),
         Figure::Rig(Rig {
             title: name.clone(),
             sections: vec![RigSection {

@@ -33,7 +33,9 @@ fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
         for (variant, found) in &with {
             let e = found.excitations.iter().position(|n| n == excitation);
             let r = found.responses.iter().position(|n| n == response);
-            if let (Some(e), Some(r)) = (e, r) {
+            if let (Some(e), Some(r)) = (e, r)
+                && found.moves(r, e)
+            {
                 (unit, name) = (&found.units[r][e], found.name());
                 curves.push(frf_curve(found, r, e, variant));
             }

@@ -10,8 +10,11 @@
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | the run-up over time |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | frequency over speed, linear Campbell lines laid over |
 //! | `orders_<channel>`, `order_cuts_<channel>` | orders over speed |
+//! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | a bearing on its own at its operating point |
+//! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
 //! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
 
+mod bearing;
 mod comparison;
 mod display;
 mod machine;
@@ -25,7 +28,7 @@ use rayon::prelude::*;
 
 use super::plot::{self, Figure};
 use crate::error::Error;
-use crate::results::Results;
+use crate::results::{BearingResult, Results};
 use crate::study::Machine;
 
 /// Frequency in Hz or speed in rpm of an angular one.
@@ -51,7 +54,20 @@ pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<P
     let campbell = results.campbell.as_ref();
     figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
     figures.extend(results.orders.iter().flat_map(|found| run::orders(found, machine)));
+    figures.extend(bearings(&results.bearings, &machine.model.title));
     write_all(&figures, folder)
+}
+
+/// Draws every figure of ball bearings on their own; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_bearings(found: &[BearingResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
+}
+
+fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
+    found.iter().flat_map(|found| bearing::figures(found, title))
 }
 
 /// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.

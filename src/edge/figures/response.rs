@@ -21,13 +21,18 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
         units.sort();
         units.dedup();
         for unit in units {
-            let rows = (0..found.responses.len()).filter(|&r| found.units[r][e] == *unit);
+            let rows =
+                (0..found.responses.len()).filter(|&r| found.units[r][e] == *unit && found.moves(r, e));
+            let curves: Vec<FrfCurve> = rows.map(|r| frf_curve(found, r, e, &found.responses[r])).collect();
+            if curves.is_empty() {
+                continue;
+            }
             let figure = Frf {
                 title: format!("Response to a force at {excitation}"),
                 note: format!("{}, {:.0} rpm", machine.model.title, found.speed * TO_RPM),
                 quantity: found.name().into(),
                 unit: pretty(unit),
-                curves: rows.map(|r| frf_curve(found, r, e, &found.responses[r])).collect(),
+                curves,
             };
             let rotation = if unit.starts_with("rad") || unit.starts_with("(rad") { "_rotation" } else { "" };
             figures.push((format!("frf_{excitation}{rotation}"), Figure::Frf(figure)));

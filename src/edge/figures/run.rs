@@ -147,7 +147,7 @@ pub fn orders(found: &OrderResult, machine: &Machine) -> Vec<Named> {
             curves: curves.collect(),
             log_x: false,
             log_y: true,
-            from_zero: false,
+            ..Lines::default()
         };
         figures.push((format!("order_cuts_{}", found.channel), Figure::Lines(figure)));
     }

@@ -31,6 +31,8 @@ pub struct Lines {
     pub log_y: bool,
     /// The y axis starts at zero (amplitudes, RMS).
     pub from_zero: bool,
+    /// Ends of a linear x axis; those of the data unless given.
+    pub x_range: Option<[f64; 2]>,
 }
 
 pub fn draw(data: &Lines) -> Svg {
@@ -54,7 +56,8 @@ pub fn draw(data: &Lines) -> Svg {
     let x = if data.log_x {
         Scale::log(Range::positive(xs()), frame.across(), 60.0)
     } else {
-        Scale::linear(Range::of(xs()).near_zero(), frame.across(), 80.0)
+        let range = data.x_range.map_or_else(|| Range::of(xs()).near_zero(), |[lo, hi]| Range::new(lo, hi));
+        Scale::linear(range, frame.across(), 80.0)
     };
     let y = if data.log_y {
         Scale::log(Range::positive(ys()).log_padded(0.04), frame.up(), 26.0)

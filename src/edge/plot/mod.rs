@@ -24,6 +24,7 @@ mod bode;
 mod campbell;
 mod deflection;
 mod frf;
+mod grid;
 mod history;
 mod lines;
 mod mode_shape;
@@ -46,6 +47,7 @@ pub use bode::{Bode, BodeCurve};
 pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
 pub use deflection::{Deflection, Mark};
 pub use frf::{Frf, FrfCurve};
+pub use grid::{Grid, GridPanel};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
@@ -75,6 +77,7 @@ pub enum Figure {
     Deflection(Deflection),
     History(History),
     Lines(Lines),
+    Grid(Grid),
     Rig(Rig),
 }
 
@@ -95,6 +98,7 @@ impl Figure {
             Figure::Deflection(data) => deflection::draw(data),
             Figure::History(data) => history::draw(data),
             Figure::Lines(data) => lines::draw(data),
+            Figure::Grid(data) => grid::draw(data),
             Figure::Rig(data) => rig::draw(data),
         }
         .finish()

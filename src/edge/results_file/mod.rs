@@ -10,6 +10,7 @@
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |
 //! | `/frf` | response \[response, excitation, frequency\] (complex) |
 //! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit |
+//! | `/bearings/<bearing>` | a ball bearing on its own: `operating` point and `over_<sweep>` with its axis as dimension scale |
 //! | `/time`, `/channels` | the run-up, streamed while it goes on |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy account |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
@@ -17,6 +18,7 @@
 //! Every data set has an attribute `unit`. What does not exist (a mode that was lost, one fewer at a speed) is
 //! NaN, or an empty text. Writing a study again replaces what was there of it.
 
+mod bearing;
 mod linear;
 mod run;
 
@@ -87,11 +89,26 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     }
     results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, found))?;
     results.orders.iter().try_for_each(|found| run::orders(store, found))?;
-    if !results.warnings.is_empty() {
-        let place = Place::new(store, "/warnings")?;
-        place.texts("text", &[results.warnings.len()], &results.warnings)?;
-    }
+    bearing::write(store, &results.bearings)?;
+    write_warnings(store, &results.warnings)?;
     store.flush()
+}
+
+/// Writes ball bearings on their own, where there is no machine; replaces what was there of them.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_bearings(store: &Store, results: &Results) -> Result<(), Error> {
+    bearing::write(store, &results.bearings)?;
+    write_warnings(store, &results.warnings)?;
+    store.flush()
+}
+
+fn write_warnings(store: &Store, warnings: &[String]) -> Result<(), Error> {
+    if warnings.is_empty() {
+        return Ok(());
+    }
+    Place::new(store, "/warnings")?.texts("text", &[warnings.len()], warnings)
 }
 
 /// The channels of a history as a stream writes them.

@@ -1,6 +1,7 @@
 //! From the tree of a model file to the checked [`Model`] in SI units, with all problems at once.
 
 mod bearing;
+mod bearing_study;
 pub mod catalogue;
 mod connections;
 mod contact;
@@ -89,7 +90,7 @@ pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(S
     let (name, title, _) = head(&top);
     let materials = materials(&top);
     let bearings = bearing::read_alone(&top, &materials, &contact::lubricants(&top));
-    let studies = study::read_for_bearings(&top);
+    let studies = study::read_for_bearings(&top, &bearings);
     top.finish();
     (name, title, bearings, studies)
 }

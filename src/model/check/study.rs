@@ -1,5 +1,6 @@
 //! The studies a file asks for, with their defaults.
 
+use super::bearing_study;
 use super::loading::{QUANTITIES, aim, increasing};
 use super::places::Places;
 use super::steady;
@@ -8,8 +9,8 @@ use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, not_negative, positive};
 use crate::model::file::tree::{Node, Value};
 use crate::model::study::{
-    CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, Integrator, ModalStudy, OrderStudy,
-    RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+    BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, Integrator,
+    ModalStudy, OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
 };
 use crate::model::{Model, Probe, Quantity};
 use crate::units::{FREQUENCY, LENGTH, NUMBER, SPEED, TIME};
@@ -34,7 +35,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
             speeds: speeds(&r),
             modes: r.count("modes", MODES, 1..=10_000),
             orders: orders(&r, "orders", model, &[1.0]),
-            follow_bearings: r.flag("follow_bearings", false),
+            follow_bearings: r.flag("follow_bearings", true),
         });
         r.finish();
     }
@@ -73,15 +74,29 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         r.finish();
     }
     steady::read(&all, model, &mut studies);
+    let sites = model.bearings.iter().map(|site| (&site.name, &site.bearing));
+    studies.bearing = bearing(&all, sites);
     all.finish();
     studies
 }
 
 /// The studies of a file of bearings alone.
-pub(super) fn read_for_bearings(top: &Reader) -> Studies {
+pub(super) fn read_for_bearings(top: &Reader, bearings: &[(String, Bearing)]) -> Studies {
     let all = top.table_or_empty("study");
+    let bearing = bearing(&all, bearings.iter().map(|(name, bearing)| (name, bearing)));
     all.finish();
-    Studies::default()
+    Studies { bearing, ..Studies::default() }
+}
+
+fn bearing<'a>(
+    all: &Reader,
+    bearings: impl Iterator<Item = (&'a String, &'a Bearing)>,
+) -> Option<BearingStudy> {
+    let r = all.table("bearing")?;
+    let balls = bearings.filter(|(_, bearing)| matches!(bearing, Bearing::Ball(_)));
+    let study = bearing_study::read(&r, &balls.map(|(name, _)| name.clone()).collect::<Vec<_>>());
+    r.finish();
+    Some(study)
 }
 
 fn needs_run_up(r: &Reader, studies: &Studies) {

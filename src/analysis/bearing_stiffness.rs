@@ -1,0 +1,272 @@
+//! Equilibrium and stiffness of one bearing alone: displacement under a load, or load under a displacement.
+
+use super::equilibrium::{CAGE_ANGLES, CageTreatment};
+use crate::bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
+use crate::error::PhysicsError;
+use crate::linalg::small::solve_in_place;
+use rayon::prelude::*;
+
+const MAX_ITERATIONS: usize = 100;
+const MAX_HALVINGS: usize = 80;
+/// Residual at the solution over the largest force.
+const TOLERANCE: f64 = 1e-13;
+/// Residual that still counts as equilibrium, where round-off or a law's corner keeps the last digits away.
+const ACCEPTED: f64 = 1e-8;
+
+/// What is asked of a bearing: of every motion of the inner ring (u_x u_y u_z θ_x θ_y) the load, or the
+/// displacement that is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; of no effect where a displacement is held.
+    pub load: [f64; 5],
+    /// Displacements of the inner ring relative to the outer one that are held \[m, rad\].
+    pub held: [Option<f64>; 5],
+    /// Shaft speed Ω \[rad/s\].
+    pub speed: f64,
+    pub cage: CageTreatment,
+    /// Angle of ball 0 \[rad\].
+    pub cage_angle: f64,
+}
+
+/// A bearing in equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingEquilibrium {
+    pub condition: Condition,
+    /// Displacement of the inner ring relative to the outer one \[m, rad\].
+    pub displacement: [f64; 5],
+    /// Load of the shaft on the bearing \[N, N m\]: the given one, and what held displacements take.
+    pub load: [f64; 5],
+    /// K = ∂load/∂displacement in the order x y z θ_x θ_y \[N/m, N, N m/rad\]. Source: Zhang 2016 eq. 14.
+    pub stiffness: [[f64; 5]; 5],
+    /// Load-weighted mean of cos α over the loaded balls.
+    pub mean_cos: f64,
+    pub iterations: usize,
+    /// Largest force left over \[N\], moments over the pitch radius.
+    pub residual: f64,
+}
+
+impl BearingEquilibrium {
+    /// Stiffness along a direction n with all motions across it held: nᵀ K n.
+    pub fn stiffness_held(&self, n: &[f64; 5]) -> f64 {
+        (0..5).map(|a| n[a] * (0..5).map(|b| self.stiffness[a][b] * n[b]).sum::<f64>()).sum()
+    }
+
+    /// Stiffness that a force along n meets while the motions across it that the condition leaves free give way,
+    /// 1 / (nᵀ K⁻¹ n) over them (static condensation); never above the held one, 0 where nothing resists.
+    ///
+    /// `radius`: length \[m\] by which rotations are scaled in the solve.
+    pub fn stiffness_free(&self, n: &[f64; 5], radius: f64) -> f64 {
+        let unit = [1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius];
+        let free: [bool; 5] = std::array::from_fn(|a| self.condition.held[a].is_none() || n[a] != 0.0);
+        let scaled = |a: usize, b: usize| unit[a] * self.stiffness[a][b] * unit[b];
+        let largest = (0..5).map(|a| scaled(a, a)).fold(0.0, f64::max);
+        if largest <= 0.0 {
+            return 0.0;
+        }
+        let direction: [f64; 5] = std::array::from_fn(|a| n[a] * unit[a]);
+        let mut x = direction;
+        let mut k = [0.0; 25];
+        for a in 0..5 {
+            for b in 0..5 {
+                k[5 * a + b] = if free[a] && free[b] { scaled(a, b) / largest } else { 0.0 };
+            }
+            // Motions that nothing resists give way without end and then show as a stiffness of nothing.
+            k[6 * a] += if free[a] { 1e-14 } else { 1.0 };
+        }
+        if !solve_in_place(&mut k, &mut x) {
+            return 0.0;
+        }
+        let compliance: f64 = direction.iter().zip(&x).map(|(n, x)| n * x).sum();
+        let stiffness = largest / compliance;
+        if stiffness > 1e-10 * largest { stiffness } else { 0.0 }
+    }
+}
+
+/// A ball bearing ready to be loaded.
+#[derive(Clone, Debug)]
+pub struct BearingSolver {
+    pub name: String,
+    pub element: BearingElement,
+    /// Length by which rotations are scaled: the pitch radius \[m\].
+    pub radius: f64,
+    /// Series stiffness of a ball's dry contacts, for a first guess of the stiffness \[N/m^1.5\].
+    contact_stiffness: f64,
+}
+
+/// A trial state, forces and stiffness with rotations scaled to lengths.
+struct Trial {
+    x: [f64; 5],
+    reaction: Reaction,
+    residual: [f64; 5],
+}
+
+impl BearingSolver {
+    /// Prepares a bearing.
+    pub fn new(name: &str, bearing: &BallBearing) -> Self {
+        Self {
+            name: name.into(),
+            element: BearingElement::new(&Bearing::Ball(bearing.clone())),
+            radius: 0.5 * bearing.geometry.pitch_diameter,
+            contact_stiffness: bearing.hertz().stiffness,
+        }
+    }
+
+    /// Force on the shaft with its tangents at a displacement, under a condition's speed and cage.
+    pub fn reaction(&self, condition: &Condition, d: &[f64; 5]) -> Reaction {
+        let d = [d[0], d[1], d[2], d[3], d[4], 0.0];
+        let rotation = rotation(condition);
+        match condition.cage {
+            CageTreatment::AsPlaced => self.element.reaction(&d, &[0.0; 6], &rotation),
+            CageTreatment::Averaged => self.element.cage_average(&d, &rotation, CAGE_ANGLES),
+        }
+    }
+
+    /// Every ball at an equilibrium, at the condition's cage angle.
+    pub fn balls(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
+        let d = &found.displacement;
+        self.element.ball_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
+    }
+
+    /// Finds the equilibrium by damped Newton, from `start` or from the centred bearing.
+    ///
+    /// load + f(d) = 0 in every motion that is not held. The contacts' energy is convex, so a Newton step
+    /// shortened until the force along it has clearly fallen always gets closer, through clearance and loss of
+    /// contact; where nothing carries yet a share of Hertz' stiffness under the load keeps the step finite.
+    ///
+    /// # Errors
+    /// [`PhysicsError::NoBearingEquilibrium`] with load, speed and residual.
+    pub fn solve(
+        &self,
+        condition: &Condition,
+        start: Option<&[f64; 5]>,
+    ) -> Result<BearingEquilibrium, PhysicsError> {
+        match (self.newton(condition, start.unwrap_or(&[0.0; 5])), start) {
+            (Err(_), Some(_)) => self.newton(condition, &[0.0; 5]),
+            (found, _) => found,
+        }
+    }
+
+    fn newton(&self, condition: &Condition, start: &[f64; 5]) -> Result<BearingEquilibrium, PhysicsError> {
+        let unit = [1.0, 1.0, 1.0, 1.0 / self.radius, 1.0 / self.radius];
+        let free = condition.held.map(|held| held.is_none());
+        let trial = |x: [f64; 5]| {
+            let d: [f64; 5] = std::array::from_fn(|a| unit[a] * x[a]);
+            let reaction = self.reaction(condition, &d);
+            let residual = std::array::from_fn(|a| match free[a] {
+                true => unit[a] * (condition.load[a] + reaction.force[a]),
+                false => 0.0,
+            });
+            Trial { x, reaction, residual }
+        };
+        let mut now = trial(std::array::from_fn(|a| condition.held[a].unwrap_or(start[a]) / unit[a]));
+        let scaled_load: [f64; 5] =
+            std::array::from_fn(|a| if free[a] { unit[a] * condition.load[a] } else { 0.0 });
+        let load_size = largest(&scaled_load);
+        // Largest force about: that of the load, or of the balls that hold each other.
+        let size_of = |t: &Trial| {
+            let force: [f64; 5] = std::array::from_fn(|a| unit[a] * t.reaction.force[a]);
+            load_size.max(largest(&force)).max(1e-9)
+        };
+        let hertz = (self.contact_stiffness.powi(2) * size_of(&now).max(1e-3)).cbrt();
+        let mut iterations = 0;
+        let mut stalled = 0;
+        while largest(&now.residual) > TOLERANCE * size_of(&now) && iterations < MAX_ITERATIONS && stalled < 3
+        {
+            iterations += 1;
+            let before = largest(&now.residual);
+            let shift = hertz * (1e-3 * (before / size_of(&now)).min(1.0) + 1e-12);
+            let mut k = [0.0; 25];
+            for a in 0..5 {
+                for b in 0..5 {
+                    k[5 * a + b] = match free[a] && free[b] {
+                        true => unit[a] * now.reaction.stiffness[a][b] * unit[b],
+                        false => 0.0,
+                    };
+                }
+                k[6 * a] += if free[a] { shift } else { 1.0 };
+            }
+            let mut step = now.residual;
+            if !solve_in_place(&mut k, &mut step) {
+                break;
+            }
+            let along = |r: &[f64; 5]| r.iter().zip(&step).map(|(r, s)| r * s).sum::<f64>();
+            let first = along(&now.residual);
+            // It vanishes or turns negative only by round-off, at the solution.
+            let at_solution = first <= 0.0 || first.is_nan();
+            let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
+            for halving in 0..MAX_HALVINGS {
+                let next = trial(std::array::from_fn(|a| now.x[a] + length * step[a]));
+                let force_along = along(&next.residual);
+                if force_along.abs() <= 0.9 * first.abs() || at_solution || halving + 1 == MAX_HALVINGS {
+                    let after = largest(&next.residual);
+                    let near = before <= ACCEPTED * size_of(&now);
+                    stalled = if near && after > 0.5 * before { stalled + 1 } else { 0 };
+                    // The last steps only stir the round-off: keep the better side.
+                    if !(near && after >= before) {
+                        now = next;
+                    }
+                    break;
+                }
+                if force_along > 0.0 {
+                    low = length;
+                } else {
+                    high = length;
+                }
+                length = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * length };
+            }
+        }
+        let residual = largest(&now.residual);
+        let lost = largest(&now.x) > 10.0 * self.radius;
+        if !(residual <= ACCEPTED * size_of(&now)) || lost {
+            return Err(PhysicsError::NoBearingEquilibrium {
+                bearing: self.name.clone(),
+                load: condition.load,
+                speed_rpm: condition.speed * 30.0 / std::f64::consts::PI,
+                residual,
+                iterations,
+            });
+        }
+        let reaction = now.reaction;
+        Ok(BearingEquilibrium {
+            condition: *condition,
+            displacement: std::array::from_fn(|a| unit[a] * now.x[a]),
+            load: std::array::from_fn(|a| if free[a] { condition.load[a] } else { -reaction.force[a] }),
+            stiffness: std::array::from_fn(|a| std::array::from_fn(|b| reaction.stiffness[a][b])),
+            mean_cos: reaction.mean_cos,
+            iterations,
+            residual,
+        })
+    }
+
+    /// Equilibria of a list of conditions, each started from the one before; ends at the first that has none.
+    pub fn sweep(&self, conditions: &[Condition]) -> (Vec<BearingEquilibrium>, Option<PhysicsError>) {
+        let mut found: Vec<BearingEquilibrium> = Vec::with_capacity(conditions.len());
+        for condition in conditions {
+            match self.solve(condition, found.last().map(|last| &last.displacement)) {
+                Ok(point) => found.push(point),
+                Err(error) => return (found, Some(error)),
+            }
+        }
+        (found, None)
+    }
+
+    /// Equilibria over a table of conditions, every row a sweep of its own; rows run in parallel.
+    ///
+    /// # Errors
+    /// The first condition (in the order of the table) without equilibrium.
+    pub fn map(&self, rows: &[Vec<Condition>]) -> Result<Vec<Vec<BearingEquilibrium>>, PhysicsError> {
+        let row = |conditions: &Vec<Condition>| match self.sweep(conditions) {
+            (found, None) => Ok(found),
+            (_, Some(error)) => Err(error),
+        };
+        rows.par_iter().map(row).collect::<Vec<_>>().into_iter().collect()
+    }
+}
+
+fn rotation(condition: &Condition) -> Rotation {
+    Rotation { cage_angle: condition.cage_angle, shaft_speed: condition.speed, ..Rotation::default() }
+}
+
+fn largest(v: &[f64; 5]) -> f64 {
+    v.iter().fold(0.0, |m: f64, x| if x.is_nan() || m.is_nan() { f64::NAN } else { m.max(x.abs()) })
+}

@@ -1,0 +1,226 @@
+//! Tables of a ball bearing on its own.
+
+use rotordyn::bearing::Preload;
+use rotordyn::bearing::life::hours;
+use rotordyn::model::study::{MOTIONS, Swept};
+use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
+
+use super::terminal::{Terminal, number, rpm, table};
+
+/// Rows shown of a sweep; all of it is in the file.
+const ROWS: usize = 6;
+
+pub fn bearing(terminal: &Terminal, found: &BearingResult) {
+    let point = &found.point;
+    let state = &point.state;
+    let held: Vec<&str> =
+        MOTIONS.iter().zip(found.held).filter(|(_, held)| *held).map(|(name, _)| *name).collect();
+    terminal.heading(&format!("Bearing {} at {:.0} rpm", found.name, rpm(state.condition.speed)));
+    terminal.say(&format!("  load of the shaft: {}", found.load_from));
+    if !held.is_empty() {
+        terminal.say(&format!("  held: {}", held.join(", ")));
+    }
+    let arm = 0.5 * found.bearing.geometry.pitch_diameter;
+    let size = |a: usize| if a > 2 { arm } else { 1.0 };
+    let largest = (0..5).map(|a| (state.load[a] / size(a)).abs()).fold(0.0, f64::max);
+    let rows: Vec<Vec<String>> = (0..5)
+        .map(|a| {
+            let (unit, factor) = if a > 2 { ("mrad", 1e3) } else { ("um", 1e6) };
+            let k = &state.stiffness;
+            let mut row = vec![
+                MOTIONS[a].to_string(),
+                number(clean(state.load[a], largest * size(a)), 4),
+                if a > 2 { "N m" } else { "N" }.to_string(),
+                format!("{:.3}", factor * state.displacement[a]),
+                unit.to_string(),
+            ];
+            row.extend((0..5).map(|b| number(clean(k[a][b], (k[a][a] * k[b][b]).abs().sqrt()), 4)));
+            row
+        })
+        .collect();
+    let header = ["motion", "load", "", "displacement", "", "K: x", "y", "z", "theta_x", "theta_y"];
+    terminal.say(table(&header, &rows).trim_end());
+    let [[radial, radial_held], [axial, axial_held]] = [point.radial_stiffness, point.axial_stiffness];
+    for (way, [free, all]) in [("radial", [radial, radial_held]), ("axial", [axial, axial_held])] {
+        terminal.say(&format!(
+            "  {way} stiffness {} N/m while what is not held gives way, {} N/m with all held",
+            number(free, 4),
+            number(all, 4)
+        ));
+    }
+    if found.bearing.preload != Preload::None {
+        terminal.say(&format!(
+            "  preload at this speed: {} N along the axis, rings {:.3} um from their nominal place",
+            number(found.preload.axial_force, 4),
+            1e6 * found.preload.offset
+        ));
+    }
+    balls(terminal, point);
+    frequencies(terminal, found);
+    life(terminal, found);
+    let matters = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
+    if !matters && !found.sweeps.iter().any(|s| s.of == Swept::Speed) {
+        terminal.say("\n  Dry balls without inertia carry the same at every speed: no sweep over it.");
+    }
+    for sweep in &found.sweeps {
+        sweep_table(terminal, found, sweep);
+    }
+}
+
+/// A value, or nothing where it is the round-off of larger ones.
+fn clean(value: f64, size: f64) -> f64 {
+    if value.abs() < 1e-9 * size { 0.0 } else { value }
+}
+
+fn balls(terminal: &Terminal, point: &BearingPoint) {
+    let filmed = point.least_film() > 0.0;
+    let rows: Vec<Vec<String>> = point
+        .balls
+        .iter()
+        .enumerate()
+        .filter(|(_, ball)| ball.outer.load > 0.0)
+        .map(|(j, ball)| {
+            let (i, o) = (&ball.inner, &ball.outer);
+            let per_row = point.balls.iter().filter(|other| other.row == 0).count().max(1);
+            let number_of = match point.balls.iter().any(|other| other.row > 0) {
+                true => format!("{}.{}", ball.row + 1, j % per_row + 1),
+                false => (j + 1).to_string(),
+            };
+            let mut row = vec![number_of, format!("{:.1}", ball.position.to_degrees())];
+            row.extend([i, o].map(|c| number(c.load, 4)));
+            row.extend([i, o].map(|c| format!("{:.2}", c.angle.to_degrees())));
+            row.extend([i, o].map(|c| format!("{:.3}", 1e-9 * c.pressure)));
+            row.extend([i, o].map(|c| format!("{:.0} x {:.0}", 1e6 * c.semi_major, 1e6 * c.semi_minor)));
+            if filmed {
+                row.extend([i, o].map(|c| format!("{:.3}", 1e6 * c.film)));
+            }
+            row
+        })
+        .collect();
+    if rows.is_empty() {
+        return;
+    }
+    let mut header = vec![
+        "ball",
+        "at deg",
+        "Q_i N",
+        "Q_o N",
+        "a_i deg",
+        "a_o deg",
+        "p_i GPa",
+        "p_o GPa",
+        "ellipse_i um",
+        "ellipse_o um",
+    ];
+    if filmed {
+        header.extend(["h_i um", "h_o um"]);
+    }
+    let title = format!("Loaded balls ({} of {}), semi-axes of the contacts", rows.len(), point.balls.len());
+    terminal.table(&title, &header, &rows);
+    if filmed {
+        terminal.say(&format!(
+            "  smallest film {:.3} um, film ratio lambda {:.2}",
+            1e6 * point.least_film(),
+            point.film_ratio
+        ));
+    }
+}
+
+fn frequencies(terminal: &Terminal, found: &BearingResult) {
+    let turns = found.point.state.condition.speed / std::f64::consts::TAU;
+    let (nominal, loaded) = (&found.nominal_orders, &found.point.orders);
+    let rows: Vec<Vec<String>> = [
+        ("FTF, cage", nominal.ftf, loaded.ftf),
+        ("BPFO, outer race", nominal.bpfo, loaded.bpfo),
+        ("BPFI, inner race", nominal.bpfi, loaded.bpfi),
+        ("BSF, ball spin", nominal.bsf, loaded.bsf),
+    ]
+    .iter()
+    .map(|(name, nominal, loaded)| {
+        let mut row = vec![(*name).to_string()];
+        row.extend([nominal, loaded].map(|order| format!("{order:.4}")));
+        row.extend([nominal, loaded].map(|order| format!("{:.3}", order * turns)));
+        row
+    })
+    .collect();
+    let header = ["", "order, nominal", "order, loaded", "Hz, nominal", "Hz, loaded"];
+    terminal.table("Frequencies at the nominal and at the loaded contact angle", &header, &rows);
+}
+
+fn life(terminal: &Terminal, found: &BearingResult) {
+    let (life, speed) = (&found.point.life, found.point.state.condition.speed);
+    let service = &found.bearing.service;
+    let modified = format!("modified L_nmr at {} % (a_ISO)", number(100.0 * service.reliability, 3));
+    let rows: Vec<Vec<String>> = [
+        ("basic L_10 (ISO 281)", life.basic),
+        ("reference L_10r (ISO/TS 16281)", life.reference),
+        (modified.as_str(), life.modified),
+    ]
+    .iter()
+    .filter(|(_, life)| life.is_finite())
+    .map(|(name, life)| {
+        let time = if speed == 0.0 { "-".into() } else { number(hours(*life, speed), 4) };
+        vec![(*name).to_string(), number(*life, 4), time]
+    })
+    .collect();
+    if rows.is_empty() {
+        return;
+    }
+    terminal.table("Rating life", &["", "10^6 revolutions", "hours"], &rows);
+    let r = &found.rating;
+    let [c, c0, cu] = [r.dynamic, r.stationary, r.fatigue].map(|f| number(f, 4));
+    let source = if service.dynamic_rating.is_some() { "as given" } else { "by the internal geometry" };
+    let mut line = format!("  C {c} N ({source}), C_0 {c0} N, C_u {cu} N");
+    if life.equivalent_load.is_finite() {
+        line += &format!(", P {} N", number(life.equivalent_load, 4));
+    }
+    if life.viscosity_ratio.is_finite() {
+        line += &format!(", kappa {:.2}", life.viscosity_ratio);
+    }
+    terminal.say(&line);
+}
+
+fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepResult) {
+    let n = sweep.points.len();
+    if n == 0 {
+        return;
+    }
+    let (name, unit, factor) = match (sweep.of, sweep.unit) {
+        (Swept::Speed, _) => ("speed".to_string(), "rpm", 60.0 / std::f64::consts::TAU),
+        (Swept::CageAngle, _) => ("cage angle".to_string(), "deg", 1f64.to_degrees()),
+        (_, "m") => (sweep.label.clone(), "um", 1e6),
+        (_, "rad") => (sweep.label.clone(), "mrad", 1e3),
+        (_, unit) => (sweep.label.clone(), unit, 1.0),
+    };
+    let shown = ROWS.min(n);
+    let rows: Vec<Vec<String>> = (0..shown)
+        .map(|k| if shown > 1 { k * (n - 1) / (shown - 1) } else { 0 })
+        .map(|k| {
+            let (value, p) = (sweep.values[k], &sweep.points[k]);
+            let d = &p.state.displacement;
+            let mut row = vec![number(factor * value, 4)];
+            row.extend(d[..3].iter().map(|d| format!("{:.2}", 1e6 * d)));
+            row.push(number(p.radial_stiffness[0], 4));
+            row.push(number(p.axial_stiffness[0], 4));
+            row.extend((3..5).map(|a| number(p.state.stiffness[a][a], 4)));
+            row.push(number(p.largest_load(), 4));
+            row.push(format!("{:.3}", 1e-9 * p.largest_pressure()));
+            row.push(p.loaded().to_string());
+            row
+        })
+        .collect();
+    let header = [
+        unit,
+        "u_x um",
+        "u_y um",
+        "u_z um",
+        "k_radial",
+        "k_axial",
+        "k_tilt,x",
+        "k_tilt,y",
+        "Q_max N",
+        "p_max GPa",
+        "loaded",
+    ];
+    terminal.table(&format!("Bearing {} over {name}, {n} points", found.name), &header, &rows);
+}

@@ -1,0 +1,258 @@
+//! Ball bearings on their own: ball loads, contact angles, and everything over load, speed and cage angle.
+
+use super::display::unit;
+use super::{Named, TO_RPM};
+use crate::edge::plot::{BallLoads, BallRow, Curve, Figure, Grid, GridPanel, Lines};
+use crate::model::study::Swept;
+use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState};
+
+/// Couplings below this share of √(k_ii k_jj) everywhere are not drawn.
+const COUPLED: f64 = 1e-6;
+const AXES: [&str; 5] = ["x", "y", "z", "θx", "θy"];
+
+/// Every figure of a bearing; `title` is that of its file.
+pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
+    let name = |what: &str| format!("bearing_{}_{what}", found.name);
+    let state = &found.point.state;
+    let [x, y, z, m_x, m_y] = state.load.map(|f| (10.0 * f).round() / 10.0 + 0.0);
+    let moments =
+        if m_x != 0.0 || m_y != 0.0 { format!(", moments {m_x}, {m_y} N·m") } else { String::new() };
+    let note = format!("{title}: load {x}, {y}, {z} N{moments}, {:.0} rpm", state.condition.speed * TO_RPM);
+    let mut figures = vec![
+        (name("ball_loads"), Figure::BallLoads(ball_loads(found, &note))),
+        (name("contact_angles"), Figure::Lines(contact_angles(found, &note))),
+    ];
+    for sweep in found.sweeps.iter().filter(|sweep| sweep.points.len() > 1) {
+        let over = sweep.of.name();
+        for (what, grid) in [
+            ("stiffness", stiffness(found, sweep)),
+            ("displacement", displacement(found, sweep)),
+            ("contacts", contacts(found, sweep)),
+        ] {
+            let grid = Grid { note: note.clone(), ..grid };
+            figures.push((name(&format!("{what}_over_{over}")), Figure::Grid(grid)));
+        }
+        if sweep.of == Swept::Load {
+            figures.push((name("life_over_load"), Figure::Lines(life(found, sweep, &note))));
+        }
+    }
+    figures
+}
+
+/// One race of one row.
+struct Side<'a> {
+    name: String,
+    balls: Vec<(&'a BallState, &'a ContactState)>,
+}
+
+/// The races of every row that there is.
+fn sides(found: &BearingResult) -> Vec<Side<'_>> {
+    let balls = &found.point.balls;
+    let rows = balls.iter().map(|b| b.row + 1).max().unwrap_or(0);
+    let side = |row: usize, race: &str, pick: fn(&BallState) -> &ContactState| Side {
+        name: if rows > 1 { format!("row {}, {race} race", row + 1) } else { format!("{race} race") },
+        balls: balls.iter().filter(|b| b.row == row).map(|b| (b, pick(b))).collect(),
+    };
+    (0..rows).flat_map(|row| [side(row, "inner", |b| &b.inner), side(row, "outer", |b| &b.outer)]).collect()
+}
+
+fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
+    let row = |side: Side| {
+        let most = side.balls.iter().map(|(_, c)| c.pressure).fold(0.0, f64::max);
+        BallRow {
+            note: format!("largest pressure {:.2} GPa", 1e-9 * most),
+            angle_deg: side.balls.iter().map(|(b, _)| b.position.to_degrees()).collect(),
+            load: side.balls.iter().map(|(_, c)| c.load).collect(),
+            title: side.name,
+        }
+    };
+    BallLoads {
+        title: format!("Ball loads of bearing {}", found.name),
+        note: note.into(),
+        rows: sides(found).into_iter().map(row).collect(),
+    }
+}
+
+/// Loaded balls by their position.
+fn contact_angles(found: &BearingResult, note: &str) -> Lines {
+    let curve = |side: Side| {
+        let loaded = || side.balls.iter().filter(|(_, c)| c.load > 0.0);
+        Curve {
+            x: loaded().map(|(b, _)| b.position.to_degrees()).collect(),
+            y: loaded().map(|(_, c)| c.angle.to_degrees()).collect(),
+            points: true,
+            label: side.name,
+        }
+    };
+    let mut curves: Vec<Curve> = sides(found).into_iter().map(curve).collect();
+    // Massless balls have one angle.
+    if curves.chunks(2).all(|pair| pair[0].y == pair[pair.len() - 1].y) {
+        curves = curves.into_iter().step_by(2).collect();
+        curves.iter_mut().for_each(|c| c.label = c.label.replace("inner race", "both races"));
+    }
+    Lines {
+        title: format!("Contact angles of the loaded balls of bearing {}", found.name),
+        note: note.into(),
+        x_name: "ball position from x towards y".into(),
+        x_unit: "°".into(),
+        y_name: "contact angle".into(),
+        y_unit: "°".into(),
+        curves,
+        x_range: Some([-180.0, 180.0]),
+        ..Lines::default()
+    }
+}
+
+/// A grid over a sweep, without panels.
+fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid {
+    let at = &found.point.state;
+    let (name, unit, factor) = abscissa(sweep);
+    let operating = match sweep.of {
+        Swept::Speed => Some(at.condition.speed),
+        Swept::CageAngle => Some(at.condition.cage_angle),
+        // The sweep's values grow with the load from nothing: where it passes the operating one.
+        Swept::Load => crossing(sweep, found.point.largest_load()),
+        Swept::Displacement => None,
+    };
+    Grid {
+        title: format!("{title} of bearing {} over {}", found.name, name),
+        x_name: name,
+        x_unit: unit.into(),
+        columns: 3,
+        mark: operating.map(|value| factor * value),
+        ..Grid::default()
+    }
+}
+
+/// The value at which the largest ball load of a sweep is that of the operating point.
+fn crossing(sweep: &BearingSweepResult, load: f64) -> Option<f64> {
+    let loads: Vec<f64> = sweep.points.iter().map(BearingPoint::largest_load).collect();
+    let k = loads.windows(2).position(|w| w[0] < load && load <= w[1])?;
+    let part = (load - loads[k]) / (loads[k + 1] - loads[k]);
+    Some(sweep.values[k] + part * (sweep.values[k + 1] - sweep.values[k]))
+}
+
+/// Name, unit and factor from SI of what a sweep varies.
+fn abscissa(sweep: &BearingSweepResult) -> (String, &'static str, f64) {
+    match (sweep.of, sweep.unit) {
+        (Swept::Speed, _) => ("shaft speed".into(), "rpm", TO_RPM),
+        (Swept::CageAngle, _) => ("cage angle".into(), "°", 1f64.to_degrees()),
+        (_, "N m") => (sweep.label.clone(), "N·m", 1.0),
+        (_, si) => (sweep.label.clone(), unit(si).name, unit(si).factor),
+    }
+}
+
+fn curve(sweep: &BearingSweepResult, value: impl Fn(&BearingPoint) -> f64) -> Curve {
+    let factor = abscissa(sweep).2;
+    Curve {
+        x: sweep.values.iter().map(|v| factor * v).collect(),
+        y: sweep.points.iter().map(value).collect(),
+        ..Curve::default()
+    }
+}
+
+fn panel(name: &str, unit: &str, from_zero: bool, curves: Vec<Curve>) -> GridPanel {
+    GridPanel { name: name.into(), unit: unit.into(), curves, from_zero, log_y: false }
+}
+
+/// The five diagonal entries and the couplings that there are.
+fn stiffness(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
+    // Unit and factor from SI.
+    let shown = |a: usize, b: usize| match usize::from(a > 2) + usize::from(b > 2) {
+        0 => ("kN/mm", 1e-6),
+        1 => ("kN", 1e-3),
+        _ => ("N·m", 1.0),
+    };
+    let share = |p: &BearingPoint, a: usize, b: usize| {
+        let k = &p.state.stiffness;
+        let size = (k[a][a] * k[b][b]).abs().sqrt();
+        if size > 0.0 { k[a][b].abs() / size } else { 0.0 }
+    };
+    let mut cells: Vec<(usize, usize)> = (0..5).map(|a| (a, a)).collect();
+    let pairs = (0..5).flat_map(|a| (a + 1..5).map(move |b| (a, b)));
+    cells.extend(pairs.filter(|&(a, b)| sweep.points.iter().any(|p| share(p, a, b) > COUPLED)));
+    let from_zero = matches!(sweep.of, Swept::Load | Swept::Displacement);
+    let panels = cells.into_iter().map(|(a, b)| {
+        let (unit, factor) = shown(a, b);
+        let entry = curve(sweep, move |p| factor * p.state.stiffness[a][b]);
+        panel(&format!("k {} {}", AXES[a], AXES[b]), unit, from_zero, vec![entry])
+    });
+    Grid { panels: panels.collect(), ..over(found, sweep, "Stiffness") }
+}
+
+fn displacement(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
+    let motion = |k: usize| {
+        let (name, unit, factor) = if k > 2 { ("tilt", "mrad", 1e3) } else { ("u", "µm", 1e6) };
+        let along = curve(sweep, move |p| factor * p.state.displacement[k]);
+        panel(&format!("{name} {}", AXES[k]), unit, false, vec![along])
+    };
+    let load = |k: usize| {
+        let along = curve(sweep, move |p| p.state.load[k]);
+        let name = ["F x", "F y", "F z", "M x", "M y"][k];
+        panel(name, if k > 2 { "N·m" } else { "N" }, false, vec![along])
+    };
+    let held = |k: usize| sweep.points.iter().any(|p| p.state.condition.held[k].is_some());
+    let mut panels: Vec<GridPanel> = (0..5).filter(|k| !held(*k)).map(motion).collect();
+    panels.extend((0..5).filter(|k| held(*k)).map(load));
+    let stiffness = |what: usize| {
+        let of = move |p: &BearingPoint| {
+            1e-6 * if what == 0 { p.radial_stiffness[0] } else { p.axial_stiffness[0] }
+        };
+        panel(["radial stiffness", "axial stiffness"][what], "kN/mm", true, vec![curve(sweep, of)])
+    };
+    panels.push(stiffness(0));
+    panels.push(stiffness(1));
+    Grid { panels, ..over(found, sweep, "Displacement") }
+}
+
+/// Rating lives in 10⁶ revolutions.
+fn life(found: &BearingResult, sweep: &BearingSweepResult, note: &str) -> Lines {
+    let of =
+        |label: &str, value: fn(&BearingPoint) -> f64| Curve { label: label.into(), ..curve(sweep, value) };
+    let mut curves = vec![
+        of("basic L₁₀ (ISO 281)", |p| p.life.basic),
+        of("reference L₁₀ᵣ (ISO/TS 16281)", |p| p.life.reference),
+        of("modified Lₙₘᵣ", |p| p.life.modified),
+    ];
+    curves.retain(|c| c.y.iter().any(|v| v.is_finite()));
+    let (x_name, x_unit, _) = abscissa(sweep);
+    Lines {
+        title: format!("Rating life of bearing {}", found.name),
+        note: note.into(),
+        x_name,
+        x_unit: x_unit.into(),
+        y_name: "rating life".into(),
+        y_unit: "10⁶ revolutions".into(),
+        curves,
+        log_y: true,
+        ..Lines::default()
+    }
+}
+
+fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
+    type Pick = fn(&BallState) -> &ContactState;
+    let races: [Pick; 2] = [|b| &b.inner, |b| &b.outer];
+    // The value of both races in the ball that carries most.
+    let most = |value: fn(&ContactState) -> f64| -> Vec<Curve> {
+        let of = |pick: Pick| {
+            curve(sweep, move |p| {
+                let heaviest = p.balls.iter().max_by(|a, b| a.outer.load.total_cmp(&b.outer.load));
+                heaviest.filter(|b| pick(b).load > 0.0).map_or(f64::NAN, |b| value(pick(b)))
+            })
+        };
+        races.iter().map(|pick| of(*pick)).collect()
+    };
+    let mut panels = vec![
+        panel("largest ball load", "N", true, most(|c| c.load)),
+        panel("its contact angle", "°", false, most(|c| c.angle.to_degrees())),
+        panel("its pressure", "GPa", true, most(|c| 1e-9 * c.pressure)),
+        panel("loaded balls", "–", true, vec![curve(sweep, |p| p.loaded() as f64)]),
+    ];
+    if sweep.points.iter().any(|p| p.least_film() > 0.0) {
+        panels.push(panel("its central film", "µm", true, most(|c| 1e6 * c.film)));
+        panels.push(panel("its minimum film", "µm", true, most(|c| 1e6 * c.least_film)));
+        panels.push(panel("film ratio λ", "–", true, vec![curve(sweep, |p| p.film_ratio)]));
+    }
+    let legend = vec!["inner race".to_string(), "outer race".to_string()];
+    Grid { panels, legend, ..over(found, sweep, "Contacts") }
+}

@@ -1,0 +1,67 @@
+//! Ball bearings on their own as data sets.
+
+use super::Place;
+use crate::edge::hdf5::Store;
+use crate::error::Error;
+use crate::results::{BallState, BearingPoint, BearingResult, ContactState};
+
+pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
+    for bearing in found {
+        let place = Place::new(store, &format!("/bearings/{}", bearing.name))?;
+        place.note("load_from", bearing.load_from.as_str())?;
+        place.note("preload_offset", bearing.preload.offset)?;
+        place.note("preload_force", bearing.preload.axial_force)?;
+        for (name, value) in [
+            ("dynamic_rating", bearing.rating.dynamic),
+            ("static_rating", bearing.rating.stationary),
+            ("fatigue_limit", bearing.rating.fatigue),
+        ] {
+            place.note(name, value)?;
+        }
+        let orders = &bearing.nominal_orders;
+        for (name, value) in
+            [("ftf", orders.ftf), ("bpfo", orders.bpfo), ("bpfi", orders.bpfi), ("bsf", orders.bsf)]
+        {
+            place.note(name, value)?;
+        }
+        points(&place.below("operating")?, std::slice::from_ref(&bearing.point), None)?;
+        for sweep in &bearing.sweeps {
+            let at = place.below(&format!("over_{}", sweep.of.name()))?;
+            at.note("label", sweep.label.as_str())?;
+            at.array("over", &[sweep.values.len()], &sweep.values, sweep.unit)?;
+            points(&at, &sweep.points, Some("over"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Arrays over \[point, ...\]; without an axis there is one point and no such dimension.
+fn points(place: &Place, points: &[BearingPoint], axis: Option<&str>) -> Result<(), Error> {
+    let array = |name: &str, rest: &[usize], unit: &str, data: Vec<f64>| {
+        let shape: Vec<usize> = axis.map(|_| points.len()).into_iter().chain(rest.iter().copied()).collect();
+        place.array(name, &shape, &data, unit)?;
+        axis.map_or(Ok(()), |axis| place.axis(name, 0, axis))
+    };
+    let five = |pick: fn(&BearingPoint) -> &[f64; 5]| points.iter().flat_map(pick).copied().collect();
+    array("load", &[5], "N, N m", five(|p| &p.state.load))?;
+    array("displacement", &[5], "m, rad", five(|p| &p.state.displacement))?;
+    let stiffness = points.iter().flat_map(|p| p.state.stiffness.as_flattened()).copied().collect();
+    array("stiffness", &[5, 5], "N/m, N, N m/rad", stiffness)?;
+    for (name, unit, value) in BearingPoint::COLUMNS {
+        array(name, &[], unit, points.iter().map(value).collect())?;
+    }
+    let balls = points.first().map_or(0, |p| p.balls.len());
+    let positions = points.iter().flat_map(|p| &p.balls).map(|b| b.position).collect();
+    let rows = points.iter().flat_map(|p| &p.balls).map(|b| b.row as f64).collect();
+    array("balls/row", &[balls], "1", rows)?;
+    array("balls/position", &[balls], "rad", positions)?;
+    let races: [(&str, fn(&BallState) -> &ContactState); 2] =
+        [("inner", |b| &b.inner), ("outer", |b| &b.outer)];
+    for (race, pick) in races {
+        for (name, unit, value) in ContactState::COLUMNS {
+            let data = points.iter().flat_map(|p| &p.balls).map(|b| value(pick(b))).collect();
+            array(&format!("balls/{race}/{name}"), &[balls], unit, data)?;
+        }
+    }
+    Ok(())
+}

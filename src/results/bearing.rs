@@ -1,0 +1,167 @@
+//! A ball bearing on its own.
+
+use crate::analysis::bearing_stiffness::BearingEquilibrium;
+use crate::bearing::life::LoadRating;
+use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
+use crate::model::study::Swept;
+
+/// One ball bearing on its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingResult {
+    pub name: String,
+    pub bearing: BallBearing,
+    /// Where the operating load comes from, in words.
+    pub load_from: String,
+    /// Motions u_x u_y u_z θ_x θ_y that are held.
+    pub held: [bool; 5],
+    /// Preload of the centred bearing at the operating speed.
+    pub preload: PreloadState,
+    /// Ratings of all rows together.
+    pub rating: LoadRating,
+    /// Orders at the nominal contact angle.
+    pub nominal_orders: CharacteristicOrders,
+    /// The operating point.
+    pub point: BearingPoint,
+    pub sweeps: Vec<BearingSweepResult>,
+    pub warnings: Vec<String>,
+}
+
+/// A bearing under one load at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingPoint {
+    pub state: BearingEquilibrium,
+    pub balls: Vec<BallState>,
+    /// Stiffness along the radial load and along the axis: what a force there meets while the motions that are not
+    /// held give way, and with all others held \[N/m\].
+    pub radial_stiffness: [f64; 2],
+    pub axial_stiffness: [f64; 2],
+    /// Orders at the load-weighted mean contact angle.
+    pub orders: CharacteristicOrders,
+    /// Axial force of the centred bearing at this speed \[N\], what its preload has become.
+    pub preload_force: f64,
+    pub life: BearingLife,
+    /// Smallest film over the composite roughness; 0 without film, infinite without load.
+    pub film_ratio: f64,
+}
+
+/// Lives of a bearing \[10⁶ revolutions\], at 90 % reliability but for the modified one; NaN where the standard has none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingLife {
+    /// Dynamic equivalent load P \[N\] and basic rating life L₁₀ = (C/P)³ (ISO 281); none for opposed rows.
+    pub equivalent_load: f64,
+    pub basic: f64,
+    /// Basic reference rating life L₁₀ᵣ by the loads of the balls (ISO/TS 16281).
+    pub reference: f64,
+    /// Viscosity ratio κ, and L₁₀ᵣ times a₁ for reliability and a_ISO for lubrication and contamination; none without
+    /// a lubricant.
+    pub viscosity_ratio: f64,
+    pub modified: f64,
+}
+
+/// One ball with its two contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallState {
+    /// Row of a matched pair, 0 or 1; 0 in a single row.
+    pub row: usize,
+    /// ψ_j \[rad\] from +x towards +y.
+    pub position: f64,
+    pub inner: ContactState,
+    pub outer: ContactState,
+}
+
+/// One contact of a ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactState {
+    /// Q \[N\].
+    pub load: f64,
+    /// Contact angle α \[rad\].
+    pub angle: f64,
+    /// Semi-axes of the ellipse a, b \[m\], a across the rolling direction.
+    pub semi_major: f64,
+    pub semi_minor: f64,
+    /// p₀ \[Pa\].
+    pub pressure: f64,
+    /// Central and minimum film thickness \[m\]; 0 where dry or unloaded.
+    pub film: f64,
+    pub least_film: f64,
+}
+
+/// A named value of something, with its SI unit.
+pub type Column<T> = (&'static str, &'static str, fn(&T) -> f64);
+
+impl ContactState {
+    /// Every value, as files name it.
+    pub const COLUMNS: [Column<Self>; 7] = [
+        ("load", "N", |c| c.load),
+        ("contact_angle", "rad", |c| c.angle),
+        ("semi_major", "m", |c| c.semi_major),
+        ("semi_minor", "m", |c| c.semi_minor),
+        ("pressure", "Pa", |c| c.pressure),
+        ("film", "m", |c| c.film),
+        ("minimum_film", "m", |c| c.least_film),
+    ];
+}
+
+impl BearingPoint {
+    /// Every single value, as files name it.
+    pub const COLUMNS: [Column<Self>; 21] = [
+        ("speed", "rad/s", |p| p.state.condition.speed),
+        ("cage_angle", "rad", |p| p.state.condition.cage_angle),
+        ("radial_stiffness", "N/m", |p| p.radial_stiffness[0]),
+        ("radial_stiffness_held", "N/m", |p| p.radial_stiffness[1]),
+        ("axial_stiffness", "N/m", |p| p.axial_stiffness[0]),
+        ("axial_stiffness_held", "N/m", |p| p.axial_stiffness[1]),
+        ("loaded_balls", "1", |p| p.loaded() as f64),
+        ("largest_ball_load", "N", Self::largest_load),
+        ("largest_pressure", "Pa", Self::largest_pressure),
+        ("minimum_film", "m", Self::least_film),
+        ("film_ratio", "1", |p| p.film_ratio),
+        ("preload_force", "N", |p| p.preload_force),
+        ("equivalent_load", "N", |p| p.life.equivalent_load),
+        ("basic_life", "1e6 revolutions", |p| p.life.basic),
+        ("reference_life", "1e6 revolutions", |p| p.life.reference),
+        ("viscosity_ratio", "1", |p| p.life.viscosity_ratio),
+        ("modified_life", "1e6 revolutions", |p| p.life.modified),
+        ("ftf", "1/revolution", |p| p.orders.ftf),
+        ("bpfo", "1/revolution", |p| p.orders.bpfo),
+        ("bpfi", "1/revolution", |p| p.orders.bpfi),
+        ("bsf", "1/revolution", |p| p.orders.bsf),
+    ];
+
+    /// Largest load of a contact \[N\].
+    pub fn largest_load(&self) -> f64 {
+        self.contacts().map(|c| c.load).fold(0.0, f64::max)
+    }
+
+    /// Largest pressure \[Pa\].
+    pub fn largest_pressure(&self) -> f64 {
+        self.contacts().map(|c| c.pressure).fold(0.0, f64::max)
+    }
+
+    /// Smallest film of a loaded contact \[m\]; 0 without film.
+    pub fn least_film(&self) -> f64 {
+        let films = self.contacts().filter(|c| c.load > 0.0).map(|c| c.least_film);
+        films.reduce(f64::min).unwrap_or(0.0)
+    }
+
+    pub fn contacts(&self) -> impl Iterator<Item = &ContactState> {
+        self.balls.iter().flat_map(|ball| [&ball.inner, &ball.outer])
+    }
+
+    /// Number of balls under load.
+    pub fn loaded(&self) -> usize {
+        self.balls.iter().filter(|ball| ball.outer.load.max(ball.inner.load) > 0.0).count()
+    }
+}
+
+/// One sweep: what is varied, and the bearing at every value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BearingSweepResult {
+    pub of: Swept,
+    /// What the values are, in words, such as "load along the operating load", and their SI unit.
+    pub label: String,
+    pub unit: &'static str,
+    /// As far as there is an equilibrium.
+    pub values: Vec<f64>,
+    pub points: Vec<BearingPoint>,
+}

@@ -1,0 +1,471 @@
+//! Ball bearings each on its own: operating point, sweeps, contacts, film, frequencies.
+
+use super::Machine;
+use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
+use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::bearing::life::{
+    LoadRating, basic_life, combined_life, equivalent_load, life_modification, reference_life,
+    reference_viscosity, reliability_factor,
+};
+use crate::bearing::{Arrangement, BallBearing, BallLoad, Bearing, BearingElement, Preload, PreloadState};
+use crate::contact::{BallContacts, ContactLaw, EllipticContact, Race};
+use crate::error::Error;
+use crate::model::study::{Along, BearingStudy, MOTIONS, Swept};
+use crate::results::{BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState};
+
+/// Points of a sweep over a range of the program's choice.
+const POINTS: usize = 41;
+/// Pitch diameter times speed of a bearing whose speed is not told \[mm/min\]: half of what grease takes.
+const MEAN_SPEED: f64 = 2.5e5;
+/// Largest pressure of a ball that leaves a permanent dent of 1e-4 of its diameter \[Pa\] (ISO 76).
+const STATIC_LIMIT: f64 = 4.2e9;
+
+impl Machine {
+    /// Every ball bearing asked for, under the load it carries in the machine unless another is given.
+    ///
+    /// # Errors
+    /// No equilibrium of the machine, or of a bearing at its operating point.
+    pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, Error> {
+        let balls = self.model.bearings.iter().filter_map(|site| match &site.bearing {
+            Bearing::Ball(ball) => Some((site.name.clone(), ball.clone())),
+            Bearing::Linear(_) => None,
+        });
+        let balls: Vec<_> = balls.collect();
+        let speed = study.speed.unwrap_or(self.model.profile.top_speed());
+        let mut study = BearingStudy { speed: Some(speed), ..study.clone() };
+        if speed == 0.0 {
+            study.speed = None;
+        }
+        if study.force.is_some() || study.moment.is_some() {
+            return bearings_alone(&balls, &study);
+        }
+        let cage = treatment(&study);
+        let found = equilibrium(&self.model, &self.assembly, speed, cage, Some(&self.base.q))?;
+        let one = |(name, ball): &(String, BallBearing)| {
+            let state = found.bearings.iter().find(|b| b.name == *name);
+            let load = state.map_or([0.0; 5], |b| std::array::from_fn(|k| -b.force[k]));
+            let words = format!("static equilibrium of the machine at {:.0} rpm", speed * TO_RPM);
+            // In the machine the shaft keeps place and tilt whatever is swept.
+            let keeps = study.held.unwrap_or([false, false, true, true, true]);
+            let place = state.map_or([0.0; 6], |b| b.displacement);
+            let held = std::array::from_fn(|k| keeps[k].then_some(place[k]));
+            let operating = Operating { load, held, words };
+            Work::new(name, ball, &study).study(operating)
+        };
+        balls.iter().filter(|(name, _)| is_asked(&study, name)).map(one).collect()
+    }
+}
+
+/// Every ball bearing asked for, by itself.
+///
+/// # Errors
+/// No equilibrium of a bearing at its operating point.
+pub fn bearings_alone(
+    bearings: &[(String, BallBearing)],
+    study: &BearingStudy,
+) -> Result<Vec<BearingResult>, Error> {
+    let one = |(name, ball): &(String, BallBearing)| {
+        let work = Work::new(name, ball, study);
+        let operating = work.operating();
+        work.study(operating)
+    };
+    bearings.iter().filter(|(name, _)| is_asked(study, name)).map(one).collect()
+}
+
+const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
+
+fn is_asked(study: &BearingStudy, name: &String) -> bool {
+    study.bearings.is_empty() || study.bearings.contains(name)
+}
+
+fn treatment(study: &BearingStudy) -> CageTreatment {
+    if study.cage_average { CageTreatment::Averaged } else { CageTreatment::AsPlaced }
+}
+
+/// What a bearing carries at its operating point.
+struct Operating {
+    load: [f64; 5],
+    held: [Option<f64>; 5],
+    /// Where that comes from.
+    words: String,
+}
+
+/// One bearing at work.
+struct Work<'a> {
+    name: &'a str,
+    bearing: &'a BallBearing,
+    study: &'a BearingStudy,
+    solver: BearingSolver,
+    /// Contacts with a film of the bearing's oil, even where its law is dry: what lies between the surfaces.
+    contacts: BallContacts,
+    speed: f64,
+}
+
+impl<'a> Work<'a> {
+    fn new(name: &'a str, bearing: &'a BallBearing, study: &'a BearingStudy) -> Self {
+        let mean = MEAN_SPEED / (1e3 * bearing.geometry.pitch_diameter);
+        Self {
+            name,
+            bearing,
+            study,
+            solver: BearingSolver::new(name, bearing),
+            contacts: BallContacts::new(bearing.hertz(), filmed(bearing)),
+            speed: study.speed.unwrap_or(two_digits(mean) / TO_RPM),
+        }
+    }
+
+    /// Load and held motions of a bearing by itself.
+    fn operating(&self) -> Operating {
+        let g = &self.bearing.geometry;
+        let single = self.bearing.duplex.is_none();
+        let preloaded = single && self.bearing.preload != Preload::None;
+        let (force, words) = match self.study.force {
+            Some(force) => (force, "as given".to_string()),
+            None if self.study.moment.is_some() => ([0.0; 3], "as given".to_string()),
+            None => {
+                let radial = 0.1 * self.rating().dynamic;
+                // Thrust that keeps half the balls of a single row under load.
+                let thrust = if single && !preloaded { 1.25 * radial * g.contact_angle.tan() } else { 0.0 };
+                let words = match thrust > 0.0 {
+                    true => {
+                        "a tenth of the dynamic load rating along -y, with the thrust that a single row needs"
+                    }
+                    false => "a tenth of the dynamic load rating along -y",
+                };
+                ([0.0, -radial, g.thrust_direction * thrust], words.to_string())
+            }
+        };
+        let tilts = self.study.moment.is_none();
+        let default = [false, false, preloaded && force[2] == 0.0, tilts, tilts];
+        let [m_x, m_y] = self.study.moment.unwrap_or_default();
+        let [x, y, z] = force;
+        let held = self.study.held.unwrap_or(default).map(|held| held.then_some(0.0));
+        Operating { load: [x, y, z, m_x, m_y], held, words }
+    }
+
+    /// Rows that carry thrust the same way; `None` for opposed ones.
+    fn alike_rows(&self) -> Option<usize> {
+        match self.bearing.duplex.map(|pair| pair.arrangement) {
+            None => Some(1),
+            Some(Arrangement::Tandem) => Some(2),
+            Some(Arrangement::BackToBack | Arrangement::FaceToFace) => None,
+        }
+    }
+
+    /// Ratings of all rows together.
+    fn rating(&self) -> LoadRating {
+        let rows = if self.bearing.duplex.is_some() { 2 } else { 1 };
+        let found = LoadRating::new(&self.bearing.geometry, &self.contacts.hertz, rows);
+        let service = &self.bearing.service;
+        LoadRating {
+            dynamic: service.dynamic_rating.unwrap_or(found.dynamic),
+            stationary: service.static_rating.unwrap_or(found.stationary),
+            fatigue: service.fatigue_limit.unwrap_or(found.fatigue),
+        }
+    }
+
+    /// Lives under the loads of the balls; the inner ring turns under the load.
+    fn life(&self, state: &BearingEquilibrium, balls: &[BallState]) -> BearingLife {
+        let g = &self.bearing.geometry;
+        let [x, y, z, ..] = state.load;
+        let speed = state.condition.speed.abs();
+        let equivalent_load =
+            self.alike_rows().map_or(f64::NAN, |rows| equivalent_load(g, rows, x.hypot(y), z));
+        let rating = self.rating();
+        let rows = balls.iter().map(|ball| ball.row + 1).max().unwrap_or(0);
+        // C of i rows is i^0.7 that of one.
+        let row_rating = rating.dynamic / (rows.max(1) as f64).powf(0.7);
+        let of_row = |row: usize| {
+            let loads = |pick: fn(&BallState) -> f64| -> Vec<f64> {
+                balls.iter().filter(|ball| ball.row == row).map(pick).collect()
+            };
+            let (inner, outer) = (loads(|ball| ball.inner.load), loads(|ball| ball.outer.load));
+            reference_life(g, row_rating, &inner, &outer, Race::Inner).life
+        };
+        let reference = combined_life(&(0..rows).map(of_row).collect::<Vec<_>>());
+        let service = &self.bearing.service;
+        let oil = self.bearing.lubricant().filter(|_| speed > 0.0);
+        let viscosity_ratio = oil.map_or(f64::NAN, |oil| {
+            oil.viscosity / oil.density / reference_viscosity(g.pitch_diameter, speed)
+        });
+        let reference_load = rating.dynamic / reference.cbrt();
+        let factor =
+            life_modification(viscosity_ratio, service.contamination, rating.fatigue, reference_load);
+        BearingLife {
+            equivalent_load,
+            basic: basic_life(rating.dynamic, equivalent_load),
+            reference,
+            viscosity_ratio,
+            modified: factor
+                .map_or(f64::NAN, |factor| reliability_factor(service.reliability) * factor * reference),
+        }
+    }
+
+    fn study(&self, operating: Operating) -> Result<BearingResult, Error> {
+        let condition = Condition {
+            load: operating.load,
+            held: operating.held,
+            speed: self.speed,
+            cage: treatment(self.study),
+            cage_angle: self.bearing.cage_angle,
+        };
+        let state = self.solver.solve(&condition, None)?;
+        let point = self.point(state);
+        let mut warnings = self.doubts(&point);
+        let matters = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
+        let speed = matters.then_some(Swept::Speed);
+        let defaults = [Some(Swept::Load), speed, Some(Swept::CageAngle)].into_iter().flatten();
+        let asked: Vec<(Swept, &[f64])> = match self.study.sweeps.as_slice() {
+            [] => defaults.map(|of| (of, &[][..])).collect(),
+            sweeps => sweeps.iter().map(|sweep| (sweep.of, sweep.values.as_slice())).collect(),
+        };
+        let mut sweeps = Vec::new();
+        for (of, values) in asked {
+            sweeps.extend(self.sweep(of, values, &point, &mut warnings));
+        }
+        let g = &self.bearing.geometry;
+        Ok(BearingResult {
+            name: self.name.to_string(),
+            bearing: self.bearing.clone(),
+            load_from: operating.words,
+            held: operating.held.map(|held| held.is_some()),
+            preload: self.preload(self.speed),
+            rating: self.rating(),
+            nominal_orders: g.orders(g.contact_angle),
+            point,
+            sweeps,
+            warnings,
+        })
+    }
+
+    /// One sweep about an operating point; `None` when it has nothing to vary.
+    fn sweep(
+        &self,
+        of: Swept,
+        values: &[f64],
+        point: &BearingPoint,
+        warnings: &mut Vec<String>,
+    ) -> Option<BearingSweepResult> {
+        let base = point.state.condition;
+        let load = base.load;
+        let size = size(point);
+        let values = match values {
+            [] => self.range(of, point),
+            given => given.to_vec(),
+        };
+        let largest = (0..3).max_by(|&a, &b| load[a].abs().total_cmp(&load[b].abs()).then(b.cmp(&a)))?;
+        let (label, unit) = match (of, self.study.along) {
+            (Swept::Load, Along::Load) => ("load along the operating load".into(), "N"),
+            (Swept::Load, Along::Axis(k @ (3 | 4))) => (format!("moment about {}", &MOTIONS[k][6..]), "N m"),
+            (Swept::Load, Along::Axis(k)) => (format!("load along {}", MOTIONS[k]), "N"),
+            (Swept::Displacement, Along::Axis(k @ (3 | 4))) => {
+                (format!("tilt about {}", &MOTIONS[k][6..]), "rad")
+            }
+            (Swept::Displacement, Along::Axis(k)) => (format!("displacement along {}", MOTIONS[k]), "m"),
+            (Swept::Displacement, Along::Load) => (format!("displacement along {}", MOTIONS[largest]), "m"),
+            (Swept::Speed, _) => ("shaft speed".into(), "rad/s"),
+            (Swept::CageAngle, _) => ("cage angle".into(), "rad"),
+        };
+        let at = |value: f64| {
+            let mut condition = base;
+            match (of, self.study.along) {
+                (Swept::Load, Along::Load) if size > 0.0 => condition.load = load.map(|f| f * value / size),
+                (Swept::Load, Along::Load) => condition.load[1] = -value,
+                (Swept::Load, Along::Axis(k)) => {
+                    condition.load[k] = value;
+                    condition.held[k] = None;
+                }
+                (Swept::Displacement, Along::Load) => condition.held[largest] = Some(value),
+                (Swept::Displacement, Along::Axis(k)) => condition.held[k] = Some(value),
+                (Swept::Speed, _) => condition.speed = value,
+                (Swept::CageAngle, _) => {
+                    condition.cage_angle = value;
+                    condition.cage = CageTreatment::AsPlaced;
+                }
+            }
+            condition
+        };
+        let conditions: Vec<Condition> = values.iter().map(|value| at(*value)).collect();
+        let (found, failure) = self.solver.sweep(&conditions);
+        if let Some(error) = failure {
+            warnings.push(format!(
+                "the sweep of {label} of bearing {} ends at {} of {} points: {error}",
+                self.name,
+                found.len(),
+                values.len()
+            ));
+        }
+        let values = values[..found.len()].to_vec();
+        let points = found.into_iter().map(|state| self.point(state)).collect();
+        Some(BearingSweepResult { of, label, unit, values, points })
+    }
+
+    /// A range of values that suits the bearing about its operating point.
+    fn range(&self, of: Swept, point: &BearingPoint) -> Vec<f64> {
+        let state = &point.state;
+        let load = &state.load;
+        let up_to =
+            |top: f64| -> Vec<f64> { (1..POINTS).map(|k| top * k as f64 / (POINTS - 1) as f64).collect() };
+        let about = |value: f64, least: f64| up_to(2.0 * if value.abs() > 0.0 { value } else { least });
+        // Increasing, whichever way the operating point lies.
+        let rising = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            values
+        };
+        match (of, self.study.along) {
+            (Swept::Load, Along::Load) => up_to((2.0 * size(point)).max(0.1 * self.rating().dynamic)),
+            (Swept::Load, Along::Axis(k @ (3 | 4))) => {
+                rising(about(load[k], 0.005 * self.rating().dynamic * self.solver.radius))
+            }
+            (Swept::Load, Along::Axis(k)) => rising(about(load[k], 0.05 * self.rating().dynamic)),
+            (Swept::Displacement, Along::Axis(k @ (3 | 4))) => rising(about(state.displacement[k], 1e-3)),
+            (Swept::Displacement, along) => {
+                let largest = (0..3).max_by(|&a, &b| load[a].abs().total_cmp(&load[b].abs()).then(b.cmp(&a)));
+                let k = if let Along::Axis(k) = along { k } else { largest.unwrap_or(0) };
+                rising(about(state.displacement[k], 10e-6))
+            }
+            (Swept::Speed, _) => {
+                let top = if self.study.speed.is_some() { self.speed } else { 2.0 * self.speed };
+                let top = if top > 0.0 {
+                    top
+                } else {
+                    two_digits(2.0 * MEAN_SPEED / (2e3 * self.solver.radius)) / TO_RPM
+                };
+                (0..POINTS).map(|k| top * k as f64 / (POINTS - 1) as f64).collect()
+            }
+            (Swept::CageAngle, _) => {
+                let pitch = std::f64::consts::TAU / self.bearing.geometry.balls as f64;
+                let start = self.bearing.cage_angle;
+                (0..POINTS).map(|k| start + pitch * k as f64 / (POINTS - 1) as f64).collect()
+            }
+        }
+    }
+
+    fn preload(&self, speed: f64) -> PreloadState {
+        match &self.solver.element {
+            BearingElement::Ball(ball) => ball.preload_state(speed),
+            BearingElement::Linear(_) => PreloadState::default(),
+        }
+    }
+
+    /// All that follows from an equilibrium.
+    fn point(&self, state: BearingEquilibrium) -> BearingPoint {
+        let g = &self.bearing.geometry;
+        let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
+        let entrainment = 0.25 * g.pitch_diameter * (1.0 - gamma * gamma) * state.condition.speed.abs();
+        let contacts = self.contacts.at_speed(entrainment);
+        let pair = &self.contacts.hertz;
+        let ball = |ball: &BallLoad| {
+            let contact = |race, hertz: &EllipticContact, load: f64, angle| match load > 0.0 {
+                true => {
+                    let patch = hertz.patch(load);
+                    ContactState {
+                        load,
+                        angle,
+                        semi_major: patch.semi_major,
+                        semi_minor: patch.semi_minor,
+                        pressure: patch.maximum_pressure,
+                        film: contacts.film(race, load),
+                        least_film: contacts.minimum_film(race, load),
+                    }
+                }
+                false => ContactState { angle, ..ContactState::default() },
+            };
+            BallState {
+                row: ball.row,
+                position: ball.position,
+                inner: contact(Race::Inner, &pair.inner, ball.load, ball.contact_angle),
+                outer: contact(Race::Outer, &pair.outer, ball.outer_load, ball.outer_contact_angle),
+            }
+        };
+        let balls: Vec<BallState> = self.solver.balls(&state).iter().map(ball).collect();
+        let [x, y, ..] = state.load;
+        let radial = x.hypot(y);
+        let along =
+            if radial > 0.0 { [x / radial, y / radial, 0.0, 0.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0, 0.0] };
+        let axis = [0.0, 0.0, 1.0, 0.0, 0.0];
+        let both = |n| [state.stiffness_free(n, self.solver.radius), state.stiffness_held(n)];
+        let mut point = BearingPoint {
+            radial_stiffness: both(&along),
+            axial_stiffness: both(&axis),
+            orders: g.orders(state.mean_cos.clamp(-1.0, 1.0).acos()),
+            preload_force: self.preload(state.condition.speed).axial_force,
+            life: self.life(&state, &balls),
+            film_ratio: 0.0,
+            balls,
+            state,
+        };
+        point.film_ratio = match point.loaded() {
+            0 => f64::INFINITY,
+            _ => point.least_film() / self.study.roughness,
+        };
+        point
+    }
+
+    /// What deserves doubt at the operating point.
+    fn doubts(&self, point: &BearingPoint) -> Vec<String> {
+        let name = self.name;
+        let mut found = Vec::new();
+        let loads = || point.balls.iter().map(|b| b.inner.load).filter(|load| *load > 0.0);
+        if let ContactLaw::PowerLaw(law) = &self.bearing.contact {
+            let [low, high] = law.range;
+            let outside = loads().filter(|load| *load < low || *load > high).count();
+            if outside > 0 {
+                found.push(format!(
+                    "bearing {name}: {outside} of {} loaded balls are outside the {low} to {high} N over which their power law was fitted",
+                    loads().count()
+                ));
+            }
+        }
+        let pressure = point.largest_pressure();
+        if pressure > STATIC_LIMIT {
+            found.push(format!(
+                "bearing {name}: {:.2} GPa on the races, above the 4.2 GPa of the static load rating",
+                1e-9 * pressure
+            ));
+        }
+        let turning = point.state.condition.speed > 0.0;
+        if turning && self.bearing.lubricant().is_some() && point.film_ratio < 1.0 {
+            found.push(format!(
+                "bearing {name}: film ratio {:.2} at {:.0} rpm, the surfaces touch (roughness {:.2} um)",
+                point.film_ratio,
+                point.state.condition.speed * TO_RPM,
+                1e6 * self.study.roughness
+            ));
+        }
+        let g = &self.bearing.geometry;
+        let wrong = |ball: &&BallState| ball.outer.load > 0.0 && ball.outer.angle * g.thrust_direction < 0.0;
+        if g.contact_angle > 0.0
+            && self.bearing.duplex.is_none()
+            && point.balls.iter().filter(wrong).count() > 0
+        {
+            found.push(format!("bearing {name}: the load presses balls onto the shoulder that is not there"));
+        }
+        if point.loaded() == 0 {
+            found.push(format!("bearing {name}: no ball carries load"));
+        }
+        found
+    }
+}
+
+/// Size of the force \[N\] that acts along the motions that are not held.
+fn size(point: &BearingPoint) -> f64 {
+    let Condition { load, held, .. } = &point.state.condition;
+    (0..3).filter(|k| held[*k].is_none()).map(|k| load[k].powi(2)).sum::<f64>().sqrt()
+}
+
+/// The law of a bearing's films: that of its contacts, or of the oil it runs in.
+fn filmed(bearing: &BallBearing) -> ContactLaw {
+    match (&bearing.contact, bearing.lubricant()) {
+        (ContactLaw::Hertz | ContactLaw::PowerLaw(_), Some(oil)) => {
+            ContactLaw::Film { lubricant: oil.clone(), speed_factor: 1.0 }
+        }
+        (law, _) => law.clone(),
+    }
+}
+
+/// Rounded to two significant digits.
+fn two_digits(value: f64) -> f64 {
+    let step = 10f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 1.0);
+    (value / step).round() * step
+}

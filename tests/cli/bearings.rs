@@ -1,0 +1,105 @@
+//! `bearing`: of a machine, of a file of bearings alone, with every flag.
+
+use crate::{json_of, output_of, rotordyn};
+use serde_json::Value;
+
+const RIG: &str = "models/overhung_rig.toml";
+const ALONE: &str = "[model]\nname = \"spindle\"\n[bearing.front]\nmodel = \"ball\"\ndesignation = \"7206B\"\n\
+                     thrust = \"+z\"\n";
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn every_bearing_of_a_machine_under_its_own_load() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = json_of(rotordyn().args(["bearing", RIG, "--out"]).arg(folder.path()));
+    assert_eq!((&document["command"], &document["exit_code"]), (&"bearing".into(), &0.into()));
+    let bearings = document["bearings"].as_array().unwrap();
+    assert_eq!(bearings.iter().map(|b| b["name"].as_str().unwrap()).collect::<Vec<_>>(), ["A", "B"]);
+    // Together they carry rotor and pulley, 17.5 kg without the housings, and the belt's 250 N along x.
+    let total: Vec<f64> =
+        (0..2).map(|k| bearings.iter().map(|b| numbers(&b["operating"]["load"])[k]).sum()).collect();
+    assert!((total[0].abs() - 250.0).abs() < 25.0 && total[1] < -100.0, "{total:?}");
+    for bearing in bearings {
+        let of: Vec<&str> =
+            bearing["sweeps"].as_array().unwrap().iter().map(|s| s["of"].as_str().unwrap()).collect();
+        assert_eq!(of, ["load", "cage_angle"]);
+        assert!((bearing["nominal_orders"]["bpfo"].as_f64().unwrap() - 3.5722).abs() < 1e-4);
+        for sweep in bearing["sweeps"].as_array().unwrap() {
+            assert_eq!(sweep["points"].as_array().unwrap().len(), sweep["values"].as_array().unwrap().len());
+        }
+    }
+    for figure in [
+        "ball_loads",
+        "contact_angles",
+        "stiffness_over_load",
+        "contacts_over_cage_angle",
+        "displacement_over_cage_angle",
+    ] {
+        for extension in ["svg", "png"] {
+            assert!(folder.path().join(format!("bearing_B_{figure}.{extension}")).exists(), "{figure}");
+        }
+    }
+    let store = rotordyn::edge::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    assert!(store.contains("/bearings/A/operating/stiffness") && store.contains("/meta"));
+    let stored = store.read("/bearings/B/over_load/stiffness").unwrap();
+    assert_eq!(stored.shape, [40, 5, 5]);
+    let first = numbers(&bearings[1]["sweeps"][0]["points"][0]["stiffness"][0]);
+    assert_eq!(&stored.data[..5], first.as_slice());
+}
+
+#[test]
+fn a_bearing_alone_under_a_given_load() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("spindle.toml");
+    std::fs::write(&model, ALONE).unwrap();
+    let mut command = rotordyn();
+    command.arg("bearing").arg(&model).args(["--no-figures", "--out"]).arg(folder.path());
+    let text = output_of(&mut command);
+    for part in [
+        "Bearing front at",
+        "a tenth of the dynamic load rating",
+        "theta_y",
+        "Loaded balls",
+        "BPFI",
+        "no sweep over it",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= 120), "{text}");
+    let given = |flags: &[&str]| {
+        let mut command = rotordyn();
+        command.arg("bearing").arg(&model).args(["--no-figures", "--out"]).arg(folder.path()).args(flags);
+        json_of(&mut command)["bearings"][0].clone()
+    };
+    let flags = ["--load", "100, -200, 600 N", "--moment", "0, 1 N m", "--speed", "6000 rpm", "--averaged"];
+    let found = given(&[&flags[..], &["--sweep", "load=10 N .. 900 N", "--along", "z"]].concat());
+    assert_eq!(numbers(&found["operating"]["load"]), [100.0, -200.0, 600.0, 0.0, 1.0]);
+    let sweep = &found["sweeps"][0];
+    let values = numbers(&sweep["values"]);
+    assert_eq!((values[0], values[40], sweep["of"].as_str()), (10.0, 900.0, Some("load")));
+    assert_eq!(numbers(&sweep["points"][40]["load"])[2], 900.0);
+    let pushed =
+        given(&["--sweep", "displacement=1 um .. 20 um", "--along", "z", "--hold", "x,y,theta_x,theta_y"]);
+    let point = &pushed["sweeps"][0]["points"][40];
+    assert_eq!(numbers(&point["displacement"]), [0.0, 0.0, 20e-6, 0.0, 0.0]);
+    assert!(numbers(&point["load"])[2] > 0.0);
+}
+
+#[test]
+fn what_is_wrong_with_the_flags_is_told() {
+    let says = |flags: &[&str], part: &str| {
+        let assert = rotordyn().args(["bearing", RIG, "--no-figures"]).args(flags).assert().code(2);
+        let text = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    };
+    says(&["--bearing", "C"], "unknown ball bearing `C`");
+    says(&["--load", "1, 2 N"], "F_x, F_y, F_z");
+    says(&["--load", "1, 2, 3"], "unit");
+    says(&["--sweep", "weight"], "load, displacement, speed, cage_angle");
+    says(&["--sweep", "load=2 kN"], "load=\"0 N .. 2 kN\"");
+    says(&["--hold", "up"], "theta_x");
+    rotordyn().args(["bearing", "models/jeffcott.toml"]).assert().code(2);
+}
