@@ -217,7 +217,7 @@ impl BearingSolver {
         }
         let residual = largest(&now.residual);
         let lost = largest(&now.x) > 10.0 * self.radius;
-        if !(residual <= ACCEPTED * size_of(&now)) || lost {
+        if residual > ACCEPTED * size_of(&now) || residual.is_nan() || lost {
             return Err(PhysicsError::NoBearingEquilibrium {
                 bearing: self.name.clone(),
                 load: condition.load,

@@ -31,7 +31,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
                 MOTIONS[a].to_string(),
                 number(clean(state.load[a], largest * size(a)), 4),
                 if a > 2 { "N m" } else { "N" }.to_string(),
-                format!("{:.3}", factor * state.displacement[a]),
+                fixed(factor * state.displacement[a], 3),
                 unit.to_string(),
             ];
             row.extend((0..5).map(|b| number(clean(k[a][b], (k[a][a] * k[b][b]).abs().sqrt()), 4)));
@@ -70,6 +70,15 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
 /// A value, or nothing where it is the round-off of larger ones.
 fn clean(value: f64, size: f64) -> f64 {
     if value.abs() < 1e-9 * size { 0.0 } else { value }
+}
+
+/// With a number of decimals, and no minus before nothing.
+fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.into(),
+        _ => text,
+    }
 }
 
 fn balls(terminal: &Terminal, point: &BearingPoint) {
@@ -199,7 +208,7 @@ fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepR
             let (value, p) = (sweep.values[k], &sweep.points[k]);
             let d = &p.state.displacement;
             let mut row = vec![number(factor * value, 4)];
-            row.extend(d[..3].iter().map(|d| format!("{:.2}", 1e6 * d)));
+            row.extend(d[..3].iter().map(|d| fixed(1e6 * d, 2)));
             row.push(number(p.radial_stiffness[0], 4));
             row.push(number(p.axial_stiffness[0], 4));
             row.extend((3..5).map(|a| number(p.state.stiffness[a][a], 4)));

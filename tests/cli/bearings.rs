@@ -103,3 +103,41 @@ fn what_is_wrong_with_the_flags_is_told() {
     says(&["--hold", "up"], "theta_x");
     rotordyn().args(["bearing", "models/jeffcott.toml"]).assert().code(2);
 }
+
+/// `[study.bearing]` of a machine is done by `run`, with the others.
+#[test]
+fn run_does_the_bearings_that_the_file_asks_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("small.toml");
+    let bearing = |name: &str| {
+        format!("[bearing.{name}]\nstation = \"{name}\"\nmodel = \"ball\"\ndesignation = \"6204\"\n")
+    };
+    let text = format!(
+        "[model]\nname = \"small\"\n[material.steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n\
+         [lubricant.oil]\nviscosity = \"0.04 Pa s\"\npressure_viscosity = \"2e-8 1/Pa\"\n\
+         [shaft]\nelement_length = \"40 mm\"\nsection = [{{ length = \"400 mm\", outer_diameter = \"20 mm\" }}]\n\
+         [station]\nA = \"20 mm\"\nB = \"380 mm\"\n{}{}contact = \"film\"\n\
+         [study.static]\n[study.bearing]\nbearings = \"B\"\nspeed = \"3000 rpm\"\nsweep = [\"speed\"]\n\
+         loads = {{ from = \"1 N\", to = \"50 N\", count = 5 }}\n",
+        bearing("A"),
+        bearing("B")
+    );
+    std::fs::write(&model, text).unwrap();
+    let mut command = rotordyn();
+    command.arg("run").arg(&model).arg("--out").arg(folder.path());
+    let document = json_of(&mut command);
+    assert!(document["equilibrium"].is_object());
+    let bearing = &document["bearings"][0];
+    assert_eq!(bearing["name"], "B");
+    let of: Vec<&str> =
+        bearing["sweeps"].as_array().unwrap().iter().map(|s| s["of"].as_str().unwrap()).collect();
+    assert_eq!(of, ["load", "speed"]);
+    // Half the shaft's weight, and a film that grows with speed.
+    let weight = 7850.0 * std::f64::consts::PI * 1e-4 * 0.4 * 9.80665;
+    assert!((numbers(&bearing["operating"]["load"])[1] / (-0.5 * weight) - 1.0).abs() < 1e-3);
+    let points = bearing["sweeps"][1]["points"].as_array().unwrap();
+    let film = |k: usize| points[k]["minimum_film"].as_f64().unwrap();
+    assert!(film(0) == 0.0 && film(20) > 0.0 && film(40) > film(20));
+    assert!(bearing["operating"]["modified_life"].as_f64().unwrap() > 0.0);
+    assert!(folder.path().join("bearing_B_contacts_over_speed.png").exists());
+}

@@ -91,8 +91,8 @@ fn any_motion_can_be_held() {
         let held =
             std::array::from_fn(|k| (mask >> k & 1 == 1).then_some([2e-6, -3e-6, 8e-6, 1e-4, -2e-4][k]));
         let found = solver.solve(&Condition { held, ..base }, None).unwrap();
-        for k in 0..5 {
-            match held[k] {
+        for (k, held) in held.into_iter().enumerate() {
+            match held {
                 Some(d) => assert_eq!(found.displacement[k], d),
                 None => assert_eq!(found.load[k], base.load[k]),
             }

@@ -17,7 +17,8 @@ pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
     let [x, y, z, m_x, m_y] = state.load.map(|f| (10.0 * f).round() / 10.0 + 0.0);
     let moments =
         if m_x != 0.0 || m_y != 0.0 { format!(", moments {m_x}, {m_y} N·m") } else { String::new() };
-    let note = format!("{title}: load {x}, {y}, {z} N{moments}, {:.0} rpm", state.condition.speed * TO_RPM);
+    let rpm = state.condition.speed * TO_RPM;
+    let note = format!("{rpm:.0} rpm, load {x}, {y}, {z} N{moments} ({title})");
     let mut figures = vec![
         (name("ball_loads"), Figure::BallLoads(ball_loads(found, &note))),
         (name("contact_angles"), Figure::Lines(contact_angles(found, &note))),
@@ -192,8 +193,16 @@ fn displacement(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
         panel(name, if k > 2 { "N·m" } else { "N" }, false, vec![along])
     };
     let held = |k: usize| sweep.points.iter().any(|p| p.state.condition.held[k].is_some());
-    let mut panels: Vec<GridPanel> = (0..5).filter(|k| !held(*k)).map(motion).collect();
-    panels.extend((0..5).filter(|k| held(*k)).map(load));
+    let arm = 0.5 * found.bearing.geometry.pitch_diameter;
+    let most = |value: &dyn Fn(&BearingPoint) -> f64| {
+        sweep.points.iter().map(|p| value(p).abs()).fold(0.0, f64::max)
+    };
+    // What symmetry keeps at nothing but for round-off has no panel.
+    let moves = |k: usize| most(&|p| p.state.displacement[k]) * if k > 2 { arm } else { 1.0 } > 1e-13;
+    let push = |k: usize| most(&|p| p.state.load[k]) / if k > 2 { arm } else { 1.0 };
+    let largest = (0..5).map(push).fold(0.0, f64::max);
+    let mut panels: Vec<GridPanel> = (0..5).filter(|k| !held(*k) && moves(*k)).map(motion).collect();
+    panels.extend((0..5).filter(|k| held(*k) && push(*k) > 1e-9 * largest).map(load));
     let stiffness = |what: usize| {
         let of = move |p: &BearingPoint| {
             1e-6 * if what == 0 { p.radial_stiffness[0] } else { p.axial_stiffness[0] }

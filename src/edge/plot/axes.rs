@@ -110,7 +110,10 @@ impl Axes {
         let room = f.h + GAP;
         let size = if font::width(y_label, LABEL) <= room { LABEL } else { SMALL };
         let label = font::fit(y_label, size, room.max(100.0));
-        svg.text([f.x - 53.0, f.center()[1]], &label, Text::new(size, INK).middle().upright());
+        // Clear of the tick labels, within the margin.
+        let ticks = self.y.ticks.iter().map(|t| font::width(&t.label, TICK)).fold(0.0, f64::max);
+        let place = f.x - (ticks + 15.0).clamp(53.0, 66.0);
+        svg.text([place, f.center()[1]], &label, Text::new(size, INK).middle().upright());
     }
 
     fn x_axis(&self, svg: &mut Svg, x_label: Option<&str>) {

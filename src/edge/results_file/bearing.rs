@@ -55,11 +55,10 @@ fn points(place: &Place, points: &[BearingPoint], axis: Option<&str>) -> Result<
     let rows = points.iter().flat_map(|p| &p.balls).map(|b| b.row as f64).collect();
     array("balls/row", &[balls], "1", rows)?;
     array("balls/position", &[balls], "rad", positions)?;
-    let races: [(&str, fn(&BallState) -> &ContactState); 2] =
-        [("inner", |b| &b.inner), ("outer", |b| &b.outer)];
-    for (race, pick) in races {
+    for (race, inner) in [("inner", true), ("outer", false)] {
+        let pick = |b: &BallState| if inner { b.inner } else { b.outer };
         for (name, unit, value) in ContactState::COLUMNS {
-            let data = points.iter().flat_map(|p| &p.balls).map(|b| value(pick(b))).collect();
+            let data = points.iter().flat_map(|p| &p.balls).map(|b| value(&pick(b))).collect();
             array(&format!("balls/{race}/{name}"), &[balls], unit, data)?;
         }
     }
