@@ -110,8 +110,9 @@ impl BallBearing {
             "ball inertia needs each contact alone; a fitted power law knows only both together",
         );
         refuse(
-            matches!(self.contact, ContactLaw::Hertz) && matches!(self.damping, ContactDamping::Film { .. }),
-            "film damping needs a film law",
+            !matches!(self.contact, ContactLaw::Film { .. })
+                && matches!(self.damping, ContactDamping::Film { .. }),
+            "film damping needs the film formula, contact = \"film\"",
         );
         refuse(self.geometry.balls < 2, "a ball bearing has two balls at least");
         refuse(

@@ -38,7 +38,7 @@ pub(super) struct Row {
 }
 
 /// What holds for all balls of a row during one evaluation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Operating<'a> {
     pub contacts: SpeedContacts<'a>,
     /// Groove-centre offset with clearance change and preload \[m\].
@@ -192,12 +192,12 @@ impl Row {
         }
         let a = self.centre_distance;
         // One loop per law, so that the law is known inside it.
-        match operating.contacts {
+        match &operating.contacts {
             dry @ SpeedContacts::Hertz(pair) => self.sum_of(d, v, rotation, operating, |motion| {
-                massless::react(|approach| pair.series(approach), &dry, &self.damping, a, motion)
+                massless::react(|approach| pair.series(approach), dry, &self.damping, a, motion)
             }),
             law => self.sum_of(d, v, rotation, operating, |motion| {
-                massless::react(|approach| law.series(approach), &law, &self.damping, a, motion)
+                massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
             }),
         }
     }
@@ -253,7 +253,7 @@ impl Row {
 
     fn settle(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> Settled {
         let hertz = &self.contacts.hertz;
-        match operating.contacts {
+        match &operating.contacts {
             SpeedContacts::Hertz(pair) => fling.settle(
                 &Laws {
                     series: |x| pair.series(x),

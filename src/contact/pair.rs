@@ -1,5 +1,6 @@
 //! The two contacts of one ball under a bearing's contact law, at one entrainment speed.
 
+use super::ehl::{EhlLaw, EhlPair};
 use super::film::FilmGrowth;
 use super::{ContactLaw, EllipticContact, FilmFormula, FilmSpring, HertzPair, Lubricant, PowerSpring};
 
@@ -34,10 +35,11 @@ enum Law {
     Hertz,
     Film { unit: FilmPair, speed_factor: f64 },
     Power(PowerSpring),
+    Ehl(Box<EhlLaw>),
 }
 
 /// A ball's contacts at one entrainment speed, ready to be evaluated for every ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SpeedContacts<'a> {
     Hertz(&'a HertzPair),
     Film(FilmPair),
@@ -46,6 +48,7 @@ pub enum SpeedContacts<'a> {
         pair: &'a HertzPair,
         spring: &'a PowerSpring,
     },
+    Ehl(Box<EhlPair>),
 }
 
 /// Film springs of a ball's two contacts, in series and each alone.
@@ -94,11 +97,15 @@ impl FilmPair {
 
 impl BallContacts {
     /// Contacts of a ball between grooves under a law.
+    ///
+    /// A solved film whose tables are not there yet is stood in for by the film formula.
     pub fn new(hertz: HertzPair, law: ContactLaw) -> Self {
         let law = match law {
             ContactLaw::Hertz => Law::Hertz,
             ContactLaw::PowerLaw(law) => Law::Power(PowerSpring::new(law)),
-            ContactLaw::Film { lubricant, speed_factor } => {
+            ContactLaw::Ehl(law) if law.tables.is_some() => Law::Ehl(Box::new(law)),
+            ContactLaw::Ehl(EhlLaw { lubricant, speed_factor, .. })
+            | ContactLaw::Film { lubricant, speed_factor } => {
                 Law::Film { unit: FilmPair::new(&hertz, &lubricant), speed_factor }
             }
         };
@@ -118,6 +125,13 @@ impl BallContacts {
             }
             Law::Hertz => SpeedContacts::Hertz(&self.hertz),
             Law::Power(spring) => SpeedContacts::Power { pair: &self.hertz, spring },
+            Law::Ehl(law) => match &law.tables {
+                Some(tables) if speed > 0.0 => {
+                    let pair = law.at_speed(tables, &self.hertz, speed * law.speed_factor);
+                    SpeedContacts::Ehl(Box::new(pair))
+                }
+                _ => SpeedContacts::Hertz(&self.hertz),
+            },
         }
     }
 }
@@ -131,6 +145,7 @@ impl SpeedContacts<'_> {
             Self::Hertz(pair) => pair.series(approach),
             Self::Film(films) => films.series.load(approach),
             Self::Power { spring, .. } => spring.load(approach),
+            Self::Ehl(pair) => pair.series.load(approach),
         }
     }
 
@@ -144,6 +159,7 @@ impl SpeedContacts<'_> {
                 let both = spring.load(approach / share);
                 Loaded { load: both.load, slope: both.slope / share, energy: both.energy * share }
             }
+            Self::Ehl(pair) => pair.single(race, approach),
         }
     }
 
@@ -152,6 +168,7 @@ impl SpeedContacts<'_> {
         match self {
             Self::Hertz(_) | Self::Power { .. } => 0.0,
             Self::Film(films) => films.of(race).0.film(load),
+            Self::Ehl(pair) => pair.film(race, load),
         }
     }
 
@@ -160,6 +177,7 @@ impl SpeedContacts<'_> {
         match self {
             Self::Hertz(_) | Self::Power { .. } => 0.0,
             Self::Film(films) => films.of(race).1.minimum(films.speed, load.max(FilmSpring::THRESHOLD)),
+            Self::Ehl(pair) => pair.minimum_film(race, load),
         }
     }
 
@@ -170,13 +188,14 @@ impl SpeedContacts<'_> {
             Self::Hertz(_) => 0.0,
             Self::Film(films) => -films.series.reach(),
             Self::Power { spring, .. } => spring.onset(),
+            Self::Ehl(pair) => -pair.series.reach(),
         }
     }
 
     /// Whether a ball's load \[N\] lies outside what the law was fitted to.
     pub fn outside(&self, load: f64) -> bool {
         match self {
-            Self::Hertz(_) | Self::Film(_) => false,
+            Self::Hertz(_) | Self::Film(_) | Self::Ehl(_) => false,
             Self::Power { spring, .. } => spring.law.outside(load),
         }
     }
@@ -185,7 +204,7 @@ impl SpeedContacts<'_> {
     /// δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
     pub(super) fn film_damping(&self, elastic: &Loaded) -> (f64, f64) {
         match self {
-            Self::Hertz(_) | Self::Power { .. } => (0.0, 0.0),
+            Self::Hertz(_) | Self::Power { .. } | Self::Ehl(_) => (0.0, 0.0),
             Self::Film(films) => {
                 let (value, slope) = films.series.lag(elastic);
                 (value / films.speed, slope / films.speed)

@@ -9,12 +9,14 @@
 //! | `newton` | film, rupture and load balance on one grid |
 //! | `solution` | fields and figures in SI |
 //! | `table`, `curve` | film over load and speed, and the contact law at one speed |
+//! | `law` | the contacts of a ball under it |
 //!
 //! x lies along rolling (fluid flows towards +x), y across, p = 0 on the edges of the domain.
 
 mod curve;
 mod deflection;
 mod guess;
+mod law;
 mod newton;
 mod reynolds;
 mod scaled;
@@ -22,6 +24,7 @@ mod solution;
 mod table;
 
 pub use curve::Curve;
+pub use law::{EhlLaw, EhlPair};
 pub use solution::Solution;
 pub use table::{Table, TableSpec, geometric};
 

@@ -1,0 +1,87 @@
+//! The solved film as the contact law of a ball.
+
+use super::{Curve, Table, TableSpec, geometric};
+use crate::contact::{EllipticContact, FilmFormula, HertzPair, Loaded, Lubricant, Race};
+use std::sync::Arc;
+
+/// A ball's contacts under the numerically solved film: what to solve, and the tables once that is done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EhlLaw {
+    pub lubricant: Lubricant,
+    /// Factor on the entrainment speed.
+    pub speed_factor: f64,
+    /// Loads that the tables reach over \[N\].
+    pub loads: [f64; 2],
+    /// Entrainment speeds that they reach over \[m/s\], the factor included.
+    pub speeds: [f64; 2],
+    /// Number of loads and of speeds.
+    pub counts: [usize; 2],
+    /// Fineness of the grids, see [`super::Grid::flooded`].
+    pub points: usize,
+    /// Inner and outer contact; `None` until they are computed.
+    pub tables: Option<Arc<[Table; 2]>>,
+}
+
+/// A ball's contacts at one speed: in series and each alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EhlPair {
+    pub(in crate::contact) series: Curve,
+    inner: Curve,
+    outer: Curve,
+    /// h_min/h_c of Hamrock and Dowson, inner and outer, at Q = 1 N: goes with Q^−0.006.
+    least: [f64; 2],
+}
+
+impl EhlLaw {
+    /// What the tables of inner and outer contact are computed from.
+    pub fn specs(&self, hertz: &HertzPair) -> [TableSpec; 2] {
+        let [loads, speeds] = [(self.loads, self.counts[0]), (self.speeds, self.counts[1])]
+            .map(|([first, last], count)| geometric(first, last, count));
+        [hertz.inner, hertz.outer].map(|contact| TableSpec {
+            contact,
+            lubricant: self.lubricant.clone(),
+            loads: loads.clone(),
+            speeds: speeds.clone(),
+            points: self.points,
+        })
+    }
+
+    /// The contacts at an entrainment speed u > 0 \[m/s\], the factor included.
+    pub(in crate::contact) fn at_speed(&self, tables: &[Table; 2], hertz: &HertzPair, speed: f64) -> EhlPair {
+        let least = |contact: &EllipticContact| {
+            let film = FilmFormula::new(contact, &self.lubricant);
+            film.minimum(speed, 1.0) / film.central(speed, 1.0)
+        };
+        let [inner, outer] = [tables[0].at_speed(speed), tables[1].at_speed(speed)];
+        EhlPair {
+            series: inner.in_series(&outer),
+            inner,
+            outer,
+            least: [least(&hertz.inner), least(&hertz.outer)],
+        }
+    }
+}
+
+impl EhlPair {
+    fn of(&self, race: Race) -> (&Curve, f64) {
+        match race {
+            Race::Inner => (&self.inner, self.least[0]),
+            Race::Outer => (&self.outer, self.least[1]),
+        }
+    }
+
+    pub(in crate::contact) fn single(&self, race: Race, approach: f64) -> Loaded {
+        self.of(race).0.load(approach)
+    }
+
+    pub(in crate::contact) fn film(&self, race: Race, load: f64) -> f64 {
+        self.of(race).0.central_film(load)
+    }
+
+    /// The solved central film times the formula's ratio of minimum to central.
+    pub(in crate::contact) fn minimum_film(&self, race: Race, load: f64) -> f64 {
+        let (curve, least) = self.of(race);
+        let load = load.max(Curve::THRESHOLD);
+        curve.central_film(load) * least * load.powf(-0.006)
+    }
+}
