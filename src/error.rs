@@ -48,6 +48,8 @@ pub enum PhysicsError {
         load[0], load[1], load[2], load[3], load[4]
     )]
     NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
+    #[error("bearing {bearing}, {race} race: {reason}")]
+    Film { bearing: String, race: String, reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
 }

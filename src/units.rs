@@ -83,6 +83,7 @@ pub const VISCOSITY: Dimension =
     dimension("dynamic viscosity", "Pa s", "0.04 Pa s", [-1, 1, -1], Angle::Power(0));
 pub const PRESSURE_VISCOSITY: Dimension =
     dimension("pressure-viscosity coefficient", "1/Pa", "2.2e-8 1/Pa", [1, -1, 2], Angle::Power(0));
+pub const VELOCITY: Dimension = dimension("velocity", "m/s", "2 m/s", [1, 0, -1], Angle::Power(0));
 pub const INVERSE_SPEED: Dimension =
     dimension("damping per speed of approach", "s/m", "0.1 s/m", [-1, 0, 1], Angle::Power(0));
 /// A temperature on its scale; `degC` is shifted to kelvins.
@@ -331,7 +332,7 @@ fn split_power(factor: &str) -> Result<(&str, i32), UnitError> {
 
 /// Name of a dimension by its powers, or the powers themselves.
 fn describe(powers: [i32; 5]) -> String {
-    const KNOWN: [Dimension; 22] = [
+    const KNOWN: [Dimension; 23] = [
         LENGTH,
         MASS,
         TIME,
@@ -351,6 +352,7 @@ fn describe(powers: [i32; 5]) -> String {
         VISCOSITY,
         PRESSURE_VISCOSITY,
         INVERSE_SPEED,
+        VELOCITY,
         TEMPERATURE_DIFFERENCE,
         EXPANSION,
         NUMBER,

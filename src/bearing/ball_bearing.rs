@@ -65,6 +65,7 @@ impl BallBearing {
     pub fn lubricant(&self) -> Option<&Lubricant> {
         match &self.contact {
             ContactLaw::Film { lubricant, .. } => Some(lubricant),
+            ContactLaw::Ehl(law) => Some(&law.lubricant),
             ContactLaw::Hertz | ContactLaw::PowerLaw(_) => self.service.lubricant.as_ref(),
         }
     }

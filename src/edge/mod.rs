@@ -4,6 +4,7 @@ pub mod csv;
 pub mod exchange;
 pub mod export;
 pub mod figures;
+pub mod film_tables;
 pub mod gltf;
 pub mod hdf5;
 pub mod inflate;

@@ -113,11 +113,11 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
     let free = (spacing - geometry.ball_diameter).max(0.0);
     let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
-    let bearing = BallBearing {
+    let mut bearing = BallBearing {
         ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
         ring_material: part("ring_material").unwrap_or(steel),
         service: contact::service(r, lubricants),
-        contact: contact::law(r, lubricants),
+        contact: ContactLaw::Hertz,
         damping: contact::damping(r),
         inertia: r.choice("ball_inertia", &INERTIAS).unwrap_or_default(),
         preload: mounting::preload(r),
@@ -130,6 +130,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
         cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
         geometry,
     };
+    bearing.contact = contact::law(r, lubricants, &bearing.hertz());
     if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
         let message = format!("{} cannot part the two contacts of a fitted law", r.name("ball_inertia"));
         let problem = Problem::new(Kind::Conflict, &r.span_of("ball_inertia"), message);

@@ -1,12 +1,14 @@
 //! Lubricants, and how a bearing's contacts carry load and dissipate.
 
 use crate::bearing::Service;
-use crate::contact::{ContactDamping, ContactLaw, Lubricant, PowerLaw};
+use crate::contact::ehl::EhlLaw;
+use crate::contact::{ContactDamping, ContactLaw, HertzPair, Lubricant, PowerLaw};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
 use crate::units::{
-    self, DAMPING, DENSITY, FORCE, INVERSE_SPEED, LENGTH, NUMBER, PRESSURE_VISCOSITY, TEMPERATURE, VISCOSITY,
+    self, DAMPING, DENSITY, FORCE, INVERSE_SPEED, LENGTH, NUMBER, PRESSURE_VISCOSITY, TEMPERATURE, VELOCITY,
+    VISCOSITY,
 };
 
 /// Density of a mineral oil where the file gives none \[kg/m³\].
@@ -75,7 +77,7 @@ fn grade(r: &Reader) -> Option<Lubricant> {
 
 /// Whether the contact law is asked to be one with a film.
 fn has_film(r: &Reader) -> bool {
-    matches!(r.entry("contact").map(|e| &e.node.value), Some(Value::Text(word)) if word == "film")
+    matches!(r.entry("contact").map(|e| &e.node.value), Some(Value::Text(word)) if word == "film" || word == "ehl")
 }
 
 /// Ratings, oil and cleanliness for the rating life; the oil of a bearing with a film is the film's.
@@ -145,15 +147,17 @@ enum Law {
     Hertz,
     Film,
     Fitted,
+    Solved,
 }
 
 /// The contact law; [`ContactLaw::Hertz`] stands in after an error.
-pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
-    let words = [("hertz", Law::Hertz), ("film", Law::Film), ("power_law", Law::Fitted)];
+pub(super) fn law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLaw {
+    let words =
+        [("hertz", Law::Hertz), ("film", Law::Film), ("power_law", Law::Fitted), ("ehl", Law::Solved)];
     let word = r.choice("contact", &words);
     let law = word.unwrap_or(Law::Hertz);
     if r.has("contact") && word.is_none() {
-        ["speed_factor", "power_law"].iter().for_each(|key| _ = r.entry(key));
+        ["speed_factor", "power_law", "ehl"].iter().for_each(|key| _ = r.entry(key));
         return ContactLaw::Hertz;
     }
     let without = |key: &str, needed: &str| {
@@ -165,7 +169,10 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
     if law != Law::Fitted {
         without("power_law", "power_law");
     }
-    if law != Law::Film {
+    if law != Law::Solved {
+        without("ehl", "ehl");
+    }
+    if !matches!(law, Law::Film | Law::Solved) {
         without("speed_factor", "film");
     }
     match law {
@@ -176,7 +183,42 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant]) -> ContactLaw {
                 .map_or(ContactLaw::Hertz, |lubricant| ContactLaw::Film { lubricant, speed_factor })
         }
         Law::Fitted => power_law(r),
+        Law::Solved => solved(r, lubricants, hertz),
     }
+}
+
+/// `ehl = { loads = "5, 5000 N", speeds = "0.1, 16 m/s", points = 6 }`, all of it optional: the range of the tables.
+fn solved(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLaw {
+    let speed_factor = r.or("speed_factor", positive(NUMBER), 1.0);
+    let pressure = hertz.inner.patch(1.0).maximum_pressure;
+    let mut loads = [0.4e9, 4.2e9].map(|p: f64| (p / pressure).powi(3));
+    // From creeping to n D_pw = 600 000 rpm mm, where greased and most oiled bearings end.
+    let mut speeds = [0.1, 16.0].map(|u| u * speed_factor);
+    let (mut counts, mut points) = ([8, 5], 6);
+    if let Some(table) = r.table("ehl") {
+        let range = |key: &str, dimension, default: [f64; 2]| match table.list(key, positive(dimension)) {
+            None => default,
+            Some(values) => match values[..] {
+                [from, to] if from < to => [from, to],
+                _ => {
+                    if table.sound() {
+                        let message = format!("{} is not a range", table.name(key));
+                        let problem = Problem::new(Kind::OutOfRange, &table.span_of(key), message);
+                        table.log.error(problem.expected("the least and the greatest value"));
+                    }
+                    default
+                }
+            },
+        };
+        loads = range("loads", FORCE, loads);
+        speeds = range("speeds", VELOCITY, speeds);
+        counts = [table.count("load_count", 8, 2..=100), table.count("speed_count", 5, 2..=100)];
+        points = table.count("points", 6, 2..=24);
+        table.finish();
+    }
+    lubricant(r, lubricants).map_or(ContactLaw::Hertz, |lubricant| {
+        ContactLaw::Ehl(EhlLaw { lubricant, speed_factor, loads, speeds, counts, points, tables: None })
+    })
 }
 
 /// `power_law = { stiffness = "8.562e9 N/m^1.475", exponent = 1.475, offset = "30 N", range = "600, 2000 N" }`.

@@ -1,0 +1,139 @@
+//! Tables of solved films, computed when a model asks for them and kept on disk by their inputs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::bearing::BallBearing;
+use crate::contact::ContactLaw;
+use crate::contact::ehl::{Failure, Solution, Table, TableSpec};
+use crate::edge::csv::{self, Column};
+use crate::error::{Error, PhysicsError};
+
+/// Where tables are kept: `ROTORDYN_CACHE`, or `rotordyn` in the user's folder for caches; `None` without either.
+pub fn cache_folder() -> Option<PathBuf> {
+    let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    variable("ROTORDYN_CACHE")
+        .or_else(|| Some(variable("XDG_CACHE_HOME")?.join("rotordyn")))
+        .or_else(|| Some(variable("HOME")?.join(".cache").join("rotordyn")))
+}
+
+/// Computes the tables of a bearing with a solved film, or reads them from `cache`; other bearings are left alone.
+///
+/// `progress(race, done, total)` is called after every contact that is solved, from any thread.
+///
+/// # Errors
+/// [`PhysicsError::Film`] when a contact does not converge: `last` then gets its last fields, as CSV. A cache that
+/// cannot be written is no error: the tables are only computed again.
+pub fn prepare(
+    name: &str,
+    bearing: &mut BallBearing,
+    cache: Option<&Path>,
+    last: &Path,
+    progress: &(impl Fn(&str, usize, usize) + Sync),
+) -> Result<(), Error> {
+    let hertz = bearing.hertz();
+    let ContactLaw::Ehl(law) = &mut bearing.contact else { return Ok(()) };
+    if law.tables.is_some() {
+        return Ok(());
+    }
+    let [inner, outer] = law.specs(&hertz);
+    let table = |race: &str, spec: &TableSpec| -> Result<Table, Error> {
+        if let Some(known) = cache.and_then(|folder| read(folder, &spec.key())) {
+            return Ok(known);
+        }
+        let found = spec.compute(|done, total| progress(race, done, total));
+        let table = found.map_err(|failure| film_error(name, race, &failure, last))?;
+        if let Some(folder) = cache {
+            write(folder, &table);
+        }
+        Ok(table)
+    };
+    law.tables = Some(Arc::new([table("inner", &inner)?, table("outer", &outer)?]));
+    Ok(())
+}
+
+/// The error for the user; the last fields of a contact that did not converge go to the file `last`.
+fn film_error(name: &str, race: &str, failure: &Failure, last: &Path) -> Error {
+    let mut reason = failure.to_string();
+    if let Failure::NoConvergence { last: fields, .. } = failure {
+        if let Some(folder) = last.parent() {
+            let _ = std::fs::create_dir_all(folder);
+        }
+        reason += &match write_fields(fields, last) {
+            Ok(()) => format!("; its last fields are in {}", last.display()),
+            Err(error) => format!("; its last fields could not be written: {error}"),
+        };
+    }
+    PhysicsError::Film { bearing: name.into(), race: race.into(), reason }.into()
+}
+
+/// Pressure and film over x and y as a table of four columns.
+///
+/// # Errors
+/// As [`csv::write`].
+pub fn write_fields(fields: &Solution, path: &Path) -> Result<(), Error> {
+    let ny = fields.y.len();
+    let x: Vec<f64> = fields.x.iter().flat_map(|&x| std::iter::repeat_n(x, ny)).collect();
+    let y: Vec<f64> = fields.x.iter().flat_map(|_| fields.y.iter().copied()).collect();
+    let column = |name, unit, values| Column { name, unit, values };
+    csv::write(
+        path,
+        &[
+            column("x", "m", &x),
+            column("y", "m", &y),
+            column("pressure", "Pa", &fields.pressure),
+            column("film", "m", &fields.film),
+        ],
+    )
+}
+
+fn file(folder: &Path, key: &str) -> PathBuf {
+    // FNV-1a: short and the same for ever; the key inside the file is what counts.
+    let hash = key.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    folder.join(format!("film-{hash:016x}.json"))
+}
+
+/// A table with this key, if the cache has it whole.
+fn read(folder: &Path, key: &str) -> Option<Table> {
+    let text = std::fs::read(file(folder, key)).ok()?;
+    let table: Table = serde_json::from_slice(&text).ok()?;
+    (table.key == key).then_some(table)
+}
+
+/// Through a file of its own, so that a reader never meets half a table.
+fn write(folder: &Path, table: &Table) {
+    let path = file(folder, &table.key);
+    let draft = path.with_extension(format!("{}.tmp", std::process::id()));
+    let written = std::fs::create_dir_all(folder)
+        .and_then(|()| std::fs::write(&draft, serde_json::to_vec(table).unwrap_or_default()))
+        .and_then(|()| std::fs::rename(&draft, &path));
+    if written.is_err() {
+        let _ = std::fs::remove_file(&draft);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_comes_back_to_the_bit_and_only_under_its_key() {
+        let folder = tempfile::tempdir().unwrap();
+        let table = Table {
+            key: "ehl table 1; test".into(),
+            stiffness: 2.0e10 / 3.0,
+            loads: vec![1.0, 10.0],
+            speeds: vec![0.1],
+            shift: vec![vec![1.0e-6 / 3.0, 2.0e-7]],
+            central_film: vec![vec![3.0e-7, 0.1 + 0.2]],
+        };
+        write(folder.path(), &table);
+        assert_eq!(read(folder.path(), &table.key), Some(table.clone()));
+        assert_eq!(read(folder.path(), "ehl table 1; other"), None);
+        let renamed = file(folder.path(), "another");
+        std::fs::rename(file(folder.path(), &table.key), &renamed).unwrap();
+        assert_eq!(read(folder.path(), "another"), None);
+    }
+}
