@@ -2,6 +2,7 @@
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
+use crate::ehl_table::tabulated;
 use rotordyn::bearing::{
     Arrangement, BallBearing, BallElement, BallInertia, Duplex, Preload, Reaction, Rotation, Wave,
 };
@@ -35,7 +36,7 @@ pub fn angular() -> BallBearing {
 fn each(mut visit: impl FnMut(&str, &BallBearing)) {
     let pairs =
         [None, Some(Arrangement::BackToBack), Some(Arrangement::FaceToFace), Some(Arrangement::Tandem)];
-    for law in [ContactLaw::Hertz, film()] {
+    for law in [ContactLaw::Hertz, film(), tabulated(&angular().hertz())] {
         for inertia in INERTIA {
             for preload in PRELOAD {
                 for arrangement in pairs {
@@ -116,6 +117,10 @@ fn tangents_equal_differences() {
                 let (plus, minus) = (at(step), at(-step));
                 let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
                 let (faster, slower) = (along(rate), along(-rate));
+                // A ball that lets go within the step bends the force; the damping of one that holds is the same.
+                let lets_go = (0..5).any(|a| {
+                    (0..5).any(|b| (faster.damping[a][b] - slower.damping[a][b]).abs() > 1e-9 * c_size)
+                });
                 for row in 0..5 {
                     let scale = lever(row) * lever(column);
                     let k = -(plus.force[row] - minus.force[row]) / (2.0 * step);
@@ -125,7 +130,10 @@ fn tangents_equal_differences() {
                     let (dk, dc) = (k - mean, c - here.damping[row][column]);
                     // A ball that unloads within the step costs √(0.1 nm/1 µm) of its own small stiffness.
                     assert!(dk.abs() < 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
-                    assert!(dc.abs() < 1e-6 * c_size * scale, "{name} C[{row}][{column}] {c} off by {dc}");
+                    assert!(
+                        lets_go || dc.abs() < 1e-6 * c_size * scale,
+                        "{name} C[{row}][{column}] {c} off by {dc}"
+                    );
                     compared += 1;
                 }
             }

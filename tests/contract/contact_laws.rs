@@ -1,6 +1,7 @@
 //! What every contact law owes: slope and energy by differences, no jump, no pull, damping that dissipates.
 
 use crate::bearing::steel;
+use crate::ehl_table::tabulated;
 use rotordyn::contact::{
     BallContacts, ContactDamping, ContactLaw, FilmSpring, HertzPair, Loaded, Lubricant, PowerLaw, Race,
     SpeedContacts, fit_power_law,
@@ -26,8 +27,12 @@ fn laws() -> Vec<(BallContacts, f64)> {
         power(1.18e10, 1.51, -155.465),
         power(2.149e9, 1.3255, 235.4),
     ];
-    let speeds = [1e-4, 1.2, 40.0];
-    laws.iter().flat_map(|law| speeds.map(|speed| (BallContacts::new(pair(), law.clone()), speed))).collect()
+    let at = |law: &ContactLaw, speeds: [f64; 3]| {
+        speeds.map(|speed| (BallContacts::new(pair(), law.clone()), speed))
+    };
+    // The made-up table is no film far outside its speeds.
+    let solved = at(&tabulated(&pair()), [0.7, 3.0, 18.0]);
+    laws.iter().flat_map(|law| at(law, [1e-4, 1.2, 40.0])).chain(solved).collect()
 }
 
 /// Loads at which a law changes its form.
