@@ -3,7 +3,7 @@
 mod bearing;
 
 pub use bearing::{
-    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
+    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState, SolvedFilm,
 };
 
 use crate::analysis::Mode;

@@ -14,12 +14,20 @@ use super::failure::Failure;
 use super::machine::Origin;
 use super::store::{self, Text};
 use super::terminal::Terminal;
-use super::{Outcome, bearing_tables, diagnostics, settings, written};
+use super::{Outcome, bearing_tables, diagnostics, films, settings, written};
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = Origin::read(&args.study.model)?;
-    let loaded = origin.load_bearings(&settings::bearing(args)?.set)?;
+    let mut loaded = origin.load_bearings(&settings::bearing(args)?.set)?;
     let folder = origin.folder(args.study.out.as_ref(), &loaded.name);
+    match &mut loaded.model {
+        Some(model) => films::of_machine(model, &folder, terminal)?,
+        None => {
+            for (name, bearing) in &mut loaded.bearings {
+                films::of_bearing(name, bearing, &folder, terminal)?;
+            }
+        }
+    }
     let text = Text { model: &loaded.text, title: &loaded.title };
     let start = Instant::now();
     let spinner = terminal.spinner("bearing");

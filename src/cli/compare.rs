@@ -10,7 +10,7 @@ use super::args::StudyArgs;
 use super::failure::Failure;
 use super::machine::Origin;
 use super::terminal::{Terminal, rpm};
-use super::{Outcome, settings, warn, written};
+use super::{Outcome, films, settings, warn, written};
 
 /// Below this MAC two modes are no pair.
 const PAIR: f64 = 0.3;
@@ -43,7 +43,9 @@ pub fn run(
     for name in &names {
         let origin = origin.with_variant(name);
         let base = origin.load(&[])?;
-        let loaded = origin.load(&settings::modal(&base.model, speed, modes).set)?;
+        let mut loaded = origin.load(&settings::modal(&base.model, speed, modes).set)?;
+        let folder = origin.folder(None, &loaded.model.name);
+        films::of_machine(&mut loaded.model, &folder, terminal)?;
         let machine = Machine::new(loaded.model.clone())?;
         let studies = &machine.model.studies;
         let results = Results {

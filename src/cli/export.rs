@@ -15,14 +15,15 @@ use super::args::{ChannelFormat, ExportArgs};
 use super::failure::Failure;
 use super::machine::Origin;
 use super::terminal::Terminal;
-use super::{settings, store, written};
+use super::{films, settings, store, written};
 
 pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let origin = Origin::read(&args.study.model)?;
     let base = origin.load(&[])?;
-    let loaded = origin.load(&settings::modal(&base.model, None, None).set)?;
+    let mut loaded = origin.load(&settings::modal(&base.model, None, None).set)?;
+    let folder = origin.folder(args.study.out.as_ref(), &loaded.model.name);
+    films::of_machine(&mut loaded.model, &folder, terminal)?;
     let machine = Machine::new(loaded.model)?;
-    let folder = origin.folder(args.study.out.as_ref(), &machine.model.name);
     let mut files = export_geometry(&machine, &folder)?;
     let modal = machine.model.studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?;
     let results = Results { modal: modal.unwrap_or_default(), ..Results::default() };

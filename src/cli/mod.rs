@@ -9,6 +9,7 @@ mod compare;
 mod diagnostics;
 mod export;
 mod failure;
+mod films;
 mod interrupt;
 mod machine;
 mod settings;
@@ -146,8 +147,9 @@ fn studies_of(
         let message = format!("{} asks for no study; add [study.modal] or another", origin.name);
         return Err(Failure::Input(message));
     }
-    let machine = Machine::new(loaded.model.clone())?;
     let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
+    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let machine = Machine::new(loaded.model.clone())?;
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();

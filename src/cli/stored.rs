@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::store::{self, stored_origin};
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
-use super::{Outcome, finish, settings, tables};
+use super::{Outcome, films, finish, settings, tables};
 
 pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outcome, Failure> {
     let path = if args.file.is_dir() { args.file.join(store::FILE) } else { args.file.clone() };
@@ -30,12 +30,13 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
         Study::Orders => settings::orders(&base.model, args),
         _ => settings::spectrogram(&base.model, args),
     };
-    let loaded = origin.load(&settings.set)?;
+    let mut loaded = origin.load(&settings.set)?;
     if let Some(note) = &settings.note {
         terminal.say(note);
     }
-    let machine = Machine::new(loaded.model.clone())?;
     let folder = path.parent().map(PathBuf::from).unwrap_or_default();
+    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let machine = Machine::new(loaded.model.clone())?;
     let mut job = Job::new(terminal, machine, folder, Store::append(&path)?);
     let start = std::time::Instant::now();
     let studies = &job.machine.model.studies;

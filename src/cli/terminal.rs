@@ -78,6 +78,13 @@ impl Terminal {
         bar
     }
 
+    /// A bar over a number of equal pieces of work; length and message are set by the caller.
+    pub fn count_bar(&self) -> ProgressBar {
+        let bar = self.bar(Some(0));
+        bar.set_style(style("{msg} {wide_bar} {pos} of {len}, {eta} left"));
+        bar
+    }
+
     fn bar(&self, length: Option<u64>) -> ProgressBar {
         let target = if self.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         ProgressBar::with_draw_target(length, target)

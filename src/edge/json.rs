@@ -116,6 +116,15 @@ fn bearing(found: &BearingResult) -> Value {
         "nominal_orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
         "operating": point(&found.point),
         "sweeps": found.sweeps.iter().map(sweep).collect::<Value>(),
+        "films": found.films.iter().map(|f| json!({
+            "race": f.race,
+            "load": f.load,
+            "entrainment_speed": f.speed,
+            "central_film": f.solution.central_film,
+            "minimum_film": f.solution.minimum_film,
+            "approach": f.solution.approach,
+            "rolling_force": f.solution.rolling_force,
+        })).collect::<Value>(),
         "warnings": found.warnings,
     })
 }

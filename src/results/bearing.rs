@@ -3,6 +3,7 @@
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::bearing::life::LoadRating;
 use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
+use crate::contact::ehl::Solution;
 use crate::model::study::Swept;
 
 /// One ball bearing on its own.
@@ -23,7 +24,20 @@ pub struct BearingResult {
     /// The operating point.
     pub point: BearingPoint,
     pub sweeps: Vec<BearingSweepResult>,
+    /// Fields of the heaviest loaded contacts, where the bearing's law is the solved film.
+    pub films: Vec<SolvedFilm>,
     pub warnings: Vec<String>,
+}
+
+/// The solved film of one contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolvedFilm {
+    /// "inner" or "outer".
+    pub race: &'static str,
+    /// Load \[N\] and entrainment speed \[m/s\].
+    pub load: f64,
+    pub speed: f64,
+    pub solution: Solution,
 }
 
 /// A bearing under one load at one speed.

@@ -1,6 +1,6 @@
 //! Ball bearings each on its own: operating point, sweeps, contacts, film, frequencies.
 
-use super::Machine;
+use super::{Machine, solved_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::bearing::life::{
@@ -224,6 +224,7 @@ impl<'a> Work<'a> {
             sweeps.extend(self.sweep(of, values, &point, &mut warnings));
         }
         let g = &self.bearing.geometry;
+        let films = solved_film::fields(self.name, self.bearing, &point, &mut warnings);
         Ok(BearingResult {
             name: self.name.to_string(),
             bearing: self.bearing.clone(),
@@ -234,6 +235,7 @@ impl<'a> Work<'a> {
             nominal_orders: g.orders(g.contact_angle),
             point,
             sweeps,
+            films,
             warnings,
         })
     }

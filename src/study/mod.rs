@@ -4,6 +4,7 @@ mod attractor;
 mod bearing;
 mod bifurcation;
 mod record;
+mod solved_film;
 mod tracking;
 
 pub use attractor::{CarriedState, Progress};

@@ -2,9 +2,9 @@
 
 use super::display::unit;
 use super::{Named, TO_RPM};
-use crate::edge::plot::{BallLoads, BallRow, Curve, Figure, Grid, GridPanel, Lines};
+use crate::edge::plot::{BallLoads, BallRow, Curve, Figure, FilmMap, Grid, GridPanel, Lines};
 use crate::model::study::Swept;
-use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState};
+use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState, SolvedFilm};
 
 /// Couplings below this share of √(k_ii k_jj) everywhere are not drawn.
 const COUPLED: f64 = 1e-6;
@@ -37,7 +37,34 @@ pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
             figures.push((name("life_over_load"), Figure::Lines(life(found, sweep, &note))));
         }
     }
+    figures.extend(
+        found
+            .films
+            .iter()
+            .map(|film| (name(&format!("film_{}", film.race)), Figure::FilmMap(film_map(found, film)))),
+    );
     figures
+}
+
+fn film_map(found: &BearingResult, film: &SolvedFilm) -> FilmMap {
+    let fields = &film.solution;
+    let scaled = |values: &[f64], factor: f64| values.iter().map(|v| factor * v).collect();
+    FilmMap {
+        title: format!("Film of the heaviest loaded ball of bearing {}, {} race", found.name, film.race),
+        note: format!(
+            "{:.0} N, entrainment {:.2} m/s: central film {:.3} µm, least {:.3} µm, solved in {} steps",
+            film.load,
+            film.speed,
+            1e6 * fields.central_film,
+            1e6 * fields.minimum_film,
+            fields.iterations
+        ),
+        x: scaled(&fields.x, 1e3),
+        y: scaled(&fields.y, 1e3),
+        pressure: scaled(&fields.pressure, 1e-9),
+        film: scaled(&fields.film, 1e6),
+        central_film: 1e6 * fields.central_film,
+    }
 }
 
 /// One race of one row.

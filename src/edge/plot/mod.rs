@@ -23,6 +23,7 @@ mod ball_load;
 mod bode;
 mod campbell;
 mod deflection;
+mod film_map;
 mod frf;
 mod grid;
 mod history;
@@ -46,6 +47,7 @@ pub use ball_load::{BallLoads, BallRow};
 pub use bode::{Bode, BodeCurve};
 pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
 pub use deflection::{Deflection, Mark};
+pub use film_map::FilmMap;
 pub use frf::{Frf, FrfCurve};
 pub use grid::{Grid, GridPanel};
 pub use history::{Channel, History};
@@ -78,6 +80,7 @@ pub enum Figure {
     History(History),
     Lines(Lines),
     Grid(Grid),
+    FilmMap(FilmMap),
     Rig(Rig),
 }
 
@@ -99,6 +102,7 @@ impl Figure {
             Figure::History(data) => history::draw(data),
             Figure::Lines(data) => lines::draw(data),
             Figure::Grid(data) => grid::draw(data),
+            Figure::FilmMap(data) => film_map::draw(data),
             Figure::Rig(data) => rig::draw(data),
         }
         .finish()

@@ -31,6 +31,26 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
             at.array("over", &[sweep.values.len()], &sweep.values, sweep.unit)?;
             points(&at, &sweep.points, Some("over"))?;
         }
+        for film in &bearing.films {
+            let (at, fields) = (place.below(&format!("film_{}", film.race))?, &film.solution);
+            for (name, value) in [
+                ("load", film.load),
+                ("entrainment_speed", film.speed),
+                ("central_film", fields.central_film),
+                ("minimum_film", fields.minimum_film),
+                ("approach", fields.approach),
+                ("rolling_force", fields.rolling_force),
+            ] {
+                at.note(name, value)?;
+            }
+            at.array("x", &[fields.x.len()], &fields.x, "m")?;
+            at.array("y", &[fields.y.len()], &fields.y, "m")?;
+            for (name, unit, data) in [("pressure", "Pa", &fields.pressure), ("film", "m", &fields.film)] {
+                at.array(name, &[fields.x.len(), fields.y.len()], data, unit)?;
+                at.axis(name, 0, "x")?;
+                at.axis(name, 1, "y")?;
+            }
+        }
     }
     Ok(())
 }

@@ -1,0 +1,57 @@
+//! Pressure and film of a lubricated contact as maps, with both along its line of symmetry.
+
+use super::axes::Axes;
+use super::heat::{BAR_ROOM, Heat, color_bar};
+use super::labels::{Entry, head};
+use super::scale::Range;
+use super::style::*;
+use super::svg::{Style, Svg};
+
+/// Fields of a contact, index i·ny + j at (x_i, y_j).
+#[derive(Clone, Debug, Default)]
+pub struct FilmMap {
+    pub title: String,
+    pub note: String,
+    /// Along rolling, upstream first, and across \[mm\].
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    /// Pressure \[GPa\].
+    pub pressure: Vec<f64>,
+    /// Film \[um\].
+    pub film: Vec<f64>,
+    /// Central film \[um\]; the map shows films up to twice as thick.
+    pub central_film: f64,
+}
+
+pub fn draw(data: &FilmMap) -> Svg {
+    let line = [Style::stroke(BLUE, 1.5), Style::stroke(RED, 1.5)];
+    let entries = [
+        Entry::line("pressure, share of the largest", line[0]),
+        Entry::line("film, share of twice the central", line[1]),
+    ];
+    let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
+    let frames = super::panels::stack(top + 6.0, WIDTH - LEFT - BAR_ROOM - 24.0, &[170.0, 170.0, 130.0]);
+    let x = Range::of(data.x.iter().copied());
+    let y = Range::of(data.y.iter().copied());
+    let most = data.pressure.iter().copied().fold(0.0, f64::max);
+    let thick = 2.0 * data.central_film;
+    for (frame, level, top, label) in [
+        (frames[0], &data.pressure, most, "pressure [GPa]"),
+        (frames[1], &data.film, thick, "film thickness [µm]"),
+    ] {
+        let axes = Axes::linear(frame, x, y);
+        let bounds = Range::new(0.0, top);
+        Heat { x: &data.x, y: &data.y, level }.draw(&mut svg, &axes, bounds);
+        axes.border(&mut svg, None, &axes.y.label("across", "mm"));
+        color_bar(&mut svg, frame, WIDTH - BAR_ROOM, bounds, label);
+    }
+    let axes = Axes::linear(frames[2], x, Range::new(0.0, 1.05));
+    let (ny, middle) = (data.y.len(), data.y.len() / 2);
+    for (field, top, style) in [(&data.pressure, most, line[0]), (&data.film, thick, line[1])] {
+        let along: Vec<f64> = (0..data.x.len()).map(|i| field[i * ny + middle] / top).collect();
+        axes.curve(&mut svg, &data.x, &along, style);
+    }
+    axes.border(&mut svg, Some(&axes.x.label("along rolling", "mm")), "on the line y = 0");
+    svg.height = frames[2].bottom() + BOTTOM;
+    svg
+}

@@ -1,0 +1,41 @@
+//! Fields of a bearing's heaviest loaded contacts, solved at its operating point.
+
+use crate::bearing::BallBearing;
+use crate::contact::ContactLaw;
+use crate::contact::ehl::{self, Grid, Problem};
+use crate::results::{BallState, BearingPoint, ContactState, SolvedFilm};
+
+/// Fineness of the fields, see [`Grid::flooded`].
+const POINTS: usize = 8;
+
+/// The film of the heaviest loaded ball at both races, for a bearing whose law is the solved film; what does not
+/// converge is a warning.
+pub(super) fn fields(
+    name: &str,
+    bearing: &BallBearing,
+    point: &BearingPoint,
+    warnings: &mut Vec<String>,
+) -> Vec<SolvedFilm> {
+    let ContactLaw::Ehl(law) = &bearing.contact else { return Vec::new() };
+    let g = &bearing.geometry;
+    let gamma = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
+    let entrainment = 0.25 * g.pitch_diameter * (1.0 - gamma * gamma);
+    let speed = law.speed_factor * entrainment * point.state.condition.speed.abs();
+    let hertz = bearing.hertz();
+    let races: [(&'static str, _, fn(&BallState) -> &ContactState); 2] =
+        [("inner", hertz.inner, |b| &b.inner), ("outer", hertz.outer, |b| &b.outer)];
+    let mut found = Vec::new();
+    for (race, contact, pick) in races {
+        let load = point.balls.iter().map(|b| pick(b).load).fold(0.0, f64::max);
+        if load <= 0.0 || speed <= 0.0 {
+            continue;
+        }
+        let grid = Grid::flooded(&contact, &law.lubricant, speed, load, POINTS);
+        let problem = Problem { contact, lubricant: law.lubricant.clone(), speed, load, grid };
+        match ehl::solve(&problem, None) {
+            Ok(solution) => found.push(SolvedFilm { race, load, speed, solution }),
+            Err(failure) => warnings.push(format!("bearing {name}, {race} race: {failure}")),
+        }
+    }
+    found
+}
