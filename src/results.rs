@@ -3,7 +3,8 @@
 mod bearing;
 
 pub use bearing::{
-    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState, SolvedFilm,
+    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
+    PickContact, SolvedFilm,
 };
 
 use crate::analysis::Mode;

@@ -117,6 +117,48 @@ fn write(folder: &Path, table: &Table) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::ehl::{self, Domain, Grid, Problem};
+    use crate::contact::{EllipticContact, Lubricant};
+
+    #[test]
+    fn a_film_that_does_not_converge_leaves_its_last_fields_and_its_figures() {
+        let steel = crate::material::Material {
+            name: "steel".into(),
+            young: 2.06e11,
+            shear: 8e10,
+            poisson: 0.3,
+            density: 7850.0,
+        };
+        let problem = Problem {
+            contact: EllipticContact::new(100.0, 100.0, [&steel, &steel]),
+            lubricant: Lubricant {
+                name: "oil".into(),
+                viscosity: 0.04,
+                pressure_viscosity: 2.2e-8,
+                density: 870.0,
+            },
+            speed: 1.0,
+            load: 20.0,
+            grid: Grid { nx: 25, ny: 13, domain: Domain { inlet: 4.5, outlet: 1.5, side: 3.0 } },
+        };
+        let fields = ehl::solve(&problem, None).unwrap();
+        let failure = Failure::NoConvergence {
+            load: problem.load,
+            speed: problem.speed,
+            residual: 0.125,
+            iterations: 60,
+            least_film: fields.minimum_film,
+            last: Box::new(fields),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new").join("last.csv");
+        let message = film_error("A", "inner", &failure, &path).to_string();
+        for part in ["bearing A, inner race", "20.0000 N", "1.0000 m/s", "1.250e-1", "60", "last.csv"] {
+            assert!(message.contains(part), "{message} lacks {part}");
+        }
+        let text = std::fs::read_to_string(path).unwrap();
+        assert!(text.starts_with("x_m,y_m,pressure_Pa,film_m\n") && text.lines().count() == 1 + 25 * 13);
+    }
 
     #[test]
     fn a_table_comes_back_to_the_bit_and_only_under_its_key() {

@@ -40,6 +40,9 @@ pub struct SolvedFilm {
     pub solution: Solution,
 }
 
+/// One of a ball's two contacts.
+pub type PickContact = fn(&BallState) -> &ContactState;
+
 /// A bearing under one load at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingPoint {

@@ -3,7 +3,7 @@
 use crate::bearing::BallBearing;
 use crate::contact::ContactLaw;
 use crate::contact::ehl::{self, Grid, Problem};
-use crate::results::{BallState, BearingPoint, ContactState, SolvedFilm};
+use crate::results::{BearingPoint, PickContact, SolvedFilm};
 
 /// Fineness of the fields, see [`Grid::flooded`].
 const POINTS: usize = 8;
@@ -22,7 +22,7 @@ pub(super) fn fields(
     let entrainment = 0.25 * g.pitch_diameter * (1.0 - gamma * gamma);
     let speed = law.speed_factor * entrainment * point.state.condition.speed.abs();
     let hertz = bearing.hertz();
-    let races: [(&'static str, _, fn(&BallState) -> &ContactState); 2] =
+    let races: [(&'static str, _, PickContact); 2] =
         [("inner", hertz.inner, |b| &b.inner), ("outer", hertz.outer, |b| &b.outer)];
     let mut found = Vec::new();
     for (race, contact, pick) in races {

@@ -141,3 +141,50 @@ fn run_does_the_bearings_that_the_file_asks_for() {
     assert!(bearing["operating"]["modified_life"].as_f64().unwrap() > 0.0);
     assert!(folder.path().join("bearing_B_contacts_over_speed.png").exists());
 }
+
+/// A solved film: computed once, kept on disk, its fields drawn and stored.
+#[test]
+fn a_bearing_whose_film_is_solved() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("filmed.toml");
+    let text = "[model]\nname = \"filmed\"\n[lubricant.oil]\ngrade = \"ISO VG 68\"\ntemperature = \"50 degC\"\n\
+                [bearing.front]\nmodel = \"ball\"\ndesignation = \"6205\"\ncontact = \"ehl\"\n\
+                [bearing.front.ehl]\nloads = \"100, 1500 N\"\nspeeds = \"3, 8 m/s\"\nload_count = 3\n\
+                speed_count = 2\npoints = 3\n";
+    std::fs::write(&model, text).unwrap();
+    let cache = folder.path().join("cache");
+    let run = |out: &str| {
+        let mut command = rotordyn();
+        command.env("ROTORDYN_CACHE", &cache).arg("bearing").arg(&model);
+        command.args(["--speed", "6000 rpm", "--load", "0, -800, 0 N", "--out"]).arg(folder.path().join(out));
+        json_of(&mut command)
+    };
+    let first = run("first");
+    let tables = || std::fs::read_dir(&cache).unwrap().count();
+    assert_eq!(tables(), 2);
+    let bearing = &first["bearings"][0];
+    for (film, race) in bearing["films"].as_array().unwrap().iter().zip(["inner", "outer"]) {
+        assert_eq!(film["race"], race);
+        // ISO VG 68 at 50 degC, 3 m/s: some tenths of a micrometre.
+        let central = film["central_film"].as_f64().unwrap();
+        assert!((1e-7..2e-6).contains(&central), "{central:e}");
+        assert!(film["minimum_film"].as_f64().unwrap() < central);
+        let path = folder.path().join("first").join(format!("bearing_front_film_{race}.png"));
+        assert!(path.exists(), "{}", path.display());
+        let store =
+            rotordyn::edge::hdf5::Store::open(folder.path().join("first").join("results.h5")).unwrap();
+        let pressure = store.read(&format!("/bearings/front/film_{race}/pressure")).unwrap();
+        assert!(pressure.shape.len() == 2 && pressure.data.iter().copied().fold(0.0, f64::max) > 5e8);
+    }
+    // The film the law carries is the one that was solved, and the same from the cache.
+    let inner = &bearing["operating"]["balls"].as_array().unwrap().iter().max_by(|a, b| {
+        let load = |v: &Value| v["inner"]["load"].as_f64().unwrap();
+        load(a).total_cmp(&load(b))
+    });
+    let law = inner.unwrap()["inner"]["film"].as_f64().unwrap();
+    let solved = bearing["films"][0]["central_film"].as_f64().unwrap();
+    assert!((law / solved - 1.0).abs() < 0.1, "{law:e} {solved:e}");
+    let again = run("again");
+    assert_eq!(again["bearings"], first["bearings"]);
+    assert_eq!(tables(), 2);
+}

@@ -88,7 +88,7 @@ fn any_motion_can_be_held() {
     let solver = BearingSolver::new("held", &angular_contact());
     let base = condition([0.0, -500.0, 700.0, 0.0, 0.0], CageTreatment::AsPlaced);
     for mask in 0..32usize {
-        let held =
+        let held: [Option<f64>; 5] =
             std::array::from_fn(|k| (mask >> k & 1 == 1).then_some([2e-6, -3e-6, 8e-6, 1e-4, -2e-4][k]));
         let found = solver.solve(&Condition { held, ..base }, None).unwrap();
         for (k, held) in held.into_iter().enumerate() {
