@@ -11,6 +11,7 @@ mod rig;
 mod ross;
 
 mod bal_2022_contacts;
+mod bal_2022_frequencies;
 mod bal_2022_machine;
 mod bal_2022_preload;
 mod cakmak_2010;
