@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let [start, steady] = peak_to_peak(preload)?;
         let [a, b, c] = start.map(|v| 1e6 * v);
         let [d, e, f] = steady.map(|v| 1e9 * v);
-        println!("{preload:>5} N   {a:9.4} {b:9.4} {c:9.4}   {d:12.5} {e:12.5} {f:12.5}");
+        println!("{preload:>5} N   {a:9.4} {b:9.4} {c:9.4}   {d:10.2e} {e:10.2e} {f:10.2e}");
         found.push([start, steady]);
     }
     let share = |k: usize| (found[0][0][k] - found[0][1][k]) / found[0][0][k];
@@ -41,7 +41,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         curves: (0..2)
             .map(|which| Curve {
                 x: PRELOADS.to_vec(),
-                y: found.iter().map(|f| 1e6 * f[which][k]).collect(),
+                // Below a thousandth of a femtometre there is rounding alone.
+                y: found
+                    .iter()
+                    .map(|f| if f[which][k] > 1e-18 { 1e6 * f[which][k] } else { f64::NAN })
+                    .collect(),
                 ..Curve::default()
             })
             .collect(),
@@ -64,7 +68,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Peak-to-peak displacement of the probes x, y, z over the start and over the end of a run \[m\].
 fn peak_to_peak(preload: f64) -> Result<[[f64; 3]; 2], Box<dyn std::error::Error>> {
-    let options = Options { variant: Some(format!("preload_{preload}")), set: Vec::new() };
+    let options = Options {
+        variant: Some(format!("preload_{preload}")),
+        // A quarter of a ball pitch between the two sets: in step they would leave nothing along z.
+        set: vec![("bearing.B.cage_angle".into(), "-83.0769 deg".into())],
+    };
     let model = model::load("bal_2022.toml", MODEL, &options)?.model;
     let study = model.studies.run_up.clone().ok_or("the model asks for no run")?;
     let machine = Machine::new(model)?;

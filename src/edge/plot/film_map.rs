@@ -31,13 +31,15 @@ pub fn draw(data: &FilmMap) -> Svg {
     ];
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frames = super::panels::stack(top + 6.0, WIDTH - LEFT - BAR_ROOM - 24.0, &[170.0, 170.0, 130.0]);
-    let x = Range::of(data.x.iter().copied());
+    let x = near_the_load(data);
     let y = Range::of(data.y.iter().copied());
     let most = data.pressure.iter().copied().fold(0.0, f64::max);
     let thick = 2.0 * data.central_film;
+    // Where the film is thicker the map stays white.
+    let film: Vec<f64> = data.film.iter().map(|&h| if h > thick { f64::NAN } else { h }).collect();
     for (frame, level, top, label) in [
         (frames[0], &data.pressure, most, "pressure [GPa]"),
-        (frames[1], &data.film, thick, "film thickness [µm]"),
+        (frames[1], &film, thick, "film thickness [µm]"),
     ] {
         let axes = Axes::linear(frame, x, y);
         let bounds = Range::new(0.0, top);
@@ -54,4 +56,19 @@ pub fn draw(data: &FilmMap) -> Svg {
     axes.border(&mut svg, Some(&axes.x.label("along rolling", "mm")), "on the line y = 0");
     svg.height = frames[2].bottom() + BOTTOM;
     svg
+}
+
+/// The part of x in which the line of symmetry carries more than a hundredth of the largest pressure, and half as much
+/// to either side.
+fn near_the_load(data: &FilmMap) -> Range {
+    let (ny, middle) = (data.y.len(), data.y.len() / 2);
+    let along = |i: usize| data.pressure.get(i * ny + middle).copied().unwrap_or(0.0);
+    let most = (0..data.x.len()).map(along).fold(0.0, f64::max);
+    let mut loaded = (0..data.x.len()).filter(|&i| along(i) > 0.01 * most).map(|i| data.x[i]);
+    let first = loaded.next();
+    let (Some(first), Some(last)) = (first, loaded.next_back().or(first)) else {
+        return Range::of(data.x.iter().copied());
+    };
+    let margin = 0.25 * (last - first);
+    Range::new(first - margin, last + margin)
 }
