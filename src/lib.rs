@@ -111,7 +111,7 @@
 //! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
 //! | [`transient`] | reduction, time integration, energy account |
 //! | [`results`], [`study`] | what studies give, and the studies: one method of [`study::Machine`] each |
-//! | [`edge`] | HDF5, JSON, CSV, VTK, glTF, figures, shapes: one owner per format or foreign crate |
+//! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes: one owner each |
 //! | [`error`] | input, physics, environment |
 //!
 //! Imports go down this table only.

@@ -17,6 +17,11 @@ pub struct FrfEstimate {
     pub h1: Vec<Complex<f64>>,
     /// H₂ = S_xx / S_xf: right when the noise is in the force; too high in response noise.
     pub h2: Vec<Complex<f64>>,
+    /// H_v = √(S_xx/S_ff) e^{j arg S_fx}, the geometric mean of H₁ and H₂: noise in both, alike in proportion.
+    ///
+    /// It is the total least squares estimate of records scaled to equal power; |H₁| ≤ |H_v| ≤ |H₂|. Source:
+    /// Rocklin, Crowley & Vold, IMAC 3 (1985).
+    pub hv: Vec<Complex<f64>>,
     /// γ² = H₁ / H₂, 0..1; it is 1 by definition with one average.
     pub coherence: Vec<f64>,
     /// Decay rate that the exponential window added to every pole \[1/s\]; 0 without one.
@@ -29,6 +34,11 @@ impl FrfEstimate {
     /// With the window the estimate is H(jω + 1/τ) instead of H(jω): compare a linear FRF there.
     pub fn true_damping_ratio(&self, measured: f64, natural_frequency_hz: f64) -> f64 {
         measured - self.added_decay / (std::f64::consts::TAU * natural_frequency_hz)
+    }
+
+    /// A pole \[1/s\] without the exponential window's share, λ = λ_measured + 1/τ.
+    pub fn true_pole(&self, measured: Complex<f64>) -> Complex<f64> {
+        measured + self.added_decay
     }
 }
 
@@ -48,6 +58,26 @@ pub struct ImpactWindows {
     pub time_constant: Option<f64>,
 }
 
+impl ImpactWindows {
+    /// 1/τ \[1/s\]; 0 without an exponential window.
+    fn decay(&self) -> Result<f64, SignalError> {
+        let Some(tau) = self.time_constant else { return Ok(0.0) };
+        check(tau > 0.0 && tau.is_finite(), "time constant", "a positive number of seconds", tau)?;
+        Ok(1.0 / tau)
+    }
+
+    /// The windows' samples over force and response, w_n = e^{−n/(τ f_s)}, that of the force cut off.
+    ///
+    /// Errors: time constant not positive.
+    pub fn samples(&self, length: usize, sample_rate: f64) -> Result<(Vec<f64>, Vec<f64>), SignalError> {
+        let decay = self.decay()?;
+        let response: Vec<f64> = (0..length).map(|n| (-decay * n as f64 / sample_rate).exp()).collect();
+        let mut force = response.clone();
+        force[self.force_length.unwrap_or(length).min(length)..].fill(0.0);
+        Ok((force, response))
+    }
+}
+
 /// FRF from one or more blows of equal length, averaged; no mean is taken away.
 ///
 /// With one rectangular window that holds the whole decay, the DFT's ratio is exact for a linear system up to
@@ -60,17 +90,9 @@ pub fn frf_from_blows(
 ) -> Result<FrfEstimate, SignalError> {
     check_rate(sample_rate)?;
     let length = blows.first().ok_or(SignalError::Empty { name: "list of blows" })?.force.len();
-    let decay = match windows.time_constant {
-        Some(tau) => {
-            check(tau > 0.0 && tau.is_finite(), "time constant", "a positive number of seconds", tau)?;
-            1.0 / tau
-        }
-        None => 0.0,
-    };
     check_record("force", blows[0].force)?;
+    let (force_window, response_window) = windows.samples(length, sample_rate)?;
     let mut transform = SegmentTransform::new(WindowKind::Rectangular, length, length);
-    let weights: Vec<f64> = (0..length).map(|n| (-decay * n as f64 / sample_rate).exp()).collect();
-    let kept = windows.force_length.unwrap_or(length).min(length);
     let bins = transform.bins();
     let mut sums = Densities {
         frequencies: bin_axis(bins, length, sample_rate),
@@ -88,8 +110,8 @@ pub fn frf_from_blows(
         check_same_length("force", blow.force.len(), "the first blow", length)?;
         check_same_length("response", blow.response.len(), "force", length)?;
         for n in 0..length {
-            force[n] = if n < kept { weights[n] * blow.force[n] } else { 0.0 };
-            response[n] = weights[n] * blow.response[n];
+            force[n] = force_window[n] * blow.force[n];
+            response[n] = response_window[n] * blow.response[n];
         }
         force_spectrum.copy_from_slice(transform.run(&force, 0.0));
         for (k, (f, x)) in force_spectrum.iter().zip(transform.run(&response, 0.0)).enumerate() {
@@ -98,7 +120,7 @@ pub fn frf_from_blows(
             sums.xy[k] += f.conj() * x;
         }
     }
-    Ok(estimate(sums, decay))
+    Ok(estimate(sums, windows.decay()?))
 }
 
 /// FRF from long records of random excitation, by Welch averages.
@@ -113,6 +135,35 @@ pub fn frf_from_random(
     Ok(estimate(densities(force, response, sample_rate, welch)?, 0.0))
 }
 
+/// FRF from averaged one-sided spectra, as an analyser stores them: S_ff, S_xx and S_fx = mean conj(F) X.
+///
+/// All in one scaling; `added_decay` \[1/s\] is that of the exponential window they were made with, or 0. Errors:
+/// lengths that differ, values that are not finite.
+pub fn frf_from_spectra(
+    frequencies: &[f64],
+    force: &[f64],
+    response: &[f64],
+    cross: &[Complex<f64>],
+    added_decay: f64,
+) -> Result<FrfEstimate, SignalError> {
+    check_record("auto-spectrum of the force", force)?;
+    check_record("auto-spectrum of the response", response)?;
+    let parts: Vec<f64> = cross.iter().flat_map(|c| [c.re, c.im]).collect();
+    check_record("cross spectrum", &parts)?;
+    let same = |name, given| check_same_length(name, given, "the force's auto-spectrum", force.len());
+    same("frequencies", frequencies.len())?;
+    same("auto-spectrum of the response", response.len())?;
+    same("cross spectrum", cross.len())?;
+    let sums = Densities {
+        frequencies: frequencies.to_vec(),
+        xx: force.to_vec(),
+        yy: response.to_vec(),
+        xy: cross.to_vec(),
+        noise_bandwidth_hz: 0.0,
+    };
+    Ok(estimate(sums, added_decay))
+}
+
 /// Bins without any force or response power are zero, with zero coherence, rather than NaN.
 fn estimate(d: Densities, added_decay: f64) -> FrfEstimate {
     let ratio = |a: Complex<f64>, b: Complex<f64>| if b == Complex::ZERO { b } else { a / b };
@@ -120,8 +171,14 @@ fn estimate(d: Densities, added_decay: f64) -> FrfEstimate {
     FrfEstimate {
         h1: bins.clone().map(|k| ratio(d.xy[k], d.xx[k].into())).collect(),
         h2: bins.clone().map(|k| ratio(d.yy[k].into(), d.xy[k].conj())).collect(),
+        hv: bins.clone().map(|k| geometric_mean(&d, k)).collect(),
         coherence: bins.map(|k| d.coherence(k)).collect(),
         frequencies: d.frequencies,
         added_decay,
     }
+}
+
+fn geometric_mean(d: &Densities, k: usize) -> Complex<f64> {
+    let size = d.xy[k].norm();
+    if d.xx[k] > 0.0 && size > 0.0 { d.xy[k] / size * (d.yy[k] / d.xx[k]).sqrt() } else { Complex::ZERO }
 }

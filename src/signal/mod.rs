@@ -15,7 +15,8 @@
 //! | [`period`] | period of a section; quasi-periodic or chaotic by the 0–1 test |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
-//! | [`impact`] | H1, H2 and coherence from blows or random excitation |
+//! | [`blow`] | hammer blows found in a record; double hits and overloads |
+//! | [`impact`] | H1, H2, Hv and coherence from blows or random excitation |
 //! | [`envelope`] | analytic signal, envelope, envelope spectrum, squared envelope, of a band |
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, bands scored by anything ([`filter_bank`]) |
 //! | [`bearing_lines`] | lines at FTF, BPFO, BPFI, 2 BSF with side bands over background; which part is damaged |
@@ -32,6 +33,7 @@
 //! [`SignalError`].
 
 pub mod bearing_lines;
+pub mod blow;
 pub mod cepstrum;
 pub mod cyclic;
 pub mod diagnosis;

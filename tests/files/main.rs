@@ -1,5 +1,6 @@
 //! Files that rotordyn writes: read back in Rust, and by the programs that users open them with.
 
+mod analyser;
 mod arrays;
 mod example_records;
 mod formats;

@@ -72,6 +72,8 @@ fn exponential_window_and_its_correction() {
         assert_close_complex("H1", estimate.h1[k], shifted, 1e-15);
     }
     let measured = DAMPING + 1.0 / (tau * TAU * FREQUENCY);
+    let pole = Complex::new(-DAMPING - 1.0 / tau, 5.0);
+    assert_close_complex("pole", estimate.true_pole(pole), Complex::new(-DAMPING, 5.0), 1e-14);
     assert_close("damping", estimate.true_damping_ratio(measured, FREQUENCY), DAMPING, 1e-14);
 }
 
@@ -90,13 +92,28 @@ fn noise_biases_h1_and_h2_as_theory_says() {
     assert_close("coherence", coherence, 0.8, 0.005);
 }
 
+/// Noise alike in force and response: H1 too low, H2 too high by the same factor, Hv right.
+#[test]
+fn hv_is_right_when_both_channels_are_noisy_alike() {
+    let n = 200_000;
+    let (source, first, second) = (noise(1, n), noise(77, n), noise(123, n));
+    let force: Vec<f64> = source.iter().zip(&first).map(|(f, d)| f + 0.5 * d).collect();
+    let response: Vec<f64> = source.iter().zip(&second).map(|(f, d)| -2.0 * f + d).collect();
+    let estimate = frf_from_random(&force, &response, RATE, &Welch::hann(512)).unwrap();
+    let mean = |v: &[Complex<f64>]| v[5..250].iter().map(|z| z.re).sum::<f64>() / 245.0;
+    // As above: standard errors of 2e-3.
+    assert_close("H1", mean(&estimate.h1), -2.0 / 1.25, 0.01);
+    assert_close("H2", mean(&estimate.h2), -2.0 * 1.25, 0.02);
+    assert_close("Hv", mean(&estimate.hv), -2.0, 0.01);
+}
+
 #[test]
 fn silent_bins_are_zero_not_nan() {
     let silent = [0.0; 16];
     let estimate =
         frf_from_blows(&[Blow { force: &silent, response: &silent }], RATE, ImpactWindows::default())
             .unwrap();
-    assert!(estimate.h1.iter().chain(&estimate.h2).all(|h| h.norm() == 0.0));
+    assert!(estimate.h1.iter().chain(&estimate.h2).chain(&estimate.hv).all(|h| h.norm() == 0.0));
     assert!(estimate.coherence.iter().all(|c| *c == 0.0));
 }
 

@@ -1,6 +1,7 @@
 //! Signal tools: closed forms, scipy as oracle, and refusal of unusable records.
 
 mod bearing_faults;
+mod blows;
 mod closed_forms;
 mod defects;
 mod dented_bearing;

@@ -1,0 +1,107 @@
+//! FRF estimates held to an analyser's own: SignalCalc, hammer and three accelerometers on a plane.
+//!
+//! The file holds the last blow's time blocks X, windowed blocks W and spectra S, and the averages over all blows:
+//! G (auto-spectra as peak amplitudes, cross spectra as half products), H and C. Everything is stored in single
+//! precision, 6e-8 of the largest value of its kind.
+
+use rotordyn::edge::measured::read;
+use rotordyn::signal::Complex;
+use rotordyn::signal::blow::{Limits, inspect};
+use rotordyn::signal::impact::{Blow, ImpactWindows, frf_from_blows, frf_from_spectra};
+use rotordyn::signal::record::{Measured, Values};
+
+use crate::measured_data::measured;
+
+/// Single precision with a few operations on it.
+const SINGLE: f64 = 3e-7;
+
+fn file() -> Option<Measured> {
+    measured("plane_ema/lab1_DPsv00001.mat").map(|path| read(&path).unwrap())
+}
+
+fn real<'a>(file: &'a Measured, name: &str) -> &'a [f64] {
+    match &file.record(name).unwrap().values {
+        Values::Real(values) => values,
+        Values::Complex(_) => panic!("{name} is complex"),
+    }
+}
+
+fn complex<'a>(file: &'a Measured, name: &str) -> &'a [Complex<f64>] {
+    match &file.record(name).unwrap().values {
+        Values::Complex(values) => values,
+        Values::Real(_) => panic!("{name} is real"),
+    }
+}
+
+fn largest(values: &[Complex<f64>]) -> f64 {
+    values.iter().map(|v| v.norm()).fold(0.0, f64::max)
+}
+
+/// The analyser's settings, read off W/X: force kept for 1 % of 16 s, both under e^{−t/14.4 s} (0.9 of the block).
+const WINDOWS: ImpactWindows = ImpactWindows { force_length: Some(82), time_constant: Some(14.4) };
+
+#[test]
+fn windows_are_the_analysers() {
+    let Some(file) = file() else { return };
+    let rate = file.record("X1").unwrap().sample_rate().unwrap();
+    let (force, response) = WINDOWS.samples(8192, rate).unwrap();
+    for channel in 1..=4 {
+        let (x, w) = (real(&file, &format!("X{channel}")), real(&file, &format!("W{channel}")));
+        let window = if channel == 1 { &force } else { &response };
+        let top = x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        assert!((0..8192).all(|n| (window[n] * x[n] - w[n]).abs() <= SINGLE * top), "channel {channel}");
+    }
+}
+
+#[test]
+fn one_blow_gives_the_ratio_of_its_spectra() {
+    let Some(file) = file() else { return };
+    let rate = file.record("X1").unwrap().sample_rate().unwrap();
+    let f = complex(&file, "S1");
+    for channel in 2..=4 {
+        let blow = Blow { force: real(&file, "X1"), response: real(&file, &format!("X{channel}")) };
+        let estimate = frf_from_blows(&[blow], rate, WINDOWS).unwrap();
+        let x = complex(&file, &format!("S{channel}"));
+        for k in 0..f.len() {
+            let own = x[k] / f[k];
+            let precision = SINGLE * (largest(x) + own.norm() * largest(f)) / f[k].norm();
+            assert!((estimate.h1[k] - own).norm() <= precision, "channel {channel}, line {k}");
+        }
+        assert_eq!(estimate.frequencies[3200], 200.0);
+        assert!(
+            estimate.coherence.iter().all(|c| (c - 1.0).abs() < 1e-9),
+            "one blow is coherent with itself"
+        );
+    }
+}
+
+#[test]
+fn averages_give_the_analysers_h1_and_coherence() {
+    let Some(file) = file() else { return };
+    let square = |name: &str| real(&file, name).iter().map(|a| a * a).collect::<Vec<f64>>();
+    let frequencies = file.record("H1_2").unwrap().axis.points(3201).unwrap();
+    for channel in 2..=4 {
+        let force = square("G1_1");
+        let response = square(&format!("G{channel}_{channel}"));
+        let cross: Vec<_> = complex(&file, &format!("G1_{channel}")).iter().map(|g| 2.0 * g).collect();
+        let estimate = frf_from_spectra(&frequencies, &force, &response, &cross, 1.0 / 14.4).unwrap();
+        let (h, c) = (complex(&file, &format!("H1_{channel}")), real(&file, &format!("C1_{channel}")));
+        for k in 0..h.len() {
+            assert!((estimate.h1[k] - h[k]).norm() <= SINGLE * h[k].norm(), "channel {channel}, line {k}");
+            assert!((estimate.coherence[k] - c[k]).abs() <= 2.0 * SINGLE, "channel {channel}, line {k}");
+            let order = [estimate.h1[k], estimate.hv[k], estimate.h2[k]].map(|h| h.norm());
+            assert!(order[0] <= order[1] * (1.0 + 1e-12) && order[1] <= order[2] * (1.0 + 1e-12));
+            assert!((estimate.hv[k].norm_sqr() / (order[0] * order[2]) - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn the_real_blow_is_a_good_one() {
+    let Some(file) = file() else { return };
+    let (_, window) = WINDOWS.samples(8192, 512.0).unwrap();
+    let blow = Blow { force: real(&file, "X1"), response: real(&file, "X2") };
+    let seen = inspect(&blow, &Limits::default(), Some(&window)).unwrap();
+    assert_eq!((seen.peak.0, seen.contact.clone()), (5, 5..7));
+    assert!(seen.is_good() && seen.faults().is_empty(), "{seen:?}");
+}
