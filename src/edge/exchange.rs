@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::edge::measured::datasets::direction;
+use crate::edge::measured::mapping::direction;
 use crate::model::Model;
 use crate::results::{FrfResult, History, ModalResult};
 use crate::signal::record::{
@@ -22,7 +22,7 @@ pub fn run(history: &History, model: &Model) -> Measured {
         Record::new(name, Kind::Time, axis.clone(), Values::Real(values), unit)
     };
     let channel = |c: &crate::results::HistoryChannel| Record {
-        response: Dof::new(point(model, &c.station), direction(&c.direction)),
+        response: Dof::new(point(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0)),
         ..record(&c.name, &c.unit, c.values.clone())
     };
     let mut records: Vec<Record> = history.channels.iter().map(channel).collect();
@@ -32,12 +32,12 @@ pub fn run(history: &History, model: &Model) -> Measured {
     Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
 }
 
-/// Point of a station, bearing or body; 0 for anything else.
-fn point(model: &Model, place: &str) -> i64 {
+/// Point of a station, bearing or body of this name.
+pub fn point(model: &Model, place: &str) -> Option<i64> {
     let station = model.stations.iter().find(|s| s.name == place).map(|s| s.node);
     let bearing = || model.bearings.iter().find(|b| b.name == place).map(|b| b.node);
     let body = || model.bodies.iter().position(|b| b.name == place).map(|k| model.node_z.len() + k);
-    station.or_else(bearing).or_else(body).map_or(0, |node| node as i64 + 1)
+    station.or_else(bearing).or_else(body).map(|node| node as i64 + 1)
 }
 
 /// Computed FRFs between the points that are excited and seen.

@@ -7,6 +7,7 @@ mod formats;
 mod hdf5_h5py;
 mod hdf5_round_trip;
 mod hdf5_stream;
+mod mapping;
 #[path = "../common/measured_data.rs"]
 mod measured_data;
 mod measured_files;

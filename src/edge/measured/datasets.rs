@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::arrays::{self, Array, Data};
+use super::mapping::direction;
 use super::unit;
 use crate::edge::hdf5::{Attribute, Item, Store, read_recording};
 use crate::error::Error;
@@ -115,7 +116,7 @@ fn results(store: &Store) -> Result<Measured, Error> {
         };
         for (channel, values) in channels {
             let mut channel_record = record(&channel.name, &channel.unit, values);
-            channel_record.response.direction = direction(&channel.direction);
+            channel_record.response.direction = direction(&channel.direction).unwrap_or(0);
             out.records.push(channel_record);
         }
         out.records.push(record("theta", "rad", run.angle));
@@ -143,14 +144,4 @@ fn results(store: &Store) -> Result<Measured, Error> {
         }
     }
     Ok(out)
-}
-
-/// x, -y, theta_z as the number of a direction; 0 for any other.
-pub fn direction(word: &str) -> i8 {
-    let (sign, name) = match word.strip_prefix('-') {
-        Some(name) => (-1, name),
-        None => (1, word),
-    };
-    let axes = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];
-    axes.iter().position(|axis| *axis == name).map_or(0, |k| sign * (k as i8 + 1))
 }

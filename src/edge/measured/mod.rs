@@ -11,6 +11,7 @@
 
 pub mod arrays;
 pub mod datasets;
+pub mod mapping;
 mod signal_calc;
 pub mod unit;
 

@@ -1,0 +1,307 @@
+//! The file that says which measured channel is which station and direction of a model.
+//!
+//! ```toml
+//! rate = "12 kHz"             # of time records whose file does not tell
+//! frequency_step = "0.5 Hz"   # of spectra whose file does not tell
+//! axes = ["z", "x", "y"]      # the file's x, y, z in the model's axes
+//!
+//! [channel.X105_DE_time]      # by the channel's name
+//! station = "B"
+//! direction = "-y"
+//! unit = "g"                  # where the file does not tell
+//!
+//! [point.12]                  # by the point's number, for every record there
+//! station = "disc"
+//! direction = "x"             # where the file tells none
+//! ```
+//!
+//! A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::unit;
+use crate::error::Error;
+use crate::signal::record::{Dof, Measured, Record};
+use crate::units;
+
+/// Rates, axes and places, as the file gives them.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Mapping {
+    rate: Option<String>,
+    frequency_step: Option<String>,
+    axes: Option<[String; 3]>,
+    #[serde(default)]
+    channel: BTreeMap<String, Place>,
+    #[serde(default)]
+    point: BTreeMap<String, Place>,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Place {
+    station: String,
+    direction: Option<String>,
+    unit: Option<String>,
+    reference: Option<Reference>,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Reference {
+    station: String,
+    direction: String,
+}
+
+/// Reads a mapping file.
+///
+/// # Errors
+/// The file cannot be read, or is not as described above; says the line.
+pub fn read(path: &Path) -> Result<Mapping, Error> {
+    let text = std::fs::read_to_string(path).map_err(|source| Error::Environment {
+        operation: "read",
+        path: path.into(),
+        source: source.into(),
+    })?;
+    toml::from_str(&text).map_err(|error| Error::Content {
+        path: path.into(),
+        problem: error.to_string().trim_end().to_owned(),
+        advice: "a mapping has rate, frequency_step, axes, [channel.NAME] and [point.NUMBER]".into(),
+    })
+}
+
+/// Number of a direction: x y z are 1 2 3, theta_x or Rx and so on 4 5 6, with their sign; `None` for another word.
+pub fn direction(word: &str) -> Option<i8> {
+    let (sign, name) = match word.trim().split_at_checked(1) {
+        Some(("-", name)) => (-1, name),
+        Some(("+", name)) => (1, name),
+        _ => (1, word.trim()),
+    };
+    let places =
+        [["x", "x"], ["y", "y"], ["z", "z"], ["theta_x", "Rx"], ["theta_y", "Ry"], ["theta_z", "Rz"]];
+    places.iter().position(|words| words.contains(&name)).map(|k| sign * (k as i8 + 1))
+}
+
+impl Mapping {
+    /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
+    /// name; returns what deserves a warning.
+    ///
+    /// `place` is the number of a station, bearing or body, `path` the mapping's file, for messages.
+    ///
+    /// # Errors
+    /// All at once: channels and points the records do not have, stations the model does not have, directions,
+    /// units and rates that are not understood, units that contradict the file's.
+    pub fn apply(
+        &self,
+        measured: &mut Measured,
+        place: &dyn Fn(&str) -> Option<i64>,
+        path: &Path,
+    ) -> Result<Vec<String>, Error> {
+        let mut problems = Vec::new();
+        let mut frequency = |name: &str, text: &Option<String>| {
+            let text = text.as_ref()?;
+            match units::parse(text, units::FREQUENCY) {
+                Ok(value) if value > 0.0 => Some(value),
+                Ok(_) => problems_push(&mut problems, format!("{name} = \"{text}\" is not positive")),
+                Err(error) => problems_push(&mut problems, format!("{name}: {error}")),
+            }
+        };
+        let rate = frequency("rate", &self.rate);
+        let step = frequency("frequency_step", &self.frequency_step);
+        rate.into_iter().for_each(|rate| measured.set_missing_rate(rate));
+        step.into_iter().for_each(|step| measured.set_missing_frequency_step(step));
+        let axes = self.axes(&mut problems);
+
+        let known: Vec<&str> = measured.records.iter().map(|r| r.name.as_str()).collect();
+        for name in self.channel.keys().filter(|name| !known.contains(&name.as_str())) {
+            problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
+        }
+        let at = |n: &str| {
+            move |r: &Record| [r.response.node, r.reference.node].iter().any(|k| k.to_string() == *n)
+        };
+        for number in self.point.keys() {
+            let number = number.clone();
+            if !measured.records.iter().any(at(&number)) {
+                problems.push(format!("there is no record at point {number}"));
+            }
+        }
+
+        let mut mapped = Vec::new();
+        let mut left_out = Vec::new();
+        for mut record in std::mem::take(&mut measured.records) {
+            let mut target = Target { place, axes, problems: &mut problems };
+            let found = match self.channel.get(&record.name) {
+                Some(own) => target.channel(&mut record, own),
+                None => target.points(&mut record, &self.point),
+            };
+            if found {
+                mapped.push(record);
+            } else {
+                left_out.push(record.name);
+            }
+        }
+        measured.records = mapped;
+        problems.dedup();
+        if !problems.is_empty() {
+            return Err(Error::Content {
+                path: path.into(),
+                problem: problems.join("; "),
+                advice: "correct the mapping".into(),
+            });
+        }
+        let mut warnings = Vec::new();
+        if !left_out.is_empty() {
+            let count = left_out.len();
+            left_out.truncate(8);
+            let more = if count > 8 { ", ..." } else { "" };
+            warnings.push(format!(
+                "{count} channels are not in the mapping and left out: {}{more}",
+                left_out.join(", ")
+            ));
+        }
+        Ok(warnings)
+    }
+
+    /// The model's direction for each of the file's x, y, z.
+    fn axes(&self, problems: &mut Vec<String>) -> [i8; 3] {
+        let Some(words) = &self.axes else { return [1, 2, 3] };
+        let found: Vec<i8> =
+            words.iter().filter_map(|word| direction(word)).filter(|d| d.abs() <= 3).collect();
+        let mut sizes: Vec<i8> = found.iter().map(|d| d.abs()).collect();
+        sizes.sort_unstable();
+        match found[..] {
+            [x, y, z] if sizes == [1, 2, 3] => {
+                // An even permutation steps through the axes in order.
+                let in_order = (y.abs() - x.abs()).rem_euclid(3) == 1;
+                if in_order != (x.signum() * y.signum() * z.signum() == 1) {
+                    problems.push(format!("axes = {words:?} are left-handed: turn the sign of one"));
+                }
+                [x, y, z]
+            }
+            _ => {
+                problems.push(format!("axes = {words:?} are not x, y, z in some order, each with its sign"));
+                [1, 2, 3]
+            }
+        }
+    }
+}
+
+fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
+    problems.push(problem);
+    None
+}
+
+/// "; did you mean `...`?" or the names there are.
+fn alike(name: &str, known: &[&str]) -> String {
+    let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(k, name), k)).min();
+    match nearest {
+        Some((distance, best)) if distance <= 2 => format!(", but `{best}`"),
+        _ => {
+            let some: Vec<&str> = known.iter().copied().take(8).collect();
+            format!(", but {}{}", some.join(", "), if known.len() > 8 { ", ..." } else { "" })
+        }
+    }
+}
+
+/// Places records in the model.
+struct Target<'a> {
+    place: &'a dyn Fn(&str) -> Option<i64>,
+    axes: [i8; 3],
+    problems: &'a mut Vec<String>,
+}
+
+impl Target<'_> {
+    fn station(&mut self, name: &str) -> i64 {
+        (self.place)(name).unwrap_or_else(|| {
+            self.problems.push(format!("the model has no station, bearing or body `{name}`"));
+            0
+        })
+    }
+
+    fn direction(&mut self, word: &str) -> i8 {
+        direction(word).unwrap_or_else(|| {
+            self.problems.push(format!("direction \"{word}\" is none of x, y, z, theta_x, theta_y, theta_z"));
+            0
+        })
+    }
+
+    /// A direction of the file in the model's axes.
+    fn turned(&self, way: i8) -> i8 {
+        let size = way.unsigned_abs();
+        match size {
+            0 => 0,
+            1..=3 => way.signum() * self.axes[usize::from(size) - 1],
+            _ => {
+                let axis = self.axes[usize::from(size - 4) % 3];
+                way.signum() * axis.signum() * (axis.abs() + 3)
+            }
+        }
+    }
+
+    /// Places a channel by its own entry.
+    fn channel(&mut self, record: &mut Record, own: &Place) -> bool {
+        self.unit(record, own.unit.as_deref());
+        let way = match &own.direction {
+            Some(word) => self.direction(word),
+            None => self.turned(record.response.direction),
+        };
+        record.response = Dof::new(self.station(&own.station), way);
+        record.reference = match &own.reference {
+            Some(r) => Dof::new(self.station(&r.station), self.direction(&r.direction)),
+            None => Dof::NONE,
+        };
+        if way == 0 {
+            self.problems.push(format!("`{}` has no direction", record.name));
+        }
+        true
+    }
+
+    /// Places a record by the points of its ends; false if one of them is not in the mapping.
+    fn points(&mut self, record: &mut Record, points: &BTreeMap<String, Place>) -> bool {
+        let of = |dof: Dof| points.get(&dof.node.to_string());
+        let (response, reference) = (record.response, record.reference);
+        let Some(at) = of(response).filter(|_| response.node != 0) else { return false };
+        if reference.node != 0 && of(reference).is_none() {
+            return false;
+        }
+        self.unit(record, at.unit.as_deref());
+        record.response = self.point(response, at, &record.name);
+        if let Some(from) = of(reference).filter(|_| reference.node != 0) {
+            record.reference = self.point(reference, from, &record.name);
+        }
+        true
+    }
+
+    fn point(&mut self, dof: Dof, at: &Place, name: &str) -> Dof {
+        let way = match (&at.direction, dof.direction) {
+            (Some(word), 0) => self.direction(word),
+            (_, way) => self.turned(way),
+        };
+        if way == 0 {
+            self.problems.push(format!("`{name}` has no direction at point {}", dof.node));
+        }
+        Dof::new(self.station(&at.station), way)
+    }
+
+    /// Converts values whose unit the file does not tell.
+    fn unit(&mut self, record: &mut Record, label: Option<&str>) {
+        let Some(label) = label else { return };
+        let Some(known) = unit::si(label) else {
+            self.problems.push(format!("unit \"{label}\" of `{}` is not known", record.name));
+            return;
+        };
+        if !record.unit.is_empty() {
+            if record.unit != known.name {
+                let (name, own) = (&record.name, &record.unit);
+                self.problems.push(format!("`{name}` is in {own} by its file, not in \"{label}\""));
+            }
+            return;
+        }
+        record.values.scale(known.numerator, known.divisor);
+        record.unit = known.name;
+        record.stated_unit = label.into();
+    }
+}

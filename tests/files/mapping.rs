@@ -1,0 +1,126 @@
+//! Which channel is which station and direction.
+
+use std::path::{Path, PathBuf};
+
+use rotordyn::edge::measured::mapping::{self, Mapping, direction};
+use rotordyn::error::Error;
+use rotordyn::signal::record::{Dof, Measured, Points, Record, Values};
+
+use crate::example_records::{frequency_records, time_records};
+
+fn mapping(text: &str) -> Result<Mapping, Error> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mapping.toml");
+    std::fs::write(&path, text).unwrap();
+    mapping::read(&path)
+}
+
+/// Stations of a model, by the number of their point.
+fn station(name: &str) -> Option<i64> {
+    ["A", "disc", "B"].iter().position(|n| *n == name).map(|k| 10 * (k as i64 + 1))
+}
+
+fn apply(text: &str, records: &[Record]) -> Result<(Measured, Vec<String>), String> {
+    let mut measured = Measured { records: records.to_vec(), ..Measured::default() };
+    let path = PathBuf::from("mapping.toml");
+    match mapping(text).unwrap().apply(&mut measured, &station, &path) {
+        Ok(warnings) => Ok((measured, warnings)),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+#[test]
+fn channels_are_placed_by_name_and_others_left_out() {
+    let mut records = time_records();
+    records[1].unit = String::new();
+    records[1].axis.points = Points::Unknown;
+    let text = r#"
+        rate = "6 kHz"
+        [channel.housing_B_ax]
+        station = "B"
+        direction = "-y"
+        [channel.A_fy]
+        station = "A"
+        direction = "+theta_z"
+        unit = "kN"
+    "#;
+    let (found, warnings) = apply(text, &records).unwrap();
+    assert_eq!(warnings, ["1 channels are not in the mapping and left out: twist"]);
+    assert_eq!(found.records.len(), 2);
+    assert_eq!(found.records[0].response, Dof::new(30, -2));
+    assert_eq!(found.records[0].sample_rate(), Ok(12000.0), "what the file tells stays");
+    let force = &found.records[1];
+    assert_eq!((force.response, force.sample_rate()), (Dof::new(10, 6), Ok(6000.0)));
+    let Values::Real(values) = &force.values else { panic!() };
+    assert_eq!((values[0], force.unit.as_str()), (250e3, "N"));
+}
+
+#[test]
+fn frfs_are_placed_by_their_points_and_turned_into_the_models_axes() {
+    // The file's x, y, z are the model's -z, x, -y.
+    let text = r#"
+        axes = ["-z", "x", "-y"]
+        [point.12]
+        station = "disc"
+        [point.4]
+        station = "A"
+    "#;
+    let (found, warnings) = apply(text, &frequency_records()).unwrap();
+    let dofs: Vec<(Dof, Dof)> = found.records.iter().map(|r| (r.response, r.reference)).collect();
+    // 12:+y from 12:-z; 12:+Rz from 4:+Rx; the coherence.
+    let first = (Dof::new(20, 1), Dof::new(20, 2));
+    assert_eq!(dofs, [first, (Dof::new(20, -5), Dof::new(10, -6)), first]);
+    assert!(warnings[0].starts_with("3 channels are not in the mapping"), "{warnings:?}");
+
+    let text = "[channel.\"rim/disc_y\"]\nstation = \"B\"\ndirection = \"x\"\nreference = { station = \"disc\", direction = \"-x\" }";
+    let (found, _) = apply(text, &frequency_records()).unwrap();
+    assert_eq!((found.records[0].response, found.records[0].reference), (Dof::new(30, 1), Dof::new(20, -1)));
+}
+
+#[test]
+fn all_that_is_wrong_is_told_at_once() {
+    let text = r#"
+        rate = "12 mm"
+        frequency_step = "0 Hz"
+        axes = ["x", "x", "z"]
+        [channel.housing_B_ay]
+        station = "B"
+        [channel.A_fy]
+        station = "C"
+        direction = "up"
+        unit = "mm"
+        [point.77]
+        station = "A"
+    "#;
+    let error = apply(text, &time_records()).unwrap_err();
+    for part in [
+        "mapping.toml: rate: `mm` is a unit of length",
+        "frequency_step = \"0 Hz\" is not positive",
+        "axes = [\"x\", \"x\", \"z\"] are not x, y, z in some order",
+        "there is no channel `housing_B_ay`, but `housing_B_ax`",
+        "there is no record at point 77",
+        "`A_fy` is in N by its file, not in \"mm\"",
+        "direction \"up\" is none of x, y, z",
+        "the model has no station, bearing or body `C`",
+        "correct the mapping",
+    ] {
+        assert!(error.contains(part), "{part} is not in\n{error}");
+    }
+    let mirrored = apply("axes = [\"x\", \"z\", \"y\"]", &time_records()).unwrap_err();
+    assert!(mirrored.contains("are left-handed: turn the sign of one"), "{mirrored}");
+    let scalar = "[channel.lines]\nstation = \"A\"";
+    assert!(apply(scalar, &frequency_records()).unwrap_err().contains("`lines` has no direction"));
+    let unknown = mapping("[channel.a]\nplace = \"B\"").unwrap_err().to_string();
+    assert!(unknown.contains("line 2") && unknown.contains("unknown field `place`"), "{unknown}");
+    assert!(mapping::read(Path::new("nowhere/mapping.toml")).is_err());
+}
+
+#[test]
+fn directions_in_words() {
+    for (word, number) in [("x", 1), ("+y", 2), ("-z", -3), ("theta_x", 4), ("-theta_z", -6), ("Ry", 5)] {
+        assert_eq!(direction(word), Some(number));
+    }
+    for word in ["", "-", "up", "xy", "é"] {
+        assert_eq!(direction(word), None, "{word}");
+    }
+}
