@@ -119,12 +119,9 @@ impl Mapping {
         for name in self.channel.keys().filter(|name| !known.contains(&name.as_str())) {
             problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
         }
-        let at = |n: &str| {
-            move |r: &Record| [r.response.node, r.reference.node].iter().any(|k| k.to_string() == *n)
-        };
         for number in self.point.keys() {
-            let number = number.clone();
-            if !measured.records.iter().any(at(&number)) {
+            let is_at = |dof: Dof| dof.node.to_string() == *number;
+            if !measured.records.iter().any(|r| is_at(r.response) || is_at(r.reference)) {
                 problems.push(format!("there is no record at point {number}"));
             }
         }
