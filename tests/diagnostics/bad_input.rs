@@ -1,6 +1,6 @@
 //! Snapshots of the messages, rendered without colour.
 
-use crate::render::render;
+use crate::sample::Sample;
 use rotordyn::model::{self, Options};
 
 /// A small sound model that each case spoils in one place.
@@ -62,10 +62,10 @@ speeds = "0, 1200 rpm"
 housing.B.k_x = "1e6 N/m"
 "#;
 
+const MACHINE: Sample = Sample { file: "machine.toml", text: GOOD };
+
 fn messages(text: impl AsRef<[u8]>, options: &Options) -> String {
-    let errors = model::load("machine.toml", text, options).expect_err("the input is bad");
-    assert!(!errors.diagnostics.is_empty());
-    render(&errors.diagnostics, &errors.sources, miette::Severity::Error, false)
+    MACHINE.refused_with(text, options)
 }
 
 /// The good model with one text replaced.
@@ -80,15 +80,6 @@ fn changed(from: &str, to: &str) -> String {
 
 fn set(path: &str, value: &str) -> String {
     messages(GOOD, &Options { set: vec![(path.into(), value.into())], ..Options::default() })
-}
-
-macro_rules! cases {
-    ($($name:ident: $message:expr;)*) => {
-        $(#[test]
-        fn $name() {
-            insta::assert_snapshot!($message);
-        })*
-    };
 }
 
 #[test]

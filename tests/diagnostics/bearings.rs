@@ -1,6 +1,6 @@
 //! Messages about bearings whose contact, preload or mounting does not hold together.
 
-use crate::render::render;
+use crate::sample::Sample;
 use rotordyn::model::{self, Options};
 
 /// A rotor on two preloaded angular-contact bearings with a film; each case spoils it in one place.
@@ -44,29 +44,19 @@ lubricant = "oil"
 fit = { shaft_interference = "8 um", inner_temperature_rise = "20 K" }
 "#;
 
+const SPINDLE: Sample = Sample { file: "spindle.toml", text: GOOD };
+
 fn refused(text: &str) -> String {
-    let errors = model::load("spindle.toml", text, &Options::default()).expect_err("the input is bad");
-    render(&errors.diagnostics, &errors.sources, miette::Severity::Error, false)
+    SPINDLE.refused(text)
 }
 
-/// The good model with every occurrence of a text replaced.
 fn changed(from: &str, to: &str) -> String {
-    assert!(GOOD.contains(from), "`{from}`");
-    refused(&GOOD.replace(from, to))
+    SPINDLE.changed(from, to)
 }
 
 /// The good model with lines added to bearing A.
 fn added(lines: &str) -> String {
     changed("thrust = \"-z\"\n", &format!("thrust = \"-z\"\n{lines}\n"))
-}
-
-macro_rules! cases {
-    ($($name:ident: $message:expr;)*) => {
-        $(#[test]
-        fn $name() {
-            insta::assert_snapshot!($message);
-        })*
-    };
 }
 
 #[test]

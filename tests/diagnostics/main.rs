@@ -1,5 +1,8 @@
 //! Each kind of bad input, and the message it gets.
 
+#[macro_use]
+mod sample;
+
 mod bad_input;
 mod bearings;
 mod mutations;
