@@ -1,7 +1,7 @@
 //! A ball bearing as its user describes it.
 
 use super::{BallGeometry, Fit, FitMaterials};
-use crate::contact::{ContactDamping, ContactLaw, HertzPair, Lubricant};
+use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;
 
 /// Ball bearing with one force element per ball and a kinematic cage.
@@ -13,6 +13,8 @@ pub struct BallBearing {
     pub ring_material: Material,
     /// How a ball's contacts carry load.
     pub contact: ContactLaw,
+    /// Stiffness of the dry contacts, where it is given instead of following from curvatures and elasticity.
+    pub contact_stiffness: ContactStiffness,
     /// How they dissipate.
     pub damping: ContactDamping,
     pub inertia: BallInertia,
@@ -87,6 +89,7 @@ impl BallBearing {
             &self.ball_material,
             &self.ring_material,
         )
+        .with_stiffness(self.contact_stiffness)
     }
 
     /// Change of the diametral clearance by fits, temperatures and a speed Ω \[rad/s\] \[m\]; shaft and housing of the
@@ -114,6 +117,11 @@ impl BallBearing {
             !matches!(self.contact, ContactLaw::Film { .. })
                 && matches!(self.damping, ContactDamping::Film { .. }),
             "film damping needs the film formula, contact = \"film\"",
+        );
+        refuse(
+            self.contact_stiffness != ContactStiffness::Elastic
+                && matches!(self.contact, ContactLaw::PowerLaw(_) | ContactLaw::Ehl(_)),
+            "a contact stiffness says nothing beside a fitted law or a solved film, which have their own",
         );
         refuse(self.geometry.balls < 2, "a ball bearing has two balls at least");
         refuse(

@@ -160,7 +160,40 @@ impl HertzPair {
         let outer_race = -1.0 / (axis_distance + 0.5 * ball_diameter);
         let inner = EllipticContact::new(convex + inner_race, convex - 1.0 / groove_radii[0], [ball, ring]);
         let outer = EllipticContact::new(convex + outer_race, convex - 1.0 / groove_radii[1], [ball, ring]);
-        let compliance = inner.stiffness.powf(-2.0 / 3.0) + outer.stiffness.powf(-2.0 / 3.0);
-        Self { inner, outer, stiffness: compliance.powf(-1.5) }
+        Self { stiffness: in_series([inner.stiffness, outer.stiffness]), inner, outer }
     }
+
+    /// The same contacts with the stiffness that is given; ellipse and pressure stay those of the curvatures.
+    pub fn with_stiffness(mut self, given: ContactStiffness) -> Self {
+        match given {
+            ContactStiffness::Elastic => {}
+            ContactStiffness::Series(stiffness) => {
+                let factor = stiffness / self.stiffness;
+                self.inner.stiffness *= factor;
+                self.outer.stiffness *= factor;
+                self.stiffness = stiffness;
+            }
+            ContactStiffness::Each(each) => {
+                [self.inner.stiffness, self.outer.stiffness] = each;
+                self.stiffness = in_series(each);
+            }
+        }
+        self
+    }
+}
+
+fn in_series(each: [f64; 2]) -> f64 {
+    each.map(|k| k.powf(-2.0 / 3.0)).iter().sum::<f64>().powf(-1.5)
+}
+
+/// Where the stiffness K of a ball's dry contacts Q = K δ^{3/2} comes from, in N/m^1.5.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ContactStiffness {
+    /// Curvatures and elasticity.
+    #[default]
+    Elastic,
+    /// Both contacts in series as given; each keeps its share of the compliance.
+    Series(f64),
+    /// Inner and outer contact as given.
+    Each([f64; 2]),
 }

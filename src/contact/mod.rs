@@ -13,7 +13,7 @@ pub mod traction;
 
 pub use damping::{ContactDamping, Damped};
 pub use film::{FilmFormula, FilmSpring, lambda_ratio};
-pub use hertz::{ContactPatch, EllipticContact, HertzPair};
+pub use hertz::{ContactPatch, ContactStiffness, EllipticContact, HertzPair};
 pub use law::ContactLaw;
 pub use lubricant::Lubricant;
 pub use pair::{BallContacts, Loaded, Race, SpeedContacts};

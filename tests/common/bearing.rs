@@ -29,6 +29,7 @@ pub fn rig_6205() -> BallBearing {
         ball_material: steel(),
         ring_material: steel(),
         contact: ContactLaw::Hertz,
+        contact_stiffness: Default::default(),
         damping: ContactDamping::Constant { coefficient: 300.0, ramp: 1e-6 },
         inertia: BallInertia::None,
         preload: Preload::None,

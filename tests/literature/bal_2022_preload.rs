@@ -34,6 +34,7 @@ fn bearing(contact: ContactLaw, preload: Preload) -> BallElement {
         ball_material: steel.clone(),
         ring_material: steel,
         contact,
+        contact_stiffness: Default::default(),
         damping: ContactDamping::Constant { coefficient: 200.0, ramp: 1e-9 },
         inertia: BallInertia::None,
         preload,

@@ -10,6 +10,7 @@ mod rig;
 #[path = "../common/ross.rs"]
 mod ross;
 
+mod atef_2022;
 mod bal_2022_contacts;
 mod bal_2022_frequencies;
 mod bal_2022_machine;

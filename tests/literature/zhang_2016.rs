@@ -45,6 +45,7 @@ fn bearing([stiffness, exponent, offset]: [f64; 3]) -> BallElement {
         ball_material: steel.clone(),
         ring_material: steel,
         contact: ContactLaw::PowerLaw(PowerLaw { stiffness, exponent, offset, range: [600.0, 2000.0] }),
+        contact_stiffness: Default::default(),
         damping: ContactDamping::Constant { coefficient: 0.0, ramp: 1e-6 },
         inertia: BallInertia::None,
         preload: Preload::None,

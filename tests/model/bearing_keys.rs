@@ -1,7 +1,7 @@
 //! Every key of a ball bearing's contact, mounting and service arrives in the model, in SI units.
 
 use rotordyn::bearing::{Arrangement, BallBearing, BallInertia, Duplex, Fit, Preload};
-use rotordyn::contact::{ContactDamping, ContactLaw, Lubricant, PowerLaw};
+use rotordyn::contact::{ContactDamping, ContactLaw, ContactStiffness, Lubricant, PowerLaw};
 use rotordyn::model::{self, Options};
 
 fn bearing(lines: &str) -> BallBearing {
@@ -29,6 +29,26 @@ fn contact_laws() {
     let fitted = bearing(&format!("thrust = \"+z\"\ncontact = \"power_law\"\npower_law = {law}"));
     let expected = PowerLaw { stiffness: 8.562e9, exponent: 1.475, offset: 30.207, range: [600.0, 2000.0] };
     assert_eq!(fitted.contact, ContactLaw::PowerLaw(expected));
+}
+
+/// A stiffness as given replaces that of curvatures and elasticity, in series or for each contact.
+#[test]
+fn contact_stiffness() {
+    let with = |line: &str| bearing(&format!("thrust = \"+z\"\n{line}"));
+    let elastic = with("");
+    assert_eq!(elastic.contact_stiffness, ContactStiffness::Elastic);
+    let (own, of) = (elastic.hertz(), with("contact_stiffness = \"1.5e10 N/m^1.5\""));
+    assert_eq!(of.contact_stiffness, ContactStiffness::Series(1.5e10));
+    let given = of.hertz();
+    assert_eq!(given.stiffness, 1.5e10);
+    let [inner, outer] = [&given.inner, &given.outer].map(|c| c.stiffness);
+    assert!((inner / outer / (own.inner.stiffness / own.outer.stiffness) - 1.0).abs() < 1e-14);
+    let series = (inner.powf(-2.0 / 3.0) + outer.powf(-2.0 / 3.0)).powf(-1.5);
+    assert!((series / 1.5e10 - 1.0).abs() < 1e-14);
+    let each = with("contact_stiffness = { inner = \"4e10 N/m^1.5\", outer = \"4e10 N/m^1.5\" }").hertz();
+    assert_eq!((each.inner.stiffness, each.outer.stiffness), (4e10, 4e10));
+    // Two equal springs of power 3/2 in series: 2^(-3/2) of one.
+    assert!((each.stiffness / (4e10 / 8f64.sqrt()) - 1.0).abs() < 1e-14);
 }
 
 #[test]

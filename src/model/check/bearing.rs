@@ -118,6 +118,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
         ring_material: part("ring_material").unwrap_or(steel),
         service: contact::service(r, lubricants),
         contact: ContactLaw::Hertz,
+        contact_stiffness: contact::stiffness(r),
         damping: contact::damping(r),
         inertia: r.choice("ball_inertia", &INERTIAS).unwrap_or_default(),
         preload: mounting::preload(r),

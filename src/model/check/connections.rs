@@ -1,9 +1,9 @@
 //! Bushings, joints and belts.
 
 use super::places::Places;
-use super::springs::{self, Family};
+use super::springs::{self, DOFS, Family};
 use crate::element::{Belt, Bushing, Joint};
-use crate::model::file::diagnostic::Kind;
+use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative};
 use crate::units::{DAMPING, FORCE, STIFFNESS, TILT_DAMPING, TILT_STIFFNESS};
 
@@ -26,27 +26,55 @@ const CYLINDRICAL: [bool; 6] = [true, true, false, true, true, false];
 const REVOLUTE: [bool; 6] = [true, true, true, true, true, false];
 const FIXED: [bool; 6] = [true; 6];
 
-/// Joints by kind; `axial = "free"` or `"held"` overrides what the kind says about motion along z.
+/// Joints by kind, or by the motions that they hold.
 pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     let read = |(name, r): (&str, Reader)| {
         let [a, b] = places.between(&r);
-        let kinds = [
-            ("spherical", SPHERICAL),
-            ("cylindrical", CYLINDRICAL),
-            ("revolute", REVOLUTE),
-            ("fixed", FIXED),
-        ];
-        if !r.has("kind") {
-            r.missing("kind", "\"spherical\"");
-        }
-        let mut locked = r.choice("kind", &kinds).unwrap_or(FIXED);
-        if let Some(held) = r.choice("axial", &[("held", true), ("free", false)]) {
-            locked[2] = held;
-        }
+        let locked = match r.one_of(&["kind", "hold"]) {
+            Some("hold") => held(&r),
+            _ => locked_by_kind(&r),
+        };
         r.finish();
         Joint { name: name.into(), a, b, locked }
     };
     top.items("joint").into_iter().map(read).collect()
+}
+
+/// `kind`; `axial = "free"` or `"held"` overrides what it says about motion along z.
+fn locked_by_kind(r: &Reader) -> [bool; 6] {
+    let kinds =
+        [("spherical", SPHERICAL), ("cylindrical", CYLINDRICAL), ("revolute", REVOLUTE), ("fixed", FIXED)];
+    if !r.has("kind") {
+        r.missing("kind", "\"spherical\", or hold = [\"z\", \"tx\", \"ty\"]");
+    }
+    let mut locked = r.choice("kind", &kinds).unwrap_or(FIXED);
+    if let Some(held) = r.choice("axial", &[("held", true), ("free", false)]) {
+        locked[2] = held;
+    }
+    locked
+}
+
+/// `hold = ["z", "tx", "ty"]`: a body that keeps its plane.
+fn held(r: &Reader) -> [bool; 6] {
+    let mut locked = [false; 6];
+    for (motion, span) in r.texts("hold").unwrap_or_default() {
+        match DOFS.iter().position(|m| *m == motion) {
+            Some(k) if locked[k] => {
+                let message = format!("{} names {motion} twice", r.name("hold"));
+                r.log.error(Problem::new(Kind::Conflict, &span, message));
+            }
+            Some(k) => locked[k] = true,
+            None => {
+                let message = format!("`{motion}` is not a motion");
+                let problem = Problem::new(Kind::UnknownName, &span, message);
+                r.log.error(problem.expected("x, y, z (translations), tx, ty or tz (rotations)"));
+            }
+        }
+    }
+    if r.sound() && locked == [false; 6] {
+        r.error(Kind::OutOfRange, "hold", format!("{} holds nothing", r.name("hold")));
+    }
+    locked
 }
 
 pub(super) fn belts(top: &Reader, places: &Places) -> Vec<Belt> {

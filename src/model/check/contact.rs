@@ -2,7 +2,7 @@
 
 use crate::bearing::Service;
 use crate::contact::ehl::EhlLaw;
-use crate::contact::{ContactDamping, ContactLaw, HertzPair, Lubricant, PowerLaw};
+use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant, PowerLaw};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
@@ -141,6 +141,21 @@ fn lubricant(r: &Reader, lubricants: &[Lubricant]) -> Option<Lubricant> {
     }
 }
 
+/// `contact_stiffness = "1.58e10 N/m^1.5"` of both contacts in series, or `{ inner = "…", outer = "…" }`.
+pub(super) fn stiffness(r: &Reader) -> ContactStiffness {
+    const KEY: &str = "contact_stiffness";
+    match r.entry(KEY).map(|e| &e.node.value) {
+        None => ContactStiffness::Elastic,
+        Some(Value::Table(_)) => {
+            let Some(each) = r.table(KEY) else { return ContactStiffness::Elastic };
+            let stiffness = ["inner", "outer"].map(|race| power_stiffness(&each, race, 1.5));
+            each.finish();
+            ContactStiffness::Each(stiffness)
+        }
+        Some(_) => ContactStiffness::Series(power_stiffness(r, KEY, 1.5)),
+    }
+}
+
 /// Words of the key `contact`.
 #[derive(Clone, Copy, PartialEq)]
 enum Law {
@@ -238,7 +253,7 @@ fn power_law(r: &Reader) -> ContactLaw {
         let problem = Problem::new(Kind::OutOfRange, &law.span_of("exponent"), message);
         law.log.error(problem.expected("from 1 to 3; a dry point contact has 1.5"));
     }
-    let stiffness = power_stiffness(&law, exponent);
+    let stiffness = power_stiffness(&law, "stiffness", exponent);
     let offset = law.or("offset", any(FORCE), 0.0);
     let range = law.need_list("range", positive(FORCE));
     let range = match range[..] {
@@ -263,17 +278,16 @@ fn power_law(r: &Reader) -> ContactLaw {
 }
 
 /// K in N/mⁿ, whose unit must show the exponent: "8.562e9 N/m^1.475".
-fn power_stiffness(r: &Reader, exponent: f64) -> f64 {
-    const KEY: &str = "stiffness";
+fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
     let unit = format!("N/m^{exponent}");
-    let Some(entry) = r.entry(KEY) else {
-        r.missing(KEY, &format!("\"1e10 {unit}\""));
+    let Some(entry) = r.entry(key) else {
+        r.missing(key, &format!("\"1e10 {unit}\""));
         return 1.0;
     };
     let problem = |kind, message: String| {
         Problem::new(kind, &entry.node.span, message).expected(format!("a stiffness such as \"1e10 {unit}\""))
     };
-    let name = r.name(KEY);
+    let name = r.name(key);
     let Value::Text(text) = &entry.node.value else {
         r.log.error(problem(Kind::MissingUnit, format!("{name} has no unit")));
         return 1.0;

@@ -9,7 +9,7 @@ use crate::units::{
 pub(super) type Matrix6 = [[f64; 6]; 6];
 
 /// Names of the six DOFs in component keys: `k_xy`, `c_txty`.
-const DOFS: [&str; 6] = ["x", "y", "z", "tx", "ty", "tz"];
+pub(super) const DOFS: [&str; 6] = ["x", "y", "z", "tx", "ty", "tz"];
 /// Short names of the diagonal: `k_x`, `k_tilt_x`, `k_spin`.
 const DIAGONAL: [&str; 6] = ["x", "y", "z", "tilt_x", "tilt_y", "spin"];
 
