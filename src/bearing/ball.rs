@@ -61,11 +61,11 @@ impl BallElement {
         };
         let ratio = out.cage_ratio(out.nominal_cos);
         out.rows = match &bearing.duplex {
-            None => vec![(0.0, Row::new(bearing, g.thrust_direction, ratio))],
-            Some(pair) => pair
-                .rows(g.thrust_direction)
-                .map(|(place, direction)| (place, Row::new(bearing, direction, ratio)))
-                .into(),
+            None => vec![(0.0, Row::new(bearing, 0, g.thrust_direction, ratio))],
+            Some(pair) => {
+                let rows = pair.rows(g.thrust_direction).into_iter().enumerate();
+                rows.map(|(k, (place, direction))| (place, Row::new(bearing, k, direction, ratio))).collect()
+            }
         };
         out
     }
@@ -106,8 +106,8 @@ impl BallElement {
     /// Ball j's inner groove centre is at s_j = (A cos α₀ − P_d/2 + x cos ψ_j + y sin ψ_j,
     /// A sin α₀ + δ₀ + z + R_i (θ_x sin ψ_j − θ_y cos ψ_j)) from the outer one, δ₀ the preload. A massless ball
     /// carries Q_j = max(0, Q(δ) + damping), δ_j = |s_j| − A + w_i + w_o; f = −Σ Q_j ∂δ_j/∂d. A ball with inertia
-    /// settles between the races first. δ̇ is the full rate of approach: motion of the rings, of the cage and of the
-    /// waves.
+    /// settles between the races first. δ̇ is the full rate of approach: motion of the rings, of the cage and of
+    /// passing waves and defects, but where the law of defects leaves theirs out.
     ///
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all balls unloaded gives zero force and zero tangents; the force never pulls.
@@ -115,11 +115,18 @@ impl BallElement {
         self.react(d, v, rotation, rotation.cage_speed, true)
     }
 
-    fn react(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, turning: f64, waves: bool) -> Reaction {
+    fn react(
+        &self,
+        d: &[f64; 6],
+        v: &[f64; 6],
+        rotation: &Rotation,
+        turning: f64,
+        imperfect: bool,
+    ) -> Reaction {
         let (mut load, mut load_cos) = (0.0, 0.0);
         let mut row_reaction = |place: f64, row: &Row| {
             let (d, v) = (motion_at(place, d), motion_at(place, v));
-            let out = row.react(&d, &v, rotation, turning, waves);
+            let out = row.react(&d, &v, rotation, turning, imperfect);
             load += out.load;
             load_cos += out.load_cos;
             seen_from_station(place, &out.reaction)
@@ -140,7 +147,8 @@ impl BallElement {
     /// Elastic force and stiffness averaged over one ball pitch of cage angles at fixed ring displacement.
     ///
     /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average of massless balls is a potential force, so its tangent is
-    /// symmetric. Waviness is left out: it averages to zero over a turn.
+    /// symmetric. Waves, defects and sizes of balls are left out: the bearing as it is on average over many turns, but for the small
+    /// mean of a dent. The reaction at one cage angle has them.
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         let pitch = std::f64::consts::TAU / self.balls() as f64;
         let mut out = Reaction::default();

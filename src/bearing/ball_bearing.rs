@@ -1,6 +1,6 @@
 //! A ball bearing as its user describes it.
 
-use super::{BallGeometry, Fit, FitMaterials};
+use super::{BallGeometry, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;
 
@@ -25,9 +25,7 @@ pub struct BallBearing {
     pub cage: Cage,
     /// Cage angle ψ₀ of ball 0 at the start \[rad\], from +x towards +y.
     pub cage_angle: f64,
-    /// Waviness of the races.
-    pub inner_waviness: Vec<Wave>,
-    pub outer_waviness: Vec<Wave>,
+    pub imperfections: Imperfections,
     /// Cage pocket diameter and cage width \[m\] for the overlap check and pictures.
     pub cage_pocket_diameter: f64,
     pub service: Service,
@@ -123,6 +121,19 @@ impl BallBearing {
                 && matches!(self.contact, ContactLaw::PowerLaw(_) | ContactLaw::Ehl(_)),
             "a contact stiffness says nothing beside a fitted law or a solved film, which have their own",
         );
+        refuse(
+            self.imperfections.balls().any(|ball| ball >= self.geometry.balls),
+            "a wave, a size or a defect is on a ball that is not there",
+        );
+        let forced = matches!(self.imperfections.law, DefectLaw::Force { .. });
+        refuse(
+            forced && split,
+            "the force law of defects does not say which contact of a ball with inertia it pushes",
+        );
+        refuse(
+            forced && matches!(self.preload, Preload::Spring { .. }),
+            "the force law of defects has no energy, which a ring on a spring is placed by",
+        );
         refuse(self.geometry.balls < 2, "a ball bearing has two balls at least");
         refuse(
             matches!(self.preload, Preload::Spring { stiffness, .. } if stiffness < 0.0 || stiffness.is_nan()),
@@ -198,15 +209,4 @@ pub enum Cage {
     Rolling,
     /// Given ratio Ω_c/Ω.
     Ratio(f64),
-}
-
-/// One harmonic of race waviness: radial deviation a cos(n φ + ϕ₀), positive towards the ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wave {
-    /// Waves per circumference n.
-    pub order: u32,
-    /// Amplitude a \[m\].
-    pub amplitude: f64,
-    /// Phase ϕ₀ \[rad\].
-    pub phase: f64,
 }

@@ -26,7 +26,7 @@ impl Fling {
             return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());
         }
         let forces = self.forces(inner, outer);
-        let [rate, [wi, wo]] = [motion.rate, motion.wave_rates];
+        let (rate, [wi, wo]) = (motion.rate, motion.deviation.full_rate());
         let (n, t) = (inner.n, inner.t());
         let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
         let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
@@ -43,7 +43,8 @@ impl Fling {
             root::rising(series, (load / stiffness).cbrt().powi(2) + contacts.onset())
         };
         let elastic = contacts.series(equivalent);
-        let closing = dot(n, rate) + wi + wo;
+        let [damped_wi, damped_wo] = motion.deviation.rate;
+        let closing = dot(n, rate) + damped_wi + damped_wo;
         let damped = damping.apply(contacts, &Loaded { load, ..elastic }, equivalent, closing);
 
         let swing = damped.by_rate * dot(t, rate) / inner.length;

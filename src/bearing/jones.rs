@@ -290,7 +290,7 @@ impl Fling {
         motion: &PlaneMotion,
     ) -> Settled {
         let single = &laws.single;
-        let (s, [wi, wo]) = (motion.s, motion.waves);
+        let (s, [wi, wo]) = (motion.s, motion.deviation.height);
         let [li, lo] = self.balls.lengths;
         let sides = |b: [f64; 2]| (Side::at([s[0] - b[0], s[1] - b[1]], li, wi), Side::at(b, lo, wo));
         let mut b = [lo + self.rest - wo, 0.0];

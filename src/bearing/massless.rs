@@ -7,7 +7,7 @@ use crate::contact::{ContactDamping, Loaded, SpeedContacts};
 /// Plane force of a massless ball.
 ///
 /// s is the inner groove centre seen from the outer one, n = s/|s|, δ = |s| − A + w_i + w_o its approach with
-/// waviness; p = Q n with Q = max(0, Q_e(δ) + damping) and δ̇ = n·ṡ + ẇ. Along t, across n, the load turns with the
+/// deviations; p = Q n with Q = max(0, Q_e(δ) + damping) and δ̇ = n·ṡ + ẇ. Along t, across n, the load turns with the
 /// line: ∂p/∂s = Q′ n nᵀ + (Q/|s|) t tᵀ + (∂Q/∂δ̇) n (∂δ̇/∂s)ᵀ, ∂δ̇/∂s = t (t·ṡ)/|s|.
 ///
 /// `None` when the law says unloaded. A contact that would have to pull lets go: its elastic energy is lost.
@@ -21,21 +21,21 @@ pub(super) fn react(
 ) -> Option<PlaneForce> {
     let [radial, axial] = motion.s;
     let distance = (radial * radial + axial * axial).sqrt();
-    let approach = distance - centre_distance + motion.waves[0] + motion.waves[1];
+    let approach = distance - centre_distance + motion.deviation.total();
     let elastic = series(approach);
     if elastic.load <= 0.0 {
         return None;
     }
     let inverse = 1.0 / distance;
     let n = [radial * inverse, axial * inverse];
-    let wave_rate = motion.wave_rates[0] + motion.wave_rates[1];
-    let rate = n[0] * motion.rate[0] + n[1] * motion.rate[1] + wave_rate;
+    let [passing, undamped] = [motion.deviation.rate, motion.deviation.undamped_rate].map(|[i, o]| i + o);
+    let rate = n[0] * motion.rate[0] + n[1] * motion.rate[1] + passing;
     let damped = damping.apply(contacts, &elastic, approach, rate);
     let load = damped.load;
     let mut out = PlaneForce {
         energy: elastic.energy,
         dissipated: (load - elastic.load) * rate,
-        power: load * wave_rate,
+        power: load * passing + elastic.load * undamped,
         ..PlaneForce::default()
     };
     if load > 0.0 {

@@ -2,28 +2,36 @@
 
 pub mod ball;
 pub mod ball_bearing;
+mod defect_force;
 mod duplex;
 pub mod element;
 pub mod fit;
 mod flung;
 pub mod geometry;
+pub mod imperfections;
 mod jones;
 pub mod life;
 pub mod linear;
 mod massless;
 mod preload;
+pub mod profile;
+mod raceway;
 mod ring_sum;
 mod root;
 mod row;
-mod waviness;
+mod spall;
 
 pub use ball::{BallElement, BallLoad};
-pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Service, Wave};
+pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Service};
 pub use element::BearingElement;
 pub use fit::{Fit, FitMaterials};
 pub use geometry::{BallGeometry, CharacteristicOrders};
+pub use imperfections::{
+    BallSpin, BallWave, Defect, DefectForm, DefectLaw, Imperfections, OffSize, Shape, Surface, Wave,
+};
 pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;
+pub use profile::{Deviation, Passing, Profile};
 
 /// Where a bearing's moving parts are at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -84,7 +92,7 @@ pub struct Reaction {
     pub damping: [[f64; 6]; 6],
     /// Elastic energy stored \[J\].
     pub elastic_energy: f64,
-    /// Power that the turning cage and passing waves put into the elastic energy \[W\].
+    /// Power that the turning cage and passing waves and defects put into the elastic energy \[W\].
     pub parametric_power: f64,
     /// Power lost in contact damping \[W\].
     pub dissipated_power: f64,

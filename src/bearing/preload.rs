@@ -72,9 +72,9 @@ impl Row {
         v: &[f64; 6],
         rotation: &Rotation,
         turning: f64,
-        waves: bool,
+        imperfect: bool,
     ) -> RowReaction {
-        let operating = self.operating(rotation, turning, waves);
+        let operating = self.operating(rotation, turning, imperfect);
         let evaluate = |d: &[f64; 6], v: &[f64; 6]| {
             let sum = self.sum(d, v, rotation, &operating);
             let reaction = self.reaction(&sum, &operating);
@@ -83,9 +83,9 @@ impl Row {
         let Seat::Spring { stiffness, force, .. } = self.seat else {
             return evaluate(d, v);
         };
-        let shift = self.spring_shift(d, rotation, waves);
+        let shift = self.spring_shift(d, rotation, imperfect);
         let moved = shifted(d, self.direction * shift);
-        let still = self.operating(rotation, 0.0, waves);
+        let still = self.operating(rotation, 0.0, imperfect);
         let sum = self.sum(&moved, &[0.0; 6], rotation, &still);
         let elastic = self.reaction(&sum, &still);
         let whole = elastic.stiffness[2][2] + stiffness;
@@ -104,9 +104,9 @@ impl Row {
     }
 
     /// Shift e of an outer ring on a spring, N(d, e) = F₀ − k e: one rising function of e.
-    fn spring_shift(&self, d: &[f64; 6], rotation: &Rotation, waves: bool) -> f64 {
+    fn spring_shift(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> f64 {
         let Seat::Spring { stiffness, force, dry, follows } = self.seat else { return 0.0 };
-        let still = self.operating(rotation, 0.0, waves);
+        let still = self.operating(rotation, 0.0, imperfect);
         root::rising(
             |e| {
                 let at = shifted(d, self.direction * e);
@@ -118,8 +118,8 @@ impl Row {
     }
 
     /// Where a ring on a spring is, added to the displacement d.
-    pub fn with_spring(&self, d: &[f64; 6], rotation: &Rotation, waves: bool) -> [f64; 6] {
-        shifted(d, self.direction * self.spring_shift(d, rotation, waves))
+    pub fn with_spring(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> [f64; 6] {
+        shifted(d, self.direction * self.spring_shift(d, rotation, imperfect))
     }
 
     /// Offset and axial force of the centred bearing.

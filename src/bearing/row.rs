@@ -3,9 +3,8 @@
 use super::jones::{Balls, Fling, Laws, Settled};
 use super::preload::Seat;
 use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
-use super::waviness::Waviness;
-use super::{BallBearing, BallLoad, Rotation};
-use super::{massless, root};
+use super::{BallBearing, BallLoad, Deviation, Passing, Profile, Rotation};
+use super::{defect_force, massless, root};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
 /// A row of balls made ready for evaluation: constants and per-ball data laid out as arrays.
@@ -33,8 +32,8 @@ pub(super) struct Row {
     entrainment: f64,
     /// cos and sin of 2πj/Z.
     spacing: Vec<[f64; 2]>,
-    inner_waves: Waviness,
-    outer_waves: Waviness,
+    /// Deviations of races and balls; `None` when they are perfect.
+    profile: Option<Box<Profile>>,
 }
 
 /// What holds for all balls of a row during one evaluation.
@@ -47,10 +46,10 @@ pub(super) struct Operating<'a> {
     pub preload: f64,
     /// Inertia of the balls; `None` at rest and for massless balls.
     fling: Option<Fling>,
-    /// Cage speed that counts as motion of the contacts \[rad/s\]; 0 in statics, where waves stand still too.
+    /// Cage speed that counts as motion of the contacts \[rad/s\]; 0 in statics, where nothing passes.
     pub turning: f64,
-    /// Whether races are wavy.
-    pub waves: bool,
+    /// Whether races and balls are as imperfect as they are.
+    pub imperfect: bool,
 }
 
 /// Where one ball's inner groove centre is, seen from the outer one, in the plane (radial, axial).
@@ -60,14 +59,14 @@ pub(super) struct PlaneMotion {
     pub s: [f64; 2],
     /// ṡ \[m/s\].
     pub rate: [f64; 2],
-    /// Waviness of inner and outer race at the ball, positive towards it \[m\], and its rate \[m/s\].
-    pub waves: [f64; 2],
-    pub wave_rates: [f64; 2],
+    /// What race and ball deviate by at both contacts.
+    pub deviation: Deviation,
 }
 
 impl Row {
-    /// A row that carries thrust in a direction, with the cage's ratio at the nominal contact angle.
-    pub fn new(bearing: &BallBearing, thrust_direction: f64, cage_ratio: f64) -> Self {
+    /// A row, by its number in a matched pair, that carries thrust in a direction, with the cage's ratio at the nominal
+    /// contact angle.
+    pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64, cage_ratio: f64) -> Self {
         let g = &bearing.geometry;
         let a = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let gamma = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
@@ -93,10 +92,11 @@ impl Row {
             seat: Seat::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
             spacing,
-            inner_waves: Waviness::new(&bearing.inner_waviness),
-            outer_waves: Waviness::new(&bearing.outer_waviness),
+            profile: None,
         };
         let pair = bearing.hertz();
+        let (imperfections, start) = (&bearing.imperfections, bearing.cage_angle);
+        row.profile = Profile::new(g, imperfections, number, start, pair.stiffness).map(Box::new);
         row.seat = Seat::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
         row
     }
@@ -133,7 +133,7 @@ impl Row {
     ///
     /// The balls' inertia takes the cage's speed, or where none is given (statics) the shaft's times the ratio at the
     /// nominal contact angle.
-    pub fn operating(&self, rotation: &Rotation, turning: f64, waves: bool) -> Operating<'_> {
+    pub fn operating(&self, rotation: &Rotation, turning: f64, imperfect: bool) -> Operating<'_> {
         let speed = self.entrainment * rotation.shaft_speed.abs();
         let contacts = self.contacts.at_speed(speed);
         let orbit = if rotation.cage_speed != 0.0 {
@@ -150,7 +150,7 @@ impl Row {
             let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
             offset[0] -= 0.5 * change;
         }
-        let mut out = Operating { contacts, offset, preload: 0.0, fling, turning, waves };
+        let mut out = Operating { contacts, offset, preload: 0.0, fling, turning, imperfect };
         out.preload = match self.seat {
             Seat::Fixed(offset) => offset,
             Seat::Spring { .. } => 0.0,
@@ -192,14 +192,23 @@ impl Row {
         }
         let a = self.centre_distance;
         // One loop per law, so that the law is known inside it.
-        match &operating.contacts {
-            dry @ SpeedContacts::Hertz(pair) => self.sum_of(d, v, rotation, operating, |motion| {
+        let massless = |law: &SpeedContacts, motion: &PlaneMotion| {
+            massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
+        };
+        match (&operating.contacts, self.force_law(operating)) {
+            (law, Some(on_loaded)) => self.sum_of(d, v, rotation, operating, |motion| {
+                defect_force::pushed(massless(law, motion), on_loaded, motion)
+            }),
+            (dry @ SpeedContacts::Hertz(pair), None) => self.sum_of(d, v, rotation, operating, |motion| {
                 massless::react(|approach| pair.series(approach), dry, &self.damping, a, motion)
             }),
-            law => self.sum_of(d, v, rotation, operating, |motion| {
-                massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
-            }),
+            (law, None) => self.sum_of(d, v, rotation, operating, |motion| massless(law, motion)),
         }
+    }
+
+    /// Whether defects push the balls, and loaded ones only.
+    fn force_law(&self, operating: &Operating) -> Option<bool> {
+        self.profile.as_deref().filter(|_| operating.imperfect)?.force_law()
     }
 
     #[inline(always)]
@@ -287,10 +296,8 @@ impl Row {
     ) {
         let (turned, r) = (operating.turning, self.arm);
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
-        let inner = (operating.waves && !self.inner_waves.is_empty()).then(|| rotation.shaft_angle.sin_cos());
-        let outer = operating.waves && !self.outer_waves.is_empty();
-        let waves_pass = if turned == 0.0 { [0.0; 2] } else { [turned - rotation.shaft_speed, turned] };
-        for [cj, sj] in &self.spacing {
+        let passing = self.passing(rotation, operating);
+        for (j, [cj, sj]) in self.spacing.iter().enumerate() {
             let cos = cage_cos * cj - cage_sin * sj;
             let sin = cage_sin * cj + cage_cos * sj;
             let turn = [turned * (d[1] * cos - d[0] * sin), turned * r * (d[3] * cos + d[4] * sin)];
@@ -302,18 +309,18 @@ impl Row {
                 rate: [v[0] * cos + v[1] * sin + turn[0], v[2] + r * (v[3] * sin - v[4] * cos) + turn[1]],
                 ..PlaneMotion::default()
             };
-            if let Some((st, ct)) = inner {
-                let [w, slope] = self.inner_waves.at(cos * ct + sin * st, sin * ct - cos * st);
-                motion.waves[0] = w;
-                motion.wave_rates[0] = slope * waves_pass[0];
-            }
-            if outer {
-                let [w, slope] = self.outer_waves.at(cos, sin);
-                motion.waves[1] = w;
-                motion.wave_rates[1] = slope * waves_pass[1];
+            if let Some(passing) = &passing {
+                motion.deviation = passing.ball(j);
             }
             visit([cos, sin], motion, turn);
         }
+    }
+
+    /// The races and balls where they are; at rest in statics.
+    fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
+        let profile = self.profile.as_deref().filter(|_| operating.imperfect)?;
+        let shaft_speed = if operating.turning == 0.0 { 0.0 } else { rotation.shaft_speed };
+        Some(profile.at(&Rotation { cage_speed: operating.turning, shaft_speed, ..*rotation }))
     }
 
     /// Force on the inner ring and tangents from a sum.
@@ -336,8 +343,13 @@ impl Row {
                 }
                 None => {
                     let distance = motion.s[0].hypot(motion.s[1]);
-                    let deflection = distance - self.centre_distance + motion.waves[0] + motion.waves[1];
-                    let load = operating.contacts.series(deflection).load;
+                    let deflection = distance - self.centre_distance + motion.deviation.total();
+                    let elastic = operating.contacts.series(deflection).load;
+                    let load = match self.force_law(&operating) {
+                        Some(true) if elastic > 0.0 => (elastic + motion.deviation.push).max(0.0),
+                        Some(false) => elastic + motion.deviation.push,
+                        _ => elastic,
+                    };
                     ([load; 2], [angle(motion.s); 2], deflection)
                 }
             };

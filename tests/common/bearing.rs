@@ -37,8 +37,7 @@ pub fn rig_6205() -> BallBearing {
         fit: Fit::default(),
         cage: Cage::Rolling,
         cage_angle: 0.0,
-        inner_waviness: vec![],
-        outer_waviness: vec![],
+        imperfections: Default::default(),
         cage_pocket_diameter: 8.1e-3,
         service: Default::default(),
     }

@@ -21,9 +21,9 @@ const SPEEDS: [f64; 6] = [3e-3, 3e-3, 3e-3, 0.2, 0.2, 0.0];
 fn variants() -> Vec<BallElement> {
     let plain = rig_6205();
     let mut wavy = rig_6205();
-    wavy.inner_waviness =
+    wavy.imperfections.inner_waviness =
         (2..=15).map(|n| Wave { order: n, amplitude: 2e-6 / n as f64, phase: n as f64 }).collect();
-    wavy.outer_waviness = vec![Wave { order: 8, amplitude: 0.5e-6, phase: 0.3 }];
+    wavy.imperfections.outer_waviness = vec![Wave { order: 8, amplitude: 0.5e-6, phase: 0.3 }];
     let mut angular = rig_6205();
     angular.geometry.contact_angle = 0.4;
     angular.geometry.radial_clearance = 0.0;

@@ -33,7 +33,8 @@ pub fn angular() -> BallBearing {
     bearing
 }
 
-fn each(mut visit: impl FnMut(&str, &BallBearing)) {
+/// Every combination that a bearing can be made of.
+pub fn each(mut visit: impl FnMut(&str, &BallBearing)) {
     let pairs =
         [None, Some(Arrangement::BackToBack), Some(Arrangement::FaceToFace), Some(Arrangement::Tandem)];
     for law in [ContactLaw::Hertz, film(), tabulated(&angular().hertz())] {
@@ -51,8 +52,10 @@ fn each(mut visit: impl FnMut(&str, &BallBearing)) {
                         bearing.duplex =
                             arrangement.map(|arrangement| Duplex { arrangement, spacing: 15e-3 });
                         bearing.damping = damping;
-                        bearing.inner_waviness = vec![Wave { order: 7, amplitude: 2e-7, phase: 0.4 }];
-                        bearing.outer_waviness = vec![Wave { order: 8, amplitude: 2e-7, phase: 0.3 }];
+                        bearing.imperfections.inner_waviness =
+                            vec![Wave { order: 7, amplitude: 2e-7, phase: 0.4 }];
+                        bearing.imperfections.outer_waviness =
+                            vec![Wave { order: 8, amplitude: 2e-7, phase: 0.3 }];
                         let name = format!("{law:?} {inertia:?} {preload:?} {arrangement:?} {damping:?}");
                         visit(&name, &bearing);
                     }
@@ -62,7 +65,7 @@ fn each(mut visit: impl FnMut(&str, &BallBearing)) {
     }
 }
 
-fn sample(random: &mut Random) -> ([f64; 6], [f64; 6], Rotation) {
+pub fn sample(random: &mut Random) -> ([f64; 6], [f64; 6], Rotation) {
     let d = random.scaled([4e-6, 4e-6, 6e-6, 2e-4, 2e-4, 0.0]);
     let v = random.scaled([3e-3, 3e-3, 3e-3, 0.2, 0.2, 0.0]);
     let rotation = Rotation {
@@ -75,7 +78,7 @@ fn sample(random: &mut Random) -> ([f64; 6], [f64; 6], Rotation) {
 }
 
 /// Lever that makes moments and tilts comparable to forces and displacements.
-fn lever(k: usize) -> f64 {
+pub fn lever(k: usize) -> f64 {
     if k < 3 { 1.0 } else { 0.02 }
 }
 
@@ -93,82 +96,89 @@ fn largest(m: &[[f64; 6]; 6]) -> f64 {
 fn tangents_equal_differences() {
     let mut random = Random(31);
     let mut compared = 0;
-    each(|name, bearing| {
-        let element = BallElement::new(bearing);
-        let sprung = matches!(bearing.preload, Preload::Spring { .. });
-        for _ in 0..4 {
-            let (d, v, mut rotation) = sample(&mut random);
-            let mut v_for_stiffness = v;
-            if sprung {
-                // On a spring the stiffness is exact at rest; see the element.
-                v_for_stiffness = [0.0; 6];
-                rotation.cage_speed = 0.0;
-            }
-            let here = element.reaction(&d, &v, &rotation);
-            let (k_size, c_size) = (largest(&here.stiffness), largest(&here.damping));
-            for column in 0..5 {
-                let (step, rate) = (1e-10 / lever(column), 1e-4 / lever(column));
-                let shifted = |vector: [f64; 6], by: f64| {
-                    let mut w = vector;
-                    w[column] += by;
-                    w
-                };
-                let at = |by| element.reaction(&shifted(d, by), &v_for_stiffness, &rotation);
-                let (plus, minus) = (at(step), at(-step));
-                let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
-                let (faster, slower) = (along(rate), along(-rate));
-                // A ball that lets go within the step bends the force; the damping of one that holds is the same.
-                let lets_go = (0..5).any(|a| {
-                    (0..5).any(|b| (faster.damping[a][b] - slower.damping[a][b]).abs() > 1e-9 * c_size)
-                });
-                for row in 0..5 {
-                    let scale = lever(row) * lever(column);
-                    let k = -(plus.force[row] - minus.force[row]) / (2.0 * step);
-                    // The mean of both ends follows a tangent that changes within the step, as where a ball unloads.
-                    let mean = 0.5 * (plus.stiffness[row][column] + minus.stiffness[row][column]);
-                    let c = -(faster.force[row] - slower.force[row]) / (2.0 * rate);
-                    let (dk, dc) = (k - mean, c - here.damping[row][column]);
-                    // A ball that unloads within the step costs √(0.1 nm/1 µm) of its own small stiffness.
-                    assert!(dk.abs() < 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
-                    assert!(
-                        lets_go || dc.abs() < 1e-6 * c_size * scale,
-                        "{name} C[{row}][{column}] {c} off by {dc}"
-                    );
-                    compared += 1;
-                }
+    each(|name, bearing| compared += compare_tangents(&mut random, name, bearing));
+    assert!(compared > 10_000);
+}
+
+/// Both tangents against differences at four random motions; how many entries were compared.
+pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) -> usize {
+    let mut compared = 0;
+    let element = BallElement::new(bearing);
+    let sprung = matches!(bearing.preload, Preload::Spring { .. });
+    for _ in 0..4 {
+        let (d, v, mut rotation) = sample(random);
+        let mut v_for_stiffness = v;
+        if sprung {
+            // On a spring the stiffness is exact at rest; see the element.
+            v_for_stiffness = [0.0; 6];
+            rotation.cage_speed = 0.0;
+        }
+        let here = element.reaction(&d, &v, &rotation);
+        let (k_size, c_size) = (largest(&here.stiffness), largest(&here.damping));
+        for column in 0..5 {
+            let (step, rate) = (1e-10 / lever(column), 1e-4 / lever(column));
+            let shifted = |vector: [f64; 6], by: f64| {
+                let mut w = vector;
+                w[column] += by;
+                w
+            };
+            let at = |by| element.reaction(&shifted(d, by), &v_for_stiffness, &rotation);
+            let (plus, minus) = (at(step), at(-step));
+            let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
+            let (faster, slower) = (along(rate), along(-rate));
+            // A ball that lets go within the step bends the force; the damping of one that holds is the same.
+            let lets_go = (0..5)
+                .any(|a| (0..5).any(|b| (faster.damping[a][b] - slower.damping[a][b]).abs() > 1e-9 * c_size));
+            for row in 0..5 {
+                let scale = lever(row) * lever(column);
+                let k = -(plus.force[row] - minus.force[row]) / (2.0 * step);
+                // The mean of both ends follows a tangent that changes within the step, as where a ball unloads.
+                let mean = 0.5 * (plus.stiffness[row][column] + minus.stiffness[row][column]);
+                let c = -(faster.force[row] - slower.force[row]) / (2.0 * rate);
+                let (dk, dc) = (k - mean, c - here.damping[row][column]);
+                // A ball that unloads within the step costs √(0.1 nm/1 µm) of its own small stiffness.
+                assert!(dk.abs() <= 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
+                assert!(
+                    lets_go || dc.abs() <= 1e-6 * c_size * scale,
+                    "{name} C[{row}][{column}] {c} off by {dc}"
+                );
+                compared += 1;
             }
         }
-    });
-    assert!(compared > 10_000);
+    }
+    compared
 }
 
 #[test]
 fn power_balance_closes() {
     let mut random = Random(5);
-    each(|name, bearing| {
-        // On a spring the work of the balls' inertia along what the turning cage does to the ring is not booked.
-        if matches!(bearing.preload, Preload::Spring { .. }) && bearing.inertia != BallInertia::None {
-            return;
-        }
-        let element = BallElement::new(bearing);
-        let (d, v, start) = sample(&mut random);
-        let at = |t: f64| -> Reaction {
-            let q = std::array::from_fn(|k| d[k] + v[k] * t);
-            let rotation = Rotation {
-                cage_angle: start.cage_angle + start.cage_speed * t,
-                shaft_angle: start.shaft_angle + start.shaft_speed * t,
-                ..start
-            };
-            element.reaction(&q, &v, &rotation)
+    each(|name, bearing| balance_power(&mut random, name, bearing));
+}
+
+/// d(energy)/dt + dissipation = −f·v + parametric power along a straight path with turning cage.
+pub fn balance_power(random: &mut Random, name: &str, bearing: &BallBearing) {
+    // On a spring the work of the balls' inertia along what the turning cage does to the ring is not booked.
+    if matches!(bearing.preload, Preload::Spring { .. }) && bearing.inertia != BallInertia::None {
+        return;
+    }
+    let element = BallElement::new(bearing);
+    let (d, v, start) = sample(random);
+    let at = |t: f64| -> Reaction {
+        let q = std::array::from_fn(|k| d[k] + v[k] * t);
+        let rotation = Rotation {
+            cage_angle: start.cage_angle + start.cage_speed * t,
+            shaft_angle: start.shaft_angle + start.shaft_speed * t,
+            ..start
         };
-        let h = 2e-9;
-        let rate = (at(h).elastic_energy - at(-h).elastic_energy) / (2.0 * h);
-        let here = at(0.0);
-        let work: f64 = here.force.iter().zip(&v).map(|(f, v)| f * v).sum();
-        let residual = rate + here.dissipated_power + work - here.parametric_power;
-        let size = work.abs() + here.parametric_power.abs() + here.dissipated_power.abs();
-        assert!(residual.abs() < 1e-5 * size, "{name}: {residual} of {size}");
-    });
+        element.reaction(&q, &v, &rotation)
+    };
+    let h = 2e-9;
+    let rate = (at(h).elastic_energy - at(-h).elastic_energy) / (2.0 * h);
+    let here = at(0.0);
+    let work: f64 = here.force.iter().zip(&v).map(|(f, v)| f * v).sum();
+    let residual = rate + here.dissipated_power + work - here.parametric_power;
+    let size = work.abs() + here.parametric_power.abs() + here.dissipated_power.abs();
+    assert!(residual.abs() < 1e-5 * size, "{name}: {residual} of {size}");
 }
 
 #[test]
@@ -176,8 +186,8 @@ fn rotating_load_and_cage_rotates_the_answer() {
     let mut random = Random(3);
     each(|name, bearing| {
         let mut bearing = bearing.clone();
-        bearing.inner_waviness.clear();
-        bearing.outer_waviness.clear();
+        bearing.imperfections.inner_waviness.clear();
+        bearing.imperfections.outer_waviness.clear();
         let element = BallElement::new(&bearing);
         let (d, v, rotation) = sample(&mut random);
         let angle: f64 = random.next() * 3.0;

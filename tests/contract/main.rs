@@ -11,6 +11,7 @@ mod ball_combinations;
 mod ball_inertia;
 mod bearing_solver;
 mod contact_laws;
+mod damaged;
 mod ehl_table;
 mod linear_bearing;
 mod preload;

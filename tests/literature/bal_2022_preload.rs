@@ -42,8 +42,7 @@ fn bearing(contact: ContactLaw, preload: Preload) -> BallElement {
         fit: Fit::default(),
         cage: Cage::Rolling,
         cage_angle: 0.0,
-        inner_waviness: vec![],
-        outer_waviness: vec![],
+        imperfections: Default::default(),
         cage_pocket_diameter: 9.7e-3,
         service: Default::default(),
     })

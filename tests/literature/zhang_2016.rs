@@ -53,8 +53,7 @@ fn bearing([stiffness, exponent, offset]: [f64; 3]) -> BallElement {
         fit: Fit::default(),
         cage: Cage::Rolling,
         cage_angle: 0.0,
-        inner_waviness: vec![],
-        outer_waviness: vec![],
+        imperfections: Default::default(),
         cage_pocket_diameter: 17.2e-3,
         service: Default::default(),
     })

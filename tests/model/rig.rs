@@ -118,7 +118,7 @@ fn bearings() {
         same(coefficient, get(&json, "/bearing/contact_damping_per_ball"));
         same(ramp, get(&json, "/bearing/contact_damping_ramp"));
         assert_eq!((bearing.cage, bearing.cage_angle), (Cage::Rolling, 0.0));
-        assert!(bearing.inner_waviness.is_empty());
+        assert!(bearing.imperfections.inner_waviness.is_empty());
         let exact = ball(&rig(Some("exact_bpfo")), name).geometry;
         same(exact.pitch_diameter, get(&json, "/bearing/paper_exact_bpfo/pitch_d"));
         same(4.5 * (1.0 - exact.ball_diameter / exact.pitch_diameter), 3.55);
@@ -202,11 +202,12 @@ fn block_variant() {
 #[test]
 fn wavy_variant() {
     let model = rig(Some("wavy"));
-    let (a, b) = (ball(&model, "A").inner_waviness, ball(&model, "B").inner_waviness);
+    let (a, b) =
+        (ball(&model, "A").imperfections.inner_waviness, ball(&model, "B").imperfections.inner_waviness);
     assert_eq!(a.iter().map(|w| w.order).collect::<Vec<_>>(), (2..=15).collect::<Vec<_>>());
     assert!(a.iter().all(|w| w.amplitude == 2e-6 / f64::from(w.order)));
     assert!(a.iter().zip(&b).all(|(a, b)| a.phase != b.phase && (0.0..7.0).contains(&a.phase)));
-    assert_eq!(a, ball(&rig(Some("wavy")), "A").inner_waviness);
+    assert_eq!(a, ball(&rig(Some("wavy")), "A").imperfections.inner_waviness);
 }
 
 /// With the bearing stiffnesses of the reference, the file's machine has the reference's frequencies.

@@ -112,7 +112,7 @@ outer_waviness = [{ order = 3, amplitude = "1 um", phase = "90 deg" }, { order =
     assert!((g.outer_groove_radius / g.ball_diameter - 0.53).abs() < 1e-15);
     assert!((g.contact_angle.to_degrees() - 30.0).abs() < 1e-12);
     assert_eq!((g.radial_clearance, g.thrust_direction, ball.cage), (0.0, -1.0, Cage::Ratio(0.41)));
-    assert_eq!((ball.outer_waviness.len(), ball.outer_waviness[1].order), (2, 5));
+    assert_eq!((ball.imperfections.outer_waviness.len(), ball.imperfections.outer_waviness[1].order), (2, 5));
     assert!(ball.cage_pocket_diameter > g.ball_diameter);
 
     let plain =

@@ -176,8 +176,7 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
         let g = &ball.geometry;
         let orders = g.orders(g.contact_angle);
         at.note("model", "ball")?;
-        let wavy = !ball.inner_waviness.is_empty() || !ball.outer_waviness.is_empty();
-        at.note("condition", if wavy { "healthy, wavy races" } else { "healthy" })?;
+        at.note("condition", ball.imperfections.condition())?;
         at.note("balls", g.balls as i64)?;
         for (name, value) in [
             ("ball_diameter", g.ball_diameter),

@@ -2,13 +2,14 @@
 
 use super::catalogue::{self, CatalogueEntry};
 use super::contact;
+use super::imperfections;
 use super::loading::increasing;
 use super::material;
 use super::mounting;
 use super::places::Places;
 use super::springs::{self, Family};
 use crate::bearing::{
-    BallBearing, BallGeometry, BallInertia, Bearing, Cage, LinearBearing, LinearBearingRow, Wave,
+    BallBearing, BallGeometry, BallInertia, Bearing, Cage, LinearBearing, LinearBearingRow,
 };
 use crate::contact::{ContactLaw, Lubricant};
 use crate::element::{Anchor, Material};
@@ -17,7 +18,7 @@ use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
 use crate::units::{ANGLE, LENGTH, NUMBER, SPEED};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const INERTIAS: [(&str, BallInertia); 4] = [
     ("none", BallInertia::None),
@@ -126,8 +127,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
         fit: mounting::fit(r, &geometry),
         cage: cage(r),
         cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
-        inner_waviness: waviness(r, "inner_waviness"),
-        outer_waviness: waviness(r, "outer_waviness"),
+        imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
         cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
         geometry,
     };
@@ -139,6 +139,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
             "a power law holds both contacts, and the centrifugal force of the speed it was fitted at",
         ));
     }
+    imperfections::consistent(r, &bearing);
     if r.sound() {
         buildable(r, &bearing);
     }
@@ -344,47 +345,4 @@ fn cage(r: &Reader) -> Cage {
             Cage::Rolling
         }
     }
-}
-
-/// A list of waves, `[{ order = 2, amplitude = "1 um" }]`, or a law, `{ amplitude = "2 um", from = 2, to = 15 }`:
-/// amplitude/n for every n (`law = "constant"` for one amplitude), phases from a seed.
-fn waviness(r: &Reader, key: &str) -> Vec<Wave> {
-    const MOST: usize = 10_000;
-    if let Some(Value::Table(_)) = r.entry(key).map(|e| &e.node.value) {
-        let Some(law) = r.table(key) else { return Vec::new() };
-        let amplitude = law.need("amplitude", not_negative(LENGTH));
-        let (from, to) = (law.count("from", 2, 1..=MOST), law.count("to", 15, 1..=MOST));
-        let constant = law.choice("law", &[("1/n", false), ("constant", true)]).unwrap_or(false);
-        let mut seed = law.count("seed", 1, 0..=usize::MAX >> 1) as u64;
-        if to < from && law.sound() {
-            law.error(Kind::OutOfRange, "to", format!("{} is below {}", law.name("to"), law.name("from")));
-        }
-        law.finish();
-        let wave = |n: usize| Wave {
-            order: n as u32,
-            amplitude: if constant { amplitude } else { amplitude / n as f64 },
-            phase: TAU * uniform(&mut seed),
-        };
-        return (from..=to).map(wave).collect();
-    }
-    let read = |wave: Reader| {
-        let order = wave.count("order", 0, 1..=MOST);
-        if !wave.has("order") {
-            wave.missing("order", "2");
-        }
-        let amplitude = wave.need("amplitude", not_negative(LENGTH));
-        let phase = wave.or("phase", any(ANGLE), 0.0);
-        wave.finish();
-        Wave { order: order as u32, amplitude, phase }
-    };
-    r.tables(key).into_iter().map(read).collect()
-}
-
-/// Next uniform number in [0, 1) of splitmix64, the same on every machine.
-fn uniform(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -278,7 +278,7 @@ fn power_law(r: &Reader) -> ContactLaw {
 }
 
 /// K in N/mⁿ, whose unit must show the exponent: "8.562e9 N/m^1.475".
-fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
+pub(super) fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
     let unit = format!("N/m^{exponent}");
     let Some(entry) = r.entry(key) else {
         r.missing(key, &format!("\"1e10 {unit}\""));

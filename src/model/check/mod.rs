@@ -5,6 +5,8 @@ mod bearing_study;
 pub mod catalogue;
 mod connections;
 mod contact;
+mod defects;
+mod imperfections;
 mod inertia;
 mod loading;
 mod mounting;

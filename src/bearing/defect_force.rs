@@ -1,0 +1,45 @@
+//! The printed force law of defects: ±K_d |H|^{3/2} beside the load of an undisturbed ball.
+
+use super::ring_sum::PlaneForce;
+use super::row::PlaneMotion;
+
+/// A massless ball's force with that of the defects under it, along the same line of contact n.
+///
+/// p = (Q + F_d) n. As printed, F_d acts on every ball at every time, so that a ball may pull; `on_loaded`, on a ball
+/// that carries load, which it unloads at most. F_d belongs to no energy: its work −F_d n·ṡ on the moving ring is
+/// power put in.
+///
+/// Source: Atef 2022 eq. 11 and 12, without the centrifugal force, whose sum over equally spaced balls is zero.
+#[inline]
+pub(super) fn pushed(ball: Option<PlaneForce>, on_loaded: bool, motion: &PlaneMotion) -> Option<PlaneForce> {
+    let push = motion.deviation.push;
+    if push == 0.0 || on_loaded && ball.is_none() {
+        return ball;
+    }
+    let mut out = ball.unwrap_or_default();
+    let [radial, axial] = motion.s;
+    let distance = radial.hypot(axial);
+    let n = [radial / distance, axial / distance];
+    let closing = n[0] * motion.rate[0] + n[1] * motion.rate[1];
+    if on_loaded && out.load + push <= 0.0 {
+        out.power += out.load * closing;
+        return Some(PlaneForce {
+            energy: out.energy,
+            dissipated: out.dissipated,
+            power: out.power,
+            ..PlaneForce::default()
+        });
+    }
+    out.power -= push * closing;
+    out.force[0] += push * n[0];
+    out.force[1] += push * n[1];
+    // Along t = (−n_z, n_r) the force turns with the line.
+    let bend = push / distance;
+    let turn = [n[1] * n[1], -n[0] * n[1], -n[0] * n[1], n[0] * n[0]];
+    for (value, t) in out.by_motion.iter_mut().zip(turn) {
+        *value += bend * t;
+    }
+    out.load += push;
+    out.load_cos += push * n[0];
+    Some(out)
+}

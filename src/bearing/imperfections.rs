@@ -1,0 +1,242 @@
+//! What is not perfect about a bearing's races and balls, as its user describes it.
+//!
+//! A deviation is measured along the normal at the contact, positive where it narrows the gap: a bump, a ball too
+//! large. Angles on the outer race are from +x towards +y, on the inner race the same in the ring's own frame, which
+//! turns with the shaft, on a ball from the point that meets the outer race at the start, against the ball's spin.
+
+use super::BallGeometry;
+use super::spall::SpallPath;
+
+/// Deviations of races and balls from their perfect shape; by default none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Imperfections {
+    /// Waviness of the races; an eccentric race is a wave of order 1.
+    pub inner_waviness: Vec<Wave>,
+    pub outer_waviness: Vec<Wave>,
+    pub ball_waviness: Vec<BallWave>,
+    pub off_size: Vec<OffSize>,
+    pub defects: Vec<Defect>,
+    /// How defects act; waves and sizes always displace.
+    pub law: DefectLaw,
+    pub spin: BallSpin,
+}
+
+/// One harmonic of waviness: deviation a cos(n φ + ϕ₀), positive towards the other body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Waves per circumference n.
+    pub order: u32,
+    /// Amplitude a \[m\].
+    pub amplitude: f64,
+    /// Phase ϕ₀ \[rad\].
+    pub phase: f64,
+}
+
+impl Wave {
+    /// Run-out of an inner race whose centre is `by` \[m\] off towards the angle φ₀ of its ring.
+    pub fn eccentric_inner(by: f64, towards: f64, contact_angle: f64) -> Self {
+        Self { order: 1, amplitude: by * contact_angle.cos(), phase: -towards }
+    }
+
+    /// The same of an outer race, which leaves the balls on the side it is moved to.
+    pub fn eccentric_outer(by: f64, towards: f64, contact_angle: f64) -> Self {
+        Self { order: 1, amplitude: by * contact_angle.cos(), phase: std::f64::consts::PI - towards }
+    }
+}
+
+/// A wave on one ball, or on all of them alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallWave {
+    pub ball: Option<usize>,
+    pub wave: Wave,
+}
+
+/// A ball larger than the others by a difference of diameters \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OffSize {
+    pub ball: usize,
+    pub by: f64,
+    /// Row of a matched pair; `None`: in each.
+    pub row: Option<usize>,
+}
+
+/// A local defect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defect {
+    pub on: Surface,
+    /// Row of a matched pair; `None`: in each.
+    pub row: Option<usize>,
+    /// Angle at which it starts \[rad\].
+    pub start: f64,
+    /// Length along the race \[m\].
+    pub width: f64,
+    pub form: DefectForm,
+}
+
+/// Where a defect is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    Inner,
+    Outer,
+    /// On this ball, which brings it to both races half a turn of its spin apart.
+    Ball(usize),
+}
+
+/// What a defect looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DefectForm {
+    /// A dent of this depth \[m\], or as deep as a ball sinks into its opening.
+    Dent {
+        depth: Option<f64>,
+        shape: Shape,
+    },
+    Bump {
+        height: f64,
+        shape: Shape,
+    },
+    /// A pit of even depth \[m\] between two edges of this radius \[m\]; its width is the opening in the surface.
+    Spall {
+        depth: f64,
+        edge_radius: f64,
+    },
+}
+
+/// The ball's path over a dent or bump.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// H = h sin(π p/Δφ) (Atef 2022 eq. 1).
+    #[default]
+    HalfSine,
+    /// The arc through both ends and the middle.
+    Cap,
+}
+
+/// How a defect acts on the balls.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum DefectLaw {
+    /// It displaces the surface: inside the elastic approach, its rate inside the approach's rate.
+    #[default]
+    Displacement,
+    /// The same, but its rate is left out of the contact damping (Atef 2022 eq. 15).
+    UndampedDisplacement,
+    /// A force ±K_d |H|^{3/2} along the ball's line of contact beside the undisturbed load (Atef 2022 eq. 11-12).
+    Force {
+        /// K_d \[N/m^1.5\]; `None`: of the ball's dry contacts in series.
+        stiffness: Option<f64>,
+        /// On loaded balls only, which it unloads at most; else on every ball at every time, as printed.
+        on_loaded: bool,
+    },
+}
+
+/// What turns the balls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BallSpin {
+    /// Rolling on both races.
+    #[default]
+    Rolling,
+    /// As fast as the shaft (Upadhyay 2009).
+    Shaft,
+}
+
+impl Imperfections {
+    /// Whether there are none at all; one of zero size is one.
+    pub fn is_empty(&self) -> bool {
+        self.inner_waviness.is_empty()
+            && self.outer_waviness.is_empty()
+            && self.ball_waviness.is_empty()
+            && self.off_size.is_empty()
+            && self.defects.is_empty()
+    }
+
+    /// State of health in words: "healthy, wavy races", "dent on outer race, spall on ball 3".
+    pub fn condition(&self) -> String {
+        let mut parts: Vec<String> = self.defects.iter().map(Defect::name).collect();
+        if parts.is_empty() {
+            parts.push("healthy".into());
+        }
+        let races = !self.inner_waviness.is_empty() || !self.outer_waviness.is_empty();
+        for (given, what) in [
+            (races, "wavy races"),
+            (!self.ball_waviness.is_empty(), "wavy balls"),
+            (!self.off_size.is_empty(), "off-size balls"),
+        ] {
+            if given {
+                parts.push(what.into());
+            }
+        }
+        parts.join(", ")
+    }
+
+    /// The balls named, of those that waves, sizes and defects are on.
+    pub fn balls(&self) -> impl Iterator<Item = usize> + '_ {
+        let waves = self.ball_waviness.iter().filter_map(|w| w.ball);
+        let sizes = self.off_size.iter().map(|s| s.ball);
+        let defects = self.defects.iter().filter_map(|d| match d.on {
+            Surface::Ball(ball) => Some(ball),
+            Surface::Inner | Surface::Outer => None,
+        });
+        waves.chain(sizes).chain(defects)
+    }
+}
+
+impl Surface {
+    /// Radius of the circle along which a defect's width is measured \[m\].
+    pub fn radius(self, g: &BallGeometry) -> f64 {
+        let beside = 0.5 * g.ball_diameter * g.contact_angle.cos();
+        match self {
+            Self::Inner => 0.5 * g.pitch_diameter - beside,
+            Self::Outer => 0.5 * g.pitch_diameter + beside,
+            Self::Ball(_) => 0.5 * g.ball_diameter,
+        }
+    }
+}
+
+impl Defect {
+    /// Kind and place in words.
+    pub fn name(&self) -> String {
+        let kind = match self.form {
+            DefectForm::Dent { .. } => "dent",
+            DefectForm::Bump { .. } => "bump",
+            DefectForm::Spall { .. } => "spall",
+        };
+        match self.on {
+            Surface::Inner => format!("{kind} on inner race"),
+            Surface::Outer => format!("{kind} on outer race"),
+            Surface::Ball(ball) => format!("{kind} on ball {ball}"),
+        }
+    }
+
+    /// Angle Δφ = width / radius of the surface \[rad\].
+    pub fn angle(&self, g: &BallGeometry) -> f64 {
+        self.width / self.on.radius(g)
+    }
+
+    /// How far a ball sinks into an opening of this width at most \[m\]: D/2 − √((D/2)² − (d/2)²), with no end when
+    /// the ball falls through (Atef 2022 eq. 4); into a spall by its path round the edges.
+    pub fn reach(&self, g: &BallGeometry) -> f64 {
+        match self.form {
+            DefectForm::Spall { edge_radius, .. } => {
+                let paths = SpallPath::on(self.on, g, self.width, f64::INFINITY, edge_radius);
+                paths.iter().map(|path| path.at(0.5 * self.width)[0]).fold(0.0, f64::max)
+            }
+            DefectForm::Dent { .. } | DefectForm::Bump { .. } => {
+                let radius = 0.5 * g.ball_diameter;
+                let half = 0.5 * self.width;
+                if half >= radius {
+                    f64::INFINITY
+                } else {
+                    half * half / (radius + (radius * radius - half * half).sqrt())
+                }
+            }
+        }
+    }
+
+    /// Deviation at its middle \[m\]: a bump's height, or minus how deep a ball gets.
+    pub fn height(&self, g: &BallGeometry) -> f64 {
+        match self.form {
+            DefectForm::Bump { height, .. } => height,
+            DefectForm::Dent { depth, .. } => -depth.map_or(self.reach(g), |depth| depth.min(self.reach(g))),
+            DefectForm::Spall { depth, .. } => -depth.min(self.reach(g)),
+        }
+    }
+}

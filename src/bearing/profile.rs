@@ -1,0 +1,260 @@
+//! Race and ball geometry as one profile: the deviation of both surfaces at every ball's two contacts.
+//!
+//! Ball j is at ψ_j = ψ + 2πj/Z. It meets the outer race at the race's angle ψ_j, the inner one at ψ_j − θ, with its
+//! own surface turned by the spin χ: the ball's angle χ at the outer race, χ + π at the inner one. Rolling on the
+//! outer race asks χ̇ = ψ̇ (D_pw/D)(1 + γ), on the inner one χ̇ = (θ̇ − ψ̇)(D_pw/D)(1 − γ), γ = (D/D_pw) cos α; their
+//! mean is taken, χ = (D_pw/D)(γ (ψ − ψ₀) + ½ (1 − γ) θ), which is both while the cage rolls. A cage of another ratio
+//! slips alike on both races.
+
+use super::imperfections::{BallSpin, Defect, DefectForm, DefectLaw, Imperfections, Surface};
+use super::raceway::{Feature, Path, Raceway};
+use super::spall::SpallPath;
+use super::{BallGeometry, Rotation};
+use std::f64::consts::{PI, TAU};
+
+/// Deviations of the races and balls of a row, ready to be evaluated.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    inner: Raceway,
+    outer: Raceway,
+    /// One per ball, or none at all when the balls are perfect.
+    balls: Vec<Ball>,
+    /// Angle 2πj/Z of ball j with its cosine and sine.
+    places: Vec<[f64; 3]>,
+    law: Law,
+    /// ∂χ/∂ψ, ∂χ/∂θ, and the cage angle ψ₀ at which χ = 0.
+    spin: [f64; 2],
+    start: f64,
+}
+
+/// A ball's own surface.
+#[derive(Clone, Debug, Default)]
+struct Ball {
+    /// Radius above the nominal one \[m\].
+    oversize: f64,
+    /// Its surface as the inner and the outer race meet it: waves are the same, a spall's path is not.
+    surface: [Raceway; 2],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Law {
+    Displacement,
+    Undamped,
+    /// K_d \[N/m^1.5\].
+    Force(f64, bool),
+}
+
+/// What the surfaces do at one ball's contacts: inner race, outer race.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Deviation of race and ball together, positive where the gap narrows \[m\].
+    pub height: [f64; 2],
+    /// Its rate \[m/s\], as far as it counts in the contact damping.
+    pub rate: [f64; 2],
+    /// The rest of its rate \[m/s\].
+    pub undamped_rate: [f64; 2],
+    /// Force of defects by the printed law \[N\], positive where the ball presses more.
+    pub push: f64,
+}
+
+impl Deviation {
+    /// Sum over both contacts \[m\].
+    pub fn total(&self) -> f64 {
+        self.height[0] + self.height[1]
+    }
+
+    /// Rates of both contacts, damped and undamped together \[m/s\].
+    pub fn full_rate(&self) -> [f64; 2] {
+        [self.rate[0] + self.undamped_rate[0], self.rate[1] + self.undamped_rate[1]]
+    }
+}
+
+/// A profile at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Passing<'a> {
+    profile: &'a Profile,
+    inner: Turn,
+    outer: Turn,
+    ball: Turn,
+}
+
+/// Angle of ball 0 on a surface, in [0, 2π), with cosine, sine and rate.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turn {
+    angle: f64,
+    cos: f64,
+    sin: f64,
+    rate: f64,
+}
+
+impl Turn {
+    fn new(angle: f64, rate: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        // rem_euclid of a tiny negative angle is 2π itself.
+        let angle = angle.rem_euclid(TAU);
+        Self { angle: if angle < TAU { angle } else { 0.0 }, cos, sin, rate }
+    }
+
+    /// On by an angle in [0, 2π).
+    #[inline]
+    fn plus(&self, [angle, cos, sin]: [f64; 3]) -> Self {
+        let sum = self.angle + angle;
+        Self {
+            angle: if sum < TAU { sum } else { sum - TAU },
+            cos: self.cos * cos - self.sin * sin,
+            sin: self.sin * cos + self.cos * sin,
+            rate: self.rate,
+        }
+    }
+}
+
+impl Profile {
+    /// Profile of a row (0 in a single one) whose cage starts at ψ₀ \[rad\]; `None` when nothing deviates.
+    ///
+    /// `stiffness`: of a ball's contacts in series \[N/m^1.5\], for the force law that gives none.
+    pub fn new(
+        geometry: &BallGeometry,
+        imperfections: &Imperfections,
+        row: usize,
+        cage_angle: f64,
+        stiffness: f64,
+    ) -> Option<Self> {
+        let g = geometry;
+        let here = |given: Option<usize>| given.is_none_or(|given| given == row);
+        let features = |on: Surface, contact: usize| -> Vec<Feature> {
+            let defects = imperfections.defects.iter().filter(|d| d.on == on && here(d.row));
+            defects.filter_map(|defect| feature(defect, g, contact)).collect()
+        };
+        let ball = |j: usize| {
+            let waves: Vec<_> = imperfections
+                .ball_waviness
+                .iter()
+                .filter(|w| w.ball.is_none_or(|ball| ball == j))
+                .map(|w| w.wave)
+                .collect();
+            let sizes = imperfections.off_size.iter().filter(|s| s.ball == j && here(s.row));
+            Ball {
+                oversize: 0.5 * sizes.map(|s| s.by).sum::<f64>(),
+                surface: [0, 1].map(|contact| Raceway::new(&waves, features(Surface::Ball(j), contact))),
+            }
+        };
+        let mut balls: Vec<Ball> = (0..g.balls).map(ball).collect();
+        if balls.iter().all(|b| b.oversize == 0.0 && b.surface.iter().all(Raceway::is_perfect)) {
+            balls.clear();
+        }
+        let place = |j: usize| {
+            let angle = TAU * j as f64 / g.balls as f64;
+            [angle, angle.cos(), angle.sin()]
+        };
+        let out = Self {
+            inner: Raceway::new(&imperfections.inner_waviness, features(Surface::Inner, 0)),
+            outer: Raceway::new(&imperfections.outer_waviness, features(Surface::Outer, 1)),
+            balls,
+            places: (0..g.balls).map(place).collect(),
+            law: match imperfections.law {
+                DefectLaw::Displacement => Law::Displacement,
+                DefectLaw::UndampedDisplacement => Law::Undamped,
+                DefectLaw::Force { stiffness: given, on_loaded } => {
+                    Law::Force(given.unwrap_or(stiffness), on_loaded)
+                }
+            },
+            spin: match imperfections.spin {
+                BallSpin::Rolling => {
+                    let cos = g.contact_angle.cos();
+                    let ratio = g.pitch_diameter / g.ball_diameter;
+                    [cos, 0.5 * (ratio - cos)]
+                }
+                BallSpin::Shaft => [0.0, 1.0],
+            },
+            start: cage_angle,
+        };
+        let perfect = out.inner.is_perfect() && out.outer.is_perfect() && out.balls.is_empty();
+        (!perfect).then_some(out)
+    }
+
+    /// Whether defects act by the printed force, and on loaded balls only.
+    pub fn force_law(&self) -> Option<bool> {
+        match self.law {
+            Law::Force(_, on_loaded) => Some(on_loaded),
+            Law::Displacement | Law::Undamped => None,
+        }
+    }
+
+    /// The profile with cage and shaft where they are; its rates are those of their speeds.
+    pub fn at(&self, rotation: &Rotation) -> Passing<'_> {
+        let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
+        let [by_cage, by_shaft] = self.spin;
+        Passing {
+            profile: self,
+            inner: Turn::new(cage_angle - shaft_angle, cage_speed - shaft_speed),
+            outer: Turn::new(cage_angle, cage_speed),
+            ball: if self.balls.is_empty() {
+                Turn::default()
+            } else {
+                Turn::new(
+                    by_cage * (cage_angle - self.start) + by_shaft * shaft_angle,
+                    by_cage * cage_speed + by_shaft * shaft_speed,
+                )
+            },
+        }
+    }
+}
+
+impl Passing<'_> {
+    /// Deviation at the contacts of ball j, positive towards the ball where a race deviates.
+    #[inline]
+    pub fn ball(&self, j: usize) -> Deviation {
+        const HALF: [f64; 3] = [PI, -1.0, 0.0];
+        let profile = self.profile;
+        let mut out = Deviation::default();
+        let place = profile.places[j];
+        self.add(&mut out, 0, &profile.inner, &self.inner.plus(place));
+        self.add(&mut out, 1, &profile.outer, &self.outer.plus(place));
+        if let Some(ball) = profile.balls.get(j) {
+            self.add(&mut out, 0, &ball.surface[0], &self.ball.plus(HALF));
+            self.add(&mut out, 1, &ball.surface[1], &self.ball);
+            out.height.iter_mut().for_each(|height| *height += ball.oversize);
+        }
+        out
+    }
+
+    #[inline]
+    fn add(&self, out: &mut Deviation, contact: usize, surface: &Raceway, turn: &Turn) {
+        if surface.has_waves() {
+            let [height, slope] = surface.waves(turn.cos, turn.sin);
+            out.height[contact] += height;
+            out.rate[contact] += slope * turn.rate;
+        }
+        if !surface.has_defects() {
+            return;
+        }
+        match self.profile.law {
+            Law::Force(stiffness, _) => out.push += stiffness * surface.powers(turn.angle),
+            law => {
+                let [height, slope] = surface.defects(turn.angle);
+                out.height[contact] += height;
+                let rate = if law == Law::Undamped { &mut out.undamped_rate } else { &mut out.rate };
+                rate[contact] += slope * turn.rate;
+            }
+        }
+    }
+}
+
+/// A defect as one race meets it; `None` when it has no size.
+fn feature(defect: &Defect, g: &BallGeometry, contact: usize) -> Option<Feature> {
+    let height = defect.height(g);
+    if height == 0.0 || defect.width == 0.0 {
+        return None;
+    }
+    let path = match defect.form {
+        DefectForm::Dent { shape, .. } | DefectForm::Bump { shape, .. } => {
+            Path::smooth(shape, height, defect.width)
+        }
+        DefectForm::Spall { depth, edge_radius } => Path::Spall {
+            path: SpallPath::on(defect.on, g, defect.width, depth, edge_radius)[contact],
+            width: defect.width,
+        },
+    };
+    let start = Turn::new(defect.start, 0.0).angle;
+    Some(Feature { start, angle: defect.angle(g), path })
+}

@@ -1,0 +1,169 @@
+//! The path of a ball over a spall: round its edges, and along its floor where it gets there.
+
+use super::{BallGeometry, Surface};
+
+/// How far a round body sinks as it rolls over a pit of another round body.
+///
+/// Seen across the axis: the pitted surface has the signed radius s (positive where convex), the body over it t. Each
+/// edge is an arc of radius ρ that leaves the surface without a corner where the opening begins, its centre at
+/// a = s − ρ from the surface's centre. With φ the angle past that point the body on the edge has sunk by
+///
+/// H = 2 a sin²(φ/2) + x²/(T + √(T² − x²)), T = t + ρ, x = a sin φ, the root with the sign of T,
+///
+/// the same from the other end, and no deeper than the floor: the least of the three is the envelope. The walls
+/// below the edges are never touched, as the body is far larger than the pit is deep.
+///
+/// Limits: H = 0 with zero slope at both ends; a flat surface and a sharp edge give t − √(t² − x²).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpallPath {
+    width: f64,
+    depth: f64,
+    /// s: angle = length / s.
+    surface: f64,
+    /// a and T.
+    edge: f64,
+    reach: f64,
+}
+
+impl SpallPath {
+    /// Path over a pit of some width and depth \[m\] with edges of radius ρ \[m\], surface and roller given by
+    /// signed radii \[m\].
+    pub fn new(width: f64, depth: f64, edge_radius: f64, surface: f64, roller: f64) -> Self {
+        Self {
+            width,
+            depth,
+            surface: surface.abs(),
+            edge: surface - edge_radius,
+            reach: roller + edge_radius,
+        }
+    }
+
+    /// Paths of a pit over what it meets at the inner and the outer race; the same twice for a pit of a race.
+    ///
+    /// Radii are of the normal section along rolling, R / cos α for a race of radius R.
+    pub fn on(on: Surface, g: &BallGeometry, width: f64, depth: f64, edge_radius: f64) -> [Self; 2] {
+        let ball = 0.5 * g.ball_diameter;
+        let axis = 0.5 * g.pitch_diameter / g.contact_angle.cos();
+        let (inner, outer) = (axis - ball, -(axis + ball));
+        let path = |surface, roller| Self::new(width, depth, edge_radius, surface, roller);
+        match on {
+            Surface::Inner => [path(inner, ball); 2],
+            Surface::Outer => [path(outer, ball); 2],
+            Surface::Ball(_) => [path(ball, inner), path(ball, outer)],
+        }
+    }
+
+    /// How deep the body has sunk and its slope, at a length 0 ≤ p ≤ width into the pit \[m\].
+    pub fn at(&self, p: f64) -> [f64; 2] {
+        let entry = self.round(p);
+        let exit = self.round(self.width - p);
+        let on_edge = if entry[0] <= exit[0] { entry } else { [exit[0], -exit[1]] };
+        if on_edge[0] < self.depth { on_edge } else { [self.depth, 0.0] }
+    }
+
+    /// The same with one edge alone, at a length past its beginning; infinite where the body has left it.
+    fn round(&self, length: f64) -> [f64; 2] {
+        let (sin, cos) = (length / self.surface).sin_cos();
+        let half = (0.5 * length / self.surface).sin();
+        let (a, t) = (self.edge, self.reach);
+        let x = a * sin;
+        let square = t * t - x * x;
+        if square <= 0.0 {
+            return [f64::INFINITY, 0.0];
+        }
+        let root = square.sqrt().copysign(t);
+        [2.0 * a * half * half + x * x / (t + root), (a * sin + x * a * cos / root) / self.surface]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Least distance to which a circle centred on the ray at `angle` can sink, by bisection against every point of the
+    /// pit's outline: an independent reading of the same picture.
+    fn against_outline(pit: &SpallPath, s: f64, t: f64, rho: f64, p: f64) -> f64 {
+        // Points of the outline in coordinates along (u) and out of (v) the surface at the ray.
+        let turn = |angle: f64, radius: f64| (angle, radius);
+        let mut outline: Vec<(f64, f64)> = Vec::new();
+        let n = 4000;
+        for end in [0.0, pit.width] {
+            let side = if end == 0.0 { 1.0 } else { -1.0 };
+            // Edge arc, from the surface down to the wall: centre at radius s − rho in direction end/|s|.
+            for k in 0..=n {
+                // The contact is within a few degrees of the top of the arc.
+                let tilt = 0.6 * f64::from(k) / f64::from(n);
+                let centre = s - rho;
+                let (x, y) = (rho * tilt.sin() * side, centre + rho * tilt.cos());
+                let at = end / s.abs();
+                outline.push(turn(at + (x / y.abs()).atan(), s.signum() * x.hypot(y)));
+            }
+        }
+        for k in 0..=4 * n {
+            let at = pit.width * f64::from(k) / f64::from(4 * n);
+            outline.push(turn(at / s.abs(), s - pit.depth));
+        }
+        let ray = p / s.abs();
+        // The circle of radius |t| at the signed distance c along the ray; convex bodies stay outside each other, a
+        // concave one around.
+        let clear = |c: f64| {
+            outline.iter().all(|&(angle, radius)| {
+                let (x, y) = (radius * (angle - ray).sin(), radius * (angle - ray).cos());
+                let distance = (x * x + (y - c) * (y - c)).sqrt();
+                if t > 0.0 { distance >= t } else { distance <= -t }
+            })
+        };
+        // From touching the undamaged surface inwards.
+        let (mut free, mut stuck) = (0.0, pit.depth + 1e-4);
+        for _ in 0..45 {
+            let middle = 0.5 * (free + stuck);
+            if clear(s + t - middle) {
+                free = middle;
+            } else {
+                stuck = middle;
+            }
+        }
+        free
+    }
+
+    #[test]
+    fn the_path_touches_the_outline_and_no_more() {
+        let (ball, inner, outer) = (3.969e-3, 15.281e-3, -23.219e-3);
+        for (surface, roller) in [(inner, ball), (outer, ball), (ball, inner), (ball, outer)] {
+            for (width, depth, edge) in [(1e-3, 50e-6, 0.1e-3), (1e-3, 10e-6, 0.3e-3), (2.5e-3, 40e-6, 1e-3)]
+            {
+                let pit = SpallPath::new(width, depth, edge, surface, roller);
+                for k in 0..=10 {
+                    let p = width * f64::from(k) / 10.0;
+                    let [sunk, _] = pit.at(p);
+                    let outline = against_outline(&pit, surface, roller, edge, p);
+                    // Points 1.6e-7 m apart on a floor of 4 mm radius at least: a chord is within 1e-12 m of its arc.
+                    assert!((sunk - outline).abs() < 1e-11, "{surface} {roller} {p}: {sunk} {outline}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_differences() {
+        let pit = SpallPath::new(1e-3, 12e-6, 0.2e-3, -23e-3, 4e-3);
+        for k in 1..200 {
+            let (p, h) = (1e-3 * f64::from(k) / 200.0, 1e-10);
+            let slope = (pit.at(p + h)[0] - pit.at(p - h)[0]) / (2.0 * h);
+            let off = (slope - pit.at(p)[1]).abs();
+            // Differences of 1e-16 m over 1e-10 m; the corner at the floor and the middle lie between the points.
+            assert!(off < 1e-5, "{p}: {slope} off by {off}");
+        }
+    }
+
+    #[test]
+    fn limits() {
+        // A sharp edge on a nearly flat surface: the chord's height.
+        let pit = SpallPath::new(1e-3, 1.0, 0.0, 1e9, 4e-3);
+        let [middle, slope] = pit.at(0.5e-3);
+        let chord = 4e-3 - (4e-3_f64.powi(2) - 0.5e-3_f64.powi(2)).sqrt();
+        assert!((middle / chord - 1.0).abs() < 1e-5 && slope.abs() < 1.0, "{middle} {chord}");
+        assert_eq!(pit.at(0.0), [0.0, 0.0]);
+        assert_eq!(SpallPath::new(1e-3, 5e-6, 0.1e-3, 23e-3, 4e-3).at(0.5e-3), [5e-6, 0.0]);
+    }
+}

@@ -1,0 +1,175 @@
+//! Local defects of a ball bearing, `[[bearing.x.defect]]`.
+
+use crate::bearing::{BallGeometry, Defect, DefectForm, Shape, Surface};
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative};
+use crate::units::{ANGLE, LENGTH};
+use std::f64::consts::{PI, TAU};
+
+/// Words of the key `kind`.
+#[derive(Clone, Copy)]
+enum Word {
+    Dent,
+    Bump,
+    Spall,
+}
+
+/// Words of the key `on`.
+#[derive(Clone, Copy)]
+enum Place {
+    Inner,
+    Outer,
+    Ball,
+}
+
+/// All defects of a bearing; `pair`: whether it has two rows.
+pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<Defect> {
+    let geometry_known = r.sound();
+    let one = |d: Reader| {
+        let out = defect(&d, g, pair);
+        if geometry_known
+            && d.sound()
+            && let Some(defect) = &out
+        {
+            possible(&d, g, defect);
+        }
+        d.finish();
+        out
+    };
+    r.tables("defect").into_iter().filter_map(one).collect()
+}
+
+/// Row of a matched pair that something is in.
+pub(super) fn row(r: &Reader, pair: bool) -> Option<usize> {
+    if !r.has("row") {
+        return None;
+    }
+    if !pair {
+        let message = format!("{} says nothing of a bearing with one row", r.name("row"));
+        let problem = Problem::new(Kind::Conflict, &r.span_of("row"), message);
+        r.log
+            .error(problem.hint("take it out, or make a pair of the bearing by arrangement and row_spacing"));
+    }
+    Some(r.count("row", 0, 0..=1))
+}
+
+fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
+    let kinds = [("dent", Word::Dent), ("bump", Word::Bump), ("spall", Word::Spall)];
+    let places = [("outer", Place::Outer), ("inner", Place::Inner), ("ball", Place::Ball)];
+    for (key, example) in
+        [("kind", "\"dent\", \"bump\" or \"spall\""), ("on", "\"outer\", \"inner\" or \"ball\"")]
+    {
+        if !d.has(key) {
+            d.missing(key, example);
+        }
+    }
+    let (kind, place) = (d.choice("kind", &kinds), d.choice("on", &places));
+    let row = row(d, pair);
+    let width = d.need("width", not_negative(LENGTH));
+    let ball = d.has("ball").then(|| d.count("ball", 0, 0..=g.balls - 1));
+    let on = match (place, ball) {
+        (Some(Place::Inner), None) => Surface::Inner,
+        (Some(Place::Outer), None) => Surface::Outer,
+        (Some(Place::Ball), Some(ball)) => Surface::Ball(ball),
+        (Some(Place::Ball), None) => {
+            d.missing("ball", "0 (the first, at the cage angle)");
+            Surface::Ball(0)
+        }
+        (Some(_), Some(_)) => {
+            let message = format!("{} says nothing of a defect on a race", d.name("ball"));
+            d.log.error(Problem::new(Kind::Conflict, &d.span_of("ball"), message).expected("on = \"ball\""));
+            Surface::Outer
+        }
+        (None, _) => Surface::Outer,
+    };
+    let angle = d.one_of(&["angle", "centre"]);
+    if angle.is_none() {
+        d.missing("angle", "\"12 deg\" (where it starts), or centre");
+    }
+    let given = angle.and_then(|key| d.get(key, any(ANGLE))).unwrap_or(0.0);
+    let Some(kind) = kind else {
+        // what else may be said depends on the kind
+        d.entries();
+        return None;
+    };
+    let shape =
+        || d.choice("shape", &[("half_sine", Shape::HalfSine), ("cap", Shape::Cap)]).unwrap_or_default();
+    let form = match kind {
+        Word::Dent => DefectForm::Dent { depth: d.get("depth", not_negative(LENGTH)), shape: shape() },
+        Word::Bump => DefectForm::Bump { height: d.need("height", not_negative(LENGTH)), shape: shape() },
+        Word::Spall => DefectForm::Spall {
+            depth: d.need("depth", not_negative(LENGTH)),
+            edge_radius: d.or("edge_radius", not_negative(LENGTH), 0.0),
+        },
+    };
+    place?;
+    let mut out = Defect { on, row, start: given, width, form };
+    if angle == Some("centre") {
+        out.start -= 0.5 * out.angle(g);
+    }
+    Some(out)
+}
+
+/// Whether a defect can be on its surface, and what of it the balls will not see.
+fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
+    let problem = |kind, key: &str, message: String| Problem::new(kind, &d.span_of(key), message);
+    let (radius, angle) = (defect.on.radius(g), defect.angle(g));
+    let mm = |x: f64| x * 1e3;
+    let um = |x: f64| x * 1e6;
+    if angle >= TAU {
+        let message = format!("{} goes all the way round", d.name("width"));
+        let room = format!("less than the circumference of {:.3} mm", mm(TAU * radius));
+        d.log.error(problem(Kind::Geometry, "width", message).expected(room));
+        return;
+    }
+    match defect.form {
+        DefectForm::Spall { edge_radius, .. } if edge_radius > 0.5 * defect.width => {
+            let message = format!("{} leaves no pit between the edges", d.name("edge_radius"));
+            let most = format!("at most half the width, {:.4} mm", mm(0.5 * defect.width));
+            d.log.error(problem(Kind::Geometry, "edge_radius", message).expected(most));
+            return;
+        }
+        DefectForm::Bump { height, shape: Shape::Cap } if height > 0.0 && height >= 0.5 * defect.width => {
+            let message = format!("{} is no cap of a sphere", d.name("height"));
+            let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
+            d.log.error(problem(Kind::Geometry, "height", message).expected(most));
+            return;
+        }
+        DefectForm::Dent { depth: None, .. } if defect.width >= g.ball_diameter => {
+            let message = format!("{} swallows a ball of {:.3} mm", d.name("width"), mm(g.ball_diameter));
+            d.log.error(
+                problem(Kind::Geometry, "width", message)
+                    .expected("a depth beside it, as no ball reaches across"),
+            );
+            return;
+        }
+        DefectForm::Dent { shape: Shape::Cap, .. }
+            if -defect.height(g) >= 0.5 * defect.width && defect.width > 0.0 =>
+        {
+            let message = format!("{} is no cap of a sphere", d.name("depth"));
+            let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
+            d.log.error(problem(Kind::Geometry, "depth", message).expected(most));
+            return;
+        }
+        _ => {}
+    }
+    let (room, what) = match defect.on {
+        Surface::Ball(_) => (PI, "both races at once"),
+        Surface::Inner | Surface::Outer => (TAU / g.balls as f64, "two balls at once"),
+    };
+    if angle > room {
+        let message = format!("{} is under {what}", d.name("width"));
+        let spacing = format!("below {:.3} mm, one contact at a time", mm(room * radius));
+        d.log.warn(problem(Kind::Geometry, "width", message).expected(spacing));
+    }
+    if let DefectForm::Dent { depth: Some(depth), .. } | DefectForm::Spall { depth, .. } = defect.form
+        && defect.width > 0.0
+        && depth > defect.reach(g)
+    {
+        let message = format!("{} is deeper than a ball reaches", d.name("depth"));
+        let reach = format!("{:.4} um at most in an opening of this width", um(defect.reach(g)));
+        d.log.warn(problem(Kind::Geometry, "depth", message).expected(reach).hint(
+            "the ball rests on the edges: the motion is that of a pit as deep as it reaches, to be written so or left",
+        ));
+    }
+}

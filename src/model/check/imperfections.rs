@@ -1,0 +1,243 @@
+//! Races and balls that are not perfect: waviness, eccentric races, balls of another size; defects are read apart.
+
+use super::{contact, defects};
+use crate::bearing::{
+    BallBearing, BallGeometry, BallInertia, BallSpin, BallWave, DefectLaw, Imperfections, OffSize, Preload,
+    Wave,
+};
+use crate::contact::ContactLaw;
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative};
+use crate::model::file::tree::Value;
+use crate::units::{ANGLE, LENGTH, NUMBER};
+use std::f64::consts::TAU;
+
+/// Highest order of waviness.
+const MOST: usize = 10_000;
+
+/// Words of the key `defect_law`.
+#[derive(Clone, Copy, PartialEq)]
+enum Law {
+    Displacement,
+    Undamped,
+    Force,
+    ForceOnLoaded,
+}
+
+/// Everything about the shapes of races and balls; `pair`: whether the bearing has two rows.
+pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Imperfections {
+    let mut inner_waviness = waviness(r, "inner_waviness");
+    let mut outer_waviness = waviness(r, "outer_waviness");
+    let eccentric = |key: &str, wave: fn(f64, f64, f64) -> Wave| {
+        eccentricity(r, key).map(|[by, towards]| wave(by, towards, g.contact_angle))
+    };
+    inner_waviness.extend(eccentric("inner_eccentricity", Wave::eccentric_inner));
+    outer_waviness.extend(eccentric("outer_eccentricity", Wave::eccentric_outer));
+    Imperfections {
+        inner_waviness,
+        outer_waviness,
+        ball_waviness: ball_waviness(r, g.balls),
+        off_size: off_size(r, g, pair),
+        defects: defects::read(r, g, pair),
+        law: law(r),
+        spin: r
+            .choice("ball_spin", &[("rolling", BallSpin::Rolling), ("shaft", BallSpin::Shaft)])
+            .unwrap_or_default(),
+    }
+}
+
+/// A list of waves, `[{ order = 2, amplitude = "1 um" }]`, or a law, `{ amplitude = "2 um", from = 2, to = 15 }`.
+fn waviness(r: &Reader, key: &str) -> Vec<Wave> {
+    if let Some(spectrum) = Spectrum::read(r, key) {
+        let mut seed = spectrum.seed;
+        return spectrum.waves(&mut seed);
+    }
+    let read = |wave: Reader| {
+        let out = one_wave(&wave);
+        wave.finish();
+        out
+    };
+    waves_of(r, key).into_iter().map(read).collect()
+}
+
+/// The same of balls: with `ball` in a wave only that ball has it, a law gives every ball phases of its own but with
+/// `same_phase = true`.
+fn ball_waviness(r: &Reader, balls: usize) -> Vec<BallWave> {
+    const KEY: &str = "ball_waviness";
+    if let Some(spectrum) = Spectrum::read(r, KEY) {
+        let mut seed = spectrum.seed;
+        let on = |ball: Option<usize>, waves: Vec<Wave>| {
+            waves.into_iter().map(move |wave| BallWave { ball, wave }).collect::<Vec<_>>()
+        };
+        return match spectrum.same_phase {
+            true => on(None, spectrum.waves(&mut seed)),
+            false => (0..balls).flat_map(|ball| on(Some(ball), spectrum.waves(&mut seed))).collect(),
+        };
+    }
+    let read = |wave: Reader| {
+        let ball = wave.has("ball").then(|| wave.count("ball", 0, 0..=balls - 1));
+        let out = BallWave { ball, wave: one_wave(&wave) };
+        wave.finish();
+        out
+    };
+    waves_of(r, KEY).into_iter().map(read).collect()
+}
+
+fn waves_of<'a>(r: &Reader<'a>, key: &str) -> Vec<Reader<'a>> {
+    if is_table(r, key) { Vec::new() } else { r.tables(key) }
+}
+
+fn is_table(r: &Reader, key: &str) -> bool {
+    matches!(r.entry(key).map(|e| &e.node.value), Some(Value::Table(_)))
+}
+
+fn one_wave(wave: &Reader) -> Wave {
+    let order = wave.count("order", 1, 1..=MOST);
+    if !wave.has("order") {
+        wave.missing("order", "2");
+    }
+    let amplitude = wave.need("amplitude", not_negative(LENGTH));
+    Wave { order: order as u32, amplitude, phase: wave.or("phase", any(ANGLE), 0.0) }
+}
+
+/// Waves by a law over the order n: amplitude/n, `law = "constant"` for one amplitude, `roughness_exponent = s` for
+/// amplitude/nˢ; phases from a seed.
+struct Spectrum {
+    amplitudes: Vec<(u32, f64)>,
+    seed: u64,
+    same_phase: bool,
+}
+
+impl Spectrum {
+    /// `None` when the key is absent or a list.
+    fn read(r: &Reader, key: &str) -> Option<Self> {
+        if !is_table(r, key) {
+            return None;
+        }
+        let law = r.table(key)?;
+        let amplitude = law.need("amplitude", not_negative(LENGTH));
+        let (from, to) = (law.count("from", 2, 1..=MOST), law.count("to", 15, 1..=MOST));
+        let exponent = match law.one_of(&["law", "roughness_exponent"]) {
+            Some("roughness_exponent") => Some(law.or("roughness_exponent", not_negative(NUMBER), 1.0)),
+            _ => law.choice("law", &[("1/n", None), ("constant", Some(0.0))]).flatten(),
+        };
+        let seed = law.count("seed", 1, 0..=usize::MAX >> 1) as u64;
+        if to < from && law.sound() {
+            law.error(Kind::OutOfRange, "to", format!("{} is below {}", law.name("to"), law.name("from")));
+        }
+        let same_phase = key == "ball_waviness" && law.flag("same_phase", false);
+        law.finish();
+        let at = |n: usize| amplitude / exponent.map_or(n as f64, |s| (n as f64).powf(s));
+        Some(Self { amplitudes: (from..=to).map(|n| (n as u32, at(n))).collect(), seed, same_phase })
+    }
+
+    fn waves(&self, seed: &mut u64) -> Vec<Wave> {
+        let wave = |&(order, amplitude): &(u32, f64)| Wave { order, amplitude, phase: TAU * uniform(seed) };
+        self.amplitudes.iter().map(wave).collect()
+    }
+}
+
+/// Next uniform number in [0, 1) of splitmix64, the same on every machine.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// `{ amount = "2 um", angle = "30 deg" }`: how far and which way the race's centre is off.
+fn eccentricity(r: &Reader, key: &str) -> Option<[f64; 2]> {
+    let table = r.table(key)?;
+    let out = [table.need("amount", not_negative(LENGTH)), table.or("angle", any(ANGLE), 0.0)];
+    table.finish();
+    Some(out)
+}
+
+/// `[{ ball = 0, by = "0.2 um" }]`.
+fn off_size(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<OffSize> {
+    let most = 0.01 * g.ball_diameter;
+    let read = |size: Reader| {
+        if !size.has("ball") {
+            size.missing("ball", "0");
+        }
+        let out = OffSize {
+            ball: size.count("ball", 0, 0..=g.balls - 1),
+            by: size.need("by", any(LENGTH)),
+            row: defects::row(&size, pair),
+        };
+        if size.sound() && out.by.abs() > most {
+            let message = format!("{} is more than a hundredth of a ball", size.name("by"));
+            let problem = Problem::new(Kind::OutOfRange, &size.span_of("by"), message);
+            size.log.error(problem.expected(format!(
+                "a difference of diameters within {:.1} um, such as \"0.2 um\"",
+                most * 1e6
+            )));
+        }
+        size.finish();
+        out
+    };
+    r.tables("off_size").into_iter().map(read).collect()
+}
+
+/// `defect_law`, with `defect_stiffness` where it is a force.
+fn law(r: &Reader) -> DefectLaw {
+    let words = [
+        ("displacement", Law::Displacement),
+        ("undamped_displacement", Law::Undamped),
+        ("force", Law::Force),
+        ("force_on_loaded", Law::ForceOnLoaded),
+    ];
+    let word = r.choice("defect_law", &words);
+    let law = word.unwrap_or(Law::Displacement);
+    let force = matches!(law, Law::Force | Law::ForceOnLoaded);
+    let given = r.has("defect_stiffness");
+    if given && !force {
+        // a misspelt law was reported
+        if word.is_some() || !r.has("defect_law") {
+            let message = format!("{} says nothing of a law without a force", r.name("defect_stiffness"));
+            let problem = Problem::new(Kind::Conflict, &r.span_of("defect_stiffness"), message);
+            r.log.error(problem.expected("defect_law = \"force\" or \"force_on_loaded\""));
+        }
+    }
+    let stiffness = (given && force).then(|| contact::power_stiffness(r, "defect_stiffness", 1.5));
+    match law {
+        Law::Displacement => DefectLaw::Displacement,
+        Law::Undamped => DefectLaw::UndampedDisplacement,
+        Law::Force => DefectLaw::Force { stiffness, on_loaded: false },
+        Law::ForceOnLoaded => DefectLaw::Force { stiffness, on_loaded: true },
+    }
+}
+
+/// What the force law of defects cannot go with.
+pub(super) fn consistent(r: &Reader, bearing: &BallBearing) {
+    let DefectLaw::Force { stiffness, .. } = bearing.imperfections.law else { return };
+    let conflict = |key: &str, message: String, expected: &str| {
+        let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
+        r.log.error(problem.expected(expected).hint(
+            "defect_law = \"displacement\" goes with every bearing; the force is a law of the literature",
+        ));
+    };
+    let law = r.name("defect_law");
+    if bearing.inertia != BallInertia::None {
+        conflict(
+            "ball_inertia",
+            format!("{law} does not say which contact of a ball with inertia it pushes"),
+            "ball_inertia = \"none\"",
+        );
+    }
+    if matches!(bearing.preload, Preload::Spring { .. }) {
+        conflict(
+            "preload",
+            format!("{law} has no energy, which a ring on a spring is placed by"),
+            "a rigid preload",
+        );
+    }
+    if stiffness.is_none() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+        conflict(
+            "defect_law",
+            format!("{law} finds no stiffness in a fitted law of both contacts"),
+            "defect_stiffness beside it, such as \"1.58e10 N/m^1.5\"",
+        );
+    }
+}
