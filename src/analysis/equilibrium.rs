@@ -124,7 +124,7 @@ pub fn equilibrium(
         let mut r = load.clone();
         assembly.stiffness.mul_add(-1.0, q, &mut r);
         for (site, reaction) in assembly.sites.iter().zip(reactions) {
-            site.add_force(&reaction.force, &mut r);
+            site.add_force(reaction, &mut r);
         }
         r
     };

@@ -1,6 +1,7 @@
 //! The matrices of all elements over all DOFs (six per node), before elimination.
 
 use super::dofs::full_rows;
+use crate::bearing::Bearing;
 use crate::element::Belt;
 use crate::element::shaft_matrices::{ConeRule, Matrix12};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets};
@@ -56,6 +57,15 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         let [x, y, z, ..] = full_rows(&point.at);
         for row in [x, y, z] {
             m.add_between_rows(&[row], &[[point.mass]]);
+        }
+    }
+    // Balls with coordinates of their own move with the housing across their line.
+    for site in &model.bearings {
+        if let Bearing::RadialBall(radial) = &site.bearing {
+            let [x, y, ..] = full_rows(&site.housing);
+            for row in [x, y] {
+                m.add_between_rows(&[row], &[[radial.carried_mass()]]);
+            }
         }
     }
     for bushing in &model.bushings {

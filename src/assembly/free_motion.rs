@@ -42,14 +42,15 @@ pub fn free_motions_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec
 pub fn free_motions_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, Error> {
     // What holds counts here, not how hard.
     const CONTACT: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
+    let diagonal =
+        |k: [f64; 6]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { k[i] } else { 0.0 }));
     let n = assembly.dofs.len();
     let mut bearings = Triplets::new(n, n);
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
         let stiffness = match &site.bearing {
             Bearing::Linear(linear) => LinearElement::new(linear).tangent(0.0).stiffness,
-            Bearing::Ball(_) => {
-                std::array::from_fn(|i| std::array::from_fn(|j| if i == j { CONTACT[i] } else { 0.0 }))
-            }
+            Bearing::Ball(_) => diagonal(CONTACT),
+            Bearing::RadialBall(_) => diagonal([CONTACT[0], CONTACT[1], 0.0, 0.0, 0.0, 0.0]),
         };
         bearings.add_between_rows(&place.rows, &stiffness);
     }

@@ -13,6 +13,7 @@ pub use dofs::DofMap;
 pub use linear_system::LinearSystem;
 pub use spin_up::SpinUpForm;
 
+use crate::bearing::Reaction;
 use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
 use crate::error::Error;
@@ -60,6 +61,8 @@ pub struct Site {
     pub name: String,
     /// Shaft node minus housing point: u_x u_y u_z θ_x θ_y θ_z as rows over the free DOFs.
     pub rows: [SparseRow; 6],
+    /// Housing point: u_x u_y; no entries where that is ground.
+    pub frame: [SparseRow; 2],
 }
 
 impl Site {
@@ -68,9 +71,12 @@ impl Site {
         std::array::from_fn(|i| self.rows[i].dot(q))
     }
 
-    /// Adds Rᵀ f: f on the shaft, −f on the housing.
-    pub fn add_force(&self, force: &[f64; 6], to: &mut [f64]) {
-        elements::add_force(&self.rows, force, to);
+    /// Adds Rᵀ f: f on the shaft, −f and what is carried on the housing.
+    pub fn add_force(&self, reaction: &Reaction, to: &mut [f64]) {
+        elements::add_force(&self.rows, &reaction.force, to);
+        for (row, force) in self.frame.iter().zip(reaction.carried) {
+            row.add_to(force, to);
+        }
     }
 }
 
@@ -136,6 +142,10 @@ impl Assembly {
                 .map(|b| Site {
                     name: b.name.clone(),
                     rows: dofs.relative_rows(&Anchor::node(b.node), &b.housing),
+                    frame: {
+                        let [x, y, ..] = dofs.anchor_rows(&b.housing);
+                        [x, y]
+                    },
                 })
                 .collect(),
             modal_damping: model.damping.modal.clone(),

@@ -1,12 +1,13 @@
 //! One interface for every bearing model.
 
-use super::{BallElement, BallLoad, Bearing, LinearElement, PreloadState, Reaction, Rotation};
+use super::{BallElement, BallLoad, Bearing, LinearElement, PreloadState, RadialElement, Reaction, Rotation};
 
 /// A bearing made ready for evaluation.
 #[derive(Clone, Debug)]
 pub enum BearingElement {
     Linear(LinearElement),
     Ball(Box<BallElement>),
+    RadialBall(Box<RadialElement>),
 }
 
 impl BearingElement {
@@ -15,15 +16,17 @@ impl BearingElement {
         match bearing {
             Bearing::Linear(linear) => Self::Linear(LinearElement::new(linear)),
             Bearing::Ball(ball) => Self::Ball(Box::new(BallElement::new(ball))),
+            Bearing::RadialBall(radial) => Self::RadialBall(Box::new(RadialElement::new(radial))),
         }
     }
 
     /// Force on the shaft and both tangents at displacement `d` and velocity `v` of the shaft relative to
-    /// the housing (order u_x u_y u_z θ_x θ_y θ_z).
+    /// the housing (order u_x u_y u_z θ_x θ_y θ_z); balls with coordinates of their own settled between the races.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         match self {
             Self::Linear(linear) => linear.reaction(d, v, rotation.shaft_speed),
             Self::Ball(ball) => ball.reaction(d, v, rotation),
+            Self::RadialBall(radial) => radial.reaction(d, v, rotation),
         }
     }
 
@@ -32,6 +35,7 @@ impl BearingElement {
         match self {
             Self::Linear(linear) => linear.reaction(d, &[0.0; 6], rotation.shaft_speed),
             Self::Ball(ball) => ball.cage_average(d, rotation, angles),
+            Self::RadialBall(radial) => radial.cage_average(d, rotation, angles),
         }
     }
 
@@ -40,13 +44,14 @@ impl BearingElement {
         match self {
             Self::Linear(_) => Vec::new(),
             Self::Ball(ball) => ball.ball_loads(d, rotation),
+            Self::RadialBall(radial) => radial.ball_loads(d, rotation),
         }
     }
 
     /// Axial preload of the centred bearing at a speed Ω \[rad/s\]; zero for a bearing without balls.
     pub fn preload_state(&self, speed: f64) -> PreloadState {
         match self {
-            Self::Linear(_) => PreloadState::default(),
+            Self::Linear(_) | Self::RadialBall(_) => PreloadState::default(),
             Self::Ball(ball) => ball.preload_state(speed),
         }
     }
@@ -56,6 +61,7 @@ impl BearingElement {
         match self {
             Self::Linear(linear) => linear.depends_on_speed(),
             Self::Ball(ball) => ball.depends_on_speed(),
+            Self::RadialBall(radial) => radial.ball_mass() > 0.0,
         }
     }
 
@@ -64,14 +70,25 @@ impl BearingElement {
         match self {
             Self::Linear(_) => 0,
             Self::Ball(ball) => ball.balls(),
+            Self::RadialBall(radial) => radial.balls(),
         }
     }
 
-    /// Number of relative motions the bearing resists: 5 when the shaft turns freely in it, else 6.
+    /// The bearing whose balls have coordinates of their own in a transient.
+    pub fn radial(&self) -> Option<&RadialElement> {
+        match self {
+            Self::RadialBall(radial) => Some(radial),
+            Self::Linear(_) | Self::Ball(_) => None,
+        }
+    }
+
+    /// Number of relative motions the bearing resists: 2 of a bearing in its plane, 5 when the shaft turns
+    /// freely in it, else 6.
     pub fn rows(&self) -> usize {
         match self {
             Self::Linear(_) => 6,
             Self::Ball(_) => 5,
+            Self::RadialBall(_) => 2,
         }
     }
 
@@ -80,13 +97,14 @@ impl BearingElement {
         match self {
             Self::Linear(_) => 0.0,
             Self::Ball(ball) => ball.cage_ratio(mean_cos),
+            Self::RadialBall(radial) => radial.cage_ratio(),
         }
     }
 
     /// Cosine of the nominal contact angle.
     pub fn nominal_cos(&self) -> f64 {
         match self {
-            Self::Linear(_) => 1.0,
+            Self::Linear(_) | Self::RadialBall(_) => 1.0,
             Self::Ball(ball) => ball.nominal_cos(),
         }
     }

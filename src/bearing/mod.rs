@@ -16,6 +16,7 @@ mod massless;
 mod preload;
 pub mod profile;
 mod raceway;
+pub mod radial;
 mod ring_sum;
 mod root;
 mod row;
@@ -32,6 +33,7 @@ pub use imperfections::{
 pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;
 pub use profile::{Deviation, Passing, Profile};
+pub use radial::{RadialBallBearing, RadialElement};
 
 /// Where a bearing's moving parts are at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -50,14 +52,21 @@ pub struct Rotation {
 pub enum Bearing {
     Linear(LinearBearing),
     Ball(BallBearing),
+    RadialBall(RadialBallBearing),
 }
 
 impl Bearing {
     /// Cage angle at the start \[rad\]; 0 where there is no cage.
     pub fn cage_angle(&self) -> f64 {
+        self.ball().map_or(0.0, |ball| ball.cage_angle)
+    }
+
+    /// Geometry, materials, cage and races of a bearing with balls.
+    pub fn ball(&self) -> Option<&BallBearing> {
         match self {
-            Self::Linear(_) => 0.0,
-            Self::Ball(ball) => ball.cage_angle,
+            Self::Linear(_) => None,
+            Self::Ball(ball) => Some(ball),
+            Self::RadialBall(radial) => Some(&radial.ball),
         }
     }
 }
@@ -86,6 +95,8 @@ pub struct LinearBearingRow {
 pub struct Reaction {
     /// Force and moment on the shaft f \[N, N m\]; the housing gets −f.
     pub force: [f64; 6],
+    /// What the housing gets beside −f along x and y \[N\]: weight and centrifugal force of balls with inertia.
+    pub carried: [f64; 2],
     /// −∂f/∂d.
     pub stiffness: [[f64; 6]; 6],
     /// −∂f/∂ḋ.
@@ -109,6 +120,9 @@ impl Reaction {
                 self.stiffness[a][b] += weight * other.stiffness[a][b];
                 self.damping[a][b] += weight * other.damping[a][b];
             }
+        }
+        for (own, other) in self.carried.iter_mut().zip(other.carried) {
+            *own += weight * other;
         }
         self.elastic_energy += weight * other.elastic_energy;
         self.parametric_power += weight * other.parametric_power;

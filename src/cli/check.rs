@@ -140,15 +140,18 @@ fn summary(terminal: &Terminal, found: &Checked) {
         .iter()
         .map(|site| {
             let mut row = vec![site.name.clone()];
-            match &site.bearing {
-                Bearing::Linear(linear) => row.push(match linear.table.len() {
+            match (&site.bearing, site.bearing.ball()) {
+                (Bearing::Linear(linear), _) => row.push(match linear.table.len() {
                     1 => "linear".into(),
                     n => format!("linear, {n} speeds"),
                 }),
-                Bearing::Ball(ball) => {
+                (_, None) => {}
+                (bearing, Some(ball)) => {
                     let g = &ball.geometry;
                     let orders = g.orders(g.contact_angle);
-                    row.push(format!("{} balls of {} mm", g.balls, number(1e3 * g.ball_diameter, 4)));
+                    let kind =
+                        if matches!(bearing, Bearing::RadialBall(_)) { ", each free radially" } else { "" };
+                    row.push(format!("{} balls of {} mm{kind}", g.balls, number(1e3 * g.ball_diameter, 4)));
                     row.push(number(1e3 * g.pitch_diameter, 5));
                     row.push(format!("{:.1}", 1e6 * g.radial_clearance));
                     row.push(format!("{:.0}", g.contact_angle.to_degrees()));
@@ -184,14 +187,14 @@ fn to_json(found: &Checked) -> Value {
         .model
         .bearings
         .iter()
-        .map(|site| match &site.bearing {
-            Bearing::Linear(_) => json!({ "name": site.name, "model": "linear" }),
-            Bearing::Ball(ball) => {
+        .map(|site| match site.bearing.ball() {
+            None => json!({ "name": site.name, "model": "linear" }),
+            Some(ball) => {
                 let g = &ball.geometry;
                 let o = g.orders(g.contact_angle);
                 json!({
                     "name": site.name,
-                    "model": "ball",
+                    "model": if matches!(site.bearing, Bearing::RadialBall(_)) { "radial_ball" } else { "ball" },
                     "balls": g.balls,
                     "ball_diameter": g.ball_diameter,
                     "pitch_diameter": g.pitch_diameter,

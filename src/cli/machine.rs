@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::bearing::{BallBearing, Bearing};
+use rotordyn::bearing::BallBearing;
 use rotordyn::edge::parry::BearingShapes;
 use rotordyn::model::{self, Diagnostic, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source};
 
@@ -36,10 +36,8 @@ impl Origin {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
         let loaded = model::load(&self.name, &self.text, &options)?;
-        let balls = loaded.model.bearings.iter().filter_map(|site| match &site.bearing {
-            Bearing::Ball(ball) => Some((site.name.as_str(), ball)),
-            Bearing::Linear(_) => None,
-        });
+        let balls =
+            loaded.model.bearings.iter().filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?)));
         overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
     }

@@ -7,7 +7,6 @@ use super::gltf::{self, Scene};
 use super::parry::BearingShapes;
 use super::vtk::{Field, Grid, Values, machine_fields, write_pvd, write_vtu};
 use crate::analysis::Mode;
-use crate::bearing::Bearing;
 use crate::error::Error;
 use crate::results::Results;
 use crate::study::Machine;
@@ -24,7 +23,7 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
     let mut files = vec![folder.join("machine.glb")];
     gltf::write(&files[0], &Scene::of_machine(&machine.model))?;
     for site in &machine.model.bearings {
-        if let Bearing::Ball(ball) = &site.bearing {
+        if let Some(ball) = site.bearing.ball() {
             let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
             let scene = Scene::of_bearing(&site.name, &shapes, &shapes.centred(ball.cage_angle));
             let file = folder.join(file_name(&format!("bearing_{}.glb", site.name)));

@@ -5,7 +5,6 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 use super::gltf::{ColouredMesh, Look, Node, Scene};
 use super::mesh::Mesh;
 use super::parry::{BearingShapes, Placement};
-use crate::bearing::Bearing;
 use crate::element::{Disc, RigidBody};
 use crate::model::Model;
 
@@ -58,7 +57,7 @@ impl Scene {
             scene.part(body.name.clone(), Mesh::cuboid(edges), BODY, &at);
         }
         for site in &model.bearings {
-            if let Bearing::Ball(ball) = &site.bearing {
+            if let Some(ball) = site.bearing.ball() {
                 let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
                 let at = shapes.centred(ball.cage_angle);
                 scene.add_bearing(&site.name, [0.0, 0.0, model.node_z[site.node]], &shapes, &at);
@@ -140,12 +139,10 @@ fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<ShaftSection> {
 
 /// Axial extent \[m\] and radius \[m\] of the seat of every ball bearing.
 fn ball_seats(model: &Model) -> impl Iterator<Item = ([f64; 2], f64)> {
-    model.bearings.iter().filter_map(|site| match &site.bearing {
-        Bearing::Ball(ball) => {
-            let (z, half) = (model.node_z[site.node], 0.5 * ball.geometry.width);
-            Some(([z - half, z + half], 0.5 * ball.geometry.bore))
-        }
-        Bearing::Linear(_) => None,
+    model.bearings.iter().filter_map(|site| {
+        let ball = site.bearing.ball()?;
+        let (z, half) = (model.node_z[site.node], 0.5 * ball.geometry.width);
+        Some(([z - half, z + half], 0.5 * ball.geometry.bore))
     })
 }
 

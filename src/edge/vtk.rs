@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::bearing::Bearing;
 use crate::edge::parry::BearingShapes;
 use crate::error::Error;
 use crate::model::Model;
@@ -37,7 +36,7 @@ impl Grid {
         let lines = (1..points.len()).map(|k| [k - 1, k]).collect();
         points.extend(model.bodies.iter().map(|b| b.position));
         for site in &model.bearings {
-            if let Bearing::Ball(ball) = &site.bearing {
+            if let Some(ball) = site.bearing.ball() {
                 let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
                 let z = model.node_z[site.node];
                 points.extend(shapes.centred(ball.cage_angle).balls.iter().map(|c| [c.x, c.y, z + c.z]));

@@ -153,7 +153,7 @@ pub fn load_bearings(
     }
     let ball = |(name, bearing): (String, Bearing)| match bearing {
         Bearing::Ball(ball) => Some((name, ball)),
-        Bearing::Linear(_) => None,
+        Bearing::Linear(_) | Bearing::RadialBall(_) => None,
     };
     let bearings: Vec<_> = Vec::into_iter(sites).filter_map(ball).collect();
     if bearings.is_empty() && log.count() == 0 {

@@ -31,6 +31,8 @@ pub struct CarriedState {
     /// Shaft angle, and cage angles of the bearings \[rad\].
     shaft: f64,
     cages: Vec<f64>,
+    /// Places and rates of balls with coordinates of their own \[m, m/s\].
+    balls: [Vec<f64>; 2],
 }
 
 /// Told after every period of the clock what share is done; can stop the run.
@@ -116,7 +118,11 @@ impl Machine {
         system.curve = SpeedProfile::Constant { speed: steady.speed, duration: f64::INFINITY }.curve();
         system.drive = None;
         let n = self.assembly.dofs.len();
-        let fits = |c: &&CarriedState| c.displacement.len() == n && c.cages.len() == system.interfaces.len();
+        let fits = |c: &&CarriedState| {
+            c.displacement.len() == n
+                && c.cages.len() == system.interfaces.len()
+                && c.balls[0].len() == system.ball_masses.len()
+        };
         let state = match carried.filter(fits) {
             None => {
                 let x = reduction.equilibrium.clone();
@@ -125,10 +131,14 @@ impl Machine {
             }
             Some(carried) => {
                 // Vᵀ M q: the nearest motion in this model's basis.
-                let project =
-                    |q: &[f64]| reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
+                let project = |q: &[f64], balls: &[f64]| {
+                    let x = reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
+                    let balls = balls.iter().zip(&system.ball_masses).map(|(y, mass)| mass.sqrt() * y);
+                    DVector::from_iterator(system.size(), x.iter().copied().chain(balls))
+                };
                 let time = carried.shaft.rem_euclid(std::f64::consts::TAU) / steady.speed;
-                let (x, v) = (project(&carried.displacement), project(&carried.velocity));
+                let x = project(&carried.displacement, &carried.balls[0]);
+                let v = project(&carried.velocity, &carried.balls[1]);
                 system.state_at(time, &carried.cages, x, v)
             }
         };
@@ -148,8 +158,7 @@ impl Machine {
         let channel = |probe: &&Probe| {
             let mut row = vec![0.0; self.assembly.dofs.len()];
             self.assembly.direction_row(&probe.at, &probe.direction).add_to(1.0, &mut row);
-            let row = reduction.basis.tr_mul(&DVector::from_vec(row));
-            Channel { name: probe.name.clone(), row, quantity: probe.quantity }
+            Channel { name: probe.name.clone(), row: reduction.row(row), quantity: probe.quantity }
         };
         let channels: Vec<Channel> = probes.iter().map(channel).collect();
         let total = (steady.settle + steady.periods) as f64;
@@ -161,11 +170,13 @@ impl Machine {
 impl CarriedState {
     /// The end of a run, for the next model to start from.
     pub fn new(reduction: &Reduction, state: &State) -> Self {
-        let full = |x: &DVector<f64>| (&reduction.basis * x).as_slice().to_vec();
+        let full = |x: &DVector<f64>| reduction.expand(x).as_slice().to_vec();
+        let rows = reduction.system.rows();
         Self {
             displacement: full(&state.x),
             velocity: full(&state.v),
             shaft: state.spin.angle,
+            balls: [&state.d, &state.d_rate].map(|d| d[rows..].to_vec()),
             cages: state.rotations.iter().map(|r| r.cage_angle.rem_euclid(std::f64::consts::TAU)).collect(),
         }
     }

@@ -7,7 +7,7 @@ use crate::bearing::life::{
     LoadRating, basic_life, combined_life, equivalent_load, life_modification, reference_life,
     reference_viscosity, reliability_factor,
 };
-use crate::bearing::{Arrangement, BallBearing, BallLoad, Bearing, BearingElement, Preload, PreloadState};
+use crate::bearing::{Arrangement, BallBearing, BallLoad, Bearing, Preload, PreloadState};
 use crate::contact::{BallContacts, ContactLaw, EllipticContact, Race};
 use crate::error::Error;
 use crate::model::study::{Along, BearingStudy, MOTIONS, Swept};
@@ -28,7 +28,7 @@ impl Machine {
     pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, Error> {
         let balls = self.model.bearings.iter().filter_map(|site| match &site.bearing {
             Bearing::Ball(ball) => Some((site.name.clone(), ball.clone())),
-            Bearing::Linear(_) => None,
+            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
         });
         let balls: Vec<_> = balls.collect();
         let speed = study.speed.unwrap_or(self.model.profile.top_speed());
@@ -344,10 +344,7 @@ impl<'a> Work<'a> {
     }
 
     fn preload(&self, speed: f64) -> PreloadState {
-        match &self.solver.element {
-            BearingElement::Ball(ball) => ball.preload_state(speed),
-            BearingElement::Linear(_) => PreloadState::default(),
-        }
+        self.solver.element.preload_state(speed)
     }
 
     /// All that follows from an equilibrium.

@@ -81,7 +81,7 @@ impl Machine {
         }
         let tangent = |(element, state): (&BearingElement, _)| match element {
             BearingElement::Linear(linear) => linear.tangent(speed),
-            BearingElement::Ball(_) => state,
+            BearingElement::Ball(_) | BearingElement::RadialBall(_) => state,
         };
         Ok(self.bearings.iter().zip(self.base.tangents()).map(tangent).collect())
     }
@@ -90,10 +90,11 @@ impl Machine {
     /// them changes and shifts the load.
     fn bearings_follow_speed(&self) -> bool {
         let sites = &self.model.bearings;
-        let any_ball = sites.iter().any(|site| matches!(site.bearing, Bearing::Ball(_)));
+        let any_ball = sites.iter().any(|site| site.bearing.ball().is_some());
         any_ball
             && sites.iter().any(|site| match &site.bearing {
                 Bearing::Ball(ball) => ball.depends_on_speed(),
+                Bearing::RadialBall(radial) => radial.ball_mass() > 0.0,
                 Bearing::Linear(linear) => linear.table.len() > 1,
             })
     }
@@ -270,7 +271,7 @@ impl Machine {
     pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
         let mut known: Vec<(String, f64)> = Vec::new();
         for site in &self.model.bearings {
-            if let Bearing::Ball(ball) = &site.bearing {
+            if let Some(ball) = site.bearing.ball() {
                 let c = ball.geometry.orders(ball.geometry.contact_angle);
                 let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
                 known.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));

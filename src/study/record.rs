@@ -9,6 +9,8 @@ use crate::transient::system::System;
 pub struct Recorder {
     pub history: History,
     row: Vec<f64>,
+    /// Directions of u_x u_y u_z in which every bearing acts on the shaft.
+    directions: Vec<usize>,
 }
 
 impl Recorder {
@@ -37,6 +39,7 @@ impl Recorder {
         }
         Self {
             row: Vec::with_capacity(channels.len()),
+            directions: system.interfaces.iter().map(|i| i.element.rows().min(3)).collect(),
             history: History { sample_rate, channels, ..History::default() },
         }
     }
@@ -46,8 +49,10 @@ impl Recorder {
         let state = sample.state;
         self.row.clear();
         self.row.extend_from_slice(sample.channels);
-        for (reaction, rotation) in state.reactions.iter().zip(&state.rotations) {
-            self.row.extend_from_slice(&reaction.force[..3]);
+        let bearings = state.reactions.iter().zip(&state.rotations);
+        for ((reaction, rotation), directions) in bearings.zip(&self.directions) {
+            let along = |k: usize| if k < *directions { reaction.force[k] } else { 0.0 };
+            self.row.extend([along(0), along(1), along(2)]);
             self.row.push(rotation.cage_angle);
         }
         let e = sample.energy;

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::stepper::Stepper;
-use super::system::{State, System};
+use super::system::{Interface, State, System};
 use crate::bearing::Rotation;
 use crate::error::PhysicsError;
 use crate::model::study::Integrator;
@@ -44,9 +44,11 @@ impl Companion {
         let spread = |k: usize| 2.0 * ((k + 1) as f64 * golden).fract() - 1.0;
         let dx = DVector::from_fn(n, |i, _| spread(2 * i) / stiffness[(i, i)].sqrt());
         let dv = DVector::from_fn(n, |i, _| spread(2 * i + 1));
-        let mut moved = vec![0.0; system.rows()];
+        let mut moved = vec![0.0; system.places()];
         system.to_interface(&dx, &mut moved);
-        let translations = system.interfaces.iter().flat_map(|i| &moved[i.first_row..i.first_row + 3]);
+        let translations = |i: &Interface| moved[i.row_range()].iter().take(3).copied().collect::<Vec<_>>();
+        let balls = moved[system.rows()..].iter().copied();
+        let translations = system.interfaces.iter().flat_map(translations).chain(balls);
         let largest = translations.fold(0.0, |m: f64, d| m.max(d.abs()));
         let scale = displacement / if largest > 0.0 { largest } else { dx.amax() };
         let mut companion = Self {
@@ -114,7 +116,8 @@ impl Companion {
         state.rotations.copy_from_slice(&reference.rotations);
         system.to_interface(&state.x, &mut state.d);
         system.to_interface(&state.v, &mut state.d_rate);
-        system.react(&state.d, &state.d_rate, &state.rotations, &mut state.reactions);
+        let State { d, d_rate, rotations, reactions, force, .. } = state;
+        system.react(d, d_rate, rotations, reactions, force);
         (norm / self.size).ln()
     }
 
@@ -123,20 +126,30 @@ impl Companion {
     }
 }
 
-/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state.
+/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state; of balls with coordinates of their own every one by
+/// itself, with both contacts as at the speed's centrifugal force.
 fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
-    let still = |rotation: &Rotation| Rotation { cage_speed: 0.0, ..*rotation };
-    let rotations: Vec<Rotation> = state.rotations.iter().map(still).collect();
-    let mut reactions = state.reactions.clone();
-    system.react(&state.d, &vec![0.0; system.rows()], &rotations, &mut reactions);
-    let n = system.size();
-    let mut out = &system.stiffness + DMatrix::identity(n, n);
-    for (interface, reaction) in system.interfaces.iter().zip(&reactions) {
-        let (first, rows) = (interface.first_row, interface.rows);
-        let map = system.interface_map.rows(first, rows);
-        let block =
-            DMatrix::from_fn(rows, rows, |a, b| 0.5 * (reaction.stiffness[a][b] + reaction.stiffness[b][a]));
-        out += map.transpose() * block * map;
+    let (n, structure) = (system.size(), system.structure());
+    let mut out = DMatrix::identity(n, n);
+    let mut block = out.view_mut((0, 0), (structure, structure));
+    block += &system.stiffness;
+    for (interface, rotation) in system.interfaces.iter().zip(&state.rotations) {
+        let rows = interface.element.rows();
+        let mut d = [0.0; 6];
+        d[..rows].copy_from_slice(&state.d[interface.first_row..interface.first_row + rows]);
+        let still = Rotation { cage_speed: 0.0, ..*rotation };
+        let k = interface.element.reaction(&d, &[0.0; 6], &still).stiffness;
+        let map = system.interface_map.rows(interface.first_row, rows);
+        let symmetric = DMatrix::from_fn(rows, rows, |a, b| 0.5 * (k[a][b] + k[b][a]));
+        block += map.transpose() * symmetric * map;
+    }
+    for (interface, rotation) in system.interfaces.iter().zip(&state.rotations) {
+        if let Some(radial) = interface.element.radial() {
+            for ball in interface.ball_range() {
+                out[(structure + ball, structure + ball)] +=
+                    radial.seat_stiffness(rotation) / system.ball_masses[ball];
+            }
+        }
     }
     out
 }

@@ -92,7 +92,8 @@ impl EnergyLedger {
         self.v += &state.v;
         self.v *= 0.5;
         self.linear.fill(0.0);
-        system.panels.damping.mul_add(self.v.as_slice(), self.linear.as_mut_slice());
+        let n = system.structure();
+        system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
@@ -116,8 +117,10 @@ impl EnergyLedger {
     pub fn stored(&mut self, system: &System, state: &State) {
         let e = &mut self.energy;
         e.kinetic = 0.5 * state.v.norm_squared();
-        self.linear.gemv(0.5, &system.stiffness, &state.x, 0.0);
-        e.strain = self.linear.dot(&state.x);
+        let x = state.x.rows(0, system.structure());
+        let mut pull = self.linear.rows_mut(0, system.structure());
+        pull.gemv(0.5, &system.stiffness, &x, 0.0);
+        e.strain = pull.dot(&x);
         e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
     }
 }
@@ -128,16 +131,16 @@ fn powers(state: &State) -> [f64; 2] {
 }
 
 /// Energy that bearings took in by their speed's change alone since `before` \[J\]: film, balls' inertia, preload and
-/// clearance change with it.
+/// clearance change with it. (Balls with coordinates of their own store nothing that knows of speed.)
 fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
     let mut sum = 0.0;
     for ((interface, reaction), (now, before)) in
         system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))
     {
         let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
-        if before != *now && interface.element.depends_on_speed() {
+        if before != *now && interface.balls == 0 && interface.element.depends_on_speed() {
             let (mut d, mut rate) = ([0.0; 6], [0.0; 6]);
-            let rows = interface.first_row..interface.first_row + interface.rows;
+            let rows = interface.row_range();
             d[..interface.rows].copy_from_slice(&state.d[rows.clone()]);
             rate[..interface.rows].copy_from_slice(&state.d_rate[rows]);
             let slower = interface.element.reaction(&d, &rate, &before);
@@ -150,8 +153,10 @@ fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
 /// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.
 fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
     system.load(state.time, &state.spin, out);
+    let n = system.structure();
+    let x = &state.x.as_slice()[..n];
     scratch.clear();
-    scratch.extend(state.x.iter().map(|x| -state.spin.acceleration * x));
-    scratch.extend(state.x.iter().map(|x| -state.spin.speed * x));
-    system.panels.effective.mul_add(scratch, out.as_mut_slice());
+    scratch.extend(x.iter().map(|x| -state.spin.acceleration * x));
+    scratch.extend(x.iter().map(|x| -state.spin.speed * x));
+    system.panels.effective.mul_add(scratch, &mut out.as_mut_slice()[..n]);
 }

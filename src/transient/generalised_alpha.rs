@@ -1,13 +1,15 @@
 //! Generalised-α and Newmark steps with Newton on the bearing interfaces only.
 //!
 //! The linear part is constant but for Ω, so one inverse serves many steps; the nonlinear bearings act on a
-//! few interface rows, so Newton solves for those alone (the rest follows by back-substitution).
+//! few interface rows, so Newton solves for those alone (the rest follows by back-substitution). Balls with coordinates
+//! of their own touch nothing but their bearing: it solves their equations at every iterate, one by one.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::cage;
 use super::system::{State, System};
 use crate::bearing::Reaction;
+use crate::bearing::radial::StepGain;
 use crate::linalg::panel::Panel;
 use crate::linalg::small::solve_in_place;
 use crate::model::Spin;
@@ -94,6 +96,8 @@ pub struct GeneralisedAlpha {
     jacobian: Vec<f64>,
     /// (1−α_f) Y at this step's speed.
     compliance: Vec<f64>,
+    /// −∂(force on every ball)/∂(rows of its bearing).
+    ball_follow: Vec<[f64; 4]>,
     /// Force of the state before the last, and the step between them.
     last_force: Vec<f64>,
     last_step: f64,
@@ -109,7 +113,7 @@ pub struct GeneralisedAlpha {
 
 impl GeneralisedAlpha {
     pub fn new(system: &System, scheme: Scheme) -> Self {
-        let (n, m) = (system.size(), system.rows());
+        let (n, m, places) = (system.size(), system.rows(), system.places());
         let sites = system.interfaces.len();
         let zero = || DVector::zeros(n);
         Self {
@@ -122,18 +126,19 @@ impl GeneralisedAlpha {
             x: zero(),
             v: zero(),
             a: zero(),
-            base_d: vec![0.0; m],
-            base_rate: vec![0.0; m],
-            row_buffer: vec![0.0; m],
-            force: vec![0.0; m],
+            base_d: vec![0.0; places],
+            base_rate: vec![0.0; places],
+            row_buffer: vec![0.0; places],
+            force: vec![0.0; places],
             unknown: vec![0.0; m],
             residual: vec![0.0; m],
             jacobian: vec![0.0; m * m],
             compliance: vec![0.0; m * m],
-            last_force: vec![0.0; m],
+            ball_follow: vec![[0.0; 4]; places - m],
+            last_force: vec![0.0; places],
             last_step: 0.0,
-            d: vec![0.0; m],
-            d_rate: vec![0.0; m],
+            d: vec![0.0; places],
+            d_rate: vec![0.0; places],
             rotations: vec![Default::default(); sites],
             reactions: vec![Reaction::default(); sites],
             iterations: 0,
@@ -153,7 +158,7 @@ impl GeneralisedAlpha {
             }
         }
         let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
-        let n = system.size();
+        let n = system.structure();
         let weight = 1.0 - alpha_f;
         let by_speed =
             (&system.gyroscopic * (gamma * step) + &system.circulatory * (beta * step * step)) * weight;
@@ -206,7 +211,8 @@ impl GeneralisedAlpha {
         let Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
         let k = self.factor(system, step, &spin);
         let (kd, kv) = (beta * step * step, gamma * step);
-        let rows = system.rows();
+        let (n, places) = (system.structure(), system.places());
+        let gain = StepGain { place: kd, rate: kv, ball: (1.0 - alpha_f) / (1.0 - alpha_m) };
         cage::advance(system, state, &spin, &mut self.rotations);
 
         // Predictors with a₁ = 0.
@@ -223,8 +229,9 @@ impl GeneralisedAlpha {
             self.previous.neg_mut();
             let at = [&state.x, &state.v];
             system.add_linear(&state.spin, at, 1.0, &mut self.scratch, &mut self.previous);
-            system.gather(&state.reactions, &mut self.force);
-            self.force.iter_mut().for_each(|f| *f = -*f);
+            for (minus, force) in self.force.iter_mut().zip(&state.force) {
+                *minus = -force;
+            }
             system.add_from_interface(&self.force, &mut self.previous);
             self.right.axpy(-alpha_f, &self.previous, 1.0);
         }
@@ -238,12 +245,17 @@ impl GeneralisedAlpha {
         // Without bearings' forces: a₁ = S⁻¹ r. With them: a₁ += (1−α_f) S⁻¹ Wᵀ f.
         let factor = &self.factors[k];
         let off = spin.speed - factor.speed;
+        let (right, on_balls) = self.right.as_slice().split_at(n);
         self.scratch.clear();
-        self.scratch.extend(self.right.iter());
-        self.scratch.extend(self.right.iter().map(|r| -off * r));
+        self.scratch.extend(right);
+        self.scratch.extend(right.iter().map(|r| -off * r));
         self.a.fill(0.0);
-        factor.inverse.mul_add(&self.scratch, self.a.as_mut_slice());
-        if rows > 0 {
+        let (a, balls) = self.a.as_mut_slice().split_at_mut(n);
+        factor.inverse.mul_add(&self.scratch, a);
+        for (a, right) in balls.iter_mut().zip(on_balls) {
+            *a = right / (1.0 - alpha_m);
+        }
+        if places > 0 {
             for (y, (y0, y1)) in
                 self.compliance.iter_mut().zip(factor.compliance[0].iter().zip(&factor.compliance[1]))
             {
@@ -253,27 +265,29 @@ impl GeneralisedAlpha {
             system.to_interface(&self.x, &mut self.base_d);
             system.to_interface(&self.v, &mut self.base_rate);
             system.to_interface(&self.a, &mut self.row_buffer);
-            for r in 0..rows {
+            for r in 0..places {
                 self.base_d[r] += kd * self.row_buffer[r];
                 self.base_rate[r] += kv * self.row_buffer[r];
             }
             // The force is carried on from the last two states: a start a hundred times nearer than the last.
-            system.gather(&state.reactions, &mut self.force);
-            for r in 0..rows {
-                let now = self.force[r];
-                if self.last_step == step {
-                    self.force[r] = 2.0 * now - self.last_force[r];
-                }
-                self.row_buffer[r] = now;
+            for r in 0..places {
+                let now = state.force[r];
+                let ahead = if self.last_step == step { 2.0 * now - self.last_force[r] } else { now };
+                self.force[r] = ahead;
             }
-            self.newton(system, kd, kv)?;
-            self.last_force.copy_from_slice(&self.row_buffer);
+            self.newton(system, &gain)?;
+            self.last_force.copy_from_slice(&state.force);
             self.last_step = step;
             let factor = &self.factors[k];
+            let (rows, on_balls) = self.force.split_at(system.rows());
             self.scratch.clear();
-            self.scratch.extend(self.force.iter().map(|f| (1.0 - alpha_f) * f));
-            self.scratch.extend(self.force.iter().map(|f| -off * (1.0 - alpha_f) * f));
-            factor.response.mul_add(&self.scratch, self.a.as_mut_slice());
+            self.scratch.extend(rows.iter().map(|f| (1.0 - alpha_f) * f));
+            self.scratch.extend(rows.iter().map(|f| -off * (1.0 - alpha_f) * f));
+            let (a, balls) = self.a.as_mut_slice().split_at_mut(n);
+            factor.response.mul_add(&self.scratch, a);
+            for ((a, force), mass) in balls.iter_mut().zip(on_balls).zip(&system.ball_masses) {
+                *a += gain.ball * force / mass.sqrt();
+            }
         }
 
         state.x.copy_from(&self.x);
@@ -287,12 +301,13 @@ impl GeneralisedAlpha {
         state.reactions.copy_from_slice(&self.reactions);
         state.d.copy_from_slice(&self.d);
         state.d_rate.copy_from_slice(&self.d_rate);
+        state.force.copy_from_slice(&self.force);
         Ok(())
     }
 
     /// Newton for u = Ỹ f(d̄ + kd u, ḋ̄ + kv u), Ỹ = (1−α_f) Y, starting from the force in `self.force`.
-    fn newton(&mut self, system: &System, kd: f64, kv: f64) -> Result<(), StepFailure> {
-        let rows = system.rows();
+    fn newton(&mut self, system: &System, gain: &StepGain) -> Result<(), StepFailure> {
+        let (rows, kd, kv) = (system.rows(), gain.place, gain.rate);
         for (u, y) in self.unknown.iter_mut().zip(self.compliance.chunks_exact(rows)) {
             *u = y.iter().zip(&self.force).map(|(a, b)| a * b).sum::<f64>();
         }
@@ -303,8 +318,16 @@ impl GeneralisedAlpha {
                 self.d[r] = self.base_d[r] + kd * self.unknown[r];
                 self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
             }
-            system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions);
-            system.gather(&self.reactions, &mut self.force);
+            self.d[rows..].copy_from_slice(&self.base_d[rows..]);
+            self.d_rate[rows..].copy_from_slice(&self.base_rate[rows..]);
+            system.react_in_step(
+                [&mut self.d, &mut self.d_rate],
+                &self.rotations,
+                gain,
+                &mut self.reactions,
+                &mut self.force,
+                &mut self.ball_follow,
+            );
             // Residual u − Ỹ f and Jacobian I + Ỹ (kd K + kv C), block by block.
             for r in 0..rows {
                 let y = &self.compliance[r * rows..(r + 1) * rows];
@@ -338,7 +361,7 @@ impl GeneralisedAlpha {
             failure = StepFailure { row, residual: worst, iterations: iteration };
             if worst <= TOLERANCE {
                 // The force moves with the last correction by its tangent, so that force and state agree.
-                self.follow(system, kd, kv);
+                self.follow(system, gain);
                 return Ok(());
             }
             if !worst.is_finite() {
@@ -349,20 +372,28 @@ impl GeneralisedAlpha {
     }
 
     /// Takes displacements and forces along with Newton's last correction: f ← f − (kd K + kv C) Δu, Δu = −residual.
-    fn follow(&mut self, system: &System, kd: f64, kv: f64) {
+    fn follow(&mut self, system: &System, gain: &StepGain) {
+        let (rows, kd, kv) = (system.rows(), gain.place, gain.rate);
+        let (on_rows, on_balls) = self.force.split_at_mut(rows);
         for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
-            let (first, count) = (interface.first_row, interface.rows);
-            let moved = &self.residual[first..first + count];
-            for (b, force) in reaction.force.iter_mut().enumerate().take(count) {
+            let moved = &self.residual[interface.row_range()];
+            for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
                 for (column, by) in moved.iter().enumerate() {
                     *force += (kd * reaction.stiffness[b][column] + kv * reaction.damping[b][column]) * by;
                 }
             }
+            on_rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+            for ball in interface.ball_range() {
+                let by: f64 = self.ball_follow[ball].iter().zip(moved).map(|(k, by)| k * by).sum();
+                on_balls[ball] += kd * by;
+                let lead = gain.ball / system.ball_masses[ball] * on_balls[ball];
+                self.d[rows + ball] = self.base_d[rows + ball] + kd * lead;
+                self.d_rate[rows + ball] = self.base_rate[rows + ball] + kv * lead;
+            }
         }
-        for r in 0..system.rows() {
+        for r in 0..rows {
             self.d[r] = self.base_d[r] + kd * self.unknown[r];
             self.d_rate[r] = self.base_rate[r] + kv * self.unknown[r];
         }
-        system.gather(&self.reactions, &mut self.force);
     }
 }

@@ -10,7 +10,8 @@ use super::system::{Channel, Interface, LoadHistory, Panels, System};
 use super::torque::TorqueDrive;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, linear_system};
-use crate::bearing::BearingElement;
+use crate::bearing::radial::Rings;
+use crate::bearing::{BearingElement, Rotation};
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 use crate::model::{Drive, Model};
@@ -21,13 +22,30 @@ pub struct Reduction {
     pub system: System,
     /// Basis V (free DOFs × coordinates), Vᵀ M V = 1.
     pub basis: DMatrix<f64>,
-    /// Coordinates of the equilibrium the reduction was made at.
+    /// Coordinates of the equilibrium the reduction was made at, balls included.
     pub equilibrium: DVector<f64>,
     /// Vibration modes and static-correction vectors in the basis.
     pub modes: usize,
     pub corrections: usize,
     /// Largest displacement error of the equilibrium in the basis, relative to the largest displacement.
     pub static_error: f64,
+}
+
+impl Reduction {
+    /// All free DOFs \[m, rad\] of the structure at coordinates x.
+    pub fn expand(&self, x: &DVector<f64>) -> DVector<f64> {
+        &self.basis * x.rows(0, self.basis.ncols())
+    }
+
+    /// What reads a row over the free DOFs from coordinates: Vᵀ r, nothing of the balls.
+    pub fn row(&self, row: Vec<f64>) -> DVector<f64> {
+        padded(self.basis.tr_mul(&DVector::from_vec(row)), self.system.size())
+    }
+}
+
+/// A vector over the structure's coordinates with zeros for the balls.
+fn padded(vector: DVector<f64>, size: usize) -> DVector<f64> {
+    vector.resize_vertically(size, 0.0)
 }
 
 /// Reduces `assembly` about `equilibrium`, keeping modes up to `cutoff` \[Hz\] (infinity keeps all).
@@ -81,7 +99,33 @@ pub fn reduce(
         v
     };
     let mut forces: Vec<Vec<f64>> = vec![steady.clone(), belt_rest.clone(), assembly.spin_momentum.clone()];
-    forces.extend(assembly.sites.iter().flat_map(|s| s.rows.iter().map(dense)));
+    let mut interfaces: Vec<Interface> = Vec::new();
+    let mut map: Vec<&SparseRow> = Vec::new();
+    let mut ball_masses = Vec::new();
+    for (site, place) in model.bearings.iter().zip(&assembly.sites) {
+        let element = BearingElement::new(&site.bearing);
+        let mut rows: Vec<&SparseRow> = place.rows[..element.rows()].iter().collect();
+        let first_ball = ball_masses.len();
+        if let Some(radial) = element.radial() {
+            if site.housing.node.is_some() {
+                rows.extend(&place.frame);
+            }
+            ball_masses.extend(std::iter::repeat_n(radial.ball_mass(), radial.balls()));
+            forces.extend(rows.iter().map(|row| dense(row)));
+        } else {
+            forces.extend(place.rows.iter().map(dense));
+        }
+        interfaces.push(Interface {
+            name: site.name.clone(),
+            first_row: map.len(),
+            rows: rows.len(),
+            first_ball,
+            balls: ball_masses.len() - first_ball,
+            cage_angle: site.bearing.cage_angle(),
+            element,
+        });
+        map.extend(rows);
+    }
     forces.extend(assembly.unbalances.iter().flat_map(|u| [dense(&u.x), dense(&u.y)]));
     forces.extend(histories.iter().map(|(v, _)| v.clone()));
     let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
@@ -92,29 +136,14 @@ pub fn reduce(
     }
     let momentum = basis.transpose() * &mass;
     let project = |m: &SparseMatrix| basis.transpose() * m.to_dense() * &basis;
-    let vector = |v: &[f64]| basis.transpose() * DVector::from_column_slice(v);
+    let size = basis.ncols() + ball_masses.len();
+    let vector = |v: &[f64]| padded(basis.transpose() * DVector::from_column_slice(v), size);
     let row = |r: &SparseRow| vector(&dense(r));
-    let structure = SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
+    let held_structure = SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
     let modal = linear_system::modal_damping(assembly, &held)?;
     let damping = SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &modal)]);
 
-    let mut interfaces = Vec::new();
-    let mut map = Vec::new();
-    for (site, place) in model.bearings.iter().zip(&assembly.sites) {
-        let element = BearingElement::new(&site.bearing);
-        let rows = element.rows();
-        interfaces.push(Interface {
-            name: site.name.clone(),
-            first_row: interfaces.last().map_or(0, |i: &Interface| i.first_row + i.rows),
-            rows,
-            cage_angle: site.bearing.cage_angle(),
-            element,
-        });
-        for r in &place.rows[..rows] {
-            map.push(row(r).transpose());
-        }
-    }
-    let mut unbalance = [DVector::zeros(basis.ncols()), DVector::zeros(basis.ncols())];
+    let mut unbalance = [DVector::zeros(size), DVector::zeros(size)];
     for u in &assembly.unbalances {
         let (sin, cos) = u.phase.sin_cos();
         let (x, y) = (row(&u.x) * u.magnitude, row(&u.y) * u.magnitude);
@@ -136,17 +165,36 @@ pub fn reduce(
     // Without a drive station every inertia is turned by its own torque: spin-up leaves the twist alone.
     let driven = !matches!(model.drive, Drive::Prescribed { node: None });
     let q0 = DVector::from_column_slice(&equilibrium.q);
-    let x0 = &momentum * &q0;
-    let static_error = (&basis * &x0 - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
+    let structure = &momentum * &q0;
+    let static_error = (&basis * &structure - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
+    let mut x0 = padded(structure, size);
+    for ((interface, place), state) in interfaces.iter().zip(&assembly.sites).zip(&equilibrium.bearings) {
+        let Some(radial) = interface.element.radial() else { continue };
+        let rings = Rings {
+            shift: [state.displacement[0], state.displacement[1]],
+            frame: [0, 1].map(|k| place.frame[k].dot(&equilibrium.q)),
+            ..Rings::default()
+        };
+        let rotation = Rotation {
+            cage_angle: interface.cage_angle,
+            shaft_speed: equilibrium.speed,
+            ..Rotation::default()
+        };
+        for (ball, place) in interface.ball_range().zip(radial.settled_places(&rings, &rotation)) {
+            x0[basis.ncols() + ball] = ball_masses[ball].sqrt() * place;
+        }
+    }
     let matrices = [
         &project(&damping),
-        &project(&structure),
+        &project(&held_structure),
         &project(&assembly.gyroscopic),
         &project(&assembly.spin_up),
         &project(&assembly.circulatory),
     ];
+    let on_structure = |r: &SparseRow| (basis.transpose() * DVector::from_vec(dense(r))).transpose();
+    let rows: Vec<_> = map.iter().map(|r| on_structure(r)).collect();
     let interface_map =
-        if map.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&map) };
+        if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) };
     let system = System {
         panels: Panels::new(matrices, &interface_map),
         damping: matrices[0].clone(),
@@ -163,6 +211,7 @@ pub fn reduce(
             .collect(),
         interface_map,
         interfaces,
+        ball_masses,
         channels: model
             .probes
             .iter()

@@ -76,7 +76,7 @@ impl RungeKutta {
     }
 
     fn new(system: &System, tableau: &'static Tableau) -> Self {
-        let (n, m) = (system.size(), system.rows());
+        let (n, m) = (system.size(), system.places());
         let zero = || DVector::zeros(n);
         Self {
             tableau,
@@ -101,8 +101,7 @@ impl RungeKutta {
         cage::advance(system, state, spin, &mut self.rotations);
         system.to_interface(&self.x, &mut self.d);
         system.to_interface(&self.v, &mut self.d_rate);
-        system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions);
-        system.gather(&self.reactions, &mut self.force);
+        system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
         system.load(time, spin, acceleration);
@@ -169,6 +168,7 @@ impl RungeKutta {
         state.reactions.copy_from_slice(&self.reactions);
         state.d.copy_from_slice(&self.d);
         state.d_rate.copy_from_slice(&self.d_rate);
+        state.force.copy_from_slice(&self.force);
         estimate
     }
 }

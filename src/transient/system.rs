@@ -1,11 +1,13 @@
 //! The reduced equations of motion of a machine with nonlinear bearings, ready for time integration.
 //!
 //! ẍ + (C + Ω G) ẋ + (K + Ω̇ K_s + Ω K_c) x = p(t) + Wᵀ f(d, ḋ, rotation), d = W x,
-//! in mass-normalised coordinates q = V x; f is the sum of the bearings' reactions on the shaft.
+//! in mass-normalised coordinates q = V x; f is the sum of the bearings' reactions on the shaft. Balls with a coordinate
+//! y of their own follow the structure's: √m y at the end of x, y at the end of d, and f what acts on y.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::torque::TorqueDrive;
+use crate::bearing::radial::{Rings, StepGain};
 use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::linalg::panel::Panel;
 use crate::model::{Quantity, SpeedCurve, Spin};
@@ -15,11 +17,40 @@ use crate::model::{Quantity, SpeedCurve, Spin};
 pub struct Interface {
     pub name: String,
     pub element: BearingElement,
-    /// First row of W and number of rows (5 for ball bearings: θ_z is free; else 6).
+    /// First row of W and number of rows: 6; 5 for ball bearings, θ_z being free; of a bearing in its plane the 2 of
+    /// the shaft relative to the housing and, where that moves, the 2 of the housing.
     pub first_row: usize,
     pub rows: usize,
+    /// First and number of the balls with coordinates of their own.
+    pub first_ball: usize,
+    pub balls: usize,
     /// Cage angle at the start \[rad\].
     pub cage_angle: f64,
+}
+
+impl Interface {
+    /// Its rows among all.
+    pub fn row_range(&self) -> std::ops::Range<usize> {
+        self.first_row..self.first_row + self.rows
+    }
+
+    /// Its balls among all.
+    pub fn ball_range(&self) -> std::ops::Range<usize> {
+        self.first_ball..self.first_ball + self.balls
+    }
+
+    /// Reaction at displacements and velocities of all interfaces.
+    fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
+        let (mut at, mut rate) = ([0.0; 6], [0.0; 6]);
+        at[..self.rows].copy_from_slice(&d[self.row_range()]);
+        rate[..self.rows].copy_from_slice(&d_rate[self.row_range()]);
+        self.element.reaction(&at, &rate, rotation)
+    }
+
+    /// Rings of a bearing in its plane.
+    pub fn rings(&self, d: &[f64], d_rate: &[f64]) -> Rings {
+        Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
+    }
 }
 
 /// A load p(t) = factor(t) · vector, factor piecewise linear and zero outside its table.
@@ -48,7 +79,7 @@ impl Channel {
     }
 }
 
-/// The reduced machine; immutable during a run.
+/// The reduced machine; immutable during a run. Matrices are over the structure, vectors over all coordinates.
 #[derive(Clone, Debug)]
 pub struct System {
     pub stiffness: DMatrix<f64>,
@@ -63,9 +94,11 @@ pub struct System {
     /// −Vᵀ M r: what a unit Ω̇ does to torsion.
     pub spin_inertia: DVector<f64>,
     pub histories: Vec<LoadHistory>,
-    /// Interface map W, rows × coordinates.
+    /// Interface map W, rows × coordinates of the structure.
     pub interface_map: DMatrix<f64>,
     pub interfaces: Vec<Interface>,
+    /// Mass of every ball with a coordinate of its own \[kg\].
+    pub ball_masses: Vec<f64>,
     pub channels: Vec<Channel>,
     pub curve: SpeedCurve,
     /// Torque drive, when the shaft's speed follows from a torque balance instead of the profile.
@@ -117,22 +150,34 @@ pub struct State {
     pub a: DVector<f64>,
     /// Per interface: where cage and shaft are.
     pub rotations: Vec<Rotation>,
-    /// Per interface: the force and tangents at this state.
+    /// Per interface: the force and what goes with it at this state.
     pub reactions: Vec<Reaction>,
-    /// Relative displacements W x and velocities W ẋ.
+    /// Relative displacements W x and velocities W ẋ, then places and rates of the balls.
     pub d: Vec<f64>,
     pub d_rate: Vec<f64>,
+    /// Forces that belong to them.
+    pub force: Vec<f64>,
 }
 
 impl System {
-    /// Number of coordinates.
+    /// Number of coordinates: of the structure, then of the balls.
     pub fn size(&self) -> usize {
+        self.structure() + self.ball_masses.len()
+    }
+
+    /// Number of the structure's coordinates.
+    pub fn structure(&self) -> usize {
         self.stiffness.nrows()
     }
 
-    /// Number of interface rows.
+    /// Number of rows of W.
     pub fn rows(&self) -> usize {
         self.interfaces.last().map_or(0, |i| i.first_row + i.rows)
+    }
+
+    /// Number of interface displacements: the rows of W, then the balls.
+    pub fn places(&self) -> usize {
+        self.rows() + self.ball_masses.len()
     }
 
     /// The shaft's motion `offset` after (time, spin): from the profile, or at constant acceleration under a
@@ -151,12 +196,18 @@ impl System {
     /// What an interface row is, in words.
     pub fn name_of_row(&self, row: usize) -> String {
         const DIRECTIONS: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
-        self.interfaces
-            .iter()
-            .find(|i| (i.first_row..i.first_row + i.rows).contains(&row))
-            .map_or("the structure".into(), |i| {
-                format!("bearing {}, {}", i.name, DIRECTIONS[row - i.first_row])
-            })
+        const IN_PLANE: [&str; 4] = ["u_x", "u_y", "u_x of its housing", "u_y of its housing"];
+        let rows = self.rows();
+        let place = |i: &Interface| match row.checked_sub(rows) {
+            None if !(i.first_row..i.first_row + i.rows).contains(&row) => None,
+            None if i.balls > 0 => Some(IN_PLANE[row - i.first_row].to_string()),
+            None => Some(DIRECTIONS[row - i.first_row].to_string()),
+            Some(ball) => (i.first_ball..i.first_ball + i.balls)
+                .contains(&ball)
+                .then(|| format!("ball {}", ball - i.first_ball)),
+        };
+        let named = |i: &Interface| Some(format!("bearing {}, {}", i.name, place(i)?));
+        self.interfaces.iter().find_map(named).unwrap_or("the structure".into())
     }
 
     /// External load p(t) without bearing forces, written to `out`.
@@ -189,6 +240,8 @@ impl System {
         scratch: &mut Vec<f64>,
         out: &mut DVector<f64>,
     ) {
+        let n = self.structure();
+        let (x, v) = (&x.as_slice()[..n], &v.as_slice()[..n]);
         scratch.clear();
         scratch.extend(v.iter().map(|v| weight * v));
         scratch.extend(x.iter().map(|x| weight * x));
@@ -197,36 +250,84 @@ impl System {
         if self.panels.has_circulatory {
             scratch.extend(x.iter().map(|x| weight * spin.speed * x));
         }
-        self.panels.linear.mul_add(scratch, out.as_mut_slice());
+        self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
     }
 
-    /// W y for coordinates y, written to `out`.
+    /// W y for coordinates y, then the balls' places, written to `out`.
     pub fn to_interface(&self, y: &DVector<f64>, out: &mut [f64]) {
-        out.fill(0.0);
-        self.panels.to_interface.mul_add(y.as_slice(), out);
-    }
-
-    /// Adds Wᵀ f to `out`.
-    pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
-        self.panels.from_interface.mul_add(force, out.as_mut_slice());
-    }
-
-    /// Evaluates every bearing at relative displacements and velocities.
-    pub fn react(&self, d: &[f64], d_rate: &[f64], rotations: &[Rotation], out: &mut [Reaction]) {
-        for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(out) {
-            let (mut at, mut rate) = ([0.0; 6], [0.0; 6]);
-            let rows = interface.first_row..interface.first_row + interface.rows;
-            at[..interface.rows].copy_from_slice(&d[rows.clone()]);
-            rate[..interface.rows].copy_from_slice(&d_rate[rows]);
-            *reaction = interface.element.reaction(&at, &rate, rotation);
+        let (structure, balls) = y.as_slice().split_at(self.structure());
+        let (rows, places) = out.split_at_mut(self.rows());
+        rows.fill(0.0);
+        self.panels.to_interface.mul_add(structure, rows);
+        for ((place, y), mass) in places.iter_mut().zip(balls).zip(&self.ball_masses) {
+            *place = y / mass.sqrt();
         }
     }
 
-    /// Collects the reactions' forces into interface rows.
-    pub fn gather(&self, reactions: &[Reaction], out: &mut [f64]) {
-        for (interface, reaction) in self.interfaces.iter().zip(reactions) {
-            out[interface.first_row..interface.first_row + interface.rows]
-                .copy_from_slice(&reaction.force[..interface.rows]);
+    /// Adds Wᵀ f to `out`, and to the balls' coordinates what acts on them.
+    pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
+        let (rows, on_balls) = force.split_at(self.rows());
+        let (structure, balls) = out.as_mut_slice().split_at_mut(self.structure());
+        self.panels.from_interface.mul_add(rows, structure);
+        for ((ball, f), mass) in balls.iter_mut().zip(on_balls).zip(&self.ball_masses) {
+            *ball += f / mass.sqrt();
+        }
+    }
+
+    /// Evaluates every bearing at displacements and velocities; `force` takes what belongs to them.
+    ///
+    /// Tangents come with bearings whose balls have no coordinates of their own.
+    pub fn react(
+        &self,
+        d: &[f64],
+        d_rate: &[f64],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+    ) {
+        let (rows, on_balls) = force.split_at_mut(self.rows());
+        for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
+            *reaction = match interface.element.radial() {
+                None => interface.reaction(d, d_rate, rotation),
+                Some(radial) => {
+                    let rings = interface.rings(d, d_rate);
+                    let balls = interface.ball_range();
+                    let places = [d, d_rate].map(|y| &y[rows.len()..][balls.clone()]);
+                    radial.act(&rings, places, rotation, &mut on_balls[balls])
+                }
+            };
+            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+        }
+    }
+
+    /// The same at the end of an implicit step: the balls' equations are solved on the way.
+    ///
+    /// `d`, `d_rate`: displacements and velocities of the rows, and of the balls what they are without force; these are
+    /// left at the step's end. `force`: on the balls a guess, left solved. `follow`: −∂(force on every ball)/∂(rows).
+    pub fn react_in_step(
+        &self,
+        [d, d_rate]: [&mut [f64]; 2],
+        rotations: &[Rotation],
+        gain: &StepGain,
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+        follow: &mut [[f64; 4]],
+    ) {
+        let (rows, on_balls) = force.split_at_mut(self.rows());
+        for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
+            *reaction = match interface.element.radial() {
+                None => interface.reaction(d, d_rate, rotation),
+                Some(radial) => {
+                    let rings = interface.rings(d, d_rate);
+                    let balls = interface.ball_range();
+                    let gain = StepGain { ball: gain.ball / radial.ball_mass(), ..*gain };
+                    let (_, places) = d.split_at_mut(rows.len());
+                    let (_, rates) = d_rate.split_at_mut(rows.len());
+                    let at = [&mut places[balls.clone()], &mut rates[balls.clone()]];
+                    radial.step(&rings, at, rotation, &gain, &mut on_balls[balls.clone()], &mut follow[balls])
+                }
+            };
+            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
         }
     }
 
@@ -236,7 +337,7 @@ impl System {
         if self.drive.is_some() {
             spin.acceleration = 0.0;
         }
-        let (n, rows) = (self.size(), self.rows());
+        let (n, places) = (self.size(), self.places());
         let rotations = self
             .interfaces
             .iter()
@@ -255,8 +356,9 @@ impl System {
             a: DVector::zeros(n),
             rotations,
             reactions: vec![Reaction::default(); self.interfaces.len()],
-            d: vec![0.0; rows],
-            d_rate: vec![0.0; rows],
+            d: vec![0.0; places],
+            d_rate: vec![0.0; places],
+            force: vec![0.0; places],
         };
         self.refresh(&mut state);
         state
@@ -280,15 +382,12 @@ impl System {
         let (x, v) = (state.x.clone(), state.v.clone());
         self.to_interface(&x, &mut state.d);
         self.to_interface(&v, &mut state.d_rate);
-        let mut reactions = std::mem::take(&mut state.reactions);
-        self.react(&state.d, &state.d_rate, &state.rotations, &mut reactions);
-        state.reactions = reactions;
-        let mut force = vec![0.0; self.rows()];
-        self.gather(&state.reactions, &mut force);
+        let State { d, d_rate, rotations, reactions, force, .. } = state;
+        self.react(d, d_rate, rotations, reactions, force);
         let mut a = DVector::zeros(self.size());
         self.load(state.time, &state.spin, &mut a);
         self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);
-        self.add_from_interface(&force, &mut a);
+        self.add_from_interface(&state.force, &mut a);
         state.a = a;
     }
 

@@ -152,7 +152,7 @@ pub fn tangents(model: &Model, speed: f64) -> Vec<SiteTangent> {
         .iter()
         .map(|site| match &site.bearing {
             Bearing::Linear(b) => LinearElement::new(b).tangent(speed),
-            Bearing::Ball(_) => panic!("the reference files have linear bearings only"),
+            _ => panic!("the reference files have linear bearings only"),
         })
         .collect()
 }

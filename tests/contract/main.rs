@@ -15,3 +15,4 @@ mod damaged;
 mod ehl_table;
 mod linear_bearing;
 mod preload;
+mod radial_ball;

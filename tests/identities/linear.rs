@@ -74,7 +74,7 @@ fn isotropic(node: usize, stiffness: f64) -> BearingSite {
 fn tangents(model: &Model) -> Vec<rotordyn::bearing::SiteTangent> {
     let one = |b: &BearingSite| match &b.bearing {
         Bearing::Linear(b) => rotordyn::bearing::LinearElement::new(b).tangent(0.0),
-        Bearing::Ball(_) => unreachable!("only linear bearings are built here"),
+        _ => unreachable!("only linear bearings are built here"),
     };
     model.bearings.iter().map(one).collect()
 }

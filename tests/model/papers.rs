@@ -20,7 +20,7 @@ fn balls(model: &Model) -> Vec<&BallBearing> {
         .iter()
         .filter_map(|site| match &site.bearing {
             Bearing::Ball(ball) => Some(ball),
-            Bearing::Linear(_) => None,
+            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
         })
         .collect()
 }

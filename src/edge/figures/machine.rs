@@ -4,7 +4,6 @@ use super::{Named, TO_RPM};
 use crate::analysis::Mode;
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::analysis::mode_kind::ModeKind;
-use crate::bearing::Bearing;
 use crate::edge::plot::{
     BallLoads, BallRow, BodyMotion, Deflection, Figure, Mark, ModeShape, ModeShapes, Rig, RigBelt, RigBlock,
     RigSection, RigSpring, RigSupport, Rotor, Whirl,
@@ -63,15 +62,15 @@ pub fn rig(machine: &Machine) -> Named {
     });
     let supports = model.bearings.iter().map(|site| {
         let (z, shaft) = (model.node_z[site.node], 0.5 * scene::shaft_diameter(model, site.node));
-        match &site.bearing {
-            Bearing::Ball(ball) => RigSupport {
+        match site.bearing.ball() {
+            Some(ball) => RigSupport {
                 label: format!("bearing {}", site.name),
                 z,
                 width: ball.geometry.width,
                 bore: 0.5 * ball.geometry.bore,
                 outside: 0.5 * ball.geometry.outside_diameter,
             },
-            Bearing::Linear(_) => plain_support(format!("bearing {}", site.name), z, shaft),
+            None => plain_support(format!("bearing {}", site.name), z, shaft),
         }
     });
     let joints = model.joints.iter().filter_map(|joint| {

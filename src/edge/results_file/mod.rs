@@ -169,13 +169,13 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     place.texts("dof", &[6], &["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"])?;
     for site in &model.bearings {
         let at = place.below(&format!("bearings/{}", site.name))?;
-        let Bearing::Ball(ball) = &site.bearing else {
+        let Some(ball) = site.bearing.ball() else {
             at.note("model", "linear")?;
             continue;
         };
         let g = &ball.geometry;
         let orders = g.orders(g.contact_angle);
-        at.note("model", "ball")?;
+        at.note("model", if matches!(site.bearing, Bearing::Ball(_)) { "ball" } else { "radial_ball" })?;
         at.note("condition", ball.imperfections.condition())?;
         at.note("balls", g.balls as i64)?;
         for (name, value) in [

@@ -113,6 +113,7 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
 fn takes_thrust(bearing: &Bearing) -> [bool; 2] {
     match bearing {
         Bearing::Linear(linear) => [linear.table.iter().any(|row| row.stiffness[2][2] != 0.0); 2],
+        Bearing::RadialBall(_) => [false; 2],
         Bearing::Ball(ball) => match ball.duplex {
             Some(Duplex { arrangement: Arrangement::BackToBack | Arrangement::FaceToFace, .. }) => [true; 2],
             _ if ball.geometry.contact_angle == 0.0 && ball.preload == Preload::None => [true; 2],

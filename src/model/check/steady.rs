@@ -1,7 +1,6 @@
 //! The studies at steady speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::study::{channels, integrator};
-use crate::bearing::Bearing;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, positive};
 use crate::model::file::tree::{Node, Value};
@@ -68,10 +67,7 @@ fn steady(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>, [settle, perio
 fn clock(r: &Reader, model: &Model) -> Clock {
     let kinds = [("shaft", 0), ("cage", 1), ("ball-pass", 2)];
     let kind = r.choice("section", &kinds).unwrap_or(0);
-    let balls = |site: &crate::model::BearingSite| match &site.bearing {
-        Bearing::Ball(ball) => Some(ball.geometry.balls),
-        Bearing::Linear(_) => None,
-    };
+    let balls = |site: &crate::model::BearingSite| site.bearing.ball().map(|ball| ball.geometry.balls);
     let with_balls = || model.bearings.iter().enumerate().filter_map(|(k, s)| balls(s).map(|z| (k, s, z)));
     let wanted = r.text("bearing");
     if let Some(name) = wanted

@@ -329,7 +329,7 @@ fn named_order(text: &str, model: &Model) -> Result<f64, String> {
     let (wanted, frequency) = name.rsplit_once('.').map_or((None, name), |(b, f)| (Some(b), f));
     let mut found: Vec<f64> = Vec::new();
     for site in &model.bearings {
-        if let Bearing::Ball(ball) = &site.bearing
+        if let Some(ball) = site.bearing.ball()
             && wanted.is_none_or(|w| w == site.name || w.strip_prefix("bearing.") == Some(&site.name))
         {
             let g = &ball.geometry;

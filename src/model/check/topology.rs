@@ -72,6 +72,7 @@ fn tilting(top: &Reader, model: &Model) {
     let bearings = model.bearings.iter().map(|site| {
         let holds = match &site.bearing {
             Bearing::Ball(_) => (true, true),
+            Bearing::RadialBall(_) => (true, false),
             Bearing::Linear(linear) => {
                 let any = |i: usize| linear.table.iter().any(|row| stiff(&row.stiffness, i));
                 (any(0) || any(1), any(3) && any(4))

@@ -1,0 +1,232 @@
+//! Ball bearing in its plane with one radial coordinate per ball (Upadhyay, Harsha & Jain 2009).
+//!
+//! Ball j is carried round by the cage at ψ_j and free to move along e_r(ψ_j) between the races. Its coordinate y_j is
+//! its radial place in the frame of the ground: with the housing displaced by h and the inner ring by h + d, its centre
+//! is at h + ρ e_r with ρ = ρ₀ + y − h·e_r, ρ₀ the radius at which it just touches the outer race. So taken, every
+//! ball has a constant mass, and T = ½ m Σ [(ẏ − ψ̇ h·e_t)² + (ḣ·e_t + ψ̇ ρ)²] leaves the housing the constant mass
+//! Z m/2 of balls that the cage carries along with it; the rest are forces. χ = |ρ e_r − d| is the exact distance from
+//! the centre of the inner race, n the unit vector along it, and the contacts are pressed in by
+//! δ_i = ρ_i − χ + w_i and δ_o = y − h·e_r + w_o. The forces that belong to d, h and y are
+//!
+//! Q_d = −Σ F_i n, Q_h = Σ (F_o − F_i n_r) e_r − 2 m ψ̇ ρ̇ e_t,
+//! Q_y = F_i n_r − F_o + m (ψ̇² (ρ − h·e_r) + 2 ψ̇ ḣ·e_t + g·e_r).
+//!
+//! The cage rides on the housing, which takes its tangential forces; its angular acceleration is left out (m h ψ̈).
+//!
+//! Source: Upadhyay 2009 eq. 6-8 and Appendices A and B, with the sign of ρ θ̇² set right and the two terms d(k)/dρ,
+//! which count the contact force twice, left out; the paper's housing stands still.
+
+mod ball;
+mod settled;
+mod step;
+mod tangent;
+
+use std::f64::consts::{PI, TAU};
+
+use ball::{Acting, Seen};
+pub use step::StepGain;
+pub use tangent::RadialTangent;
+
+use super::{BallBearing, Cage, Deviation, Profile, Reaction, Rotation};
+
+/// Ball bearing in its plane, every ball a mass with a radial coordinate of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RadialBallBearing {
+    /// Geometry, materials, dry contacts, cage and races; what else it says is not used.
+    pub ball: BallBearing,
+    /// Damping in proportion to stiffness, C in F = K δ^{3/2} + (3/2) C K δ^{1/2} δ̇, at both races \[s\].
+    ///
+    /// Source: Upadhyay 2009 eq. B.1-B.5 with p = 1.
+    pub stiffness_damping: [f64; 2],
+    /// Whether a contact that springs apart may pull while its bodies are still pressed in, as the paper's law does;
+    /// else it lets go.
+    pub pulls: bool,
+    /// Gravity in the bearing's plane \[m/s²\].
+    pub gravity: [f64; 2],
+}
+
+impl RadialBallBearing {
+    /// Mass of a ball \[kg\].
+    pub fn ball_mass(&self) -> f64 {
+        self.ball.ball_material.density * PI / 6.0 * self.ball.geometry.ball_diameter.powi(3)
+    }
+
+    /// Mass Z m/2 of the balls that moves with the housing across the line of every ball \[kg\].
+    pub fn carried_mass(&self) -> f64 {
+        0.5 * self.ball.geometry.balls as f64 * self.ball_mass()
+    }
+}
+
+/// Where the rings are: d of the inner one from the outer one, h of the outer one (the housing) from its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rings {
+    /// d and h along x and y \[m\]; ḋ and ḣ \[m/s\].
+    pub shift: [f64; 2],
+    pub frame: [f64; 2],
+    pub shift_rate: [f64; 2],
+    pub frame_rate: [f64; 2],
+}
+
+impl Rings {
+    /// From interface rows d_x d_y and, where the housing moves, h_x h_y.
+    pub fn from_rows(d: &[f64], rate: &[f64]) -> Self {
+        let pair = |rows: &[f64], k: usize| match rows.get(k..k + 2) {
+            Some(&[x, y]) => [x, y],
+            _ => [0.0; 2],
+        };
+        Self { shift: pair(d, 0), frame: pair(d, 2), shift_rate: pair(rate, 0), frame_rate: pair(rate, 2) }
+    }
+}
+
+/// The bearing made ready for evaluation.
+#[derive(Clone, Debug)]
+pub struct RadialElement {
+    stiffness: [f64; 2],
+    damping: [f64; 2],
+    pulls: bool,
+    mass: f64,
+    gravity: [f64; 2],
+    /// Radius ρ₀ of a ball's centre that just touches the outer race, and its distance ρ_i from the centre of an inner
+    /// race that it just touches \[m\].
+    outer_reach: f64,
+    inner_reach: f64,
+    cage: Cage,
+    ball_to_pitch: f64,
+    /// cos and sin of 2πj/Z.
+    spacing: Vec<[f64; 2]>,
+    /// Deviations of races and balls; `None` when they are perfect.
+    profile: Option<Box<Profile>>,
+}
+
+impl RadialElement {
+    /// Prepares a bearing for evaluation.
+    pub fn new(bearing: &RadialBallBearing) -> Self {
+        let g = &bearing.ball.geometry;
+        let spacing = (0..g.balls).map(|j| {
+            let (sin, cos) = (TAU * j as f64 / g.balls as f64).sin_cos();
+            [cos, sin]
+        });
+        let pair = bearing.ball.hertz();
+        Self {
+            stiffness: [pair.inner.stiffness, pair.outer.stiffness],
+            damping: bearing.stiffness_damping,
+            pulls: bearing.pulls,
+            mass: bearing.ball_mass(),
+            gravity: bearing.gravity,
+            outer_reach: 0.5 * g.pitch_diameter + 0.25 * g.radial_clearance,
+            inner_reach: 0.5 * g.pitch_diameter - 0.25 * g.radial_clearance,
+            cage: bearing.ball.cage,
+            ball_to_pitch: g.ball_diameter / g.pitch_diameter,
+            spacing: spacing.collect(),
+            profile: Profile::new(g, &bearing.ball.imperfections, 0, bearing.ball.cage_angle, pair.stiffness)
+                .map(Box::new),
+        }
+    }
+
+    /// Number of balls Z.
+    pub fn balls(&self) -> usize {
+        self.spacing.len()
+    }
+
+    /// Mass of a ball \[kg\].
+    pub fn ball_mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Cage speed over shaft speed: ½ (1 − D_w/D_pw) = r/(r + R) (Upadhyay 2009 eq. 1), or the given ratio.
+    pub fn cage_ratio(&self) -> f64 {
+        match self.cage {
+            Cage::Rolling => 0.5 * (1.0 - self.ball_to_pitch),
+            Cage::Ratio(ratio) => ratio,
+        }
+    }
+
+    /// Forces at places y \[m\] and rates ẏ \[m/s\] of the balls: on d and h in the reaction (rows d_x d_y h_x h_y),
+    /// on y in `force`; no tangents.
+    pub fn act(
+        &self,
+        rings: &Rings,
+        [places, rates]: [&[f64]; 2],
+        rotation: &Rotation,
+        force: &mut [f64],
+    ) -> Reaction {
+        let mut sum = Sum::default();
+        self.each(rings, rotation, |j, seen| {
+            let acting = self.ball(&seen, places[j], rates[j]);
+            force[j] = acting.force;
+            sum.add(&seen, &acting, rates[j], self.mass);
+        });
+        sum.reaction()
+    }
+
+    /// Calls `visit` with every ball's number and what it sees.
+    #[inline(always)]
+    fn each(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(usize, Seen)) {
+        let passing = self.profile.as_ref().map(|profile| profile.at(rotation));
+        let (sin, cos) = rotation.cage_angle.sin_cos();
+        for (j, [cj, sj]) in self.spacing.iter().enumerate() {
+            let (c, s) = (cos * cj - sin * sj, sin * cj + cos * sj);
+            let local = |v: &[f64; 2]| [v[0] * c + v[1] * s, v[1] * c - v[0] * s];
+            let deviation = passing.map_or(Deviation::default(), |passing| passing.ball(j));
+            visit(
+                j,
+                Seen {
+                    cos: c,
+                    sin: s,
+                    shift: local(&rings.shift),
+                    frame: local(&rings.frame),
+                    shift_rate: local(&rings.shift_rate),
+                    frame_rate: local(&rings.frame_rate),
+                    turning: rotation.cage_speed,
+                    weight: self.mass * local(&self.gravity)[0],
+                    deviation: deviation.height,
+                    deviation_rate: deviation.rate,
+                },
+            );
+        }
+    }
+}
+
+/// What all balls do to the rings.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    /// On d_x d_y h_x h_y.
+    force: [f64; 4],
+    energy: f64,
+    dissipated: f64,
+    power: f64,
+}
+
+impl Sum {
+    /// Adds a ball that moves at ẏ.
+    fn add(&mut self, seen: &Seen, acting: &Acting, rate: f64, mass: f64) {
+        let [dr, dt, hr, ht] = acting.on_rings(seen, mass);
+        let (c, s) = (seen.cos, seen.sin);
+        for (sum, f) in
+            self.force.iter_mut().zip([dr * c - dt * s, dr * s + dt * c, hr * c - ht * s, hr * s + ht * c])
+        {
+            *sum += f;
+        }
+        let [inner, outer] = &acting.contacts;
+        let closing = inner.force * acting.closing[0] + outer.force * acting.closing[1];
+        let [v, h] = [seen.shift_rate, seen.frame_rate];
+        let work = dr * v[0] + dt * v[1] + hr * h[0] + ht * h[1] + acting.force * rate;
+        self.energy += inner.energy + outer.energy;
+        self.dissipated += closing - inner.elastic * acting.closing[0] - outer.elastic * acting.closing[1];
+        // Of the power that rings and balls take from here, what the contacts do not give comes from the cage, the
+        // passing waves and gravity on the balls.
+        self.power += work + closing;
+    }
+
+    fn reaction(&self) -> Reaction {
+        let mut out = Reaction {
+            elastic_energy: self.energy,
+            dissipated_power: self.dissipated,
+            parametric_power: self.power,
+            mean_cos: 1.0,
+            ..Reaction::default()
+        };
+        out.force[..4].copy_from_slice(&self.force);
+        out
+    }
+}

@@ -1,0 +1,134 @@
+//! Statics and small motions: every ball settled between the races, its coordinate condensed.
+
+use super::ball::Acting;
+use super::tangent::Y;
+use super::{RadialElement, Rings, Seen};
+use crate::bearing::{BallLoad, Reaction, Rotation, root};
+
+impl RadialElement {
+    /// Force on the shaft with condensed tangents, every ball where contacts, centrifugal force and gravity balance.
+    ///
+    /// Stiffness K_dd − K_dy K_yy⁻¹ K_yd; damping of slow motions, in which the balls follow as they would at rest,
+    /// y = S d with S = −K_yy⁻¹ K_yd: C_dd + C_dy S + Sᵀ C_yd + Sᵀ C_yy S. The housing carries the balls' weight and
+    /// centrifugal force beside −f ([`Reaction::carried`]). A ball between both contacts takes no part.
+    ///
+    /// `d`, `v`: displacement and velocity of the shaft relative to the housing, of which x and y count.
+    pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        let rings = Rings { shift: [d[0], d[1]], ..Rings::default() };
+        let mut out = Reaction { mean_cos: 1.0, ..Reaction::default() };
+        self.each_settled(&rings, rotation, |seen, _, acting| {
+            let (c, s) = (seen.cos, seen.sin);
+            let [dr, dt, hr, _] = acting.on_rings(seen, self.mass);
+            out.force[0] += dr * c - dt * s;
+            out.force[1] += dr * s + dt * c;
+            out.carried[0] += hr * c;
+            out.carried[1] += hr * s;
+            out.elastic_energy += acting.contacts[0].energy + acting.contacts[1].energy;
+            let tangent = acting.tangent(seen, self.mass);
+            let (k, damping) = (&tangent.stiffness, &tangent.damping);
+            let follow = |column: usize| if k[Y][Y] > 0.0 { -k[Y][column] / k[Y][Y] } else { 0.0 };
+            let turn = [[c, -s], [s, c]];
+            for a in 0..2 {
+                for b in 0..2 {
+                    let stiff = k[a][b] + k[a][Y] * follow(b);
+                    let damp = damping[a][b]
+                        + damping[a][Y] * follow(b)
+                        + follow(a) * (damping[Y][b] + damping[Y][Y] * follow(b));
+                    for row in 0..2 {
+                        for column in 0..2 {
+                            let both = turn[row][a] * turn[column][b];
+                            out.stiffness[row][column] += both * stiff;
+                            out.damping[row][column] += both * damp;
+                        }
+                    }
+                }
+            }
+        });
+        for row in 0..2 {
+            for column in 0..2 {
+                out.force[row] -= out.damping[row][column] * v[column];
+                out.dissipated_power += v[row] * out.damping[row][column] * v[column];
+            }
+        }
+        out
+    }
+
+    /// The same averaged over one ball pitch of cage angles (`angles` of them), imperfections left out.
+    pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
+        let pitch = std::f64::consts::TAU / self.balls() as f64;
+        let perfect = Self { profile: None, ..self.clone() };
+        let mut out = Reaction::default();
+        for k in 0..angles {
+            let cage_angle = rotation.cage_angle + pitch * k as f64 / angles as f64;
+            out.add(
+                &perfect.reaction(d, &[0.0; 6], &Rotation { cage_angle, ..*rotation }),
+                1.0 / angles as f64,
+            );
+        }
+        out
+    }
+
+    /// Loads of every ball, settled.
+    pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
+        let rings = Rings { shift: [d[0], d[1]], ..Rings::default() };
+        let mut out = Vec::with_capacity(self.balls());
+        self.each_settled(&rings, rotation, |seen, _, acting| {
+            out.push(BallLoad {
+                row: 0,
+                position: seen.sin.atan2(seen.cos),
+                load: acting.contacts[0].force,
+                contact_angle: 0.0,
+                deflection: acting.depth[0] + acting.depth[1],
+                outer_load: acting.contacts[1].force,
+                outer_contact_angle: 0.0,
+                film: [0.0; 2],
+            });
+        });
+        out
+    }
+
+    /// Places y of the balls \[m\], settled, with the rings where they are.
+    pub fn settled_places(&self, rings: &Rings, rotation: &Rotation) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.balls());
+        self.each_settled(rings, rotation, |_, place, _| out.push(place));
+        out
+    }
+
+    /// Stiffness (3/2) K_o^{2/3} Q^{1/3} of a ball's outer contact under its centrifugal force and its weight \[N/m\].
+    pub fn seat_stiffness(&self, rotation: &Rotation) -> f64 {
+        let turning = self.turning(rotation);
+        let weight = self.gravity[0].hypot(self.gravity[1]);
+        let load = self.mass * (turning * turning * self.outer_reach + weight);
+        1.5 * (self.stiffness[1] * self.stiffness[1] * load).cbrt()
+    }
+
+    /// Speed of the cage, or where none is given (statics) what it is at the shaft's speed \[rad/s\].
+    fn turning(&self, rotation: &Rotation) -> f64 {
+        if rotation.cage_speed != 0.0 {
+            rotation.cage_speed
+        } else {
+            self.cage_ratio() * rotation.shaft_speed
+        }
+    }
+
+    /// Calls `visit` for every ball at rest in the turning cage: contacts, centrifugal force and weight in balance.
+    fn each_settled(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(&Seen, f64, &Acting)) {
+        // In a cage at rest the contacts do not move; what turning leaves is the centrifugal force.
+        let still = Rings { shift_rate: [0.0; 2], frame_rate: [0.0; 2], ..*rings };
+        let standing = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..*rotation };
+        let turning = self.turning(rotation);
+        self.each(&still, &standing, |_, seen| {
+            let flung = |lift: f64| self.mass * turning * turning * (self.outer_reach + lift);
+            let push = flung(0.0) + seen.weight;
+            let guess = push.signum() * (push.abs() / self.stiffness[1]).cbrt().powi(2);
+            let missing = |lift: f64| {
+                let acting = self.ball(&seen, seen.frame[0] + lift, 0.0);
+                let [inner, outer] = &acting.contacts;
+                let slope = inner.by_depth * acting.n[0] * acting.n[0] + outer.by_depth;
+                [-acting.force - flung(lift), slope]
+            };
+            let place = seen.frame[0] + root::rising(missing, guess);
+            visit(&seen, place, &self.ball(&seen, place, 0.0));
+        });
+    }
+}

@@ -1,0 +1,119 @@
+//! One implicit time step: the balls' equations solved one by one inside it.
+
+use super::ball::{Acting, Seen};
+use super::tangent::Y;
+use super::{RadialElement, Rings, Sum};
+use crate::bearing::{Reaction, Rotation};
+
+/// A ball's equation counts as solved when it is left with this force \[N\], or its place with this error \[m\].
+const FORCE: f64 = 1e-12;
+const PLACE: f64 = 1e-19;
+const MAX_ITERATIONS: usize = 200;
+
+/// How a step's end follows from the forces at it: places x̄ + `place` a, rates v̄ + `rate` a with accelerations a.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepGain {
+    /// β h² \[s²\] and γ h \[s\].
+    pub place: f64,
+    pub rate: f64,
+    /// Acceleration per force of a ball \[1/kg\].
+    pub ball: f64,
+}
+
+impl RadialElement {
+    /// Solves every ball's equation of a step for the force Q_y on it, with the rings where they are.
+    ///
+    /// y = ȳ + β h² Q/m′, ẏ = ẏ̄ + γ h Q/m′ with Q = Q_y(y, ẏ): a contact makes Q fall with y, so that Q − Q_y rises
+    /// and has one zero, which Newton kept in a bracket finds however sharply the contact begins. (A contact that pulls
+    /// lets it fall where it opens, over less than 1e-10 m; the bracket holds one zero then too.)
+    ///
+    /// `at`: places ȳ and rates ẏ̄ without Q, left at the step's end. `force`: Q, from a guess to the solution.
+    /// `follow`: −∂Q/∂(d_x d_y h_x h_y) on the way to the step's end, rates moving by γ/(β h) of the places.
+    /// The reaction's stiffness is that of rings and balls together on that way; its damping is in it.
+    pub fn step(
+        &self,
+        rings: &Rings,
+        [places, rates]: [&mut [f64]; 2],
+        rotation: &Rotation,
+        gain: &StepGain,
+        force: &mut [f64],
+        follow: &mut [[f64; 4]],
+    ) -> Reaction {
+        let mut sum = Sum::default();
+        let mut stiffness = [[0.0; 4]; 4];
+        let ratio = gain.rate / gain.place;
+        self.each(rings, rotation, |j, seen| {
+            let (load, acting) = self.solve(&seen, [places[j], rates[j]], gain, force[j]);
+            force[j] = load;
+            places[j] += gain.place * gain.ball * load;
+            rates[j] += gain.rate * gain.ball * load;
+            sum.add(&seen, &acting, rates[j], self.mass);
+
+            let tangent = acting.tangent(&seen, self.mass);
+            let both = |a: usize, b: usize| tangent.stiffness[a][b] + ratio * tangent.damping[a][b];
+            let own = 1.0 + gain.place * gain.ball * both(Y, Y);
+            let (c, s) = (seen.cos, seen.sin);
+            let global = |v: [f64; 4]| {
+                [v[0] * c - v[1] * s, v[0] * s + v[1] * c, v[2] * c - v[3] * s, v[2] * s + v[3] * c]
+            };
+            let taken: [f64; 4] = std::array::from_fn(|b| both(Y, b) / own);
+            follow[j] = global(taken);
+            let rows: [[f64; 4]; 4] = std::array::from_fn(|a| {
+                let back = gain.place * gain.ball * both(a, Y);
+                global(std::array::from_fn(|b| both(a, b) - back * taken[b]))
+            });
+            for b in 0..4 {
+                for (row, value) in
+                    stiffness.iter_mut().zip(global([rows[0][b], rows[1][b], rows[2][b], rows[3][b]]))
+                {
+                    row[b] += value;
+                }
+            }
+        });
+        let mut out = sum.reaction();
+        for (row, values) in out.stiffness.iter_mut().zip(stiffness) {
+            row[..4].copy_from_slice(&values);
+        }
+        out
+    }
+
+    /// Q and the ball under it.
+    #[inline(always)]
+    fn solve(&self, seen: &Seen, [place, rate]: [f64; 2], gain: &StepGain, guess: f64) -> (f64, Acting) {
+        let [by_place, by_rate] = [gain.place * gain.ball, gain.rate * gain.ball];
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut load = guess;
+        let mut acting = self.ball(seen, place + by_place * load, rate + by_rate * load);
+        for _ in 0..MAX_ITERATIONS {
+            let left = load - acting.force;
+            if left.abs() <= FORCE {
+                break;
+            }
+            let [inner, outer] = &acting.contacts;
+            let n = acting.n[0] * acting.n[0];
+            let slope = 1.0
+                + by_place * (inner.by_depth * n + outer.by_depth)
+                + by_rate * (inner.by_rate * n + outer.by_rate);
+            if left > 0.0 {
+                high = load;
+            } else {
+                low = load;
+            }
+            let mut next = load - left / slope;
+            if !(next > low && next < high) {
+                next = match low.is_finite() && high.is_finite() {
+                    true => 0.5 * (low + high),
+                    // On the same side as Newton's step wherever the force falls with y.
+                    false => acting.force,
+                };
+            }
+            let moved = by_place * (next - load).abs();
+            load = next;
+            acting = self.ball(seen, place + by_place * load, rate + by_rate * load);
+            if moved <= PLACE {
+                break;
+            }
+        }
+        (load, acting)
+    }
+}

@@ -1,0 +1,107 @@
+//! Tangents of one ball over the motions d_r d_t h_r h_t y in its own directions, and of the whole bearing.
+
+use super::ball::{Acting, Seen};
+use super::{RadialElement, Rings};
+use crate::bearing::Rotation;
+
+/// −∂Q/∂q and −∂Q/∂q̇ over q = (d_r d_t h_r h_t y).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BallTangent {
+    pub stiffness: [[f64; 5]; 5],
+    pub damping: [[f64; 5]; 5],
+}
+
+/// The place of y among the five.
+pub(super) const Y: usize = 4;
+
+/// Tangents of a whole bearing over d_x d_y h_x h_y and the balls.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RadialTangent {
+    /// −∂Q/∂q and −∂Q/∂q̇, rows and columns d_x d_y h_x h_y y_0 y_1 …
+    pub stiffness: Vec<Vec<f64>>,
+    pub damping: Vec<Vec<f64>>,
+}
+
+impl Acting {
+    /// Tangents at this place.
+    ///
+    /// With a = ρ e_r − d, n = a/χ and the drift ȧ, the inner contact sees δ_i through b = (n_r, n_t, n_r, 0, −n_r) and
+    /// δ̇_i through b q̇ + g q, g = −(w·∂a/∂q + n·∂ȧ/∂q), w = (ȧ − n (n·ȧ))/χ; its force acts along −b, whose
+    /// direction turns with n: ∂n/∂q = (1 − n nᵀ)/χ ∂a/∂q. The outer one sees b = (0, 0, −1, 0, 1).
+    pub(super) fn tangent(&self, seen: &Seen, mass: f64) -> BallTangent {
+        let [inner, outer] = &self.contacts;
+        let (n, turning) = (self.n, seen.turning);
+        let mut out = BallTangent::default();
+        let along = n[0] * self.drift[0] + n[1] * self.drift[1];
+        let w = [0, 1].map(|k| (self.drift[k] - n[k] * along) / self.distance);
+        let b = [n[0], n[1], n[0], 0.0, -n[0]];
+        let late = w[0] + n[1] * turning;
+        let g = [w[0], w[1], late, n[0] * turning, -late];
+        // ∂n_r/∂q and ∂n_t/∂q.
+        let p = [n[1] * n[1], -n[0] * n[1], n[0] * n[0]].map(|v| v / self.distance);
+        let swing = [[-p[0], -p[1], -p[0], 0.0, p[0]], [-p[1], -p[2], -p[1], 0.0, p[1]]];
+        for r in [0, 1, 2, Y] {
+            let turned = match r {
+                1 => &swing[1],
+                _ => &swing[0],
+            };
+            let sign = if r == Y { -1.0 } else { 1.0 };
+            for c in 0..5 {
+                out.stiffness[r][c] =
+                    b[r] * (inner.by_depth * b[c] + inner.by_rate * g[c]) + sign * inner.force * turned[c];
+                out.damping[r][c] = b[r] * inner.by_rate * b[c];
+            }
+        }
+        for (r, sign) in [(2, -1.0), (Y, 1.0)] {
+            out.stiffness[r][2] -= sign * outer.by_depth;
+            out.stiffness[r][Y] += sign * outer.by_depth;
+            out.stiffness[r][3] -= sign * outer.by_rate * turning;
+            out.damping[r][2] -= sign * outer.by_rate;
+            out.damping[r][Y] += sign * outer.by_rate;
+        }
+        // m ψ̇² (y − 2 h_r) + 2 m ψ̇ ḣ_t on y, −2 m ψ̇ (ẏ − ḣ_r − ψ̇ h_t) on h_t.
+        let (coriolis, centrifugal) = (2.0 * mass * turning, mass * turning * turning);
+        out.stiffness[Y][Y] -= centrifugal;
+        out.stiffness[Y][2] += 2.0 * centrifugal;
+        out.damping[Y][3] -= coriolis;
+        out.damping[3][Y] += coriolis;
+        out.damping[3][2] -= coriolis;
+        out.stiffness[3][3] -= coriolis * turning;
+        out
+    }
+}
+
+impl RadialElement {
+    /// Tangents over rings and balls at places y and rates ẏ.
+    pub fn tangent(&self, rings: &Rings, [places, rates]: [&[f64]; 2], rotation: &Rotation) -> RadialTangent {
+        let size = 4 + self.balls();
+        let mut out =
+            RadialTangent { stiffness: vec![vec![0.0; size]; size], damping: vec![vec![0.0; size]; size] };
+        self.each(rings, rotation, |j, seen| {
+            let tangent = self.ball(&seen, places[j], rates[j]).tangent(&seen, self.mass);
+            // Local directions from global ones: q_local = T q.
+            let (c, s) = (seen.cos, seen.sin);
+            let turn = [
+                (0, [(0, c), (1, s)]),
+                (1, [(0, -s), (1, c)]),
+                (2, [(2, c), (3, s)]),
+                (3, [(2, -s), (3, c)]),
+            ];
+            let terms = |local: usize| match turn.get(local) {
+                Some((_, terms)) => *terms,
+                None => [(4 + j, 1.0), (4 + j, 0.0)],
+            };
+            for a in 0..5 {
+                for b in 0..5 {
+                    for (row, f) in terms(a) {
+                        for (column, g) in terms(b) {
+                            out.stiffness[row][column] += f * g * tangent.stiffness[a][b];
+                            out.damping[row][column] += f * g * tangent.damping[a][b];
+                        }
+                    }
+                }
+            }
+        });
+        out
+    }
+}
