@@ -4,6 +4,7 @@
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line that joins them.
 
 use super::duplex::{motion_at, seen_from_station};
+use super::force::RowForce;
 use super::row::Row;
 use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
 use crate::contact::{ContactPatch, HertzPair};
@@ -113,6 +114,27 @@ impl BallElement {
     /// Limits: all balls unloaded gives zero force and zero tangents; the force never pulls.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         self.react(d, v, rotation, rotation.cage_speed, true)
+    }
+
+    /// The force of [`BallElement::reaction`] with its energy, powers and mean contact angle, to `out`.
+    ///
+    /// The tangents of `out` are as they happen to be; the force is the same up to round-off.
+    pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
+        let mut sum = RowForce::default();
+        for (place, row) in &self.rows {
+            match row.force(&motion_at(*place, d), &motion_at(*place, v), rotation) {
+                Some(part) => sum.add(&part, *place),
+                None => {
+                    *out = self.reaction(d, v, rotation);
+                    return;
+                }
+            }
+        }
+        out.force = sum.force;
+        out.elastic_energy = sum.energy;
+        out.parametric_power = sum.power;
+        out.dissipated_power = sum.dissipated;
+        out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.nominal_cos };
     }
 
     fn react(

@@ -30,6 +30,16 @@ impl BearingElement {
         }
     }
 
+    /// The force of [`BearingElement::reaction`] with its energy, powers and mean contact angle, to `out`, whose tangents
+    /// are left as they happen to be: what an explicit step asks for.
+    pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
+        match self {
+            Self::Linear(linear) => *out = linear.reaction(d, v, rotation.shaft_speed),
+            Self::Ball(ball) => ball.force(d, v, rotation, out),
+            Self::RadialBall(radial) => *out = radial.reaction(d, v, rotation),
+        }
+    }
+
     /// Static reaction averaged over one ball pitch of cage angles (`angles` of them).
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         match self {

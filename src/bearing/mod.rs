@@ -7,6 +7,7 @@ mod duplex;
 pub mod element;
 pub mod fit;
 mod flung;
+mod force;
 pub mod geometry;
 pub mod imperfections;
 mod jones;

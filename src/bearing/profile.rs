@@ -90,9 +90,14 @@ struct Turn {
 impl Turn {
     fn new(angle: f64, rate: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
+        Self { cos, sin, ..Self::on_defects(angle, rate) }
+    }
+
+    /// On a surface without waves, where cosine and sine are not asked for.
+    fn on_defects(angle: f64, rate: f64) -> Self {
         // rem_euclid of a tiny negative angle is 2π itself.
         let angle = angle.rem_euclid(TAU);
-        Self { angle: if angle < TAU { angle } else { 0.0 }, cos, sin, rate }
+        Self { angle: if angle < TAU { angle } else { 0.0 }, rate, ..Self::default() }
     }
 
     /// On by an angle in [0, 2π).
@@ -184,10 +189,14 @@ impl Profile {
     pub fn at(&self, rotation: &Rotation) -> Passing<'_> {
         let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
         let [by_cage, by_shaft] = self.spin;
+        let race = |race: &Raceway, angle, rate| match race.has_waves() {
+            true => Turn::new(angle, rate),
+            false => Turn::on_defects(angle, rate),
+        };
         Passing {
             profile: self,
-            inner: Turn::new(cage_angle - shaft_angle, cage_speed - shaft_speed),
-            outer: Turn::new(cage_angle, cage_speed),
+            inner: race(&self.inner, cage_angle - shaft_angle, cage_speed - shaft_speed),
+            outer: race(&self.outer, cage_angle, cage_speed),
             ball: if self.balls.is_empty() {
                 Turn::default()
             } else {
@@ -201,6 +210,22 @@ impl Profile {
 }
 
 impl Passing<'_> {
+    /// Calls `visit` with every ball that may deviate, with some more than once: of races with nothing but defects,
+    /// those at a defect.
+    #[inline]
+    pub fn each_deviating(&self, mut visit: impl FnMut(usize)) {
+        let profile = self.profile;
+        let balls = profile.places.len();
+        if !profile.balls.is_empty() || profile.inner.has_waves() || profile.outer.has_waves() {
+            (0..balls).for_each(visit);
+            return;
+        }
+        let spacing = TAU / balls as f64;
+        for (race, turn) in [(&profile.inner, &self.inner), (&profile.outer, &self.outer)] {
+            race.each_on_defect(turn.angle, spacing, |k| visit(k % balls));
+        }
+    }
+
     /// Deviation at the contacts of ball j, positive towards the ball where a race deviates.
     #[inline]
     pub fn ball(&self, j: usize) -> Deviation {

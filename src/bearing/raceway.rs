@@ -76,6 +76,24 @@ impl Raceway {
         out
     }
 
+    /// Calls `visit` with the number k of every ball on a defect, ball k being `spacing` k past an angle in [0, 2π);
+    /// k runs on past a turn.
+    #[inline]
+    pub fn each_on_defect(&self, angle: f64, spacing: f64, mut visit: impl FnMut(usize)) {
+        // Ball spacings by which a ball may miss a defect and still be visited: round-off and more.
+        const SLACK: f64 = 1e-9;
+        for feature in &self.defects {
+            // Two turns on, the defect is past ball 0 wherever that is.
+            let start = (2.0 * TAU + feature.start - angle) / spacing;
+            let end = start + feature.angle / spacing + SLACK;
+            let mut k = (start - SLACK) as usize + 1;
+            while k as f64 <= end {
+                visit(k);
+                k += 1;
+            }
+        }
+    }
+
     /// Σ ±|H|^{3/2} over the defects \[m^1.5\].
     pub fn powers(&self, angle: f64) -> f64 {
         let power = |[h, _]: [f64; 2]| h * h.abs().sqrt();

@@ -1,5 +1,6 @@
 //! One row of balls between two rings: where every ball stands, and the sum of what they do.
 
+use super::force::Lanes;
 use super::jones::{Balls, Fling, Laws, Settled};
 use super::preload::Seat;
 use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
@@ -12,17 +13,17 @@ use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContact
 pub(super) struct Row {
     pub contacts: BallContacts,
     /// Distance of the groove centres of an unloaded ball A = r_i + r_o − D_w \[m\].
-    centre_distance: f64,
+    pub centre_distance: f64,
     /// Radius of the circle of inner groove centres R_i \[m\].
-    arm: f64,
+    pub arm: f64,
     /// Groove-centre offset of the centred bearing: radial A cos α₀ − P_d/2, axial A sin α₀ \[m\]; P_d as mounted,
     /// at rest.
     offset: [f64; 2],
     /// The bearing whose clearance changes with speed.
     growing: Option<Box<BallBearing>>,
-    damping: ContactDamping,
+    pub damping: ContactDamping,
     /// The balls' inertia; `None` when they count as massless.
-    inertia: Option<Balls>,
+    pub inertia: Option<Balls>,
     /// Cage speed over shaft speed at the nominal contact angle, for statics.
     cage_ratio: f64,
     /// ±1: the way in which preload brings the inner ring.
@@ -34,6 +35,8 @@ pub(super) struct Row {
     spacing: Vec<[f64; 2]>,
     /// Deviations of races and balls; `None` when they are perfect.
     profile: Option<Box<Profile>>,
+    /// The places again, laid out for the force alone.
+    pub lanes: Lanes,
 }
 
 /// What holds for all balls of a row during one evaluation.
@@ -70,7 +73,7 @@ impl Row {
         let g = &bearing.geometry;
         let a = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let gamma = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
-        let spacing = (0..g.balls)
+        let spacing: Vec<_> = (0..g.balls)
             .map(|j| {
                 let angle = std::f64::consts::TAU * j as f64 / g.balls as f64;
                 [angle.cos(), angle.sin()]
@@ -91,6 +94,7 @@ impl Row {
             direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
             seat: Seat::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
+            lanes: Lanes::new(&spacing),
             spacing,
             profile: None,
         };
@@ -207,7 +211,7 @@ impl Row {
     }
 
     /// Whether defects push the balls, and loaded ones only.
-    fn force_law(&self, operating: &Operating) -> Option<bool> {
+    pub fn force_law(&self, operating: &Operating) -> Option<bool> {
         self.profile.as_deref().filter(|_| operating.imperfect)?.force_law()
     }
 
@@ -317,7 +321,7 @@ impl Row {
     }
 
     /// The races and balls where they are; at rest in statics.
-    fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
+    pub fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
         let profile = self.profile.as_deref().filter(|_| operating.imperfect)?;
         let shaft_speed = if operating.turning == 0.0 { 0.0 } else { rotation.shaft_speed };
         Some(profile.at(&Rotation { cage_speed: operating.turning, shaft_speed, ..*rotation }))

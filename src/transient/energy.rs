@@ -153,6 +153,9 @@ fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
 /// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.
 fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
     system.load(state.time, &state.spin, out);
+    if !system.panels.has_effective {
+        return;
+    }
     let n = system.structure();
     let x = &state.x.as_slice()[..n];
     scratch.clear();

@@ -14,6 +14,8 @@ struct Tableau {
     b: &'static [f64],
     /// b − b̂, for the embedded error estimate.
     error: &'static [f64],
+    /// Whether the last stage is the state at the step's end.
+    last_is_end: bool,
 }
 
 const RK4: Tableau = Tableau {
@@ -21,6 +23,7 @@ const RK4: Tableau = Tableau {
     a: &[&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
     b: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
     error: &[],
+    last_is_end: false,
 };
 
 /// Dormand & Prince 1980, RK5(4)7M.
@@ -45,6 +48,7 @@ const DORMAND_PRINCE: Tableau = Tableau {
         22.0 / 525.0,
         -1.0 / 40.0,
     ],
+    last_is_end: true,
 };
 
 /// Explicit integrator; owns its stages, so that a step allocates nothing.
@@ -101,7 +105,7 @@ impl RungeKutta {
         cage::advance(system, state, spin, &mut self.rotations);
         system.to_interface(&self.x, &mut self.d);
         system.to_interface(&self.v, &mut self.d_rate);
-        system.react(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
+        system.push(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
         system.load(time, spin, acceleration);
@@ -121,8 +125,14 @@ impl RungeKutta {
         spin: &dyn Fn(f64) -> Spin,
         tolerance: Option<(f64, f64)>,
     ) -> f64 {
-        let Tableau { c, a, b, error } = *self.tableau;
-        for stage in 0..c.len() {
+        let Tableau { c, a, b, error, last_is_end } = *self.tableau;
+        // The state's own acceleration is that of the first stage, but in a frame that has changed its acceleration.
+        let known = usize::from(system.drive.is_none());
+        if known > 0 {
+            self.stages[0].0.copy_from(&state.v);
+            self.stages[0].1.copy_from(&state.a);
+        }
+        for stage in known..c.len() {
             self.x.copy_from(&state.x);
             self.v.copy_from(&state.v);
             for (weight, (rate, acceleration)) in a[stage].iter().zip(&self.stages) {
@@ -151,17 +161,19 @@ impl RungeKutta {
                 return estimate;
             }
         }
-        self.x.copy_from(&state.x);
-        self.v.copy_from(&state.v);
-        for (weight, (rate, acceleration)) in b.iter().zip(&self.stages) {
-            self.x.axpy(step * weight, rate, 1.0);
-            self.v.axpy(step * weight, acceleration, 1.0);
-        }
         let end = spin(step);
-        self.evaluate(system, state, state.time + step, &end, 0);
+        if !last_is_end {
+            self.x.copy_from(&state.x);
+            self.v.copy_from(&state.v);
+            for (weight, (rate, acceleration)) in b.iter().zip(&self.stages) {
+                self.x.axpy(step * weight, rate, 1.0);
+                self.v.axpy(step * weight, acceleration, 1.0);
+            }
+            self.evaluate(system, state, state.time + step, &end, 0);
+        }
         state.x.copy_from(&self.x);
         state.v.copy_from(&self.v);
-        state.a.copy_from(&self.stages[0].1);
+        state.a.copy_from(&self.stages[if last_is_end { c.len() - 1 } else { 0 }].1);
         state.time += step;
         state.spin = end;
         state.rotations.copy_from_slice(&self.rotations);

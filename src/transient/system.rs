@@ -41,15 +41,22 @@ impl Interface {
 
     /// Reaction at displacements and velocities of all interfaces.
     fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
-        let (mut at, mut rate) = ([0.0; 6], [0.0; 6]);
-        at[..self.rows].copy_from_slice(&d[self.row_range()]);
-        rate[..self.rows].copy_from_slice(&d_rate[self.row_range()]);
+        let [at, rate] = self.motion(d, d_rate);
         self.element.reaction(&at, &rate, rotation)
     }
 
     /// Rings of a bearing in its plane.
     pub fn rings(&self, d: &[f64], d_rate: &[f64]) -> Rings {
         Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
+    }
+
+    /// Its relative displacement and velocity among those of all interfaces.
+    fn motion(&self, d: &[f64], d_rate: &[f64]) -> [[f64; 6]; 2] {
+        [d, d_rate].map(|all| {
+            let mut own = [0.0; 6];
+            own[..self.rows].copy_from_slice(&all[self.row_range()]);
+            own
+        })
     }
 }
 
@@ -109,13 +116,14 @@ pub struct System {
 /// The system's matrices laid out for the products of a time step.
 #[derive(Clone, Debug)]
 pub struct Panels {
-    /// \[C K G K_s\], and K_c where there is internal damping.
+    /// Those of \[C K G K_s K_c\] that are not zero.
     linear: Panel,
-    has_circulatory: bool,
+    is_there: [bool; 5],
     /// C alone.
     pub damping: Panel,
     /// \[K_s K_c\]: the terms of the left side that are neither spring nor damper nor gyroscope.
     pub effective: Panel,
+    pub has_effective: bool,
     /// W and Wᵀ.
     to_interface: Panel,
     from_interface: Panel,
@@ -127,13 +135,16 @@ impl Panels {
         [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
         interface_map: &DMatrix<f64>,
     ) -> Self {
-        let has_circulatory = circulatory.amax() != 0.0;
         let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
+        // The stiffness tells the number of rows, be it zero.
+        let is_there: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
+        let there: Vec<_> = all.iter().zip(is_there).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
         Self {
-            linear: Panel::new(&all[..if has_circulatory { 5 } else { 4 }]),
-            has_circulatory,
+            linear: Panel::new(&there),
+            is_there,
             damping: Panel::new(&[damping]),
             effective: Panel::new(&[spin_up, circulatory]),
+            has_effective: is_there[3] || is_there[4],
             to_interface: Panel::new(&[interface_map]),
             from_interface: Panel::new(&[&interface_map.transpose()]),
         }
@@ -212,11 +223,13 @@ impl System {
 
     /// External load p(t) without bearing forces, written to `out`.
     pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
-        let (sin, cos) = spin.angle.sin_cos();
         let (square, rate) = (spin.speed * spin.speed, spin.acceleration);
         out.copy_from(&self.static_load);
-        out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
-        out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
+        if self.unbalance.iter().flatten().any(|u| *u != 0.0) {
+            let (sin, cos) = spin.angle.sin_cos();
+            out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
+            out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
+        }
         if rate != 0.0 {
             out.axpy(rate, &self.spin_inertia, 1.0);
         }
@@ -242,13 +255,13 @@ impl System {
     ) {
         let n = self.structure();
         let (x, v) = (&x.as_slice()[..n], &v.as_slice()[..n]);
+        let Spin { speed, acceleration, .. } = *spin;
+        let factors = [(v, 1.0), (x, 1.0), (v, speed), (x, acceleration), (x, speed)];
         scratch.clear();
-        scratch.extend(v.iter().map(|v| weight * v));
-        scratch.extend(x.iter().map(|x| weight * x));
-        scratch.extend(v.iter().map(|v| weight * spin.speed * v));
-        scratch.extend(x.iter().map(|x| weight * spin.acceleration * x));
-        if self.panels.has_circulatory {
-            scratch.extend(x.iter().map(|x| weight * spin.speed * x));
+        for ((y, factor), there) in factors.into_iter().zip(self.panels.is_there) {
+            if there {
+                scratch.extend(y.iter().map(|y| weight * factor * y));
+            }
         }
         self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
     }
@@ -285,17 +298,44 @@ impl System {
         reactions: &mut [Reaction],
         force: &mut [f64],
     ) {
+        self.evaluate([d, d_rate], rotations, reactions, force, true);
+    }
+
+    /// The same without tangents, which are left as they happen to be: for explicit steps.
+    pub fn push(
+        &self,
+        d: &[f64],
+        d_rate: &[f64],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+    ) {
+        self.evaluate([d, d_rate], rotations, reactions, force, false);
+    }
+
+    fn evaluate(
+        &self,
+        [d, d_rate]: [&[f64]; 2],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+        tangents: bool,
+    ) {
         let (rows, on_balls) = force.split_at_mut(self.rows());
         for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
-            *reaction = match interface.element.radial() {
-                None => interface.reaction(d, d_rate, rotation),
+            match interface.element.radial() {
+                None if tangents => *reaction = interface.reaction(d, d_rate, rotation),
+                None => {
+                    let [at, rate] = interface.motion(d, d_rate);
+                    interface.element.force(&at, &rate, rotation, reaction);
+                }
                 Some(radial) => {
                     let rings = interface.rings(d, d_rate);
                     let balls = interface.ball_range();
                     let places = [d, d_rate].map(|y| &y[rows.len()..][balls.clone()]);
-                    radial.act(&rings, places, rotation, &mut on_balls[balls])
+                    *reaction = radial.act(&rings, places, rotation, &mut on_balls[balls]);
                 }
-            };
+            }
             rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
         }
     }
