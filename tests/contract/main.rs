@@ -13,6 +13,7 @@ mod bearing_solver;
 mod contact_laws;
 mod damaged;
 mod ehl_table;
+mod force_alone;
 mod linear_bearing;
 mod preload;
 mod radial_ball;

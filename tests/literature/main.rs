@@ -11,6 +11,9 @@ mod rig;
 mod ross;
 
 mod atef_2022;
+mod atef_2022_jerk;
+mod atef_2022_lines;
+mod atef_2022_records;
 mod bal_2022_contacts;
 mod bal_2022_frequencies;
 mod bal_2022_machine;

@@ -1,0 +1,103 @@
+//! What an explicit step asks for, the force without tangents, is the same as what comes with them.
+
+use crate::ball_bearing::Random;
+use crate::ball_combinations::{angular, each, lever, sample};
+use crate::bearing::rig_6205;
+use rotordyn::bearing::{
+    BallBearing, Bearing, BearingElement, Defect, DefectForm, DefectLaw, OffSize, Reaction, Rotation, Shape,
+    Surface,
+};
+
+/// The same up to the order of the sums over balls.
+fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) {
+    let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
+    let whole = element.reaction(d, v, rotation);
+    let mut alone = Reaction::default();
+    element.force(d, v, rotation, &mut alone);
+    // The balls' loads, which may cancel in the sum, with the damping of 0.01 m/s.
+    let loads: f64 = element.ball_loads(d, rotation).iter().map(|b| b.load.max(b.outer_load) + 3.0).sum();
+    for k in 0..6 {
+        let error = (alone.force[k] - whole.force[k]) / lever(k);
+        assert!(error.abs() < 1e-14 * loads, "{name}: force {k} {error:e} of {loads}");
+    }
+    let same = |what: &str, alone: f64, whole: f64, size: f64| {
+        assert!((alone - whole).abs() <= 1e-13 * size, "{name}: {what} {alone:e} instead of {whole:e}");
+    };
+    same("energy", alone.elastic_energy, whole.elastic_energy, whole.elastic_energy.abs());
+    same("power", alone.parametric_power, whole.parametric_power, 0.1 * loads);
+    same("loss", alone.dissipated_power, whole.dissipated_power, 0.1 * loads);
+    same("mean cos", alone.mean_cos, whole.mean_cos, 1.0);
+}
+
+#[test]
+fn of_every_combination() {
+    let mut random = Random(17);
+    each(|name, bearing| {
+        let (d, v, rotation) = sample(&mut random);
+        compare(name, bearing, &d, &v, &rotation);
+    });
+}
+
+/// Lanes that are full, and such that are not.
+#[test]
+fn of_any_number_of_balls() {
+    let mut random = Random(18);
+    for balls in 2..=40 {
+        for mut bearing in [rig_6205(), angular()] {
+            bearing.geometry.pitch_diameter = 120e-3;
+            bearing.geometry.balls = balls;
+            let (d, v, rotation) = sample(&mut random);
+            compare(&format!("{balls} balls"), &bearing, &d, &v, &rotation);
+        }
+    }
+}
+
+/// Balls on and beside narrow and wide defects, of every law; the cage creeps over them.
+#[test]
+fn of_races_with_defects() {
+    let dent = DefectForm::Dent { depth: None, shape: Shape::HalfSine };
+    let bump = DefectForm::Bump { height: 3e-7, shape: Shape::Cap };
+    let on = |on, start: f64, width, form| Defect { on, row: None, start, width, form };
+    let laws = [
+        DefectLaw::Displacement,
+        DefectLaw::UndampedDisplacement,
+        DefectLaw::Force { stiffness: None, on_loaded: true },
+    ];
+    let mut random = Random(19);
+    let mut seen = 0;
+    for law in laws {
+        for balls in [3, 9, 33] {
+            for sized in [false, true] {
+                let mut bearing = rig_6205();
+                bearing.geometry.pitch_diameter = 120e-3;
+                bearing.geometry.balls = balls;
+                bearing.geometry.radial_clearance = -6e-6;
+                bearing.imperfections.law = law;
+                bearing.imperfections.defects = vec![
+                    on(Surface::Outer, 0.0, 2e-3, bump),
+                    on(Surface::Outer, 6.2, 9e-3, bump),
+                    on(Surface::Inner, 0.3, 1e-3, dent),
+                ];
+                if sized {
+                    bearing.imperfections.off_size = vec![OffSize { ball: 1, by: 1e-7, row: None }];
+                }
+                let perfect = {
+                    let mut bearing = bearing.clone();
+                    bearing.imperfections = Default::default();
+                    BearingElement::new(&Bearing::Ball(bearing))
+                };
+                let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
+                for step in 0..200 {
+                    let (d, v, mut rotation) = sample(&mut random);
+                    let d = d.map(|d| 0.1 * d);
+                    rotation.cage_angle = 0.01 * step as f64;
+                    rotation.shaft_angle = 0.03 * step as f64;
+                    compare(&format!("{law:?} {balls} {sized} {step}"), &bearing, &d, &v, &rotation);
+                    let [worn, whole] = [&element, &perfect].map(|e| e.reaction(&d, &v, &rotation).force);
+                    seen += usize::from(worn != whole);
+                }
+            }
+        }
+    }
+    assert!(seen > 1000, "{seen} with a ball on a defect");
+}
