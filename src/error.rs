@@ -14,6 +14,9 @@ pub enum Error {
     /// A record that cannot serve as what was asked of it.
     #[error(transparent)]
     Record(#[from] crate::signal::record::RecordError),
+    /// A model that cannot be held against what was measured.
+    #[error(transparent)]
+    Update(#[from] crate::update::UpdateError),
     /// A file whose content cannot be used: what is wrong with it, and what to do.
     #[error("{}: {problem}; {advice}", path.display())]
     Content { path: PathBuf, problem: String, advice: String },
@@ -50,6 +53,8 @@ pub enum PhysicsError {
     NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
     #[error("bearing {bearing}, {race} race: {reason}")]
     Film { bearing: String, race: String, reason: String },
+    #[error("no derivative by the parameter: {reason}")]
+    NoDerivative { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
 }

@@ -110,6 +110,7 @@
 //! | [`assembly`] | degrees of freedom, matrices, joints eliminated, free motions |
 //! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
 //! | [`transient`] | reduction, time integration, energy account |
+//! | [`update`] | a model held against measured modes: pairs, sensitivities, least squares, what the data tell |
 //! | [`results`], [`study`] | what studies give, and the studies: one method of [`study::Machine`] each |
 //! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes: one owner each |
 //! | [`error`] | input, physics, environment |
@@ -137,6 +138,8 @@ pub mod assembly;
 pub mod analysis;
 
 pub mod transient;
+
+pub mod update;
 
 pub mod results;
 pub mod study;

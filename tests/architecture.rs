@@ -13,7 +13,7 @@ const LAYERS: [&[&str]; 11] = [
     &["assembly"],
     &["analysis"],
     &["transient"],
-    &["identify"],
+    &["identify", "update"],
     &["results", "study"],
     &["edge"],
 ];
@@ -31,7 +31,7 @@ const OWNERS: [(&[&str], &[&str]); 8] = [
 ];
 
 /// Modules that compute and must not touch files.
-const NO_FILES: [&str; 13] = [
+const NO_FILES: [&str; 14] = [
     "units",
     "material",
     "linalg",
@@ -44,6 +44,7 @@ const NO_FILES: [&str; 13] = [
     "analysis",
     "transient",
     "identify",
+    "update",
     "results",
 ];
 

@@ -57,14 +57,14 @@ impl Equilibrium {
     }
 }
 
-/// The bearings of a model at standstill, ready to be summed.
-struct Sites {
+/// The bearings of a model at a speed, ready to be summed.
+pub(super) struct Sites {
     elements: Vec<(BearingElement, Rotation)>,
     cage: CageTreatment,
 }
 
 impl Sites {
-    fn new(model: &Model, speed: f64, cage: CageTreatment) -> Self {
+    pub(super) fn new(model: &Model, speed: f64, cage: CageTreatment) -> Self {
         let elements = model
             .bearings
             .iter()
@@ -80,7 +80,7 @@ impl Sites {
         Self { elements, cage }
     }
 
-    fn reaction(&self, k: usize, d: &[f64; 6]) -> Reaction {
+    pub(super) fn reaction(&self, k: usize, d: &[f64; 6]) -> Reaction {
         let (element, rotation) = &self.elements[k];
         match self.cage {
             CageTreatment::AsPlaced => element.reaction(d, &[0.0; 6], rotation),
@@ -88,7 +88,7 @@ impl Sites {
         }
     }
 
-    fn reactions(&self, assembly: &Assembly, q: &[f64]) -> Vec<Reaction> {
+    pub(super) fn reactions(&self, assembly: &Assembly, q: &[f64]) -> Vec<Reaction> {
         assembly.sites.iter().enumerate().map(|(k, site)| self.reaction(k, &site.relative(q))).collect()
     }
 }
@@ -112,22 +112,14 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
-    let load: Vec<f64> =
-        assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect();
+    let load = load(assembly);
     let load_size = max_abs(&load).max(1e-6);
     let tolerance = 1e-10 * load_size;
     let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &full_pattern(assembly)]);
     let stiffness = layout.scatter(&assembly.stiffness);
     let mass = layout.scatter(&assembly.mass);
 
-    let residual_of = |q: &[f64], reactions: &[Reaction]| {
-        let mut r = load.clone();
-        assembly.stiffness.mul_add(-1.0, q, &mut r);
-        for (site, reaction) in assembly.sites.iter().zip(reactions) {
-            site.add_force(reaction, &mut r);
-        }
-        r
-    };
+    let residual_of = |q: &[f64], reactions: &[Reaction]| force_left(assembly, load.clone(), q, reactions);
 
     let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
     let mut reactions = sites.reactions(assembly, &q);
@@ -210,6 +202,25 @@ pub fn equilibrium(
     })
 }
 
+/// Gravity and constant loads.
+pub(super) fn load(assembly: &Assembly) -> Vec<f64> {
+    assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect()
+}
+
+/// What is left of a load beside the structure's and the bearings' forces, f − K q + Σ Rᵀ f_bearing.
+pub(super) fn force_left(
+    assembly: &Assembly,
+    mut load: Vec<f64>,
+    q: &[f64],
+    reactions: &[Reaction],
+) -> Vec<f64> {
+    assembly.stiffness.mul_add(-1.0, q, &mut load);
+    for (site, reaction) in assembly.sites.iter().zip(reactions) {
+        site.add_force(reaction, &mut load);
+    }
+    load
+}
+
 /// Largest ball load over [`CAGE_ANGLES`] positions within one ball pitch.
 fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
     let balls = element.balls();
@@ -223,7 +234,7 @@ fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation
 }
 
 /// Rᵀ K R over all sites.
-fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
+pub(super) fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut triplets = Triplets::new(n, n);
     for (site, reaction) in assembly.sites.iter().zip(reactions) {

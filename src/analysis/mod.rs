@@ -7,6 +7,7 @@
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | the same over speed, tracked by MAC |
 //! | [`critical_speed`] | speeds where a mode meets an order line |
+//! | [`sensitivity`] | exact derivatives of eigenvalues, shapes and FRFs by any parameter |
 //! | [`stability`] | speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
 //! | [`unbalance`] | steady response to unbalance over speed |
@@ -18,6 +19,7 @@ pub mod equilibrium;
 pub mod frf;
 pub mod modal;
 pub mod mode_kind;
+pub mod sensitivity;
 pub mod stability;
 pub mod unbalance;
 

@@ -183,6 +183,15 @@ impl SparseMatrix {
         y
     }
 
+    /// Aᵀ.
+    pub fn transposed(&self) -> SparseMatrix {
+        let mut out = Triplets::new(self.cols(), self.rows);
+        for (i, j, v) in self.iter() {
+            out.add(j, i, v);
+        }
+        out.build()
+    }
+
     /// Σ factor × matrix over matrices of one size.
     pub fn sum(terms: &[(f64, &SparseMatrix)]) -> SparseMatrix {
         let (rows, cols) = terms.first().map_or((0, 0), |(_, a)| (a.rows(), a.cols()));

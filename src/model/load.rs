@@ -165,15 +165,15 @@ pub fn load_bearings(
 }
 
 /// A file as a tree, varied but not yet checked.
-struct Document {
-    root: Table,
+pub(super) struct Document {
+    pub(super) root: Table,
     sources: Sources,
     log: Log,
     text: String,
 }
 
 impl Document {
-    fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Self, ModelErrors> {
+    pub(super) fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Self, ModelErrors> {
         let mut sources = Sources::default();
         let log = Log::default();
         let text = match std::str::from_utf8(bytes) {

@@ -4,6 +4,7 @@ pub mod check;
 pub mod file;
 pub mod load;
 pub mod speed_profile;
+pub mod stated;
 mod steady_study;
 pub mod study;
 

@@ -4,8 +4,11 @@
 mod lubricated;
 #[path = "../common/machine.rs"]
 mod machine;
+#[path = "../common/rig.rs"]
+mod rig;
 
 mod ehl;
 mod follow_speed;
 mod linear;
 mod planes;
+mod sensitivity;

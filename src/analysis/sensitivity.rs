@@ -1,0 +1,315 @@
+//! Derivatives of eigenvalues, mode shapes and FRFs by a parameter of the model.
+//!
+//! The matrices' derivatives come from two assemblies at p ± h. Where a matrix is linear in the parameter (stiffness
+//! and damping of housings, bushings, belts and linear bearings) their difference is exact to rounding; elsewhere it is
+//! off by h². Through nonlinear bearings the equilibrium moves with the parameter, and the tangents with it:
+//! q′ follows by implicit differentiation, (K + K_t) q′ = ∂r/∂p, and the tangents are taken at q ± h q′.
+//! From there on everything is analytic: left and right vectors, no eigenvalue is computed twice.
+
+use super::equilibrium::{CageTreatment, Equilibrium, Sites, bearing_matrix, equilibrium, force_left, load};
+use super::modal::inner;
+use crate::assembly::{Assembly, LinearSystem};
+use crate::bearing::SiteTangent;
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{BandLayout, Complex64, SparseMatrix, SparseRow, Triplets};
+use crate::model::{Model, Quantity};
+use std::f64::consts::TAU;
+
+use super::frf::derivative as time_derivative;
+
+/// A machine linearised about its equilibrium at one speed, ball bearings averaged over the cage's position.
+#[derive(Clone, Debug)]
+pub struct Linearised {
+    pub model: Model,
+    pub assembly: Assembly,
+    pub equilibrium: Equilibrium,
+    pub system: LinearSystem,
+}
+
+impl Linearised {
+    /// Assembles, finds the equilibrium at `speed` Ω \[rad/s\] from `start` or from rest, and linearises.
+    ///
+    /// # Errors
+    /// A mass matrix that is not definite, or no equilibrium.
+    pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, Error> {
+        let assembly = Assembly::new(&model)?;
+        let start = start.filter(|q| q.len() == assembly.dofs.len());
+        let found = equilibrium(&model, &assembly, speed, CageTreatment::Averaged, start)?;
+        let system = LinearSystem::new(&assembly, &found.tangents(), speed)?;
+        Ok(Self { model, assembly, equilibrium: found, system })
+    }
+
+    /// dM/dp, dD/dp and dS/dp from the model at p − h and at p + h, `width` = 2h apart in p's own measure.
+    ///
+    /// # Errors
+    /// A parameter that changes which motions are free (a length that moves the mesh), or a singular tangent.
+    pub fn derivative(&self, below: &Model, above: &Model, width: f64) -> Result<SystemDerivative, Error> {
+        let speed = self.system.speed;
+        let q = &self.equilibrium.q;
+        let side = |model: &Model| -> Result<Side, Error> {
+            let assembly = Assembly::new(model)?;
+            let sites = Sites::new(model, speed, CageTreatment::Averaged);
+            if assembly.dofs.free != self.assembly.dofs.free {
+                let reason = "it changes the mesh or which motions are free".into();
+                return Err(PhysicsError::NoDerivative { reason }.into());
+            }
+            Ok(Side { assembly, sites })
+        };
+        let (below, above) = (side(below)?, side(above)?);
+        let change: Vec<f64> =
+            above.force_left(q).iter().zip(below.force_left(q)).map(|(a, b)| (a - b) / width).collect();
+        let moved = self.equilibrium_shift(change)?;
+        let at = |side: &Side, way: f64| {
+            let there: Vec<f64> = q.iter().zip(&moved).map(|(q, m)| q + way * 0.5 * width * m).collect();
+            LinearSystem::new(&side.assembly, &side.tangents(&there), speed)
+        };
+        let (low, high) = (at(&below, -1.0)?, at(&above, 1.0)?);
+        let slope =
+            |a: &SparseMatrix, b: &SparseMatrix| SparseMatrix::sum(&[(1.0 / width, b), (-1.0 / width, a)]);
+        Ok(SystemDerivative {
+            mass: slope(&low.mass, &high.mass),
+            damping: slope(&low.damping, &high.damping),
+            stiffness: slope(&low.stiffness, &high.stiffness),
+        })
+    }
+
+    /// q′ of (K + K_t) q′ = `change`.
+    fn equilibrium_shift(&self, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
+        if change.iter().all(|r| *r == 0.0) {
+            return Ok(change);
+        }
+        let sites = Sites::new(&self.model, self.system.speed, CageTreatment::Averaged);
+        let reactions = sites.reactions(&self.assembly, &self.equilibrium.q);
+        let bearings = bearing_matrix(&self.assembly, &reactions);
+        let (mass, stiffness) = (&self.assembly.mass, &self.assembly.stiffness);
+        let layout = BandLayout::new(&[mass, stiffness, &bearings]);
+        // (2π · 0.002 Hz)² M holds what is free to move; against any spring it is nothing.
+        const HOLD: f64 = 1e-4;
+        let tangent = SparseMatrix::sum(&[(1.0, stiffness), (1.0, &bearings), (HOLD, mass)]);
+        let lu = layout
+            .factor::<f64>(layout.scatter(&tangent))
+            .map_err(|p| PhysicsError::Singular { motion: self.assembly.dofs.name(p.unknown) })?;
+        lu.solve(&mut change);
+        Ok(change)
+    }
+}
+
+/// A neighbour of the model.
+struct Side {
+    assembly: Assembly,
+    sites: Sites,
+}
+
+impl Side {
+    fn force_left(&self, q: &[f64]) -> Vec<f64> {
+        force_left(&self.assembly, load(&self.assembly), q, &self.sites.reactions(&self.assembly, q))
+    }
+
+    fn tangents(&self, q: &[f64]) -> Vec<SiteTangent> {
+        self.sites.reactions(&self.assembly, q).iter().map(SiteTangent::from).collect()
+    }
+}
+
+/// Derivatives of M, D and S by one parameter, the equilibrium's shift included.
+#[derive(Clone, Debug)]
+pub struct SystemDerivative {
+    pub mass: SparseMatrix,
+    pub damping: SparseMatrix,
+    pub stiffness: SparseMatrix,
+}
+
+impl SystemDerivative {
+    /// (λ² dM + λ dD + dS) φ.
+    pub fn apply(&self, value: Complex64, shape: &[Complex64]) -> Vec<Complex64> {
+        let [m, d, s] = [&self.mass, &self.damping, &self.stiffness].map(|matrix| matrix.mul_complex(shape));
+        (0..s.len()).map(|i| value * value * m[i] + value * d[i] + s[i]).collect()
+    }
+
+    /// Whether the parameter changes nothing.
+    pub fn is_zero(&self) -> bool {
+        [&self.mass, &self.damping, &self.stiffness].iter().all(|m| m.max_abs() == 0.0)
+    }
+}
+
+/// One eigenpair made ready to be differentiated by any number of parameters.
+pub struct ModeSensitivity<'a> {
+    system: &'a LinearSystem,
+    value: Complex64,
+    right: &'a [Complex64],
+    left: Vec<Complex64>,
+    /// ψᵀ (2λ M + D) φ.
+    norm: Complex64,
+    /// (2λ M + D) φ.
+    weighted: Vec<Complex64>,
+}
+
+/// Entries of D and S that mirror each other within this share of the largest make the matrices symmetric.
+const SYMMETRIC: f64 = 1e-9;
+
+impl<'a> ModeSensitivity<'a> {
+    /// Finds the left vector of an eigenpair λ, φ of (λ² M + λ D + S) φ = 0: φ itself where the matrices are symmetric,
+    /// else by inverse iteration on the transposed problem.
+    ///
+    /// # Errors
+    /// A defective eigenvalue, whose left and right vectors are orthogonal: it has no derivative.
+    pub fn new(system: &'a LinearSystem, value: Complex64, right: &'a [Complex64]) -> Result<Self, Error> {
+        let left = left_vector(system, value, right)?;
+        let (m, d) = (system.mass.mul_complex(right), system.damping.mul_complex(right));
+        let weighted: Vec<Complex64> = m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect();
+        let norm = product(&left, &weighted);
+        let size = inner(&left, &left).re.sqrt() * inner(&weighted, &weighted).re.sqrt();
+        if norm.norm() <= 1e-12 * size {
+            let reason = format!("the eigenvalue at {:.3} Hz is defective", value.im / TAU);
+            return Err(PhysicsError::NoDerivative { reason }.into());
+        }
+        Ok(Self { system, value, right, left, norm, weighted })
+    }
+
+    /// λ′ = −ψᵀ (λ² dM + λ dD + dS) φ / ψᵀ (2λ M + D) φ, of a simple eigenvalue.
+    pub fn eigenvalue(&self, by: &SystemDerivative) -> Complex64 {
+        -product(&self.left, &by.apply(self.value, self.right)) / self.norm
+    }
+
+    /// φ′ by every parameter, with its largest component held (Nelson's method, one factorisation for all).
+    ///
+    /// Any multiple of φ may be added: it only scales the shape.
+    ///
+    /// # Errors
+    /// A double eigenvalue, whose shapes are not defined alone.
+    pub fn shapes(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
+        let held = (0..self.right.len())
+            .max_by(|&a, &b| {
+                let size = |i: usize| (self.right[i] * self.left[i]).norm_sqr();
+                size(a).total_cmp(&size(b))
+            })
+            .unwrap_or(0);
+        let without = |a: &SparseMatrix, diagonal: f64| {
+            let mut out = Triplets::new(a.rows(), a.cols());
+            a.iter().filter(|(i, j, _)| *i != held && *j != held).for_each(|(i, j, v)| out.add(i, j, v));
+            out.add(held, held, diagonal);
+            out.build()
+        };
+        let system = self.system;
+        let scale = system.stiffness.get(held, held).abs().max(f64::MIN_POSITIVE);
+        let matrices =
+            [without(&system.mass, 0.0), without(&system.damping, 0.0), without(&system.stiffness, scale)];
+        let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
+        let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
+        let value = self.value;
+        let values = (0..s.len()).map(|k| value * value * m[k] + value * d[k] + s[k]).collect();
+        let lu = layout.factor::<Complex64>(values).map_err(|_| PhysicsError::NoDerivative {
+            reason: format!("two modes share {:.3} Hz, and their shapes are not unique", value.im / TAU),
+        })?;
+        let solve = |by: &&SystemDerivative| {
+            let slope = self.eigenvalue(by);
+            let mut b: Vec<Complex64> = by
+                .apply(value, self.right)
+                .iter()
+                .zip(&self.weighted)
+                .map(|(f, w)| -(f + slope * w))
+                .collect();
+            b[held] = Complex64::default();
+            lu.solve(&mut b);
+            b
+        };
+        Ok(by.iter().map(solve).collect())
+    }
+}
+
+/// aᵀ b, not conjugated.
+fn product(a: &[Complex64], b: &[Complex64]) -> Complex64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn symmetric(a: &SparseMatrix) -> bool {
+    let largest = a.max_abs();
+    a.iter().all(|(i, j, v)| (v - a.get(j, i)).abs() <= SYMMETRIC * largest)
+}
+
+/// ψ of ψᵀ (λ² M + λ D + S) = 0.
+fn left_vector(
+    system: &LinearSystem,
+    value: Complex64,
+    right: &[Complex64],
+) -> Result<Vec<Complex64>, Error> {
+    if symmetric(&system.damping) && symmetric(&system.stiffness) {
+        return Ok(right.to_vec());
+    }
+    let matrices = [&system.mass, &system.damping, &system.stiffness].map(SparseMatrix::transposed);
+    let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
+    let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
+    // Next to the eigenvalue, so that the factors exist and one step gains eight digits.
+    let near = value * (1.0 + 1e-8);
+    let values = (0..s.len()).map(|k| near * near * m[k] + near * d[k] + s[k]).collect();
+    let lu = layout.factor::<Complex64>(values).map_err(|_| PhysicsError::NoDerivative {
+        reason: format!("the mode at {:.3} Hz has no left vector", value.im / TAU),
+    })?;
+    // ψ of a rotor is near the conjugate of φ.
+    let mut left: Vec<Complex64> = right.iter().map(|v| v.conj()).collect();
+    for _ in 0..4 {
+        lu.solve(&mut left);
+        let size = inner(&left, &left).re.sqrt();
+        left.iter_mut().for_each(|v| *v /= size);
+    }
+    Ok(left)
+}
+
+/// FRFs and their derivatives at one frequency after another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrfSensitivity {
+    /// H\[response\]\[excitation\]\[frequency\].
+    pub values: Vec<Vec<Vec<Complex64>>>,
+    /// dH/dp\[parameter\]\[response\]\[excitation\]\[frequency\].
+    pub slopes: Vec<Vec<Vec<Vec<Complex64>>>>,
+}
+
+/// H = (jω)^p r A⁻¹ eᵀ and H′ = −(jω)^p r A⁻¹ (dS − ω² dM + jω dD) A⁻¹ eᵀ, A = S − ω² M + jω D.
+///
+/// `frequencies` in Hz; one banded complex factorisation each.
+///
+/// # Errors
+/// A frequency at which the dynamic stiffness is singular, by the motion's name.
+pub fn frf_sensitivity(
+    at: &Linearised,
+    frequencies: &[f64],
+    excitations: &[SparseRow],
+    responses: &[SparseRow],
+    quantities: &[Quantity],
+    by: &[&SystemDerivative],
+) -> Result<FrfSensitivity, Error> {
+    let system = &at.system;
+    let matrices = [&system.mass, &system.damping, &system.stiffness];
+    let layout = BandLayout::new(&matrices);
+    let [m, d, s] = matrices.map(|a| layout.scatter(a));
+    let empty = vec![vec![Vec::with_capacity(frequencies.len()); excitations.len()]; responses.len()];
+    let mut out = FrfSensitivity { values: empty.clone(), slopes: vec![empty; by.len()] };
+    let mut lu = layout.workspace::<Complex64>();
+    for &hz in frequencies {
+        let omega = TAU * hz;
+        let value = Complex64::new(0.0, omega);
+        lu.refactor(|k| Complex64::new(s[k] - omega * omega * m[k], omega * d[k])).map_err(|pivot| {
+            let name = at.assembly.dofs.name(pivot.unknown);
+            PhysicsError::Singular { motion: format!("at {hz} Hz {name}") }
+        })?;
+        for (e, excitation) in excitations.iter().enumerate() {
+            let mut q = vec![Complex64::default(); layout.size()];
+            excitation.0.iter().for_each(|&(i, v)| q[i] += v);
+            lu.solve(&mut q);
+            let read = |q: &[Complex64], r: usize| {
+                time_derivative(quantities[r], omega) * responses[r].dot_complex(q)
+            };
+            for r in 0..responses.len() {
+                out.values[r][e].push(read(&q, r));
+            }
+            for (slopes, by) in out.slopes.iter_mut().zip(by) {
+                let mut change = by.apply(value, &q);
+                change.iter_mut().for_each(|v| *v = -*v);
+                lu.solve(&mut change);
+                for r in 0..responses.len() {
+                    slopes[r][e].push(read(&change, r));
+                }
+            }
+        }
+    }
+    Ok(out)
+}

@@ -1,0 +1,166 @@
+//! What a file states at a path: the numbers that an update may change.
+
+use super::file::diagnostic::nearest;
+use super::file::overlay::COLLECTIONS;
+use super::file::tree::{Entry, Node, Table, Value};
+use super::load::{Document, Options};
+use crate::units::leading_number;
+
+/// A text or number of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stated {
+    /// Such as "housing.B.k_x".
+    pub path: String,
+    /// As it stands there, without quotes: "6e6 N/m".
+    pub text: String,
+    /// Whether it is a text rather than a bare number.
+    pub quoted: bool,
+}
+
+/// What a file states at a path, variant and settings laid over; `*` stands for every item of a table that has the
+/// rest of the path, `housing.*.k_x`.
+///
+/// # Errors
+/// Nothing there, with the nearest name that is; something that is no number.
+pub fn stated(text: &[u8], options: &Options, path: &str) -> Result<Vec<Stated>, String> {
+    let document = Document::read("model", text, options).map_err(|errors| errors.to_string())?;
+    let parts: Vec<&str> = path.split('.').map(str::trim).collect();
+    let mut found = Vec::new();
+    let root = Node { span: 0..0, value: Value::Table(document.root) };
+    look(&root, &parts, 0, &mut Vec::new(), &mut found).map_err(|problem| format!("{path}: {problem}"))?;
+    if found.is_empty() {
+        return Err(format!("{path}: no item has it"));
+    }
+    Ok(found)
+}
+
+fn look(
+    node: &Node,
+    parts: &[&str],
+    depth: usize,
+    at: &mut Vec<String>,
+    found: &mut Vec<Stated>,
+) -> Result<(), String> {
+    let Some(part) = parts.get(depth) else {
+        let (text, quoted) = match &node.value {
+            Value::Text(text) => (text.clone(), true),
+            Value::Integer(i) => (i.to_string(), false),
+            Value::Float(f) => (f.to_string(), false),
+            Value::List(items) => {
+                return Err(format!(
+                    "it is a list; take one of its {} numbers, {}.0",
+                    items.len(),
+                    at.join(".")
+                ));
+            }
+            Value::Table(table) => {
+                let inner: Vec<&str> = table.keys().take(6).collect();
+                return Err(format!("it is a table; take one of its numbers, such as {}", inner.join(", ")));
+            }
+            other => return Err(format!("it is {}, no number", other.type_name())),
+        };
+        if quoted && leading_number(text.trim()).is_none() {
+            return Err(format!("\"{text}\" is no number"));
+        }
+        found.push(Stated { path: at.join("."), text, quoted });
+        return Ok(());
+    };
+    let mut into = |name: &str, node: &Node, found: &mut Vec<Stated>| {
+        at.push(name.to_string());
+        let done = look(node, parts, depth + 1, at, found);
+        at.pop();
+        done
+    };
+    match &node.value {
+        Value::Table(table) if *part == "*" => {
+            // Items without that key are not meant.
+            let has = |entry: &&Entry| holds(&entry.node, &parts[depth + 1..]);
+            table.entries.iter().filter(has).try_for_each(|entry| into(&entry.key, &entry.node, found))
+        }
+        Value::Table(table) => match table.get(part) {
+            Some(entry) => into(part, &entry.node, found),
+            None => Err(missing(table, part, parts, depth)),
+        },
+        Value::List(items) => match part.parse::<usize>().ok().and_then(|k| items.get(k)) {
+            Some(item) => into(part, item, found),
+            None => Err(format!("`{part}` is not one of the {} items, counted from 0", items.len())),
+        },
+        _ => Err(format!("`{}` is a value, with nothing below it", parts[depth - 1])),
+    }
+}
+
+fn holds(node: &Node, parts: &[&str]) -> bool {
+    match (&node.value, parts.split_first()) {
+        (_, None) => true,
+        (Value::Table(table), Some((&"*", rest))) => table.entries.iter().any(|e| holds(&e.node, rest)),
+        (Value::Table(table), Some((first, rest))) => table.get(first).is_some_and(|e| holds(&e.node, rest)),
+        _ => false,
+    }
+}
+
+fn missing(table: &Table, part: &str, parts: &[&str], depth: usize) -> String {
+    let known: Vec<&str> = table.keys().collect();
+    let near = nearest(part, &known);
+    let hint = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if depth > 1 => {
+            format!("the file does not state it; write it into {} first", parts[..depth].join("."))
+        }
+        None => format!("there are {}", known.iter().take(12).copied().collect::<Vec<_>>().join(", ")),
+    };
+    let what = if depth == 1 && COLLECTIONS.contains(&parts[0]) { parts[0] } else { "path" };
+    match what {
+        "path" => format!("there is no `{part}`; {hint}"),
+        item => format!("there is no {item} `{part}`; {hint}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = r#"
+        gains = [1, 2]
+        [housing.A]
+        k_x = "6e6 N/m"
+        on = "body.block"
+        [housing.B]
+        k_x = "5e6 N/m"
+        k_y = "7e6 N/m"
+        [variant.soft]
+        housing.B.k_x = "1e6 N/m"
+    "#;
+
+    fn at(path: &str) -> Result<Vec<(String, String)>, String> {
+        let found = stated(FILE.as_bytes(), &Options::default(), path)?;
+        Ok(found.into_iter().map(|s| (s.path, s.text)).collect())
+    }
+
+    #[test]
+    fn paths_and_stars() {
+        let one = |path: &str, text: &str| (path.to_string(), text.to_string());
+        assert_eq!(at("housing.B.k_x").unwrap(), [one("housing.B.k_x", "5e6 N/m")]);
+        assert_eq!(at("housing.*.k_x").unwrap().len(), 2);
+        assert_eq!(at("housing.*.k_y").unwrap(), [one("housing.B.k_y", "7e6 N/m")]);
+        assert_eq!(at("gains.1").unwrap(), [one("gains.1", "2")]);
+        let soft = Options { variant: Some("soft".into()), ..Options::default() };
+        assert_eq!(stated(FILE.as_bytes(), &soft, "housing.B.k_x").unwrap()[0].text, "1e6 N/m");
+    }
+
+    #[test]
+    fn refusals_say_what_is_near() {
+        for (path, part) in [
+            ("housing.B.k_xx", "did you mean `k_x`?"),
+            ("housing.C.k_x", "there is no housing `C`; there are A, B"),
+            ("hosing.B.k_x", "did you mean `housing`?"),
+            ("housing.B", "it is a table; take one of its numbers, such as k_x"),
+            ("housing.A.on", "\"body.block\" is no number"),
+            ("housing.A.stiff", "write it into housing.A first"),
+            ("gains", "take one of its 2 numbers, gains.0"),
+            ("housing.*.q", "no item has it"),
+        ] {
+            let error = at(path).unwrap_err();
+            assert!(error.contains(part), "{path}: {error}");
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Least squares with bounds and priors by Levenberg-Marquardt.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::error::Error;
+
+/// Normal priors x ~ N(mean, deviation²), and bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prior {
+    pub mean: Vec<f64>,
+    pub deviation: Vec<f64>,
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+}
+
+/// Residuals over their standard deviations, and their derivatives.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    pub residual: DVector<f64>,
+    /// ∂r_i/∂x_j.
+    pub jacobian: DMatrix<f64>,
+}
+
+/// Where the search stands after an iteration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Iteration {
+    pub x: Vec<f64>,
+    /// ½ |r|² + ½ Σ ((x − mean)/deviation)².
+    pub cost: f64,
+    /// Largest step over its prior's deviation.
+    pub step: f64,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub x: Vec<f64>,
+    pub at: Evaluation,
+    /// The start, then every step taken.
+    pub iterations: Vec<Iteration>,
+    pub converged: bool,
+}
+
+/// A step below this share of the prior's deviation is the end.
+const LAST_STEP: f64 = 1e-6;
+/// So is a relative fall of the cost below this.
+const LAST_FALL: f64 = 1e-10;
+const MAX_REJECTED: usize = 12;
+
+/// Minimises ½ |r(x)|² + ½ Σ ((x − mean)/deviation)² within the bounds, from `start`.
+///
+/// A trial point at which `evaluate` finds no answer is refused like one that is worse, and a shorter step tried.
+/// A parameter at its bound stays there while the cost falls outwards. Source of the damping: Nielsen, IMM-REP-1999-05.
+///
+/// # Errors
+/// Those of `evaluate` at the start.
+pub fn minimise(
+    start: &[f64],
+    prior: &Prior,
+    max_iterations: usize,
+    evaluate: &mut dyn FnMut(&[f64]) -> Result<Evaluation, Error>,
+) -> Result<Solution, Error> {
+    let n = start.len();
+    let cost = |x: &[f64], at: &Evaluation| {
+        let held: f64 = (0..n).map(|j| ((x[j] - prior.mean[j]) / prior.deviation[j]).powi(2)).sum();
+        0.5 * (at.residual.norm_squared() + held)
+    };
+    let mut x = start.to_vec();
+    let mut at = evaluate(&x)?;
+    let mut now = cost(&x, &at);
+    let mut iterations = vec![Iteration { x: x.clone(), cost: now, step: 0.0 }];
+    let (mut damping, mut growth, mut rejected) = (1e-3, 2.0, 0);
+    let mut converged = n == 0;
+    while !converged && iterations.len() <= max_iterations && rejected < MAX_REJECTED {
+        let Some(step) = damped_step(&x, &at, prior, damping) else { break };
+        let trial: Vec<f64> =
+            (0..n).map(|j| (x[j] + step[j]).clamp(prior.lower[j], prior.upper[j])).collect();
+        let size = (0..n).map(|j| ((trial[j] - x[j]) / prior.deviation[j]).abs()).fold(0.0, f64::max);
+        if size < LAST_STEP {
+            converged = true;
+            break;
+        }
+        let taken = evaluate(&trial).ok().map(|there| (cost(&trial, &there), there));
+        match taken {
+            Some((then, there)) if then < now => {
+                let expected = predicted_fall(&x, &trial, &at, prior);
+                let gain = if expected > 0.0 { (now - then) / expected } else { 1.0 };
+                damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+                growth = 2.0;
+                rejected = 0;
+                converged = now - then < LAST_FALL * now;
+                (x, at, now) = (trial, there, then);
+                iterations.push(Iteration { x: x.clone(), cost: now, step: size });
+            }
+            _ => {
+                damping *= growth;
+                growth *= 2.0;
+                rejected += 1;
+            }
+        }
+    }
+    // No shorter step falls any further: round-off is reached.
+    let converged = converged || rejected == MAX_REJECTED;
+    Ok(Solution { x, at, iterations, converged })
+}
+
+/// Half the gradient's side of the normal equations, Jᵀ r + P (x − mean), and their matrix Jᵀ J + P.
+fn normal_equations(x: &[f64], at: &Evaluation, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
+    let mut gradient = at.jacobian.tr_mul(&at.residual);
+    let mut matrix = at.jacobian.tr_mul(&at.jacobian);
+    for j in 0..x.len() {
+        let weight = prior.deviation[j].powi(-2);
+        gradient[j] += weight * (x[j] - prior.mean[j]);
+        matrix[(j, j)] += weight;
+    }
+    (gradient, matrix)
+}
+
+/// Step of (JᵀJ + P + μ diag) dx = −gradient over the parameters that may move.
+fn damped_step(x: &[f64], at: &Evaluation, prior: &Prior, damping: f64) -> Option<Vec<f64>> {
+    let (gradient, matrix) = normal_equations(x, at, prior);
+    let free: Vec<usize> = (0..x.len())
+        .filter(|&j| {
+            let out =
+                x[j] <= prior.lower[j] && gradient[j] > 0.0 || x[j] >= prior.upper[j] && gradient[j] < 0.0;
+            !out && prior.lower[j] < prior.upper[j]
+        })
+        .collect();
+    let mut small = DMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])]);
+    for i in 0..free.len() {
+        small[(i, i)] *= 1.0 + damping;
+    }
+    let right = DVector::from_fn(free.len(), |i, _| -gradient[free[i]]);
+    let solved = small.cholesky()?.solve(&right);
+    let mut step = vec![0.0; x.len()];
+    for (&j, s) in free.iter().zip(solved.iter()) {
+        step[j] = *s;
+    }
+    Some(step)
+}
+
+/// Fall of the cost that the linear model promises between two points.
+fn predicted_fall(x: &[f64], trial: &[f64], at: &Evaluation, prior: &Prior) -> f64 {
+    let (gradient, matrix) = normal_equations(x, at, prior);
+    let step = DVector::from_iterator(x.len(), trial.iter().zip(x).map(|(t, x)| t - x));
+    -(gradient.dot(&step) + 0.5 * step.dot(&(matrix * &step)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rosenbrock(x: &[f64]) -> Result<Evaluation, Error> {
+        Ok(Evaluation {
+            residual: DVector::from_vec(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]),
+            jacobian: DMatrix::from_row_slice(2, 2, &[-20.0 * x[0], 10.0, -1.0, 0.0]),
+        })
+    }
+
+    fn prior(deviation: f64, upper: f64) -> Prior {
+        Prior {
+            mean: vec![0.0; 2],
+            deviation: vec![deviation; 2],
+            lower: vec![f64::NEG_INFINITY; 2],
+            upper: vec![upper, f64::INFINITY],
+        }
+    }
+
+    #[test]
+    fn finds_the_minimum_of_rosenbrocks_valley() {
+        let found = minimise(&[-1.2, 1.0], &prior(1e6, f64::INFINITY), 100, &mut rosenbrock).unwrap();
+        assert!(found.converged, "{:?}", found.iterations);
+        assert!(found.x.iter().all(|x| (x - 1.0).abs() < 1e-6), "{:?}", found.x);
+    }
+
+    #[test]
+    fn stops_at_a_bound_and_slides_along_it() {
+        let found = minimise(&[-1.2, 1.0], &prior(1e6, 0.5), 100, &mut rosenbrock).unwrap();
+        // At x = 0.5 the valley's floor is y = 0.25.
+        assert!(found.converged && found.x[0] == 0.5, "{:?}", found.x);
+        assert!((found.x[1] - 0.25).abs() < 1e-6, "{:?}", found.x);
+    }
+
+    #[test]
+    fn a_prior_weighs_like_a_datum() {
+        // One datum x = 1 ± 0.5 against the prior 0 ± 1: the mean weighted by 4 to 1.
+        let mut datum = |x: &[f64]| {
+            Ok(Evaluation {
+                residual: DVector::from_vec(vec![(x[0] - 1.0) / 0.5]),
+                jacobian: DMatrix::from_element(1, 1, 2.0),
+            })
+        };
+        let one = Prior { mean: vec![0.0], deviation: vec![1.0], lower: vec![-9.0], upper: vec![9.0] };
+        let found = minimise(&[0.0], &one, 50, &mut datum).unwrap();
+        assert!((found.x[0] - 0.8).abs() < 1e-9, "{:?}", found.x);
+    }
+}

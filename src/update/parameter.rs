@@ -1,0 +1,169 @@
+//! Numbers of a model file that an update may change.
+
+use super::least_squares::Prior;
+use crate::units::leading_number;
+
+/// One number of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Such as "housing.B.k_x".
+    pub path: String,
+    /// In the unit as the file has it.
+    pub value: f64,
+    /// What stands behind the number, such as "N/m"; empty for a pure number.
+    pub unit: String,
+    /// Whether the file has it as a text, not as a bare number.
+    pub quoted: bool,
+}
+
+impl Place {
+    /// Reads the text or number that stands at a path; `None` where it is not one number with its unit.
+    pub fn read(path: &str, text: &str, quoted: bool) -> Option<Self> {
+        let text = text.trim();
+        let (value, length) = leading_number(text)?;
+        let unit = text[length..].trim();
+        // Two numbers, or a word, are no number.
+        let more = unit.starts_with([',', '+', '-', '.']) || unit.starts_with(|c: char| c.is_ascii_digit());
+        let one = !more || unit.starts_with("1/");
+        (value.is_finite() && one).then(|| Self { path: path.into(), value, unit: unit.into(), quoted })
+    }
+
+    /// What to write there for another value.
+    pub fn text(&self, value: f64) -> String {
+        match (self.quoted, self.unit.as_str()) {
+            (true, "") => format!("\"{value:e}\""),
+            (true, unit) => format!("\"{value:e} {unit}\""),
+            // TOML has no integer with an exponent.
+            (false, _) => format!("{value:?}"),
+        }
+    }
+}
+
+/// A free parameter: one number of the file, or several that move together.
+///
+/// Its coordinate x is 0 at the start: the values are start · e^x where they are positive and may not change sign, else
+/// start + x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeParameter {
+    /// As the user wrote it, such as "housing.*.k_x".
+    pub name: String,
+    /// At least one; several keep their ratios (or, additive, their differences).
+    pub places: Vec<Place>,
+    pub logarithmic: bool,
+    /// Of x.
+    pub mean: f64,
+    pub deviation: f64,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// Deviation of ln(value) where the user states none: a factor of two either way.
+pub const DEFAULT_DEVIATION: f64 = std::f64::consts::LN_2;
+
+impl FreeParameter {
+    /// A parameter with the default prior: a factor of two either way, or as much as its value.
+    ///
+    /// `None` where the value is 0 (it has no size of its own) and no deviation is given.
+    pub fn new(name: &str, places: Vec<Place>, logarithmic: bool, deviation: Option<f64>) -> Option<Self> {
+        let first = places.first()?.value;
+        let deviation = match deviation {
+            Some(deviation) => deviation,
+            None if logarithmic => DEFAULT_DEVIATION,
+            None => first.abs(),
+        };
+        let (lower, upper) = (f64::NEG_INFINITY, f64::INFINITY);
+        (deviation > 0.0).then(|| Self {
+            name: name.into(),
+            places,
+            logarithmic,
+            mean: 0.0,
+            deviation,
+            lower,
+            upper,
+        })
+    }
+
+    /// Value of the first place at x, in the file's unit.
+    pub fn value(&self, x: f64) -> f64 {
+        self.value_of(&self.places[0], x)
+    }
+
+    /// Value of one of its places at x.
+    pub fn value_of(&self, place: &Place, x: f64) -> f64 {
+        if self.logarithmic { place.value * x.exp() } else { place.value + x }
+    }
+
+    /// x at which the first place has this value.
+    pub fn coordinate(&self, value: f64) -> f64 {
+        if self.logarithmic { (value / self.places[0].value).ln() } else { value - self.places[0].value }
+    }
+
+    /// dvalue/dx of the first place.
+    pub fn slope(&self, x: f64) -> f64 {
+        if self.logarithmic { self.value(x) } else { 1.0 }
+    }
+
+    /// Step of x for differences, and dx of one unit of what is stepped: values move evenly, so that what is linear in
+    /// them is differenced exactly.
+    pub fn neighbours(&self, x: f64) -> ([Vec<(String, String)>; 2], f64) {
+        const STEP: f64 = 1e-4;
+        let step = if self.logarithmic { STEP } else { STEP * self.deviation };
+        let at = |way: f64| {
+            let text = |place: &Place| {
+                let here = self.value_of(place, x);
+                let value = if self.logarithmic { here * (1.0 + way * step) } else { here + way * step };
+                (place.path.clone(), place.text(value))
+            };
+            self.places.iter().map(text).collect()
+        };
+        ([at(-1.0), at(1.0)], 2.0 * step)
+    }
+
+    /// Paths and values at x, as `--set` takes them.
+    pub fn settings(&self, x: f64) -> Vec<(String, String)> {
+        self.places.iter().map(|p| (p.path.clone(), p.text(self.value_of(p, x)))).collect()
+    }
+
+    /// Unit of the first place.
+    pub fn unit(&self) -> &str {
+        &self.places[0].unit
+    }
+}
+
+/// Priors and bounds of all parameters.
+pub fn prior(parameters: &[FreeParameter]) -> Prior {
+    let all = |of: fn(&FreeParameter) -> f64| parameters.iter().map(of).collect();
+    Prior {
+        mean: all(|p| p.mean),
+        deviation: all(|p| p.deviation),
+        lower: all(|p| p.lower),
+        upper: all(|p| p.upper),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_with_its_unit() {
+        let place = Place::read("housing.B.k_x", "6e6 N/m", true).unwrap();
+        assert_eq!((place.value, place.unit.as_str()), (6e6, "N/m"));
+        assert_eq!(place.text(4.2e6), "\"4.2e6 N/m\"");
+        assert_eq!(Place::read("p", "5 1/s", true).unwrap().unit, "1/s");
+        assert_eq!(Place::read("p", "0.3", false).unwrap().text(2.0), "2.0");
+        for no in ["250, 0 N", "ball", "", "1 2 N"] {
+            assert_eq!(Place::read("p", no, true), None, "{no}");
+        }
+    }
+
+    #[test]
+    fn groups_keep_their_ratios() {
+        let place =
+            |path: &str, value: f64| Place { path: path.into(), value, unit: "N/m".into(), quoted: true };
+        let both = FreeParameter::new("k", vec![place("a", 2.0), place("b", 6.0)], true, None).unwrap();
+        assert_eq!(both.value_of(&both.places[1], 2f64.ln()), 12.0);
+        assert!((both.coordinate(both.value(0.3)) - 0.3).abs() < 1e-15);
+        assert!(FreeParameter::new("k", vec![place("a", 0.0)], false, None).is_none());
+    }
+}

@@ -1,0 +1,210 @@
+//! What is to be made small, with its derivatives.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::least_squares::Evaluation;
+use super::state::State;
+use super::target::{Sensor, Target, TargetFrfs, TargetMode};
+use crate::analysis::modal::Mode;
+use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative, frf_sensitivity};
+use crate::error::{Error, PhysicsError};
+use crate::linalg::{Complex64, SparseRow};
+
+/// What is fitted, each with the standard deviation that it is taken to have at least; `None` is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitting {
+    /// Of ln f: what a good model leaves, 1e-3.
+    pub frequency: Option<f64>,
+    /// Of ln ζ.
+    pub damping: Option<f64>,
+    /// √(1 − MAC).
+    pub shape: Option<f64>,
+    pub frf: Option<FrfFitting>,
+}
+
+/// How FRFs are fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrfFitting {
+    /// ln|H_computed/H_measured|, or the complex difference over the |H| of the line.
+    pub complex: bool,
+    /// Deviation of either, 0.1 is about 1 dB.
+    pub deviation: f64,
+    /// Band \[Hz\].
+    pub band: [f64; 2],
+}
+
+impl Default for Fitting {
+    fn default() -> Self {
+        Self { frequency: Some(1e-3), damping: None, shape: Some(0.05), frf: None }
+    }
+}
+
+/// Lines of an FRF that are fitted at most.
+const MOST_LINES: usize = 120;
+
+/// One row under construction: the residual and its slope by every parameter.
+struct Rows {
+    residual: Vec<f64>,
+    slopes: Vec<Vec<f64>>,
+}
+
+impl Rows {
+    fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
+        self.residual.push(residual);
+        self.slopes.push(slopes.collect());
+    }
+}
+
+/// Residuals over their deviations and their derivatives, of the measured modes `kept` and of the FRFs.
+///
+/// Shapes give r = (m − α s)/σ with |m| = 1 and the best α: |r|²σ² is 1 − MAC, but r is smooth where the MAC is flat.
+///
+/// # Errors
+/// A kept mode without partner, or without derivative.
+pub fn evaluation(
+    state: &State,
+    target: &Target,
+    fitting: &Fitting,
+    kept: &[usize],
+    by: &[SystemDerivative],
+) -> Result<Evaluation, Error> {
+    let by: Vec<&SystemDerivative> = by.iter().collect();
+    let mut rows = Rows { residual: Vec::new(), slopes: Vec::new() };
+    for &k in kept {
+        let measured = &target.modes[k];
+        let found = state.pairing.pairs.iter().find(|p| p.measured == k);
+        let Some(place) = found.map(|p| p.computed) else {
+            let reason = format!("the measured mode at {:.3} Hz has lost its partner", measured.frequency_hz);
+            return Err(PhysicsError::NoDerivative { reason }.into());
+        };
+        mode_rows(state, &state.modes[place], place, measured, fitting, &by, &mut rows)?;
+    }
+    if let (Some(frf), Some(measured)) = (&fitting.frf, &target.frfs) {
+        frf_rows(state, measured, frf, &by, &mut rows)?;
+    }
+    let columns = by.len();
+    Ok(Evaluation {
+        jacobian: DMatrix::from_fn(rows.slopes.len(), columns, |i, j| rows.slopes[i][j]),
+        residual: DVector::from_vec(rows.residual),
+    })
+}
+
+fn mode_rows(
+    state: &State,
+    mode: &Mode,
+    place: usize,
+    measured: &TargetMode,
+    fitting: &Fitting,
+    by: &[&SystemDerivative],
+    rows: &mut Rows,
+) -> Result<(), Error> {
+    let sensitivity = ModeSensitivity::new(&state.linear.system, mode.eigenvalue, &mode.shape)?;
+    let value = mode.eigenvalue;
+    let slopes: Vec<Complex64> = by.iter().map(|by| sensitivity.eigenvalue(by)).collect();
+    if let Some(least) = fitting.frequency {
+        let deviation = least.max(measured.frequency_error / measured.frequency_hz);
+        let residual = (mode.frequency_hz() / measured.frequency_hz).ln() / deviation;
+        rows.push(residual, slopes.iter().map(|s| s.im / value.im / deviation));
+    }
+    if let (Some(least), Some(zeta)) = (fitting.damping, measured.damping_ratio.filter(|z| *z > 0.0)) {
+        let deviation = least.max(measured.damping_error / zeta);
+        let own = mode.zeta().max(1e-9);
+        // ζ = −a/|λ|: dζ = −da/|λ| + a Re(λ* dλ)/|λ|³.
+        let slope = |s: &Complex64| {
+            let size = value.norm();
+            (-s.re / size + value.re * (value.conj() * s).re / size.powi(3)) / own / deviation
+        };
+        rows.push((own / zeta).ln() / deviation, slopes.iter().map(slope));
+    }
+    if let Some(least) = fitting.shape
+        && measured.shape.len() > 1
+    {
+        // 1 − MAC = σ² spread over the parts of the shape.
+        let deviation = least / (2.0 * measured.shape.len() as f64).sqrt();
+        let changes = sensitivity.shapes(by)?;
+        shape_rows(&state.rows, &state.shapes[place], &measured.shape, &changes, deviation, rows);
+    }
+    Ok(())
+}
+
+fn shape_rows(
+    sensors: &[SparseRow],
+    computed: &[Complex64],
+    measured: &[Complex64],
+    changes: &[Vec<Complex64>],
+    deviation: f64,
+    rows: &mut Rows,
+) {
+    let dot =
+        |a: &[Complex64], b: &[Complex64]| a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex64>();
+    let size = dot(measured, measured).re.sqrt();
+    let own = dot(computed, computed).re;
+    if size == 0.0 || own == 0.0 {
+        return;
+    }
+    let m: Vec<Complex64> = measured.iter().map(|v| v / size).collect();
+    let alpha = dot(computed, &m) / own;
+    let slopes: Vec<Vec<Complex64>> = changes
+        .iter()
+        .map(|change| {
+            let s: Vec<Complex64> = sensors.iter().map(|row| row.dot_complex(change)).collect();
+            let turned = (dot(&s, &m) - alpha * 2.0 * dot(&s, computed).re) / own;
+            computed.iter().zip(&s).map(|(c, s)| -(turned * c + alpha * s)).collect()
+        })
+        .collect();
+    for (i, (m, c)) in m.iter().zip(computed).enumerate() {
+        let residual = m - alpha * c;
+        rows.push(residual.re / deviation, slopes.iter().map(|s| s[i].re / deviation));
+        rows.push(residual.im / deviation, slopes.iter().map(|s| s[i].im / deviation));
+    }
+}
+
+fn frf_rows(
+    state: &State,
+    measured: &TargetFrfs,
+    fitting: &FrfFitting,
+    by: &[&SystemDerivative],
+    rows: &mut Rows,
+) -> Result<(), Error> {
+    let lines = lines(measured, fitting.band);
+    let frequencies: Vec<f64> = lines.iter().map(|&k| measured.frequencies[k]).collect();
+    let of = |sensors: &[Sensor]| -> Vec<SparseRow> {
+        sensors.iter().map(|s| s.row(&state.linear.assembly)).collect()
+    };
+    let (responses, references) = (of(&measured.responses), of(&measured.references));
+    let found =
+        frf_sensitivity(&state.linear, &frequencies, &references, &responses, &measured.quantities, by)?;
+    for r in 0..responses.len() {
+        for e in 0..references.len() {
+            for (k, &line) in lines.iter().enumerate() {
+                let (h, m) = (found.values[r][e][k], measured.values[r][e][line]);
+                let slope = |p: usize| found.slopes[p][r][e][k];
+                let parameters = 0..by.len();
+                if h.norm() == 0.0 || m.norm() == 0.0 {
+                    continue;
+                }
+                if fitting.complex {
+                    let scale = m.norm() * fitting.deviation;
+                    let residual = (h - m) / scale;
+                    rows.push(residual.re, parameters.clone().map(|p| slope(p).re / scale));
+                    rows.push(residual.im, parameters.map(|p| slope(p).im / scale));
+                } else {
+                    let residual = (h.norm() / m.norm()).ln() / fitting.deviation;
+                    rows.push(residual, parameters.map(|p| (slope(p) / h).re / fitting.deviation));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Lines within the band, thinned evenly.
+fn lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
+    let all: Vec<usize> = (0..measured.frequencies.len())
+        .filter(|&k| (from..=to).contains(&measured.frequencies[k]) && measured.frequencies[k] * TAU > 0.0)
+        .collect();
+    let every = all.len().div_ceil(MOST_LINES).max(1);
+    all.into_iter().step_by(every).collect()
+}

@@ -1,0 +1,82 @@
+//! A model beside what was measured: its modes at the measured points, paired.
+
+use rayon::prelude::*;
+
+use super::pairing::{Candidate, Pairing, pair};
+use super::target::{Target, TargetFrfs};
+use crate::analysis::modal::{self, Mode};
+use crate::analysis::sensitivity::{Linearised, frf_sensitivity};
+use crate::error::Error;
+use crate::linalg::{Complex64, SparseRow};
+use crate::model::Model;
+
+/// The model's modes as the sensors see them.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub linear: Linearised,
+    pub modes: Vec<Mode>,
+    /// `shapes[mode][sensor]`.
+    pub shapes: Vec<Vec<Complex64>>,
+    /// Sensors as rows over the free DOFs.
+    pub rows: Vec<SparseRow>,
+    pub pairing: Pairing,
+}
+
+/// Modes computed beyond twice those measured.
+const SPARE: usize = 8;
+
+impl State {
+    /// Linearises the model at the speed of the measurement, computes its modes and pairs them; the equilibrium is
+    /// sought from `start` or from rest.
+    ///
+    /// # Errors
+    /// No equilibrium, or an eigenvalue computation that fails.
+    pub fn new(model: Model, target: &Target, start: Option<&[f64]>) -> Result<Self, Error> {
+        let linear = Linearised::new(model, target.speed, start)?;
+        let count = 2 * target.modes.len() + SPARE;
+        let mut modes = modal::modes(&linear.assembly, &linear.system, count)?;
+        // What lies far above the last measured mode can be nobody's partner.
+        let top = target.modes.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
+        modes.retain(|m| m.frequency_hz() < 2.0 * top);
+        let rows: Vec<SparseRow> = target.sensors.iter().map(|s| s.row(&linear.assembly)).collect();
+        let shapes: Vec<Vec<Complex64>> =
+            modes.iter().map(|m| rows.iter().map(|r| r.dot_complex(&m.shape)).collect()).collect();
+        let measured: Vec<Candidate> = target
+            .modes
+            .iter()
+            .map(|m| Candidate { frequency_hz: m.frequency_hz, shape: &m.shape })
+            .collect();
+        let computed: Vec<Candidate> = modes
+            .iter()
+            .zip(&shapes)
+            .map(|(m, shape)| Candidate { frequency_hz: m.frequency_hz(), shape })
+            .collect();
+        let pairing = pair(&measured, &computed);
+        Ok(Self { linear, modes, shapes, rows, pairing })
+    }
+
+    /// The computed mode paired with a measured one, and their MAC.
+    pub fn partner(&self, measured: usize) -> Option<(&Mode, f64)> {
+        let pair = self.pairing.pairs.iter().find(|p| p.measured == measured)?;
+        Some((&self.modes[pair.computed], pair.mac))
+    }
+
+    /// The model's FRFs at the measured points and frequencies, `[response][reference][line]`.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn frfs(&self, measured: &TargetFrfs) -> Result<Vec<Vec<Vec<Complex64>>>, Error> {
+        const CHUNK: usize = 64;
+        let rows = |sensors: &[super::target::Sensor]| -> Vec<SparseRow> {
+            sensors.iter().map(|s| s.row(&self.linear.assembly)).collect()
+        };
+        let (responses, references) = (rows(&measured.responses), rows(&measured.references));
+        let parts: Vec<_> = measured
+            .frequencies
+            .par_chunks(CHUNK)
+            .map(|f| frf_sensitivity(&self.linear, f, &references, &responses, &measured.quantities, &[]))
+            .collect::<Result<_, _>>()?;
+        let joined = |r: usize, e: usize| parts.iter().flat_map(|p| p.values[r][e].iter().copied()).collect();
+        Ok((0..responses.len()).map(|r| (0..references.len()).map(|e| joined(r, e)).collect()).collect())
+    }
+}

@@ -1,0 +1,222 @@
+//! What was measured, put where it is in the model.
+
+use std::f64::consts::TAU;
+
+use super::UpdateError;
+use crate::assembly::Assembly;
+use crate::element::Anchor;
+use crate::linalg::{Complex64, SparseRow};
+use crate::model::{Model, Quantity};
+use crate::signal::record::{Analysis, Dof, Geometry, Measured};
+
+/// A measured point in the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensor {
+    /// Point and direction as measured: node k of the model is point k + 1.
+    pub dof: Dof,
+    pub at: Anchor,
+    /// Weights on u_x u_y u_z θ_x θ_y θ_z.
+    pub direction: [f64; 6],
+}
+
+impl Sensor {
+    /// The point's motion as a row over the free DOFs.
+    pub fn row(&self, assembly: &Assembly) -> SparseRow {
+        assembly.direction_row(&self.at, &self.direction)
+    }
+
+    /// Station or body with the direction, such as "disc x".
+    pub fn name(&self, model: &Model) -> String {
+        let axis = ["?", "x", "y", "z", "theta_x", "theta_y", "theta_z"]
+            [usize::from(self.dof.direction.unsigned_abs()).min(6)];
+        let sign = if self.dof.direction < 0 { "-" } else { "" };
+        let shaft = model.node_z.len();
+        let place = match self.at.node {
+            None => "ground".into(),
+            Some(node) if node >= shaft => model.bodies[node - shaft].name.clone(),
+            Some(node) => model
+                .stations
+                .iter()
+                .find(|s| s.node == node)
+                .map_or_else(|| format!("z = {:.3} m", model.node_z[node]), |s| s.name.clone()),
+        };
+        let beside = if self.at.offset == [0.0; 3] { String::new() } else { format!(" ({})", self.dof.node) };
+        format!("{place}{beside} {sign}{axis}")
+    }
+}
+
+/// A measured mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetMode {
+    /// Damped frequency Im λ / 2π \[Hz\].
+    pub frequency_hz: f64,
+    /// ζ; `None` where the file tells none.
+    pub damping_ratio: Option<f64>,
+    /// Standard errors \[Hz\] and of ζ; 0 where unknown.
+    pub frequency_error: f64,
+    pub damping_error: f64,
+    /// Over the sensors.
+    pub shape: Vec<Complex64>,
+}
+
+/// Measured FRFs in the model's points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TargetFrfs {
+    /// \[Hz\].
+    pub frequencies: Vec<f64>,
+    pub responses: Vec<Sensor>,
+    pub references: Vec<Sensor>,
+    /// Quantity of every response.
+    pub quantities: Vec<Quantity>,
+    /// `values[response][reference][line]`, SI.
+    pub values: Vec<Vec<Vec<Complex64>>>,
+    /// γ² alike, where measured.
+    pub coherence: Option<Vec<Vec<Vec<f64>>>>,
+}
+
+/// Everything that a model is held against.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Target {
+    /// Speed Ω at which it was measured \[rad/s\].
+    pub speed: f64,
+    /// Points of the shapes.
+    pub sensors: Vec<Sensor>,
+    /// By frequency.
+    pub modes: Vec<TargetMode>,
+    pub frfs: Option<TargetFrfs>,
+}
+
+/// Puts measured points into the model: point k + 1 is node k unless the file's own geometry has it elsewhere; a point
+/// with coordinates rides rigidly on the shaft node nearest along z, as one on a disc's rim does.
+///
+/// Rotations count with the radius of the largest disc, so that they weigh like the motion of its rim.
+///
+/// # Errors
+/// Points that are neither in the model nor have coordinates, and records without point or direction, all at once.
+pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<Sensor>, UpdateError> {
+    let nodes = model.node_count();
+    let mut lost: Vec<String> = Vec::new();
+    let mut aimless = false;
+    let radius = rotation_radius(model);
+    let place = |number: i64| -> Option<Anchor> {
+        let own = usize::try_from(number - 1).ok().filter(|k| *k < nodes);
+        let stated = geometry.nodes.iter().find(|n| n.number == number).map(|n| n.position);
+        match (own, stated) {
+            (Some(node), None) => Some(Anchor::node(node)),
+            (Some(node), Some(position)) if is_at(model, node, position) => Some(Anchor::node(node)),
+            (_, Some(position)) => near_shaft(model, position),
+            (None, None) => None,
+        }
+    };
+    let mut out = Vec::new();
+    for &dof in dofs {
+        let axis = usize::from(dof.direction.unsigned_abs());
+        if dof.node == 0 || !(1..=6).contains(&axis) {
+            aimless = true;
+            continue;
+        }
+        let Some(at) = place(dof.node) else {
+            let name = dof.node.to_string();
+            if !lost.contains(&name) {
+                lost.push(name);
+            }
+            continue;
+        };
+        let mut direction = [0.0; 6];
+        direction[axis - 1] = f64::from(dof.direction.signum()) * if axis > 3 { radius } else { 1.0 };
+        out.push(Sensor { dof, at, direction });
+    }
+    if aimless {
+        return Err(UpdateError::new(
+            "the measured file does not tell point and direction of all its records",
+            "say with --mapping which channel is which station and direction",
+        ));
+    }
+    if !lost.is_empty() {
+        let more = if lost.len() > 8 { ", ..." } else { "" };
+        lost.truncate(8);
+        return Err(UpdateError::new(
+            format!("the measured points {}{more} are no points of the model", lost.join(", ")),
+            "say with --mapping which point is which station",
+        ));
+    }
+    Ok(out)
+}
+
+/// Radius at which rotations are compared with translations \[m\].
+fn rotation_radius(model: &Model) -> f64 {
+    let largest = model.discs.iter().map(|d| 0.5 * d.outer_diameter).fold(0.0, f64::max);
+    let length = model.node_z.last().unwrap_or(&1.0) - model.node_z.first().unwrap_or(&0.0);
+    if largest > 0.0 { largest } else { 0.1 * length }
+}
+
+/// Points given with the digits of a universal file lie within this of the model's \[m\].
+const NEAR: f64 = 1e-5;
+
+fn is_at(model: &Model, node: usize, [x, y, z]: [f64; 3]) -> bool {
+    let own = match node.checked_sub(model.node_z.len()) {
+        None => [0.0, 0.0, model.node_z[node]],
+        Some(body) => model.bodies[body].position,
+    };
+    (own[0] - x).abs() < NEAR && (own[1] - y).abs() < NEAR && (own[2] - z).abs() < NEAR
+}
+
+/// The shaft node nearest along z, with the offset to the position; `None` beyond the shaft's ends.
+fn near_shaft(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
+    let distance = |k: &usize| (model.node_z[*k] - z).abs();
+    let node = (0..model.node_z.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let reach = model.node_z.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+    let on_shaft = distance(&node) <= reach.max(1e-3);
+    on_shaft.then(|| Anchor { node: Some(node), offset: [x, y, z - model.node_z[node]] })
+}
+
+/// Modes that a file holds as shapes, with their DOFs; `None` where it holds none.
+///
+/// Where every shape has translations only these count; a speed in the shapes' names ("1200 rpm 1st bending") is not
+/// read: several speeds in one file are a problem of the caller.
+pub fn modes_of(measured: &Measured) -> Option<(Vec<Dof>, Vec<TargetMode>)> {
+    let modes: Vec<_> = measured
+        .shapes
+        .iter()
+        .filter(|s| matches!(s.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. }))
+        .collect();
+    let first = modes.first()?;
+    let components = first.components;
+    let moves = |component: usize| {
+        let of = |s: &&&crate::signal::record::Shape| {
+            s.values.iter().skip(component).step_by(components).any(|v| v.norm_sqr() > 0.0)
+        };
+        modes.iter().any(|s| s.components == components && of(&s))
+    };
+    let moving: Vec<usize> = (0..components).filter(|&c| moves(c)).collect();
+    let alike: Vec<_> =
+        modes.iter().filter(|s| s.nodes == first.nodes && s.components == components).collect();
+    let dofs = first
+        .nodes
+        .iter()
+        .flat_map(|&node| {
+            moving.iter().map(move |&c| Dof::new(node, if components == 1 { 0 } else { c as i8 + 1 }))
+        })
+        .collect();
+    let mode = |s: &&&crate::signal::record::Shape| {
+        let shape =
+            (0..s.nodes.len()).flat_map(|n| moving.iter().map(move |&c| s.values[n * components + c]));
+        let damping = s.analysis.damping_ratio();
+        let natural = s.analysis.frequency_hz()?;
+        let frequency_hz = match s.analysis {
+            Analysis::ComplexMode { eigenvalue, .. } => eigenvalue.im.abs() / TAU,
+            _ => natural * (1.0 - damping.unwrap_or(0.0).powi(2)).max(0.0).sqrt(),
+        };
+        (frequency_hz > 0.0).then(|| TargetMode {
+            frequency_hz,
+            // Programs without an estimate write zero.
+            damping_ratio: damping.filter(|zeta| *zeta != 0.0),
+            frequency_error: 0.0,
+            damping_error: 0.0,
+            shape: shape.collect(),
+        })
+    };
+    let mut found: Vec<TargetMode> = alike.iter().filter_map(mode).collect();
+    found.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    Some((dofs, found))
+}
