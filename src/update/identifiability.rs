@@ -7,7 +7,9 @@ use super::least_squares::{Evaluation, Prior};
 /// A parameter is found when the data leave at most this share of its prior variance ...
 pub const LARGEST_PRIOR_SHARE: f64 = 0.1;
 /// ... and its standard error is at most this part of its value (additive parameters: of the prior's deviation).
-pub const LARGEST_ERROR: f64 = 0.05;
+pub const LARGEST_ERROR: f64 = 0.1;
+/// Where they leave more than this share, the prior tells it rather than the data.
+pub const MOSTLY_PRIOR: f64 = 0.5;
 
 /// Errors and their correlation, from the curvature at the solution.
 #[derive(Clone, Debug, PartialEq)]

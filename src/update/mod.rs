@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use crate::analysis::sensitivity::SystemDerivative;
 use crate::error::Error;
 use crate::model::Model;
-use identifiability::{Identifiability, LARGEST_ERROR, LARGEST_PRIOR_SHARE};
+use identifiability::{Identifiability, LARGEST_ERROR, LARGEST_PRIOR_SHARE, MOSTLY_PRIOR};
 use least_squares::{Evaluation, Iteration, Prior, minimise};
 use parameter::FreeParameter;
 use residual::{Fitting, evaluation};
@@ -56,12 +56,14 @@ pub struct Job<'a> {
     pub max_iterations: usize,
 }
 
-/// Why a parameter is not called found.
+/// What a parameter may be called.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The data tell it: prior share ≤ 0.1 and standard error ≤ 5 %.
+    /// The data tell it: at most a tenth of its prior variance is left, and its standard error is 10 % at most.
     Found,
-    /// More than a tenth of its prior variance is left, or its error is larger than 5 %: it stays at its start.
+    /// The data tell something: at most half of its prior variance is left. It is changed with the others.
+    Poor,
+    /// More than half of its prior variance is left: it stays at its start, and the others are fitted beside it.
     NotTold,
     /// It ended at a bound.
     AtBound,
@@ -72,6 +74,7 @@ impl Verdict {
     pub fn words(self) -> &'static str {
         match self {
             Verdict::Found => "found",
+            Verdict::Poor => "poorly determined",
             Verdict::NotTold => "not told by the data",
             Verdict::AtBound => "at its bound",
         }
@@ -256,6 +259,8 @@ fn verdict(job: &Job, x: &[f64], told: &Identifiability, j: usize) -> Verdict {
         Verdict::AtBound
     } else if told.prior_share[j] <= LARGEST_PRIOR_SHARE && relative <= LARGEST_ERROR {
         Verdict::Found
+    } else if told.prior_share[j] <= MOSTLY_PRIOR {
+        Verdict::Poor
     } else {
         Verdict::NotTold
     }

@@ -1,0 +1,6 @@
+//! A model held against measurements: of itself with other numbers, where the truth is known.
+
+#[path = "../common/rig.rs"]
+mod rig;
+
+mod rig_as_truth;
