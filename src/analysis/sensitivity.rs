@@ -298,15 +298,15 @@ pub fn frf_sensitivity(
             let read = |q: &[Complex64], r: usize| {
                 time_derivative(quantities[r], omega) * responses[r].dot_complex(q)
             };
-            for r in 0..responses.len() {
-                out.values[r][e].push(read(&q, r));
+            for (r, values) in out.values.iter_mut().enumerate() {
+                values[e].push(read(&q, r));
             }
             for (slopes, by) in out.slopes.iter_mut().zip(by) {
                 let mut change = by.apply(value, &q);
                 change.iter_mut().for_each(|v| *v = -*v);
                 lu.solve(&mut change);
-                for r in 0..responses.len() {
-                    slopes[r][e].push(read(&change, r));
+                for (r, slopes) in slopes.iter_mut().enumerate() {
+                    slopes[e].push(read(&change, r));
                 }
             }
         }
