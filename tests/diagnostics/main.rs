@@ -5,6 +5,7 @@ mod sample;
 
 mod bad_input;
 mod bearings;
+mod defects;
 mod mutations;
 
 #[path = "../../src/cli/diagnostics.rs"]

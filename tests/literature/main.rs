@@ -11,6 +11,7 @@ mod rig;
 mod ross;
 
 mod atef_2022;
+mod atef_2022_geometry;
 mod atef_2022_jerk;
 mod atef_2022_lines;
 mod atef_2022_records;
@@ -29,6 +30,7 @@ mod ross_elements;
 mod ross_modes;
 mod ross_responses;
 mod ross_run_up;
+mod wardle_1988;
 mod zhang_2016;
 mod zhang_2016_bearing;
 mod zhang_2016_contacts;

@@ -4,6 +4,7 @@ mod bearing_file;
 mod bearing_keys;
 mod catalogue;
 mod files;
+mod imperfections;
 mod papers;
 mod rig;
 mod syntax;

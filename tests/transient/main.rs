@@ -6,5 +6,6 @@ mod rig;
 mod attractor;
 mod hammer;
 mod high_speed;
+mod imperfections;
 mod run_up;
 mod torque;

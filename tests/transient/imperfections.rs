@@ -1,0 +1,122 @@
+//! Runs of machines whose races and balls are not perfect.
+
+use rotordyn::model::{Options, load};
+use rotordyn::results::History;
+use rotordyn::study::{Machine, Recorder};
+use rotordyn::transient::run::{End, Report};
+use std::ops::ControlFlow;
+
+const ROTOR: &str = r#"
+[model]
+name = "rotor"
+[material.steel]
+young = "207 GPa"
+poisson = 0.3
+density = "7850 kg/m^3"
+[shaft]
+element_length = "40 mm"
+section = [{ length = "400 mm", outer_diameter = "25 mm" }]
+[station]
+A = "20 mm"
+disc = "200 mm"
+B = "380 mm"
+[disc.main]
+station = "disc"
+outer_diameter = "120 mm"
+thickness = "20 mm"
+material = "steel"
+[bearing.A]
+station = "A"
+model = "ball"
+designation = "6205"
+INERTIA
+[bearing.B]
+station = "B"
+model = "ball"
+designation = "6205"
+[unbalance.disc]
+station = "disc"
+magnitude = "20 g mm"
+[damping.modal]
+frequency = "100 Hz"
+ratio = 0.01
+[drive]
+kind = "prescribed"
+station = "A"
+[speed]
+profile = "ramp"
+from = "1500 rpm"
+ramp = "0.12 s"
+to = "1800 rpm"
+[probe.A_y]
+at = "A"
+direction = "y"
+[study.run_up]
+step = "10 us"
+sample_rate = "10 kHz"
+cutoff = "2500 Hz"
+"#;
+
+fn run(inertia: bool, bearing_a: &str) -> (History, Report) {
+    let inertia = if inertia { "ball_inertia = \"outer_race_control\"" } else { "" };
+    let text = ROTOR.replace("INERTIA", &format!("{inertia}\n{bearing_a}"));
+    let model = load("rotor.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e}")).model;
+    let machine = Machine::new(model).unwrap();
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        recorder.take(sample);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    (recorder.history, report)
+}
+
+const NO_SIZE: &str = r#"
+off_size = [{ ball = 2, by = "0 um" }]
+inner_waviness = [{ order = 8, amplitude = "0 um" }]
+ball_waviness = { amplitude = "0 um", from = 2, to = 9 }
+outer_eccentricity = { amount = "0 um", angle = "20 deg" }
+defect = [
+    { kind = "dent", on = "outer", angle = "260 deg", width = "0 mm" },
+    { kind = "bump", on = "inner", angle = "0 deg", width = "1 mm", height = "0 um", shape = "cap" },
+    { kind = "spall", on = "ball", ball = 3, angle = "0 deg", width = "1 mm", depth = "0 um", edge_radius = "0.1 mm" },
+]
+"#;
+
+const DAMAGED: &str = r#"
+off_size = [{ ball = 2, by = "0.3 um" }]
+ball_waviness = { amplitude = "0.05 um", from = 2, to = 9 }
+defect = [
+    { kind = "dent", on = "outer", angle = "260 deg", width = "0.5 mm" },
+    { kind = "bump", on = "inner", angle = "0 deg", width = "1 mm", height = "1 um", shape = "cap" },
+    { kind = "spall", on = "ball", ball = 3, angle = "0 deg", width = "0.6 mm", depth = "5 um", edge_radius = "0.1 mm" },
+]
+"#;
+
+#[test]
+fn defects_of_no_size_change_no_bit_of_a_run() {
+    for inertia in [false, true] {
+        let perfect = run(inertia, "");
+        assert_eq!(perfect, run(inertia, NO_SIZE));
+        assert_ne!(perfect.0, run(inertia, DAMAGED).0);
+    }
+}
+
+#[test]
+fn the_energy_account_of_a_damaged_machine_closes() {
+    for law in ["displacement", "undamped_displacement", "force", "force_on_loaded"] {
+        for inertia in [false, true] {
+            if inertia && law.starts_with("force") {
+                continue;
+            }
+            let (_, report) = run(inertia, &format!("defect_law = \"{law}\"\n{DAMAGED}"));
+            let energy = report.energy;
+            let left = energy.residual() / energy.turnover();
+            println!("{law} {inertia}: {left:e} of {energy:?}");
+            // The trapezoidal rule over kinks at the edges of defects, in steps of 10 us.
+            assert!(left.abs() < 2e-3, "{law} {inertia}: {left}");
+        }
+    }
+}
