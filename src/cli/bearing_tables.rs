@@ -20,6 +20,10 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     if !held.is_empty() {
         terminal.say(&format!("  held: {}", held.join(", ")));
     }
+    let marks = &found.bearing.imperfections;
+    if !marks.is_empty() {
+        terminal.say(&format!("  races and balls: {}", marks.condition()));
+    }
     let arm = 0.5 * found.bearing.geometry.pitch_diameter;
     let size = |a: usize| if a > 2 { arm } else { 1.0 };
     let largest = (0..5).map(|a| (state.load[a] / size(a)).abs()).fold(0.0, f64::max);

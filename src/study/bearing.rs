@@ -416,6 +416,13 @@ impl<'a> Work<'a> {
                 ));
             }
         }
+        let marks = &self.bearing.imperfections;
+        if self.study.cage_average && !marks.is_empty() {
+            found.push(format!(
+                "bearing {name} ({}) is averaged over the cage's position as if it were perfect; loads of its balls are those at the cage angle",
+                marks.condition()
+            ));
+        }
         let pressure = point.largest_pressure();
         if pressure > STATIC_LIMIT {
             found.push(format!(

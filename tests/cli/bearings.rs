@@ -188,3 +188,28 @@ fn a_bearing_whose_film_is_solved() {
     assert_eq!(again["bearings"], first["bearings"]);
     assert_eq!(tables(), 2);
 }
+
+#[test]
+fn a_damaged_bearing_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("worn.toml");
+    let text = "[model]\nname = \"worn\"\n[bearing.b]\nmodel = \"ball\"\ndesignation = \"6205\"\n\
+        defect = [{ kind = \"dent\", on = \"outer\", centre = \"0 deg\", width = \"0.5 mm\" }]\n";
+    std::fs::write(&file, text).unwrap();
+    let run = |more: &[&str]| {
+        let mut command = rotordyn();
+        command
+            .arg("bearing")
+            .arg(&file)
+            .args(["--load", "500, 0, 0 N", "--no-figures", "--out"])
+            .arg(folder.path())
+            .args(more);
+        let output = command.assert().success().get_output().clone();
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (told, doubts) = run(&[]);
+    assert!(told.contains("races and balls: dent on outer race"), "{told}");
+    assert!(!doubts.contains("as if it were perfect"), "{doubts}");
+    let (_, doubts) = run(&["--averaged"]);
+    assert!(doubts.contains("(dent on outer race) is averaged"), "{doubts}");
+}

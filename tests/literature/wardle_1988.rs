@@ -12,11 +12,12 @@
 //! | outer | kZ − 1 | radial, forward whirl | kZ Ω_c |
 //! | outer | kZ | axial | kZ Ω_c |
 //!
-//! and nothing of the others. Amplitudes: a/cos α radially, a/sin α axially, as the ring follows the balls' contacts
-//! (held against tilting).
+//! and nothing of the others. Amplitudes of the ring, held against tilting: a cos α/(cos² α + ε sin² α) radially,
+//! a sin α/(sin² α + ε cos² α) axially, with ε = (Q/|s|)/(dQ/dδ) = (2/3) δ/|s| the share of the load that turns with the
+//! line of contact; a/cos α and a/sin α when δ is small.
 
 use crate::bearing::rig_6205;
-use rotordyn::bearing::{BallElement, Cage, Rotation, Wave};
+use rotordyn::bearing::{BallElement, BallLoad, Cage, Rotation, Wave};
 use std::f64::consts::TAU;
 
 /// Turns of the shaft in a record, and of a cage whose ratio makes the record periodic.
@@ -26,8 +27,9 @@ const SAMPLES: usize = 1024;
 /// Amplitude of the waves \[m\], a thousandth of the contacts' approach.
 const AMPLITUDE: f64 = 5e-9;
 
-/// Where the ring of a slowly turning bearing under axial load is, at every sample: x, y, z; and the balls' angle.
-fn motion(inner: bool, order: u32) -> (Vec<[f64; 3]>, f64) {
+/// Where the ring of a slowly turning bearing under axial load is, at every sample: x, y, z; and the amplitudes over the
+/// waves' that a radial and an axial line are to have.
+fn motion(inner: bool, order: u32) -> (Vec<[f64; 3]>, [f64; 2]) {
     let mut bearing = rig_6205();
     bearing.geometry.contact_angle = 0.4;
     bearing.geometry.radial_clearance = 0.0;
@@ -64,7 +66,13 @@ fn motion(inner: bool, order: u32) -> (Vec<[f64; 3]>, f64) {
         place.push([d[0], d[1], d[2]]);
     }
     let loads = element.ball_loads(&d, &at(0));
-    (place, loads.iter().map(|b| b.contact_angle).sum::<f64>() / loads.len() as f64)
+    let mean = |of: fn(&BallLoad) -> f64| loads.iter().map(of).sum::<f64>() / loads.len() as f64;
+    let (angle, approach) = (mean(|b| b.contact_angle), mean(|b| b.deflection));
+    let g = &bearing.geometry;
+    let distance = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter + approach;
+    let (sin, cos) = angle.sin_cos();
+    let turned = 2.0 / 3.0 * approach / distance;
+    (place, [cos / (cos * cos + turned * sin * sin), sin / (sin * sin + turned * cos * cos)])
 }
 
 /// Lines of x + i y above a part of the waves' amplitude, as (frequency in shaft turns, amplitude over the waves');
@@ -96,7 +104,7 @@ fn orders_next_to_multiples_of_the_balls_shake_radially_and_no_others() {
     let (mut radial, mut axial) = (0, 0);
     for inner in [true, false] {
         for order in 2..=20_u32 {
-            let (motion, angle) = motion(inner, order);
+            let (motion, amplitudes) = motion(inner, order);
             // What a thousandth of the approach leaves of a second order, (3/4 to 1/8) a/δ, is below 2e-3.
             let whirl = lines(&motion.iter().map(|m| [m[0], m[1]]).collect::<Vec<_>>(), 2e-3);
             let thrust = lines(&motion.iter().map(|m| [m[2], 0.0]).collect::<Vec<_>>(), 2e-3);
@@ -115,8 +123,8 @@ fn orders_next_to_multiples_of_the_balls_shake_radially_and_no_others() {
                         (frequency - expected).abs() < 1e-9,
                         "{name} {order}: {frequency} for {expected}"
                     );
-                    // The centred angle against that under a moved ring: parts in a thousand.
-                    assert!((amplitude * angle.cos() - 1.0).abs() < 5e-3, "{name} {order}: {amplitude}");
+                    // Waves of a thousandth of the approach.
+                    assert!((amplitude / amplitudes[0] - 1.0).abs() < 1e-3, "{name} {order}: {amplitude}");
                     radial += 1;
                 }
                 (None, []) => {}
@@ -130,7 +138,7 @@ fn orders_next_to_multiples_of_the_balls_shake_radially_and_no_others() {
                         "{name} {order}: {thrust:?}"
                     );
                     assert!(
-                        (2.0 * amplitude * angle.sin() - 1.0).abs() < 5e-3,
+                        (2.0 * amplitude / amplitudes[1] - 1.0).abs() < 1e-3,
                         "{name} {order}: {amplitude}"
                     );
                     axial += 1;

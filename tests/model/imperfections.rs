@@ -133,8 +133,9 @@ fn sizes_eccentric_races_and_spin() {
         "off_size = [{ ball = 0, by = \"0.2 um\" }, { ball = 4, by = \"-0.1 um\" }]\nball_spin = \"shaft\"\n\
          inner_eccentricity = { amount = \"2 um\", angle = \"30 deg\" }\nouter_eccentricity = { amount = \"1 um\" }",
     );
+    // Micrometres are read as a division by 10⁶.
     let size = |ball, by| OffSize { ball, by, row: None };
-    assert_eq!(found.off_size, [size(0, 0.2e-6), size(4, -0.1e-6)]);
+    assert_eq!(found.off_size, [size(0, 0.2 / 1e6), size(4, -0.1 / 1e6)]);
     assert_eq!(found.spin, BallSpin::Shaft);
     assert_eq!(found.inner_waviness, [Wave { order: 1, amplitude: 2e-6, phase: -PI / 6.0 }]);
     assert_eq!(found.outer_waviness, [Wave { order: 1, amplitude: 1e-6, phase: PI }]);

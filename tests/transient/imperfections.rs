@@ -52,14 +52,15 @@ to = "1800 rpm"
 at = "A"
 direction = "y"
 [study.run_up]
-step = "10 us"
+step = "STEP us"
 sample_rate = "10 kHz"
 cutoff = "2500 Hz"
 "#;
 
-fn run(inertia: bool, bearing_a: &str) -> (History, Report) {
+fn run(inertia: bool, step: f64, bearing_a: &str) -> (History, Report) {
     let inertia = if inertia { "ball_inertia = \"outer_race_control\"" } else { "" };
-    let text = ROTOR.replace("INERTIA", &format!("{inertia}\n{bearing_a}"));
+    let text =
+        ROTOR.replace("INERTIA", &format!("{inertia}\n{bearing_a}")).replace("STEP", &step.to_string());
     let model = load("rotor.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e}")).model;
     let machine = Machine::new(model).unwrap();
     let study = machine.model.studies.run_up.clone().unwrap();
@@ -98,9 +99,9 @@ defect = [
 #[test]
 fn defects_of_no_size_change_no_bit_of_a_run() {
     for inertia in [false, true] {
-        let perfect = run(inertia, "");
-        assert_eq!(perfect, run(inertia, NO_SIZE));
-        assert_ne!(perfect.0, run(inertia, DAMAGED).0);
+        let perfect = run(inertia, 10.0, "");
+        assert_eq!(perfect, run(inertia, 10.0, NO_SIZE));
+        assert_ne!(perfect.0, run(inertia, 10.0, DAMAGED).0);
     }
 }
 
@@ -111,12 +112,15 @@ fn the_energy_account_of_a_damaged_machine_closes() {
             if inertia && law.starts_with("force") {
                 continue;
             }
-            let (_, report) = run(inertia, &format!("defect_law = \"{law}\"\n{DAMAGED}"));
-            let energy = report.energy;
-            let left = energy.residual() / energy.turnover();
-            println!("{law} {inertia}: {left:e} of {energy:?}");
-            // The trapezoidal rule over kinks at the edges of defects, in steps of 10 us.
-            assert!(left.abs() < 2e-3, "{law} {inertia}: {left}");
+            let lines = format!("defect_law = \"{law}\"\n{DAMAGED}");
+            let [coarse, fine] = [5.0, 0.3125].map(|step| {
+                let energy = run(inertia, step, &lines).1.energy;
+                energy.residual().abs() / energy.turnover()
+            });
+            println!("{law} {inertia}: {coarse:.1e} {fine:.1e} left");
+            // The rate of a deviation jumps at the edges of dents and the middle of pits, 80 mm/s under 20 N here: within
+            // a step the trapezoidal rule misses up to half of that power, to either side, at each of some twenty edges.
+            assert!(coarse < 2.5e-2 && fine < 2e-3, "{law} {inertia}: {coarse} {fine}");
         }
     }
 }

@@ -65,7 +65,13 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
     }
     let (kind, place) = (d.choice("kind", &kinds), d.choice("on", &places));
     let row = row(d, pair);
-    let width = d.need("width", not_negative(LENGTH));
+    let size = |key: &str, example: &str| {
+        if !d.has(key) {
+            d.missing(key, example);
+        }
+        d.or(key, not_negative(LENGTH), 1.0)
+    };
+    let width = size("width", "\"0.17 mm\"");
     let ball = d.has("ball").then(|| d.count("ball", 0, 0..=g.balls - 1));
     let on = match (place, ball) {
         (Some(Place::Inner), None) => Surface::Inner,
@@ -94,13 +100,28 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
     };
     let shape =
         || d.choice("shape", &[("half_sine", Shape::HalfSine), ("cap", Shape::Cap)]).unwrap_or_default();
+    let without = |keys: &[&str], expected: &str| {
+        for key in keys.iter().copied().filter(|key| d.has(key)) {
+            let message = format!("{} says nothing of {expected}", d.name(key));
+            d.error(Kind::Conflict, key, message);
+        }
+    };
     let form = match kind {
-        Word::Dent => DefectForm::Dent { depth: d.get("depth", not_negative(LENGTH)), shape: shape() },
-        Word::Bump => DefectForm::Bump { height: d.need("height", not_negative(LENGTH)), shape: shape() },
-        Word::Spall => DefectForm::Spall {
-            depth: d.need("depth", not_negative(LENGTH)),
-            edge_radius: d.or("edge_radius", not_negative(LENGTH), 0.0),
-        },
+        Word::Dent => {
+            without(&["height", "edge_radius"], "a dent, which has a depth and a shape");
+            DefectForm::Dent { depth: d.get("depth", not_negative(LENGTH)), shape: shape() }
+        }
+        Word::Bump => {
+            without(&["depth", "edge_radius"], "a bump, which has a height and a shape");
+            DefectForm::Bump { height: size("height", "\"0.25 um\""), shape: shape() }
+        }
+        Word::Spall => {
+            without(&["height", "shape"], "a spall, which has a depth and an edge_radius");
+            DefectForm::Spall {
+                depth: size("depth", "\"20 um\""),
+                edge_radius: d.or("edge_radius", not_negative(LENGTH), 0.0),
+            }
+        }
     };
     place?;
     let mut out = Defect { on, row, start: given, width, form };
@@ -160,7 +181,11 @@ fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
     if angle > room {
         let message = format!("{} is under {what}", d.name("width"));
         let spacing = format!("below {:.3} mm, one contact at a time", mm(room * radius));
-        d.log.warn(problem(Kind::Geometry, "width", message).expected(spacing));
+        d.log.warn(
+            problem(Kind::Geometry, "width", message)
+                .expected(spacing)
+                .hint("this is computed as it stands, each contact following its own path"),
+        );
     }
     if let DefectForm::Dent { depth: Some(depth), .. } | DefectForm::Spall { depth, .. } = defect.form
         && defect.width > 0.0
@@ -168,8 +193,10 @@ fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
     {
         let message = format!("{} is deeper than a ball reaches", d.name("depth"));
         let reach = format!("{:.4} um at most in an opening of this width", um(defect.reach(g)));
-        d.log.warn(problem(Kind::Geometry, "depth", message).expected(reach).hint(
-            "the ball rests on the edges: the motion is that of a pit as deep as it reaches, to be written so or left",
-        ));
+        d.log.warn(
+            problem(Kind::Geometry, "depth", message)
+                .expected(reach)
+                .hint("computed as it stands: the ball rests on the edges and never sees the bottom"),
+        );
     }
 }
