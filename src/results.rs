@@ -1,10 +1,15 @@
 //! What the studies of a model give: plain data, as computed, in SI.
 
 mod bearing;
+mod signal;
 
 pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
     PickContact, SolvedFilm,
+};
+pub use signal::{
+    CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult, RatedBearing,
+    ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramOverTime,
 };
 
 use crate::analysis::Mode;

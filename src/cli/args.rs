@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::signal::args::SignalArgs;
+
 const LONG_ABOUT: &str = "\
 Simulates rotating machines: a flexible shaft with discs on ball or linear bearings, in housings on springs.
 
@@ -20,6 +22,7 @@ Examples:
   rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
   rotordyn spectrogram out/overhung_rig --channels B_ax        of a run-up that is on disk
   rotordyn bearing models/overhung_rig.toml --bearing A        loads, contacts, stiffness of one bearing
+  rotordyn signal record.mat --rate \"12 kHz\" --bearing 6205   which part of the bearing is damaged?
   rotordyn catalogue 6205
 
 Units are written in values: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A number without its unit is an error.
@@ -428,6 +431,14 @@ Examples:
         /// Designation, or how it begins
         designation: Option<String>,
     },
+
+    /// A record, measured or simulated: spectra, envelope with bearing lines and verdict, kurtogram, orders, jerk
+    ///
+    /// Reads universal files, MATLAB, NumPy, WAV, tables, HDF5 and stored runs, whichever the content is. Says which part
+    /// of the bearing is damaged by the lines in the envelope's spectrum; with --against the envelope spectra of two
+    /// records, such as measured and simulated, come into one figure.
+    #[command(after_long_help = super::signal::args::EXAMPLES)]
+    Signal(Box<SignalArgs>),
 
     /// Export for viewing and for other programs: glb, VTK, universal files, MATLAB, NumPy, CSV, WAV
     ///

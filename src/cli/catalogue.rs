@@ -28,7 +28,8 @@ fn starts(designation: &str, with: &str) -> bool {
     designation.get(..with.len()).is_some_and(|head| head.eq_ignore_ascii_case(with))
 }
 
-fn geometry(e: &CatalogueEntry) -> BallGeometry {
+/// Internal geometry of an entry, without clearance.
+pub fn geometry(e: &CatalogueEntry) -> BallGeometry {
     BallGeometry {
         balls: e.balls,
         ball_diameter: e.ball_diameter,

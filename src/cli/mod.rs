@@ -13,6 +13,7 @@ mod films;
 mod interrupt;
 mod machine;
 mod settings;
+mod signal;
 mod store;
 mod stored;
 mod studies;
@@ -114,6 +115,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Catalogue { designation } => {
             catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
         }
+        Command::Signal(args) => signal::run(args, terminal),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),
     }
 }

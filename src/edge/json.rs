@@ -20,6 +20,10 @@
 //! | `bearings` | per ball bearing on its own {name, load_from, nominal_orders, operating, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | sentences |
 
+mod signal;
+
+pub use signal::signal_to_json;
+
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;

@@ -107,6 +107,37 @@ pub fn diagnose(
     Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines })
 }
 
+/// Levels compared where nothing tells how fast pulses come: bands of a 128th of the sampling rate and wider.
+const PLAIN_DEPTH: usize = 6;
+
+/// Band by `rule` and its envelope's spectrum, where no bearing is known: band, kurtogram that chose it, spectrum.
+///
+/// [`BandRule::Lines`] chooses as [`BandRule::Kurtosis`]. `top_order` is the highest order kept with a shaft angle. Other
+/// arguments and errors as [`diagnose`].
+pub fn band_envelope(
+    record: &[f64],
+    sample_rate: f64,
+    turning: Turning,
+    rule: BandRule,
+    top_order: f64,
+) -> Result<((f64, f64), Option<Kurtogram>, Spectrum), SignalError> {
+    check_record("record", record)?;
+    check_rate(sample_rate)?;
+    let clock = Clock::new(record.len(), sample_rate, turning, top_order)?;
+    let depth = deepest(record.len()).min(PLAIN_DEPTH);
+    let (band, kurtogram) = match rule {
+        BandRule::Given(low, high) => ((low, high), None),
+        BandRule::Kurtosis | BandRule::Lines if depth > 0 => {
+            let kurtogram = fast_kurtogram(record, sample_rate, depth)?;
+            let BandChoice { low, high, .. } = kurtogram.best();
+            ((low, high), Some(kurtogram))
+        }
+        _ => ((0.0, 0.5 * sample_rate), None),
+    };
+    let spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    Ok((band, kurtogram, spectrum))
+}
+
 /// Magnitude of a band's analytic signal.
 fn envelope(record: &[f64], sample_rate: f64, band: (f64, f64)) -> Result<Vec<f64>, SignalError> {
     let whole = band.0 <= 0.0 && band.1 >= 0.5 * sample_rate;

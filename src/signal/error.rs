@@ -23,6 +23,8 @@ pub enum SignalError {
         "the shaft turns {given:.3} revolutions without standing still or turning back: {needed:.3} are needed for {purpose}"
     )]
     TooFewRevolutions { needed: f64, given: f64, purpose: &'static str },
+    #[error("{purpose} needs {what}, which is not known")]
+    Unknown { what: &'static str, purpose: &'static str },
 }
 
 /// Refuses an empty record and one that holds NaN or infinity.

@@ -4,6 +4,7 @@ mod attractor;
 mod bearing;
 mod bifurcation;
 mod record;
+pub mod signal;
 mod solved_film;
 mod tracking;
 

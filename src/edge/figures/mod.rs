@@ -12,6 +12,7 @@
 //! | `orders_<channel>`, `order_cuts_<channel>` | orders over speed |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | a bearing on its own at its operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
+//! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
 //! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
 
 mod bearing;
@@ -20,6 +21,8 @@ mod display;
 mod machine;
 mod response;
 mod run;
+mod signal;
+mod signal_shaft;
 mod speed;
 
 use std::path::{Path, PathBuf};
@@ -28,7 +31,7 @@ use rayon::prelude::*;
 
 use super::plot::{self, Figure};
 use crate::error::Error;
-use crate::results::{BearingResult, Results};
+use crate::results::{BearingResult, Results, SignalResult};
 use crate::study::Machine;
 
 /// Frequency in Hz or speed in rpm of an angular one.
@@ -64,6 +67,22 @@ pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<P
 /// A file cannot be written.
 pub fn draw_bearings(found: &[BearingResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
+}
+
+/// Draws every figure of records on their own; `title` is that of their file. Returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), folder)
+}
+
+/// Draws the envelope spectra of two records, each with the title of its file, one under the other.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_against(of: [(&SignalResult, &str); 2], folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    write_all(&signal::against(of).into_iter().collect::<Vec<_>>(), folder)
 }
 
 fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {

@@ -68,7 +68,6 @@ pub fn draw(data: &HeatMap) -> Svg {
         svg.rect(left, upper, right - left, lower - upper, Style::stroke(WHITE, 3.6));
         svg.rect(left, upper, right - left, lower - upper, Style::stroke(INK, 1.6));
         let middle = 0.5 * (left + right);
-        svg.line([middle, upper], [middle, frame.y - 3.0], Style::stroke(INK, 0.7).faint(0.7));
         svg.text([middle, frame.y - 6.0], &field.label, Text::new(SMALL, INK).middle());
     }
     let label = |name: &str, unit: &str, with_unit: String| {

@@ -22,10 +22,12 @@ mod thin;
 mod ball_load;
 mod bode;
 mod campbell;
+mod cursors;
 mod deflection;
 mod film_map;
 mod frf;
 mod grid;
+mod heat_map;
 mod history;
 mod lines;
 mod mode_shape;
@@ -46,10 +48,12 @@ use crate::error::Error;
 pub use ball_load::{BallLoads, BallRow};
 pub use bode::{Bode, BodeCurve};
 pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
+pub use cursors::{Cursor, CursorLines, CursorMark, CursorPanel};
 pub use deflection::{Deflection, Mark};
 pub use film_map::FilmMap;
 pub use frf::{Frf, FrfCurve};
 pub use grid::{Grid, GridPanel};
+pub use heat_map::{Field, HeatMap};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
@@ -80,6 +84,8 @@ pub enum Figure {
     History(History),
     Lines(Lines),
     Grid(Grid),
+    CursorLines(CursorLines),
+    HeatMap(HeatMap),
     FilmMap(FilmMap),
     Rig(Rig),
 }
@@ -102,6 +108,8 @@ impl Figure {
             Figure::History(data) => history::draw(data),
             Figure::Lines(data) => lines::draw(data),
             Figure::Grid(data) => grid::draw(data),
+            Figure::CursorLines(data) => cursors::draw(data),
+            Figure::HeatMap(data) => heat_map::draw(data),
             Figure::FilmMap(data) => film_map::draw(data),
             Figure::Rig(data) => rig::draw(data),
         }

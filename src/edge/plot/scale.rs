@@ -203,6 +203,13 @@ impl Scale {
         Scale { ticks, minor: Vec::new(), exponent: 0, ..self }
     }
 
+    /// The same with named ticks at given values.
+    pub fn named(self, ticks: &[(f64, String)]) -> Self {
+        let inside = ticks.iter().filter(|(value, _)| self.range.contains(*value));
+        let ticks = inside.map(|(value, label)| Tick { value: *value, label: label.clone() }).collect();
+        Scale { ticks, minor: Vec::new(), exponent: 0, ..self }
+    }
+
     /// Page coordinate of a value \[px\]; NaN where the axis has no place for it.
     pub fn px(&self, value: f64) -> f64 {
         let Range { lo, hi } = self.range;

@@ -21,6 +21,9 @@
 mod bearing;
 mod linear;
 mod run;
+mod signal;
+
+pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::bearing::Bearing;

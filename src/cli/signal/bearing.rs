@@ -1,0 +1,117 @@
+//! The bearing whose lines are sought: of the catalogue, of a model, or by its rates.
+
+use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
+use rotordyn::edge::hdf5::Store;
+use rotordyn::model::catalogue;
+use rotordyn::results::RatedBearing;
+
+use super::super::args::ModelArgs;
+use super::super::catalogue::geometry as catalogue_geometry;
+use super::super::failure::Failure;
+use super::super::machine::Origin;
+use super::super::store::stored_origin;
+use super::args::SignalArgs;
+use super::input::{File, Findings, alike};
+
+/// The bearing of the flags.
+pub fn find(
+    args: &SignalArgs,
+    file: &File,
+    findings: &mut Findings,
+) -> Result<Option<RatedBearing>, Failure> {
+    if !args.rates.is_empty() {
+        return Ok(of_rates(&args.rates, findings));
+    }
+    let Some(name) = &args.bearing else { return Ok(None) };
+    let origin = match &args.model {
+        Some(model) => {
+            let model = ModelArgs { model: model.clone(), variant: None, set: Vec::new() };
+            Some(Origin::read(&model)?)
+        }
+        None if file.stored_run => stored_origin(&Store::open(&file.path)?).ok(),
+        None => None,
+    };
+    let of_model = match &origin {
+        Some(origin) => origin.load_bearings(&[])?.bearings,
+        None => Vec::new(),
+    };
+    if let Some((_, ball)) = of_model.iter().find(|(known, _)| known == name) {
+        let from = origin.map_or_else(String::new, |o| o.name);
+        return Ok(Some(of_geometry(name, from, &ball.geometry)));
+    }
+    if let Some(entry) = catalogue::find(name) {
+        return Ok(Some(of_geometry(entry.designation, "catalogue".into(), &catalogue_geometry(&entry))));
+    }
+    let designations: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
+    let known = of_model.iter().map(|(name, _)| name.as_str()).chain(designations);
+    let hint = match alike(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`rotordyn catalogue` lists all; --rates takes any other".into(),
+    };
+    let places = if of_model.is_empty() { "in the catalogue" } else { "in the model or the catalogue" };
+    findings.problem(format!("there is no bearing `{name}` {places}; {hint}"));
+    Ok(None)
+}
+
+fn of_geometry(name: &str, source: String, g: &BallGeometry) -> RatedBearing {
+    RatedBearing {
+        name: name.into(),
+        source,
+        orders: g.orders(g.contact_angle),
+        balls: g.balls,
+        raceway_radii: Some(radii(g.pitch_diameter, g.ball_diameter, g.contact_angle)),
+    }
+}
+
+/// (D_pw ∓ D_w cos α)/2.
+fn radii(pitch: f64, ball: f64, angle: f64) -> [f64; 2] {
+    [-1.0, 1.0].map(|side| 0.5 * (pitch + side * ball * angle.cos()))
+}
+
+/// `FTF=..., BPFO=..., BPFI=..., BSF=...`; the balls are Z = BPFO + BPFI, and what is left out follows for a contact
+/// angle of zero.
+fn of_rates(rates: &[String], findings: &mut Findings) -> Option<RatedBearing> {
+    const NAMES: [&str; 4] = ["FTF", "BPFO", "BPFI", "BSF"];
+    let mut found: [Option<f64>; 4] = [None; 4];
+    for text in rates {
+        let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim().parse::<f64>()));
+        let place =
+            parts.as_ref().and_then(|(name, _)| NAMES.iter().position(|n| n.eq_ignore_ascii_case(name)));
+        match (place, parts) {
+            (Some(place), Some((_, Ok(value)))) if value > 0.0 && value.is_finite() => {
+                found[place] = Some(value)
+            }
+            _ => findings.problem(format!(
+                "--rates {text}: expected one of {} with its rate per turn, such as BPFO=3.585",
+                NAMES.join(", ")
+            )),
+        }
+    }
+    let (Some(bpfo), Some(bpfi)) = (found[1], found[2]) else {
+        findings.problem("--rates: BPFO and BPFI are needed, such as --rates BPFO=3.585,BPFI=5.415");
+        return None;
+    };
+    let z = (bpfo + bpfi).round();
+    if z < 3.0 || (bpfo + bpfi - z).abs() > 0.02 || bpfo >= bpfi {
+        findings.problem(format!(
+            "--rates: BPFO + BPFI = {:.3} should be the number of balls, BPFO the smaller",
+            bpfo + bpfi
+        ));
+        return None;
+    }
+    let gamma = (bpfi - bpfo) / z;
+    let orders = CharacteristicOrders {
+        ftf: found[0].unwrap_or(bpfo / z),
+        bpfo,
+        bpfi,
+        bsf: found[3].unwrap_or(0.5 / gamma * (1.0 - gamma * gamma)),
+    };
+    let balls = z as usize;
+    Some(RatedBearing {
+        name: format!("{balls} balls"),
+        source: "rates given".into(),
+        orders,
+        balls,
+        raceway_radii: None,
+    })
+}

@@ -1,0 +1,152 @@
+//! `signal`: a record of any origin, measured or simulated, and what it says about a machine and its bearing.
+
+mod against;
+pub mod args;
+mod bearing;
+mod input;
+mod settings;
+mod shaft;
+mod tables;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use rotordyn::edge::figures;
+use rotordyn::edge::hdf5::Store;
+use rotordyn::edge::json::signal_to_json;
+use rotordyn::edge::results_file::{self, SignalMeta};
+use rotordyn::error::Error;
+use rotordyn::results::{RatedBearing, SignalResult};
+use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
+use serde_json::json;
+
+use super::failure::Failure;
+use super::terminal::Terminal;
+use super::{Outcome, written};
+use args::SignalArgs;
+use input::{Choice, File, Findings};
+use shaft::Shaft;
+
+/// Name of the file of results.
+const RESULTS: &str = "signal.h5";
+
+pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    let file = File::read(&args.file)?;
+    let mut findings = Findings::default();
+    let without: Vec<&str> = args.tacho.as_deref().into_iter().chain(args.beside.as_deref()).collect();
+    let choice = Choice {
+        names: &args.channel,
+        without: &without,
+        beside: args.beside.as_deref(),
+        rate: args.rate.as_deref(),
+        unit: args.unit.as_deref(),
+        time: args.time.as_deref(),
+        flag: "--",
+    };
+    let channels = input::channels(&file, &choice, &mut findings);
+    let shaft = Shaft::of(args, &file, &mut findings);
+    let rated = bearing::find(args, &file, &mut findings)?;
+    let settings = settings::of(args, rated.is_some(), &mut findings);
+    if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {
+        findings.problem(
+            "a bearing's lines are multiples of the shaft's speed, which the file does not state; give it, such as \
+             --speed \"1797 rpm\", or --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\"",
+        );
+    }
+    findings.settle()?;
+
+    let spinner = terminal.spinner("signal");
+    let results: Result<Vec<SignalResult>, Failure> =
+        channels.iter().map(|channel| look(channel, &shaft, rated.as_ref(), &settings)).collect();
+    let results = results?;
+    let other = match results.first() {
+        Some(first) => against::find(args, first, &settings, &mut findings.warnings)?,
+        None => None,
+    };
+    spinner.finish_and_clear();
+    let names: Vec<&str> = channels.iter().map(|c| c.name.as_str()).collect();
+    tables::channels(terminal, &file, &names);
+    if let Some(first) = results.first() {
+        tables::known(terminal, first);
+    }
+    tables::statistics(terminal, &results);
+    results.iter().for_each(|result| tables::channel(terminal, result));
+    if let Some((other, title)) = &other {
+        terminal.heading(&format!("Against {title}"));
+        tables::known(terminal, other);
+        tables::channel(terminal, other);
+    }
+
+    let folder = folder(args, &file);
+    let files = write(args, &file, &results, other.as_ref(), &folder, terminal)?;
+    let seconds = start.elapsed().as_secs_f64();
+    written(terminal, &folder, &files);
+    if files.len() > 1 {
+        terminal.say("  (every figure is there as SVG and as PNG)");
+    }
+    let mut warnings = file.measured.notes.clone();
+    // What was told by a flag is no longer missing.
+    warnings.retain(|note| args.rate.is_none() || !note.starts_with("no sampling rate"));
+    warnings.extend(findings.warnings);
+    warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
+    warnings.iter().for_each(|text| terminal.complain("warning", text));
+
+    let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
+    document["command"] = json!("signal");
+    document["file"] = json!(file.path);
+    document["seconds"] = json!({ "signal": seconds });
+    document["files"] = json!(files);
+    document["warnings"] = json!(warnings);
+    Ok(document.into())
+}
+
+/// The analyses of one channel.
+fn look(
+    channel: &SignalChannel,
+    shaft: &Shaft,
+    bearing: Option<&RatedBearing>,
+    settings: &SignalSettings,
+) -> Result<SignalResult, Failure> {
+    let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
+    let motion = shaft.motion(channel).map_err(named)?;
+    analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
+        Error::Signal(error) => named(error.to_string()),
+        other => other.into(),
+    })
+}
+
+/// Beside a stored run, else `out/NAME`, unless told otherwise.
+fn folder(args: &SignalArgs, file: &File) -> PathBuf {
+    match (&args.out, file.stored_run) {
+        (Some(out), _) => out.clone(),
+        (None, true) => file.path.parent().map(PathBuf::from).unwrap_or_default(),
+        (None, false) => Path::new("out").join(&file.stem),
+    }
+}
+
+/// Results and figures on disk; their paths.
+fn write(
+    args: &SignalArgs,
+    file: &File,
+    results: &[SignalResult],
+    other: Option<&(SignalResult, String)>,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<Vec<PathBuf>, Failure> {
+    let store = Store::create(folder.join(RESULTS))?;
+    let command: Vec<String> = std::env::args().skip(1).collect();
+    let meta = SignalMeta { file: &file.path.display().to_string(), command: &command.join(" ") };
+    results_file::write_signal(&store, &meta, results, other.map(|(other, _)| other))?;
+    let mut files = vec![store.path().to_path_buf()];
+    if !args.no_figures {
+        let spinner = terminal.spinner("figures");
+        let title = file.title();
+        files.extend(figures::draw_signal(results, &title, folder)?);
+        if let (Some(first), Some((other, other_title))) = (results.first(), other) {
+            files.extend(figures::draw_against([(first, &title), (other, other_title)], folder)?);
+        }
+        spinner.finish_and_clear();
+    }
+    Ok(files)
+}

@@ -1,0 +1,83 @@
+//! What is looked for, by the flags.
+
+use rotordyn::signal::bearing_lines::LineSettings;
+use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::study::signal::{Analysis, Race, SignalSettings, Wanted};
+use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
+
+use super::args::SignalArgs;
+use super::input::{Findings, alike};
+
+/// The settings of the flags; `bearing` tells whether one is known.
+pub fn of(args: &SignalArgs, bearing: bool, findings: &mut Findings) -> SignalSettings {
+    let usual = SignalSettings::default();
+    let frequency = |findings: &mut Findings, flag: &str, text: &Option<String>| {
+        text.as_ref().and_then(|text| findings.positive(flag, text, FREQUENCY))
+    };
+    let slip = findings.keep("--slip: ", units::parse(&args.slip, NUMBER)).unwrap_or(usual.lines.slip);
+    let race = match args.race.to_lowercase().as_str() {
+        "outer" => Race::Outer,
+        "inner" => Race::Inner,
+        other => {
+            findings.problem(format!("--race {other}: expected outer or inner"));
+            Race::Outer
+        }
+    };
+    SignalSettings {
+        analyses: analyses(&args.analyses, findings),
+        band: args.band.as_ref().and_then(|text| band(text, bearing, findings)),
+        resolution: frequency(findings, "--resolution", &args.resolution),
+        max_frequency: frequency(findings, "--max-frequency", &args.max_frequency),
+        order_resolution: args.order_resolution,
+        max_order: args.max_order,
+        lines: LineSettings { slip, harmonics: args.harmonics, ..usual.lines },
+        race,
+        datum: findings.quantity("--datum", &args.datum, TIME).unwrap_or(0.0),
+    }
+}
+
+fn analyses(words: &[String], findings: &mut Findings) -> Wanted {
+    match words {
+        [] => return Wanted::Usual,
+        [all] if all == "all" => return Wanted::All,
+        _ => {}
+    }
+    let known = || Analysis::ALL.iter().map(|(_, word)| *word);
+    let mut wanted = Vec::new();
+    for word in words {
+        match Analysis::ALL.iter().find(|(_, known)| known == word) {
+            Some((analysis, _)) if wanted.contains(analysis) => {}
+            Some((analysis, _)) => wanted.push(*analysis),
+            None => {
+                let hint = match alike(word, known()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("there are {}", known().collect::<Vec<_>>().join(", ")),
+                };
+                findings.problem(format!("--analyses: there is no analysis `{word}`; {hint}"));
+            }
+        }
+    }
+    Wanted::These(wanted)
+}
+
+fn band(text: &str, bearing: bool, findings: &mut Findings) -> Option<BandRule> {
+    match text.trim() {
+        "lines" if !bearing => {
+            findings.problem("--band lines: a --bearing is needed, whose lines score the bands");
+            None
+        }
+        "lines" => Some(BandRule::Lines),
+        "kurtosis" => Some(BandRule::Kurtosis),
+        "whole" => Some(BandRule::Whole),
+        range if range.contains("..") => {
+            let [low, high] = findings.range("--band", range, FREQUENCY, [0.0, f64::MAX])?;
+            Some(BandRule::Given(low, high))
+        }
+        other => {
+            findings.problem(format!(
+                "--band {other}: expected lines, kurtosis, whole or a range such as \"500 Hz .. 5.5 kHz\""
+            ));
+            None
+        }
+    }
+}

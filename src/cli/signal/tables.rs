@@ -1,0 +1,352 @@
+//! Tables of what was found in records.
+
+use rotordyn::results::{
+    CyclicResult, EnvelopeResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult,
+};
+use rotordyn::signal::bearing_lines::{BearingLine, BearingLines, Modulation};
+use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::signal::kurtogram::BandChoice;
+use rotordyn::signal::race_defects::DefectKind;
+use rotordyn::signal::ridge::find_peaks;
+use rotordyn::signal::spectrum::Spectrum;
+
+use super::super::terminal::{Terminal, number};
+use super::input::{File, is_clock};
+
+/// Rows of a list that can be long.
+const MOST: usize = 8;
+/// Rows of the channels of a file.
+const CHANNELS: usize = 24;
+
+/// What there is in a file.
+pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
+    let records = &file.measured.records;
+    let rows: Vec<Vec<String>> = records
+        .iter()
+        .take(CHANNELS)
+        .map(|r| {
+            let rate = r.sample_rate().map_or("-".into(), |rate| number(rate, 6));
+            let unit = if r.unit.is_empty() { &r.stated_unit } else { &r.unit };
+            let role = match chosen.contains(&r.name.as_str()) {
+                true => "analysed",
+                false if is_clock(r) => "shaft",
+                false => "",
+            };
+            vec![
+                r.name.clone(),
+                r.kind.word().into(),
+                r.values.len().to_string(),
+                rate,
+                if unit.is_empty() { "-".into() } else { unit.clone() },
+                role.into(),
+            ]
+        })
+        .collect();
+    let more = match records.len().saturating_sub(CHANNELS) {
+        0 => String::new(),
+        n => format!(" (and {n} more)"),
+    };
+    let title = format!("{}: {} channels{more}", file.path.display(), records.len());
+    terminal.table(&title, &["channel", "holds", "samples", "rate Hz", "unit", ""], &rows);
+}
+
+/// Speed and bearing.
+pub fn known(terminal: &Terminal, result: &SignalResult) {
+    if let Some(s) = &result.shaft {
+        let rpm = |rev: f64| number(60.0 * rev, 6);
+        let speed = match s.steady {
+            true => format!("{} rpm ({} Hz)", rpm(s.mean), number(s.mean, 6)),
+            false => format!("{} to {} rpm, {} in the mean", rpm(s.least), rpm(s.most), rpm(s.mean)),
+        };
+        terminal.say(&format!("\nShaft: {speed}, {}", s.source));
+    }
+    if let Some(b) = &result.bearing {
+        let o = &b.orders;
+        terminal.say(&format!(
+            "Bearing {} ({}): FTF {:.4}, BPFO {:.4}, BPFI {:.4}, BSF {:.4} a turn",
+            b.name, b.source, o.ftf, o.bpfo, o.bpfi, o.bsf
+        ));
+    }
+}
+
+/// Statistics, one row a channel.
+pub fn statistics(terminal: &Terminal, results: &[SignalResult]) {
+    let optional = |v: Option<f64>| v.map_or("-".into(), |v| format!("{v:.4}"));
+    let rows: Vec<Vec<String>> = results
+        .iter()
+        .map(|r| {
+            let s = &r.statistics;
+            vec![
+                r.channel.clone(),
+                if r.unit.is_empty() { "-".into() } else { r.unit.clone() },
+                number(s.mean, 4),
+                number(s.rms, 5),
+                number(s.peak, 5),
+                optional(s.crest_factor),
+                optional(s.kurtosis),
+                optional(s.skewness),
+            ]
+        })
+        .collect();
+    let header = ["channel", "unit", "mean", "RMS", "peak", "crest factor", "kurtosis", "skewness"];
+    terminal.table("Statistics (kurtosis 3 for a normal distribution)", &header, &rows);
+}
+
+/// Everything else of one channel.
+pub fn channel(terminal: &Terminal, result: &SignalResult) {
+    if let Some(spectrum) = &result.spectrum {
+        peaks(terminal, result, spectrum);
+    }
+    if let Some(k) = &result.kurtogram {
+        let BandChoice { low, high, value, .. } = k.kurtogram.best();
+        let top = |s: &Spectrum| {
+            // Zero frequency and Nyquist have another kurtosis of their own.
+            let best = (1..s.values.len() - 1).max_by(|&a, &b| s.values[a].total_cmp(&s.values[b]));
+            best.map_or((0.0, 0.0), |k| (s.frequencies[k], s.values[k]))
+        };
+        let (at, most) = top(&k.spectral);
+        terminal.say(&format!(
+            "\nKurtogram of {}: highest {value:.2} in {}; spectral kurtosis highest {most:.2} at {} Hz",
+            result.channel,
+            band((low, high)),
+            number(at, 5)
+        ));
+    }
+    if let Some(orders) = &result.orders {
+        cuts(terminal, result, orders);
+    }
+    if let Some(average) = &result.average {
+        turn(terminal, result, average);
+    }
+    if let Some(jerk) = &result.jerk {
+        jumps(terminal, result, jerk);
+    }
+    if let Some(found) = &result.cyclic {
+        cyclic(terminal, result, found);
+    }
+    if let Some(envelope) = &result.envelope {
+        lines(terminal, result, envelope);
+    }
+}
+
+/// The highest lines of a spectrum.
+fn peaks(terminal: &Terminal, result: &SignalResult, spectrum: &Spectrum) {
+    let mut found = find_peaks(&spectrum.frequencies, &spectrum.values, 0.0).unwrap_or_default();
+    found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    let steady = result.shaft.as_ref().filter(|s| s.steady);
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .take(MOST)
+        .map(|p| {
+            let order = steady.map_or("-".into(), |s| format!("{:.3}", p.position / s.mean));
+            vec![number(p.position, 6), order, number(p.amplitude, 4)]
+        })
+        .collect();
+    let title = format!("Highest lines in the spectrum of {}", result.channel);
+    terminal.table(&title, &["Hz", "order", &level("peak", result)], &rows);
+}
+
+/// "RMS m/s^2", or "RMS" alone.
+fn level(what: &str, result: &SignalResult) -> String {
+    format!("{what} {}", result.unit).trim_end().to_string()
+}
+
+fn band((low, high): (f64, f64)) -> String {
+    format!("{} to {} Hz", number(low, 5), number(high, 5))
+}
+
+fn modulation(line: &BearingLine) -> String {
+    let harmonic = match line.harmonic {
+        1 => line.part.line_name().to_string(),
+        n => format!("{n}x {}", line.part.line_name()),
+    };
+    match line.modulation {
+        None => harmonic,
+        Some(Modulation::Shaft(n)) => format!("{harmonic} {} fr", signed(n)),
+        Some(Modulation::Cage(n)) => format!("{harmonic} {} FTF", signed(n)),
+    }
+}
+
+/// "+", "- 2".
+fn signed(n: i32) -> String {
+    let sign = if n < 0 { "-" } else { "+" };
+    if n.abs() == 1 { sign.into() } else { format!("{sign} {}", n.abs()) }
+}
+
+/// The envelope's band, the bearing's lines in it, and the verdict.
+fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
+    let why = match envelope.rule {
+        BandRule::Given(..) => "as given",
+        BandRule::Whole => "all of it",
+        BandRule::Kurtosis => "the most impulsive",
+        BandRule::Lines => "where bearing lines stand out most",
+    };
+    let place = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
+    let Some(found) = &envelope.lines else {
+        let unit = if envelope.over_orders { "order" } else { "Hz" };
+        let mut highest =
+            find_peaks(&envelope.spectrum.frequencies, &envelope.spectrum.values, 0.0).unwrap_or_default();
+        highest.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let rows: Vec<Vec<String>> =
+            highest.iter().take(MOST).map(|p| vec![number(p.position, 5), number(p.amplitude, 4)]).collect();
+        terminal.table(&format!("Highest lines, {place}"), &[unit, &level("peak", result)], &rows);
+        terminal.say("  no verdict: --bearing names the bearing whose lines are sought");
+        return;
+    };
+    let unit = if envelope.over_orders { "order" } else { "Hz" };
+    let rows: Vec<Vec<String>> = found
+        .families
+        .iter()
+        .flat_map(|family| {
+            let harmonic = |n: usize| family.lines.iter().find(|l| l.harmonic == n && l.modulation.is_none());
+            // The first harmonic of all, more of what was found.
+            (1..=if family.found { 3 } else { 1 }).filter_map(harmonic)
+        })
+        .map(row)
+        .collect();
+    let [expected, at] = ["expected", "found at"].map(|name| format!("{name} {unit}"));
+    let amplitude = level("peak", result);
+    let header = ["line", &expected, &at, "off %", &amplitude, "over background dB", ""];
+    terminal.table(&format!("Bearing lines, {place}"), &header, &rows);
+    let bands: Vec<Vec<String>> = found
+        .verdict
+        .map(|part| found.family(part))
+        .into_iter()
+        .flat_map(|family| family.lines.iter().filter(|l| l.modulation.is_some() && l.significant))
+        .take(MOST)
+        .map(row)
+        .collect();
+    if !bands.is_empty() {
+        terminal.table("Side bands found", &header, &bands);
+    }
+    verdict(terminal, result, found);
+}
+
+fn row(line: &BearingLine) -> Vec<String> {
+    let word = match (line.significant, line.shared) {
+        (true, false) => "found",
+        (true, true) => "belongs to the shaft or a stronger line",
+        (false, _) => "not above noise",
+    };
+    vec![
+        modulation(line),
+        number(line.expected, 6),
+        number(line.frequency, 6),
+        format!("{:+.2}", 100.0 * (line.frequency / line.expected - 1.0)),
+        number(line.amplitude, 4),
+        format!("{:.1}", line.level_db),
+        word.into(),
+    ]
+}
+
+fn verdict(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
+    let name = found.verdict_name();
+    terminal.heading(&match found.strongest_line() {
+        Some(line) if found.verdict.is_some() => {
+            format!(
+                "Verdict on {}: {name} ({:.1} dB over the background at {})",
+                result.channel,
+                line.level_db,
+                modulation(line)
+            )
+        }
+        _ => format!("Verdict on {}: {name}", result.channel),
+    });
+}
+
+fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {
+    let rows: Vec<Vec<String>> = orders
+        .cuts
+        .iter()
+        .filter_map(|(line, cut)| {
+            let best = (0..cut.rms.len()).max_by(|&a, &b| cut.rms[a].total_cmp(&cut.rms[b]))?;
+            let mean = (cut.rms.iter().map(|v| v * v).sum::<f64>() / cut.rms.len() as f64).sqrt();
+            Some(vec![
+                line.label.clone(),
+                format!("{:.4}", line.order),
+                number(mean, 4),
+                number(cut.rms[best], 4),
+                number(cut.rpm[best], 4),
+            ])
+        })
+        .collect();
+    let header = ["line", "order", &level("RMS", result), "highest", "at rpm"];
+    terminal.table(
+        &format!("Orders of {}, {} windows", result.channel, orders.map.rpm.len()),
+        &header,
+        &rows,
+    );
+}
+
+fn turn(terminal: &Terminal, result: &SignalResult, found: &ShaftAverage) {
+    let [all, periodic, rest] = found.rms;
+    let share = if all > 0.0 { 100.0 * (periodic / all).powi(2) } else { 0.0 };
+    terminal.say(&format!(
+        "\nAverage of {} over {} turns: RMS {} of {} ({share:.1} % of the power repeats with the shaft), {} left",
+        result.channel,
+        found.average.periods,
+        number(periodic, 4),
+        level(&number(all, 4), result),
+        number(rest, 4)
+    ));
+}
+
+fn jumps(terminal: &Terminal, result: &SignalResult, found: &JerkResult) {
+    terminal.say(&format!("\nJerk of {}: {} jumps in the record", result.channel, found.jumps.len()));
+    if let Some(race) = &found.race {
+        defects(terminal, race);
+    }
+}
+
+fn defects(terminal: &Terminal, race: &RaceResult) {
+    let rows: Vec<Vec<String>> = race
+        .defects
+        .iter()
+        .map(|d| {
+            vec![
+                match d.kind {
+                    DefectKind::Dent => "dent".into(),
+                    DefectKind::Bump => "bump".into(),
+                },
+                format!("{:.3}", d.angle.to_degrees()),
+                format!("{:.3}", d.width.to_degrees()),
+                race.radius.map_or("-".into(), |r| format!("{:.1}", 1e6 * r * d.width)),
+                number(d.jumps[0], 4),
+                number(d.jumps[1], 4),
+            ]
+        })
+        .collect();
+    let title = format!("Defects of the {} read from jumps of the jerk", race.race);
+    let header = ["kind", "begins at deg", "width deg", "width um", "jump in", "jump out"];
+    terminal.table(&title, &header, &rows);
+    if !race.all_round {
+        terminal.say("  angles within one ball spacing; --beside names the channel a quarter turn on");
+    }
+}
+
+fn cyclic(terminal: &Terminal, result: &SignalResult, found: &CyclicResult) {
+    let rows: Vec<Vec<String>> = found
+        .lines
+        .iter()
+        .map(|l| {
+            vec![
+                match l.harmonic {
+                    1 => l.part.line_name().to_string(),
+                    n => format!("{n}x {}", l.part.line_name()),
+                },
+                number(l.expected, 6),
+                number(l.rate, 6),
+                format!("{:.4}", l.coherence),
+                format!("{:.4}", l.background),
+                format!("{:.1}", l.deviations),
+            ]
+        })
+        .collect();
+    let title = format!(
+        "Cyclic coherence of {} over {} s, mean over all carriers",
+        result.channel,
+        number(found.duration, 3)
+    );
+    let header = ["line", "expected Hz", "found at Hz", "coherence", "background", "deviations over it"];
+    terminal.table(&title, &header, &rows);
+}

@@ -1,0 +1,391 @@
+//! Records looked at with the tools of signal processing.
+
+use super::Named;
+use super::display::{Display, decibels, quantity, unit};
+use crate::edge::plot::{
+    Channel, Cursor, CursorLines, CursorMark, CursorPanel, Curve, Field, Figure, HeatMap, History, Lines,
+};
+use crate::results::{EnvelopeResult, KurtogramResult, RatedBearing, SignalResult};
+use crate::signal::bearing_lines::{BearingPart, Modulation};
+use crate::signal::diagnosis::BandRule;
+use crate::signal::kurtogram::Kurtogram;
+use crate::signal::spectrum::Spectrum;
+
+/// Groups of cursors: the shaft, then the bearing's parts.
+pub const GROUPS: [&str; 5] = ["shaft", "BPFO", "BPFI", "2 BSF", "FTF"];
+/// Multiples of BPFI that an envelope's axis shows.
+const SHOWN: f64 = 3.3;
+/// Highest order shown of an envelope without a bearing.
+const SHOWN_ORDER: f64 = 20.0;
+
+/// Group of a part's cursors.
+pub fn group(part: BearingPart) -> usize {
+    1 + BearingPart::ALL.iter().position(|p| *p == part).unwrap_or(0)
+}
+
+/// Every figure of one channel; `title` is that of its file.
+pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
+    let name = |what: &str| format!("signal_{what}_{}", r.channel);
+    let note = note(r, title);
+    let mut out = vec![(name("record"), Figure::History(record(r, &note)))];
+    if let Some(found) = &r.spectrum {
+        out.push((name("spectrum"), Figure::CursorLines(spectrum(r, found, &note))));
+    }
+    if let Some(found) = &r.density {
+        out.push((name("psd"), Figure::Lines(density(r, found, &note))));
+    }
+    if let Some(found) = &r.envelope {
+        out.push((name("envelope"), Figure::CursorLines(envelope(&[(r, found, title)], &note))));
+        if let Some(compared) = found.compared.as_ref().filter(|_| found.rule == BandRule::Lines) {
+            let map = HeatMap {
+                title: format!("Bands of {} by the bearing lines they show", r.channel),
+                quantity: "lines over background".into(),
+                unit: "dB".into(),
+                ..bands(compared, &note)
+            };
+            out.push((name("band_scores"), Figure::HeatMap(map)));
+        }
+    }
+    if let Some(found) = &r.kurtogram {
+        let map = HeatMap {
+            title: format!("Kurtogram of {}", r.channel),
+            quantity: "kurtosis of the envelope".into(),
+            ..bands(&found.kurtogram, &note)
+        };
+        out.push((name("kurtogram"), Figure::HeatMap(map)));
+        out.push((name("spectral_kurtosis"), Figure::Lines(spectral_kurtosis(r, found, &note))));
+    }
+    if let Some(found) = &r.cepstrum {
+        out.push((name("cepstrum"), Figure::CursorLines(cepstrum(r, found, &note))));
+    }
+    out.extend(super::signal_shaft::figures(r, &note));
+    out
+}
+
+/// The envelope spectra of two records, where both have one.
+pub fn against(of: [(&SignalResult, &str); 2]) -> Option<Named> {
+    let [first, second] = of.map(|(r, title)| Some((r, r.envelope.as_ref()?, title)));
+    let pair = [first?, second?];
+    let note = of.map(|(r, title)| note(r, title)).join("; ");
+    let name = format!("signal_envelope_{}_against_{}", of[0].0.channel, of[1].0.channel);
+    Some((name, Figure::CursorLines(envelope(&pair, &note))))
+}
+
+/// Rate, speed, bearing, file.
+fn note(r: &SignalResult, title: &str) -> String {
+    let mut parts = vec![title.to_string()];
+    if let Some(s) = &r.shaft {
+        parts.push(match s.steady {
+            true => format!("{:.0} rpm", 60.0 * s.mean),
+            false => format!("{:.0} to {:.0} rpm", 60.0 * s.least, 60.0 * s.most),
+        });
+    }
+    if let Some(b) = &r.bearing {
+        parts.push(format!("bearing {}", b.name));
+    }
+    parts.push(format!("{} samples at {} Hz", r.samples.len(), r.sample_rate));
+    parts.join(", ")
+}
+
+/// The unit that a channel is drawn in; none where it is not known.
+pub fn shown(r: &SignalResult) -> Display {
+    if r.unit.is_empty() { Display { factor: 1.0, name: "" } } else { unit(&r.unit) }
+}
+
+/// What a channel measures.
+pub fn measured(r: &SignalResult) -> &'static str {
+    if r.unit.is_empty() { "amplitude" } else { quantity(&r.unit) }
+}
+
+fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
+    values.iter().map(|v| v * factor).collect()
+}
+
+fn record(r: &SignalResult, note: &str) -> History {
+    let d = shown(r);
+    let s = &r.statistics;
+    let kurtosis = s.kurtosis.map_or(String::new(), |k| format!(", kurtosis {k:.2}"));
+    let channel = Channel {
+        label: format!("{}{kurtosis}", format!("RMS {:.4} {}", s.rms * d.factor, d.name).trim_end()),
+        quantity: measured(r).into(),
+        unit: d.name.into(),
+        time: (0..r.samples.len()).map(|n| r.start + n as f64 / r.sample_rate).collect(),
+        value: scaled(&r.samples, d.factor),
+    };
+    History { title: format!("Record {}", r.channel), note: note.into(), channels: vec![channel] }
+}
+
+fn spectrum(r: &SignalResult, found: &Spectrum, note: &str) -> CursorLines {
+    let d = shown(r);
+    // The mean at 0 is no line.
+    let curve = Curve {
+        x: found.frequencies[1..].to_vec(),
+        y: scaled(&found.values[1..], d.factor),
+        ..Curve::default()
+    };
+    let panel = CursorPanel {
+        y_name: format!("{}, peak", measured(r)),
+        y_unit: d.name.into(),
+        curves: vec![curve],
+        ..CursorPanel::default()
+    };
+    CursorLines {
+        title: format!("Amplitude spectrum of {}", r.channel),
+        note: note.into(),
+        x_name: "frequency".into(),
+        x_unit: "Hz".into(),
+        panels: vec![panel],
+        log_y: true,
+        x_range: Some([0.0, 0.5 * r.sample_rate]),
+        ..CursorLines::default()
+    }
+}
+
+fn density(r: &SignalResult, found: &Spectrum, note: &str) -> Lines {
+    let d = shown(r);
+    let unit = if d.name.is_empty() { "1/Hz".into() } else { format!("({})²/Hz", d.name) };
+    // Zero frequency holds what the removed means leave.
+    let curve = Curve {
+        x: found.frequencies[1..].to_vec(),
+        y: scaled(&found.values[1..], d.factor * d.factor),
+        ..Curve::default()
+    };
+    Lines {
+        title: format!("Power spectral density of {}", r.channel),
+        note: format!("{note}; Welch, Hann, {:.3} Hz", found.frequencies[1]),
+        x_name: "frequency".into(),
+        x_unit: "Hz".into(),
+        y_name: "PSD".into(),
+        y_unit: unit,
+        curves: vec![curve],
+        log_y: true,
+        ..Lines::default()
+    }
+}
+
+/// Envelope spectra of one record or of several, one under the other; with a shaft's speed in all, over orders if they
+/// are several.
+pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> CursorLines {
+    let (r, found, _) = of[0];
+    let several = of.len() > 1;
+    let by_order = found.over_orders || several && of.iter().all(|(r, ..)| r.shaft.is_some());
+    let panels = of.iter().map(|(r, found, title)| {
+        let per_turn = |r: &SignalResult| r.shaft.as_ref().map_or(1.0, |s| s.mean);
+        let divisor = if by_order && !found.over_orders { per_turn(r) } else { 1.0 };
+        let label = if several { panel_label(r, found, title) } else { String::new() };
+        envelope_panel(r, found, divisor, label)
+    });
+    let panels: Vec<CursorPanel> = panels.collect();
+    let unit = match (&r.shaft, by_order) {
+        (_, true) => 1.0,
+        (Some(s), false) => s.mean,
+        (None, false) => 1.0,
+    };
+    let end = match (&r.bearing, by_order) {
+        (Some(b), _) => SHOWN * b.orders.bpfi * unit,
+        (None, true) => SHOWN_ORDER,
+        (None, false) => r.shaft.as_ref().map_or(500.0, |s| SHOWN_ORDER * s.mean),
+    };
+    let last = found.spectrum.frequencies.last().copied().unwrap_or(end);
+    let known = r.bearing.is_some();
+    let groups =
+        GROUPS.iter().enumerate().map(|(k, g)| if known || k == 0 { g.to_string() } else { String::new() });
+    let band = format!("band {:.0} to {:.0} Hz", found.band.0, found.band.1);
+    let verdict = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.verdict_name()));
+    CursorLines {
+        title: if several {
+            format!("Envelope spectra: {} and {}", of[0].0.channel, of[1].0.channel)
+        } else {
+            format!("Envelope spectrum of {}{verdict}", r.channel)
+        },
+        note: if several { note.into() } else { format!("{note}; {band}") },
+        x_name: if by_order { "order" } else { "frequency" }.into(),
+        x_unit: if by_order { "1/rev" } else { "Hz" }.into(),
+        groups: groups.collect(),
+        panels,
+        log_y: false,
+        x_range: Some([0.0, end.min(if by_order == found.over_orders { last } else { end })]),
+    }
+}
+
+/// Which record a panel is of, and what it says.
+fn panel_label(r: &SignalResult, found: &EnvelopeResult, title: &str) -> String {
+    let verdict = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.verdict_name()));
+    let (low, high) = found.band;
+    format!("{title}, {}, {low:.0} to {high:.0} Hz{verdict}", r.channel)
+}
+
+/// One envelope spectrum; frequencies and cursors over `divisor`.
+fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label: String) -> CursorPanel {
+    let d = shown(r);
+    let mut panel = CursorPanel {
+        label,
+        y_name: format!("envelope of {}, peak", measured(r)),
+        y_unit: d.name.into(),
+        curves: vec![Curve {
+            x: found.spectrum.frequencies[1..].iter().map(|f| f / divisor).collect(),
+            y: scaled(&found.spectrum.values[1..], d.factor),
+            ..Curve::default()
+        }],
+        ..CursorPanel::default()
+    };
+    let unit = if found.over_orders { 1.0 } else { r.shaft.as_ref().map_or(0.0, |s| s.mean) } / divisor;
+    if unit > 0.0 {
+        panel.cursors.extend((1..=2).map(|n| Cursor {
+            at: f64::from(n) * unit,
+            label: format!("{n}x"),
+            group: 0,
+        }));
+    }
+    let Some(lines) = &found.lines else { return panel };
+    for family in &lines.families {
+        let harmonics = if lines.verdict == Some(family.part) { 3 } else { 1 };
+        for n in 1..=harmonics {
+            // The rate as found where it was, else as expected.
+            let base = if family.found { family.frequency } else { family.expected } / divisor;
+            let at = f64::from(n) * base;
+            let name = family.part.line_name();
+            let text = if n == 1 { name.to_string() } else { format!("{n}×{name}") };
+            panel.cursors.push(Cursor { at, label: text, group: group(family.part) });
+        }
+        // Side bands of the verdict's family alone: others have few of their own.
+        let is_verdict = lines.verdict == Some(family.part);
+        let own = family.lines.iter().filter(|l| l.significant && !l.shared && family.found);
+        for line in own.filter(|l| is_verdict || l.modulation.is_none()) {
+            let (at, y) = (line.frequency / divisor, line.amplitude * d.factor);
+            if line.modulation.is_some() {
+                panel.cursors.push(Cursor {
+                    at,
+                    label: String::new(),
+                    group: side_group(line.modulation, family.part),
+                });
+            }
+            panel.found.push(CursorMark { x: at, y, group: group(family.part) });
+        }
+    }
+    panel
+}
+
+/// Side bands look like the line they are spaced by.
+fn side_group(modulation: Option<Modulation>, part: BearingPart) -> usize {
+    match modulation {
+        Some(Modulation::Shaft(_)) => 0,
+        Some(Modulation::Cage(_)) => group(BearingPart::Cage),
+        None => group(part),
+    }
+}
+
+/// A value of every band over frequency, wide bands below, the best framed.
+fn bands(kurtogram: &Kurtogram, note: &str) -> HeatMap {
+    let finest = kurtogram.levels.iter().map(|l| l.values.len()).max().unwrap_or(1);
+    // Columns that divide every level's bands.
+    let columns = 3 * finest;
+    let width = kurtogram.max_frequency / columns as f64;
+    let rows = kurtogram.levels.len();
+    let value = (0..columns).flat_map(|c| {
+        kurtogram.levels.iter().map(move |level| level.values[c * level.values.len() / columns])
+    });
+    let best = kurtogram.best();
+    let row = kurtogram.levels.iter().position(|l| l.level == best.level).unwrap_or(0) as f64;
+    let ticks = kurtogram.levels.iter().enumerate().map(|(k, l)| (k as f64, l.values.len().to_string()));
+    HeatMap {
+        note: note.into(),
+        x_name: "frequency".into(),
+        x_unit: "Hz".into(),
+        y_name: "bands".into(),
+        x: (0..columns).map(|c| (c as f64 + 0.5) * width).collect(),
+        y: (0..rows).map(|k| k as f64).collect(),
+        value: value.collect(),
+        x_range: Some([0.0, kurtogram.max_frequency]),
+        y_range: Some([-0.5, rows as f64 - 0.5]),
+        y_ticks: ticks.collect(),
+        marked: Some(Field {
+            x: [best.low, best.high],
+            y: [row - 0.5, row + 0.5],
+            label: format!("best: {:.0} to {:.0} Hz, {:.2}", best.low, best.high, best.value),
+        }),
+        ..HeatMap::default()
+    }
+}
+
+fn spectral_kurtosis(r: &SignalResult, found: &KurtogramResult, note: &str) -> Lines {
+    let s = &found.spectral;
+    let inner = 1..s.values.len().saturating_sub(1).max(1);
+    Lines {
+        title: format!("Spectral kurtosis of {}", r.channel),
+        note: format!("{note}; segments of {} samples", 2 * (s.values.len() - 1)),
+        x_name: "frequency".into(),
+        x_unit: "Hz".into(),
+        y_name: "kurtosis, 0 for noise".into(),
+        curves: vec![Curve {
+            x: s.frequencies[inner.clone()].to_vec(),
+            y: s.values[inner].to_vec(),
+            ..Curve::default()
+        }],
+        ..Lines::default()
+    }
+}
+
+fn cepstrum(r: &SignalResult, found: &crate::signal::cepstrum::Cepstrum, note: &str) -> CursorLines {
+    let steady = r.shaft.as_ref().filter(|s| s.steady);
+    // Three turns of the shaft, or a twentieth of a second.
+    let end = steady.map_or(0.05, |s| 3.2 / s.mean);
+    let count = found.quefrencies.partition_point(|q| *q <= end);
+    // What is near 0 is the smooth spectrum.
+    let first = found.quefrencies.partition_point(|q| *q < 0.02 * end);
+    let mut cursors = Vec::new();
+    if let Some(s) = steady {
+        let period = 1e3 / s.mean;
+        cursors.extend((1..=3).map(|n| Cursor {
+            at: f64::from(n) * period,
+            label: format!("{n}/fr"),
+            group: 0,
+        }));
+        if let Some(b) = &r.bearing {
+            cursors.extend(rates(b).into_iter().filter(|(part, _)| *part != BearingPart::Cage).map(
+                |(part, order)| {
+                    let label = format!("1/{}", part.line_name().replace(' ', ""));
+                    Cursor { at: period / order, label, group: group(part) }
+                },
+            ));
+        }
+    }
+    let panel = CursorPanel {
+        y_name: "real cepstrum".into(),
+        curves: vec![Curve {
+            x: found.quefrencies[first..count].iter().map(|q| 1e3 * q).collect(),
+            y: found.values[first..count].to_vec(),
+            ..Curve::default()
+        }],
+        cursors,
+        ..CursorPanel::default()
+    };
+    CursorLines {
+        title: format!("Cepstrum of {}", r.channel),
+        note: note.into(),
+        x_name: "quefrency".into(),
+        x_unit: "ms".into(),
+        groups: GROUPS.iter().map(|_| String::new()).collect(),
+        panels: vec![panel],
+        x_range: Some([0.0, 1e3 * end]),
+        ..CursorLines::default()
+    }
+}
+
+/// Every part's rate per turn.
+pub fn rates(b: &RatedBearing) -> Vec<(BearingPart, f64)> {
+    let o = &b.orders;
+    vec![
+        (BearingPart::OuterRace, o.bpfo),
+        (BearingPart::InnerRace, o.bpfi),
+        (BearingPart::Ball, 2.0 * o.bsf),
+        (BearingPart::Cage, o.ftf),
+    ]
+}
+
+/// Levels of a map \[dB\] and what they are relative to.
+pub fn levels(r: &SignalResult, amplitude: &[f64]) -> (Vec<f64>, String) {
+    let d = shown(r);
+    let unit = if d.name.is_empty() { "dB".into() } else { format!("dB re 1 {}", d.name) };
+    (decibels(amplitude, d), unit)
+}

@@ -1,0 +1,75 @@
+//! Cyclic spectral coherence over the rates at which a bearing can modulate.
+
+use super::Job;
+use crate::results::{CyclicLine, CyclicResult};
+use crate::signal::SignalError;
+use crate::signal::bearing_lines::BearingPart;
+use crate::signal::cyclic::cyclic_coherence;
+use crate::signal::jerk::median;
+use crate::signal::spectrum::{Spectrum, Welch};
+
+/// Samples of a segment: a carrier's width is the sampling rate over it.
+const SEGMENT: usize = 256;
+/// Most rates of modulation; a longer record is cut so that as many resolve it.
+const RATES: usize = 1500;
+/// Highest rate of modulation where no bearing is known, over the sampling rate.
+const SHARE: f64 = 1.0 / 32.0;
+
+impl Job<'_> {
+    /// Coherence up to twice the highest rate of the bearing, at the spacing that the record resolves.
+    pub(super) fn cyclic(&self) -> Result<CyclicResult, SignalError> {
+        let rates = match self.bearing {
+            Some(_) => {
+                self.steady_speed("cyclic coherence at a bearing's rates")?;
+                self.rates().map(|(rates, _)| rates)
+            }
+            None => None,
+        };
+        let highest =
+            rates.map(|r| BearingPart::ALL.map(|part| part.rate(&r)).into_iter().fold(0.0, f64::max));
+        let top = highest.map_or(SHARE * self.rate, |h| 2.1 * h).min(0.5 * self.rate);
+        let most = ((RATES as f64 / top) * self.rate) as usize;
+        let x = &self.x[..self.x.len().min(most)];
+        let step = self.rate / x.len() as f64;
+        let alphas: Vec<f64> = (0..=(top / step) as usize).map(|k| k as f64 * step).collect();
+        let welch = Welch { overlap: SEGMENT - SEGMENT / 4, ..Welch::hann(SEGMENT) };
+        let coherence = cyclic_coherence(x, self.rate, &alphas, &welch)?;
+        let enhanced = coherence.enhanced_envelope_spectrum((0.0, 0.5 * self.rate))?;
+        let lines = rates.map_or_else(Vec::new, |rates| {
+            let at = |part: BearingPart| {
+                (1..=2).filter_map(move |n| Some((part, n, n as f64 * part.rate(&rates)))).collect::<Vec<_>>()
+            };
+            let places = BearingPart::ALL.into_iter().flat_map(at);
+            places.filter_map(|(part, n, rate)| self.cyclic_line(&enhanced, part, n, rate)).collect()
+        });
+        Ok(CyclicResult { coherence, enhanced, lines, duration: x.len() as f64 / self.rate })
+    }
+
+    /// The highest coherence within the slip about a rate, and how far it stands out of its neighbours.
+    fn cyclic_line(
+        &self,
+        over: &Spectrum,
+        part: BearingPart,
+        harmonic: usize,
+        rate: f64,
+    ) -> Option<CyclicLine> {
+        let reach = (self.settings.lines.slip * rate).max(2.0 * over.frequencies[1]);
+        let within = |half: f64| {
+            let first = over.frequencies.partition_point(|a| *a < rate - half).max(1);
+            first..over.frequencies.partition_point(|a| *a <= rate + half)
+        };
+        let best = within(reach).max_by(|&a, &b| over.values[a].total_cmp(&over.values[b]))?;
+        let about = over.values[within(5.0 * reach + 40.0 * over.frequencies[1])].to_vec();
+        let middle = median(about.clone());
+        let spread = 1.4826 * median(about.iter().map(|v| (v - middle).abs()).collect());
+        Some(CyclicLine {
+            part,
+            harmonic,
+            expected: rate,
+            rate: over.frequencies[best],
+            coherence: over.values[best],
+            background: middle,
+            deviations: if spread > 0.0 { (over.values[best] - middle) / spread } else { 0.0 },
+        })
+    }
+}

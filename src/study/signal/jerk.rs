@@ -1,0 +1,46 @@
+//! Jerk, its jumps, and the defects of a race that they show.
+
+use super::{Job, Race};
+use crate::results::{JerkResult, RaceResult};
+use crate::signal::SignalError;
+use crate::signal::jerk::{jerk, jerk_jumps};
+use crate::signal::race_defects::{BallPassage, fold_jerk, race_defects};
+
+/// Robust standard deviations by which a jump stands out.
+const THRESHOLD: f64 = 10.0;
+
+impl Job<'_> {
+    /// Jerk and jumps; with a bearing at steady speed the defects of the race asked for.
+    pub(super) fn jerk(&self) -> Result<JerkResult, SignalError> {
+        let race = match self.bearing {
+            None => None,
+            Some(bearing) => {
+                let speed = self.steady_speed("reading a race's defects from the jerk")?;
+                let (race, order, race_speed, radius) = match self.settings.race {
+                    Race::Outer => ("outer race", bearing.orders.bpfo, 0.0, 1),
+                    Race::Inner => ("inner race", bearing.orders.bpfi, speed, 0),
+                };
+                let passage = BallPassage {
+                    frequency: order * speed,
+                    balls: bearing.balls,
+                    race_speed,
+                    datum: self.settings.datum - self.first as f64 / self.rate,
+                };
+                let beside = self.channel.beside.as_ref();
+                let beside = beside.map(|y| &y[self.first..self.first + self.x.len()]);
+                Some(RaceResult {
+                    race,
+                    radius: bearing.raceway_radii.map(|radii| radii[radius]),
+                    all_round: beside.is_some(),
+                    fold: fold_jerk(self.x, beside, self.rate, &passage)?,
+                    defects: race_defects(self.x, beside, self.rate, &passage)?,
+                })
+            }
+        };
+        Ok(JerkResult {
+            jerk: jerk(self.x, self.rate)?,
+            jumps: jerk_jumps(self.x, self.rate, THRESHOLD)?,
+            race,
+        })
+    }
+}

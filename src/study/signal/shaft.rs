@@ -1,0 +1,115 @@
+//! How a shaft turned while a record was taken.
+
+use std::f64::consts::TAU;
+
+use crate::results::ShaftSummary;
+use crate::signal::SignalError;
+use crate::signal::resample::integrate_speed;
+use crate::signal::speed_line::{LineSettings, speed_from_line};
+use crate::signal::tacho::PulseTrain;
+
+/// Change of speed over the mean up to which rates count as lines in Hz.
+const STEADY: f64 = 0.01;
+/// Stretches of a record over which speeds are compared.
+const STRETCHES: usize = 200;
+/// Pulses on either side by which a tacho's jitter is smoothed where asked.
+const SMOOTHING: usize = 4;
+
+/// Speed of a shaft, and its angle where that is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShaftMotion {
+    pub summary: ShaftSummary,
+    /// Shaft angle \[rad\] at the record's samples from `first` on; empty where only the mean speed is known.
+    pub angle: Vec<f64>,
+    pub first: usize,
+}
+
+impl ShaftMotion {
+    /// One speed \[rev/s\] all along, whichever way the shaft turns; `source` in words.
+    pub fn steady(speed: f64, source: String) -> Self {
+        let speed = speed.abs();
+        let summary = ShaftSummary { source, mean: speed, least: speed, most: speed, steady: true };
+        ShaftMotion { summary, angle: Vec::new(), first: 0 }
+    }
+
+    /// An angle \[rad\] sampled at `sample_rate` \[Hz\] from sample `first` of the record on.
+    ///
+    /// Least and greatest speed are means over a turn, or over a 200th of the record if that is longer.
+    pub fn of_angle(angle: Vec<f64>, first: usize, sample_rate: f64, source: String) -> Self {
+        let last = angle.len() - 1;
+        let turns = |a: usize, b: usize| (angle[b] - angle[a]).abs() / TAU;
+        let mean = turns(0, last) * sample_rate / last.max(1) as f64;
+        let one_turn = if mean > 0.0 { (sample_rate / mean).ceil() as usize } else { last };
+        let stride = one_turn.max(last / STRETCHES).clamp(1, last.max(1));
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for start in (0..=last.saturating_sub(stride)).step_by(stride) {
+            let speed = turns(start, (start + stride).min(last)) * sample_rate / stride as f64;
+            (least, most) = (least.min(speed), most.max(speed));
+        }
+        let steady = most - least <= STEADY * mean;
+        ShaftMotion { summary: ShaftSummary { source, mean, least, most, steady }, angle, first }
+    }
+
+    /// A speed \[rad/s\] sampled like the record, integrated. Errors: NaN.
+    pub fn of_speed(speed: &[f64], sample_rate: f64, source: String) -> Result<Self, SignalError> {
+        Ok(Self::of_angle(integrate_speed(speed, sample_rate, 0.0)?, 0, sample_rate, source))
+    }
+
+    /// The pulses of a tacho at times \[s\] from the record's first sample; `smooth` takes their jitter away.
+    ///
+    /// Errors: too few pulses, no sample between the first and the last.
+    pub fn of_pulses(
+        train: &PulseTrain,
+        sample_rate: f64,
+        samples: usize,
+        smooth: bool,
+        source: String,
+    ) -> Result<Self, SignalError> {
+        let smoothed;
+        let train = if smooth {
+            smoothed = train.smoothed(SMOOTHING)?;
+            &smoothed
+        } else {
+            train
+        };
+        let (angle, first) = train.angle(sample_rate, samples)?;
+        Ok(Self::of_angle(angle, first, sample_rate, source))
+    }
+
+    /// The line of one order in the record itself, between two frequencies \[Hz\].
+    ///
+    /// Frames hold 24 periods at the geometric mean of the two; the line may cross the range in an eighth of the record.
+    /// Errors: as [`speed_from_line`].
+    pub fn of_line(
+        record: &[f64],
+        sample_rate: f64,
+        order: f64,
+        range: (f64, f64),
+        source: String,
+    ) -> Result<Self, SignalError> {
+        let (low, high) = range;
+        let frame = (24.0 * sample_rate / (low * high).max(f64::MIN_POSITIVE).sqrt()).round();
+        let settings = LineSettings {
+            order,
+            low,
+            high,
+            most_change: 8.0 * (high - low) * sample_rate / record.len() as f64,
+            frame: (frame as usize).clamp(16, record.len().max(16)),
+        };
+        let found = speed_from_line(record, sample_rate, &settings)?;
+        Ok(Self::of_angle(found.theta, 0, sample_rate, source))
+    }
+
+    /// Speed \[rpm\] at `count` even places from the first angle to the last, for tables and pictures.
+    pub fn speeds_rpm(&self, sample_rate: f64, count: usize) -> (Vec<f64>, Vec<f64>) {
+        let last = self.angle.len().saturating_sub(1);
+        let stride = (last / count.max(1)).max(1);
+        (0..last / stride)
+            .map(|k| {
+                let (a, b) = (k * stride, (k + 1) * stride);
+                let speed = (self.angle[b] - self.angle[a]) / TAU * sample_rate / stride as f64;
+                ((self.first as f64 + 0.5 * (a + b) as f64) / sample_rate, 60.0 * speed)
+            })
+            .unzip()
+    }
+}
