@@ -4,6 +4,8 @@ mod bearings;
 mod commands;
 mod failures;
 mod runs;
+mod signal;
+mod signal_failures;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

@@ -8,6 +8,7 @@ mod dented_bearing;
 mod impact;
 mod oracle;
 mod oracle_bearing;
+mod oracle_resampling;
 mod orders;
 mod refusals;
 mod resampling;

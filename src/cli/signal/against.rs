@@ -37,7 +37,8 @@ pub fn find(
         flag: "--against-",
     };
     let found = channels(&file, &choice, &mut findings);
-    let given = args.against_speed.as_ref().and_then(|text| findings.positive("--against-speed", text, SPEED));
+    let given =
+        args.against_speed.as_ref().and_then(|text| findings.positive("--against-speed", text, SPEED));
     let shaft = match (given, told(&file), &first.shaft) {
         (Some(speed), ..) => Shaft::Steady(speed / TAU, "as given".into()),
         (None, Some(known), _) => known,

@@ -29,7 +29,8 @@ impl Findings {
 
     /// A quantity of a flag.
     pub fn quantity(&mut self, flag: &str, text: &str, dimension: Dimension) -> Option<f64> {
-        self.keep(&format!("{flag}: "), units::parse(text, dimension))
+        let found = units::parse(text, dimension);
+        self.keep("", found.map_err(|error| format!("{flag}: {error}; such as \"{}\"", dimension.example)))
     }
 
     /// A positive quantity of a flag.

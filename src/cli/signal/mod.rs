@@ -17,6 +17,7 @@ use rotordyn::edge::json::signal_to_json;
 use rotordyn::edge::results_file::{self, SignalMeta};
 use rotordyn::error::Error;
 use rotordyn::results::{RatedBearing, SignalResult};
+use rotordyn::signal::SignalError;
 use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
 use serde_json::json;
 
@@ -111,6 +112,14 @@ fn look(
     let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
     let motion = shaft.motion(channel).map_err(named)?;
     analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
+        Error::Signal(SignalError::Unknown { what, purpose }) => {
+            let advice = if what.contains("angle") {
+                "give --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\""
+            } else {
+                "give --speed \"1797 rpm\", or a steady part with --time"
+            };
+            named(format!("{purpose} needs {what}, which is not known; {advice}"))
+        }
         Error::Signal(error) => named(error.to_string()),
         other => other.into(),
     })

@@ -144,7 +144,7 @@ fn tacho(args: &SignalArgs, name: &str, file: &File, findings: &mut Findings) ->
         }
         None => {
             let problem = file.record(name).err().unwrap_or_default();
-            findings.problem(format!("--tacho: {problem}; nor is there such a file"));
+            findings.problem(format!("--tacho: there is no such file, and {problem}"));
             return None;
         }
     };

@@ -66,7 +66,11 @@ pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
 pub fn against(of: [(&SignalResult, &str); 2]) -> Option<Named> {
     let [first, second] = of.map(|(r, title)| Some((r, r.envelope.as_ref()?, title)));
     let pair = [first?, second?];
-    let note = of.map(|(r, title)| note(r, title)).join("; ");
+    let speed = |r: &SignalResult| {
+        r.shaft.as_ref().map_or("unknown speed".into(), |s| format!("{:.0} rpm", 60.0 * s.mean))
+    };
+    let bearing = of[0].0.bearing.as_ref().map_or(String::new(), |b| format!(", bearing {}", b.name));
+    let note = format!("{} above, {} below{bearing}", speed(of[0].0), speed(of[1].0));
     let name = format!("signal_envelope_{}_against_{}", of[0].0.channel, of[1].0.channel);
     Some((name, Figure::CursorLines(envelope(&pair, &note))))
 }

@@ -208,11 +208,12 @@ fn average(r: &SignalResult, found: &ShaftAverage, note: &str) -> Lines {
     let d = shown(r);
     let a = &found.average;
     let count = a.mean.len();
-    let angle: Vec<f64> = (0..count).map(|k| 360.0 * k as f64 / count as f64).collect();
+    // Round to the first place again.
+    let places: Vec<usize> = (0..=count).collect();
     let curve = |label: &str, sign: f64| Curve {
         label: label.into(),
-        x: angle.clone(),
-        y: a.mean.iter().zip(&a.deviation).map(|(m, s)| d.factor * (m + sign * s)).collect(),
+        x: places.iter().map(|&k| 360.0 * k as f64 / count as f64).collect(),
+        y: places.iter().map(|k| d.factor * (a.mean[k % count] + sign * a.deviation[k % count])).collect(),
         points: false,
     };
     Lines {
@@ -314,7 +315,7 @@ fn cyclic(r: &SignalResult, found: &CyclicResult, note: &str) -> HeatMap {
     let bins = c.frequencies.len();
     HeatMap {
         title: format!("Cyclic coherence of {}", r.channel),
-        note: format!("{note}; noise passes {:.3} once in a hundred places", c.one_percent),
+        note: note.into(),
         x_name: "rate of modulation".into(),
         x_unit: "Hz".into(),
         y_name: "carrier".into(),
@@ -322,7 +323,7 @@ fn cyclic(r: &SignalResult, found: &CyclicResult, note: &str) -> HeatMap {
         x: c.cyclic_frequencies[1..].to_vec(),
         y: c.frequencies.clone(),
         value: c.squared[bins..].to_vec(),
-        quantity: "squared coherence".into(),
+        quantity: format!("squared coherence (noise: 1 % above {:.3})", c.one_percent),
         y_range: Some([0.0, 0.5 * r.sample_rate]),
         ..HeatMap::default()
     }

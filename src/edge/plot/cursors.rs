@@ -118,7 +118,9 @@ fn panel(
     let shown = |c: &Curve| -> Vec<f64> {
         c.x.iter().zip(&c.y).filter(|(at, _)| x.contains(**at)).map(|(_, y)| *y).collect()
     };
-    let ys = || of.curves.iter().flat_map(shown);
+    // A peak between bins stands above the curve.
+    let marks = || of.found.iter().filter(|f| x.contains(f.x)).map(|f| f.y);
+    let ys = || of.curves.iter().flat_map(shown).chain(marks());
     let y = if data.log_y {
         Scale::log(Range::positive(ys()).log_padded(0.04), frame.up(), 26.0)
     } else {

@@ -211,7 +211,10 @@ impl<'a> Job<'a> {
         let frame = 1 << (self.x.len() / 64).clamp(256, 8192).ilog2();
         let settings = StftSettings::new(WindowKind::Hann, frame, 0.75)?;
         let mut map = Stft::new(settings, self.rate)?.spectrogram(self.x)?;
-        if let Some(limit) = self.settings.max_frequency {
+        // Over a changing speed as far as orders are looked at.
+        let changing = self.shaft.filter(|s| !s.summary.steady);
+        let orders = changing.map(|s| 1.1 * self.max_order() * s.summary.most);
+        if let Some(limit) = self.settings.max_frequency.or(orders) {
             let bins = map.frequencies.len();
             let kept = map.frequencies.partition_point(|f| *f <= limit).max(2);
             map.amplitude =
@@ -308,7 +311,7 @@ impl<'a> Job<'a> {
 
     fn average(&self) -> Result<ShaftAverage, SignalError> {
         let theta = self.angle("an average over the shaft's turns")?;
-        let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(64.0, 4096.0) as usize;
+        let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(360.0, 4096.0) as usize;
         let resampler = AngleResampler::new(theta, self.rate, per_turn, LEAST_SPEED)?;
         let parts = resampler.parts();
         let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
