@@ -163,15 +163,19 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
         let shaft = &channel["shaft"];
         assert_eq!(shaft["steady"], false);
         assert!((number(&shaft["least_rpm"]) - 600.0).abs() < 30.0, "{shaft}");
-        assert!((number(&shaft["most_rpm"]) - 2400.0).abs() < 30.0, "{shaft}");
+        // The line's frequency is held over the last half frame, 0.6 s of 150 rpm/s.
+        let slack = if how[0] == "--track" { 100.0 } else { 30.0 };
+        assert!((number(&shaft["most_rpm"]) - 2400.0).abs() < slack, "{shaft}");
         let cut = |label: &str| {
             let cuts = channel["orders"]["cuts"].as_array().unwrap();
             let cut = cuts.iter().find(|cut| cut["label"] == label).unwrap();
             cut["rms"].as_array().unwrap().iter().map(number).collect::<Vec<f64>>()
         };
-        // Tones of 2 and 1: RMS over their root of two, at every speed.
+        // Tones of 2 and 1: RMS over their root of two, at every speed; by the line but at the record's ends.
         for (label, amplitude) in [("1x", 2.0), ("BPFO", 1.0)] {
-            for rms in cut(label) {
+            let cut = cut(label);
+            let ends = if how[0] == "--track" { cut.len() / 10 } else { 0 };
+            for rms in &cut[ends..cut.len() - ends] {
                 assert!((rms * 2f64.sqrt() / amplitude - 1.0).abs() < 0.05, "{how:?} {label}: {rms}");
             }
         }
@@ -317,8 +321,9 @@ fn rates_by_hand() {
     assert_eq!(channel["bearing"]["balls"], 9);
     assert!((number(&channel["bearing"]["orders"]["bsf"]) - 2.3567).abs() < 1e-3);
     let lines = channel["cyclic"]["lines"].as_array().unwrap();
-    let best =
-        lines.iter().max_by(|a, b| number(&a["deviations"]).total_cmp(&number(&b["deviations"]))).unwrap();
+    // The third harmonic of BPFO is within the slip of the second of BPFI: first harmonics alone.
+    let firsts = lines.iter().filter(|l| l["harmonic"] == 1);
+    let best = firsts.max_by(|a, b| number(&a["deviations"]).total_cmp(&number(&b["deviations"]))).unwrap();
     assert_eq!(best["line"], "BPFO", "{best}");
-    assert!((number(&best["found_hz"]) - number(&best["harmonic"]) * 107.545).abs() < 0.4, "{best}");
+    assert!((number(&best["found_hz"]) - 107.545).abs() < 0.4, "{best}");
 }

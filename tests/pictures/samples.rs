@@ -113,6 +113,35 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             criticals,
             ..Default::default()
         }),
+        Figure::CursorLines(CursorLines {
+            title: name.clone(),
+            groups: vec![name.clone(), String::new()],
+            panels: vec![
+                CursorPanel {
+                    label: name.clone(),
+                    curves: vec![Curve { label: name.clone(), x: x.clone(), y: y.clone(), points: false }],
+                    cursors: vec![
+                        Cursor { at: first(1), label: name.clone(), group: 0 },
+                        Cursor { at: value(0), label: String::new(), group: 9 },
+                    ],
+                    found: vec![CursorMark { x: first(1), y: value(1), group: 1 }],
+                    ..Default::default()
+                };
+                2
+            ],
+            x_range: Some([first(0), first(2)]),
+            ..Default::default()
+        }),
+        Figure::HeatMap(HeatMap {
+            title: name.clone(),
+            x: x.clone(),
+            y: y.clone(),
+            value: x.iter().flat_map(|a| y.iter().map(move |b| a - b)).collect(),
+            quantity: labelled("kurtosis"),
+            y_ticks: vec![(value(0), name.clone())],
+            marked: Some(Field { x: [first(0), first(1)], y: [value(1), value(0)], label: name.clone() }),
+            ..Default::default()
+        }),
         Figure::Polar(Polar {
             title: name.clone(),
             unit: labelled("µm"),
