@@ -107,10 +107,21 @@ pub fn diagnose(
     Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines })
 }
 
+/// A band, how it was chosen, and its envelope's spectrum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BandEnvelope {
+    /// Band \[Hz\].
+    pub band: (f64, f64),
+    /// Kurtosis of every band that was compared; `None` for a given band.
+    pub kurtogram: Option<Kurtogram>,
+    /// Amplitude spectrum of the band's envelope \[unit\], over Hz or over orders.
+    pub envelope: Spectrum,
+}
+
 /// Levels compared where nothing tells how fast pulses come: bands of a 128th of the sampling rate and wider.
 const PLAIN_DEPTH: usize = 6;
 
-/// Band by `rule` and its envelope's spectrum, where no bearing is known: band, kurtogram that chose it, spectrum.
+/// Band by `rule` and its envelope's spectrum, where no bearing is known.
 ///
 /// [`BandRule::Lines`] chooses as [`BandRule::Kurtosis`]. `top_order` is the highest order kept with a shaft angle. Other
 /// arguments and errors as [`diagnose`].
@@ -120,7 +131,7 @@ pub fn band_envelope(
     turning: Turning,
     rule: BandRule,
     top_order: f64,
-) -> Result<((f64, f64), Option<Kurtogram>, Spectrum), SignalError> {
+) -> Result<BandEnvelope, SignalError> {
     check_record("record", record)?;
     check_rate(sample_rate)?;
     let clock = Clock::new(record.len(), sample_rate, turning, top_order)?;
@@ -134,8 +145,8 @@ pub fn band_envelope(
         }
         _ => ((0.0, 0.5 * sample_rate), None),
     };
-    let spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
-    Ok((band, kurtogram, spectrum))
+    let envelope = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    Ok(BandEnvelope { band, kurtogram, envelope })
 }
 
 /// Magnitude of a band's analytic signal.

@@ -36,11 +36,10 @@ impl Job<'_> {
         let coherence = cyclic_coherence(x, self.rate, &alphas, &welch)?;
         let enhanced = coherence.enhanced_envelope_spectrum((0.0, 0.5 * self.rate))?;
         let lines = rates.map_or_else(Vec::new, |rates| {
-            let at = |part: BearingPart| {
-                (1..=2).filter_map(move |n| Some((part, n, n as f64 * part.rate(&rates)))).collect::<Vec<_>>()
-            };
-            let places = BearingPart::ALL.into_iter().flat_map(at);
-            places.filter_map(|(part, n, rate)| self.cyclic_line(&enhanced, part, n, rate)).collect()
+            let places = BearingPart::ALL.into_iter().flat_map(|part| [(part, 1), (part, 2)]);
+            places
+                .filter_map(|(part, n)| self.cyclic_line(&enhanced, part, n, n as f64 * part.rate(&rates)))
+                .collect()
         });
         Ok(CyclicResult { coherence, enhanced, lines, duration: x.len() as f64 / self.rate })
     }

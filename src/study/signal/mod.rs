@@ -240,8 +240,15 @@ impl<'a> Job<'a> {
         let Some((rates, turning)) = self.rates() else {
             let rule = self.settings.band.unwrap_or(BandRule::Kurtosis);
             let (_, turning) = self.clock().unwrap_or((1.0, Turning::Steady));
-            let (band, compared, spectrum) = band_envelope(self.x, self.rate, turning, rule, ORDERS)?;
-            return Ok(EnvelopeResult { rule, band, spectrum, over_orders, compared, lines: None });
+            let found = band_envelope(self.x, self.rate, turning, rule, ORDERS)?;
+            return Ok(EnvelopeResult {
+                rule,
+                band: found.band,
+                spectrum: found.envelope,
+                over_orders,
+                compared: found.kurtogram,
+                lines: None,
+            });
         };
         let rule = self.settings.band.unwrap_or(BandRule::Lines);
         let found = diagnose(self.x, self.rate, turning, &rates, rule, &self.settings.lines)?;
