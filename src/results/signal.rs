@@ -27,6 +27,8 @@ pub struct SignalResult {
     /// The samples that were analysed.
     pub samples: Vec<f64>,
     pub shaft: Option<ShaftSummary>,
+    /// Times \[s\] and speeds \[rpm\] at a few hundred places; empty where only the mean is known.
+    pub speed: [Vec<f64>; 2],
     pub bearing: Option<RatedBearing>,
     pub statistics: Statistics,
     /// Amplitude spectrum of the whole record (Hann, peak).

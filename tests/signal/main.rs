@@ -6,6 +6,7 @@ mod closed_forms;
 mod defects;
 mod dented_bearing;
 mod impact;
+mod measured_bearings;
 mod oracle;
 mod oracle_bearing;
 mod oracle_resampling;

@@ -4,6 +4,7 @@ mod against;
 pub mod args;
 mod bearing;
 mod input;
+mod line_tables;
 mod settings;
 mod shaft;
 mod tables;

@@ -1,10 +1,6 @@
 //! Tables of what was found in records.
 
-use rotordyn::results::{
-    CyclicResult, EnvelopeResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult,
-};
-use rotordyn::signal::bearing_lines::{BearingLine, BearingLines, Modulation};
-use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
 use rotordyn::signal::ridge::find_peaks;
@@ -12,9 +8,10 @@ use rotordyn::signal::spectrum::Spectrum;
 
 use super::super::terminal::{Terminal, number};
 use super::input::{File, is_clock};
+use super::line_tables;
 
 /// Rows of a list that can be long.
-const MOST: usize = 8;
+pub const MOST: usize = 8;
 /// Rows of the channels of a file.
 const CHANNELS: usize = 24;
 
@@ -125,7 +122,7 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
         cyclic(terminal, result, found);
     }
     if let Some(envelope) = &result.envelope {
-        lines(terminal, result, envelope);
+        line_tables::lines(terminal, result, envelope);
     }
 }
 
@@ -147,111 +144,13 @@ fn peaks(terminal: &Terminal, result: &SignalResult, spectrum: &Spectrum) {
 }
 
 /// "RMS m/s^2", or "RMS" alone.
-fn level(what: &str, result: &SignalResult) -> String {
+pub fn level(what: &str, result: &SignalResult) -> String {
     format!("{what} {}", result.unit).trim_end().to_string()
 }
 
-fn band((low, high): (f64, f64)) -> String {
+/// "500.00 to 5500.0 Hz".
+pub fn band((low, high): (f64, f64)) -> String {
     format!("{} to {} Hz", number(low, 5), number(high, 5))
-}
-
-fn modulation(line: &BearingLine) -> String {
-    let harmonic = match line.harmonic {
-        1 => line.part.line_name().to_string(),
-        n => format!("{n}x {}", line.part.line_name()),
-    };
-    match line.modulation {
-        None => harmonic,
-        Some(Modulation::Shaft(n)) => format!("{harmonic} {} fr", signed(n)),
-        Some(Modulation::Cage(n)) => format!("{harmonic} {} FTF", signed(n)),
-    }
-}
-
-/// "+", "- 2".
-fn signed(n: i32) -> String {
-    let sign = if n < 0 { "-" } else { "+" };
-    if n.abs() == 1 { sign.into() } else { format!("{sign} {}", n.abs()) }
-}
-
-/// The envelope's band, the bearing's lines in it, and the verdict.
-fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
-    let why = match envelope.rule {
-        BandRule::Given(..) => "as given",
-        BandRule::Whole => "all of it",
-        BandRule::Kurtosis => "the most impulsive",
-        BandRule::Lines => "where bearing lines stand out most",
-    };
-    let place = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
-    let Some(found) = &envelope.lines else {
-        let unit = if envelope.over_orders { "order" } else { "Hz" };
-        let mut highest =
-            find_peaks(&envelope.spectrum.frequencies, &envelope.spectrum.values, 0.0).unwrap_or_default();
-        highest.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-        let rows: Vec<Vec<String>> =
-            highest.iter().take(MOST).map(|p| vec![number(p.position, 5), number(p.amplitude, 4)]).collect();
-        terminal.table(&format!("Highest lines, {place}"), &[unit, &level("peak", result)], &rows);
-        terminal.say("  no verdict: --bearing names the bearing whose lines are sought");
-        return;
-    };
-    let unit = if envelope.over_orders { "order" } else { "Hz" };
-    let rows: Vec<Vec<String>> = found
-        .families
-        .iter()
-        .flat_map(|family| {
-            let harmonic = |n: usize| family.lines.iter().find(|l| l.harmonic == n && l.modulation.is_none());
-            // The first harmonic of all, more of what was found.
-            (1..=if family.found { 3 } else { 1 }).filter_map(harmonic)
-        })
-        .map(row)
-        .collect();
-    let [expected, at] = ["expected", "found at"].map(|name| format!("{name} {unit}"));
-    let amplitude = level("peak", result);
-    let header = ["line", &expected, &at, "off %", &amplitude, "over background dB", ""];
-    terminal.table(&format!("Bearing lines, {place}"), &header, &rows);
-    let bands: Vec<Vec<String>> = found
-        .verdict
-        .map(|part| found.family(part))
-        .into_iter()
-        .flat_map(|family| family.lines.iter().filter(|l| l.modulation.is_some() && l.significant))
-        .take(MOST)
-        .map(row)
-        .collect();
-    if !bands.is_empty() {
-        terminal.table("Side bands found", &header, &bands);
-    }
-    verdict(terminal, result, found);
-}
-
-fn row(line: &BearingLine) -> Vec<String> {
-    let word = match (line.significant, line.shared) {
-        (true, false) => "found",
-        (true, true) => "belongs to the shaft or a stronger line",
-        (false, _) => "not above noise",
-    };
-    vec![
-        modulation(line),
-        number(line.expected, 6),
-        number(line.frequency, 6),
-        format!("{:+.2}", 100.0 * (line.frequency / line.expected - 1.0)),
-        number(line.amplitude, 4),
-        format!("{:.1}", line.level_db),
-        word.into(),
-    ]
-}
-
-fn verdict(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
-    let name = found.verdict_name();
-    terminal.heading(&match found.strongest_line() {
-        Some(line) if found.verdict.is_some() => {
-            format!(
-                "Verdict on {}: {name} ({:.1} dB over the background at {})",
-                result.channel,
-                line.level_db,
-                modulation(line)
-            )
-        }
-        _ => format!("Verdict on {}: {name}", result.channel),
-    });
 }
 
 fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {

@@ -116,7 +116,14 @@ fn record(r: &SignalResult, note: &str) -> History {
         time: (0..r.samples.len()).map(|n| r.start + n as f64 / r.sample_rate).collect(),
         value: scaled(&r.samples, d.factor),
     };
-    History { title: format!("Record {}", r.channel), note: note.into(), channels: vec![channel] }
+    let [time, value] = r.speed.clone();
+    let (label, quantity, unit) = ("shaft speed".into(), "speed".into(), "rpm".into());
+    let speed = (!time.is_empty()).then_some(Channel { label, quantity, unit, time, value });
+    History {
+        title: format!("Record {}", r.channel),
+        note: note.into(),
+        channels: speed.into_iter().chain([channel]).collect(),
+    }
 }
 
 fn spectrum(r: &SignalResult, found: &Spectrum, note: &str) -> CursorLines {

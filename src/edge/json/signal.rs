@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `channel`, `unit`, `sample_rate_hz`, `start_s`, `samples` | what was analysed |
 //! | `shaft` | `source`, `mean_rpm`, `least_rpm`, `most_rpm`, `steady` |
+//! | `speed` | `time_s`, `rpm`, where the shaft's angle is known |
 //! | `bearing` | `name`, `source`, `balls`, `orders` {ftf, bpfo, bpfi, bsf} |
 //! | `statistics` | mean, rms, peak, crest_factor, kurtosis, skewness, ... |
 //! | `spectrum`, `density` | `peaks` \[{frequency_hz, amplitude}\], highest first; `resolution_hz` |
@@ -60,6 +61,10 @@ fn channel(r: &SignalResult) -> Value {
                 "steady": s.steady,
             }),
         );
+    }
+    let [time, rpm] = &r.speed;
+    if !time.is_empty() {
+        put("speed", json!({ "time_s": time, "rpm": rpm }));
     }
     if let Some(b) = &r.bearing {
         let o = &b.orders;

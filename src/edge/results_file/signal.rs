@@ -5,7 +5,7 @@
 //! | `/meta` | attributes: program, version, git, file, command |
 //! | `/against/<channel>` | the other record's channel |
 //! | `/<channel>` | attributes: unit, sample_rate, start, statistics, speed, bearing and its orders, verdict |
-//! | `.../record` | the samples analysed |
+//! | `.../record`, `.../speed` | the samples analysed; the shaft's speed over time |
 //! | `.../spectrum`, `.../density`, `.../envelope`, `.../spectral_kurtosis` | values over their axis |
 //! | `.../kurtogram`, `.../band_scores` | low, high, level, value of every band |
 //! | `.../spectrogram`, `.../orders`, `.../cyclic` | maps with their axes as dimension scales |
@@ -79,6 +79,13 @@ fn channel(store: &Store, above: &str, r: &SignalResult) -> Result<(), Error> {
         {
             place.note(name, std::f64::consts::TAU * speed)?;
         }
+    }
+    let [time, rpm] = &r.speed;
+    if !time.is_empty() {
+        let at = place.below("speed")?;
+        at.array("rpm", &[rpm.len()], rpm, "rpm")?;
+        at.array("time", &[time.len()], time, "s")?;
+        at.axis("rpm", 0, "time")?;
     }
     if let Some(b) = &r.bearing {
         place.note("bearing", b.name.as_str())?;

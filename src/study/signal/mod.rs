@@ -69,6 +69,7 @@ pub fn analyse(
         start: channel.start + job.first as f64 / channel.sample_rate,
         samples: job.x.to_vec(),
         shaft: shaft.map(|s| s.summary.clone()),
+        speed: shaft.map_or_else(Default::default, |s| s.speeds(channel.sample_rate, channel.start)),
         bearing: bearing.cloned(),
         statistics: statistics(job.x)?,
         spectrum: None,

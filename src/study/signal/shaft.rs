@@ -100,16 +100,17 @@ impl ShaftMotion {
         Ok(Self::of_angle(found.theta, 0, sample_rate, source))
     }
 
-    /// Speed \[rpm\] at `count` even places from the first angle to the last, for tables and pictures.
-    pub fn speeds_rpm(&self, sample_rate: f64, count: usize) -> (Vec<f64>, Vec<f64>) {
+    /// Times \[s\] from `start`, that of the channel's first sample, and speeds \[rpm\], each over a 200th of the record.
+    pub fn speeds(&self, sample_rate: f64, start: f64) -> [Vec<f64>; 2] {
         let last = self.angle.len().saturating_sub(1);
-        let stride = (last / count.max(1)).max(1);
-        (0..last / stride)
-            .map(|k| {
-                let (a, b) = (k * stride, (k + 1) * stride);
-                let speed = (self.angle[b] - self.angle[a]) / TAU * sample_rate / stride as f64;
-                ((self.first as f64 + 0.5 * (a + b) as f64) / sample_rate, 60.0 * speed)
-            })
-            .unzip()
+        let stride = (last / STRETCHES).max(1);
+        let at = |k: usize| {
+            let (a, b) = (k * stride, (k + 1) * stride);
+            let turns = (self.angle[b] - self.angle[a]).abs() / TAU;
+            let middle = self.first as f64 + 0.5 * (a + b) as f64;
+            (start + middle / sample_rate, 60.0 * turns * sample_rate / stride as f64)
+        };
+        let (times, speeds) = (0..last / stride).map(at).unzip();
+        [times, speeds]
     }
 }
