@@ -50,5 +50,5 @@ pub fn find(
     let settings = SignalSettings { analyses: Wanted::These(vec![Analysis::Envelope]), ..settings.clone() };
     let Some(channel) = found.first() else { return Ok(None) };
     let result = look(channel, &shaft, first.bearing.as_ref(), &settings).map_err(of_file)?;
-    Ok(Some((result, file.title())))
+    Ok(Some((result, file.stem)))
 }

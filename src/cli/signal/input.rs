@@ -102,11 +102,6 @@ impl File {
         Ok(File { path, stem, measured, stored_run })
     }
 
-    /// Its title, or its name.
-    pub fn title(&self) -> String {
-        if self.measured.title.is_empty() { self.stem.clone() } else { self.measured.title.clone() }
-    }
-
     /// Records over time, or of which the file does not tell.
     pub fn time_records(&self) -> impl Iterator<Item = &Record> {
         self.measured.records.iter().filter(|r| r.time_samples().is_ok())
@@ -141,9 +136,8 @@ impl File {
 /// Whether a record is of the shaft's turning rather than of vibration.
 pub fn is_clock(record: &Record) -> bool {
     let name = record.name.to_lowercase();
-    let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "speed", "rpm", "energy"];
-    matches!(record.unit.as_str(), "rpm" | "rad/s" | "s" | "J")
-        || named.iter().any(|word| name.contains(word))
+    let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "speed", "rpm"];
+    matches!(record.unit.as_str(), "rpm" | "rad/s" | "s") || named.iter().any(|word| name.contains(word))
 }
 
 /// Which channels, and how they are to be taken.

@@ -63,11 +63,18 @@ fn row(line: &BearingLine) -> Vec<String> {
         (true, true) => "belongs to the shaft or a stronger line",
         (false, _) => "not above noise",
     };
+    // The highest bin of noise is no place of a line.
+    let (at, off) = match line.significant {
+        true => {
+            (number(line.frequency, 6), format!("{:+.2}", 100.0 * (line.frequency / line.expected - 1.0)))
+        }
+        false => ("-".into(), "-".into()),
+    };
     vec![
         modulation(line),
         number(line.expected, 6),
-        number(line.frequency, 6),
-        format!("{:+.2}", 100.0 * (line.frequency / line.expected - 1.0)),
+        at,
+        off,
         number(line.amplitude, 4),
         format!("{:.1}", line.level_db),
         word.into(),

@@ -151,10 +151,9 @@ fn write(
     let mut files = vec![store.path().to_path_buf()];
     if !args.no_figures {
         let spinner = terminal.spinner("figures");
-        let title = file.title();
-        files.extend(figures::draw_signal(results, &title, folder)?);
+        files.extend(figures::draw_signal(results, &file.stem, folder)?);
         if let (Some(first), Some((other, other_title))) = (results.first(), other) {
-            files.extend(figures::draw_against([(first, &title), (other, other_title)], folder)?);
+            files.extend(figures::draw_against([(first, &file.stem), (other, other_title)], folder)?);
         }
         spinner.finish_and_clear();
     }

@@ -69,7 +69,7 @@ pub fn draw_bearings(found: &[BearingResult], title: &str, folder: &Path) -> Res
     write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
 }
 
-/// Draws every figure of records on their own; `title` is that of their file. Returns the SVG files.
+/// Draws every figure of records on their own; `title` names their file. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
