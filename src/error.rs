@@ -17,6 +17,9 @@ pub enum Error {
     /// A model that cannot be held against what was measured.
     #[error(transparent)]
     Update(#[from] crate::update::UpdateError),
+    /// FRFs from which no modes come.
+    #[error(transparent)]
+    Identify(#[from] crate::identify::IdentifyError),
     /// A file whose content cannot be used: what is wrong with it, and what to do.
     #[error("{}: {problem}; {advice}", path.display())]
     Content { path: PathBuf, problem: String, advice: String },

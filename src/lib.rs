@@ -139,6 +139,7 @@ pub mod analysis;
 
 pub mod transient;
 
+pub mod identify;
 pub mod update;
 
 pub mod results;

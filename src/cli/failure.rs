@@ -39,9 +39,13 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Model(_) | Self::Input(_) => 2,
-            Self::Library(Error::Signal(_) | Error::Record(_) | Error::Update(_) | Error::Content { .. }) => {
-                2
-            }
+            Self::Library(
+                Error::Signal(_)
+                | Error::Record(_)
+                | Error::Identify(_)
+                | Error::Update(_)
+                | Error::Content { .. },
+            ) => 2,
             Self::Library(Error::Physics(_)) => 3,
             Self::Library(Error::Environment { .. }) => 4,
             Self::Interrupted => 130,

@@ -1,0 +1,202 @@
+//! FRFs made ready for identification: one band, one quantity, a common scale.
+
+use std::f64::consts::TAU;
+
+use super::{IdentifyError, Settings};
+use crate::linalg::Complex64;
+use crate::model::Quantity;
+use crate::signal::record::FrfMatrix;
+
+/// FRFs over a band, outputs being the larger side of the test and inputs the smaller one.
+///
+/// By reciprocity of the modal form Σ ψ lᵀ/(s − λ) either side may carry the shapes: a roving hammer has many
+/// references and few responses.
+#[derive(Clone, Debug)]
+pub(super) struct Data {
+    /// Even frequencies \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// Step Δf \[Hz\].
+    pub step: f64,
+    /// Power p of jω that makes the quantity from a receptance.
+    pub power: i32,
+    /// `values[output][input][line]`, each over its output's and its input's scale.
+    pub values: Vec<Vec<Vec<Complex64>>>,
+    pub output_scale: Vec<f64>,
+    pub input_scale: Vec<f64>,
+    /// Whether outputs are the references of the test.
+    pub swapped: bool,
+}
+
+/// Deviation from even steps, over the step, that printed digits leave.
+const JITTER: f64 = 0.02;
+
+impl Data {
+    pub fn new(frfs: &FrfMatrix, settings: &Settings) -> Result<Self, IdentifyError> {
+        let f = &frfs.frequencies;
+        let (first, last) = (f.first().copied().unwrap_or(0.0), f.last().copied().unwrap_or(0.0));
+        let [from, to] = settings.band.unwrap_or([first, last]);
+        let step = if f.len() > 1 { (last - first) / (f.len() - 1) as f64 } else { 0.0 };
+        if let Some(k) = (0..f.len()).find(|&k| {
+            let off = (f[k] - first - step * k as f64).abs();
+            off.is_nan() || off > JITTER * step
+        }) {
+            return Err(IdentifyError::NotEven { index: k, given: f[k], expected: first + step * k as f64 });
+        }
+        // A mode at 0 Hz is none, and quantities other than accelerance have no place for rigid motion there.
+        let lines: Vec<usize> = (0..f.len())
+            .filter(|&k| f[k] >= from - 1e-6 * step && f[k] <= to + 1e-6 * step && f[k] > 0.0)
+            .collect();
+        if lines.len() < 2 * LEAST_ORDER + 2 || step <= 0.0 {
+            return Err(IdentifyError::EmptyBand { from, to, lines: lines.len(), first, last });
+        }
+        if let Some(order) = settings.max_order {
+            let possible = highest_order(lines.len());
+            if order < LEAST_ORDER {
+                let reason = format!("{order} is too low; {LEAST_ORDER} or more find modes that stay");
+                return Err(IdentifyError::Setting { what: "highest order", reason });
+            }
+            if order > possible {
+                return Err(IdentifyError::TooFewLines {
+                    lines: lines.len(),
+                    order,
+                    needed: 2 * order + 2,
+                    possible,
+                });
+            }
+        }
+        let powers = powers(frfs, settings);
+        let power = powers.iter().flatten().copied().max().unwrap_or(0);
+        let swapped = frfs.references.len() > frfs.responses.len();
+        let (outputs, inputs) = if swapped {
+            (frfs.references.len(), frfs.responses.len())
+        } else {
+            (frfs.responses.len(), frfs.references.len())
+        };
+        let mut values = Vec::with_capacity(outputs);
+        for o in 0..outputs {
+            let mut row = Vec::with_capacity(inputs);
+            for i in 0..inputs {
+                let (response, reference) = if swapped { (i, o) } else { (o, i) };
+                let more = power - powers[response][reference];
+                let frf = &frfs.values[response][reference];
+                let own = lines.iter().map(|&k| frf[k] * Complex64::new(0.0, TAU * f[k]).powi(more)).collect();
+                row.push(own);
+            }
+            values.push(row);
+        }
+        let mut data = Self {
+            frequencies: lines.iter().map(|&k| f[k]).collect(),
+            step,
+            power,
+            values,
+            output_scale: vec![1.0; outputs],
+            input_scale: vec![1.0; inputs],
+            swapped,
+        };
+        data.check(frfs)?;
+        let sizes: Vec<Vec<f64>> = data.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
+        data.rescale(&sizes);
+        Ok(data)
+    }
+
+    /// The highest order to go to: as set, else 60 or what the lines allow.
+    pub fn max_order(&self, settings: &Settings) -> usize {
+        settings.max_order.unwrap_or(60.min(highest_order(self.lines())))
+    }
+
+    fn check(&self, frfs: &FrfMatrix) -> Result<(), IdentifyError> {
+        for (o, row) in self.values.iter().enumerate() {
+            for (i, frf) in row.iter().enumerate() {
+                let (r, e) = if self.swapped { (i, o) } else { (o, i) };
+                let (response, reference) = (frfs.responses[r].to_string(), frfs.references[e].to_string());
+                if let Some(k) = frf.iter().position(|h| !(h.re.is_finite() && h.im.is_finite())) {
+                    return Err(IdentifyError::NotFinite {
+                        response,
+                        reference,
+                        frequency: self.frequencies[k],
+                    });
+                }
+                if frf.iter().all(|h| h.norm_sqr() == 0.0) {
+                    return Err(IdentifyError::Zero { response, reference });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub fn outputs(&self) -> usize {
+        self.values.len()
+    }
+
+    pub fn inputs(&self) -> usize {
+        self.values[0].len()
+    }
+
+    pub fn lines(&self) -> usize {
+        self.frequencies.len()
+    }
+
+    /// s = jω of every line.
+    pub fn s(&self) -> Vec<Complex64> {
+        self.frequencies.iter().map(|f| Complex64::new(0.0, TAU * f)).collect()
+    }
+
+    /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1: the least squares
+    /// fit of log a + log b, which keeps residues of rank one; returns the b.
+    pub fn rescale(&mut self, sizes: &[Vec<f64>]) -> Vec<f64> {
+        let (no, ni) = (self.outputs(), self.inputs());
+        let smallest = sizes.iter().flatten().copied().fold(0.0, f64::max) * 1e-12;
+        let log = |o: usize, i: usize| sizes[o][i].max(smallest).max(f64::MIN_POSITIVE).ln();
+        let mean = (0..no).flat_map(|o| (0..ni).map(move |i| (o, i))).map(|(o, i)| log(o, i)).sum::<f64>()
+            / (no * ni) as f64;
+        let a: Vec<f64> = (0..no).map(|o| ((0..ni).map(|i| log(o, i)).sum::<f64>() / ni as f64).exp()).collect();
+        let b: Vec<f64> =
+            (0..ni).map(|i| ((0..no).map(|o| log(o, i)).sum::<f64>() / no as f64 - mean).exp()).collect();
+        for (o, row) in self.values.iter_mut().enumerate() {
+            for (i, frf) in row.iter_mut().enumerate() {
+                let scale = a[o] * b[i];
+                frf.iter_mut().for_each(|h| *h /= scale);
+            }
+            self.output_scale[o] *= a[o];
+        }
+        self.input_scale.iter_mut().zip(&b).for_each(|(total, b)| *total *= b);
+        b
+    }
+}
+
+/// Lowest order that tells modes from noise.
+const LEAST_ORDER: usize = 8;
+
+/// The order whose unknowns are as many as the data of one FRF.
+fn highest_order(lines: usize) -> usize {
+    lines.saturating_sub(2) / 2
+}
+
+/// Root mean square of |H|.
+fn rms(frf: &[Complex64]) -> f64 {
+    (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt()
+}
+
+/// Power of jω of every FRF: as set, else by its unit, else accelerance, which hammer tests give.
+fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
+    let power = |unit: &String| match settings.quantity.or_else(|| quantity_of(unit)) {
+        Some(Quantity::Displacement) => 0,
+        Some(Quantity::Velocity) => 1,
+        Some(Quantity::Acceleration) | None => 2,
+    };
+    frfs.units.iter().map(|row| row.iter().map(power).collect()).collect()
+}
+
+/// The quantity that an FRF's SI unit tells: "(m/s^2)/N" is an acceleration, "m/N" a displacement.
+pub fn quantity_of(unit: &str) -> Option<Quantity> {
+    let moved = match unit.rsplit_once(")/") {
+        Some((moved, _)) if unit.starts_with('(') => moved.trim_start_matches('('),
+        _ => unit.split('/').next().unwrap_or_default(),
+    };
+    match moved.trim() {
+        "m" | "rad" => Some(Quantity::Displacement),
+        "m/s" | "rad/s" => Some(Quantity::Velocity),
+        "m/s^2" | "rad/s^2" => Some(Quantity::Acceleration),
+        _ => None,
+    }
+}

@@ -1,0 +1,32 @@
+//! Why FRFs cannot be identified, and what to do.
+
+/// FRFs or settings from which no modes come.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    #[error(
+        "the frequencies are not at even steps: line {index} is {given:.6} Hz, not {expected:.6} Hz; interpolate the FRFs, or measure with a constant resolution"
+    )]
+    NotEven { index: usize, given: f64, expected: f64 },
+    #[error(
+        "the band {from:.3} .. {to:.3} Hz holds {lines} lines of the {first:.3} .. {last:.3} Hz measured; choose a wider band"
+    )]
+    EmptyBand { from: f64, to: f64, lines: usize, first: f64, last: f64 },
+    #[error(
+        "{lines} lines are too few for order {order}: a fit needs {needed} or more; widen the band, lower the order to {possible}, or measure with a finer resolution"
+    )]
+    TooFewLines { lines: usize, order: usize, needed: usize, possible: usize },
+    #[error(
+        "the FRF of response {response} to reference {reference} holds no finite number at {frequency:.3} Hz; leave it out, or choose a band without it"
+    )]
+    NotFinite { response: String, reference: String, frequency: f64 },
+    #[error("the FRF of response {response} to reference {reference} is zero throughout the band; leave it out")]
+    Zero { response: String, reference: String },
+    #[error(
+        "no mode was found in {from:.3} .. {to:.3} Hz: {poles} poles came out of {orders} orders, and none of them stays; choose a band with a resonance, raise the order, or look at the coherence"
+    )]
+    NoMode { from: f64, to: f64, poles: usize, orders: usize },
+    #[error("{what}: {reason}")]
+    Setting { what: &'static str, reason: String },
+    #[error("an eigenvalue computation failed: {0}")]
+    Eigen(#[from] crate::linalg::eigen::EigenError),
+}

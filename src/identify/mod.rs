@@ -1,0 +1,398 @@
+//! Modes from measured FRFs, without a user in the loop.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `data` | one band, one quantity, scales |
+//! | `plscf` | poles and participations of every order: poly-reference least-squares complex frequency |
+//! | `stabilise` | shapes for each, stabilisation diagram |
+//! | `select` | the poles that stay |
+//! | `lsfd` | residues, residual terms |
+//! | `refine` | poles by nonlinear least squares, standard errors |
+//! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
+//! | [`single`] | circle and peak fit of one mode, a quick look |
+//! | `whirl` | direction of whirl from x and y |
+//!
+//! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the shape (right vector), l the participation
+//! (left vector). On a rotating machine l is not proportional to ψ, and nothing here assumes it.
+
+mod data;
+mod error;
+mod lsfd;
+pub mod mac;
+mod plscf;
+mod refine;
+mod select;
+pub mod single;
+mod stabilise;
+mod whirl;
+
+pub use data::quantity_of;
+pub use error::IdentifyError;
+
+use std::f64::consts::TAU;
+
+use crate::linalg::Complex64;
+use crate::model::Quantity;
+use crate::signal::record::{Dof, FrfMatrix};
+use data::Data;
+use lsfd::Fit;
+use plscf::{NormalEquations, Pole};
+
+/// What to look for, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Frequencies \[Hz\]; all that were measured if `None`.
+    pub band: Option<[f64; 2]>,
+    /// Highest order of the denominator, 60 (or what the lines allow) if `None`.
+    pub max_order: Option<usize>,
+    /// What the FRFs are, where their unit does not tell; accelerance if `None`.
+    pub quantity: Option<Quantity>,
+    /// Largest damping ratio of a mode.
+    pub largest_damping: f64,
+    /// Decay rate that an exponential window added to all poles \[1/s\].
+    pub added_decay: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { band: None, max_order: None, quantity: None, largest_damping: 0.2, added_decay: 0.0 }
+    }
+}
+
+/// One identified mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ \[1/s\], Im λ > 0.
+    pub pole: Complex64,
+    /// ψ over [`Identified::responses`]; ψ lᵀ is the residue of the receptance \[m/(N s) for a displacement under a
+    /// force\].
+    pub shape: Vec<Complex64>,
+    /// l over [`Identified::references`].
+    pub participation: Vec<Complex64>,
+    /// Standard error of the damped frequency \[Hz\].
+    pub frequency_error: f64,
+    /// Standard error of the damping ratio.
+    pub damping_error: f64,
+    /// Modal phase collinearity of the side with more DOFs, 1 for a real mode.
+    pub collinearity: f64,
+    /// Whirl at the points measured along x and y: 1 forward circle (x towards y), 0 straight line, −1 backward;
+    /// `None` where no point has both.
+    pub whirl: Option<f64>,
+    /// F of the mode against the fit without it: what it explains over what nothing does.
+    pub significance: f64,
+}
+
+impl Mode {
+    /// Damped frequency Im λ / 2π \[Hz\].
+    pub fn frequency_hz(&self) -> f64 {
+        self.pole.im / TAU
+    }
+
+    /// Damping ratio ζ = −Re λ / |λ|.
+    pub fn damping_ratio(&self) -> f64 {
+        -self.pole.re / self.pole.norm()
+    }
+}
+
+/// How a pole of the diagram compares with the order before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// No pole within 1 % of its frequency.
+    New,
+    /// Within 1 % in frequency.
+    Frequency,
+    /// And within 5 % in damping.
+    Damping,
+    /// In frequency, and MAC above 0.95.
+    Shape,
+    /// In all three.
+    Stable,
+}
+
+impl Stability {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Stability::New => "new",
+            Stability::Frequency => "frequency",
+            Stability::Damping => "frequency and damping",
+            Stability::Shape => "frequency and shape",
+            Stability::Stable => "stable",
+        }
+    }
+}
+
+/// A pole of the stabilisation diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiagramPole {
+    pub order: usize,
+    /// λ \[1/s\], as measured.
+    pub value: Complex64,
+    pub stability: Stability,
+}
+
+/// What was identified.
+#[derive(Clone, Debug)]
+pub struct Identified {
+    /// By frequency.
+    pub modes: Vec<Mode>,
+    pub responses: Vec<Dof>,
+    pub references: Vec<Dof>,
+    /// Quantity of the measured FRFs as taken.
+    pub quantity: Quantity,
+    /// Lines in the band \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// `measured[response][reference][line]` in the band, as given (all brought to one quantity).
+    pub measured: Vec<Vec<Vec<Complex64>>>,
+    /// The modal model's alike.
+    pub synthesised: Vec<Vec<Vec<Complex64>>>,
+    /// ‖measured − synthesised‖ / ‖measured‖ of every FRF.
+    pub errors: Vec<Vec<f64>>,
+    /// Root mean square of them all.
+    pub total_error: f64,
+    /// Residual terms U (stiffness of modes above) and V (mass of those below) of the receptance, per FRF.
+    pub upper: Vec<Vec<f64>>,
+    pub lower: Vec<Vec<f64>>,
+    pub diagram: Vec<DiagramPole>,
+    pub orders: Vec<usize>,
+    /// Poles that were stable but fell to a test afterwards, with the reason.
+    pub dropped: Vec<String>,
+}
+
+impl Identified {
+    /// The side of the test with more DOFs, and a mode's vector over it: what to draw and to compare.
+    ///
+    /// With a roving hammer these are the references.
+    pub fn deflection<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
+        if self.references.len() > self.responses.len() {
+            (&self.references, &mode.participation)
+        } else {
+            (&self.responses, &mode.shape)
+        }
+    }
+
+    /// MAC of every mode with every other, over the side with more DOFs.
+    pub fn auto_mac(&self) -> Vec<Vec<f64>> {
+        let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.deflection(m).1).collect();
+        mac::mac_matrix(&shapes, &shapes)
+    }
+}
+
+/// Lowest order tried.
+const FIRST_ORDER: usize = 2;
+
+/// Identifies the modes in FRFs.
+///
+/// Poles of all orders by pLSCF, those that stay chosen, then refined together by nonlinear least squares on all FRFs;
+/// modes that the data do not bear out are dropped and listed.
+///
+/// # Errors
+/// Uneven frequencies, a band without data, too few lines for the order, values that are not finite, an FRF that is
+/// zero, no mode.
+pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<Identified, IdentifyError> {
+    let mut data = Data::new(frfs, settings)?;
+    let equations = NormalEquations::new(&data, settings)?;
+    let orders: Vec<usize> = (FIRST_ORDER..=data.max_order(settings)).collect();
+    let candidates = stabilise::candidates(&data, equations.poles(&orders)?)?;
+    let diagram = stabilise::diagram(&candidates, &orders);
+    let band = [data.frequencies[0], data.frequencies[data.lines() - 1]];
+    let none = IdentifyError::NoMode {
+        from: band[0],
+        to: band[1],
+        poles: candidates.len(),
+        orders: orders.len(),
+    };
+    let mut poles = select::select(&data, &candidates, orders.len());
+    if poles.is_empty() {
+        return Err(none);
+    }
+    let mut dropped = Vec::new();
+    let mut weights = vec![1.0; data.lines()];
+    // First with all FRFs alike, then each by what the first fit left of it.
+    let first = refine::refine(&data, &weights, poles);
+    (poles, weights) = weighted(&mut data, first, weights);
+    let found = loop {
+        let found = refine::refine(&data, &weights, poles.clone());
+        let verdicts: Vec<Option<String>> =
+            (0..found.poles.len()).map(|m| fault(&found, m, band, settings)).collect();
+        if verdicts.iter().all(Option::is_none) {
+            break found;
+        }
+        // The least significant of the faulty goes first; the others may recover.
+        let worst = (0..verdicts.len())
+            .filter(|&m| verdicts[m].is_some())
+            .min_by(|&a, &b| found.significance[a].total_cmp(&found.significance[b]));
+        let Some(worst) = worst else { break found };
+        dropped.extend(verdicts.into_iter().nth(worst).flatten());
+        poles = found.poles;
+        poles.remove(worst);
+        if poles.is_empty() {
+            return Err(none);
+        }
+    };
+    Ok(assembled(frfs, settings, &data, found, diagram, orders, dropped))
+}
+
+/// Rescales FRFs and lines by what a fit left of them; returns its poles in the new scales and the weights.
+fn weighted(data: &mut Data, found: refine::Refined, weights: Vec<f64>) -> (Vec<Pole>, Vec<f64>) {
+    let model = synthesised(data, &found.poles, &found.fit);
+    let lines = data.lines();
+    let mut by_line = vec![0.0; lines];
+    let mut sizes: Vec<Vec<f64>> = Vec::new();
+    for (row, model) in data.values.iter().zip(&model) {
+        let mut own = Vec::new();
+        for (frf, model) in row.iter().zip(model) {
+            let rest: Vec<f64> = frf.iter().zip(model).map(|(h, m)| (h - m).norm_sqr()).collect();
+            own.push((rest.iter().sum::<f64>() / lines as f64).sqrt());
+            by_line.iter_mut().zip(&rest).for_each(|(sum, r)| *sum += r);
+        }
+        sizes.push(own);
+    }
+    // An FRF that fits a thousand times better than the worst is fitted no better than that.
+    let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
+    sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));
+    let _ = by_line;
+    let b = data.rescale(&sizes);
+    let mut poles = found.poles;
+    for pole in &mut poles {
+        pole.participation.iter_mut().zip(&b).for_each(|(l, b)| *l /= b);
+        pole.participation = plscf::unit(std::mem::take(&mut pole.participation));
+    }
+    (poles, weights)
+}
+
+/// Significance F below which a mode is noise: the largest of many tries stays below it.
+const LEAST_SIGNIFICANCE: f64 = 10.0;
+/// Standard errors that make a mode worthless: of the frequency, relative, and of the damping, relative.
+const WORST_FREQUENCY: f64 = 0.01;
+const WORST_DAMPING: f64 = 0.5;
+
+/// Why a mode is none.
+fn fault(found: &refine::Refined, m: usize, band: [f64; 2], settings: &Settings) -> Option<String> {
+    let pole = found.poles[m].value;
+    let hz = pole.im / TAU;
+    let zeta = -pole.re / pole.norm();
+    let (frequency, damping) = errors(pole, found.covariance[m]);
+    let name = format!("{hz:.3} Hz, damping {:.3} %", 100.0 * zeta);
+    if zeta.is_nan() || zeta <= 0.0 {
+        return Some(format!("{name}: not damped"));
+    }
+    if hz < band[0] || hz > band[1] {
+        return Some(format!("{name}: outside the band"));
+    }
+    if zeta > settings.largest_damping {
+        return Some(format!("{name}: damped too highly"));
+    }
+    if frequency > WORST_FREQUENCY * hz || damping > WORST_DAMPING * zeta {
+        return Some(format!("{name}: known to {frequency:.2e} Hz and {:.2e} % only", 100.0 * damping));
+    }
+    if found.significance[m] < LEAST_SIGNIFICANCE {
+        return Some(format!("{name}: explains no more than noise would (F = {:.1})", found.significance[m]));
+    }
+    None
+}
+
+/// Standard errors of damped frequency \[Hz\] and damping ratio from the pole's covariance.
+fn errors(pole: Complex64, [re, im, both]: [f64; 3]) -> (f64, f64) {
+    // ζ = −a/|λ|, λ = a + jb: ∂ζ/∂a = −b²/|λ|³, ∂ζ/∂b = ab/|λ|³.
+    let cube = pole.norm().powi(3);
+    let (da, db) = (-pole.im * pole.im / cube, pole.re * pole.im / cube);
+    (im.sqrt() / TAU, (da * da * re + db * db * im + 2.0 * da * db * both).max(0.0).sqrt())
+}
+
+/// FRFs of the modal model in the data's scales, `[output][input][line]`.
+fn synthesised(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
+    let s = data.s();
+    let one = |o: usize, i: usize| {
+        let value = |s: &Complex64| {
+            let mut sum = fit.upper[o][i] + fit.lower[o][i] / (s * s);
+            for (pole, shape) in poles.iter().zip(&fit.shapes) {
+                let residue = shape[o] * pole.participation[i];
+                sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
+            }
+            sum * s.powi(data.power)
+        };
+        s.iter().map(value).collect()
+    };
+    (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
+}
+
+fn assembled(
+    frfs: &FrfMatrix,
+    settings: &Settings,
+    data: &Data,
+    found: refine::Refined,
+    diagram: Vec<DiagramPole>,
+    orders: Vec<usize>,
+    dropped: Vec<String>,
+) -> Identified {
+    let model = synthesised(data, &found.poles, &found.fit);
+    let scale = |o: usize, i: usize| data.output_scale[o] * data.input_scale[i];
+    let (responses, references) = (frfs.responses.len(), frfs.references.len());
+    let place = |r: usize, e: usize| if data.swapped { (e, r) } else { (r, e) };
+    let table = |of: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
+        (0..responses).map(|r| (0..references).map(|e| { let (o, i) = place(r, e); of(o, i) }).collect()).collect()
+    };
+    let curves = |of: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Vec<Complex64>>> {
+        let one = |r: usize, e: usize| {
+            let (o, i) = place(r, e);
+            of[o][i].iter().map(|h| h * scale(o, i)).collect()
+        };
+        (0..responses).map(|r| (0..references).map(|e| one(r, e)).collect()).collect()
+    };
+    let errors_of = table(&|o, i| {
+        let (mut rest, mut all) = (0.0, 0.0);
+        for (h, m) in data.values[o][i].iter().zip(&model[o][i]) {
+            rest += (h - m).norm_sqr();
+            all += h.norm_sqr();
+        }
+        (rest / all).sqrt()
+    });
+    let count = (responses * references) as f64;
+    let total_error = (errors_of.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt();
+    let mut modes: Vec<Mode> = (0..found.poles.len())
+        .map(|m| {
+            let pole = &found.poles[m];
+            // The larger side carries the size of the residue, the smaller one's largest entry is 1.
+            let mut small: Vec<Complex64> =
+                pole.participation.iter().zip(&data.input_scale).map(|(l, b)| l * *b).collect();
+            let before = small.clone();
+            small = plscf::unit(small);
+            let k = lsfd::fixed_input(&Pole { value: pole.value, participation: before.clone() });
+            let large: Vec<Complex64> =
+                found.fit.shapes[m].iter().zip(&data.output_scale).map(|(v, a)| v * *a * before[k]).collect();
+            let (frequency_error, damping_error) = errors(pole.value, found.covariance[m]);
+            let collinearity = mac::phase_collinearity(&large);
+            let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
+            let whirl = whirl::whirl(&frfs.responses, &shape)
+                .or_else(|| whirl::whirl(&frfs.references, &participation).map(|w| -w));
+            Mode {
+                pole: pole.value + settings.added_decay,
+                shape,
+                participation,
+                frequency_error,
+                damping_error,
+                collinearity,
+                whirl,
+                significance: found.significance[m],
+            }
+        })
+        .collect();
+    modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
+    Identified {
+        modes,
+        responses: frfs.responses.clone(),
+        references: frfs.references.clone(),
+        quantity: [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration][data.power as usize],
+        frequencies: data.frequencies.clone(),
+        measured: curves(&data.values),
+        synthesised: curves(&model),
+        errors: errors_of,
+        total_error,
+        upper: table(&|o, i| found.fit.upper[o][i] * scale(o, i)),
+        lower: table(&|o, i| found.fit.lower[o][i] * scale(o, i)),
+        diagram,
+        orders,
+        dropped,
+    }
+}

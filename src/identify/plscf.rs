@@ -1,0 +1,216 @@
+//! Poly-reference least-squares complex frequency: poles and participations for every order at once.
+//!
+//! H_o(ω) A(z) = B_o(z) row by row, A(z) = Σ A_j z^j with real N_i × N_i coefficients, A₀ = I, z = e^{jωT}. The
+//! numerators are eliminated output by output: M = Σ_o (T_o − S_oᵀ R_o⁻¹ S_o), and M a = 0 gives A. With A₀ fixed the
+//! poles that only fit noise lie outside the unit circle: they look unstable, and the physical ones stand alone.
+//!
+//! Source: Peeters, Van der Auweraer, Guillaume & Leuridan, Shock and Vibration 11 (2004) 395; Cauberghe, thesis
+//! VUB (2004), on the constraint.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Cholesky, DMatrix};
+use rayon::prelude::*;
+use rustfft::FftPlanner;
+
+use super::data::Data;
+use super::{IdentifyError, Settings};
+use crate::linalg::{Complex64, eigen};
+
+/// A pole with its participation, of one order.
+#[derive(Clone, Debug)]
+pub(super) struct Pole {
+    /// λ \[1/s\].
+    pub value: Complex64,
+    /// l over the inputs (scaled data), its largest entry 1.
+    pub participation: Vec<Complex64>,
+}
+
+/// Reduced normal equations, and the map between z and s.
+pub(super) struct NormalEquations {
+    matrix: DMatrix<f64>,
+    order: usize,
+    inputs: usize,
+    /// Sampling interval T \[s\] of z = e^{(s − j·shift)T}.
+    interval: f64,
+    /// rad/s.
+    shift: f64,
+    band: [f64; 2],
+    largest_damping: f64,
+}
+
+/// Outputs summed one after the other before sums are added in order: the result does not depend on threads.
+const CHUNK: usize = 4;
+
+impl NormalEquations {
+    /// Builds M for the highest order; its leading blocks serve all lower ones.
+    pub fn new(data: &Data, settings: &Settings) -> Result<Self, IdentifyError> {
+        let n = data.max_order(settings);
+        let (ni, lines) = (data.inputs(), data.lines());
+        // The band begins at most a fifth up the half circle: nearer its end the powers of z become alike.
+        let start = ((data.frequencies[0] / data.step).round() as usize).min(lines / 4);
+        let length = fast_length((2 * (start + lines)).max(2 * n + 2));
+        let fft = FftPlanner::<f64>::new().plan_fft_forward(length);
+        // Sums Σ x_k z_k^l for l = −n..n, by one transform: X[m] = Σ x_k e^{−2πjkm/N}.
+        let sums = |series: &mut dyn Iterator<Item = Complex64>| -> Vec<f64> {
+            let mut buffer = vec![Complex64::default(); length];
+            for (slot, value) in buffer[start..].iter_mut().zip(series) {
+                *slot = value;
+            }
+            fft.process(&mut buffer);
+            (0..=2 * n).map(|k| buffer[(length + n - k) % length].re).collect()
+        };
+        // Receptances fall with ω²: mobility-like sizes weigh all modes alike.
+        let weight: Vec<f64> = data
+            .frequencies
+            .iter()
+            .map(|f| if data.power == 0 { (f / data.frequencies[lines - 1]).powi(2) } else { 1.0 })
+            .collect();
+        let toeplitz = |lags: &[f64]| DMatrix::from_fn(n + 1, n + 1, |j, k| lags[n + k - j]);
+        let r = toeplitz(&sums(&mut weight.iter().map(|w| Complex64::from(*w))));
+        let r = positive(r).unpack();
+        let part = |rows: &[Vec<Vec<Complex64>>]| {
+            let mut square = DMatrix::zeros(ni * (n + 1), ni * (n + 1));
+            let mut lags = vec![vec![0.0; 2 * n + 1]; ni * ni];
+            let mut s = DMatrix::<f64>::zeros(n + 1, ni * (n + 1));
+            for row in rows {
+                for i in 0..ni {
+                    let own = sums(&mut row[i].iter().zip(&weight).map(|(h, w)| h * *w));
+                    for k in 0..=n {
+                        for j in 0..=n {
+                            s[(j, k * ni + i)] = own[n + k - j];
+                        }
+                    }
+                    for j in i..ni {
+                        let pairs = row[i].iter().zip(&row[j]).zip(&weight);
+                        let own = sums(&mut pairs.map(|((a, b), w)| a.conj() * b * *w));
+                        lags[i * ni + j].iter_mut().zip(&own).for_each(|(total, own)| *total += own);
+                    }
+                }
+                r.solve_lower_triangular_mut(&mut s);
+                square += s.transpose() * &s;
+            }
+            (square, lags)
+        };
+        let parts: Vec<_> = data.values.par_chunks(CHUNK).map(part).collect();
+        let mut square = DMatrix::zeros(ni * (n + 1), ni * (n + 1));
+        let mut lags = vec![vec![0.0; 2 * n + 1]; ni * ni];
+        for (own, own_lags) in &parts {
+            square += own;
+            for (total, own) in lags.iter_mut().zip(own_lags) {
+                total.iter_mut().zip(own).for_each(|(total, own)| *total += own);
+            }
+        }
+        let matrix = DMatrix::from_fn(ni * (n + 1), ni * (n + 1), |row, column| {
+            let ((j, a), (k, b)) = ((row / ni, row % ni), (column / ni, column % ni));
+            // Re Σ conj(H_b) H_a z^l is that of conj(H_a) H_b at −l.
+            let t = if a <= b { lags[a * ni + b][n + k - j] } else { lags[b * ni + a][n + j - k] };
+            t - square[(row, column)]
+        });
+        let first_line = data.frequencies[0] / data.step - start as f64;
+        Ok(Self {
+            matrix,
+            order: n,
+            inputs: ni,
+            interval: 1.0 / (length as f64 * data.step),
+            shift: TAU * data.step * first_line,
+            band: [data.frequencies[0], data.frequencies[lines - 1]],
+            largest_damping: settings.largest_damping,
+        })
+    }
+
+    /// Poles of every order asked for with a frequency in the band and a positive damping ratio that may be.
+    pub fn poles(&self, orders: &[usize]) -> Result<Vec<Vec<Pole>>, IdentifyError> {
+        let ni = self.inputs;
+        let size = ni * self.order;
+        let block = self.matrix.view((ni, ni), (size, size)).into_owned();
+        // Leading blocks of the Cholesky factor are those of the leading blocks.
+        let lower = positive(block).unpack();
+        let mut right = -self.matrix.view((ni, 0), (size, ni)).into_owned();
+        lower.solve_lower_triangular_mut(&mut right);
+        orders.par_iter().map(|&n| self.poles_of(n, &lower, &right)).collect()
+    }
+
+    fn poles_of(
+        &self,
+        n: usize,
+        lower: &DMatrix<f64>,
+        right: &DMatrix<f64>,
+    ) -> Result<Vec<Pole>, IdentifyError> {
+        let ni = self.inputs;
+        let size = n * ni;
+        let mut a = right.rows(0, size).into_owned();
+        lower.view((0, 0), (size, size)).tr_solve_lower_triangular_mut(&mut a);
+        // lᵀ A(z) = 0 with μ = 1/z: μⁿ l + Σ μ^{n−j} A_jᵀ l = 0.
+        let mut companion = DMatrix::zeros(size, size);
+        for j in 0..n {
+            for row in 0..ni {
+                for column in 0..ni {
+                    companion[(row, j * ni + column)] = -a[(j * ni + column, row)];
+                }
+            }
+        }
+        for k in ni..size {
+            companion[(k, k - ni)] = 1.0;
+        }
+        let (values, vectors) = eigen::general(&companion)?;
+        let mut poles = Vec::new();
+        for (k, mu) in values.iter().enumerate() {
+            if mu.norm_sqr() == 0.0 {
+                continue;
+            }
+            let turned = mu.inv().ln() / self.interval;
+            let value = turned + Complex64::new(0.0, self.shift);
+            let hz = value.im / TAU;
+            let damping = -value.re / value.norm();
+            let inside = hz >= self.band[0] && hz <= self.band[1];
+            if turned.im <= 0.0 || !inside || damping <= 0.0 || damping > self.largest_damping {
+                continue;
+            }
+            let l: Vec<Complex64> = (0..ni).map(|i| vectors[(size - ni + i, k)]).collect();
+            poles.push(Pole { value, participation: unit(l) });
+        }
+        poles.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
+        Ok(poles)
+    }
+}
+
+/// l over its largest entry.
+pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
+    let largest = l.iter().copied().fold(Complex64::default(), |a, b| if b.norm() > a.norm() { b } else { a });
+    if largest.norm_sqr() > 0.0 {
+        l.iter_mut().for_each(|v| *v /= largest);
+    }
+    l
+}
+
+/// Cholesky factor of a matrix that is positive definite but for round-off, which a grain on its diagonal mends:
+/// FRFs without noise leave M singular beyond their own order.
+fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
+    let size = matrix.diagonal().amax().max(f64::MIN_POSITIVE);
+    let mut grain = 0.0;
+    loop {
+        let mut mended = matrix.clone();
+        for k in 0..mended.nrows() {
+            mended[(k, k)] += grain * size;
+        }
+        if let Some(found) = Cholesky::new(mended) {
+            return found;
+        }
+        // Ends at the latest where the diagonal dominates.
+        grain = if grain == 0.0 { 1e-15 } else { 10.0 * grain };
+    }
+}
+
+/// The next length of small factors.
+fn fast_length(at_least: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for p in [2, 3, 5] {
+            while n % p == 0 {
+                n /= p;
+            }
+        }
+        n == 1
+    };
+    (at_least..).find(|&n| smooth(n)).unwrap_or(at_least)
+}

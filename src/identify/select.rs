@@ -1,0 +1,178 @@
+//! Stable poles chosen without a user: groups of poles that many orders share.
+//!
+//! Every candidate is scored by the other orders' poles that are like it in frequency, damping, participation and
+//! shape; the best is taken with all that are like it, and so on until what is left has too little support. Groups that
+//! lie on one another are one mode, unless the residues there have more than one direction.
+
+use nalgebra::DMatrix;
+
+use super::data::Data;
+use super::lsfd::free_residues;
+use super::mac::mac;
+use super::plscf::{Pole, unit};
+use super::stabilise::Candidate;
+use crate::linalg::Complex64;
+
+/// Difference of frequency, relative, at which likeness ends.
+const FREQUENCY: f64 = 0.005;
+/// Difference of damping over its mean.
+const DAMPING: f64 = 0.6;
+/// 1 − MAC of the residues.
+const SHAPE: f64 = 0.15;
+/// Support, over the number of orders, that makes a mode.
+const SUPPORT: f64 = 0.1;
+/// Poles nearer than this share of their decay rate may be one mode found twice.
+const ONE: f64 = 0.8;
+/// Singular value of the residues, over the largest, from which there is a second mode.
+const SECOND: f64 = 0.2;
+
+struct Cluster {
+    value: Complex64,
+    participation: Vec<Complex64>,
+    score: f64,
+    /// Poles per order that has any.
+    multiplicity: f64,
+}
+
+/// Poles to start the refinement from, by frequency.
+pub(super) fn select(data: &Data, candidates: &[Candidate], orders: usize) -> Vec<Pole> {
+    let mut clusters = clusters(candidates, orders);
+    clusters.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
+    let mut groups: Vec<Vec<Cluster>> = Vec::new();
+    for cluster in clusters {
+        let near = |c: &Cluster| {
+            (c.value - cluster.value).norm() < ONE * c.value.re.abs().min(cluster.value.re.abs())
+        };
+        match groups.last_mut() {
+            Some(group) if group.iter().any(near) => group.push(cluster),
+            _ => groups.push(vec![cluster]),
+        }
+    }
+    let best = |group: &[Cluster]| {
+        group.iter().enumerate().fold(0, |b, (k, c)| if c.score > group[b].score { k } else { b })
+    };
+    let values: Vec<Complex64> = groups.iter().map(|group| group[best(group)].value).collect();
+    let several = |group: &Vec<Cluster>| group.len() > 1 || group[0].multiplicity > 1.4;
+    let residues = if groups.iter().any(several) {
+        free_residues(data, &vec![1.0; data.lines()], &values)
+    } else {
+        Vec::new()
+    };
+    let mut poles = Vec::new();
+    for (k, mut group) in groups.into_iter().enumerate() {
+        let first = group.swap_remove(best(&group));
+        if group.is_empty() && first.multiplicity <= 1.4 {
+            poles.push(Pole { value: first.value, participation: first.participation });
+            continue;
+        }
+        let (directions, sizes) = directions(&residues[k]);
+        if sizes.len() < 2 || sizes[1] < SECOND * sizes[0] {
+            poles.push(Pole { value: first.value, participation: first.participation });
+            continue;
+        }
+        // The second mode: the one of the group least like the first, else the residues' second direction.
+        let unlike = group.into_iter().min_by(|a, b| {
+            let likeness = |c: &Cluster| mac(&c.participation, &first.participation);
+            likeness(a).total_cmp(&likeness(b))
+        });
+        match unlike.filter(|c| mac(&c.participation, &first.participation) < 0.8) {
+            Some(second) => {
+                poles.push(Pole { value: first.value, participation: first.participation });
+                poles.push(Pole { value: second.value, participation: second.participation });
+            }
+            None => {
+                for direction in directions.into_iter().take(2) {
+                    poles.push(Pole { value: first.value, participation: unit(direction) });
+                }
+            }
+        }
+    }
+    poles
+}
+
+fn clusters(candidates: &[Candidate], orders: usize) -> Vec<Cluster> {
+    let mut sorted: Vec<&Candidate> = candidates.iter().collect();
+    sorted.sort_by(|a, b| a.pole.value.im.total_cmp(&b.pole.value.im).then(a.order.cmp(&b.order)));
+    let n = sorted.len();
+    // Likeness 0..1 with the neighbours in frequency.
+    let mut like: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
+    for i in 0..n {
+        like[i].push((i, 1.0));
+        for j in i + 1..n {
+            if sorted[j].pole.value.im > sorted[i].pole.value.im * (1.0 + FREQUENCY) {
+                break;
+            }
+            let value = likeness(sorted[i], sorted[j]);
+            if value > 0.0 {
+                like[i].push((j, value));
+                like[j].push((i, value));
+            }
+        }
+    }
+    let mut alive = vec![true; n];
+    let mut out = Vec::new();
+    let mut best = vec![0.0f64; orders];
+    loop {
+        let mut top = (0.0, 0);
+        for i in (0..n).filter(|&i| alive[i]) {
+            best.fill(0.0);
+            for &(j, value) in like[i].iter().filter(|(j, _)| alive[*j]) {
+                let slot = &mut best[sorted[j].order];
+                *slot = slot.max(value);
+            }
+            let score = best.iter().sum::<f64>();
+            if score > top.0 {
+                top = (score, i);
+            }
+        }
+        let (score, seed) = top;
+        if score < (SUPPORT * orders as f64).max(2.0) {
+            return out;
+        }
+        let members: Vec<usize> = like[seed].iter().map(|(j, _)| *j).filter(|&j| alive[j]).collect();
+        out.push(cluster(&sorted, &members, seed, score));
+        members.iter().for_each(|&j| alive[j] = false);
+    }
+}
+
+fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) -> Cluster {
+    let value = |part: &dyn Fn(&Complex64) -> f64| {
+        let mut list: Vec<f64> = members.iter().map(|&j| part(&sorted[j].pole.value)).collect();
+        list.sort_by(f64::total_cmp);
+        list[list.len() / 2]
+    };
+    let mut seen: Vec<usize> = members.iter().map(|&j| sorted[j].order).collect();
+    seen.sort_unstable();
+    seen.dedup();
+    Cluster {
+        value: Complex64::new(value(&|v| v.re), value(&|v| v.im)),
+        participation: sorted[seed].pole.participation.clone(),
+        score,
+        multiplicity: members.len() as f64 / seen.len() as f64,
+    }
+}
+
+/// 1 for equal poles, falling to 0 with the square of what parts them.
+fn likeness(a: &Candidate, b: &Candidate) -> f64 {
+    let (va, vb) = (a.pole.value, b.pole.value);
+    let apart = (va.im - vb.im) / va.im.min(vb.im) / FREQUENCY;
+    let (za, zb) = (-va.re / va.norm(), -vb.re / vb.norm());
+    let damped = 2.0 * (za - zb) / (za + zb) / DAMPING;
+    let mut distance = apart * apart + damped * damped;
+    if distance < 1.0 && !a.double && !b.double {
+        let same = mac(&a.shape, &b.shape) * mac(&a.pole.participation, &b.pole.participation);
+        distance += (1.0 - same) / SHAPE;
+    }
+    (1.0 - distance).max(0.0)
+}
+
+/// Right singular directions of a residue matrix (as participations) and their singular values, falling.
+fn directions(residue: &DMatrix<Complex64>) -> (Vec<Vec<Complex64>>, Vec<f64>) {
+    let svd = residue.clone().svd(false, true);
+    let Some(v) = svd.v_t else { return (Vec::new(), Vec::new()) };
+    let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
+    order.sort_by(|a, b| svd.singular_values[*b].total_cmp(&svd.singular_values[*a]));
+    // R = Σ σ u vᴴ: the rows of vᴴ are the participations.
+    let list = order.iter().map(|&k| v.row(k).iter().copied().collect()).collect();
+    (list, order.iter().map(|&k| svd.singular_values[k]).collect())
+}

@@ -1,0 +1,1 @@
+//! Noise: modes found all the same, and standard errors that are what the scatter is.
