@@ -1,10 +1,13 @@
 //! Arguments of the command, and its manual.
 
+mod measured;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
 use super::signal::args::SignalArgs;
+pub use measured::{IdentifyArgs, NoiseArgs};
 
 const LONG_ABOUT: &str = "\
 Simulates rotating machines: a flexible shaft with discs on ball or linear bearings, in housings on springs.
@@ -23,6 +26,7 @@ Examples:
   rotordyn spectrogram out/overhung_rig --channels B_ax        of a run-up that is on disk
   rotordyn bearing models/overhung_rig.toml --bearing A        loads, contacts, stiffness of one bearing
   rotordyn signal record.mat --rate \"12 kHz\" --bearing 6205   which part of the bearing is damaged?
+  rotordyn identify frfs.uff --band \"5 Hz, 180 Hz\"            modes from measured FRFs
   rotordyn catalogue 6205
 
 Units are written in values: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A number without its unit is an error.
@@ -303,7 +307,8 @@ Units: receptance m/N, mobility m/(s N), accelerance m/(s^2 N).
 
 Examples:
   rotordyn frf models/overhung_rig.toml
-  rotordyn frf models/jeffcott.toml --speed \"1500 rpm\" --quantity mobility")]
+  rotordyn frf models/jeffcott.toml --speed \"1500 rpm\" --quantity mobility
+  rotordyn frf models/overhung_rig.toml --noise \"40 dB\" --averages 10 --seed 1   also writes frf_noisy.uff")]
     Frf {
         #[command(flatten)]
         study: StudyArgs,
@@ -316,6 +321,8 @@ Examples:
         /// receptance, mobility or accelerance
         #[arg(long, value_name = "NAME")]
         quantity: Option<String>,
+        #[command(flatten)]
+        test: NoiseArgs,
     },
 
     /// Steady unbalance response over speed: Bode diagrams and orbits
@@ -395,6 +402,21 @@ Examples:
   rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --hold x,y,theta_x,theta_y
   rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
     Bearing(Box<BearingArgs>),
+
+    /// Modes from measured FRFs or hammer records: poles, damping, shapes, with their standard errors
+    ///
+    /// Poly-reference least-squares complex frequency over all orders; poles that stay are chosen, refined together on
+    /// all FRFs, and those that the data do not bear out dropped. Reads universal files, MATLAB, NumPy, CSV, HDF5 and
+    /// our own results.h5; time records of a hammer test are turned into FRFs first. Writes results.h5, modes.uff (data
+    /// sets 55) and figures: stabilisation diagram, autoMAC, FRFs measured and synthesised, shapes where the file has
+    /// geometry.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn identify frfs.uff --band \"5 Hz, 180 Hz\"
+  rotordyn identify test.npz --quantity accelerance --max-order 40
+  rotordyn identify blow_*.mat --mapping channels.toml --window \"0.5 s\"
+  rotordyn identify out/overhung_rig/results.h5 --json")]
+    Identify(Box<IdentifyArgs>),
 
     /// Compare variants of one machine: frequencies side by side, FRFs overlaid
     ///

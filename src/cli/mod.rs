@@ -10,8 +10,10 @@ mod diagnostics;
 mod export;
 mod failure;
 mod films;
+mod identify;
 mod interrupt;
 mod machine;
+mod noise;
 mod settings;
 mod signal;
 mod store;
@@ -97,9 +99,14 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Critical { study, max_speed, orders } => {
             alone(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
         }
-        Command::Frf { study, speed, max_frequency, quantity } => alone(study, Study::Frf, &|model| {
-            settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
-        }),
+        Command::Frf { study, speed, max_frequency, quantity, test } => {
+            let settings = |model: &Model| {
+                settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
+            };
+            let outcome = alone(study, Study::Frf, &settings)?;
+            noise::run(study, test, &settings, terminal)?;
+            Ok(outcome)
+        }
         Command::Unbalance { study, max_speed } => {
             alone(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
         }
@@ -109,6 +116,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Spectrogram(args) => stored::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
+        Command::Identify(args) => identify::run(args, terminal),
         Command::Compare { study, variants, speed, modes } => {
             compare::run(study, variants, speed.as_ref(), *modes, terminal)
         }

@@ -6,11 +6,12 @@
 use std::f64::consts::TAU;
 
 use crate::edge::measured::mapping::direction;
+use crate::error::Error;
 use crate::model::Model;
 use crate::results::{FrfResult, History, ModalResult};
 use crate::signal::record::{
-    Analysis, Axis, AxisQuantity, Dof, Geometry, Kind, Measured, Node, Points, Polyline, Record, Shape,
-    Values,
+    Analysis, Axis, AxisQuantity, Dof, Geometry, Kind, Measured, Node, NoisyTest, Points, Polyline, Record,
+    Shape, Values,
 };
 use crate::study::Machine;
 
@@ -135,4 +136,37 @@ pub fn numbered(measured: &Measured, number: u32) -> Measured {
 pub fn is_audible(record: &Record) -> bool {
     let even = matches!(record.axis.points, Points::Even { .. });
     even && matches!(record.unit.as_str(), "m" | "m/s" | "m/s^2" | "N")
+}
+
+/// FRFs as a test with noise would give them, each with its coherence.
+///
+/// # Errors
+/// Records that are no matrix of FRFs, no average, a signal to noise that is not finite.
+pub fn noisy(exact: &Measured, test: &NoisyTest) -> Result<Measured, Error> {
+    let matrix = exact.frf_matrix()?.measured_with(test)?;
+    let mut out = exact.clone();
+    let mut coherences = Vec::new();
+    for record in out.records.iter_mut().filter(|r| r.kind == Kind::Frf) {
+        let response = matrix.responses.iter().position(|dof| *dof == record.response);
+        let reference = matrix.references.iter().position(|dof| *dof == record.reference);
+        let (Some(r), Some(e)) = (response, reference) else { continue };
+        record.values = Values::Complex(matrix.values[r][e].clone());
+        if let Some(coherence) = &matrix.coherence {
+            let values = Values::Real(coherence[r][e].clone());
+            coherences.push(Record {
+                response: record.response,
+                reference: record.reference,
+                speed_rpm: record.speed_rpm,
+                ..Record::new(
+                    &format!("coherence {}", record.name),
+                    Kind::Coherence,
+                    record.axis.clone(),
+                    values,
+                    "1",
+                )
+            });
+        }
+    }
+    out.records.extend(coherences);
+    Ok(out)
 }

@@ -7,6 +7,7 @@ pub mod figures;
 pub mod film_tables;
 pub mod gltf;
 pub mod hdf5;
+pub mod identified;
 pub mod inflate;
 pub mod json;
 pub mod mat;

@@ -79,7 +79,8 @@ impl Data {
                 let (response, reference) = if swapped { (i, o) } else { (o, i) };
                 let more = power - powers[response][reference];
                 let frf = &frfs.values[response][reference];
-                let own = lines.iter().map(|&k| frf[k] * Complex64::new(0.0, TAU * f[k]).powi(more)).collect();
+                let own =
+                    lines.iter().map(|&k| frf[k] * Complex64::new(0.0, TAU * f[k]).powi(more)).collect();
                 row.push(own);
             }
             values.push(row);
@@ -94,7 +95,8 @@ impl Data {
             swapped,
         };
         data.check(frfs)?;
-        let sizes: Vec<Vec<f64>> = data.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
+        let sizes: Vec<Vec<f64>> =
+            data.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
         data.rescale(&sizes);
         Ok(data)
     }
@@ -149,7 +151,8 @@ impl Data {
         let log = |o: usize, i: usize| sizes[o][i].max(smallest).max(f64::MIN_POSITIVE).ln();
         let mean = (0..no).flat_map(|o| (0..ni).map(move |i| (o, i))).map(|(o, i)| log(o, i)).sum::<f64>()
             / (no * ni) as f64;
-        let a: Vec<f64> = (0..no).map(|o| ((0..ni).map(|i| log(o, i)).sum::<f64>() / ni as f64).exp()).collect();
+        let a: Vec<f64> =
+            (0..no).map(|o| ((0..ni).map(|i| log(o, i)).sum::<f64>() / ni as f64).exp()).collect();
         let b: Vec<f64> =
             (0..ni).map(|i| ((0..no).map(|o| log(o, i)).sum::<f64>() / no as f64 - mean).exp()).collect();
         for (o, row) in self.values.iter_mut().enumerate() {

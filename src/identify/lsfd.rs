@@ -4,16 +4,17 @@
 //! mobility, accelerance. U stands for the modes above the band (a stiffness), V for those below it (a mass). With real
 //! and imaginary parts of ψ, U and V as unknowns the problem is real, and its matrix the same for all outputs.
 
-use nalgebra::{Cholesky, DMatrix};
+use nalgebra::DMatrix;
 
 use super::data::Data;
+use super::dense::{back, thin_qr, tr_mul};
 use super::plscf::Pole;
 use crate::linalg::Complex64;
 
 /// Rows are inputs, and for each the real, then the imaginary parts of all lines.
 pub(super) struct Basis {
     s: Vec<Complex64>,
-    /// s^p, times the weight of the line.
+    /// s^p.
     factor: Vec<Complex64>,
     inputs: usize,
 }
@@ -30,9 +31,9 @@ pub(super) struct Fit {
 }
 
 impl Basis {
-    pub fn new(data: &Data, weights: &[f64]) -> Self {
+    pub fn new(data: &Data) -> Self {
         let s = data.s();
-        let factor = s.iter().zip(weights).map(|(s, w)| s.powi(data.power) * *w).collect();
+        let factor = s.iter().map(|s| s.powi(data.power)).collect();
         Self { s, factor, inputs: data.inputs() }
     }
 
@@ -42,7 +43,13 @@ impl Basis {
 
     /// Writes the columns of the real and the imaginary part of c in c g(s) + conj(c) g̃(s), g̃ being g with conjugate
     /// constants, into `matrix` for one input.
-    fn put(&self, matrix: &mut DMatrix<f64>, columns: [usize; 2], input: usize, g: impl Fn(Complex64) -> [Complex64; 2]) {
+    fn put(
+        &self,
+        matrix: &mut DMatrix<f64>,
+        columns: [usize; 2],
+        input: usize,
+        g: impl Fn(Complex64) -> [Complex64; 2],
+    ) {
         let lines = self.s.len();
         let top = 2 * lines * input;
         for (k, (s, factor)) in self.s.iter().zip(&self.factor).enumerate() {
@@ -107,14 +114,14 @@ impl Basis {
     }
 
     /// The FRFs as columns, one an output, in the order of the rows.
-    pub fn right_side(&self, outputs: &[Vec<Vec<Complex64>>], weights: &[f64]) -> DMatrix<f64> {
+    pub fn right_side(&self, outputs: &[Vec<Vec<Complex64>>]) -> DMatrix<f64> {
         let lines = self.s.len();
         let mut y = DMatrix::zeros(self.rows(), outputs.len());
         for (o, row) in outputs.iter().enumerate() {
             for (i, frf) in row.iter().enumerate() {
-                for (k, (h, w)) in frf.iter().zip(weights).enumerate() {
-                    y[(2 * lines * i + k, o)] = w * h.re;
-                    y[(2 * lines * i + lines + k, o)] = w * h.im;
+                for (k, h) in frf.iter().enumerate() {
+                    y[(2 * lines * i + k, o)] = h.re;
+                    y[(2 * lines * i + lines + k, o)] = h.im;
                 }
             }
         }
@@ -124,7 +131,8 @@ impl Basis {
     /// Unknowns of [`Self::design`], one column an output, by their names.
     pub fn fit(&self, x: &DMatrix<f64>, modes: usize) -> Fit {
         let outputs = x.ncols();
-        let shape = |r: usize| (0..outputs).map(|o| Complex64::new(x[(2 * r, o)], x[(2 * r + 1, o)])).collect();
+        let shape =
+            |r: usize| (0..outputs).map(|o| Complex64::new(x[(2 * r, o)], x[(2 * r + 1, o)])).collect();
         let term = |which: usize| {
             (0..outputs)
                 .map(|o| (0..self.inputs).map(|i| x[(2 * modes + 2 * i + which, o)]).collect())
@@ -147,72 +155,22 @@ pub(super) fn fixed_input(pole: &Pole) -> usize {
     sizes.fold((0, -1.0), |best, here| if here.1 > best.1 { here } else { best }).0
 }
 
-/// Least squares A x = y through the normal equations of columns of unit length: quick, for candidates.
-///
-/// `None` where two columns are alike to round-off.
-pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let sizes: Vec<f64> = a.column_iter().map(|c| c.norm()).collect();
-    for (mut column, size) in a.column_iter_mut().zip(&sizes) {
-        if *size > 0.0 {
-            column /= *size;
-        }
-    }
-    let transposed = a.transpose();
-    let mut gram = &transposed * &a;
-    for k in 0..gram.nrows() {
-        // A grain for columns alike to round-off, as two poles on one another give them.
-        gram[(k, k)] += 1e-13;
-    }
-    let mut x = Cholesky::new(gram)?.solve(&(&transposed * y));
-    for (mut row, size) in x.row_iter_mut().zip(&sizes) {
-        row /= size.max(f64::MIN_POSITIVE);
-    }
-    Some(x)
-}
-
-/// Thin QR of a matrix with columns of unit length: Q, R and the lengths; A = Q R diag(lengths).
-pub(super) fn thin_qr(mut a: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>, Vec<f64>) {
-    let sizes: Vec<f64> = a.column_iter().map(|c| c.norm().max(f64::MIN_POSITIVE)).collect();
-    for (mut column, size) in a.column_iter_mut().zip(&sizes) {
-        column /= *size;
-    }
-    let qr = a.qr();
-    (qr.q(), qr.r(), sizes)
-}
-
 /// Residue matrices \[mode\]\[output\]\[input\] of poles, each FRF on its own: no rank is assumed.
-pub(super) fn free_residues(data: &Data, weights: &[f64], values: &[Complex64]) -> Vec<DMatrix<Complex64>> {
+pub(super) fn free_residues(data: &Data, values: &[Complex64]) -> Vec<DMatrix<Complex64>> {
     let single = Data { values: vec![vec![data.values[0][0].clone()]], ..data.clone() };
-    let basis = Basis::new(&single, weights);
+    let basis = Basis::new(&single);
     let poles: Vec<Pole> =
         values.iter().map(|&value| Pole { value, participation: vec![1.0.into()] }).collect();
     let (no, ni) = (data.outputs(), data.inputs());
-    let each: Vec<Vec<Vec<Complex64>>> =
-        data.values.iter().flatten().map(|frf| vec![frf.clone()]).collect();
-    let y = basis.right_side(&each, weights);
+    let each: Vec<Vec<Vec<Complex64>>> = data.values.iter().flatten().map(|frf| vec![frf.clone()]).collect();
+    let y = basis.right_side(&each);
     let (q, r, sizes) = thin_qr(basis.design(&poles));
-    let x = back(&r, &sizes, q.transpose() * y);
+    let x = back(&r, &sizes, tr_mul(&q, &y));
     (0..values.len())
-        .map(|m| DMatrix::from_fn(no, ni, |o, i| Complex64::new(x[(2 * m, o * ni + i)], x[(2 * m + 1, o * ni + i)])))
+        .map(|m| {
+            DMatrix::from_fn(no, ni, |o, i| {
+                Complex64::new(x[(2 * m, o * ni + i)], x[(2 * m + 1, o * ni + i)])
+            })
+        })
         .collect()
-}
-
-/// R⁻¹ z over the lengths of the columns; unknowns that round-off alone determines are zero.
-pub(super) fn back(r: &DMatrix<f64>, sizes: &[f64], mut z: DMatrix<f64>) -> DMatrix<f64> {
-    let mut mended = r.clone();
-    for k in 0..mended.nrows() {
-        if mended[(k, k)].abs() < 1e-14 {
-            mended[(k, k)] = f64::INFINITY;
-        }
-    }
-    for mut column in z.column_iter_mut() {
-        for row in (0..mended.nrows()).rev() {
-            let known: f64 = (row + 1..mended.nrows()).map(|j| mended[(row, j)] * column[j]).sum();
-            column[row] = (column[row] - known) / mended[(row, row)];
-        }
-    }
-    for (mut row, size) in z.row_iter_mut().zip(sizes) {
-        row /= *size;
-    }
-    z
 }

@@ -7,7 +7,8 @@
 //! | `stabilise` | shapes for each, stabilisation diagram |
 //! | `select` | the poles that stay |
 //! | `lsfd` | residues, residual terms |
-//! | `refine` | poles by nonlinear least squares, standard errors |
+//! | `refine`, `settle` | poles by nonlinear least squares; what is borne out, what is dropped |
+//! | `uncertainty` | standard errors of poles |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
 //! | [`single`] | circle and peak fit of one mode, a quick look |
 //! | `whirl` | direction of whirl from x and y |
@@ -16,14 +17,17 @@
 //! (left vector). On a rotating machine l is not proportional to ψ, and nothing here assumes it.
 
 mod data;
+mod dense;
 mod error;
 mod lsfd;
 pub mod mac;
 mod plscf;
 mod refine;
 mod select;
+mod settle;
 pub mod single;
 mod stabilise;
+mod uncertainty;
 mod whirl;
 
 pub use data::quantity_of;
@@ -195,109 +199,17 @@ pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<Identified, Ide
     let orders: Vec<usize> = (FIRST_ORDER..=data.max_order(settings)).collect();
     let candidates = stabilise::candidates(&data, equations.poles(&orders)?)?;
     let diagram = stabilise::diagram(&candidates, &orders);
-    let band = [data.frequencies[0], data.frequencies[data.lines() - 1]];
-    let none = IdentifyError::NoMode {
-        from: band[0],
-        to: band[1],
+    let poles = select::select(&data, &candidates, orders.len());
+    let mut dropped = Vec::new();
+    let settled =
+        if poles.is_empty() { None } else { settle::settle(&mut data, poles, settings, &mut dropped) };
+    let found = settled.ok_or(IdentifyError::NoMode {
+        from: data.frequencies[0],
+        to: data.frequencies[data.lines() - 1],
         poles: candidates.len(),
         orders: orders.len(),
-    };
-    let mut poles = select::select(&data, &candidates, orders.len());
-    if poles.is_empty() {
-        return Err(none);
-    }
-    let mut dropped = Vec::new();
-    let mut weights = vec![1.0; data.lines()];
-    // First with all FRFs alike, then each by what the first fit left of it.
-    let first = refine::refine(&data, &weights, poles);
-    (poles, weights) = weighted(&mut data, first, weights);
-    let found = loop {
-        let found = refine::refine(&data, &weights, poles.clone());
-        let verdicts: Vec<Option<String>> =
-            (0..found.poles.len()).map(|m| fault(&found, m, band, settings)).collect();
-        if verdicts.iter().all(Option::is_none) {
-            break found;
-        }
-        // The least significant of the faulty goes first; the others may recover.
-        let worst = (0..verdicts.len())
-            .filter(|&m| verdicts[m].is_some())
-            .min_by(|&a, &b| found.significance[a].total_cmp(&found.significance[b]));
-        let Some(worst) = worst else { break found };
-        dropped.extend(verdicts.into_iter().nth(worst).flatten());
-        poles = found.poles;
-        poles.remove(worst);
-        if poles.is_empty() {
-            return Err(none);
-        }
-    };
+    })?;
     Ok(assembled(frfs, settings, &data, found, diagram, orders, dropped))
-}
-
-/// Rescales FRFs and lines by what a fit left of them; returns its poles in the new scales and the weights.
-fn weighted(data: &mut Data, found: refine::Refined, weights: Vec<f64>) -> (Vec<Pole>, Vec<f64>) {
-    let model = synthesised(data, &found.poles, &found.fit);
-    let lines = data.lines();
-    let mut by_line = vec![0.0; lines];
-    let mut sizes: Vec<Vec<f64>> = Vec::new();
-    for (row, model) in data.values.iter().zip(&model) {
-        let mut own = Vec::new();
-        for (frf, model) in row.iter().zip(model) {
-            let rest: Vec<f64> = frf.iter().zip(model).map(|(h, m)| (h - m).norm_sqr()).collect();
-            own.push((rest.iter().sum::<f64>() / lines as f64).sqrt());
-            by_line.iter_mut().zip(&rest).for_each(|(sum, r)| *sum += r);
-        }
-        sizes.push(own);
-    }
-    // An FRF that fits a thousand times better than the worst is fitted no better than that.
-    let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
-    sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));
-    let _ = by_line;
-    let b = data.rescale(&sizes);
-    let mut poles = found.poles;
-    for pole in &mut poles {
-        pole.participation.iter_mut().zip(&b).for_each(|(l, b)| *l /= b);
-        pole.participation = plscf::unit(std::mem::take(&mut pole.participation));
-    }
-    (poles, weights)
-}
-
-/// Significance F below which a mode is noise: the largest of many tries stays below it.
-const LEAST_SIGNIFICANCE: f64 = 10.0;
-/// Standard errors that make a mode worthless: of the frequency, relative, and of the damping, relative.
-const WORST_FREQUENCY: f64 = 0.01;
-const WORST_DAMPING: f64 = 0.5;
-
-/// Why a mode is none.
-fn fault(found: &refine::Refined, m: usize, band: [f64; 2], settings: &Settings) -> Option<String> {
-    let pole = found.poles[m].value;
-    let hz = pole.im / TAU;
-    let zeta = -pole.re / pole.norm();
-    let (frequency, damping) = errors(pole, found.covariance[m]);
-    let name = format!("{hz:.3} Hz, damping {:.3} %", 100.0 * zeta);
-    if zeta.is_nan() || zeta <= 0.0 {
-        return Some(format!("{name}: not damped"));
-    }
-    if hz < band[0] || hz > band[1] {
-        return Some(format!("{name}: outside the band"));
-    }
-    if zeta > settings.largest_damping {
-        return Some(format!("{name}: damped too highly"));
-    }
-    if frequency > WORST_FREQUENCY * hz || damping > WORST_DAMPING * zeta {
-        return Some(format!("{name}: known to {frequency:.2e} Hz and {:.2e} % only", 100.0 * damping));
-    }
-    if found.significance[m] < LEAST_SIGNIFICANCE {
-        return Some(format!("{name}: explains no more than noise would (F = {:.1})", found.significance[m]));
-    }
-    None
-}
-
-/// Standard errors of damped frequency \[Hz\] and damping ratio from the pole's covariance.
-fn errors(pole: Complex64, [re, im, both]: [f64; 3]) -> (f64, f64) {
-    // ζ = −a/|λ|, λ = a + jb: ∂ζ/∂a = −b²/|λ|³, ∂ζ/∂b = ab/|λ|³.
-    let cube = pole.norm().powi(3);
-    let (da, db) = (-pole.im * pole.im / cube, pole.re * pole.im / cube);
-    (im.sqrt() / TAU, (da * da * re + db * db * im + 2.0 * da * db * both).max(0.0).sqrt())
 }
 
 /// FRFs of the modal model in the data's scales, `[output][input][line]`.
@@ -321,7 +233,7 @@ fn assembled(
     frfs: &FrfMatrix,
     settings: &Settings,
     data: &Data,
-    found: refine::Refined,
+    found: settle::Settled,
     diagram: Vec<DiagramPole>,
     orders: Vec<usize>,
     dropped: Vec<String>,
@@ -331,7 +243,16 @@ fn assembled(
     let (responses, references) = (frfs.responses.len(), frfs.references.len());
     let place = |r: usize, e: usize| if data.swapped { (e, r) } else { (r, e) };
     let table = |of: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
-        (0..responses).map(|r| (0..references).map(|e| { let (o, i) = place(r, e); of(o, i) }).collect()).collect()
+        (0..responses)
+            .map(|r| {
+                (0..references)
+                    .map(|e| {
+                        let (o, i) = place(r, e);
+                        of(o, i)
+                    })
+                    .collect()
+            })
+            .collect()
     };
     let curves = |of: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Vec<Complex64>>> {
         let one = |r: usize, e: usize| {
@@ -361,7 +282,7 @@ fn assembled(
             let k = lsfd::fixed_input(&Pole { value: pole.value, participation: before.clone() });
             let large: Vec<Complex64> =
                 found.fit.shapes[m].iter().zip(&data.output_scale).map(|(v, a)| v * *a * before[k]).collect();
-            let (frequency_error, damping_error) = errors(pole.value, found.covariance[m]);
+            let (frequency_error, damping_error) = uncertainty::errors(pole.value, found.covariance[m]);
             let collinearity = mac::phase_collinearity(&large);
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
             let whirl = whirl::whirl(&frfs.responses, &shape)

@@ -177,7 +177,8 @@ impl NormalEquations {
 
 /// l over its largest entry.
 pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
-    let largest = l.iter().copied().fold(Complex64::default(), |a, b| if b.norm() > a.norm() { b } else { a });
+    let largest =
+        l.iter().copied().fold(Complex64::default(), |a, b| if b.norm() > a.norm() { b } else { a });
     if largest.norm_sqr() > 0.0 {
         l.iter_mut().for_each(|v| *v /= largest);
     }

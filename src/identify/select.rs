@@ -53,11 +53,7 @@ pub(super) fn select(data: &Data, candidates: &[Candidate], orders: usize) -> Ve
     };
     let values: Vec<Complex64> = groups.iter().map(|group| group[best(group)].value).collect();
     let several = |group: &Vec<Cluster>| group.len() > 1 || group[0].multiplicity > 1.4;
-    let residues = if groups.iter().any(several) {
-        free_residues(data, &vec![1.0; data.lines()], &values)
-    } else {
-        Vec::new()
-    };
+    let residues = if groups.iter().any(several) { free_residues(data, &values) } else { Vec::new() };
     let mut poles = Vec::new();
     for (k, mut group) in groups.into_iter().enumerate() {
         let first = group.swap_remove(best(&group));

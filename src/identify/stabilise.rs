@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::data::Data;
-use super::lsfd::{Basis, quick_solve};
+use super::dense::quick_solve;
+use super::lsfd::Basis;
 use super::mac::mac;
 use super::plscf::Pole;
 use super::{DiagramPole, IdentifyError, Stability};
@@ -28,9 +29,8 @@ const DOUBLE: f64 = 0.3;
 
 /// Shapes for the poles of every order, by LSFD with all poles of that order.
 pub(super) fn candidates(data: &Data, poles: Vec<Vec<Pole>>) -> Result<Vec<Candidate>, IdentifyError> {
-    let weights = vec![1.0; data.lines()];
-    let basis = Basis::new(data, &weights);
-    let y = basis.right_side(&compressed(data)?, &weights);
+    let basis = Basis::new(data);
+    let y = basis.right_side(&compressed(data)?);
     let of_order = |(order, poles): (usize, Vec<Pole>)| -> Vec<Candidate> {
         if poles.is_empty() {
             return Vec::new();

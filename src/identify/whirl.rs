@@ -14,7 +14,8 @@ pub(super) fn whirl(dofs: &[Dof], shape: &[Complex64]) -> Option<f64> {
     let mut nodes: Vec<i64> = dofs.iter().map(|d| d.node).collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let pairs: Vec<_> = nodes.into_iter().filter_map(|node| Some((along(node, 1)?, along(node, 2)?))).collect();
+    let pairs: Vec<_> =
+        nodes.into_iter().filter_map(|node| Some((along(node, 1)?, along(node, 2)?))).collect();
     let size: f64 = pairs.iter().map(|(x, y)| x.norm_sqr() + y.norm_sqr()).sum();
     let area: f64 = pairs.iter().map(|(x, y)| 2.0 * (x * y.conj()).im).sum();
     (size > 0.0).then(|| area / size)

@@ -17,6 +17,7 @@
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`blow`] | hammer blows found in a record; double hits and overloads |
 //! | [`impact`] | H1, H2, Hv and coherence from blows or random excitation |
+//! | [`hammer`] | the FRFs of a hammer test from its time records |
 //! | [`envelope`] | analytic signal, envelope, envelope spectrum, squared envelope, of a band |
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, bands scored by anything ([`filter_bank`]) |
 //! | [`bearing_lines`] | lines at FTF, BPFO, BPFI, 2 BSF with side bands over background; which part is damaged |
@@ -41,6 +42,7 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
+pub mod hammer;
 pub mod impact;
 pub mod jerk;
 pub mod kurtogram;

@@ -7,3 +7,7 @@ mod exact;
 mod made;
 mod noise;
 mod plane_ema;
+#[path = "../common/rig.rs"]
+mod rig;
+#[path = "rig.rs"]
+mod rig_truth;

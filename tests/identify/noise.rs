@@ -1,1 +1,89 @@
 //! Noise: modes found all the same, and standard errors that are what the scatter is.
+
+use rotordyn::identify::{Settings, identify};
+use rotordyn::signal::record::NoisyTest;
+
+use crate::made::{Known, bent, frfs, lines};
+
+fn known(references: &[usize]) -> Vec<Known> {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (33.0, 0.012), (61.0, 0.004), (88.0, 0.015)];
+    modes
+        .iter()
+        .enumerate()
+        .map(|(k, &(hz, zeta))| Known::real(hz, zeta, &bent(k + 1, 8), references))
+        .collect()
+}
+
+/// Root mean square of (found − true)/stated over seeds, for every mode: frequency, damping. The same number is 1 if
+/// the stated errors are right; of 40 seeds it scatters by 1/√80 = 11 %.
+fn pulls(references: &[usize], power: i32, db: f64, step: f64, seeds: u64) -> Vec<[f64; 2]> {
+    let known = known(references);
+    let exact = frfs(&known, &lines(2.0, 110.0, step), power);
+    let settings = Settings { max_order: Some(30), ..Settings::default() };
+    let mut sums = vec![[0.0; 2]; known.len()];
+    let mut bias = vec![[0.0; 2]; known.len()];
+    for seed in 0..seeds {
+        let test = NoisyTest { signal_to_noise_db: db, averages: 10, seed };
+        let found = identify(&exact.measured_with(&test).unwrap(), &settings).unwrap();
+        let list: Vec<f64> = found.modes.iter().map(|m| m.frequency_hz()).collect();
+        assert_eq!(found.modes.len(), known.len(), "seed {seed}: {list:?}, dropped {:?}", found.dropped);
+        for (k, (m, truth)) in found.modes.iter().zip(&known).enumerate() {
+            let pull = [
+                (m.frequency_hz() - truth.hz()) / m.frequency_error,
+                (m.damping_ratio() - truth.zeta()) / m.damping_error,
+            ];
+            for p in 0..2 {
+                sums[k][p] += pull[p] * pull[p] / seeds as f64;
+                bias[k][p] += pull[p] / seeds as f64;
+            }
+        }
+    }
+    let rms = sums.iter().map(|s| s.map(f64::sqrt)).collect();
+    println!("references {references:?}, power {power}, {db} dB: {rms:.2?}, mean {bias:.2?}");
+    rms
+}
+
+/// Four standard deviations of the RMS of 40 pulls.
+const BOUNDS: [f64; 2] = [0.6, 1.45];
+
+fn check(pulls: &[[f64; 2]]) {
+    for (k, pull) in pulls.iter().enumerate() {
+        assert!(pull.iter().all(|p| *p > BOUNDS[0] && *p < BOUNDS[1]), "mode {k}: {pull:.2?}");
+    }
+}
+
+#[test]
+fn stated_errors_are_the_scatter() {
+    check(&pulls(&[0, 4], 2, 40.0, 0.1, 40));
+}
+
+#[test]
+fn stated_errors_are_the_scatter_of_receptances() {
+    check(&pulls(&[0], 0, 30.0, 0.1, 40));
+}
+
+#[test]
+fn stated_errors_are_the_scatter_with_few_lines() {
+    // The lowest mode's half-power width of 0.24 Hz is one line.
+    check(&pulls(&[0, 4], 2, 40.0, 0.25, 40));
+}
+
+#[test]
+fn same_seed_same_frfs() {
+    let exact = frfs(&known(&[0, 4]), &lines(2.0, 110.0, 0.5), 2);
+    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
+    let noisy = exact.measured_with(&test).unwrap();
+    assert_eq!(noisy, exact.measured_with(&test).unwrap());
+    assert_ne!(noisy, exact.measured_with(&NoisyTest { seed: 4, ..test }).unwrap());
+    // 40 dB down, ten averages: the response's share alone is 1e-2/√10 of the RMS.
+    let (mut off, mut size) = (0.0, 0.0);
+    for (a, b) in noisy.values.iter().flatten().flatten().zip(exact.values.iter().flatten().flatten()) {
+        off += (a - b).norm_sqr();
+        size += b.norm_sqr();
+    }
+    let ratio: f64 = off / size;
+    // Force and response bring 1e-4/10 each; what the force brings rests on the few lines of the resonances.
+    assert!((ratio / 2e-5 - 1.0).abs() < 0.25, "{ratio:.3e}");
+    let coherence = noisy.coherence.unwrap();
+    assert!(coherence.iter().flatten().flatten().all(|c| (0.0..=1.0).contains(c)));
+}

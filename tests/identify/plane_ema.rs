@@ -23,14 +23,17 @@ fn published_poles_are_found() {
     for m in &found.modes {
         println!(
             "{:9.4} ± {:.4} Hz  {:.4} ± {:.4} %  MPC {:.3}  F {:.0}",
-            m.frequency_hz(), m.frequency_error, 100.0 * m.damping_ratio(), 100.0 * m.damping_error, m.collinearity,
+            m.frequency_hz(),
+            m.frequency_error,
+            100.0 * m.damping_ratio(),
+            100.0 * m.damping_error,
+            m.collinearity,
             m.significance
         );
     }
     println!("dropped {:#?}", found.dropped);
-    let off = |f: f64| {
-        found.modes.iter().map(|m| (m.frequency_hz() / f - 1.0).abs()).fold(f64::INFINITY, f64::min)
-    };
+    let off =
+        |f: f64| found.modes.iter().map(|m| (m.frequency_hz() / f - 1.0).abs()).fold(f64::INFINITY, f64::min);
     let within = PUBLISHED.iter().filter(|f| off(**f) < 0.003).count();
     println!("{:?}", PUBLISHED.map(|f| format!("{:.3} %", 100.0 * off(f))));
     assert!(within >= 11, "{within} of 13 within 0.3 %");

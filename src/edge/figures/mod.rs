@@ -13,11 +13,13 @@
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | a bearing on its own at its operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
 //! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
+//! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | modes identified from FRFs |
 //! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
 
 mod bearing;
 mod comparison;
 mod display;
+pub mod identified;
 mod machine;
 mod response;
 mod run;

@@ -30,6 +30,7 @@ mod grid;
 mod heat_map;
 mod history;
 mod lines;
+mod mac_matrix;
 mod mode_shape;
 mod orbit;
 mod order;
@@ -37,7 +38,9 @@ mod panels;
 mod polar;
 mod rig;
 mod spectrogram;
+mod stabilisation;
 mod waterfall;
+mod wireframe;
 
 use std::path::Path;
 
@@ -56,13 +59,16 @@ pub use grid::{Grid, GridPanel};
 pub use heat_map::{Field, HeatMap};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
+pub use mac_matrix::MacMatrix;
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
 pub use orbit::{Orbit, Orbits};
 pub use order::OrderMap;
 pub use polar::{Polar, PolarCurve};
 pub use rig::{Rig, RigBelt, RigBlock, RigSection, RigSpring, RigSupport};
 pub use spectrogram::Spectrogram;
+pub use stabilisation::{Settled, Stabilisation};
 pub use waterfall::Waterfall;
+pub use wireframe::{WireShape, Wireframe};
 
 /// Pixels of the PNG per px of the SVG.
 pub const PNG_SCALE: f32 = 2.0;
@@ -88,6 +94,9 @@ pub enum Figure {
     HeatMap(HeatMap),
     FilmMap(FilmMap),
     Rig(Rig),
+    Stabilisation(Stabilisation),
+    MacMatrix(MacMatrix),
+    Wireframe(Wireframe),
 }
 
 impl Figure {
@@ -112,6 +121,9 @@ impl Figure {
             Figure::HeatMap(data) => heat_map::draw(data),
             Figure::FilmMap(data) => film_map::draw(data),
             Figure::Rig(data) => rig::draw(data),
+            Figure::Stabilisation(data) => stabilisation::draw(data),
+            Figure::MacMatrix(data) => mac_matrix::draw(data),
+            Figure::Wireframe(data) => wireframe::draw(data),
         }
         .finish()
     }

@@ -5,10 +5,12 @@
 
 mod axis;
 mod frf_matrix;
+mod noisy;
 mod shape;
 
 pub use axis::{Axis, AxisQuantity, Points};
 pub use frf_matrix::FrfMatrix;
+pub use noisy::NoisyTest;
 pub use shape::{Analysis, Element, Geometry, Node, Polyline, Shape};
 
 use super::Complex;
@@ -200,6 +202,12 @@ pub enum RecordError {
     DoubleFrf { first: String, second: String, between: String },
     #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
     NotFinite { channel: String, index: usize },
+    #[error(
+        "no force is known among the time records ({found}); state its unit N in a mapping, or name its channel"
+    )]
+    NoForce { found: String },
+    #[error("none of the {blows} blows in `{channel}` is fit for use: {faults}")]
+    NoGoodBlow { channel: String, blows: usize, faults: String },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
     NoFrf { found: String },
 }

@@ -1,0 +1,58 @@
+//! Arguments of what has to do with measured FRFs.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// A test with noise.
+#[derive(Args, Clone, Debug)]
+pub struct NoiseArgs {
+    /// Signal to noise of force and responses, such as "40 dB": writes frf_noisy.uff, as a test would measure it
+    #[arg(long, value_name = "LEVEL")]
+    pub noise: Option<String>,
+    /// Blows averaged
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub averages: usize,
+    /// Seed of the noise
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+}
+
+/// Which FRFs, and how.
+#[derive(Args, Clone, Debug)]
+pub struct IdentifyArgs {
+    /// Files with FRFs, or with the time records of a hammer test; results.h5 too
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Mapping file (TOML): which channel is which station and direction, units and rates that files do not tell
+    #[arg(long, value_name = "FILE")]
+    pub mapping: Option<PathBuf>,
+    /// Model whose stations the mapping names
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// Frequencies, such as "10 Hz, 200 Hz" [default: all]
+    #[arg(long, value_name = "BAND")]
+    pub band: Option<String>,
+    /// Highest order of the model [default: 60, or what the lines allow]
+    #[arg(long, value_name = "N")]
+    pub max_order: Option<usize>,
+    /// receptance, mobility or accelerance, where the unit does not tell
+    #[arg(long, value_name = "NAME")]
+    pub quantity: Option<String>,
+    /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records, and its share
+    /// taken from every damping
+    #[arg(long, value_name = "TIME")]
+    pub window: Option<String>,
+    /// Channel of the force in time records [default: the one in N]
+    #[arg(long, value_name = "NAME")]
+    pub force: Option<String>,
+    /// Length of a blow's block in time records, such as "2 s" [default: up to the next blow]
+    #[arg(long, value_name = "TIME")]
+    pub block: Option<String>,
+    /// Folder for the results [default: out/identify_NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Draw no figures
+    #[arg(long)]
+    pub no_figures: bool,
+}

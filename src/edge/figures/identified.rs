@@ -1,0 +1,182 @@
+//! What was identified in FRFs, to be seen: stabilisation, fit, likeness of the shapes, the shapes.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::DMatrix;
+
+use super::display::pretty;
+use super::{Named, write_all};
+use crate::edge::plot::{Figure, Frf, FrfCurve, MacMatrix, Settled, Stabilisation, WireShape, Wireframe};
+use crate::error::Error;
+use crate::identify::{Identified, Mode, Stability};
+use crate::linalg::Complex64;
+use crate::model::Quantity;
+use crate::signal::record::{Dof, FrfMatrix, Geometry};
+
+/// FRFs drawn, those that fit best, worst and between.
+const DRAWN: usize = 6;
+
+/// Draws the figures of an identification; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw(
+    found: &Identified,
+    frfs: &FrfMatrix,
+    geometry: &Geometry,
+    title: &str,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    let mut figures = vec![stabilisation(found, title)];
+    if found.modes.len() > 1 && found.deflection(&found.modes[0]).0.len() > 1 {
+        figures.push(auto_mac(found, title));
+    }
+    figures.extend(fits(found, frfs, title));
+    figures.extend(shapes(found, geometry, title));
+    write_all(&figures, folder)
+}
+
+fn stabilisation(found: &Identified, title: &str) -> Named {
+    let state = |stability: Stability| match stability {
+        Stability::New => Settled::New,
+        Stability::Frequency => Settled::Frequency,
+        Stability::Damping => Settled::Damping,
+        Stability::Shape => Settled::Shape,
+        Stability::Stable => Settled::Stable,
+    };
+    let hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
+    let figure = Stabilisation {
+        title: "Stabilisation diagram".into(),
+        note: format!(
+            "{title}; a pole settles within 1 % in frequency, 5 % in damping, MAC 0.95 of the order before"
+        ),
+        poles: found.diagram.iter().map(|p| (hz(p.value), p.order, state(p.stability))).collect(),
+        hz: found.frequencies.clone(),
+        curves: indicator(found),
+        chosen: found.modes.iter().map(Mode::frequency_hz).collect(),
+    };
+    ("stabilisation".into(), Figure::Stabilisation(figure))
+}
+
+/// Complex mode indicator: singular values of the FRF matrix at every line, each FRF over its RMS.
+fn indicator(found: &Identified) -> Vec<Vec<f64>> {
+    let (responses, references) = (found.responses.len(), found.references.len());
+    let values = responses.min(references).min(3);
+    let mut out = vec![Vec::with_capacity(found.frequencies.len()); values];
+    let rms = |frf: &[Complex64]| (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt();
+    let sizes: Vec<f64> = found
+        .measured
+        .iter()
+        .map(|row| (row.iter().map(|frf| rms(frf).powi(2)).sum::<f64>() / references as f64).sqrt())
+        .collect();
+    for k in 0..found.frequencies.len() {
+        let h = DMatrix::from_fn(responses, references, |r, e| found.measured[r][e][k] / sizes[r]);
+        // Of the smaller side's square; its eigenvalues are the squares.
+        let square = if responses > references { h.adjoint() * &h } else { &h * h.adjoint() };
+        let mut sizes: Vec<f64> = square.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        out.iter_mut().zip(sizes).for_each(|(curve, size)| curve.push(size));
+    }
+    out
+}
+
+fn auto_mac(found: &Identified, title: &str) -> Named {
+    let names: Vec<String> = found.modes.iter().map(|m| format!("{:.2} Hz", m.frequency_hz())).collect();
+    let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
+    let figure = MacMatrix {
+        title: "AutoMAC of the identified shapes".into(),
+        note: format!("{title}; over the {} {side}", found.deflection(&found.modes[0]).0.len()),
+        rows: names.clone(),
+        columns: names,
+        values: found.auto_mac(),
+        ..MacMatrix::default()
+    };
+    ("auto_mac".into(), Figure::MacMatrix(figure))
+}
+
+fn fits(found: &Identified, frfs: &FrfMatrix, title: &str) -> Vec<Named> {
+    let mut order: Vec<(usize, usize)> =
+        (0..found.responses.len()).flat_map(|r| (0..found.references.len()).map(move |e| (r, e))).collect();
+    order.sort_by(|a, b| found.errors[a.0][a.1].total_cmp(&found.errors[b.0][b.1]));
+    let count = order.len().min(DRAWN);
+    let pick = |k: usize| order[if count > 1 { k * (order.len() - 1) / (count - 1) } else { 0 }];
+    let (first, last) = (found.frequencies[0], found.frequencies[found.frequencies.len() - 1]);
+    let inside: Vec<usize> = (0..frfs.frequencies.len())
+        .filter(|&k| frfs.frequencies[k] >= first && frfs.frequencies[k] <= last)
+        .collect();
+    (0..count)
+        .map(pick)
+        .map(|(r, e)| {
+            let curve = |label: &str, values: &[Complex64], coherence: Vec<f64>| FrfCurve {
+                label: label.into(),
+                hz: found.frequencies.clone(),
+                re: values.iter().map(|v| v.re).collect(),
+                im: values.iter().map(|v| v.im).collect(),
+                coherence,
+            };
+            let coherence = frfs.coherence.as_ref();
+            let coherence = coherence.map(|c| inside.iter().map(|&k| c[r][e][k]).collect());
+            let (response, reference) = (found.responses[r], found.references[e]);
+            let error = 100.0 * found.errors[r][e];
+            let figure = Frf {
+                title: format!("Response {response} to reference {reference}, measured and synthesised"),
+                note: format!("{title}; fit error {error:.2} % of this FRF"),
+                quantity: name(found.quantity).into(),
+                unit: match frfs.units[r][e].as_str() {
+                    "" => "unit not known".into(),
+                    unit => pretty(unit),
+                },
+                curves: vec![
+                    curve("measured", &found.measured[r][e], coherence.unwrap_or_default()),
+                    curve("synthesised", &found.synthesised[r][e], Vec::new()),
+                ],
+            };
+            let plain = |dof: Dof| dof.to_string().replace(['+', ':'], "");
+            (format!("fit_{}_{}", plain(response), plain(reference)), Figure::Frf(figure))
+        })
+        .collect()
+}
+
+fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "receptance",
+        Quantity::Velocity => "mobility",
+        Quantity::Acceleration => "accelerance",
+    }
+}
+
+/// Shapes where every point that moved has a place.
+fn shapes(found: &Identified, geometry: &Geometry, title: &str) -> Option<Named> {
+    let first = found.modes.first()?;
+    let (dofs, _) = found.deflection(first);
+    let index = |number: i64| geometry.nodes.iter().position(|n| n.number == number);
+    if geometry.nodes.is_empty() || !dofs.iter().all(|d| index(d.node).is_some()) {
+        return None;
+    }
+    let shape = |(k, mode): (usize, &Mode)| {
+        let (dofs, values) = found.deflection(mode);
+        // Turned to where the real part is largest.
+        let square: Complex64 = values.iter().map(|v| v * v).sum();
+        let turn = Complex64::from_polar(1.0, -0.5 * square.arg());
+        let mut motion = vec![[0.0; 3]; geometry.nodes.len()];
+        for (dof, value) in dofs.iter().zip(values).filter(|(d, _)| !d.is_rotation()) {
+            let Some(at) = index(dof.node) else { continue };
+            let (axis, sign) = match dof.direction {
+                0 => (2, 1.0),
+                d => (usize::from(d.unsigned_abs()) - 1, f64::from(d.signum())),
+            };
+            motion[at][axis] = sign * (turn * value).re;
+        }
+        let zeta = 100.0 * mode.damping_ratio();
+        WireShape { title: format!("{}: {:.2} Hz, {zeta:.2} %", k + 1, mode.frequency_hz()), motion }
+    };
+    let stroke = |stroke: &Vec<i64>| stroke.iter().filter_map(|n| index(*n)).collect::<Vec<_>>();
+    let figure = Wireframe {
+        title: "Identified shapes".into(),
+        note: format!("{title}; at the phase of the largest deflection"),
+        points: geometry.nodes.iter().map(|n| n.position).collect(),
+        strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
+        shapes: found.modes.iter().enumerate().map(shape).collect(),
+    };
+    Some(("shapes".into(), Figure::Wireframe(figure)))
+}
