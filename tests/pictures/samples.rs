@@ -251,6 +251,37 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             stations: x.iter().take(30).map(|z| (name.clone(), *z)).collect(),
             ..Default::default()
         }),
+        Figure::Stabilisation(Stabilisation {
+            title: name.clone(),
+            note: name.clone(),
+            poles: x
+                .iter()
+                .enumerate()
+                .map(|(k, hz)| (*hz, k, if k % 2 == 0 { Settled::Stable } else { Settled::New }))
+                .collect(),
+            hz: x.clone(),
+            curves: vec![y.clone(), x.clone()],
+            chosen: vec![first(1), first(2)],
+        }),
+        Figure::MacMatrix(MacMatrix {
+            title: name.clone(),
+            row_set: name.clone(),
+            column_set: name.clone(),
+            rows: vec![name.clone(); x.len()],
+            columns: vec![name.clone(); x.len()],
+            values: x.iter().map(|_| y.iter().map(|v| 0.02 * v).collect()).collect(),
+            ..Default::default()
+        }),
+        Figure::Wireframe(Wireframe {
+            title: name.clone(),
+            points: x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.0]).collect(),
+            strokes: vec![(0..x.len()).collect()],
+            shapes: vec![WireShape {
+                title: name.clone(),
+                motion: y.iter().map(|v| [0.0, 0.0, *v]).collect(),
+            }],
+            ..Default::default()
+        }),
     ]
 }
 

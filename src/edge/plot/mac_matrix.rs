@@ -24,16 +24,23 @@ pub struct MacMatrix {
 const SIDE: f64 = 470.0;
 const CELL: f64 = 44.0;
 
+/// Most modes of a set.
+const MOST: usize = 120;
+
 pub fn draw(data: &MacMatrix) -> Svg {
+    let names = |all: &[String]| -> Vec<String> {
+        all.iter().take(MOST).map(|name| font::fit(&font::shorten(name, 40), SMALL, 120.0)).collect()
+    };
+    let (rows, columns) = (names(&data.rows), names(&data.columns));
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &[]);
-    let count = data.rows.len().max(data.columns.len()).max(1);
+    let count = rows.len().max(columns.len()).max(1);
     let cell = (SIDE / count as f64).min(CELL);
-    let left = LEFT + data.rows.iter().map(|r| font::width(r, SMALL)).fold(0.0, f64::max) - 20.0;
-    let above = data.columns.iter().map(|c| font::width(c, SMALL)).fold(0.0, f64::max);
+    let left = LEFT + rows.iter().map(|r| font::width(r, SMALL)).fold(0.0, f64::max) - 20.0;
+    let above = columns.iter().map(|c| font::width(c, SMALL)).fold(0.0, f64::max);
     let top = top + above + 34.0;
     let colors = color_map::table();
-    for (r, row) in data.values.iter().enumerate() {
-        for (c, value) in row.iter().enumerate() {
+    for (r, row) in data.values.iter().take(rows.len()).enumerate() {
+        for (c, value) in row.iter().take(columns.len()).enumerate() {
             let (x, y) = (left + cell * c as f64, top + cell * r as f64);
             let Some(index) = color_map::index(*value, 0.0, 1.0) else { continue };
             svg.rect(x, y, cell, cell, Style::stroke(WHITE, 0.8).filled(colors[usize::from(index)]));
@@ -44,13 +51,13 @@ pub fn draw(data: &MacMatrix) -> Svg {
             }
         }
     }
-    let (w, h) = (cell * data.columns.len() as f64, cell * data.rows.len() as f64);
+    let (w, h) = (cell * columns.len() as f64, cell * rows.len() as f64);
     svg.rect(left, top, w, h, FRAME);
-    for (r, name) in data.rows.iter().enumerate() {
+    for (r, name) in rows.iter().enumerate() {
         let y = top + cell * (r as f64 + 0.5) + 0.36 * SMALL;
         svg.text([left - 6.0, y], name, Text::new(SMALL, INK).end());
     }
-    for (c, name) in data.columns.iter().enumerate() {
+    for (c, name) in columns.iter().enumerate() {
         let x = left + cell * (c as f64 + 0.5) + 0.36 * SMALL;
         svg.text([x, top - 6.0], name, Text::new(SMALL, INK).upright());
     }

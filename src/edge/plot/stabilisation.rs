@@ -1,7 +1,7 @@
 //! Stabilisation diagram: poles of every order over the FRFs' mode indicator.
 
 use super::axes::{Axes, Frame, Marker};
-use super::labels::{EndLabel, Entry, end_labels, head};
+use super::labels::{EndLabel, Entry, end_labels, head, readable};
 use super::scale::Range;
 use super::style::*;
 use super::svg::{Color, Dash, Style, Svg};
@@ -73,7 +73,11 @@ pub fn draw(data: &Stabilisation) -> Svg {
             [*hz, axes.y.range.hi],
             Style::stroke(RED, 0.9).dashed(Dash::Short),
         );
-        labels.push(EndLabel { at: axes.at(*hz, axes.y.range.hi), text: format!("{hz:.4}"), color: RED });
+        labels.push(EndLabel {
+            at: axes.at(*hz, axes.y.range.hi),
+            text: readable((hz * 100.0).round() / 100.0),
+            color: RED,
+        });
     }
     for (state, _, marker, color) in STATES {
         for (hz, order, _) in data.poles.iter().filter(|p| p.2 == state) {
@@ -82,10 +86,6 @@ pub fn draw(data: &Stabilisation) -> Svg {
                 marker.draw(&mut svg, at, mark(color, state == Settled::Stable));
             }
         }
-    }
-    for label in &mut labels {
-        let hz: f64 = label.text.parse().unwrap_or(0.0);
-        label.text = super::labels::readable((hz * 100.0).round() / 100.0);
     }
     end_labels(&mut svg, &axes, &labels);
     axes.border(&mut svg, Some(&axes.x.label("frequency", "Hz")), "order of the model");

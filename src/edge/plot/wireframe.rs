@@ -1,5 +1,6 @@
 //! Shapes of a measured structure: its points and lines in rest and deflected.
 
+use super::font;
 use super::labels::{Entry, head};
 use super::scale::extremes;
 use super::style::*;
@@ -59,7 +60,7 @@ pub fn draw(data: &Wireframe) -> Svg {
         let corner = [24.0 + (PANEL[0] + 4.0) * column as f64, top + PANEL[1] * row as f64];
         svg.text(
             [corner[0] + 0.5 * PANEL[0], corner[1] + 12.0],
-            &shape.title,
+            &font::fit(&font::shorten(&shape.title, 60), SMALL, PANEL[0]),
             Text::new(SMALL, INK).middle(),
         );
         let center = [corner[0] + 0.5 * PANEL[0], corner[1] + 18.0 + 0.5 * (PANEL[1] - 26.0)];
