@@ -207,7 +207,7 @@ fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
 fn fast_length(at_least: usize) -> usize {
     let smooth = |mut n: usize| {
         for p in [2, 3, 5] {
-            while n % p == 0 {
+            while n.is_multiple_of(p) {
                 n /= p;
             }
         }

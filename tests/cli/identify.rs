@@ -165,9 +165,9 @@ fn hammer_records_are_turned_into_frfs() {
     let response = |gain: f64| -> Vec<f64> {
         let mut out = vec![0.0; n];
         for (at, f) in force.iter().enumerate().filter(|(_, f)| **f != 0.0) {
-            for k in at..n.min(at + 6000) {
-                let t = (k - at) as f64 / rate;
-                out[k] += gain * f / rate * (-zeta * w * t).exp() * (wd * t).sin() / wd;
+            for (k, value) in out[at..n.min(at + 6000)].iter_mut().enumerate() {
+                let t = k as f64 / rate;
+                *value += gain * f / rate * (-zeta * w * t).exp() * (wd * t).sin() / wd;
             }
         }
         out

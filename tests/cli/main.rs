@@ -3,7 +3,6 @@
 mod bearings;
 mod commands;
 mod failures;
-mod identify;
 mod runs;
 mod signal;
 mod signal_failures;

@@ -5,9 +5,4 @@ mod measured_data;
 
 mod exact;
 mod made;
-mod noise;
 mod plane_ema;
-#[path = "../common/rig.rs"]
-mod rig;
-#[path = "rig.rs"]
-mod rig_truth;
