@@ -83,8 +83,9 @@ pub fn bent(k: usize, n: usize) -> Vec<f64> {
 
 /// Largest relative error of the poles, and of the residues over the largest of each mode; modes in order.
 pub fn distance(found: &Identified, known: &[Known]) -> (f64, f64) {
-    let list: Vec<f64> = found.modes.iter().map(|m| m.frequency_hz()).collect();
-    assert_eq!(found.modes.len(), known.len(), "{list:?}; dropped {:?}", found.dropped);
+    let list: Vec<_> = found.modes.iter().map(|m| (m.frequency_hz(), m.damping_ratio())).collect();
+    let made: Vec<_> = known.iter().map(|k| (k.hz(), k.zeta())).collect();
+    assert_eq!(found.modes.len(), known.len(), "{list:?} of {made:?}; dropped {:?}", found.dropped);
     let (mut pole, mut residue) = (0.0f64, 0.0f64);
     for (m, k) in found.modes.iter().zip(known) {
         pole = pole.max((m.pole - k.pole).norm() / k.pole.norm());
