@@ -22,6 +22,7 @@ use crate::analysis::unbalance::UnbalanceResponse;
 use crate::model::study::Parameter;
 use crate::model::{Probe, Quantity};
 use crate::signal::lyapunov::Exponent;
+use crate::signal::orbit::FilteredOrbit;
 use crate::signal::order::{OrderCut, OrderSpectrogram};
 use crate::signal::period::Classified;
 use crate::signal::stft::Spectrogram;
@@ -226,6 +227,8 @@ pub struct PoincareResult {
     pub motion: Classified,
     /// Groups that the section points fall into, all planes together.
     pub groups: usize,
+    /// Shaft angle at every sample of the orbits \[rad\].
+    pub shaft_angle: Vec<f64>,
     pub planes: Vec<PlaneSection>,
 }
 
@@ -240,6 +243,30 @@ pub struct PlaneSection {
     pub sample_rate: f64,
     /// Section points, one per period of the clock.
     pub section: [Vec<f64>; 2],
+    /// Of an orbit proper, x and y of one point.
+    pub whirl: Option<Whirl>,
+    /// Radius that the bearing at this point leaves its shaft \[m\], where its housing stands still.
+    pub clearance: Option<f64>,
+}
+
+/// How an orbit in x and y is run through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whirl {
+    /// Area swept forward (from x towards y, as the shaft spins) less that swept backward, over both: 1 is all forward.
+    pub forwardness: f64,
+    /// The 1x part, by least squares over the orbit.
+    pub once: FilteredOrbit,
+}
+
+impl Whirl {
+    /// "forward", "backward", or "mixed" where neither sweeps a twentieth more.
+    pub fn name(&self) -> &'static str {
+        match self.forwardness {
+            f if f > 0.05 => "forward",
+            f if f < -0.05 => "backward",
+            _ => "mixed",
+        }
+    }
 }
 
 /// Largest Lyapunov exponent at steady speed.
@@ -263,6 +290,8 @@ pub struct BifurcationResult {
     /// Seams between chunks, and how many of the chunks had to be run again because they had met another branch.
     pub seams: usize,
     pub repaired: usize,
+    /// Whether every value was come to; what was not says "stopped".
+    pub complete: bool,
 }
 
 /// One sweep of a bifurcation diagram, in the order of its values.

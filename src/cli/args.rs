@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::signal::args::SignalArgs;
 pub use measured::{IdentifyArgs, NoiseArgs};
+use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 
 const LONG_ABOUT: &str = "\
 Simulates rotating machines: a flexible shaft with discs on ball or linear bearings, in housings on springs.
@@ -384,6 +385,38 @@ Examples:
   rotordyn orders out/overhung_rig
   rotordyn orders out/overhung_rig --resolution 0.02 --orders 7,\"2 BPFO\"")]
     Orders(StoredArgs),
+
+    /// Orbits and Poincaré sections at steady speed, and what kind of motion it is
+    ///
+    /// Runs from static equilibrium, lets the motion settle, then looks at it once per turn of the shaft or of a cage,
+    /// or per ball passage: period n, quasi-periodic or chaotic. Settings come from [study.poincare]; flags override
+    /// them.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn poincare models/varying_compliance.toml --speed \"900 rpm\"
+  rotordyn poincare models/overhung_rig.toml --section ball-pass --bearing B --plane \"disc_x, disc_y\"")]
+    Poincare(Box<PoincareArgs>),
+
+    /// Largest Lyapunov exponent at steady speed, with its standard error
+    ///
+    /// Follows a run beside the first from a slightly different state, at the same shaft and cage angles. Settings come
+    /// from [study.lyapunov]; flags override them.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn lyapunov models/varying_compliance.toml --speed \"900 rpm\" --periods 2000")]
+    Lyapunov(Box<SteadyArgs>),
+
+    /// Bifurcation diagram over any value of the model, swept up and down on every core
+    ///
+    /// Each value starts from where the one before ended, so that the two ways may find two motions. Settings come from
+    /// [study.bifurcation]; flags override them. Ctrl-C leaves what was computed.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn bifurcation models/varying_compliance.toml
+  rotordyn bifurcation my_machine.toml --parameter speed --from \"500 rpm\" --to \"5000 rpm\" --count 200
+  rotordyn bifurcation my_machine.toml --parameter bearing.B.radial_clearance --from \"0 um\" --to \"40 um\" --lyapunov
+  rotordyn bifurcation my_machine.toml --parameter bearing.B.balls --from 6 --to 16 --start equilibrium")]
+    Bifurcation(Box<BifurcationArgs>),
 
     /// Ball bearings one by one: loads, contacts, stiffness, film, frequencies, life
     ///

@@ -16,6 +16,9 @@ mod machine;
 mod noise;
 mod settings;
 mod signal;
+mod steady;
+mod steady_args;
+mod steady_tables;
 mod store;
 mod stored;
 mod studies;
@@ -113,6 +116,15 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::RunUp { study, step, integrator, sample_rate } => alone(study, Study::RunUp, &|model| {
             settings::run_up(model, step.as_ref(), integrator.as_ref(), sample_rate.as_ref())
         }),
+        Command::Poincare(args) => {
+            alone(&args.steady.study, Study::Poincare, &|model| steady_args::poincare(model, args))
+        }
+        Command::Lyapunov(args) => {
+            alone(&args.study, Study::Lyapunov, &|model| steady_args::lyapunov(model, args))
+        }
+        Command::Bifurcation(args) => {
+            alone(&args.steady.study, Study::Bifurcation, &|model| steady_args::bifurcation(model, args))
+        }
         Command::Spectrogram(args) => stored::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
@@ -159,9 +171,14 @@ fn studies_of(
     }
     let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
     films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let family = match wanted.contains(&Study::Bifurcation) {
+        true => steady::family(&origin, &settings.set, &loaded, &folder, terminal)?,
+        false => Vec::new(),
+    };
     let machine = Machine::new(loaded.model.clone())?;
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
+    job.family = family;
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);
     let outcome = finish(job, !args.no_figures, study.map_or("run", Study::name))?;

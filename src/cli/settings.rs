@@ -15,23 +15,23 @@ pub struct Settings {
 }
 
 /// Collects the settings of `study.<name>`.
-struct Draft {
+pub struct Draft {
     name: &'static str,
     settings: Settings,
 }
 
 impl Draft {
-    fn new(name: &'static str) -> Self {
+    pub fn new(name: &'static str) -> Self {
         Self { name, settings: Settings::default() }
     }
 
     /// A flag that was given.
-    fn flag(&mut self, key: &str, value: Option<String>) {
+    pub fn flag(&mut self, key: &str, value: Option<String>) {
         self.settings.set.extend(value.map(|value| (format!("study.{}.{key}", self.name), value)));
     }
 
     /// With no section in the file: what is done instead, unless a flag says otherwise.
-    fn defaults(mut self, missing: bool, words: &str, values: &[(&str, String)]) -> Settings {
+    pub fn defaults(mut self, missing: bool, words: &str, values: &[(&str, String)]) -> Settings {
         if missing {
             let path = |key: &str| format!("study.{}.{key}", self.name);
             let given = |key: &str| self.settings.set.iter().any(|(p, _)| *p == path(key));
@@ -199,7 +199,7 @@ fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
 }
 
 /// Highest speed of the profile \[rpm\], if it turns at all.
-fn top_speed(model: &Model) -> Option<f64> {
+pub fn top_speed(model: &Model) -> Option<f64> {
     let top = super::terminal::rpm(model.profile.top_speed());
     (top > 0.0).then(|| (top * 1e6).round() / 1e6)
 }
@@ -209,7 +209,7 @@ fn rpm_or(speed: Option<f64>, other: f64) -> String {
 }
 
 /// A TOML text.
-fn quoted(text: impl AsRef<str>) -> String {
+pub fn quoted(text: impl AsRef<str>) -> String {
     toml::Value::String(text.as_ref().into()).to_string()
 }
 
@@ -218,7 +218,7 @@ fn sweep(from: &str, to: &str, count: usize) -> String {
 }
 
 /// A TOML list: numbers as they are, everything else as text; none when empty.
-fn list(items: &[String]) -> Option<String> {
+pub fn list(items: &[String]) -> Option<String> {
     let item = |text: &String| if text.parse::<f64>().is_ok() { text.clone() } else { quoted(text) };
     (!items.is_empty()).then(|| format!("[{}]", items.iter().map(item).collect::<Vec<_>>().join(", ")))
 }

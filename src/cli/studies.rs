@@ -7,6 +7,7 @@ use std::time::Instant;
 use rotordyn::edge::hdf5::{ChannelStream, Store};
 use rotordyn::edge::{figures, results_file};
 use rotordyn::error::Error;
+use rotordyn::model::Model;
 use rotordyn::model::study::Studies;
 use rotordyn::results::{Results, RunUpResult};
 use rotordyn::study::{Machine, Recorder};
@@ -28,11 +29,14 @@ pub enum Study {
     RunUp,
     Spectrogram,
     Orders,
+    Poincare,
+    Lyapunov,
+    Bifurcation,
     Bearing,
 }
 
 impl Study {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Static,
         Self::Modal,
         Self::Campbell,
@@ -42,6 +46,9 @@ impl Study {
         Self::RunUp,
         Self::Spectrogram,
         Self::Orders,
+        Self::Poincare,
+        Self::Lyapunov,
+        Self::Bifurcation,
         Self::Bearing,
     ];
 
@@ -57,6 +64,9 @@ impl Study {
             Self::RunUp => "run-up",
             Self::Spectrogram => "spectrogram",
             Self::Orders => "orders",
+            Self::Poincare => "poincare",
+            Self::Lyapunov => "lyapunov",
+            Self::Bifurcation => "bifurcation",
             Self::Bearing => "bearing",
         }
     }
@@ -73,6 +83,9 @@ impl Study {
             Self::RunUp => studies.run_up.is_some(),
             Self::Spectrogram => studies.spectrogram.is_some(),
             Self::Orders => studies.orders.is_some(),
+            Self::Poincare => studies.poincare.is_some(),
+            Self::Lyapunov => studies.lyapunov.is_some(),
+            Self::Bifurcation => studies.bifurcation.is_some(),
             Self::Bearing => studies.bearing.is_some(),
         }
     }
@@ -82,6 +95,8 @@ impl Study {
 pub struct Job<'a> {
     pub terminal: &'a Terminal,
     pub machine: Machine,
+    /// The machines of a bifurcation diagram, one per value.
+    pub family: Vec<Model>,
     pub folder: PathBuf,
     pub store: Store,
     pub results: Results,
@@ -95,8 +110,8 @@ pub struct Job<'a> {
 
 impl<'a> Job<'a> {
     pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, store: Store) -> Self {
-        let (results, seconds, files, failures) = Default::default();
-        Self { terminal, machine, folder, store, results, seconds, files, failures }
+        let (family, results, seconds, files, failures) = Default::default();
+        Self { terminal, machine, family, folder, store, results, seconds, files, failures }
     }
 
     /// Does studies in order; one that fails does not keep the others from being done, Ctrl-C does.
@@ -190,6 +205,14 @@ impl<'a> Job<'a> {
                     spinner.finish_and_clear();
                     tables::orders(terminal, &found);
                     self.results.orders = found;
+                }
+            }
+            Study::Poincare | Study::Lyapunov | Study::Bifurcation => {
+                spinner.finish_and_clear();
+                match study {
+                    Study::Poincare => self.poincare()?,
+                    Study::Lyapunov => self.lyapunov()?,
+                    _ => self.bifurcation()?,
                 }
             }
             Study::Bearing => {

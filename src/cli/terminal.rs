@@ -85,6 +85,13 @@ impl Terminal {
         bar
     }
 
+    /// A bar over one piece of work that knows what share of it is done.
+    pub fn share_bar(&self) -> ProgressBar {
+        let bar = self.bar(Some(0));
+        bar.set_style(style("{msg} {wide_bar} {percent} %, {eta} left"));
+        bar
+    }
+
     fn bar(&self, length: Option<u64>) -> ProgressBar {
         let target = if self.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         ProgressBar::with_draw_target(length, target)

@@ -17,10 +17,14 @@
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
+//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
+//! | `lyapunov` | `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
+//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `seams`, `repaired`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
 //! | `bearings` | per ball bearing on its own {name, load_from, nominal_orders, operating, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | sentences |
 
 mod signal;
+mod steady;
 
 pub use signal::signal_to_json;
 
@@ -84,6 +88,15 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
     }
     if !results.orders.is_empty() {
         put("orders", results.orders.iter().map(orders).collect());
+    }
+    if let Some(found) = &results.poincare {
+        put("poincare", steady::poincare(found));
+    }
+    if let Some(found) = &results.lyapunov {
+        put("lyapunov", steady::lyapunov(found));
+    }
+    if let Some(found) = &results.bifurcation {
+        put("bifurcation", steady::bifurcation(found));
     }
     if !results.bearings.is_empty() {
         put("bearings", results.bearings.iter().map(bearing).collect());

@@ -1,5 +1,7 @@
 //! One call from the text of a model file to the checked model.
 
+mod family;
+
 use super::Model;
 use super::check;
 use super::file::diagnostic::{Log, Problem, Sources};
@@ -92,6 +94,9 @@ fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
 pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loaded, ModelErrors> {
     let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
     let model = check::build(&root, &log);
+    if log.count() == 0 {
+        family::check(&root, &model, &log);
+    }
     let (sources, warnings) = passed(sources, log)?;
     Ok(Loaded { model, warnings, sources, text })
 }

@@ -6,14 +6,17 @@ use nalgebra::DVector;
 
 use super::Machine;
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::bearing::Bearing;
+use crate::element::Anchor;
 use crate::error::Error;
-use crate::model::study::{Clock, LyapunovStudy, PoincareStudy, Steady};
-use crate::model::{Model, Probe, SpeedProfile};
+use crate::model::study::{Clock, LyapunovStudy, Plane, PoincareStudy, Steady};
+use crate::model::{BearingSite, Model, Probe, SpeedProfile};
 use crate::results::{
-    LyapunovResult, PlaneSection, PoincareResult, SectionChannel, SectionClock, SteadyMotion, is_rotation,
-    unit_of,
+    LyapunovResult, PlaneSection, PoincareResult, SectionChannel, SectionClock, SteadyMotion, Whirl,
+    is_rotation, unit_of,
 };
 use crate::signal::lyapunov::exponent;
+use crate::signal::orbit::FilteredOrbit;
 use crate::signal::period::classify;
 use crate::signal::poincare::{Strobe, clusters};
 use crate::transient::reduction::{Reduction, reduce};
@@ -28,7 +31,7 @@ const ORBIT_PERIODS: usize = 32;
 pub struct CarriedState {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Shaft angle, and cage angles of the bearings \[rad\].
+    /// Shaft angle, and cage angles of the bearings \[rad\], as they were counted: a ball's spin repeats with neither.
     shaft: f64,
     cages: Vec<f64>,
     /// Places and rates of balls with coordinates of their own \[m, m/s\].
@@ -64,19 +67,28 @@ impl Machine {
             (strobe.positions[end - ORBIT_PERIODS.min(end)], strobe.positions[end])
         };
         let kept = from.floor() as usize..=to.ceil() as usize;
-        let planes = study.planes.iter().enumerate().map(|(k, plane)| PlaneSection {
-            name: plane.name.clone(),
-            axes: [&plane.x, &plane.y].map(described),
-            orbit: [2 * k, 2 * k + 1].map(|c| run.channels[c][kept.clone()].to_vec()),
-            sample_rate: 1.0 / run.step,
-            section: [2 * k, 2 * k + 1].map(|c| motion.sections[c].clone()),
+        let shaft_angle = run.shaft_angle[kept.clone()].to_vec();
+        let planes = study.planes.iter().enumerate().map(|(k, plane)| {
+            let orbit = [2 * k, 2 * k + 1].map(|c| run.channels[c][kept.clone()].to_vec());
+            let proper = is_orbit(plane);
+            PlaneSection {
+                name: plane.name.clone(),
+                axes: [&plane.x, &plane.y].map(described),
+                whirl: if proper { whirl(&orbit, &shaft_angle) } else { None },
+                clearance: clearance(&self.model, plane).filter(|_| proper),
+                orbit,
+                sample_rate: 1.0 / run.step,
+                section: [2 * k, 2 * k + 1].map(|c| motion.sections[c].clone()),
+            }
         });
+        let planes = planes.collect();
         Ok(Some(PoincareResult {
             speed: steady.speed,
             clock: section_clock(&self.model, steady, motion.frequency),
             motion: motion.motion,
             groups,
-            planes: planes.collect(),
+            shaft_angle,
+            planes,
         }))
     }
 
@@ -136,7 +148,7 @@ impl Machine {
                     let balls = balls.iter().zip(&system.ball_masses).map(|(y, mass)| mass.sqrt() * y);
                     DVector::from_iterator(system.size(), x.iter().copied().chain(balls))
                 };
-                let time = carried.shaft.rem_euclid(std::f64::consts::TAU) / steady.speed;
+                let time = carried.shaft / steady.speed;
                 let x = project(&carried.displacement, &carried.balls[0]);
                 let v = project(&carried.velocity, &carried.balls[1]);
                 system.state_at(time, &carried.cages, x, v)
@@ -177,7 +189,7 @@ impl CarriedState {
             velocity: full(&state.v),
             shaft: state.spin.angle,
             balls: [&state.d, &state.d_rate].map(|d| d[rows..].to_vec()),
-            cages: state.rotations.iter().map(|r| r.cage_angle.rem_euclid(std::f64::consts::TAU)).collect(),
+            cages: state.rotations.iter().map(|r| r.cage_angle).collect(),
         }
     }
 }
@@ -218,6 +230,40 @@ pub(super) fn sections(
 pub(super) fn described(probe: &Probe) -> SectionChannel {
     let unit = unit_of(probe.quantity, is_rotation(&probe.direction)).into();
     SectionChannel { name: probe.name.clone(), unit }
+}
+
+/// Whether a plane shows x and y of one point, as seen along the shaft.
+fn is_orbit(plane: &Plane) -> bool {
+    let along = |probe: &Probe, axis: usize| {
+        (0..6).all(|k| probe.direction[k] == if k == axis { 1.0 } else { 0.0 })
+    };
+    let (x, y) = (&plane.x, &plane.y);
+    x.at == y.at && x.quantity == y.quantity && along(x, 0) && along(y, 1)
+}
+
+/// Direction and 1x part of an orbit; `None` where there is no orbit or less than a turn of it.
+fn whirl([x, y]: &[Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
+    let once = FilteredOrbit::fit(x, y, shaft_angle, 1.0).ok()?;
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let (mx, my) = (mean(x), mean(y));
+    let (mut net, mut all) = (0.0, 0.0);
+    for k in 1..x.len() {
+        let (a, b) = ((x[k - 1] - mx, y[k - 1] - my), (x[k] - mx, y[k] - my));
+        let swept = a.0 * b.1 - a.1 * b.0;
+        net += swept;
+        all += swept.abs();
+    }
+    (all > 0.0).then(|| Whirl { forwardness: net / all, once })
+}
+
+/// How far the ball bearing at a plane's point lets its shaft move from the middle, P_d/2; in a fixed housing only,
+/// where the orbit is that within the bearing.
+fn clearance(model: &Model, plane: &Plane) -> Option<f64> {
+    let here = |site: &&BearingSite| plane.x.at == Anchor::node(site.node) && site.housing.node.is_none();
+    match &model.bearings.iter().find(here)?.bearing {
+        Bearing::Ball(ball) => Some(0.5 * ball.geometry.radial_clearance).filter(|c| *c > 0.0),
+        Bearing::Linear(_) => None,
+    }
 }
 
 fn section_clock(model: &Model, steady: &Steady, frequency: f64) -> SectionClock {

@@ -15,6 +15,9 @@ use crate::results::{BifurcationPoint, BifurcationResult, BifurcationSweep, Stea
 /// Two runs are on the same branch when their sections and extremes differ by less than this share of the orbit.
 const SAME_BRANCH: f64 = 0.05;
 
+/// Said of a value that was not come to because the work was stopped.
+const STOPPED: &str = "stopped";
+
 /// What one value gave, and where the run ended.
 type Outcome = (Result<SteadyMotion, String>, Option<CarriedState>);
 
@@ -88,7 +91,9 @@ pub fn bifurcation(
     {
         return Err(crate::error::PhysicsError::NoMotion { reason: reason.clone() }.into());
     }
+    let complete = !all().any(|p| p.found.as_ref().is_err_and(|reason| reason == STOPPED));
     Ok(BifurcationResult {
+        complete,
         parameter: study.parameter.clone(),
         clock: clock_name(&models[0], study.steady.clock),
         channels: study.channels.iter().map(described).collect(),
@@ -136,11 +141,11 @@ impl Work<'_> {
         let told =
             || (self.progress)(self.done.load(Ordering::Relaxed), self.planned.load(Ordering::Relaxed));
         let outcome = match &model.studies.bifurcation {
-            _ if told().is_break() => (Err("stopped".to_string()), None),
+            _ if told().is_break() => (Err(STOPPED.to_string()), None),
             None => (Err("the model has no bifurcation study".to_string()), None),
             Some(study) => match motion(model, study, carried, &mut |_| told()) {
                 Ok(Some((found, state))) => (Ok(found), Some(state)),
-                Ok(None) => (Err("stopped".to_string()), None),
+                Ok(None) => (Err(STOPPED.to_string()), None),
                 Err(error) => (Err(error.to_string()), None),
             },
         };

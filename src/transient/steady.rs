@@ -21,6 +21,8 @@ pub struct SteadyRun {
     pub step: f64,
     /// Phase of the clock at every sample \[rad\].
     pub phase: Vec<f64>,
+    /// Shaft angle at every sample \[rad\].
+    pub shaft_angle: Vec<f64>,
     /// Per channel its samples.
     pub channels: Vec<Vec<f64>>,
     /// ln of a perturbation's growth from section to section over the recorded periods, where one was followed, and
@@ -86,6 +88,7 @@ pub fn run_steady(
     let mut run = SteadyRun {
         step,
         phase: Vec::new(),
+        shaft_angle: Vec::new(),
         channels: vec![Vec::new(); channels.len()],
         log_growth: Vec::new(),
         intervals: Vec::new(),
@@ -98,6 +101,7 @@ pub fn run_steady(
         let at = turns(&state);
         if at >= first - margin {
             run.phase.push(phase(settings.clock, &state));
+            run.shaft_angle.push(state.spin.angle);
             for (channel, values) in channels.iter().zip(&mut run.channels) {
                 values.push(channel.read(&state));
             }

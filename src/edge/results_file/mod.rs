@@ -10,6 +10,9 @@
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |
 //! | `/frf` | response \[response, excitation, frequency\] (complex) |
 //! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit |
+//! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
+//! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; `exponent` over `time` as it settled |
+//! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/bearings/<bearing>` | a ball bearing on its own: `operating` point and `over_<sweep>` with its axis as dimension scale |
 //! | `/time`, `/channels` | the run-up, streamed while it goes on |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy account |
@@ -22,6 +25,7 @@ mod bearing;
 mod linear;
 mod run;
 mod signal;
+mod steady;
 
 pub use signal::{SignalMeta, write_signal};
 
@@ -92,6 +96,9 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     }
     results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, found))?;
     results.orders.iter().try_for_each(|found| run::orders(store, found))?;
+    results.poincare.iter().try_for_each(|found| steady::poincare(store, found))?;
+    results.lyapunov.iter().try_for_each(|found| steady::lyapunov(store, found))?;
+    results.bifurcation.iter().try_for_each(|found| steady::bifurcation(store, found))?;
     bearing::write(store, &results.bearings)?;
     write_warnings(store, &results.warnings)?;
     store.flush()

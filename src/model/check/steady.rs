@@ -18,7 +18,7 @@ const LONGEST_PERIOD: usize = 32;
 
 pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     if let Some(r) = all.table("poincare") {
-        let steady = steady(&r, model, studies.run_up.as_ref(), [200, 300]);
+        let steady = steady(&r, model, studies.run_up.as_ref(), [200, 300], false);
         let planes = planes(&r, model);
         studies.poincare = Some(PoincareStudy {
             steady,
@@ -29,7 +29,7 @@ pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
         r.finish();
     }
     if let Some(r) = all.table("lyapunov") {
-        let steady = steady(&r, model, studies.run_up.as_ref(), [200, 1000]);
+        let steady = steady(&r, model, studies.run_up.as_ref(), [200, 1000], false);
         let perturbation = r.or("perturbation", positive(LENGTH), PERTURBATION);
         studies.lyapunov = Some(LyapunovStudy { steady, perturbation });
         r.finish();
@@ -40,10 +40,17 @@ pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     }
 }
 
-/// A steady run; integrator, step and cutoff are those of the run-up unless told otherwise.
-fn steady(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>, [settle, periods]: [usize; 2]) -> Steady {
+/// A steady run; integrator, step and cutoff are those of the run-up unless told otherwise. A `varied` speed need not
+/// be stated.
+fn steady(
+    r: &Reader,
+    model: &Model,
+    run_up: Option<&RunUpStudy>,
+    [settle, periods]: [usize; 2],
+    varied: bool,
+) -> Steady {
     let top = model.profile.top_speed();
-    if !r.has("speed") && top == 0.0 {
+    if !r.has("speed") && top == 0.0 && !varied {
         r.missing("speed", "\"3000 rpm\"");
     }
     if matches!(model.drive, Drive::Torque { .. }) && r.sound() {
@@ -165,8 +172,10 @@ fn against_rate(x: &Probe) -> Option<Plane> {
 }
 
 fn bifurcation(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>) -> BifurcationStudy {
-    let steady = steady(r, model, run_up, [200, 100]);
     let parameter = parameter(r);
+    let speed = r.name("speed");
+    let varied = parameter.paths.contains(&speed);
+    let steady = steady(r, model, run_up, [200, 100], varied);
     let names = channels(r, "channels", model);
     let chosen = |p: &&Probe| match names.is_empty() {
         true => p.quantity == Quantity::Displacement,
@@ -289,6 +298,7 @@ fn spaced(r: &Reader) -> Option<(String, Vec<f64>)> {
     };
     let (from, to) = (end("from"), end("to"));
     let key = r.one_of(&["count", "step"]);
+    let whole = |value: f64| value.fract() == 0.0 && value.abs() < 1e5;
     let step = r.entry("step").and_then(|entry| split(r, &entry.node).map(|found| (found, &entry.node)));
     let count = r.count("count", 200, 2..=100_000);
     let (((from, unit), _), ((to, other), node)) = (from?, to?);
@@ -314,6 +324,8 @@ fn spaced(r: &Reader) -> Option<(String, Vec<f64>)> {
             return Some((unit, (0..=(steps + 1e-9) as usize).map(|k| from + k as f64 * step).collect()));
         }
         (Some("step"), None) => return None,
+        // Whole numbers of something that is counted: every one of them.
+        (None, _) if unit.is_empty() && whole(from) && whole(to) => (to - from) as usize,
         _ => count - 1,
     };
     let value = |k: usize| if k == steps { to } else { from + (to - from) * k as f64 / steps as f64 };

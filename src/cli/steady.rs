@@ -1,0 +1,102 @@
+//! Does the studies of steady motion: progress on the way, and what was computed when Ctrl-C comes.
+
+use std::ops::ControlFlow;
+
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+use rotordyn::model::{Loaded, Model};
+use rotordyn::study::bifurcation;
+
+use super::failure::Failure;
+use super::machine::Origin;
+use super::studies::Job;
+use super::terminal::Terminal;
+use super::{films, interrupt, steady_tables};
+
+/// Thousandths that a single run's bar counts in.
+const WHOLE: f64 = 1000.0;
+
+/// The machines of a bifurcation diagram, one per value, each with the settings of the command.
+pub fn family(
+    origin: &Origin,
+    settings: &[(String, String)],
+    loaded: &Loaded,
+    folder: &std::path::Path,
+    terminal: &Terminal,
+) -> Result<Vec<Model>, Failure> {
+    let Some(study) = &loaded.model.studies.bifurcation else { return Ok(Vec::new()) };
+    let parameter = &study.parameter;
+    let spinner = terminal.spinner("models of the diagram");
+    let model = |k: usize| -> Result<Model, Failure> {
+        let mut set = settings.to_vec();
+        set.extend(parameter.settings(k));
+        Ok(origin.load(&set)?.model)
+    };
+    let models: Result<Vec<Model>, Failure> =
+        (0..parameter.values.len()).into_par_iter().map(model).collect::<Vec<_>>().into_iter().collect();
+    spinner.finish_and_clear();
+    let mut models = models?;
+    models.iter_mut().try_for_each(|model| films::of_machine(model, folder, terminal))?;
+    Ok(models)
+}
+
+impl Job<'_> {
+    pub fn poincare(&mut self) -> Result<(), Failure> {
+        let Some(study) = &self.machine.model.studies.poincare else { return Ok(()) };
+        let bar = run_bar(self.terminal, "Poincaré section");
+        let found = self.machine.poincare(study, &mut |share| watch(&bar, share));
+        bar.finish_and_clear();
+        let found = found?.ok_or(Failure::Interrupted)?;
+        steady_tables::poincare(self.terminal, &found);
+        self.results.poincare = Some(found);
+        Ok(())
+    }
+
+    pub fn lyapunov(&mut self) -> Result<(), Failure> {
+        let Some(study) = &self.machine.model.studies.lyapunov else { return Ok(()) };
+        let bar = run_bar(self.terminal, "Lyapunov exponent");
+        let found = self.machine.lyapunov(study, &mut |share| watch(&bar, share));
+        bar.finish_and_clear();
+        let found = found?.ok_or(Failure::Interrupted)?;
+        steady_tables::lyapunov(self.terminal, &found);
+        self.results.lyapunov = Some(found);
+        Ok(())
+    }
+
+    /// All values on all cores; what was done before Ctrl-C is kept.
+    pub fn bifurcation(&mut self) -> Result<(), Failure> {
+        let bar = self.terminal.count_bar();
+        bar.set_message("bifurcation diagram");
+        let progress = |done: usize, planned: usize| {
+            bar.set_length(planned as u64);
+            bar.set_position(done as u64);
+            go_on()
+        };
+        let found = bifurcation(&self.family, &progress);
+        bar.finish_and_clear();
+        let found = match found {
+            Err(_) if interrupt::requested() => return Err(Failure::Interrupted),
+            found => found?,
+        };
+        steady_tables::bifurcation(self.terminal, &found);
+        let complete = found.complete;
+        self.results.bifurcation = Some(found);
+        if complete { Ok(()) } else { Err(Failure::Interrupted) }
+    }
+}
+
+fn run_bar(terminal: &Terminal, what: &str) -> ProgressBar {
+    let bar = terminal.share_bar();
+    bar.set_length(WHOLE as u64);
+    bar.set_message(what.to_string());
+    bar
+}
+
+fn watch(bar: &ProgressBar, share: f64) -> ControlFlow<()> {
+    bar.set_position((WHOLE * share) as u64);
+    go_on()
+}
+
+fn go_on() -> ControlFlow<()> {
+    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}

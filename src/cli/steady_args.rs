@@ -1,0 +1,138 @@
+//! Arguments of the studies of steady motion, and what they lay over the model.
+
+use clap::Args;
+use rotordyn::model::Model;
+
+use super::args::StudyArgs;
+use super::settings::{Draft, Settings, list, quoted, top_speed};
+
+/// A run at steady speed.
+#[derive(Args, Clone, Debug)]
+pub struct SteadyArgs {
+    #[command(flatten)]
+    pub study: StudyArgs,
+    /// Speed, such as "3000 rpm" [default: the highest of the speed profile]
+    #[arg(long, value_name = "SPEED")]
+    pub speed: Option<String>,
+    /// Clock of the section: shaft, cage or ball-pass
+    #[arg(long, value_name = "CLOCK")]
+    pub section: Option<String>,
+    /// Ball bearing whose cage is the clock [default: the first of the file]
+    #[arg(long, value_name = "NAME")]
+    pub bearing: Option<String>,
+    /// Phase of the clock at which sections are taken, such as "90 deg"
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub phase: Option<String>,
+    /// Periods of the clock before anything is recorded
+    #[arg(long, value_name = "N")]
+    pub settle: Option<usize>,
+    /// Periods of the clock recorded
+    #[arg(long, value_name = "N")]
+    pub periods: Option<usize>,
+    /// Largest time step, such as "20 us"
+    #[arg(long, value_name = "TIME")]
+    pub step: Option<String>,
+    /// generalised-alpha, newmark, rk4 or dormand-prince
+    #[arg(long, value_name = "NAME")]
+    pub integrator: Option<String>,
+}
+
+/// Orbits and sections.
+#[derive(Args, Clone, Debug)]
+pub struct PoincareArgs {
+    #[command(flatten)]
+    pub steady: SteadyArgs,
+    /// Plane to look at: two probes "disc_x, disc_y", or one, which is seen over its rate; can be repeated
+    #[arg(long, value_name = "PROBES")]
+    pub plane: Vec<String>,
+}
+
+/// A diagram over a parameter.
+#[derive(Args, Clone, Debug)]
+pub struct BifurcationArgs {
+    #[command(flatten)]
+    pub steady: SteadyArgs,
+    /// Path of any value of the model, or speed; repeated, the paths change together
+    #[arg(long, value_name = "PATH")]
+    pub parameter: Vec<String>,
+    /// First value with its unit, such as "0 um"
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub from: Option<String>,
+    /// Last value with its unit
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Number of values [default: 200, or every whole number between whole ends]
+    #[arg(long, value_name = "N")]
+    pub count: Option<usize>,
+    /// Which way: up, down or both
+    #[arg(long, value_name = "WAY")]
+    pub sweep: Option<String>,
+    /// Where each value starts from: carried (the end of the value before) or equilibrium
+    #[arg(long, value_name = "START")]
+    pub start: Option<String>,
+    /// Probes to show, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub channels: Vec<String>,
+    /// Follow the largest Lyapunov exponent too (twice the work)
+    #[arg(long)]
+    pub lyapunov: bool,
+}
+
+fn common(draft: &mut Draft, args: &SteadyArgs) {
+    draft.flag("speed", args.speed.as_ref().map(quoted));
+    draft.flag("section", args.section.as_ref().map(quoted));
+    draft.flag("bearing", args.bearing.as_ref().map(quoted));
+    draft.flag("phase", args.phase.as_ref().map(quoted));
+    draft.flag("settle", args.settle.map(|n| n.to_string()));
+    draft.flag("periods", args.periods.map(|n| n.to_string()));
+    draft.flag("step", args.step.as_ref().map(quoted));
+    draft.flag("integrator", args.integrator.as_ref().map(quoted));
+}
+
+/// What a file without the section is done with.
+fn usual(model: &Model, settle: usize, periods: usize) -> String {
+    let speed = match top_speed(model) {
+        Some(top) => format!("at {top} rpm, "),
+        None => String::new(),
+    };
+    format!("{speed}{settle} shaft turns to settle and {periods} recorded unless told otherwise")
+}
+
+pub fn poincare(model: &Model, args: &PoincareArgs) -> Settings {
+    let mut draft = Draft::new("poincare");
+    common(&mut draft, &args.steady);
+    draft.flag("planes", list(&args.plane));
+    let missing = model.studies.poincare.is_none();
+    draft.defaults(missing, &usual(model, 200, 300), &[("section", quoted("shaft"))])
+}
+
+pub fn lyapunov(model: &Model, args: &SteadyArgs) -> Settings {
+    let mut draft = Draft::new("lyapunov");
+    common(&mut draft, args);
+    let missing = model.studies.lyapunov.is_none();
+    draft.defaults(missing, &usual(model, 200, 1000), &[("section", quoted("shaft"))])
+}
+
+pub fn bifurcation(model: &Model, args: &BifurcationArgs) -> Settings {
+    let missing = model.studies.bifurcation.is_none();
+    let mut draft = Draft::new("bifurcation");
+    common(&mut draft, &args.steady);
+    draft.flag("parameter", list(&args.parameter));
+    let ends = [("from", args.from.as_ref().map(quoted)), ("to", args.to.as_ref().map(quoted))];
+    let values = ends.into_iter().chain([("count", args.count.map(|n| n.to_string()))]);
+    let given: Vec<(&str, String)> = values.filter_map(|(key, value)| Some((key, value?))).collect();
+    // Another parameter has other values altogether; else a flag replaces one of the file's.
+    if missing || !args.parameter.is_empty() {
+        let table: Vec<String> = given.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        draft.flag("values", (!given.is_empty()).then(|| format!("{{ {} }}", table.join(", "))));
+    } else {
+        for (key, value) in given {
+            draft.flag(&format!("values.{key}"), Some(value));
+        }
+    }
+    draft.flag("sweep", args.sweep.as_ref().map(quoted));
+    draft.flag("start", args.start.as_ref().map(quoted));
+    draft.flag("channels", list(&args.channels));
+    draft.flag("lyapunov", args.lyapunov.then(|| "true".into()));
+    draft.defaults(missing, &usual(model, 200, 100), &[("section", quoted("shaft"))])
+}

@@ -1,0 +1,154 @@
+//! Tables of steady motions.
+
+use rotordyn::results::{
+    BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
+    SectionClock, SteadyMotion,
+};
+use rotordyn::signal::lyapunov::Exponent;
+
+use super::terminal::{Terminal, number, rpm};
+
+/// Rows shown of a sweep; the rest is in the file.
+const MOST: usize = 40;
+/// Standard errors that an exponent must be from zero to have a sign.
+const SURE: f64 = 3.0;
+
+pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
+    let points = found.planes.first().map_or(0, |p| p.section[0].len());
+    let m = &found.motion;
+    let chaos = if m.chaos.is_nan() { "-".into() } else { format!("{:.3}", m.chaos) };
+    terminal.table(
+        &format!("Motion at {:.1} rpm, {points} points, one per {}", rpm(found.speed), in_words(&found.clock)),
+        &["motion", "recurrence", "K of 0-1 test", "groups"],
+        &[vec![m.motion.name(), format!("{:.1e}", m.recurrence), chaos, found.groups.to_string()]],
+    );
+    let span = |v: &[f64], unit: &str| {
+        let (l, h) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
+        format!("{} {unit}", number(h - l, 4))
+    };
+    let row = |p: &PlaneSection| {
+        let mut row = vec![p.name.clone()];
+        for k in 0..2 {
+            row.push(span(&p.orbit[k], &p.axes[k].unit));
+            row.push(span(&p.section[k], &p.axes[k].unit));
+        }
+        row.push(p.whirl.as_ref().map_or("-".into(), |w| w.name().to_string()));
+        row.push(p.whirl.as_ref().map_or("-".into(), |w| number(w.once.semi_axes().0, 3)));
+        row
+    };
+    let rows: Vec<Vec<String>> = found.planes.iter().map(row).collect();
+    terminal.table(
+        "Orbits and sections, peak to peak",
+        &["plane", "x orbit", "x section", "y orbit", "y section", "whirl", "1x semi-axis"],
+        &rows,
+    );
+}
+
+pub fn lyapunov(terminal: &Terminal, found: &LyapunovResult) {
+    let e = &found.exponent;
+    let frequency = found.clock.frequency;
+    let last = e.times.last().copied().unwrap_or(0.0);
+    terminal.table(
+        &format!(
+            "Largest Lyapunov exponent at {:.1} rpm over {} periods ({last:.3} s), one per {}",
+            rpm(found.speed),
+            e.times.len(),
+            in_words(&found.clock)
+        ),
+        &["1/s", "standard error", "per period", "says"],
+        &[vec![
+            number(e.value, 4),
+            number(e.standard_error, 2),
+            number(e.value / frequency, 3),
+            sign(e).to_string(),
+        ]],
+    );
+}
+
+/// What an exponent says, where it is sure.
+fn sign(e: &Exponent) -> &'static str {
+    if e.value > SURE * e.standard_error {
+        "neighbours part: chaotic"
+    } else if e.value < -SURE * e.standard_error {
+        "neighbours meet: regular"
+    } else {
+        "not to be told from zero"
+    }
+}
+
+pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
+    let parameter = &found.parameter;
+    let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
+    for sweep in &found.sweeps {
+        let rows = runs(sweep);
+        let mut shown: Vec<Vec<String>> = rows.iter().take(MOST).map(|run| run.row(&sweep.points)).collect();
+        if rows.len() > MOST {
+            shown.push(vec![format!("and {} more stretches: results.h5", rows.len() - MOST)]);
+        }
+        let title =
+            format!("Motions over {}{unit}, {}, one section per {}", parameter.name(), sweep.name, found.clock);
+        let header = ["from", "to", "values", "motion", "exponent 1/s"];
+        terminal.table(&title, &header, &shown);
+    }
+    if found.seams > 0 {
+        terminal.say(&format!(
+            "  {} seams between pieces run side by side; {} pieces run again from the one before",
+            found.seams, found.repaired
+        ));
+    }
+}
+
+/// Neighbouring values of one kind of motion.
+struct Run {
+    first: usize,
+    last: usize,
+    kind: String,
+}
+
+fn runs(sweep: &BifurcationSweep) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (k, point) in sweep.points.iter().enumerate() {
+        let kind = kind(point);
+        match runs.last_mut() {
+            Some(run) if run.kind == kind => run.last = k,
+            _ => runs.push(Run { first: k, last: k, kind }),
+        }
+    }
+    runs
+}
+
+fn kind(point: &BifurcationPoint) -> String {
+    match &point.found {
+        Ok(SteadyMotion { motion, .. }) => motion.motion.name(),
+        Err(reason) => format!("none: {reason}"),
+    }
+}
+
+impl Run {
+    fn row(&self, points: &[BifurcationPoint]) -> Vec<String> {
+        let exponents: Vec<f64> = points[self.first..=self.last]
+            .iter()
+            .filter_map(|p| p.found.as_ref().ok()?.exponent.as_ref().map(|e| e.value))
+            .collect();
+        let (low, high) =
+            exponents.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
+        let exponent = match exponents.len() {
+            0 => "-".to_string(),
+            1 => number(low, 3),
+            _ => format!("{} to {}", number(low, 3), number(high, 3)),
+        };
+        vec![
+            number(points[self.first].value, 6),
+            number(points[self.last].value, 6),
+            (self.last - self.first + 1).to_string(),
+            self.kind.clone(),
+            exponent,
+        ]
+    }
+}
+
+/// "shaft turn at 0 deg (20 Hz)".
+fn in_words(clock: &SectionClock) -> String {
+    let phase = if clock.phase == 0.0 { String::new() } else { format!(" at {:.1} deg", clock.phase.to_degrees()) };
+    format!("{}{phase} ({} Hz)", clock.name, number(clock.frequency, 5))
+}
