@@ -11,6 +11,7 @@
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
 //! | [`small`] | small dense systems |
+//! | [`spline`] | interpolating cubic spline |
 
 pub mod band;
 pub mod banded;
@@ -21,6 +22,7 @@ pub mod panel;
 pub mod pchip;
 pub mod small;
 pub mod sparse;
+pub mod spline;
 
 pub use band::{BandLayout, BandLu, ZeroPivot};
 pub use banded::BandMatrix;

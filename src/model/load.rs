@@ -2,13 +2,13 @@
 
 mod family;
 
-use super::Model;
 use super::check;
 use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::tree::{Table, Value};
 use super::file::{Diagnostic, Kind, ModelErrors, Source};
 use super::study::Studies;
+use super::{Model, SideFile};
 use crate::bearing::{BallBearing, Bearing};
 use std::ops::Range;
 
@@ -92,10 +92,23 @@ fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
 /// assert_eq!(model.shaft.len(), 8);
 /// ```
 pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loaded, ModelErrors> {
+    load_with(name, text, options, &[])
+}
+
+/// As [`load`], with the files that the model names (see [`side_files`]).
+///
+/// # Errors
+/// As [`load`]; a file that is not there, or whose columns do not serve.
+pub fn load_with(
+    name: &str,
+    text: impl AsRef<[u8]>,
+    options: &Options,
+    files: &[SideFile],
+) -> Result<Loaded, ModelErrors> {
     let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
-    let model = check::build(&root, &log);
+    let model = check::build(&root, files, &log);
     if log.count() == 0 {
-        family::check(&root, &model, &log);
+        family::check(&root, files, &model, &log);
     }
     let (sources, warnings) = passed(sources, log)?;
     Ok(Loaded { model, warnings, sources, text })
@@ -144,11 +157,24 @@ pub fn load_bearings(
     text: impl AsRef<[u8]>,
     options: &Options,
 ) -> Result<LoadedBearings, ModelErrors> {
+    load_bearings_with(name, text, options, &[])
+}
+
+/// As [`load_bearings`], with the files that a machine names.
+///
+/// # Errors
+/// As [`load_bearings`] and [`load_with`].
+pub fn load_bearings_with(
+    name: &str,
+    text: impl AsRef<[u8]>,
+    options: &Options,
+    files: &[SideFile],
+) -> Result<LoadedBearings, ModelErrors> {
     let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
     let is_machine = ["shaft", "rotor", "station"].iter().any(|key| root.get(key).is_some());
     let (sites, name, title, studies, model);
     if is_machine {
-        let machine = check::build(&root, &log);
+        let machine = check::build(&root, files, &log);
         sites = machine.bearings.iter().map(|b| (b.name.clone(), b.bearing.clone())).collect();
         (name, title, studies) = (machine.name.clone(), machine.title.clone(), machine.studies.clone());
         model = Some(machine);
@@ -241,6 +267,21 @@ fn passed(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), 
 fn failed(sources: Sources, log: Log) -> ModelErrors {
     let diagnostics = sources.locate(log.into_parts().0);
     ModelErrors { sources: sources.into_vec(), diagnostics }
+}
+
+/// Paths of the files that a model takes numbers from, as written in it; none when it cannot be read.
+///
+/// Whoever loads the model reads them, relative to the model file, and hands them to [`load_with`].
+pub fn side_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> {
+    let Ok(document) = Document::read("", text.as_ref(), options) else { return Vec::new() };
+    let speed = document.root.get("speed").map(|e| &e.node.value);
+    match speed {
+        Some(Value::Table(speed)) => match speed.get("file").map(|e| &e.node.value) {
+            Some(Value::Text(path)) => vec![path.clone()],
+            _ => Vec::new(),
+        },
+        _ => Vec::new(),
+    }
 }
 
 /// Names of the variants of a model file, in file order; none when it is not TOML.

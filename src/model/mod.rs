@@ -3,6 +3,7 @@
 pub mod check;
 pub mod file;
 pub mod load;
+mod side_file;
 pub mod speed_profile;
 pub mod stated;
 mod steady_study;
@@ -10,7 +11,11 @@ pub mod study;
 
 pub use check::catalogue;
 pub use file::{Diagnostic, Kind, ModelErrors, Source};
-pub use load::{Loaded, LoadedBearings, Options, load, load_bearings, place_of, variants};
+pub use load::{
+    Loaded, LoadedBearings, Options, load, load_bearings, load_bearings_with, load_with, place_of, side_files,
+    variants,
+};
+pub use side_file::{SideColumn, SideFile};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;

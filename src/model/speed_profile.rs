@@ -1,6 +1,7 @@
 //! Shaft speed as a function of time.
 
 use crate::linalg::pchip::Pchip;
+use crate::linalg::spline::Spline;
 
 /// Prescribed shaft speed over time; speeds in rad/s, times in s.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,12 @@ pub enum SpeedProfile {
     Table {
         points: Vec<[f64; 2]>,
     },
+    /// Points (time, shaft angle) joined by a cubic spline: speed smooth, acceleration continuous; the run is the part
+    /// from 0 to `duration`. Angles count from a pulse, so that the keyphasor passes at whole turns.
+    Pulses {
+        points: Vec<[f64; 2]>,
+        duration: f64,
+    },
     /// Ω(t) = Ω₀ exp(−(t − settle)/τ) from `settle` on, until `duration`.
     CoastDown {
         from: f64,
@@ -41,7 +48,7 @@ pub enum SpeedProfile {
 /// Shaft angle, speed and acceleration at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Spin {
-    /// θ \[rad\], zero at t = 0.
+    /// θ \[rad\], zero at t = 0; of measured pulses zero at the first.
     pub angle: f64,
     /// Ω \[rad/s\].
     pub speed: f64,
@@ -54,13 +61,16 @@ pub struct Spin {
 pub struct SpeedCurve {
     profile: SpeedProfile,
     table: Option<Pchip>,
+    pulses: Option<Spline>,
 }
 
 impl SpeedProfile {
     /// Length of the profile \[s\].
     pub fn duration(&self) -> f64 {
         match self {
-            Self::Constant { duration, .. } | Self::CoastDown { duration, .. } => *duration,
+            Self::Constant { duration, .. }
+            | Self::CoastDown { duration, .. }
+            | Self::Pulses { duration, .. } => *duration,
             Self::Ramp { settle, ramp, hold, .. } | Self::SCurve { settle, ramp, hold, .. } => {
                 settle + ramp + hold
             }
@@ -75,19 +85,29 @@ impl SpeedProfile {
             Self::CoastDown { from, .. } => from.abs(),
             Self::Ramp { from, to, .. } | Self::SCurve { from, to, .. } => from.abs().max(to.abs()),
             Self::Table { points } => points.iter().fold(0.0, |m, p| m.max(p[1].abs())),
+            Self::Pulses { points, .. } => {
+                let curve = self.curve();
+                points.iter().fold(0.0, |m, p| m.max(curve.at(p[0]).speed.abs()))
+            }
         }
     }
 
     /// The profile made ready for evaluation.
     pub fn curve(&self) -> SpeedCurve {
-        let table = match self {
+        let columns = |points: &[[f64; 2]]| -> (Vec<f64>, Vec<f64>) { points.iter().map(|p| (p[0], p[1])).unzip() };
+        let (mut table, mut pulses) = (None, None);
+        match self {
             Self::Table { points } => {
-                let (t, v): (Vec<f64>, Vec<f64>) = points.iter().map(|p| (p[0], p[1])).unzip();
-                Pchip::new(&t, &v)
+                let (time, speed) = columns(points);
+                table = Pchip::new(&time, &speed);
             }
-            _ => None,
-        };
-        SpeedCurve { profile: self.clone(), table }
+            Self::Pulses { points, .. } => {
+                let (time, angle) = columns(points);
+                pulses = Spline::new(&time, &angle);
+            }
+            _ => {}
+        }
+        SpeedCurve { profile: self.clone(), table, pulses }
     }
 }
 
@@ -120,6 +140,10 @@ impl SpeedCurve {
                     speed: from * decay,
                     acceleration: -from * decay / time_constant,
                 }
+            }
+            SpeedProfile::Pulses { .. } => {
+                let [angle, speed, acceleration] = self.pulses.as_ref().map_or([0.0; 3], |s| s.at(t));
+                Spin { angle, speed, acceleration }
             }
             SpeedProfile::Table { points } => {
                 let Some(table) = &self.table else {

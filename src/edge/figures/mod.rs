@@ -10,6 +10,7 @@
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | the run-up over time |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | frequency over speed, linear Campbell lines laid over |
 //! | `orders_<channel>`, `order_cuts_<channel>` | orders over speed |
+//! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | a bearing on its own at its operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
 //! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
@@ -26,6 +27,7 @@ mod run;
 mod signal;
 mod signal_shaft;
 mod speed;
+mod steady;
 
 use std::path::{Path, PathBuf};
 
@@ -59,6 +61,9 @@ pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<P
     let campbell = results.campbell.as_ref();
     figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
     figures.extend(results.orders.iter().flat_map(|found| run::orders(found, machine)));
+    figures.extend(results.poincare.iter().flat_map(|found| steady::poincare(found, machine)));
+    figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
+    figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));
     figures.extend(bearings(&results.bearings, &machine.model.title));
     write_all(&figures, folder)
 }

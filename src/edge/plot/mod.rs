@@ -20,6 +20,7 @@ pub mod svg;
 mod thin;
 
 mod ball_load;
+mod bifurcation;
 mod bode;
 mod campbell;
 mod cursors;
@@ -35,6 +36,7 @@ mod mode_shape;
 mod orbit;
 mod order;
 mod panels;
+mod phase_plane;
 mod polar;
 mod rig;
 mod spectrogram;
@@ -49,6 +51,7 @@ use resvg::{tiny_skia, usvg};
 use crate::error::Error;
 
 pub use ball_load::{BallLoads, BallRow};
+pub use bifurcation::{Bifurcation, SweepPoints};
 pub use bode::{Bode, BodeCurve};
 pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
 pub use cursors::{Cursor, CursorLines, CursorMark, CursorPanel};
@@ -63,6 +66,7 @@ pub use mac_matrix::MacMatrix;
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
 pub use orbit::{Orbit, Orbits};
 pub use order::OrderMap;
+pub use phase_plane::{PhasePlane, PhasePlanes};
 pub use polar::{Polar, PolarCurve};
 pub use rig::{Rig, RigBelt, RigBlock, RigSection, RigSpring, RigSupport};
 pub use spectrogram::Spectrogram;
@@ -85,6 +89,8 @@ pub enum Figure {
     Bode(Bode),
     Polar(Polar),
     Orbits(Orbits),
+    PhasePlanes(PhasePlanes),
+    Bifurcation(Bifurcation),
     BallLoads(BallLoads),
     Deflection(Deflection),
     History(History),
@@ -112,6 +118,8 @@ impl Figure {
             Figure::Bode(data) => bode::draw(data),
             Figure::Polar(data) => polar::draw(data),
             Figure::Orbits(data) => orbit::draw(data),
+            Figure::PhasePlanes(data) => phase_plane::draw(data),
+            Figure::Bifurcation(data) => bifurcation::draw(data),
             Figure::BallLoads(data) => ball_load::draw(data),
             Figure::Deflection(data) => deflection::draw(data),
             Figure::History(data) => history::draw(data),

@@ -111,7 +111,7 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
 }
 
 /// Arrow head on the orbit that shows which way it is run through.
-fn direction(svg: &mut Svg, points: &[Point], color: super::svg::Color) {
+pub(super) fn direction(svg: &mut Svg, points: &[Point], color: super::svg::Color) {
     let k = points.len() / 4;
     let Some(&tail) = points.get(k) else { return };
     let ahead = points.iter().skip(k).find(|p| (p[0] - tail[0]).hypot(p[1] - tail[1]) > 13.0);

@@ -197,6 +197,26 @@ impl Svg {
         }
     }
 
+    /// Round dots of one size as one path; dots nearer than 0.1 px to one already there are left out.
+    pub fn dots(&mut self, centers: impl Iterator<Item = Point>, radius: f64, color: Color) {
+        let mut seen = std::collections::BTreeSet::new();
+        let mut d = String::new();
+        for p in centers.filter(finite) {
+            if seen.insert([(10.0 * p[0]).round() as i64, (10.0 * p[1]).round() as i64]) {
+                d.push('M');
+                push_number(&mut d, p[0]);
+                d.push(' ');
+                push_number(&mut d, p[1]);
+                // Of a length, because a renderer may leave out a line that has none.
+                d.push_str("h.01");
+            }
+        }
+        if !d.is_empty() {
+            let style = Style::stroke(color, 2.0 * radius);
+            self.element(&format!("path d=\"{d}\" stroke-linecap=\"round\""), style);
+        }
+    }
+
     /// An arrow from `a` to `b` with a filled head of the given length \[px\].
     pub fn arrow(&mut self, a: Point, b: Point, head: f64, color: Color, width: f64) {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);

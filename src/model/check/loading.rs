@@ -1,10 +1,11 @@
 //! Unbalance, loads, damping, drive, speed profile and probes.
 
+use super::measured_speed;
 use super::places::Places;
 use crate::element::Anchor;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
-use crate::model::{Damping, Drive, Load, Probe, Quantity, SpeedProfile, Unbalance};
+use crate::model::{Damping, Drive, Load, Probe, Quantity, SideFile, SpeedProfile, Unbalance};
 use crate::units::{
     ANGLE, FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NUMBER, RATE, SPEED, TILT_DAMPING, TIME, UNBALANCE,
 };
@@ -130,7 +131,7 @@ pub(super) fn drive(top: &Reader, places: &Places) -> Drive {
     drive
 }
 
-pub(super) fn profile(top: &Reader) -> SpeedProfile {
+pub(super) fn profile(top: &Reader, files: &[SideFile]) -> SpeedProfile {
     #[derive(Clone, Copy)]
     enum Shape {
         Constant,
@@ -138,6 +139,7 @@ pub(super) fn profile(top: &Reader) -> SpeedProfile {
         SCurve,
         Table,
         CoastDown,
+        Measured,
     }
     let Some(r) = top.table("speed") else { return SpeedProfile::Constant { speed: 0.0, duration: 1.0 } };
     let shapes = [
@@ -146,6 +148,7 @@ pub(super) fn profile(top: &Reader) -> SpeedProfile {
         ("s-curve", Shape::SCurve),
         ("table", Shape::Table),
         ("coast-down", Shape::CoastDown),
+        ("measured", Shape::Measured),
     ];
     if !r.has("profile") {
         r.missing("profile", "\"ramp\"");
@@ -186,6 +189,8 @@ pub(super) fn profile(top: &Reader) -> SpeedProfile {
             time_constant: duration("time_constant"),
             duration: duration("duration"),
         },
+        Some(Shape::Measured) => measured_speed::read(&r, files)
+            .unwrap_or(SpeedProfile::Constant { speed: 0.0, duration: 1.0 }),
         None => {
             r.entries();
             SpeedProfile::Constant { speed: 0.0, duration: 1.0 }

@@ -9,6 +9,7 @@ mod defects;
 mod imperfections;
 mod inertia;
 mod loading;
+mod measured_speed;
 mod mounting;
 mod places;
 mod rotor;
@@ -18,7 +19,7 @@ mod steady;
 mod study;
 mod topology;
 
-use super::Model;
+use super::{Model, SideFile};
 use super::file::diagnostic::{Kind, Log, Problem};
 use super::file::reader::{Reader, any, not_negative, positive};
 use super::file::tree::Table;
@@ -31,8 +32,8 @@ use places::Places;
 /// Standard gravity \[m/s²\].
 const STANDARD_GRAVITY: f64 = 9.80665;
 
-/// Read the whole model; it is sound only if nothing was logged as an error.
-pub(crate) fn build(root: &Table, log: &Log) -> Model {
+/// Read the whole model, `files` being those that it names; it is sound only if nothing was logged as an error.
+pub(crate) fn build(root: &Table, files: &[SideFile], log: &Log) -> Model {
     let top = Reader::new(root, "", 0..0, log);
     let (name, title, gravity) = head(&top);
     let materials = materials(&top);
@@ -73,7 +74,7 @@ pub(crate) fn build(root: &Table, log: &Log) -> Model {
         loads,
         damping: loading::damping(&top),
         drive: loading::drive(&top, &places),
-        profile: loading::profile(&top),
+        profile: loading::profile(&top, files),
         probes,
         studies: Studies::default(),
     };

@@ -1,21 +1,21 @@
 //! The ends of a bifurcation diagram's parameter: is there a model at each?
 
-use crate::model::Model;
 use crate::model::check;
 use crate::model::file::diagnostic::{Kind, Log, Problem, Sources};
 use crate::model::file::overlay::apply_set;
 use crate::model::file::tree::{Table, Value};
 use crate::model::study::{Continuation, Parameter};
+use crate::model::{Model, SideFile};
 
 /// Sets the parameter of a bifurcation diagram to its first and last value and reads the model again: a path that is
 /// not there, a unit that does not fit and a value that cannot be are told at the study, before anything runs.
-pub(super) fn check(root: &Table, model: &Model, log: &Log) {
+pub(super) fn check(root: &Table, files: &[SideFile], model: &Model, log: &Log) {
     let Some(study) = &model.studies.bifurcation else { return };
     let parameter = &study.parameter;
     let Some(last) = parameter.values.len().checked_sub(1) else { return };
     let mut ends = Vec::new();
     for k in [0, last] {
-        match at(root, parameter, k) {
+        match at(root, files, parameter, k) {
             Ok(model) => ends.push(model),
             Err(why) => {
                 let (key, kind) = if why.is_path { ("parameter", Kind::BadPath) } else { ("values", Kind::BadQuantity) };
@@ -48,13 +48,13 @@ struct Refusal {
     hint: Option<String>,
 }
 
-fn at(root: &Table, parameter: &Parameter, k: usize) -> Result<Model, Refusal> {
+fn at(root: &Table, files: &[SideFile], parameter: &Parameter, k: usize) -> Result<Model, Refusal> {
     let (mut varied, log, mut sources) = (root.clone(), Log::default(), Sources::default());
     for (path, value) in parameter.settings(k) {
         apply_set(&mut varied, &path, &value, &mut sources, &log);
     }
     let mut is_path = log.count() > 0;
-    let model = (!is_path).then(|| check::build(&varied, &log)).filter(|_| log.count() == 0);
+    let model = (!is_path).then(|| check::build(&varied, files, &log)).filter(|_| log.count() == 0);
     model.ok_or_else(|| {
         let first = sources.locate(log.into_parts().0).into_iter().next();
         is_path |= first.as_ref().is_some_and(|d| d.kind == Kind::UnknownKey);

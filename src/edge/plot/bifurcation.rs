@@ -1,0 +1,153 @@
+//! Bifurcation diagram: section points over a parameter, swept up and down, with what else is known of each motion.
+
+use super::axes::{Axes, Frame, Marker};
+use super::labels::{Entry, head};
+use super::panels::stack;
+use super::scale::{Range, Scale};
+use super::style::*;
+use super::svg::{Color, Style, Svg};
+
+/// The sweep drawn first: larger and lighter, so that what only it has stays to be seen, in grey too.
+const UNDER: Color = Color(240, 150, 96);
+/// The sweep drawn over it.
+const OVER: Color = Color(16, 60, 130);
+const RADII: [f64; 2] = [2.0, 0.9];
+
+/// One sweep; points in any order.
+#[derive(Clone, Debug, Default)]
+pub struct SweepPoints {
+    pub label: String,
+    /// Parameter and section value of every point.
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    /// Parameter and period of every motion that repeats, as a power of the axis: 1, 2, 3, ...
+    pub period: Vec<[f64; 2]>,
+    /// Parameters with quasi-periodic, and with chaotic motion.
+    pub quasi_periodic: Vec<f64>,
+    pub chaotic: Vec<f64>,
+    /// Parameter, largest Lyapunov exponent and its standard error; may be empty.
+    pub exponent: Vec<[f64; 3]>,
+}
+
+/// Data of a bifurcation diagram.
+#[derive(Clone, Debug, Default)]
+pub struct Bifurcation {
+    pub title: String,
+    pub note: String,
+    pub x_name: String,
+    pub x_unit: String,
+    pub y_name: String,
+    pub y_unit: String,
+    /// One sweep, or two that are to be told apart.
+    pub sweeps: Vec<SweepPoints>,
+}
+
+/// Highest period with a line of its own in the panel of kinds.
+const HIGHEST: f64 = 8.0;
+
+pub fn draw(data: &Bifurcation) -> Svg {
+    let sweeps = &data.sweeps[..data.sweeps.len().min(2)];
+    // The last one is drawn under the first.
+    let look = |k: usize| if k == 0 { (OVER, RADII[0.max(sweeps.len().min(2) - 1)]) } else { (UNDER, RADII[0]) };
+    let marker = |k: usize| {
+        let shape = if k == 0 { Marker::Circle } else { Marker::Square };
+        (shape, Style::fill(look(k).0))
+    };
+    let entry = |(k, s): (usize, &SweepPoints)| Entry::marker(&s.label, marker(k).0, marker(k).1);
+    let entries: Vec<Entry> = match sweeps {
+        [only] if only.label.is_empty() => Vec::new(),
+        sweeps => sweeps.iter().enumerate().map(entry).collect(),
+    };
+    let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
+    let followed = sweeps.iter().any(|s| !s.exponent.is_empty());
+    let mut heights = vec![330.0, 120.0];
+    if followed {
+        heights.push(130.0);
+    }
+    let frames = stack(top, WIDTH - LEFT - RIGHT, &heights);
+    let all = sweeps.iter().flat_map(|s| {
+        let periods = s.period.iter().map(|p| p[0]);
+        s.x.iter().copied().chain(periods).chain(s.quasi_periodic.iter().copied()).chain(s.chaotic.iter().copied())
+    });
+    let x = Range::of(all).padded(0.01);
+    let y = Range::of(sweeps.iter().flat_map(|s| s.y.iter().copied())).padded(0.06);
+    let main = Axes::linear(frames[0], x, y);
+    main.grid(&mut svg);
+    for (k, sweep) in sweeps.iter().enumerate().rev() {
+        let (color, radius) = look(k);
+        let dots = sweep.x.iter().zip(&sweep.y).map(|(&x, &y)| main.at(x, y)).filter(|p| main.holds(*p));
+        svg.dots(dots, radius, color);
+    }
+    main.border(&mut svg, None, &main.y.label(&data.y_name, &data.y_unit));
+    let x_label = main.x.label(&data.x_name, &data.x_unit);
+    kinds(&mut svg, sweeps, &look, frames[1], x, (!followed).then_some(x_label.as_str()));
+    if followed {
+        exponents(&mut svg, sweeps, &marker, frames[2], x, &x_label);
+    }
+    svg.height = frames.last().map_or(top, |f| f.bottom()) + BOTTOM;
+    svg
+}
+
+/// What kind of motion each value has: its period, or above them all quasi-periodic and chaotic.
+fn kinds(
+    svg: &mut Svg,
+    sweeps: &[SweepPoints],
+    look: &dyn Fn(usize) -> (Color, f64),
+    frame: Frame,
+    x: Range,
+    x_label: Option<&str>,
+) {
+    let top = HIGHEST + 1.0;
+    let mut axes = Axes::linear(frame, x, Range::new(0.3, top + 2.6));
+    axes.y = Scale::at_ticks(axes.y, &[1.0, 2.0, 4.0, HIGHEST, top, top + 1.6]);
+    let names = ["1", "2", "4", "8", "quasi-p.", "chaotic"];
+    for (tick, name) in axes.y.ticks.iter_mut().zip(names) {
+        tick.label = name.into();
+    }
+    axes.grid(svg);
+    for (k, sweep) in sweeps.iter().enumerate().rev() {
+        // Beside each other, so that both are seen where they agree.
+        let shift = if sweeps.len() < 2 { 0.0 } else { [-0.22, 0.22][k] };
+        let periods = sweep.period.iter().map(|[x, p]| [*x, p.min(HIGHEST)]);
+        let regular = sweep.quasi_periodic.iter().map(|x| [*x, top]);
+        let wild = sweep.chaotic.iter().map(|x| [*x, top + 1.6]);
+        let dots = periods.chain(regular).chain(wild).map(|[x, y]| axes.at(x, y + shift));
+        svg.dots(dots.filter(|p| axes.holds(*p)), 1.4, look(k).0);
+    }
+    axes.border(svg, x_label, "period");
+}
+
+fn exponents(
+    svg: &mut Svg,
+    sweeps: &[SweepPoints],
+    marker: &dyn Fn(usize) -> (Marker, Style),
+    frame: Frame,
+    x: Range,
+    x_label: &str,
+) {
+    let values = sweeps.iter().flat_map(|s| s.exponent.iter().map(|e| e[1]));
+    let axes = Axes::linear(frame, x, Range::with_zero(values).padded(0.08));
+    axes.grid(svg);
+    axes.segment(svg, [x.lo, 0.0], [x.hi, 0.0], Style::stroke(INK, 0.9));
+    for (k, sweep) in sweeps.iter().enumerate().rev() {
+        let (shape, style) = marker(k);
+        let mut points = sweep.exponent.clone();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        for [x, value, error] in &points {
+            // Two standard errors either way.
+            axes.segment(svg, [*x, value - 2.0 * error], [*x, value + 2.0 * error], Style {
+                fill: None,
+                stroke: style.fill,
+                width: 0.7,
+                ..style
+            });
+        }
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.iter().map(|p| (p[0], p[1])).unzip();
+        let line = Style { fill: None, stroke: style.fill, width: 0.8, ..style };
+        axes.curve(svg, &xs, &ys, line);
+        if points.len() < 120 {
+            axes.markers(svg, &xs, &ys, shape, style, 2.0);
+        }
+    }
+    axes.border(svg, Some(x_label), &axes.y.label("Lyapunov exponent", "1/s"));
+}

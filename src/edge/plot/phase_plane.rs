@@ -1,0 +1,135 @@
+//! Orbits with their Poincaré points: shaft orbits on equal axes, displacements over their rates on their own.
+
+use super::axes::{Axes, Frame, Marker};
+use super::labels::{Entry, head};
+use super::orbit::direction;
+use super::scale::{Range, extremes};
+use super::style::*;
+use super::svg::{Color, Dash, Point, Style, Svg, Text};
+use super::{font, thin};
+
+/// Most planes in one figure.
+const MOST: usize = 12;
+/// A clearance circle beyond this many times the orbit would hide it: then it is left out.
+const LARGE: f64 = 6.0;
+
+/// One plane of a motion; all values in the units of its axes.
+#[derive(Clone, Debug, Default)]
+pub struct PhasePlane {
+    pub title: String,
+    /// Name and unit of each axis.
+    pub x_name: String,
+    pub x_unit: String,
+    pub y_name: String,
+    pub y_unit: String,
+    /// One scale for both axes: an orbit as seen along the shaft.
+    pub equal: bool,
+    /// The orbit, in order of time; may be empty.
+    pub x: Vec<f64>,
+    pub y: Vec<f64>,
+    /// Its 1x part, in order of time; may be empty.
+    pub filtered_x: Vec<f64>,
+    pub filtered_y: Vec<f64>,
+    /// Where the keyphasor passes, as samples of the orbit.
+    pub keyphasor: Vec<usize>,
+    /// Section points.
+    pub section_x: Vec<f64>,
+    pub section_y: Vec<f64>,
+    /// Radius of the clearance circle about the origin.
+    pub clearance: Option<f64>,
+}
+
+/// Data of a figure of phase planes.
+#[derive(Clone, Debug, Default)]
+pub struct PhasePlanes {
+    pub title: String,
+    pub note: String,
+    pub planes: Vec<PhasePlane>,
+}
+
+const RAW: Style = Style::stroke(PALE, 0.8);
+const FILTERED: Style = Style::stroke(BLUE, 1.8);
+const CLEARANCE: Style = Style::stroke(INK, 1.0).dashed(Dash::Long);
+const KEYPHASOR: Style = Style::stroke(WHITE, 0.6).filled(INK);
+const SECTION: Color = RED;
+
+pub fn draw(data: &PhasePlanes) -> Svg {
+    let planes = &data.planes[..data.planes.len().min(MOST)];
+    let columns = if planes.len() > 1 { 2 } else { 1 };
+    let side = if columns == 1 { 380.0 } else { 286.0 };
+    let any = |has: fn(&PhasePlane) -> bool| planes.iter().any(has);
+    let mut entries = Vec::new();
+    if any(|p| !p.x.is_empty()) {
+        entries.push(Entry::line("orbit", RAW.thick(1.6)));
+    }
+    if any(|p| !p.filtered_x.is_empty()) {
+        entries.push(Entry::line("1x part", FILTERED));
+    }
+    if any(|p| !p.keyphasor.is_empty()) {
+        entries.push(Entry::marker("keyphasor", Marker::Square, KEYPHASOR));
+    }
+    entries.push(Entry::marker("section", Marker::Circle, Style::fill(SECTION)));
+    if any(|p| ring(p).is_some()) {
+        entries.push(Entry::line("clearance", CLEARANCE));
+    }
+    let cell = side + LEFT + RIGHT;
+    let width = (cell * columns as f64).max(500.0);
+    let (mut svg, top) = head(width, 16.0, &data.title, &data.note, &entries);
+    let row = side + BOTTOM + 24.0;
+    let none = PhasePlane::default();
+    for k in 0..planes.len().max(1) {
+        let x = (width - cell * columns as f64) / 2.0 + cell * (k % columns) as f64 + LEFT;
+        let y = top + row * (k / columns) as f64 + 18.0;
+        panel(&mut svg, planes.get(k).unwrap_or(&none), Frame { x, y, w: side, h: side });
+    }
+    svg.height = top + row * planes.len().max(1).div_ceil(columns) as f64 + 4.0;
+    svg
+}
+
+/// The clearance circle, where it is not far outside what moves.
+fn ring(plane: &PhasePlane) -> Option<f64> {
+    let all = plane.x.iter().chain(&plane.y).chain(&plane.section_x).chain(&plane.section_y);
+    let seen = extremes(all.map(|v| v.abs())).map_or(0.0, |e| e.1);
+    plane.clearance.filter(|c| c.is_finite() && *c > 0.0 && plane.equal && *c < LARGE * seen)
+}
+
+fn panel(svg: &mut Svg, plane: &PhasePlane, frame: Frame) {
+    let circle = ring(plane);
+    let edge = || circle.into_iter().flat_map(|c| [-c, c]);
+    let range = |lists: [&[f64]; 3]| Range::of(lists.into_iter().flatten().copied().chain(edge())).padded(0.08);
+    let x = range([&plane.x, &plane.filtered_x, &plane.section_x]);
+    let y = range([&plane.y, &plane.filtered_y, &plane.section_y]);
+    let axes = if plane.equal { Axes::equal(frame, x, y) } else { Axes::linear(frame, x, y) };
+    axes.grid(svg);
+    if let Some(c) = circle {
+        let turn = |k: u32| (f64::from(k) * 3f64).to_radians().sin_cos();
+        let points: Vec<Point> = (0..=120).map(turn).map(|(s, o)| axes.at(c * o, c * s)).collect();
+        axes.clipped(svg, &points, CLEARANCE);
+    }
+    let page = |x: &[f64], y: &[f64]| thin::free(x.iter().zip(y).map(|(&x, &y)| axes.at(x, y)));
+    let (orbit, filtered) = (page(&plane.x, &plane.y), page(&plane.filtered_x, &plane.filtered_y));
+    axes.clipped(svg, &orbit, RAW);
+    axes.clipped(svg, &filtered, FILTERED);
+    let dots: Vec<Point> =
+        plane.section_x.iter().zip(&plane.section_y).map(|(&x, &y)| axes.at(x, y)).collect();
+    // Many points are an attractor, whose fine structure large dots would hide.
+    let radius = if dots.len() > 400 { 1.1 } else { 1.9 };
+    svg.dots(dots.into_iter().filter(|p| axes.holds(*p)), radius, SECTION);
+    for (&x, &y) in plane.keyphasor.iter().take(400).filter_map(|&k| plane.x.get(k).zip(plane.y.get(k))) {
+        let at = axes.at(x, y);
+        if axes.holds(at) {
+            Marker::Square.draw(svg, at, KEYPHASOR);
+        }
+    }
+    match filtered.len() > 3 {
+        true => direction(svg, &filtered, BLUE),
+        false => direction(svg, &orbit, INK),
+    }
+    axes.border(
+        svg,
+        Some(&axes.x.label(&plane.x_name, &plane.x_unit)),
+        &axes.y.label(&plane.y_name, &plane.y_unit),
+    );
+    let title = font::fit(&plane.title, LABEL, frame.w + 40.0);
+    svg.text([frame.x, frame.y - 7.0], &title, Text::new(LABEL, INK));
+}
