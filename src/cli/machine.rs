@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use rotordyn::bearing::BallBearing;
 use rotordyn::edge::parry::BearingShapes;
-use rotordyn::model::{self, Diagnostic, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source};
+use rotordyn::edge::side_file;
+use rotordyn::model::{
+    self, Diagnostic, Kind, Loaded, LoadedBearings, ModelErrors, Options, SideFile, Source,
+};
 
 use super::args::ModelArgs;
 use super::failure::Failure;
@@ -20,6 +23,10 @@ pub struct Origin {
     pub name: String,
     pub text: Vec<u8>,
     pub options: Options,
+    /// Folder that the paths in it count from.
+    pub folder: PathBuf,
+    /// The files that it names, where they are known already: those of a stored run.
+    pub files: Option<Vec<SideFile>>,
 }
 
 impl Origin {
@@ -28,14 +35,16 @@ impl Origin {
             .map_err(|error| Failure::environment("read the model file", &args.model, error))?;
         let variant = args.variant.clone().filter(|name| name != "base");
         let options = Options { variant, set: args.set.clone() };
-        Ok(Self { name: args.model.display().to_string(), text, options })
+        let folder = args.model.parent().map(PathBuf::from).unwrap_or_default();
+        Ok(Self { name: args.model.display().to_string(), text, options, folder, files: None })
     }
 
     /// The checked model, with settings of a command laid over those of the user.
     pub fn load(&self, settings: &[(String, String)]) -> Result<Loaded, Failure> {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
-        let loaded = model::load(&self.name, &self.text, &options)?;
+        let files = self.side_files(&options);
+        let loaded = model::load_with(&self.name, &self.text, &options, &files)?;
         let balls =
             loaded.model.bearings.iter().filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?)));
         overlaps(balls, &loaded.text, &loaded.sources)?;
@@ -46,10 +55,18 @@ impl Origin {
     pub fn load_bearings(&self, settings: &[(String, String)]) -> Result<LoadedBearings, Failure> {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
-        let loaded = model::load_bearings(&self.name, &self.text, &options)?;
+        let files = self.side_files(&options);
+        let loaded = model::load_bearings_with(&self.name, &self.text, &options, &files)?;
         let balls = loaded.bearings.iter().map(|(name, ball)| (name.as_str(), ball));
         overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
+    }
+
+    /// The files that the model names, varied as told.
+    pub fn side_files(&self, options: &Options) -> Vec<SideFile> {
+        let read = || model::side_files(&self.text, options);
+        let named = || read().iter().map(|path| side_file::read(&self.folder, path)).collect();
+        self.files.clone().unwrap_or_else(named)
     }
 
     /// The same file with another variant; `base` is none.

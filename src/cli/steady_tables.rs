@@ -18,19 +18,24 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     let m = &found.motion;
     let chaos = if m.chaos.is_nan() { "-".into() } else { format!("{:.3}", m.chaos) };
     terminal.table(
-        &format!("Motion at {:.1} rpm, {points} points, one per {}", rpm(found.speed), in_words(&found.clock)),
+        &format!(
+            "Motion at {:.1} rpm, {points} points, one per {}",
+            rpm(found.speed),
+            in_words(&found.clock)
+        ),
         &["motion", "recurrence", "K of 0-1 test", "groups"],
         &[vec![m.motion.name(), format!("{:.1e}", m.recurrence), chaos, found.groups.to_string()]],
     );
-    let span = |v: &[f64], unit: &str| {
-        let (l, h) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
+    let span = |v: &mut dyn Iterator<Item = &f64>, unit: &str| {
+        let (l, h) = v.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
         format!("{} {unit}", number(h - l, 4))
     };
     let row = |p: &PlaneSection| {
         let mut row = vec![p.name.clone()];
         for k in 0..2 {
-            row.push(span(&p.orbit[k], &p.axes[k].unit));
-            row.push(span(&p.section[k], &p.axes[k].unit));
+            // Of the orbit only the last periods are kept.
+            row.push(span(&mut p.orbit[k].iter().chain(&p.section[k]), &p.axes[k].unit));
+            row.push(span(&mut p.section[k].iter(), &p.axes[k].unit));
         }
         row.push(p.whirl.as_ref().map_or("-".into(), |w| w.name().to_string()));
         row.push(p.whirl.as_ref().map_or("-".into(), |w| number(w.once.semi_axes().0, 3)));
@@ -85,8 +90,12 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
         if rows.len() > MOST {
             shown.push(vec![format!("and {} more stretches: results.h5", rows.len() - MOST)]);
         }
-        let title =
-            format!("Motions over {}{unit}, {}, one section per {}", parameter.name(), sweep.name, found.clock);
+        let title = format!(
+            "Motions over {}{unit}, {}, one section per {}",
+            parameter.name(),
+            sweep.name,
+            found.clock
+        );
         let header = ["from", "to", "values", "motion", "exponent 1/s"];
         terminal.table(&title, &header, &shown);
     }
@@ -149,6 +158,7 @@ impl Run {
 
 /// "shaft turn at 0 deg (20 Hz)".
 fn in_words(clock: &SectionClock) -> String {
-    let phase = if clock.phase == 0.0 { String::new() } else { format!(" at {:.1} deg", clock.phase.to_degrees()) };
+    let phase =
+        if clock.phase == 0.0 { String::new() } else { format!(" at {:.1} deg", clock.phase.to_degrees()) };
     format!("{}{phase} ({} Hz)", clock.name, number(clock.frequency, 5))
 }

@@ -62,6 +62,7 @@ pub fn open(
         settings: &settings,
     };
     results_file::write_meta(&store, &meta)?;
+    results_file::write_side_files(&store, &origin.side_files(&origin.options))?;
     Ok(store)
 }
 
@@ -78,5 +79,7 @@ pub fn stored_origin(store: &Store) -> Result<Origin, Failure> {
         name: format!("{} /meta model", store.path().display()),
         text: text("model")?.into_bytes(),
         options: Options { variant, set },
+        folder: store.path().parent().map(Path::to_path_buf).unwrap_or_default(),
+        files: Some(results_file::read_side_files(store)?),
     })
 }

@@ -19,6 +19,7 @@ pub mod plot;
 pub mod rapier;
 pub mod results_file;
 pub mod scene;
+pub mod side_file;
 pub mod uff;
 pub mod vtk;
 pub mod wav;

@@ -76,7 +76,8 @@ mod tests {
 
     #[test]
     fn a_cubic_is_reproduced() {
-        let f = |x: f64| [1.0 - x + 2.0 * x * x - 0.3 * x.powi(3), -1.0 + 4.0 * x - 0.9 * x * x, 4.0 - 1.8 * x];
+        let f =
+            |x: f64| [1.0 - x + 2.0 * x * x - 0.3 * x.powi(3), -1.0 + 4.0 * x - 0.9 * x * x, 4.0 - 1.8 * x];
         for n in [4, 5, 9] {
             let x: Vec<f64> = (0..n).map(|k| f64::from(k) * 0.4 + 0.01 * f64::from(k * k)).collect();
             let y: Vec<f64> = x.iter().map(|x| f(*x)[0]).collect();

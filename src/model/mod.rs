@@ -12,8 +12,8 @@ pub mod study;
 pub use check::catalogue;
 pub use file::{Diagnostic, Kind, ModelErrors, Source};
 pub use load::{
-    Loaded, LoadedBearings, Options, load, load_bearings, load_bearings_with, load_with, place_of, side_files,
-    variants,
+    Loaded, LoadedBearings, Options, load, load_bearings, load_bearings_with, load_with, place_of,
+    side_files, variants,
 };
 pub use side_file::{SideColumn, SideFile};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};

@@ -94,7 +94,8 @@ impl SpeedProfile {
 
     /// The profile made ready for evaluation.
     pub fn curve(&self) -> SpeedCurve {
-        let columns = |points: &[[f64; 2]]| -> (Vec<f64>, Vec<f64>) { points.iter().map(|p| (p[0], p[1])).unzip() };
+        let columns =
+            |points: &[[f64; 2]]| -> (Vec<f64>, Vec<f64>) { points.iter().map(|p| (p[0], p[1])).unzip() };
         let (mut table, mut pulses) = (None, None);
         match self {
             Self::Table { points } => {

@@ -57,8 +57,10 @@ impl Machine {
         let Some(run) = self.steady_run(&reduction, state, steady, &probes, None, progress)? else {
             return Ok(None);
         };
-        let (strobe, motion) = sections(&run, steady, study.tolerance, study.longest_period)?;
-        let reach: Vec<f64> = motion.extremes.iter().map(|[l, h]| study.tolerance * (h - l)).collect();
+        let channels: Vec<SectionChannel> = probes.iter().map(|probe| described(probe)).collect();
+        let (strobe, motion) = sections(&run, &channels, steady, study.tolerance, study.longest_period)?;
+        let reach: Vec<f64> =
+            sizes(&motion.extremes, &channels).iter().map(|size| study.tolerance * size).collect();
         let all: Vec<&[f64]> = motion.sections.iter().map(Vec::as_slice).collect();
         let groups = clusters(&all, &reach)?.len();
         // The orbit's last whole periods.
@@ -198,6 +200,7 @@ impl CarriedState {
 /// the last period.
 pub(super) fn sections(
     run: &SteadyRun,
+    channels: &[SectionChannel],
     steady: &Steady,
     tolerance: f64,
     longest: usize,
@@ -215,7 +218,7 @@ pub(super) fn sections(
         channel.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [v.min(l), v.max(h)])
     };
     let extremes: Vec<[f64; 2]> = run.channels.iter().map(extreme).collect();
-    let sizes: Vec<f64> = extremes.iter().map(|[l, h]| h - l).collect();
+    let sizes = sizes(&extremes, channels);
     let slices: Vec<&[f64]> = found.iter().map(Vec::as_slice).collect();
     let motion = classify(&slices, &sizes, tolerance, longest)?;
     let exponent = match run.log_growth[..] {
@@ -227,6 +230,16 @@ pub(super) fn sections(
     Ok((strobe, SteadyMotion { sections: found, extremes, frequency, motion, exponent }))
 }
 
+/// Size of the orbit that a channel belongs to: the largest peak to peak of all channels in its unit. What hardly moves
+/// beside the others is not looked at through a glass.
+pub(super) fn sizes(extremes: &[[f64; 2]], channels: &[SectionChannel]) -> Vec<f64> {
+    let alike = |c: &SectionChannel| {
+        let same = extremes.iter().zip(channels).filter(|(_, other)| other.unit == c.unit);
+        same.map(|([l, h], _)| h - l).fold(0.0, f64::max)
+    };
+    channels.iter().map(alike).collect()
+}
+
 pub(super) fn described(probe: &Probe) -> SectionChannel {
     let unit = unit_of(probe.quantity, is_rotation(&probe.direction)).into();
     SectionChannel { name: probe.name.clone(), unit }
@@ -234,9 +247,8 @@ pub(super) fn described(probe: &Probe) -> SectionChannel {
 
 /// Whether a plane shows x and y of one point, as seen along the shaft.
 fn is_orbit(plane: &Plane) -> bool {
-    let along = |probe: &Probe, axis: usize| {
-        (0..6).all(|k| probe.direction[k] == if k == axis { 1.0 } else { 0.0 })
-    };
+    let along =
+        |probe: &Probe, axis: usize| (0..6).all(|k| probe.direction[k] == if k == axis { 1.0 } else { 0.0 });
     let (x, y) = (&plane.x, &plane.y);
     x.at == y.at && x.quantity == y.quantity && along(x, 0) && along(y, 1)
 }

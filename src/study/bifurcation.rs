@@ -194,7 +194,8 @@ fn motion(
     let probes: Vec<_> = study.channels.iter().collect();
     let run = machine.steady_run(&reduction, state, &study.steady, &probes, study.perturbation, progress)?;
     let Some(run) = run else { return Ok(None) };
-    let (_, found) = sections(&run, &study.steady, study.tolerance, study.longest_period)?;
+    let channels: Vec<_> = study.channels.iter().map(described).collect();
+    let (_, found) = sections(&run, &channels, &study.steady, study.tolerance, study.longest_period)?;
     Ok(Some((found, CarriedState::new(&reduction, &run.state))))
 }
 

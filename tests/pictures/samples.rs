@@ -153,6 +153,46 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             }],
             ..Default::default()
         }),
+        Figure::PhasePlanes(PhasePlanes {
+            title: name.clone(),
+            note: name.clone(),
+            planes: vec![
+                PhasePlane {
+                    title: name.clone(),
+                    x_unit: labelled("µm"),
+                    equal: true,
+                    x: x.clone(),
+                    y: y.clone(),
+                    filtered_x: y.clone(),
+                    filtered_y: x.clone(),
+                    keyphasor: vec![0, 7, usize::MAX],
+                    section_x: x.clone(),
+                    section_y: y.clone(),
+                    clearance: Some(value(2)),
+                    ..Default::default()
+                },
+                PhasePlane { section_x: y.clone(), section_y: y.clone(), ..Default::default() },
+            ],
+        }),
+        Figure::Bifurcation(Bifurcation {
+            title: name.clone(),
+            x_name: name.clone(),
+            y_unit: labelled("µm"),
+            sweeps: vec![
+                SweepPoints {
+                    label: name.clone(),
+                    x: x.clone(),
+                    y: y.clone(),
+                    period: x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect(),
+                    quasi_periodic: x.clone(),
+                    chaotic: y.clone(),
+                    exponent: x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.1 * y]).collect(),
+                },
+                SweepPoints { x: y.clone(), y: x.clone(), ..Default::default() },
+                SweepPoints::default(),
+            ],
+            ..Default::default()
+        }),
         Figure::Orbits(Orbits {
             title: name.clone(),
             orbits: vec![Orbit {

@@ -242,6 +242,41 @@ fn zero_one_test_does_not_see_offset_or_size() {
     }
 }
 
+/// Tori of one and two frequencies, slow and fast, smooth and with a corner, on the hundred points that a bifurcation
+/// diagram has of each; and maps in their chaotic ranges. The test as published (n up to N/10) calls half of these tori
+/// chaotic.
+#[test]
+fn tori_are_told_from_chaos_on_a_hundred_points() {
+    let mut worst = [f64::NEG_INFINITY, f64::INFINITY];
+    for points in [100, 200, 300] {
+        for k in 0..120 {
+            // Rotation numbers from 0.0005 to 0.5, spread by √2 and the golden ratio.
+            let rotation = 5e-4 + 0.4995 * (f64::from(k) * 2f64.sqrt()).fract().powf(1.5);
+            let other = 0.5 * (f64::from(k) * 0.618_034 + 0.2).fract();
+            let weight = (f64::from(k) * 0.317).fract();
+            let at = |n: usize| {
+                let turn = TAU * rotation * n as f64 + 1.0;
+                match k % 4 {
+                    0 => turn.cos() + weight * (2.0 * turn).cos() + 0.2 * (3.0 * turn).sin(),
+                    1 => turn.cos() + weight * (TAU * other * n as f64).cos(),
+                    2 => turn.cos().abs() + weight * turn.cos(),
+                    _ => turn.cos() * (1.0 + 0.5 * (TAU * 0.0031 * n as f64).cos()),
+                }
+            };
+            let chaos = zero_one(&(0..points).map(at).collect::<Vec<_>>()).unwrap();
+            worst[0] = worst[0].max(chaos);
+            assert!(chaos < 0.5, "{points} points, rotation {rotation}, kind {}: {chaos}", k % 4);
+        }
+        // Windows of the logistic map left out.
+        for r in [3.68, 3.7, 3.72, 3.76, 3.78, 3.8, 3.82, 3.87, 3.9, 3.93, 3.97, 4.0] {
+            let chaos = zero_one(&logistic(r, 1000, points)).unwrap();
+            worst[1] = worst[1].min(chaos);
+            assert!(chaos > 0.5, "{points} points, r = {r}: {chaos}");
+        }
+    }
+    println!("tori at most {:.2}, chaos at least {:.2}", worst[0], worst[1]);
+}
+
 #[test]
 fn groups_are_chains_of_near_points() {
     // Two groups in the plane that overlap in either channel alone.

@@ -79,12 +79,8 @@ pub fn lyapunov(found: &LyapunovResult, machine: &Machine) -> Named {
         let x: Vec<f64> = ends.collect();
         Curve { label: label.into(), y: vec![e.value + offset; x.len()], x, points: false }
     };
-    let history = Curve {
-        label: "mean growth so far".into(),
-        x: e.times.clone(),
-        y: e.history.clone(),
-        points: false,
-    };
+    let history =
+        Curve { label: "mean growth so far".into(), x: e.times.clone(), y: e.history.clone(), points: false };
     let mut curves = vec![history];
     if e.standard_error.is_finite() {
         curves.push(level(2.0 * e.standard_error, "two standard errors above"));

@@ -11,7 +11,6 @@ use super::svg::{Color, Style, Svg};
 const UNDER: Color = Color(240, 150, 96);
 /// The sweep drawn over it.
 const OVER: Color = Color(16, 60, 130);
-const RADII: [f64; 2] = [2.0, 0.9];
 
 /// One sweep; points in any order.
 #[derive(Clone, Debug, Default)]
@@ -44,11 +43,15 @@ pub struct Bifurcation {
 
 /// Highest period with a line of its own in the panel of kinds.
 const HIGHEST: f64 = 8.0;
+/// Heights of motions without a period.
+const REGULAR: f64 = HIGHEST + 1.7;
+const WILD: f64 = HIGHEST + 3.4;
 
 pub fn draw(data: &Bifurcation) -> Svg {
     let sweeps = &data.sweeps[..data.sweeps.len().min(2)];
-    // The last one is drawn under the first.
-    let look = |k: usize| if k == 0 { (OVER, RADII[0.max(sweeps.len().min(2) - 1)]) } else { (UNDER, RADII[0]) };
+    // The last of two is drawn under the first.
+    let over = if sweeps.len() > 1 { 0.9 } else { 1.2 };
+    let look = |k: usize| if k == 0 { (OVER, over) } else { (UNDER, 2.0) };
     let marker = |k: usize| {
         let shape = if k == 0 { Marker::Circle } else { Marker::Square };
         (shape, Style::fill(look(k).0))
@@ -67,7 +70,11 @@ pub fn draw(data: &Bifurcation) -> Svg {
     let frames = stack(top, WIDTH - LEFT - RIGHT, &heights);
     let all = sweeps.iter().flat_map(|s| {
         let periods = s.period.iter().map(|p| p[0]);
-        s.x.iter().copied().chain(periods).chain(s.quasi_periodic.iter().copied()).chain(s.chaotic.iter().copied())
+        s.x.iter()
+            .copied()
+            .chain(periods)
+            .chain(s.quasi_periodic.iter().copied())
+            .chain(s.chaotic.iter().copied())
     });
     let x = Range::of(all).padded(0.01);
     let y = Range::of(sweeps.iter().flat_map(|s| s.y.iter().copied())).padded(0.06);
@@ -97,10 +104,9 @@ fn kinds(
     x: Range,
     x_label: Option<&str>,
 ) {
-    let top = HIGHEST + 1.0;
-    let mut axes = Axes::linear(frame, x, Range::new(0.3, top + 2.6));
-    axes.y = Scale::at_ticks(axes.y, &[1.0, 2.0, 4.0, HIGHEST, top, top + 1.6]);
-    let names = ["1", "2", "4", "8", "quasi-p.", "chaotic"];
+    let mut axes = Axes::linear(frame, x, Range::new(0.3, WILD + 0.8));
+    axes.y = Scale::at_ticks(axes.y, &[1.0, 2.0, 4.0, HIGHEST, REGULAR, WILD]);
+    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic"];
     for (tick, name) in axes.y.ticks.iter_mut().zip(names) {
         tick.label = name.into();
     }
@@ -109,8 +115,8 @@ fn kinds(
         // Beside each other, so that both are seen where they agree.
         let shift = if sweeps.len() < 2 { 0.0 } else { [-0.22, 0.22][k] };
         let periods = sweep.period.iter().map(|[x, p]| [*x, p.min(HIGHEST)]);
-        let regular = sweep.quasi_periodic.iter().map(|x| [*x, top]);
-        let wild = sweep.chaotic.iter().map(|x| [*x, top + 1.6]);
+        let regular = sweep.quasi_periodic.iter().map(|x| [*x, REGULAR]);
+        let wild = sweep.chaotic.iter().map(|x| [*x, WILD]);
         let dots = periods.chain(regular).chain(wild).map(|[x, y]| axes.at(x, y + shift));
         svg.dots(dots.filter(|p| axes.holds(*p)), 1.4, look(k).0);
     }
@@ -135,12 +141,12 @@ fn exponents(
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         for [x, value, error] in &points {
             // Two standard errors either way.
-            axes.segment(svg, [*x, value - 2.0 * error], [*x, value + 2.0 * error], Style {
-                fill: None,
-                stroke: style.fill,
-                width: 0.7,
-                ..style
-            });
+            axes.segment(
+                svg,
+                [*x, value - 2.0 * error],
+                [*x, value + 2.0 * error],
+                Style { fill: None, stroke: style.fill, width: 0.7, ..style },
+            );
         }
         let (xs, ys): (Vec<f64>, Vec<f64>) = points.iter().map(|p| (p[0], p[1])).unzip();
         let line = Style { fill: None, stroke: style.fill, width: 0.8, ..style };

@@ -96,7 +96,8 @@ fn ring(plane: &PhasePlane) -> Option<f64> {
 fn panel(svg: &mut Svg, plane: &PhasePlane, frame: Frame) {
     let circle = ring(plane);
     let edge = || circle.into_iter().flat_map(|c| [-c, c]);
-    let range = |lists: [&[f64]; 3]| Range::of(lists.into_iter().flatten().copied().chain(edge())).padded(0.08);
+    let range =
+        |lists: [&[f64]; 3]| Range::of(lists.into_iter().flatten().copied().chain(edge())).padded(0.08);
     let x = range([&plane.x, &plane.filtered_x, &plane.section_x]);
     let y = range([&plane.y, &plane.filtered_y, &plane.section_y]);
     let axes = if plane.equal { Axes::equal(frame, x, y) } else { Axes::linear(frame, x, y) };

@@ -3,6 +3,7 @@
 //! | group | holds |
 //! |---|---|
 //! | `/meta` | attributes: program, version, git, model (its text), title, variant, settings, seed, units |
+//! | `/meta/files` | columns of the files that the model names |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
 //! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls |
 //! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
@@ -24,9 +25,11 @@
 mod bearing;
 mod linear;
 mod run;
+mod side_file;
 mod signal;
 mod steady;
 
+pub use side_file::{read_side_files, write_side_files};
 pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};

@@ -68,11 +68,17 @@ pub fn bifurcation(store: &Store, found: &BifurcationResult) -> Result<(), Error
         let kinds: Vec<String> = sweep
             .points
             .iter()
-            .map(|p| p.found.as_ref().map_or_else(|reason| format!("none: {reason}"), |m| m.motion.motion.name()))
+            .map(|p| {
+                p.found.as_ref().map_or_else(|reason| format!("none: {reason}"), |m| m.motion.motion.name())
+            })
             .collect();
         at.texts("motion", &[n], &kinds)?;
         let mut columns = vec![
-            ("period", "periods of the clock", over(&|m| m.motion.motion.period().map_or(f64::NAN, |k| k as f64))),
+            (
+                "period",
+                "periods of the clock",
+                over(&|m| m.motion.motion.period().map_or(f64::NAN, |k| k as f64)),
+            ),
             ("recurrence", "1", over(&|m| m.motion.recurrence)),
             ("zero_one", "1", over(&|m| m.motion.chaos)),
             ("frequency", "Hz", over(&|m| m.frequency)),

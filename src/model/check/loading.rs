@@ -189,8 +189,9 @@ pub(super) fn profile(top: &Reader, files: &[SideFile]) -> SpeedProfile {
             time_constant: duration("time_constant"),
             duration: duration("duration"),
         },
-        Some(Shape::Measured) => measured_speed::read(&r, files)
-            .unwrap_or(SpeedProfile::Constant { speed: 0.0, duration: 1.0 }),
+        Some(Shape::Measured) => {
+            measured_speed::read(&r, files).unwrap_or(SpeedProfile::Constant { speed: 0.0, duration: 1.0 })
+        }
         None => {
             r.entries();
             SpeedProfile::Constant { speed: 0.0, duration: 1.0 }

@@ -69,7 +69,8 @@ pub(super) fn read(r: &Reader, files: &[SideFile]) -> Option<SpeedProfile> {
 fn columns<'f>(r: &Reader, path: &str, files: &'f [SideFile]) -> Option<&'f [SideColumn]> {
     let problem = |message: String| Problem::new(Kind::UnknownName, &r.span_of("file"), message);
     let Some(file) = files.iter().find(|file| file.path == path) else {
-        r.log.error(problem(format!("`{path}` was not read")).hint("load the model with its files beside it"));
+        r.log
+            .error(problem(format!("`{path}` was not read")).hint("load the model with its files beside it"));
         return None;
     };
     match &file.content {
@@ -91,8 +92,11 @@ fn choose<'f>(r: &Reader, columns: &'f [SideColumn], wanted: Option<&str>) -> Op
     if let Some(name) = wanted {
         let found = columns.iter().find(|c| c.name == name);
         if found.is_none() {
-            let problem =
-                Problem::new(Kind::UnknownName, &r.span_of("column"), format!("the file has no column `{name}`"));
+            let problem = Problem::new(
+                Kind::UnknownName,
+                &r.span_of("column"),
+                format!("the file has no column `{name}`"),
+            );
             r.log.error(problem.suggest(name, names()));
         }
         return found;
@@ -176,7 +180,11 @@ fn from_pulses(
             }
         }
     } else if smoothing == 1 {
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of("smoothing"), "one pulse on either side smooths nothing");
+        let problem = Problem::new(
+            Kind::OutOfRange,
+            &r.span_of("smoothing"),
+            "one pulse on either side smooths nothing",
+        );
         r.log.error(problem.expected("0, or 2 pulses or more"));
         return None;
     }
@@ -184,7 +192,11 @@ fn from_pulses(
     let end = train.times[train.times.len() - 1];
     let duration = to.unwrap_or(end).min(end) - start;
     if duration <= 0.0 {
-        r.error(Kind::OutOfRange, if to.is_some() { "to" } else { key }, "there are no pulses between from and to");
+        r.error(
+            Kind::OutOfRange,
+            if to.is_some() { "to" } else { key },
+            "there are no pulses between from and to",
+        );
         return None;
     }
     let points = train.times.iter().zip(&train.revolutions);
@@ -208,7 +220,8 @@ fn from_speeds(
     finite(r, time)?;
     rising(r, time, &time.values)?;
     if let Some(k) = speeds.values.iter().position(|v| *v < 0.0) {
-        let message = format!("column `{}` is negative, {}, at value {}", speeds.name, speeds.values[k], k + 1);
+        let message =
+            format!("column `{}` is negative, {}, at value {}", speeds.name, speeds.values[k], k + 1);
         let problem = Problem::new(Kind::OutOfRange, &r.span_of("file"), message);
         r.log.error(problem.expected("a shaft that turns one way: speeds of zero or more"));
         return None;

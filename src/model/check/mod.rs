@@ -19,11 +19,11 @@ mod steady;
 mod study;
 mod topology;
 
-use super::{Model, SideFile};
 use super::file::diagnostic::{Kind, Log, Problem};
 use super::file::reader::{Reader, any, not_negative, positive};
 use super::file::tree::Table;
 use super::study::Studies;
+use super::{Model, SideFile};
 use crate::bearing::Bearing;
 use crate::element::Material;
 use crate::units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};

@@ -18,9 +18,14 @@ pub(super) fn check(root: &Table, files: &[SideFile], model: &Model, log: &Log) 
         match at(root, files, parameter, k) {
             Ok(model) => ends.push(model),
             Err(why) => {
-                let (key, kind) = if why.is_path { ("parameter", Kind::BadPath) } else { ("values", Kind::BadQuantity) };
-                let message =
-                    format!("{} cannot be {}: {}", parameter.paths.join(", "), parameter.texts[k], why.message);
+                let (key, kind) =
+                    if why.is_path { ("parameter", Kind::BadPath) } else { ("values", Kind::BadQuantity) };
+                let message = format!(
+                    "{} cannot be {}: {}",
+                    parameter.paths.join(", "),
+                    parameter.texts[k],
+                    why.message
+                );
                 let mut problem = Problem::new(kind, &span(root, key), message);
                 if let Some(hint) = why.hint {
                     problem = problem.hint(hint);

@@ -1,0 +1,29 @@
+//! Files that a model file names, read as columns of numbers.
+
+use std::path::Path;
+
+use super::measured;
+use crate::model::{SideColumn, SideFile};
+use crate::signal::record::{AxisQuantity, Values};
+
+/// Reads a file whose path counts from `folder`; why it could not be read is part of the answer.
+///
+/// The axis of times that columns share becomes a column `time` of its own.
+pub fn read(folder: &Path, path: &str) -> SideFile {
+    let content = measured::read(&folder.join(path)).map_err(|error| error.to_string()).map(|found| {
+        let mut columns: Vec<SideColumn> = Vec::new();
+        for record in found.records {
+            let Values::Real(values) = record.values else { continue };
+            let listed =
+                record.axis.points(values.len()).filter(|_| record.axis.quantity == AxisQuantity::Time);
+            if let Some(points) = listed
+                && !columns.iter().any(|c| c.name == "time")
+            {
+                columns.insert(0, SideColumn { name: "time".into(), unit: "s".into(), values: points });
+            }
+            columns.push(SideColumn { name: record.name, unit: record.unit, values });
+        }
+        columns
+    });
+    SideFile { path: path.into(), content }
+}
