@@ -6,7 +6,6 @@ use nalgebra::DVector;
 
 use super::Machine;
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
-use crate::bearing::Bearing;
 use crate::element::Anchor;
 use crate::error::Error;
 use crate::model::study::{Clock, LyapunovStudy, Plane, PoincareStudy, Steady};
@@ -272,10 +271,8 @@ fn whirl([x, y]: &[Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
 /// where the orbit is that within the bearing.
 fn clearance(model: &Model, plane: &Plane) -> Option<f64> {
     let here = |site: &&BearingSite| plane.x.at == Anchor::node(site.node) && site.housing.node.is_none();
-    match &model.bearings.iter().find(here)?.bearing {
-        Bearing::Ball(ball) => Some(0.5 * ball.geometry.radial_clearance).filter(|c| *c > 0.0),
-        Bearing::Linear(_) => None,
-    }
+    let ball = model.bearings.iter().find(here)?.bearing.ball()?;
+    Some(0.5 * ball.geometry.radial_clearance).filter(|c| *c > 0.0)
 }
 
 fn section_clock(model: &Model, steady: &Steady, frequency: f64) -> SectionClock {
