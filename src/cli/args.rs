@@ -391,31 +391,21 @@ Examples:
     /// Runs from static equilibrium, lets the motion settle, then looks at it once per turn of the shaft or of a cage,
     /// or per ball passage: period n, quasi-periodic or chaotic. Settings come from [study.poincare]; flags override
     /// them.
-    #[command(after_long_help = "\
-Examples:
-  rotordyn poincare models/varying_compliance.toml --speed \"900 rpm\"
-  rotordyn poincare models/overhung_rig.toml --section ball-pass --bearing B --plane \"disc_x, disc_y\"")]
+    #[command(after_long_help = super::steady_args::POINCARE)]
     Poincare(Box<PoincareArgs>),
 
     /// Largest Lyapunov exponent at steady speed, with its standard error
     ///
     /// Follows a run beside the first from a slightly different state, at the same shaft and cage angles. Settings come
     /// from [study.lyapunov]; flags override them.
-    #[command(after_long_help = "\
-Examples:
-  rotordyn lyapunov models/varying_compliance.toml --speed \"900 rpm\" --periods 2000")]
+    #[command(after_long_help = super::steady_args::LYAPUNOV)]
     Lyapunov(Box<SteadyArgs>),
 
     /// Bifurcation diagram over any value of the model, swept up and down on every core
     ///
     /// Each value starts from where the one before ended, so that the two ways may find two motions. Settings come from
     /// [study.bifurcation]; flags override them. Ctrl-C leaves what was computed.
-    #[command(after_long_help = "\
-Examples:
-  rotordyn bifurcation models/varying_compliance.toml
-  rotordyn bifurcation my_machine.toml --parameter speed --from \"500 rpm\" --to \"5000 rpm\" --count 200
-  rotordyn bifurcation my_machine.toml --parameter bearing.B.radial_clearance --from \"0 um\" --to \"40 um\" --lyapunov
-  rotordyn bifurcation my_machine.toml --parameter bearing.B.balls --from 6 --to 16 --start equilibrium")]
+    #[command(after_long_help = super::steady_args::BIFURCATION)]
     Bifurcation(Box<BifurcationArgs>),
 
     /// Ball bearings one by one: loads, contacts, stiffness, film, frequencies, life

@@ -6,6 +6,25 @@ use rotordyn::model::Model;
 use super::args::StudyArgs;
 use super::settings::{Draft, Settings, list, quoted, top_speed};
 
+/// Shown with the long help of `poincare`.
+pub const POINCARE: &str = "\
+Examples:
+  rotordyn poincare models/varying_compliance.toml --speed \"900 rpm\"
+  rotordyn poincare models/overhung_rig.toml --section ball-pass --bearing B --plane \"disc_x, disc_y\"";
+
+/// Shown with the long help of `lyapunov`.
+pub const LYAPUNOV: &str = "\
+Examples:
+  rotordyn lyapunov models/varying_compliance.toml --speed \"900 rpm\" --periods 2000";
+
+/// Shown with the long help of `bifurcation`.
+pub const BIFURCATION: &str = "\
+Examples:
+  rotordyn bifurcation models/varying_compliance.toml
+  rotordyn bifurcation my_machine.toml --parameter speed --from \"500 rpm\" --to \"5000 rpm\" --count 200
+  rotordyn bifurcation my_machine.toml --parameter bearing.B.radial_clearance --from \"0 um\" --to \"40 um\" --lyapunov
+  rotordyn bifurcation my_machine.toml --parameter bearing.B.balls --from 6 --to 16 --start equilibrium";
+
 /// A run at steady speed.
 #[derive(Args, Clone, Debug)]
 pub struct SteadyArgs {

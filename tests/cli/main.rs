@@ -6,6 +6,7 @@ mod failures;
 mod runs;
 mod signal;
 mod signal_failures;
+mod steady;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

@@ -6,7 +6,9 @@ mod sample;
 mod bad_input;
 mod bearings;
 mod defects;
+mod measured_speed;
 mod mutations;
+mod steady;
 
 #[path = "../../src/cli/diagnostics.rs"]
 mod render;

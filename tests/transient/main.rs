@@ -9,3 +9,4 @@ mod high_speed;
 mod imperfections;
 mod run_up;
 mod torque;
+mod varying_compliance;

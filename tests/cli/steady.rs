@@ -1,0 +1,164 @@
+//! Steady motions: sections, exponents, diagrams, on the varying-compliance machine.
+
+use crate::{json_of, output_of, rotordyn};
+use rotordyn::edge::hdf5::{Attribute, Store};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const MODEL: &str = "models/varying_compliance.toml";
+/// Small enough to take a second.
+const SHORT: [&str; 4] = ["--settle", "60", "--periods", "40"];
+
+fn texts(store: &Store, path: &str) -> Vec<String> {
+    store.read_texts(path).unwrap()
+}
+
+#[test]
+fn help_of_steady_motions_reads_like_a_manual() {
+    for command in ["poincare", "lyapunov", "bifurcation"] {
+        let text = output_of(rotordyn().args([command, "--help"]));
+        assert!(text.contains("Examples:") && text.contains(&format!("[study.{command}]")), "{text}");
+    }
+}
+
+/// One file, to which all three add their part.
+#[test]
+fn steady_motions_are_computed_shown_and_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |command: &str, flags: &[&str]| {
+        output_of(rotordyn().args([command, MODEL, "--out"]).arg(folder.path()).args(SHORT).args(flags))
+    };
+    // Settled within sixty passages at 1600 rpm: a motion of the ball passage's own period.
+    let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300"]);
+    for part in ["Motion at 1600.0 rpm, 40 points", "ball passage of C (82.251 Hz)", "period 1", "x_rate"] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    let text = run("lyapunov", &["--speed", "1600 rpm", "--settle", "300"]);
+    assert!(text.contains("neighbours meet: regular"), "{text}");
+    let text = run("bifurcation", &["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"]);
+    for part in ["Motions over speed rpm, up", "Motions over speed rpm, down", "chaotic", "period 1"] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    let store = Store::open(folder.path().join("results.h5")).unwrap();
+    assert_eq!(store.read("/poincare/x_y/section_x").unwrap().data.len(), 40);
+    assert_eq!(store.attribute("/poincare", "motion").unwrap(), Some(Attribute::Text("period 1".into())));
+    let Some(Attribute::Number(exponent)) = store.attribute("/lyapunov", "exponent").unwrap() else {
+        panic!()
+    };
+    let history = store.read("/lyapunov/exponent").unwrap().data;
+    // −c/2m is the slowest that a perturbation can fade here.
+    assert!(exponent < -2.0 && exponent > -10.0 && history.last() == Some(&exponent), "{exponent}");
+    let section = store.read("/bifurcation/up/channels/x/section").unwrap();
+    assert_eq!(section.shape, [8, 40]);
+    let value = store.read("/bifurcation/down/value").unwrap().data;
+    assert_eq!((value[0], value[7]), (2300.0, 1600.0));
+    for figure in ["poincare_orbits", "poincare_sections", "lyapunov", "bifurcation_x", "bifurcation_y"] {
+        assert!(folder.path().join(format!("{figure}.png")).exists(), "{figure}");
+    }
+}
+
+/// Clearance, number of balls (every whole number), and a speed that the file states nowhere else.
+#[test]
+fn diagrams_over_any_parameter() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |flags: &[&str]| {
+        let mut command = rotordyn();
+        command
+            .args(["bifurcation", MODEL, "--no-figures", "--speed", "1600 rpm", "--out"])
+            .arg(folder.path());
+        json_of(command.args(SHORT).args(flags))["bifurcation"].clone()
+    };
+    let clearance = ["--parameter", "bearing.C.radial_clearance", "--from", "0 um", "--to", "40 um"];
+    let found = run(&[&clearance[..], &["--count", "5", "--sweep", "up", "--lyapunov"]].concat());
+    assert_eq!(found["unit"], "um");
+    let points = found["sweeps"][0]["points"].as_array().unwrap();
+    assert_eq!((found["sweeps"].as_array().unwrap().len(), points.len()), (1, 5));
+    assert!(points.iter().all(|p| p["exponent"]["value"].is_f64()), "{found}");
+    // The looser, the deeper the shaft hangs: by half the clearance, less what the load spreads over more balls.
+    let hangs = |k: usize| points[k]["extremes"][1][0].as_f64().unwrap();
+    let deeper = hangs(0) - hangs(4);
+    assert!((20e-6..26e-6).contains(&deeper), "{deeper}");
+    let found =
+        run(&["--parameter", "bearing.C.balls", "--from", "7", "--to", "9", "--start", "equilibrium"]);
+    let points = found["sweeps"][0]["points"].as_array().unwrap();
+    let balls: Vec<f64> = points.iter().map(|p| p["value"].as_f64().unwrap()).collect();
+    assert_eq!(balls, [7.0, 8.0, 9.0]);
+    // The clock is each machine's own: Z times the cage.
+    for (p, z) in points.iter().zip(balls) {
+        let expected = z * 0.385_577 * 1600.0 / 60.0;
+        assert!((p["frequency_hz"].as_f64().unwrap() / expected - 1.0).abs() < 1e-6, "{p}");
+    }
+
+    let text = std::fs::read_to_string(MODEL).unwrap();
+    let speed = text.find("[speed]").unwrap();
+    let studies = text.find("[study.bifurcation]").unwrap();
+    let rest = text[studies..].split("[variant").next().unwrap();
+    let bare = folder.path().join("bare.toml");
+    std::fs::write(&bare, format!("{}{rest}", &text[..speed])).unwrap();
+    let mut command = rotordyn();
+    command.arg("bifurcation").arg(&bare).args(["--no-figures", "--count", "3", "--out"]).arg(folder.path());
+    let found = json_of(command.args(SHORT));
+    assert_eq!(found["bifurcation"]["sweeps"][0]["points"].as_array().unwrap().len(), 3);
+}
+
+/// Every byte of the file: pieces of a sweep run side by side give the diagram of one run after the other.
+#[test]
+fn diagrams_do_not_depend_on_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |threads: &str| {
+        let out = folder.path().join(threads);
+        let mut command = rotordyn();
+        command.args(["bifurcation", MODEL, "--no-figures", "--quiet", "--threads", threads, "--lyapunov"]);
+        command.args(["--from", "2000 rpm", "--to", "3800 rpm", "--count", "24", "--out"]).arg(&out);
+        command.args(["--settle", "20", "--periods", "20"]).assert().success();
+        std::fs::read(out.join("results.h5")).unwrap()
+    };
+    assert!(run("1") == run("2"), "one and two threads differ");
+}
+
+#[test]
+fn ctrl_c_leaves_the_values_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
+        .args(["bifurcation", MODEL, "--no-figures", "--threads", "1", "--json"])
+        .args(["--from", "1600 rpm", "--to", "1700 rpm", "--count", "200", "--settle", "20000", "--out"])
+        .arg(folder.path())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // The file appears when the models are read; some seconds later several values are done, four hundred are not.
+    let begun = Instant::now();
+    while !folder.path().join("results.h5").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(300), "no file after five minutes");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    std::thread::sleep(Duration::from_secs(15));
+    assert!(child.try_wait().unwrap().is_none(), "it was done already");
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["errors"][0]["message"], "ended by Ctrl-C");
+    let store = Store::open(folder.path().join("results.h5")).unwrap();
+    assert_eq!(store.attribute("/bifurcation", "complete").unwrap(), Some(Attribute::Integer(0)));
+    let motions = texts(&store, "/bifurcation/up/motion");
+    assert_eq!(motions.len(), 200);
+    let done = motions.iter().filter(|m| *m != "none: stopped").count();
+    assert!((1..200).contains(&done), "{done}");
+}
+
+/// What cannot be is said at its place in the file, before anything is run.
+#[test]
+fn a_wrong_parameter_is_refused_before_the_work() {
+    let said = |flags: &[&str]| {
+        let output =
+            rotordyn().args(["bifurcation", MODEL]).args(flags).assert().code(2).get_output().clone();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let text = said(&["--parameter", "bearing.C.radial_clearence", "--from", "0 um", "--to", "9 um"]);
+    assert!(text.contains("did you mean `radial_clearance`?"), "{text}");
+    let text = said(&["--from", "1600 rpm", "--to", "1600 rpm"]);
+    assert!(text.contains("must be above"), "{text}");
+}
