@@ -1,5 +1,7 @@
 //! The nonlinear transient against linear theory, itself at another step, and its energy account.
 
+#[path = "../common/measured_data.rs"]
+mod measured_data;
 #[path = "../common/rig.rs"]
 mod rig;
 
@@ -7,6 +9,7 @@ mod attractor;
 mod hammer;
 mod high_speed;
 mod imperfections;
+mod measured_run_up;
 mod run_up;
 mod torque;
 mod varying_compliance;
