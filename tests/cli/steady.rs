@@ -26,16 +26,17 @@ fn help_of_steady_motions_reads_like_a_manual() {
 fn steady_motions_are_computed_shown_and_stored() {
     let folder = tempfile::tempdir().unwrap();
     let run = |command: &str, flags: &[&str]| {
-        output_of(rotordyn().args([command, MODEL, "--out"]).arg(folder.path()).args(SHORT).args(flags))
+        output_of(rotordyn().args([command, MODEL, "--out"]).arg(folder.path()).args(flags))
     };
     // Settled within sixty passages at 1600 rpm: a motion of the ball passage's own period.
-    let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300"]);
+    let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300", "--periods", "40"]);
     for part in ["Motion at 1600.0 rpm, 40 points", "ball passage of C (82.251 Hz)", "period 1", "x_rate"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
-    let text = run("lyapunov", &["--speed", "1600 rpm", "--settle", "300"]);
+    let text = run("lyapunov", &["--speed", "1600 rpm", "--settle", "300", "--periods", "200"]);
     assert!(text.contains("neighbours meet: regular"), "{text}");
-    let text = run("bifurcation", &["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"]);
+    let range = ["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"];
+    let text = run("bifurcation", &[&range[..], &SHORT].concat());
     for part in ["Motions over speed rpm, up", "Motions over speed rpm, down", "chaotic", "period 1"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
@@ -121,20 +122,20 @@ fn ctrl_c_leaves_the_values_done() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
         .args(["bifurcation", MODEL, "--no-figures", "--threads", "1", "--json"])
-        .args(["--from", "1600 rpm", "--to", "1700 rpm", "--count", "200", "--settle", "20000", "--out"])
+        .args(["--from", "1600 rpm", "--to", "1700 rpm", "--count", "1000", "--settle", "1000", "--out"])
         .arg(folder.path())
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    // The file appears when the models are read; some seconds later several values are done, four hundred are not.
+    // The file appears when the models are read; some seconds later some values are done, two thousand are not.
     let begun = Instant::now();
     while !folder.path().join("results.h5").exists() {
         assert!(begun.elapsed() < Duration::from_secs(300), "no file after five minutes");
         std::thread::sleep(Duration::from_millis(100));
     }
-    std::thread::sleep(Duration::from_secs(15));
+    std::thread::sleep(Duration::from_secs(20));
     assert!(child.try_wait().unwrap().is_none(), "it was done already");
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
@@ -144,9 +145,9 @@ fn ctrl_c_leaves_the_values_done() {
     let store = Store::open(folder.path().join("results.h5")).unwrap();
     assert_eq!(store.attribute("/bifurcation", "complete").unwrap(), Some(Attribute::Integer(0)));
     let motions = texts(&store, "/bifurcation/up/motion");
-    assert_eq!(motions.len(), 200);
+    assert_eq!(motions.len(), 1000);
     let done = motions.iter().filter(|m| *m != "none: stopped").count();
-    assert!((1..200).contains(&done), "{done}");
+    assert!((1..1000).contains(&done), "{done}");
 }
 
 /// What cannot be is said at its place in the file, before anything is run.

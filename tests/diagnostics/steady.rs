@@ -110,7 +110,6 @@ cases! {
     two_units_in_one_list: over("\"bearing.B.radial_clearance\"", "[\"0 um\", \"0.01 mm\"]");
     from_equals_to: over("\"bearing.B.radial_clearance\"", "{ from = \"5 um\", to = \"5 um\" }");
     from_above_to: over("\"speed\"", "{ from = \"5000 rpm\", to = \"500 rpm\" }");
-    falling_list: over("\"bearing.B.radial_clearance\"", "\"40 um\"");
     step_beyond_the_range: over("\"bearing.B.radial_clearance\"", "{ from = \"0 um\", to = \"40 um\", step = \"50 um\" }");
     balls_by_halves: over("\"bearing.B.balls\"", "{ from = 7, to = 8.5, count = 4 }");
     speed_from_zero: over("\"speed\"", "{ from = \"0 rpm\", to = \"500 rpm\" }");
