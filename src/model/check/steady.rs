@@ -318,7 +318,11 @@ fn spaced(r: &Reader) -> Option<(String, Vec<f64>)> {
             }
             let steps = (to - from) / step;
             if !(0.999..1e5).contains(&steps) {
-                r.error(Kind::OutOfRange, "step", format!("{} goes {steps:.1} times into the range", r.name("step")));
+                r.error(
+                    Kind::OutOfRange,
+                    "step",
+                    format!("{} goes {steps:.1} times into the range", r.name("step")),
+                );
                 return None;
             }
             return Some((unit, (0..=(steps + 1e-9) as usize).map(|k| from + k as f64 * step).collect()));
