@@ -327,3 +327,83 @@ fn rates_by_hand() {
     assert_eq!(best["line"], "BPFO", "{best}");
     assert!((number(&best["found_hz"]) - 107.545).abs() < 0.4, "{best}");
 }
+
+/// The rig of the measured records, simulated: the same verdicts with no hint, both envelopes in one figure.
+#[test]
+fn the_simulated_rig_says_the_same() {
+    for (variant, verdict, line, file) in [
+        ("inner_race", "inner race", "BPFI", "cwru/105_IR007_0hp_12k.mat"),
+        ("outer_race", "outer race", "BPFO", "cwru/130_OR007at6_0hp_12k.mat"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = rotordyn();
+        run.args(["run-up", "models/cwru_6205.toml", "--variant", variant, "--no-figures", "--out"]);
+        // Eleven turns of the cage after the quarter of a second in which the run settles.
+        output_of(run.arg(folder.path()).args(["--set", "speed.duration=1.25 s", "--quiet"]));
+        let measured = measured_data::measured(file);
+        let mut flags =
+            vec!["--channel", "DE", "--bearing", "drive", "--time", "0.25 s ..", "--analyses", "envelope"];
+        if let Some(path) = &measured {
+            flags.extend([
+                "--against",
+                path.to_str().unwrap(),
+                "--against-rate",
+                "12 kHz",
+                "--against-unit",
+                "g",
+            ]);
+        }
+        let document = signal(folder.path(), folder.path(), &flags);
+        let envelope = &document["channels"][0]["envelope"];
+        assert_eq!(envelope["verdict"], verdict, "{variant}");
+        let strongest = &envelope["strongest"];
+        assert_eq!(strongest["line"], line, "{variant}");
+        // The cage turns as measured, 0.35 % from the rates of the geometry.
+        let off = number(&strongest["at"]) / number(&strongest["expected"]) - 1.0;
+        assert!(off.abs() < 5e-3, "{variant}: {off}");
+        if let Some(path) = &measured {
+            assert_eq!(document["against"]["envelope"]["verdict"], verdict, "{variant}");
+            let other = document_channel(path);
+            assert!(folder.path().join(format!("signal_envelope_DE_against_{other}.png")).exists());
+        }
+    }
+}
+
+/// Seven dents and bumps of a simulated outer race, and two of an inner one, read from the jerk with no hint.
+#[test]
+fn defects_of_a_simulated_race() {
+    const RANDOM: [(&str, f64, f64); 7] = [
+        ("dent", 2.0, 0.12),
+        ("bump", 6.3, 0.2),
+        ("dent", 9.1, 0.1),
+        ("bump", 15.8, 0.3),
+        ("dent", 21.4, 0.17),
+        ("bump", 27.9, 0.22),
+        ("dent", 33.6, 0.15),
+    ];
+    const INNER: [(&str, f64, f64); 2] = [("bump", 270.0, 0.17), ("dent", 285.0, 0.17)];
+    for (variant, race, expected) in
+        [("random_defects", "outer", &RANDOM[..]), ("inner_bump_and_dent", "inner", &INNER[..])]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = rotordyn();
+        run.args(["run-up", "models/atef_2022.toml", "--variant", variant, "--no-figures", "--out"]);
+        output_of(run.arg(folder.path()).args(["--set", "speed.duration=1 s", "--quiet"]));
+        let flags = ["--channel", "ring_ax", "--beside", "ring_ay", "--bearing", "B", "--race", race];
+        let more = ["--time", "0.25 s ..", "--analyses", "jerk"];
+        let document = signal(folder.path(), folder.path(), &[&flags[..], &more].concat());
+        let jerk = &document["channels"][0]["jerk"];
+        let found = jerk["defects"].as_array().unwrap();
+        assert_eq!(found.len(), expected.len(), "{jerk}");
+        for (defect, (kind, angle, width)) in found.iter().zip(expected) {
+            assert_eq!(defect["kind"], *kind, "{defect}");
+            // A sample is 0.026 deg of a ball's way on the outer race, 0.039 deg on the inner.
+            let off = number(&defect["angle"]).to_degrees() - angle;
+            assert!(off.abs() < 0.1, "{variant} {angle}: off by {off} deg");
+            // A sample is 10.6 um of the outer raceway, 10.5 um of the inner; jumps are placed between samples.
+            let wide = number(&defect["width_m"]) * 1e3 - width;
+            assert!(wide.abs() < 6e-3, "{variant} {angle}: off by {wide} mm");
+        }
+        assert!(folder.path().join("signal_jerk_of_race_ring_ax.png").exists());
+    }
+}

@@ -91,7 +91,7 @@ pub struct SignalArgs {
     /// Channel a quarter turn on from the first, from x to y, for the angles of defects all round
     #[arg(long, value_name = "CHANNEL", help_heading = "Bearing")]
     pub beside: Option<String>,
-    /// Time at which a ball stands at angle 0 of the race, such as "0 s"
+    /// Time in the record at which a ball stands at angle 0 of the race and that angle lies along x
     #[arg(
         long,
         value_name = "TIME",

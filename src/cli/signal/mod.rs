@@ -112,6 +112,11 @@ fn look(
 ) -> Result<SignalResult, Failure> {
     let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
     let motion = shaft.motion(channel).map_err(named)?;
+    if motion.is_none() && bearing.is_some() {
+        return Err(named(
+            "the shaft does not turn, and a bearing's lines are multiples of its speed".into(),
+        ));
+    }
     analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
         Error::Signal(SignalError::Unknown { what, purpose }) => {
             let advice = if what.contains("angle") {

@@ -24,7 +24,8 @@ impl Job<'_> {
                     frequency: order * speed,
                     balls: bearing.balls,
                     race_speed,
-                    datum: self.settings.datum - self.first as f64 / self.rate,
+                    // From the first sample analysed.
+                    datum: self.settings.datum - self.channel.start - self.first as f64 / self.rate,
                 };
                 let beside = self.channel.beside.as_ref();
                 let beside = beside.map(|y| &y[self.first..self.first + self.x.len()]);

@@ -75,7 +75,7 @@ pub struct SignalSettings {
     pub max_order: Option<f64>,
     pub lines: LineSettings,
     pub race: Race,
-    /// Time \[s\] from the first sample at which a ball stands at angle 0 of the race and that angle lies along x.
+    /// Time \[s\] on the channel's own axis at which a ball stands at angle 0 of the race and that angle lies along x.
     pub datum: f64,
 }
 
