@@ -25,9 +25,10 @@ pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
         out.extend(over_speed(r, found, note).into_iter().map(|(what, figure)| (name(what), figure)));
     }
     if let Some(found) = &r.orders {
-        out.push((name("orders"), Figure::OrderMap(orders(r, found, note))));
         out.push((name("order_spectrum"), Figure::CursorLines(order_spectrum(r, found, note))));
-        if found.map.rpm.len() > 1 {
+        // At one speed a map over speed is a line.
+        if r.shaft.as_ref().is_some_and(|s| !s.steady) && found.map.rpm.len() > 1 {
+            out.push((name("orders"), Figure::OrderMap(orders(r, found, note))));
             out.push((name("order_cuts"), Figure::Lines(order_cuts(r, found, note))));
         }
     }
