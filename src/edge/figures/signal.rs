@@ -87,7 +87,8 @@ fn note(r: &SignalResult, title: &str) -> String {
     if let Some(b) = &r.bearing {
         parts.push(format!("bearing {}", b.name));
     }
-    parts.push(format!("{} samples at {} Hz", r.samples.len(), r.sample_rate));
+    let rate = (1e3 * r.sample_rate).round() / 1e3;
+    parts.push(format!("{} samples at {rate} Hz", r.samples.len()));
     parts.join(", ")
 }
 
