@@ -366,3 +366,44 @@ fn defects_of_a_simulated_race() {
         assert!(folder.path().join("signal_jerk_of_race_ring_ax.png").exists());
     }
 }
+
+/// The rig of the measured records, simulated: the same verdicts with no hint, both envelopes in one figure.
+#[test]
+fn the_simulated_rig_says_the_same() {
+    for (variant, verdict, line, file) in [
+        ("inner_race", "inner race", "BPFI", "cwru/105_IR007_0hp_12k.mat"),
+        ("outer_race", "outer race", "BPFO", "cwru/130_OR007at6_0hp_12k.mat"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = rotordyn();
+        run.args(["run-up", "models/cwru_6205.toml", "--variant", variant, "--no-figures", "--out"]);
+        // Eleven turns of the cage after the quarter of a second in which the run settles.
+        output_of(run.arg(folder.path()).args(["--set", "speed.duration=1.25 s", "--quiet"]));
+        let measured = measured_data::measured(file);
+        let mut flags =
+            vec!["--channel", "DE", "--bearing", "drive", "--time", "0.25 s ..", "--analyses", "envelope"];
+        if let Some(path) = &measured {
+            flags.extend([
+                "--against",
+                path.to_str().unwrap(),
+                "--against-rate",
+                "12 kHz",
+                "--against-unit",
+                "g",
+            ]);
+        }
+        let document = signal(folder.path(), folder.path(), &flags);
+        let envelope = &document["channels"][0]["envelope"];
+        assert_eq!(envelope["verdict"], verdict, "{variant}");
+        let strongest = &envelope["strongest"];
+        assert_eq!(strongest["line"], line, "{variant}");
+        // The cage turns as measured, 0.35 % from the rates of the geometry.
+        let off = number(&strongest["at"]) / number(&strongest["expected"]) - 1.0;
+        assert!(off.abs() < 5e-3, "{variant}: {off}");
+        if let Some(path) = &measured {
+            assert_eq!(document["against"]["envelope"]["verdict"], verdict, "{variant}");
+            let other = document_channel(path);
+            assert!(folder.path().join(format!("signal_envelope_DE_against_{other}.png")).exists());
+        }
+    }
+}
