@@ -77,6 +77,16 @@ fn power_balance_closes() {
     assert!(damaged > 1000, "{damaged}");
 }
 
+/// An explicit step's force is that which comes with tangents.
+#[test]
+fn the_force_alone_is_the_same() {
+    let mut random = Random(23);
+    each_damaged(|name, bearing| {
+        let (d, v, rotation) = sample(&mut random);
+        crate::force_alone::compare(name, bearing, &d, &v, &rotation);
+    });
+}
+
 #[test]
 fn force_laws_are_refused_where_they_say_nothing() {
     let forced = Imperfections { law: LAWS[2], ..Imperfections::default() };

@@ -9,13 +9,14 @@ use rotordyn::bearing::{
 };
 
 /// The same up to the order of the sums over balls.
-fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) {
+pub fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) {
     let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
     let whole = element.reaction(d, v, rotation);
     let mut alone = Reaction::default();
     element.force(d, v, rotation, &mut alone);
     // The balls' loads, which may cancel in the sum, with the damping of 0.01 m/s.
-    let loads: f64 = element.ball_loads(d, rotation).iter().map(|b| b.load.max(b.outer_load) + 3.0).sum();
+    let loads: f64 =
+        element.ball_loads(d, rotation).iter().map(|b| b.load.abs().max(b.outer_load.abs()) + 3.0).sum();
     for k in 0..6 {
         let error = (alone.force[k] - whole.force[k]) / lever(k);
         assert!(error.abs() < 1e-14 * loads, "{name}: force {k} {error:e} of {loads}");
