@@ -150,13 +150,13 @@ fn run(model: Model) -> History {
     recorder.history
 }
 
-/// Width of the fewest bins that hold four fifths of the energy from 0.6 to 1.4 of a place, as a share of the place;
+/// Width of the fewest bins that hold four fifths of the energy within a share `reach` about a place, as a share of the place;
 /// and where the largest of them is.
-fn line(axis: &[f64], amplitude: &[f64], place: f64) -> (f64, f64) {
+fn line(axis: &[f64], amplitude: &[f64], place: f64, reach: f64) -> (f64, f64) {
     let band: Vec<(f64, f64)> = axis
         .iter()
         .zip(amplitude)
-        .filter(|(f, _)| (0.6 * place..1.4 * place).contains(*f))
+        .filter(|(f, _)| ((1.0 - reach) * place..(1.0 + reach) * place).contains(*f))
         .map(|(f, a)| (*f, a * a))
         .collect();
     let total: f64 = band.iter().map(|b| b.1).sum();
@@ -191,17 +191,18 @@ fn angle_resampling_sharpens_the_lines() {
     let tracker = OrderTracker::new(&theta, rate, OrderSettings::new(0.05, 12.0)).unwrap();
     let turns = (theta[theta.len() - 1] - theta[0]) / TAU;
     let mean_hz = turns * rate / (theta.len() - 1) as f64;
-    for (channel, order, sharp) in [("x", 1.0, 0.08), ("y_acceleration", bpfo, 0.03)] {
+    // About BPFO clear of 3x and 4x.
+    for (channel, order, reach, sharp) in [("x", 1.0, 0.4, 0.08), ("y_acceleration", bpfo, 0.1, 0.03)] {
         let values = &history.channels.iter().find(|c| c.name == channel).unwrap().values;
         let values = &values[first..first + theta.len()];
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let values: Vec<f64> = values.iter().map(|v| v - mean).collect();
         let spectrum = amplitude_spectrum(&values, rate, WindowKind::Hann, Level::Peak).unwrap();
-        let (smeared, _) = line(&spectrum.frequencies, &spectrum.values, order * mean_hz);
+        let (smeared, _) = line(&spectrum.frequencies, &spectrum.values, order * mean_hz, reach);
         let angle = &tracker.resample(&[&values]).unwrap()[0].parts[0];
         let per_turn = (angle.len() as f64 / turns).round();
         let spectrum = amplitude_spectrum(angle, per_turn, WindowKind::Hann, Level::Peak).unwrap();
-        let (width, place) = line(&spectrum.frequencies, &spectrum.values, order);
+        let (width, place) = line(&spectrum.frequencies, &spectrum.values, order, reach);
         println!(
             "{channel}: order {place:.4} of {order:.4}; width {width:.4} over angle, {smeared:.4} in Hz"
         );
