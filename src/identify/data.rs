@@ -95,6 +95,7 @@ impl Data {
             swapped,
         };
         data.check(frfs)?;
+        data.dead_channels(frfs)?;
         let sizes: Vec<Vec<f64>> =
             data.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
         data.rescale(&sizes);
@@ -118,12 +119,25 @@ impl Data {
                         frequency: self.frequencies[k],
                     });
                 }
-                if frf.iter().all(|h| h.norm_sqr() == 0.0) {
-                    return Err(IdentifyError::Zero { response, reference });
-                }
             }
         }
         Ok(())
+    }
+
+    /// A response that nothing moves, or a reference that moves nothing, is a dead channel.
+    fn dead_channels(&self, frfs: &FrfMatrix) -> Result<(), IdentifyError> {
+        let zero = |o: usize, i: usize| self.values[o][i].iter().all(|h| h.norm_sqr() == 0.0);
+        let (no, ni) = (self.outputs(), self.inputs());
+        let output = (0..no).find(|&o| (0..ni).all(|i| zero(o, i)));
+        let input = (0..ni).find(|&i| (0..no).all(|o| zero(o, i)));
+        let (response, reference) = if self.swapped { (input, output) } else { (output, input) };
+        if let Some(r) = response {
+            return Err(IdentifyError::DeadResponse { response: frfs.responses[r].to_string() });
+        }
+        match reference {
+            Some(e) => Err(IdentifyError::DeadReference { reference: frfs.references[e].to_string() }),
+            None => Ok(()),
+        }
     }
 
     pub fn outputs(&self) -> usize {
@@ -143,18 +157,26 @@ impl Data {
         self.frequencies.iter().map(|f| Complex64::new(0.0, TAU * f)).collect()
     }
 
-    /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1: the least squares
-    /// fit of log a + log b, which keeps residues of rank one; returns the b.
+    /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which keeps residues
+    /// of rank one; returns the b.
+    ///
+    /// RMS over inputs and over outputs in turn: FRFs that are zero, as those of torsion to a blow along x, do no harm.
     pub fn rescale(&mut self, sizes: &[Vec<f64>]) -> Vec<f64> {
+        const ROUNDS: usize = 5;
         let (no, ni) = (self.outputs(), self.inputs());
-        let smallest = sizes.iter().flatten().copied().fold(0.0, f64::max) * 1e-12;
-        let log = |o: usize, i: usize| sizes[o][i].max(smallest).max(f64::MIN_POSITIVE).ln();
-        let mean = (0..no).flat_map(|o| (0..ni).map(move |i| (o, i))).map(|(o, i)| log(o, i)).sum::<f64>()
-            / (no * ni) as f64;
-        let a: Vec<f64> =
-            (0..no).map(|o| ((0..ni).map(|i| log(o, i)).sum::<f64>() / ni as f64).exp()).collect();
-        let b: Vec<f64> =
-            (0..ni).map(|i| ((0..no).map(|o| log(o, i)).sum::<f64>() / no as f64 - mean).exp()).collect();
+        let rms = |squares: f64, count: usize| match (squares / count as f64).sqrt() {
+            size if size > 0.0 => size,
+            _ => 1.0,
+        };
+        let (mut a, mut b) = (vec![1.0; no], vec![1.0; ni]);
+        for _ in 0..ROUNDS {
+            for o in 0..no {
+                a[o] = rms((0..ni).map(|i| (sizes[o][i] / b[i]).powi(2)).sum(), ni);
+            }
+            for i in 0..ni {
+                b[i] = rms((0..no).map(|o| (sizes[o][i] / a[o]).powi(2)).sum(), no);
+            }
+        }
         for (o, row) in self.values.iter_mut().enumerate() {
             for (i, frf) in row.iter_mut().enumerate() {
                 let scale = a[o] * b[i];

@@ -19,10 +19,10 @@ pub enum IdentifyError {
         "the FRF of response {response} to reference {reference} holds no finite number at {frequency:.3} Hz; leave it out, or choose a band without it"
     )]
     NotFinite { response: String, reference: String, frequency: f64 },
-    #[error(
-        "the FRF of response {response} to reference {reference} is zero throughout the band; leave it out"
-    )]
-    Zero { response: String, reference: String },
+    #[error("response {response} is zero throughout the band: a dead channel; leave it out")]
+    DeadResponse { response: String },
+    #[error("nothing answers to reference {reference} in the band: a dead channel; leave it out")]
+    DeadReference { reference: String },
     #[error(
         "no mode was found in {from:.3} .. {to:.3} Hz: {poles} poles came out of {orders} orders, and none of them stays; choose a band with a resonance, raise the order, or look at the coherence"
     )]

@@ -191,8 +191,8 @@ const FIRST_ORDER: usize = 2;
 /// modes that the data do not bear out are dropped and listed.
 ///
 /// # Errors
-/// Uneven frequencies, a band without data, too few lines for the order, values that are not finite, an FRF that is
-/// zero, no mode.
+/// Uneven frequencies, a band without data, too few lines for the order, values that are not finite, a dead channel,
+/// no mode.
 pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<Identified, IdentifyError> {
     let mut data = Data::new(frfs, settings)?;
     let equations = NormalEquations::new(&data, settings)?;
@@ -267,7 +267,7 @@ fn assembled(
             rest += (h - m).norm_sqr();
             all += h.norm_sqr();
         }
-        (rest / all).sqrt()
+        if all > 0.0 { (rest / all).sqrt() } else { 0.0 }
     });
     let count = (responses * references) as f64;
     let total_error = (errors_of.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt();

@@ -44,16 +44,32 @@ pub(super) fn settle(
     let poles = reweighted(data, first);
     let problem = Problem::new(data);
     let mut at = problem.refine(pruned(&problem, poles, settings, dropped)?, FINAL);
-    while let Some(poles) = without_faults(&problem, &at, None, settings, dropped) {
+    loop {
+        while let Some(poles) = without_faults(&problem, &at, None, settings, dropped) {
+            if poles.is_empty() {
+                return None;
+            }
+            at = problem.refine(poles, FINAL);
+        }
+        let covariance = covariance(problem.data(), &at, &problem.step(&at));
+        let significance = significance(&at);
+        // A pole that follows the noise of a few lines is betrayed by what becomes of it without them.
+        let fault = |m: usize| weak(&at.poles[m], covariance[m], significance[m]);
+        let worst = (0..at.poles.len())
+            .filter(|&m| fault(m).is_some())
+            .min_by(|&a, &b| significance[a].total_cmp(&significance[b]));
+        let Some(worst) = worst else {
+            let fit = problem.fit(&at);
+            return Some(Settled { poles: at.poles, fit, covariance, significance });
+        };
+        dropped.extend(fault(worst));
+        let mut poles = at.poles;
+        poles.remove(worst);
         if poles.is_empty() {
             return None;
         }
         at = problem.refine(poles, FINAL);
     }
-    let step = problem.step(&at);
-    let covariance = covariance(problem.data(), &at, &step);
-    let (significance, fit) = (significance(&at), problem.fit(&at));
-    Some(Settled { poles: at.poles, fit, covariance, significance })
 }
 
 /// Poles that stand a few steps of refinement.
@@ -151,8 +167,9 @@ fn weak(pole: &Pole, covariance: PoleCovariance, significance: f64) -> Option<St
 
 /// Poles nearer than this many decay rates may be one.
 const TWIN: f64 = 3.0;
-/// They are where their shapes are alike to this MAC.
-const ALIKE: f64 = 0.8;
+/// They are where their shapes over at least so many outputs are alike to this MAC.
+const FEW: usize = 8;
+const ALIKE: f64 = 0.7;
 
 /// Whether a more significant mode beside this one has its shape: FRFs that do not fit together (a structure that
 /// changed between blows) give one mode twice.
@@ -162,7 +179,7 @@ fn twin(at: &Point, m: usize, significance: &[f64]) -> Option<String> {
     let other = (0..at.poles.len()).filter(|&k| k != m && significance[k] > significance[m]).find(|&k| {
         let other = &at.poles[k];
         let near = (own.value - other.value).norm() < TWIN * own.value.re.abs().max(other.value.re.abs());
-        near && at.x.ncols() > 2 && mac(&shape(m), &shape(k)) > ALIKE
+        near && at.x.ncols() >= FEW && mac(&shape(m), &shape(k)) > ALIKE
     })?;
     Some(format!("{}: the mode at {:.3} Hz once more", name(own.value), at.poles[other].value.im / TAU))
 }

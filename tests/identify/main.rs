@@ -2,7 +2,14 @@
 
 #[path = "../common/measured_data.rs"]
 mod measured_data;
+#[path = "../common/rig.rs"]
+mod rig;
 
+mod changed_rig;
 mod exact;
+mod hammer_records;
 mod made;
+mod noise;
 mod plane_ema;
+mod refusals;
+mod single;

@@ -158,7 +158,9 @@ fn shapes(found: &Identified, geometry: &Geometry, title: &str) -> Option<Named>
         // Turned to where the real part is largest.
         let square: Complex64 = values.iter().map(|v| v * v).sum();
         let turn = Complex64::from_polar(1.0, -0.5 * square.arg());
-        let mut motion = vec![[0.0; 3]; geometry.nodes.len()];
+        // Points that were not measured are left out of the deflected lines.
+        let mut motion = vec![[f64::NAN; 3]; geometry.nodes.len()];
+        dofs.iter().filter_map(|d| index(d.node)).for_each(|at| motion[at] = [0.0; 3]);
         for (dof, value) in dofs.iter().zip(values).filter(|(d, _)| !d.is_rotation()) {
             let Some(at) = index(dof.node) else { continue };
             let (axis, sign) = match dof.direction {

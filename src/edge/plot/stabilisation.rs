@@ -1,7 +1,7 @@
 //! Stabilisation diagram: poles of every order over the FRFs' mode indicator.
 
 use super::axes::{Axes, Frame, Marker};
-use super::labels::{EndLabel, Entry, end_labels, head, readable};
+use super::labels::{EndLabel, Entry, end_labels, head};
 use super::scale::Range;
 use super::style::*;
 use super::svg::{Color, Dash, Style, Svg};
@@ -73,11 +73,7 @@ pub fn draw(data: &Stabilisation) -> Svg {
             [*hz, axes.y.range.hi],
             Style::stroke(RED, 0.9).dashed(Dash::Short),
         );
-        labels.push(EndLabel {
-            at: axes.at(*hz, axes.y.range.hi),
-            text: readable((hz * 100.0).round() / 100.0),
-            color: RED,
-        });
+        labels.push(EndLabel { at: axes.at(*hz, axes.y.range.hi), text: format!("{hz:.1}"), color: RED });
     }
     for (state, _, marker, color) in STATES {
         for (hz, order, _) in data.poles.iter().filter(|p| p.2 == state) {

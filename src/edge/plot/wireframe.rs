@@ -11,7 +11,7 @@ use super::svg::{Point, Style, Svg, Text};
 pub struct WireShape {
     /// Written above, e.g. "1: 18.84 Hz, 0.34 %".
     pub title: String,
-    /// Deflection of every point, at the phase where it is largest; any unit.
+    /// Deflection of every point, at the phase where it is largest, any unit; NaN where it is not known.
     pub motion: Vec<[f64; 3]>,
 }
 
@@ -78,19 +78,19 @@ pub fn draw(data: &Wireframe) -> Svg {
             .collect();
         let lines = |svg: &mut Svg, points: &[Point], style: Style| {
             for stroke in &data.strokes {
-                let path: Vec<Point> =
-                    stroke.iter().filter_map(|&k| points.get(k)).map(|p| place(*p)).collect();
+                let known = stroke.iter().filter_map(|&k| points.get(k)).filter(|p| p[0].is_finite());
+                let path: Vec<Point> = known.map(|p| place(*p)).collect();
                 svg.polyline(&path, style);
             }
         };
         lines(&mut svg, &seen, Style::stroke(PALE, 0.9));
         if data.strokes.is_empty() {
-            for (a, b) in seen.iter().zip(&moved) {
+            for (a, b) in seen.iter().zip(&moved).filter(|(_, b)| b[0].is_finite()) {
                 svg.line(place(*a), place(*b), Style::stroke(BLUE, 0.9));
             }
         }
         lines(&mut svg, &moved, Style::stroke(BLUE, 1.3));
-        for point in &moved {
+        for point in moved.iter().filter(|p| p[0].is_finite()) {
             svg.circle(place(*point), 1.6, Style::fill(BLUE));
         }
     }

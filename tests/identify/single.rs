@@ -1,0 +1,35 @@
+//! Quick looks at one mode of one FRF, held to the mode the FRF was made of.
+
+use rotordyn::identify::single::{circle_fit, peak_fit};
+use rotordyn::model::Quantity;
+
+use crate::made::{Known, bent, frfs, lines};
+
+#[test]
+fn one_mode_alone() {
+    let known = [Known::real(40.0, 0.01, &bent(1, 3), &[1])];
+    for (power, quantity) in
+        [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].into_iter().enumerate()
+    {
+        let made = frfs(&known, &lines(20.0, 60.0, 0.05), power as i32);
+        let circle = circle_fit(&made.frequencies, &made.values[1][0], [39.0, 41.0], quantity).unwrap();
+        let natural = known[0].pole.norm() / std::f64::consts::TAU;
+        // What the conjugate pole adds is a straight line to 1e-4 over the band.
+        assert!((circle.frequency_hz / natural - 1.0).abs() < 1e-5, "{circle:?}");
+        assert!((circle.damping_ratio / 0.01 - 1.0).abs() < 2e-3, "{circle:?}");
+        let residue = known[0].residue(1, 0);
+        assert!((circle.residue - residue).norm() < 1e-2 * residue.norm(), "{circle:?} for {residue}");
+        // Half power is read between lines 0.05 Hz apart, of a width of 0.8 Hz.
+        let peak = peak_fit(&made.frequencies, &made.values[1][0], [36.0, 44.0]).unwrap();
+        assert!((peak.frequency_hz / natural - 1.0).abs() < 5e-4, "{peak:?}");
+        assert!((peak.damping_ratio / 0.01 - 1.0).abs() < 0.03, "{peak:?}");
+    }
+}
+
+#[test]
+fn no_peak_no_mode() {
+    let known = [Known::real(40.0, 0.01, &bent(1, 3), &[1])];
+    let made = frfs(&known, &lines(20.0, 60.0, 0.05), 2);
+    assert_eq!(peak_fit(&made.frequencies, &made.values[1][0], [50.0, 55.0]), None);
+    assert_eq!(circle_fit(&made.frequencies, &made.values[1][0], [40.0, 40.1], Quantity::Acceleration), None);
+}
