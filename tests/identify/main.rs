@@ -7,7 +7,6 @@ mod rig;
 
 mod changed_rig;
 mod exact;
-mod hammer_records;
 mod made;
 mod noise;
 mod plane_ema;
