@@ -254,7 +254,7 @@ pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitErro
 }
 
 /// Number at the start of a text, and its length in bytes.
-pub(crate) fn leading_number(text: &str) -> Option<(f64, usize)> {
+pub fn leading_number(text: &str) -> Option<(f64, usize)> {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
     let mut end = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));

@@ -1,7 +1,9 @@
 //! Arguments of the command, and its manual.
 
+mod bearing;
 mod manual;
 mod measured;
+mod update;
 
 use std::path::PathBuf;
 
@@ -10,7 +12,9 @@ use clap::{Args, Parser, Subcommand};
 use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 use manual::{AFTER, LONG_ABOUT};
+pub use bearing::BearingArgs;
 pub use measured::{IdentifyArgs, NoiseArgs};
+pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
 
 /// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
 #[derive(Debug, Parser)]
@@ -127,38 +131,6 @@ pub struct StoredArgs {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
-}
-
-/// Which bearings, under what.
-#[derive(Args, Clone, Debug)]
-pub struct BearingArgs {
-    #[command(flatten)]
-    pub study: StudyArgs,
-    /// Names of bearings, separated by commas [default: every ball bearing]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub bearing: Vec<String>,
-    /// Load of the shaft on the bearing F_x, F_y, F_z, such as "0, -500, 100 N"
-    #[arg(long, value_name = "FORCES", allow_hyphen_values = true)]
-    pub load: Option<String>,
-    /// Moments M_x, M_y, such as "0, 4 N m"
-    #[arg(long, value_name = "MOMENTS", allow_hyphen_values = true)]
-    pub moment: Option<String>,
-    /// Shaft speed, such as "3000 rpm" [default: the highest of the speed profile]
-    #[arg(long, value_name = "SPEED")]
-    pub speed: Option<String>,
-    /// Motions held at the centred place, such as z,theta_x,theta_y
-    #[arg(long, value_name = "MOTIONS", value_delimiter = ',')]
-    pub hold: Vec<String>,
-    /// What to vary: load, displacement, speed or cage_angle, with its range or one of its own, such as
-    /// load="0 N .. 2 kN" or speed; can be repeated
-    #[arg(long, value_name = "NAME[=RANGE]")]
-    pub sweep: Vec<String>,
-    /// What loads and displacements go along: load (all components in proportion), x, y, z, theta_x, theta_y
-    #[arg(long, value_name = "MOTION")]
-    pub along: Option<String>,
-    /// Average over the cage's position instead of the cage angle of the model
-    #[arg(long)]
-    pub averaged: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -429,6 +401,24 @@ Examples:
         #[arg(long, value_name = "N")]
         modes: Option<usize>,
     },
+
+    /// Hold the model against measured modes or FRFs: which mode is which, and how far apart
+    ///
+    /// Pairs measured and computed modes by MAC and frequency (the assignment that is best for all together), lists
+    /// frequencies, errors, damping and MAC, and what has no partner on either side; FRFs are identified on the way
+    /// and laid over the model's, with FRAC and FDAC. Several files, such as hammer tests of different force, are also
+    /// held against the first: how far has every mode shifted?
+    #[command(after_long_help = update::VALIDATE)]
+    Validate(Box<ValidateArgs>),
+
+    /// Fit stiffnesses, dampings or any other numbers of the model to what was measured
+    ///
+    /// Weighted least squares with priors and bounds on frequencies, shapes, damping or FRFs, by Levenberg-Marquardt
+    /// with exact sensitivities. Says of every number whether the data tell it: with its standard error, the share of
+    /// the prior that is left, and the directions in which the data are blind. Writes the model file with the numbers
+    /// that were found, everything else as you wrote it, and figures of before and after.
+    #[command(after_long_help = update::UPDATE)]
+    Update(Box<UpdateArgs>),
 
     /// Look up bearings of the built-in catalogue
     ///

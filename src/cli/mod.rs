@@ -10,9 +10,11 @@ mod diagnostics;
 mod export;
 mod failure;
 mod films;
+mod free;
 mod identify;
 mod interrupt;
 mod machine;
+mod measured;
 mod noise;
 mod settings;
 mod signal;
@@ -24,6 +26,8 @@ mod stored;
 mod studies;
 mod tables;
 mod terminal;
+mod update;
+mod validate;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -132,6 +136,8 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Compare { study, variants, speed, modes } => {
             compare::run(study, variants, speed.as_ref(), *modes, terminal)
         }
+        Command::Validate(args) => validate::run(args, terminal),
+        Command::Update(args) => update::run(args, terminal),
         Command::Catalogue { designation } => {
             catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
         }

@@ -33,12 +33,21 @@ pub fn run(history: &History, model: &Model) -> Measured {
     Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
 }
 
-/// Point of a station, bearing or body of this name.
+/// Point of a station, bearing or body of this name; `housing.A`, `body.block`, `disc.main` and `station.B` say which is
+/// meant where several share a name.
 pub fn point(model: &Model, place: &str) -> Option<i64> {
-    let station = model.stations.iter().find(|s| s.name == place).map(|s| s.node);
-    let bearing = || model.bearings.iter().find(|b| b.name == place).map(|b| b.node);
-    let body = || model.bodies.iter().position(|b| b.name == place).map(|k| model.node_z.len() + k);
-    station.or_else(bearing).or_else(body).map(|node| node as i64 + 1)
+    let station = |name: &str| model.stations.iter().find(|s| s.name == name).map(|s| s.node);
+    let bearing = |name: &str| model.bearings.iter().find(|b| b.name == name).map(|b| b.node);
+    let disc = |name: &str| model.spinning().find(|d| d.name == name).map(|d| d.node);
+    let body = |name: &str| model.bodies.iter().position(|b| b.name == name).map(|k| model.node_z.len() + k);
+    let node = match place.split_once('.') {
+        Some(("housing" | "body", name)) => body(name),
+        Some(("disc", name)) => disc(name),
+        Some(("station", name)) => station(name),
+        Some(("bearing", name)) => bearing(name),
+        _ => station(place).or_else(|| bearing(place)).or_else(|| body(place)),
+    };
+    node.map(|node| node as i64 + 1)
 }
 
 /// Computed FRFs between the points that are excited and seen.

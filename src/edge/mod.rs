@@ -13,6 +13,7 @@ pub mod json;
 pub mod mat;
 pub mod measured;
 pub mod mesh;
+pub mod model_file;
 pub mod npy;
 pub mod parry;
 pub mod plot;

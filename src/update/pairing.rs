@@ -1,5 +1,6 @@
 //! Which measured mode is which computed mode.
 
+use crate::identify::mac::mac_matrix;
 use crate::linalg::Complex64;
 
 /// Below this MAC two modes are no pair.
@@ -33,21 +34,12 @@ pub struct Candidate<'a> {
     pub shape: &'a [Complex64],
 }
 
-/// Modal assurance criterion |aᴴ b|² / (aᴴ a · bᴴ b), 0..1; 0 where a shape is zero.
-///
-/// Source: Allemang & Brown, IMAC 1 (1982).
-pub fn mac(a: &[Complex64], b: &[Complex64]) -> f64 {
-    let dot =
-        |a: &[Complex64], b: &[Complex64]| a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex64>();
-    let size = dot(a, a).re * dot(b, b).re;
-    if size > 0.0 { dot(a, b).norm_sqr() / size } else { 0.0 }
-}
-
 /// The assignment with the largest sum of MAC · exp(−½ (ln(f_c/f_m)/0.25)²); pairs of MAC < 0.3 or a factor of two and
 /// more between their frequencies are none.
 pub fn pair(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
-    let mac: Vec<Vec<f64>> =
-        measured.iter().map(|m| computed.iter().map(|c| self::mac(m.shape, c.shape)).collect()).collect();
+    let measured_shapes: Vec<&[Complex64]> = measured.iter().map(|c| c.shape).collect();
+    let computed_shapes: Vec<&[Complex64]> = computed.iter().map(|c| c.shape).collect();
+    let mac = mac_matrix(&measured_shapes, &computed_shapes);
     let score = |m: usize, c: usize| {
         let apart = (computed[c].frequency_hz / measured[m].frequency_hz).ln();
         let near = apart.abs() < std::f64::consts::LN_2;

@@ -7,7 +7,7 @@ use crate::assembly::Assembly;
 use crate::element::Anchor;
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::{Model, Quantity};
-use crate::signal::record::{Analysis, Dof, Geometry, Measured};
+use crate::signal::record::{Analysis, Dof, Geometry, Measured, Shape};
 
 /// A measured point in the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,20 +172,24 @@ fn near_shaft(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
 
 /// Modes that a file holds as shapes, with their DOFs; `None` where it holds none.
 ///
-/// Where every shape has translations only these count; a speed in the shapes' names ("1200 rpm 1st bending") is not
-/// read: several speeds in one file are a problem of the caller.
-pub fn modes_of(measured: &Measured) -> Option<(Vec<Dof>, Vec<TargetMode>)> {
-    let modes: Vec<_> = measured
-        .shapes
-        .iter()
-        .filter(|s| matches!(s.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. }))
-        .collect();
+/// Directions in which nothing moves are left out. Of several speeds, told by names such as "1200 rpm 1st bending",
+/// the one nearest to `rpm` is taken, else the first, and returned.
+pub fn modes_of(measured: &Measured, rpm: Option<f64>) -> Option<(Vec<Dof>, Vec<TargetMode>, Option<f64>)> {
+    let speed = |s: &Shape| s.name.split_once(" rpm").and_then(|(n, _)| n.trim().parse::<f64>().ok());
+    let is_mode =
+        |s: &&Shape| matches!(s.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. });
+    let all: Vec<&Shape> = measured.shapes.iter().filter(is_mode).collect();
+    let near = |s: &&&Shape| match (speed(s), rpm) {
+        (Some(own), Some(rpm)) => (own - rpm).abs(),
+        _ => 0.0,
+    };
+    let taken = all.iter().min_by(|a, b| near(a).total_cmp(&near(b))).and_then(|s| speed(s));
+    let modes: Vec<&Shape> = all.into_iter().filter(|s| speed(s) == taken).collect();
     let first = modes.first()?;
     let components = first.components;
     let moves = |component: usize| {
-        let of = |s: &&&crate::signal::record::Shape| {
-            s.values.iter().skip(component).step_by(components).any(|v| v.norm_sqr() > 0.0)
-        };
+        let of =
+            |s: &&&Shape| s.values.iter().skip(component).step_by(components).any(|v| v.norm_sqr() > 0.0);
         modes.iter().any(|s| s.components == components && of(&s))
     };
     let moving: Vec<usize> = (0..components).filter(|&c| moves(c)).collect();
@@ -198,7 +202,7 @@ pub fn modes_of(measured: &Measured) -> Option<(Vec<Dof>, Vec<TargetMode>)> {
             moving.iter().map(move |&c| Dof::new(node, if components == 1 { 0 } else { c as i8 + 1 }))
         })
         .collect();
-    let mode = |s: &&&crate::signal::record::Shape| {
+    let mode = |s: &&&Shape| {
         let shape =
             (0..s.nodes.len()).flat_map(|n| moving.iter().map(move |&c| s.values[n * components + c]));
         let damping = s.analysis.damping_ratio();
@@ -218,5 +222,5 @@ pub fn modes_of(measured: &Measured) -> Option<(Vec<Dof>, Vec<TargetMode>)> {
     };
     let mut found: Vec<TargetMode> = alike.iter().filter_map(mode).collect();
     found.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-    Some((dofs, found))
+    Some((dofs, found, taken))
 }

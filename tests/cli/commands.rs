@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 16] = [
     "run",
     "check",
     "static",
@@ -20,6 +20,8 @@ const COMMANDS: [&str; 14] = [
     "bearing",
     "compare",
     "export",
+    "update",
+    "validate",
 ];
 
 #[test]

@@ -3,6 +3,7 @@
 mod bearings;
 mod commands;
 mod failures;
+mod held_against;
 mod runs;
 mod signal;
 mod signal_failures;

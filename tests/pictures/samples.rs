@@ -303,6 +303,17 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             curves: vec![y.clone(), x.clone()],
             chosen: vec![first(1), first(2)],
         }),
+        Figure::Matrix(Matrix {
+            title: name.clone(),
+            row_name: name.clone(),
+            column_name: name.clone(),
+            rows: vec![name.clone(); x.len()],
+            columns: vec![name.clone(); y.len()],
+            value: x.iter().flat_map(|_| y.iter().map(|v| 0.02 * v)).collect(),
+            quantity: name.clone(),
+            marked: vec![(0, 0)],
+            ..Default::default()
+        }),
         Figure::MacMatrix(MacMatrix {
             title: name.clone(),
             row_set: name.clone(),

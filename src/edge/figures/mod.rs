@@ -15,6 +15,7 @@
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
 //! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
 //! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | modes identified from FRFs |
+//! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | a model beside measurements; `update_...` before and after |
 //! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
 
 mod bearing;
@@ -28,6 +29,9 @@ mod signal;
 mod signal_shaft;
 mod speed;
 mod steady;
+mod validation;
+
+pub use validation::Stage;
 
 use std::path::{Path, PathBuf};
 
@@ -37,6 +41,7 @@ use super::plot::{self, Figure};
 use crate::error::Error;
 use crate::results::{BearingResult, Results, SignalResult};
 use crate::study::Machine;
+use crate::update::target::Target;
 
 /// Frequency in Hz or speed in rpm of an angular one.
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
@@ -104,6 +109,20 @@ pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result
     write_all(&comparison::figures(variants), folder)
 }
 
+/// Draws a measurement beside stages of a model, names beginning with `prefix`; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_validation(
+    prefix: &str,
+    title: &str,
+    target: &Target,
+    stages: &[Stage],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    write_all(&validation::figures(prefix, title, target, stages), folder)
+}
+
 fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {
     std::fs::create_dir_all(folder).map_err(|source| Error::Environment {
         operation: "create folder",
@@ -119,6 +138,6 @@ fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {
 }
 
 /// A name that every file system takes: what is neither letter, digit, dot nor dash becomes `_`.
-pub(super) fn file_name(name: &str) -> String {
+pub fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()
 }

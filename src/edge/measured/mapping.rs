@@ -162,6 +162,63 @@ impl Mapping {
         Ok(warnings)
     }
 
+    /// Puts shapes at the stations of the mapping's points, in the model's axes; points it does not name are left out.
+    ///
+    /// # Errors
+    /// As [`Mapping::apply`], and a mapping that names no point.
+    pub fn apply_to_shapes(
+        &self,
+        measured: &mut Measured,
+        place: &dyn Fn(&str) -> Option<i64>,
+        path: &Path,
+    ) -> Result<(), Error> {
+        let mut problems = Vec::new();
+        let axes = self.axes(&mut problems);
+        if self.point.is_empty() {
+            problems.push("shapes are placed by points, and it names none: add [point.NUMBER]".into());
+        }
+        for number in self.point.keys() {
+            if !measured.shapes.iter().any(|s| s.nodes.iter().any(|n| n.to_string() == *number)) {
+                problems.push(format!("there is no point {number} in the shapes"));
+            }
+        }
+        for shape in &mut measured.shapes {
+            let mut target = Target { place, axes, problems: &mut problems };
+            let parts = shape.components;
+            let (mut nodes, mut values) = (Vec::new(), Vec::new());
+            for (k, number) in shape.nodes.iter().enumerate() {
+                let Some(at) = self.point.get(&number.to_string()) else { continue };
+                let own = &shape.values[k * parts..(k + 1) * parts];
+                let mut turned = vec![crate::signal::Complex::default(); if parts == 1 { 3 } else { parts }];
+                for (c, value) in own.iter().enumerate() {
+                    let way = match (parts, &at.direction) {
+                        (1, Some(word)) => target.direction(word),
+                        (1, None) => 0,
+                        _ => target.turned(c as i8 + 1),
+                    };
+                    match turned.get_mut(usize::from(way.unsigned_abs()).wrapping_sub(1)) {
+                        Some(to) => *to += value * f64::from(way.signum()),
+                        None => target.problems.push(format!("point {number} has no direction")),
+                    }
+                }
+                nodes.push(target.station(&at.station));
+                values.extend(turned);
+            }
+            shape.components = if parts == 1 { 3 } else { parts };
+            (shape.nodes, shape.values) = (nodes, values);
+        }
+        problems.sort();
+        problems.dedup();
+        if problems.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Content {
+            path: path.into(),
+            problem: problems.join("; "),
+            advice: "correct the mapping".into(),
+        })
+    }
+
     /// The model's direction for each of the file's x, y, z.
     fn axes(&self, problems: &mut Vec<String>) -> [i8; 3] {
         let Some(words) = &self.axes else { return [1, 2, 3] };

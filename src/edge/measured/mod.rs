@@ -10,9 +10,11 @@
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 pub mod arrays;
+mod blow_run;
 pub mod datasets;
 pub mod mapping;
 mod signal_calc;
+pub mod target;
 pub mod unit;
 
 use std::io::Read;

@@ -32,6 +32,7 @@ mod heat_map;
 mod history;
 mod lines;
 mod mac_matrix;
+mod matrix;
 mod mode_shape;
 mod orbit;
 mod order;
@@ -63,6 +64,7 @@ pub use heat_map::{Field, HeatMap};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
 pub use mac_matrix::MacMatrix;
+pub use matrix::Matrix;
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
 pub use orbit::{Orbit, Orbits};
 pub use order::OrderMap;
@@ -99,6 +101,7 @@ pub enum Figure {
     CursorLines(CursorLines),
     HeatMap(HeatMap),
     FilmMap(FilmMap),
+    Matrix(Matrix),
     Rig(Rig),
     Stabilisation(Stabilisation),
     MacMatrix(MacMatrix),
@@ -128,6 +131,7 @@ impl Figure {
             Figure::CursorLines(data) => cursors::draw(data),
             Figure::HeatMap(data) => heat_map::draw(data),
             Figure::FilmMap(data) => film_map::draw(data),
+            Figure::Matrix(data) => matrix::draw(data),
             Figure::Rig(data) => rig::draw(data),
             Figure::Stabilisation(data) => stabilisation::draw(data),
             Figure::MacMatrix(data) => mac_matrix::draw(data),

@@ -28,6 +28,7 @@ mod run;
 mod side_file;
 mod signal;
 mod steady;
+pub mod validation;
 
 pub use side_file::{read_side_files, write_side_files};
 pub use signal::{SignalMeta, write_signal};

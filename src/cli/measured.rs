@@ -1,0 +1,184 @@
+//! Measured files against a model: what `validate` and `update` share.
+
+use std::path::{Path, PathBuf};
+
+use rotordyn::edge::measured::target::{self, ReadTarget, Reading};
+use rotordyn::linalg::Complex64;
+use rotordyn::model::Model;
+use rotordyn::units::{self, FREQUENCY, SPEED};
+use rotordyn::update::state::State;
+use rotordyn::update::target::Target;
+use serde_json::{Value, json};
+
+use super::args::MeasuredArgs;
+use super::failure::Failure;
+use super::terminal::{Terminal, number, rpm};
+
+/// Reads every measured file into the model.
+pub fn read(args: &MeasuredArgs, model: &Model, terminal: &Terminal) -> Result<Vec<ReadTarget>, Failure> {
+    let band = args.band.as_deref().map(|text| range(text, "--band")).transpose()?;
+    let speed = match &args.speed {
+        Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
+        None => None,
+    };
+    let reading = Reading { mapping: args.mapping.as_deref(), band, speed };
+    let mut out = Vec::new();
+    for path in &args.measured {
+        let bar = terminal.spinner(&format!("reading {}", path.display()));
+        let found = target::read(path, &reading, model);
+        bar.finish_and_clear();
+        let found = found?;
+        for warning in &found.warnings {
+            terminal.complain("warning", &format!("{}: {warning}", path.display()));
+        }
+        out.push(found);
+    }
+    Ok(out)
+}
+
+/// "10 Hz .. 300 Hz" or "10 .. 300 Hz".
+fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
+    let wrong = |why: &str| Failure::Input(format!("{flag} \"{text}\": {why}; write \"10 .. 300 Hz\""));
+    let ends = text.split_once("..").or_else(|| text.split_once(','));
+    let (from, to) = ends.ok_or_else(|| wrong("it is no range"))?;
+    let high = units::parse(to, FREQUENCY).map_err(|e| wrong(&e.to_string()))?;
+    let low = match from.trim().parse::<f64>() {
+        // The unit stands behind the second number for both.
+        Ok(bare) => {
+            let unit = to.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
+            units::parse(&format!("{bare} {unit}"), FREQUENCY).map_err(|e| wrong(&e.to_string()))?
+        }
+        Err(_) => units::parse(from, FREQUENCY).map_err(|e| wrong(&e.to_string()))?,
+    };
+    if low < high { Ok([low, high]) } else { Err(wrong("its ends are the wrong way round")) }
+}
+
+/// `out/NAME_ending` unless told otherwise.
+pub fn folder(out: Option<&PathBuf>, model: &str, ending: &str) -> PathBuf {
+    out.cloned().unwrap_or_else(|| Path::new("out").join(format!("{model}_{ending}")))
+}
+
+/// The file's name without folder and extension.
+pub fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    // All runs end in results.h5: their folder tells them apart.
+    match path.parent().and_then(Path::file_name) {
+        Some(folder) if stem == "results" => folder.to_string_lossy().into_owned(),
+        _ => stem,
+    }
+}
+
+/// One row for every measured mode with its partner, then what only the model has, by frequency.
+pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &State) {
+    let per_cent = |v: f64| format!("{:.3}", 100.0 * v);
+    let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
+    for (k, measured) in target.modes.iter().enumerate() {
+        let damping = measured.damping_ratio.map_or("-".into(), per_cent);
+        let mut row = vec![format!("{:.3}", measured.frequency_hz)];
+        match state.partner(k) {
+            Some((mode, mac)) => row.extend([
+                format!("{:.3}", mode.frequency_hz()),
+                format!("{:+.2}", 100.0 * (mode.frequency_hz() / measured.frequency_hz - 1.0)),
+                damping,
+                per_cent(mode.zeta()),
+                format!("{mac:.3}"),
+                mode.label.clone(),
+            ]),
+            None => row.extend([
+                "-".into(),
+                "-".into(),
+                damping,
+                "-".into(),
+                "-".into(),
+                "(no partner in the model)".into(),
+            ]),
+        }
+        rows.push((measured.frequency_hz, row));
+    }
+    let [low, high] = band(target);
+    for &k in &state.pairing.unpaired_computed {
+        let mode = &state.modes[k];
+        if (low..=high).contains(&mode.frequency_hz()) {
+            let label = format!("{} (not measured)", mode.label);
+            let dash = || "-".to_string();
+            let own = format!("{:.3}", mode.frequency_hz());
+            rows.push((
+                mode.frequency_hz(),
+                vec![dash(), own, dash(), dash(), per_cent(mode.zeta()), dash(), label],
+            ));
+        }
+    }
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|r| r.1).collect();
+    let header =
+        ["measured Hz", "computed Hz", "error %", "measured zeta %", "computed zeta %", "MAC", "mode"];
+    terminal.table(&format!("{title} at {:.0} rpm", rpm(target.speed)), &header, &rows);
+}
+
+/// Frequencies between which modes were measured, a little wider.
+pub fn band(target: &Target) -> [f64; 2] {
+    let all = || target.modes.iter().map(|m| m.frequency_hz);
+    [0.8 * all().fold(f64::INFINITY, f64::min), 1.1 * all().fold(0.0, f64::max)]
+}
+
+/// Pairs, what is left over, MAC, for machines.
+pub fn to_json(target: &Target, state: &State) -> Value {
+    let pairs: Vec<Value> = target
+        .modes
+        .iter()
+        .enumerate()
+        .map(|(k, m)| {
+            let partner = state.partner(k);
+            json!({
+                "measured_hz": m.frequency_hz,
+                "measured_zeta": m.damping_ratio,
+                "measured_hz_error": m.frequency_error,
+                "computed_hz": partner.map(|p| p.0.frequency_hz()),
+                "computed_zeta": partner.map(|p| p.0.zeta()),
+                "error": partner.map(|p| p.0.frequency_hz() / m.frequency_hz - 1.0),
+                "mac": partner.map(|p| p.1),
+                "label": partner.map(|p| p.0.label.clone()),
+            })
+        })
+        .collect();
+    let alone = state.pairing.unpaired_computed.iter().map(|&k| &state.modes[k]);
+    json!({
+        "rpm": rpm(target.speed),
+        "modes": pairs,
+        "not_measured": alone
+            .map(|m| json!({ "label": m.label, "computed_hz": m.frequency_hz() }))
+            .collect::<Vec<_>>(),
+        "mac": state.pairing.mac,
+    })
+}
+
+/// FRAC of every response and reference, as a table.
+pub fn frac_table(
+    terminal: &Terminal,
+    target: &Target,
+    state: &State,
+    computed: &[Vec<Vec<Complex64>>],
+) -> Vec<Vec<f64>> {
+    let Some(measured) = &target.frfs else { return Vec::new() };
+    let model = &state.linear.model;
+    let values: Vec<Vec<f64>> = measured
+        .values
+        .iter()
+        .zip(computed)
+        .map(|(m, c)| m.iter().zip(c).map(|(m, c)| rotordyn::identify::mac::frac(m, c)).collect())
+        .collect();
+    let mut header = vec!["response".to_string()];
+    header.extend(measured.references.iter().map(|s| s.name(model)));
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let rows: Vec<Vec<String>> = measured
+        .responses
+        .iter()
+        .zip(&values)
+        .map(|(sensor, row)| {
+            let own = row.iter().map(|v| number(*v, 3));
+            std::iter::once(sensor.name(model)).chain(own).collect()
+        })
+        .collect();
+    terminal.table("FRAC, by force", &header, &rows);
+    values
+}

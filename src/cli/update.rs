@@ -1,0 +1,272 @@
+//! `update`: free numbers of the model fitted to measured modes, and what the data tell of each.
+
+use std::path::PathBuf;
+
+use rotordyn::edge::figures::{self, Stage};
+use rotordyn::edge::hdf5::Store;
+use rotordyn::edge::{model_file, results_file};
+use rotordyn::error::Error;
+use rotordyn::model::{self, Model, Options};
+use rotordyn::update::parameter::FreeParameter;
+use rotordyn::update::residual::{Fitting, FrfFitting};
+use rotordyn::update::{Job, Update, Verdict, update};
+use serde_json::{Value, json};
+
+use super::args::{FitWord, UpdateArgs};
+use super::failure::Failure;
+use super::free;
+use super::machine::Origin;
+use super::measured::{self, band, folder};
+use super::terminal::{Terminal, number};
+use super::{Outcome, films, warn, written};
+
+pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
+    let origin = Origin::read(&args.study.model)?;
+    let mut loaded = origin.load(&[])?;
+    warn(terminal, &loaded);
+    let parameters = free::parameters(args, &origin)?;
+    let name = match &origin.options.variant {
+        Some(variant) => format!("{}_{variant}", loaded.model.name),
+        None => loaded.model.name.clone(),
+    };
+    let folder = folder(args.study.out.as_ref(), &name, "updated");
+    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    if args.measured.measured.len() > 1 {
+        return Err(Failure::Input("an update takes one measured file; merge the FRFs into one".into()));
+    }
+    let read = measured::read(&args.measured, &loaded.model, terminal)?.remove(0);
+    terminal.say(&format!("{}: {}", args.measured.measured[0].display(), read.source));
+    let fitting = fitting(args, band(&read.target));
+    if fitting.frf.is_some() && read.target.frfs.is_none() {
+        return Err(Failure::Input("--fit frf needs FRFs, and the measured file holds none".into()));
+    }
+    let load = |set: &[(String, String)]| -> Result<Model, Error> {
+        let mut options: Options = origin.options.clone();
+        options.set.extend_from_slice(set);
+        let changed = |e: &dyn std::fmt::Display| Error::Content {
+            path: args.study.model.model.clone(),
+            problem: e.to_string(),
+            advice: "set --bounds that keep the free parameters sound".into(),
+        };
+        let mut model = model::load(&origin.name, &origin.text, &options).map_err(|e| changed(&e))?.model;
+        films::of_machine(&mut model, &folder, terminal).map_err(|e| changed(&e.message()))?;
+        Ok(model)
+    };
+    let job = Job {
+        parameters: &parameters,
+        target: &read.target,
+        fitting: &fitting,
+        load: &load,
+        max_iterations: args.iterations,
+    };
+    let bar = terminal.spinner("updating");
+    let found = update(&job);
+    bar.finish_and_clear();
+    let found = found?;
+
+    parameter_table(terminal, &parameters, &found);
+    singular_table(terminal, &parameters, &found);
+    measured::mode_table(terminal, "Modes before", &read.target, &found.before);
+    measured::mode_table(terminal, "Modes after", &read.target, &found.after);
+    let told = &found.identifiability;
+    terminal.say(&format!(
+        "\nchi^2 = {} with {} degrees of freedom, {} steps{}",
+        number(told.chi_squared, 3),
+        number(told.degrees, 3),
+        found.iterations.len() - 1,
+        if found.converged { "" } else { ", not converged" }
+    ));
+    doubts(terminal, &parameters, &found);
+
+    std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
+    let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
+    let frfs =
+        |state: &rotordyn::update::state::State| read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose();
+    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
+    let path = folder.join("update.h5");
+    let store = Store::create(&path)?;
+    results_file::validation::write(&store, "/before", &read.target, &found.before, before.as_deref())?;
+    results_file::validation::write(&store, "/after", &read.target, &found.after, after.as_deref())?;
+    results_file::validation::write_parameters(&store, &parameters, &found)?;
+    store.flush()?;
+    files.push(path);
+    if !args.study.no_figures {
+        let stages = [
+            Stage { name: "before", state: &found.before, frfs: before.as_deref() },
+            Stage { name: "after", state: &found.after, frfs: after.as_deref() },
+        ];
+        files.extend(figures::draw_validation(
+            "update",
+            &loaded.model.title,
+            &read.target,
+            &stages,
+            &folder,
+        )?);
+    }
+    written(terminal, &folder, &files);
+    let mut document = json!({
+        "command": "update",
+        "model": loaded.model.name,
+        "measured": args.measured.measured,
+        "source": read.source,
+        "parameters": parameters_json(&parameters, &found),
+        "singular_values": told.singular_values,
+        "directions": told.directions,
+        "correlation": told.correlation,
+        "chi_squared": told.chi_squared,
+        "degrees": told.degrees,
+        "converged": found.converged,
+        "steps": found.iterations.len() - 1,
+        "before": measured::to_json(&read.target, &found.before),
+        "after": measured::to_json(&read.target, &found.after),
+    });
+    document["files"] = json!(files);
+    Ok(document.into())
+}
+
+fn fitting(args: &UpdateArgs, band: [f64; 2]) -> Fitting {
+    let wants = |word: FitWord| args.fit.contains(&word);
+    let standard = Fitting::default();
+    let frf = |complex| FrfFitting { complex, deviation: 0.1, band };
+    Fitting {
+        frequency: wants(FitWord::Frequency).then_some(0.01 * args.frequency_accuracy),
+        damping: wants(FitWord::Damping).then_some(0.1),
+        shape: wants(FitWord::Mac).then_some(standard.shape.unwrap_or(0.05)),
+        frf: if wants(FitWord::FrfComplex) {
+            Some(frf(true))
+        } else {
+            wants(FitWord::Frf).then(|| frf(false))
+        },
+    }
+}
+
+fn value(parameter: &FreeParameter, x: f64) -> String {
+    format!("{} {}", number(parameter.value(x), 5), parameter.unit()).trim_end().to_string()
+}
+
+/// Standard error of a parameter, per cent of its value.
+fn error_per_cent(parameter: &FreeParameter, x: f64, error: f64) -> f64 {
+    100.0 * (error * parameter.slope(x) / parameter.value(x)).abs()
+}
+
+fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+    let rows: Vec<Vec<String>> = parameters
+        .iter()
+        .zip(&found.outcomes)
+        .map(|(p, o)| {
+            vec![
+                p.name.clone(),
+                value(p, 0.0),
+                value(p, o.x),
+                format!("{:+.1}", 100.0 * (p.value(o.x) / p.value(0.0) - 1.0)),
+                number(error_per_cent(p, o.fitted, o.error), 2),
+                number(100.0 * o.prior_share, 2),
+                o.verdict.words().into(),
+            ]
+        })
+        .collect();
+    let header = ["parameter", "start", "updated", "change %", "standard error %", "prior left %", ""];
+    terminal.table("Free parameters", &header, &rows);
+    terminal.say(
+        "  found: a tenth of the prior's variance is left at most, and the standard error is 10 % at most;\n  \
+         poorly determined: half of it at most; else the data do not tell, and the value stays at its start",
+    );
+}
+
+fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+    let told = &found.identifiability;
+    let rows: Vec<Vec<String>> = told
+        .singular_values
+        .iter()
+        .zip(&told.directions)
+        .map(|(sigma, direction)| {
+            let mut parts: Vec<(f64, &str)> =
+                direction.iter().zip(parameters).map(|(v, p)| (*v, p.name.as_str())).collect();
+            parts.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+            let turn = if parts.first().is_some_and(|p| p.0 < 0.0) { -1.0 } else { 1.0 };
+            let words: Vec<String> = parts
+                .iter()
+                .filter(|p| p.0.abs() > 0.15)
+                .map(|(v, name)| format!("{:+.2} {name}", turn * v))
+                .collect();
+            vec![number(*sigma, 3), words.join(" ")]
+        })
+        .collect();
+    let header = ["sigma", "direction"];
+    terminal.table("What the data tell: below 1 the prior tells more", &header, &rows);
+}
+
+/// Correlations that hide one parameter behind another, bounds, no convergence.
+fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+    let correlation = &found.identifiability.correlation;
+    for i in 0..parameters.len() {
+        for j in 0..i {
+            let c = correlation[i][j];
+            if c.abs() > 0.95 {
+                let what = if c < 0.0 { "sum" } else { "ratio" };
+                terminal.complain(
+                    "warning",
+                    &format!(
+                        "the data hardly part {} from {} (correlation {c:.3}): they tell their {what} only",
+                        parameters[i].name, parameters[j].name
+                    ),
+                );
+            }
+        }
+        if found.outcomes[i].verdict == Verdict::AtBound {
+            let name = &parameters[i].name;
+            terminal
+                .complain("warning", &format!("{name} ended at its bound: what it stands for may be wrong"));
+        }
+    }
+    if !found.converged {
+        terminal.complain("warning", "the update did not converge: allow more --iterations, or free fewer");
+    }
+}
+
+/// The model file with the numbers that were found, the rest as the user wrote it.
+fn write_model(
+    args: &UpdateArgs,
+    origin: &Origin,
+    parameters: &[FreeParameter],
+    found: &Update,
+    folder: &std::path::Path,
+) -> Result<PathBuf, Failure> {
+    let path = args.write.clone().unwrap_or_else(|| {
+        let stem = args.study.model.model.file_stem().unwrap_or_default().to_string_lossy();
+        folder.join(format!("{stem}_updated.toml"))
+    });
+    let mut changes = Vec::new();
+    for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
+        if outcome.verdict == Verdict::NotTold {
+            continue;
+        }
+        for place in &parameter.places {
+            let value = parameter.value_of(place, outcome.x);
+            let error = if parameter.logarithmic { outcome.error * value.abs() } else { outcome.error };
+            changes.push(model_file::Change { path: place.path.clone(), value, error });
+        }
+    }
+    let text = String::from_utf8_lossy(&origin.text);
+    let new = model_file::rewrite(&text, origin.options.variant.as_deref(), &changes)
+        .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))?;
+    std::fs::write(&path, new).map_err(|e| Failure::environment("write the model file", &path, e))?;
+    Ok(path)
+}
+
+fn parameters_json(parameters: &[FreeParameter], found: &Update) -> Value {
+    let one = |(p, o): (&FreeParameter, &rotordyn::update::Outcome)| {
+        json!({
+            "name": p.name,
+            "paths": p.places.iter().map(|place| &place.path).collect::<Vec<_>>(),
+            "unit": p.unit(),
+            "start": p.value(0.0),
+            "value": p.value(o.x),
+            "fitted": p.value(o.fitted),
+            "standard_error": (o.error * p.slope(o.fitted)).abs(),
+            "prior_share": o.prior_share,
+            "verdict": o.verdict.words(),
+        })
+    };
+    parameters.iter().zip(&found.outcomes).map(one).collect()
+}

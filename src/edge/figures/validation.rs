@@ -1,0 +1,181 @@
+//! A model beside measurements: MAC, frequencies, FRFs overlaid, FRAC and FDAC.
+
+use super::Named;
+use super::display::pretty;
+use crate::edge::plot::{Curve, Figure, Frf, FrfCurve, Lines, Matrix};
+use crate::identify::mac::{fdac, frac as likeness};
+use crate::linalg::Complex64;
+use crate::model::Quantity;
+use crate::update::state::State;
+use crate::update::target::{Target, TargetFrfs};
+
+/// A state of the model with a name ("computed", "before", "after") and its FRFs at the measured points.
+pub struct Stage<'a> {
+    pub name: &'a str,
+    pub state: &'a State,
+    /// `[response][reference][line]`, where FRFs were measured.
+    pub frfs: Option<&'a [Vec<Vec<Complex64>>]>,
+}
+
+/// Most FRFs drawn, each as a figure of its own.
+const MOST_FRFS: usize = 12;
+/// Lines of an FDAC along each axis.
+const FDAC_LINES: usize = 60;
+
+/// All figures of one measurement against the stages of a model, names beginning with `prefix`.
+pub fn figures(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Vec<Named> {
+    let mut out = vec![frequencies(prefix, title, target, stages)];
+    for stage in stages {
+        let tail = if stages.len() > 1 { format!("_{}", stage.name) } else { String::new() };
+        out.push((format!("{prefix}_mac{tail}"), mac_matrix(title, target, stage)));
+    }
+    if let Some(measured) = &target.frfs {
+        out.extend(overlays(prefix, measured, stages));
+        for stage in stages {
+            let tail = if stages.len() > 1 { format!("_{}", stage.name) } else { String::new() };
+            if let Some(computed) = stage.frfs {
+                out.push((format!("{prefix}_frac{tail}"), frac(title, measured, computed, stage)));
+                out.push((format!("{prefix}_fdac{tail}"), fdac_matrix(title, measured, computed, stage)));
+            }
+        }
+    }
+    out
+}
+
+fn note(title: &str, stage: &Stage) -> String {
+    if stage.name == "computed" { title.to_string() } else { format!("{title}, {}", stage.name) }
+}
+
+/// Error of every paired frequency, per cent.
+fn frequencies(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Named {
+    let curves = stages.iter().map(|stage| {
+        let pairs = &stage.state.pairing.pairs;
+        let measured = |k: usize| target.modes[k].frequency_hz;
+        let error = |p: &crate::update::pairing::Pair| {
+            100.0 * (stage.state.modes[p.computed].frequency_hz() / measured(p.measured) - 1.0)
+        };
+        Curve {
+            label: stage.name.into(),
+            x: pairs.iter().map(|p| measured(p.measured)).collect(),
+            y: pairs.iter().map(error).collect(),
+            points: true,
+        }
+    });
+    let figure = Lines {
+        title: "Computed against measured frequencies".into(),
+        note: title.into(),
+        x_name: "measured frequency".into(),
+        x_unit: "Hz".into(),
+        y_name: "error of the model".into(),
+        y_unit: "%".into(),
+        curves: curves.collect(),
+        ..Lines::default()
+    };
+    (format!("{prefix}_frequencies"), Figure::Lines(figure))
+}
+
+fn mac_matrix(title: &str, target: &Target, stage: &Stage) -> Figure {
+    let state = stage.state;
+    let label = |m: &crate::analysis::Mode| format!("{} {:.1} Hz", m.label, m.frequency_hz());
+    Figure::Matrix(Matrix {
+        title: "MAC of measured and computed modes".into(),
+        note: format!("{}; frames are pairs", note(title, stage)),
+        row_name: "measured".into(),
+        column_name: "computed".into(),
+        rows: target.modes.iter().map(|m| format!("{:.1} Hz", m.frequency_hz)).collect(),
+        columns: state.modes.iter().map(label).collect(),
+        value: state.pairing.mac.concat(),
+        quantity: "MAC".into(),
+        marked: state.pairing.pairs.iter().map(|p| (p.measured, p.computed)).collect(),
+    })
+}
+
+fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named> {
+    let mut out = Vec::new();
+    let ends = (0..measured.references.len())
+        .flat_map(|e| (0..measured.responses.len()).map(move |r| (r, e)))
+        .take(MOST_FRFS);
+    for (r, e) in ends {
+        let Some(model) = stages.first().map(|s| &s.state.linear.model) else { continue };
+        let (response, reference) = (&measured.responses[r], &measured.references[e]);
+        let curve = |label: &str, values: &[Complex64]| FrfCurve {
+            label: label.into(),
+            hz: measured.frequencies.clone(),
+            re: values.iter().map(|v| v.re).collect(),
+            im: values.iter().map(|v| v.im).collect(),
+            coherence: Vec::new(),
+        };
+        let mut first = curve("measured", &measured.values[r][e]);
+        if let Some(coherence) = &measured.coherence {
+            first.coherence.clone_from(&coherence[r][e]);
+        }
+        let mut curves = vec![first];
+        for stage in stages {
+            curves.extend(stage.frfs.map(|frfs| curve(stage.name, &frfs[r][e])));
+        }
+        let (quantity, moved) = match measured.quantities[r] {
+            Quantity::Displacement => ("receptance", "m"),
+            Quantity::Velocity => ("mobility", "m/s"),
+            Quantity::Acceleration => ("accelerance", "m/s^2"),
+        };
+        let turns = |rotation: bool, plain: &str, turned: &str| {
+            if rotation { turned.to_string() } else { plain.into() }
+        };
+        let moved = turns(response.dof.is_rotation(), moved, &moved.replacen('m', "rad", 1));
+        let unit = format!("({moved})/{}", turns(reference.dof.is_rotation(), "N", "(N m)"));
+        let (from, to) = (reference.name(model), response.name(model));
+        let figure = Frf {
+            title: format!("{to} under a force at {from}"),
+            note: "measured and computed".into(),
+            quantity: quantity.into(),
+            unit: pretty(&unit),
+            curves,
+        };
+        out.push((format!("{prefix}_frf_{from}_{to}"), Figure::Frf(figure)));
+    }
+    out
+}
+
+fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
+    let model = &stage.state.linear.model;
+    let value = |r: usize, e: usize| likeness(&measured.values[r][e], &computed[r][e]);
+    let columns = measured.references.len();
+    Figure::Matrix(Matrix {
+        title: "FRAC: likeness of every FRF over the band".into(),
+        note: note(title, stage),
+        row_name: "response".into(),
+        column_name: "force".into(),
+        rows: measured.responses.iter().map(|s| s.name(model)).collect(),
+        columns: measured.references.iter().map(|s| s.name(model)).collect(),
+        value: (0..measured.responses.len() * columns).map(|k| value(k / columns, k % columns)).collect(),
+        quantity: "FRAC".into(),
+        marked: Vec::new(),
+    })
+}
+
+fn fdac_matrix(
+    title: &str,
+    measured: &TargetFrfs,
+    computed: &[Vec<Vec<Complex64>>],
+    stage: &Stage,
+) -> Figure {
+    let every = measured.frequencies.len().div_ceil(FDAC_LINES).max(1);
+    let thin = |frfs: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Complex64>> {
+        frfs.iter().flatten().map(|frf| frf.iter().step_by(every).copied().collect()).collect()
+    };
+    let (a, b) = (thin(&measured.values), thin(computed));
+    let (a, b): (Vec<&[Complex64]>, Vec<&[Complex64]>) =
+        (a.iter().map(Vec::as_slice).collect(), b.iter().map(Vec::as_slice).collect());
+    let names: Vec<String> = measured.frequencies.iter().step_by(every).map(|f| format!("{f:.0}")).collect();
+    Figure::Matrix(Matrix {
+        title: "FDAC: likeness of deflections at every pair of frequencies".into(),
+        note: format!("{}; a ridge off the diagonal is a shift of frequency", note(title, stage)),
+        row_name: "measured [Hz]".into(),
+        column_name: "computed [Hz]".into(),
+        rows: names.clone(),
+        columns: names,
+        value: fdac(&a, &b).concat(),
+        quantity: "FDAC".into(),
+        marked: Vec::new(),
+    })
+}

@@ -1,0 +1,103 @@
+//! A simulated hammer test: the stored run of a machine at rest under one load over time, as FRFs.
+
+use std::f64::consts::TAU;
+
+use crate::edge::hdf5::{Attribute, Store};
+use crate::edge::results_file::read_history;
+use crate::error::Error;
+use crate::model::{self, Load, Model, Options, Quantity};
+use crate::signal::impact::{Blow, ImpactWindows, frf_from_blows};
+use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
+
+/// Name of the number that tells the largest force of the blow \[N\].
+pub const PEAK_FORCE: &str = "peak_force";
+
+/// FRFs from the load to every probe; `None` where the file holds no run under exactly one load over time.
+///
+/// The force is that of the model stored in the file. Frequencies go up to the inverse of the blow's duration, where
+/// a half-sine or a triangle still has half its force; what moves before the blow is taken as rest.
+///
+/// # Errors
+/// The file cannot be read, or the run is too short to tell anything.
+pub fn frfs(store: &Store) -> Result<Option<Measured>, Error> {
+    if !store.contains("/time/t") {
+        return Ok(None);
+    }
+    let Some(model) = stored_model(store)? else { return Ok(None) };
+    let varying: Vec<&Load> = model.loads.iter().filter(|l| !l.history.is_empty()).collect();
+    let [load] = varying[..] else { return Ok(None) };
+    let history = read_history(store)?;
+    let (Some(first), Some(last)) = (load.history.first(), load.history.last()) else { return Ok(None) };
+    let (size, direction) = along(&load.force);
+    let force: Vec<f64> = history.time.iter().map(|t| size * factor(&load.history, *t)).collect();
+    let node = |at: &crate::element::Anchor| match at.node {
+        Some(node) if at.offset == [0.0; 3] => node as i64 + 1,
+        _ => 0,
+    };
+    let reference = Dof::new(node(&load.at), direction);
+    let top = 1.0 / (last[0] - first[0]).max(1.0 / history.sample_rate);
+    let mut out = Measured { title: model.title.clone(), ..Measured::default() };
+    for probe in &model.probes {
+        let Some(channel) = history.channels.iter().find(|c| c.name == probe.name) else { continue };
+        let rest = channel.values.first().copied().unwrap_or(0.0);
+        let response: Vec<f64> = channel.values.iter().map(|v| v - rest).collect();
+        let blow = Blow { force: &force, response: &response };
+        let found = frf_from_blows(&[blow], history.sample_rate, ImpactWindows::default())?;
+        let count = found.frequencies.iter().filter(|f| **f <= top).count();
+        let step = found.frequencies.get(1).copied().unwrap_or(1.0);
+        let axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
+        let values = Values::Complex(found.h1[..count].to_vec());
+        let unit = match probe.quantity {
+            Quantity::Displacement => "m/N",
+            Quantity::Velocity => "(m/s)/N",
+            Quantity::Acceleration => "(m/s^2)/N",
+        };
+        let (_, way) = along(&probe.direction);
+        out.records.push(Record {
+            response: Dof::new(node(&probe.at), way),
+            reference,
+            speed_rpm: history.speed.first().map(|s| s * 60.0 / TAU),
+            ..Record::new(&probe.name, Kind::Frf, axis, values, unit)
+        });
+    }
+    // Rotations and points beside a node have no number of their own in the model.
+    out.records.retain(|r| r.response.node != 0 && (1..=3).contains(&r.response.direction.abs()));
+    let peak = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+    out.scalars.push((PEAK_FORCE.into(), peak));
+    Ok((!out.records.is_empty() && peak > 0.0).then_some(out))
+}
+
+/// Size of a force and its direction, 0 where it is along no single axis.
+fn along(force: &[f64; 6]) -> (f64, i8) {
+    let mut parts = force.iter().enumerate().filter(|(_, f)| **f != 0.0);
+    match (parts.next(), parts.next()) {
+        (Some((k, f)), None) => (f.abs(), (k as i8 + 1) * f.signum() as i8),
+        _ => (force.iter().map(|f| f * f).sum::<f64>().sqrt(), 0),
+    }
+}
+
+/// The history's factor at a time: linear between its rows, zero outside.
+fn factor(history: &[[f64; 2]], t: f64) -> f64 {
+    let after = history.partition_point(|row| row[0] <= t);
+    match (after.checked_sub(1).map(|k| history[k]), history.get(after)) {
+        (Some([t0, f0]), Some([t1, f1])) => f0 + (f1 - f0) * (t - t0) / (t1 - t0),
+        _ => 0.0,
+    }
+}
+
+/// The model that the run was made with.
+fn stored_model(store: &Store) -> Result<Option<Model>, Error> {
+    let text = |name: &str| -> Result<Option<String>, Error> {
+        Ok(match store.attribute("/meta", name)? {
+            Some(Attribute::Text(text)) => Some(text),
+            _ => None,
+        })
+    };
+    let Some(model) = text("model")? else { return Ok(None) };
+    let setting = |line: &str| line.split_once(" = ").map(|(path, value)| (path.into(), value.into()));
+    let options = Options {
+        variant: text("variant")?.filter(|name| !name.is_empty()),
+        set: text("settings")?.unwrap_or_default().lines().filter_map(setting).collect(),
+    };
+    Ok(model::load("stored model", model, &options).ok().map(|loaded| loaded.model))
+}

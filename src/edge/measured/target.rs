@@ -1,0 +1,235 @@
+//! What a model is held against, from a measured file: identified modes, FRFs, or a simulated hammer test.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use super::mapping;
+use super::mapping::Mapping;
+use crate::edge::exchange;
+use crate::edge::hdf5::Store;
+use crate::edge::measured;
+use crate::error::Error;
+use crate::identify::{self, Identified};
+use crate::model::Model;
+use crate::signal::record::{Analysis, Dof, Kind, Measured, Shape};
+use crate::update::UpdateError;
+use crate::update::target::{Sensor, Target, TargetFrfs, TargetMode, modes_of, sensors};
+
+/// How to read a measured file.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reading<'a> {
+    pub mapping: Option<&'a Path>,
+    /// Frequencies \[Hz\] to look at; all if `None`.
+    pub band: Option<[f64; 2]>,
+    /// Speed Ω \[rad/s\] at which it was measured, where the file does not tell.
+    pub speed: Option<f64>,
+}
+
+/// A file made ready, and what deserves a warning.
+#[derive(Clone, Debug)]
+pub struct ReadTarget {
+    pub target: Target,
+    pub warnings: Vec<String>,
+    /// "9 modes identified from 12 FRFs", "9 modes of the file".
+    pub source: String,
+    /// Largest force of a simulated blow \[N\].
+    pub force: Option<f64>,
+}
+
+/// Reads a file and puts what it holds into the model.
+///
+/// Modes of a universal file (55, 2414) or of a results file come as they are; FRFs are identified on the way; the run
+/// of a hammer test, stored by `run-up` with a load over time, gives its FRFs first.
+///
+/// # Errors
+/// A file that cannot be read or holds neither modes nor FRFs, a mapping or points that do not fit the model, no mode
+/// in the band.
+pub fn read(path: &Path, reading: &Reading, model: &Model) -> Result<ReadTarget, Error> {
+    let mut measured = match own_results(path)? {
+        Some(measured) => measured,
+        None => measured::read(path)?,
+    };
+    let mut warnings = std::mem::take(&mut measured.notes);
+    if let Some(file) = reading.mapping {
+        let mapping = mapping::read(file)?;
+        warnings.extend(place(&mapping, &mut measured, model, file)?);
+    }
+    let mut out = if measured.shapes.iter().any(is_mode) {
+        of_shapes(&measured, reading, model)?
+    } else if measured.records.iter().any(|r| r.kind == Kind::Frf) {
+        of_frfs(&measured, reading, model)?
+    } else {
+        return Err(Error::Content {
+            path: path.into(),
+            problem: "it holds neither modes nor FRFs".into(),
+            advice: "give FRFs (universal file 58), modes (55, 2414), or the results of `rotordyn modal`"
+                .into(),
+        });
+    };
+    if let Some([from, to]) = reading.band {
+        let all = out.target.modes.len();
+        out.target.modes.retain(|m| (from..=to).contains(&m.frequency_hz));
+        if out.target.modes.is_empty() {
+            return Err(UpdateError::new(
+                format!("none of the {all} measured modes lies in {from} .. {to} Hz"),
+                "choose another --band",
+            )
+            .into());
+        }
+    }
+    out.warnings.splice(0..0, warnings);
+    if out.target.sensors.len() < 3 {
+        let n = out.target.sensors.len();
+        out.warnings.push(format!(
+            "{n} measured point{} cannot tell shapes apart: modes are paired by frequency",
+            if n == 1 { "" } else { "s" }
+        ));
+    }
+    Ok(out)
+}
+
+fn is_mode(shape: &Shape) -> bool {
+    matches!(shape.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. })
+}
+
+/// Lays a mapping over records and shapes.
+fn place(
+    mapping: &Mapping,
+    measured: &mut Measured,
+    model: &Model,
+    file: &Path,
+) -> Result<Vec<String>, Error> {
+    let place = |name: &str| exchange::point(model, name);
+    let mut warnings = Vec::new();
+    if !measured.records.is_empty() {
+        warnings = mapping.apply(measured, &place, file)?;
+    }
+    if measured.shapes.iter().any(is_mode) {
+        mapping.apply_to_shapes(measured, &place, file)?;
+    }
+    // Points have the model's numbers now, whatever the file's geometry calls by them.
+    measured.geometry = Default::default();
+    Ok(warnings)
+}
+
+fn of_shapes(measured: &Measured, reading: &Reading, model: &Model) -> Result<ReadTarget, Error> {
+    let found = modes_of(measured, reading.speed.map(|s| s * 60.0 / TAU));
+    let Some((dofs, modes, rpm)) = found.filter(|(_, modes, _)| !modes.is_empty()) else {
+        return Err(UpdateError::new(
+            "the file's shapes are no oscillations",
+            "export complex or normal modes",
+        )
+        .into());
+    };
+    let sensors = sensors(&dofs, &measured.geometry, model)?;
+    let speed = rpm.map(|rpm| rpm * TAU / 60.0).or(reading.speed).unwrap_or(0.0);
+    let source = format!("{} modes of the file", modes.len());
+    let target = Target { speed, sensors, modes, frfs: None };
+    Ok(ReadTarget { target, warnings: Vec::new(), source, force: None })
+}
+
+fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<ReadTarget, Error> {
+    let matrix = measured.frf_matrix()?;
+    let settings = identify::Settings { band: reading.band, ..identify::Settings::default() };
+    let found = identify::identify(&matrix, &settings)?;
+    let speeds: Vec<f64> = measured.records.iter().filter_map(|r| r.speed_rpm).collect();
+    let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);
+    let mut warnings = found.dropped.clone();
+    if speeds.iter().any(|s| (s - speeds[0]).abs() > 1.0) {
+        warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
+    }
+    let responses = sensors(&matrix.responses, &measured.geometry, model)?;
+    let references = sensors(&matrix.references, &measured.geometry, model);
+    let (dofs, modes) = modes_of_identified(&found);
+    let points = sensors(&dofs, &measured.geometry, model)?;
+    let quantity = |r: usize| {
+        let unit = matrix.units[r].first().map(String::as_str).unwrap_or_default();
+        identify::quantity_of(unit).unwrap_or(found.quantity)
+    };
+    // A blow that no single point and direction describes has shapes all the same, and no FRF to compare.
+    let frfs = references.as_ref().ok().map(|references| TargetFrfs {
+        frequencies: matrix.frequencies.clone(),
+        quantities: (0..responses.len()).map(quantity).collect(),
+        responses: plain(&responses),
+        references: plain(references),
+        values: matrix.values.clone(),
+        coherence: matrix.coherence.clone(),
+    });
+    if let Err(problem) = references {
+        warnings.push(format!("FRFs are not compared: {}", problem.problem));
+    }
+    let count = matrix.responses.len() * matrix.references.len();
+    let source = format!("{} modes identified from {count} FRFs", modes.len());
+    let target = Target { speed, sensors: points, modes, frfs };
+    let force = measured.scalars.iter().find(|(name, _)| name == super::blow_run::PEAK_FORCE).map(|s| s.1);
+    Ok(ReadTarget { target, warnings, source, force })
+}
+
+/// FRFs of rotations are in rad, not at a radius.
+fn plain(sensors: &[Sensor]) -> Vec<Sensor> {
+    let one = |s: &Sensor| Sensor {
+        direction: s.direction.map(|d| if d == 0.0 { 0.0 } else { d.signum() }),
+        ..s.clone()
+    };
+    sensors.iter().map(one).collect()
+}
+
+fn modes_of_identified(found: &Identified) -> (Vec<Dof>, Vec<TargetMode>) {
+    let mut dofs = Vec::new();
+    let mut modes = Vec::new();
+    for mode in &found.modes {
+        let (points, shape) = found.deflection(mode);
+        dofs = points.to_vec();
+        modes.push(TargetMode {
+            frequency_hz: mode.frequency_hz(),
+            damping_ratio: Some(mode.damping_ratio()),
+            frequency_error: mode.frequency_error,
+            damping_error: mode.damping_error,
+            shape: shape.to_vec(),
+        });
+    }
+    (dofs, modes)
+}
+
+/// Modes of one of our results files as shapes, at every speed; `None` for any other file.
+fn own_results(path: &Path) -> Result<Option<Measured>, Error> {
+    let is_hdf5 = matches!(measured::Format::of_extension(path), Some(measured::Format::Hdf5));
+    if !is_hdf5 || !path.exists() {
+        return Ok(None);
+    }
+    let store = Store::open(path)?;
+    if let Some(frfs) = super::blow_run::frfs(&store)? {
+        return Ok(Some(frfs));
+    }
+    if !store.contains("/modes/eigenvalue") || !store.contains("/modes/shapes") {
+        return Ok(None);
+    }
+    let rpm = store.read("/modes/rpm")?.data;
+    let values = store.read_complex("/modes/eigenvalue")?;
+    let shapes = store.read_complex("/modes/shapes")?;
+    let (modes, nodes) = (values.shape[1], shapes.shape[2]);
+    let mut out = Measured::default();
+    for (s, rpm) in rpm.iter().enumerate() {
+        for k in 0..modes {
+            let at = s * modes + k;
+            if !values.data[at].im.is_finite() {
+                continue;
+            }
+            out.shapes.push(Shape {
+                name: format!("{rpm:.0} rpm mode {}", k + 1),
+                analysis: Analysis::ComplexMode {
+                    eigenvalue: values.data[at],
+                    modal_a: 0.0.into(),
+                    modal_b: 0.0.into(),
+                },
+                number: k as i64 + 1,
+                components: 6,
+                nodes: (1..=nodes as i64).collect(),
+                values: shapes.data[at * nodes * 6..(at + 1) * nodes * 6].to_vec(),
+                complex: true,
+                unit: "m".into(),
+            });
+        }
+    }
+    Ok(Some(out))
+}

@@ -1,0 +1,298 @@
+//! `validate` and `update`: a measurement made by the rig with other numbers, and every kind of wrong request.
+
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use crate::{json_of, output_of, rotordyn};
+
+const RIG: &str = "models/overhung_rig.toml";
+
+/// Modes of the rig with softer and stiffer housings, stored by `modal`.
+static TRUTH: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("truth");
+    let mut command = rotordyn();
+    command.args(["modal", RIG, "--speed", "0 rpm", "--no-figures", "--out"]).arg(&out);
+    for (path, value) in [("A.k_x", "4.2e6"), ("B.k_x", "4.2e6"), ("A.k_y", "2.1e7"), ("B.k_y", "2.1e7")] {
+        command.args(["--set", &format!("housing.{path}={value} N/m")]);
+    }
+    command.assert().success();
+    let file = out.join("results.h5");
+    (folder, file)
+});
+
+fn truth() -> &'static Path {
+    &TRUTH.1
+}
+
+#[test]
+fn validate_pairs_all_modes() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = json_of(
+        rotordyn().args(["validate", RIG, "--measured"]).arg(truth()).arg("--out").arg(folder.path()),
+    );
+    let modes = document["measured"][0]["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 12);
+    let paired = modes.iter().filter(|m| m["mac"].as_f64().is_some_and(|mac| mac > 0.8)).count();
+    assert!(paired >= 9, "{modes:#?}");
+    for file in ["validation.h5", "validation_mac.svg", "validation_mac.png", "validation_frequencies.svg"] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+    let text = output_of(
+        rotordyn()
+            .args(["validate", RIG, "--no-figures", "--measured"])
+            .arg(truth())
+            .arg("--out")
+            .arg(folder.path()),
+    );
+    for part in ["12 modes of the file", "measured Hz", "MAC", "1st torsional"] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+}
+
+#[test]
+fn update_writes_the_file_as_the_user_wrote_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = json_of(
+        rotordyn()
+            .args([
+                "update",
+                RIG,
+                "--free",
+                "housing.*.k_x,housing.*.k_y",
+                "--band",
+                "5 .. 300 Hz",
+                "--measured",
+            ])
+            .arg(truth())
+            .arg("--out")
+            .arg(folder.path()),
+    );
+    for (k, value) in [(0, 4.2e6), (1, 2.1e7)] {
+        let parameter = &document["parameters"][k];
+        assert_eq!(parameter["verdict"], "found", "{parameter}");
+        assert!((parameter["value"].as_f64().unwrap() / value - 1.0).abs() < 1e-3, "{parameter}");
+    }
+    let old = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG)).unwrap();
+    let new = std::fs::read_to_string(folder.path().join("overhung_rig_updated.toml")).unwrap();
+    let changed: Vec<(&str, &str)> = old.lines().zip(new.lines()).filter(|(a, b)| a != b).collect();
+    assert_eq!(old.lines().count(), new.lines().count());
+    assert_eq!(changed.len(), 4, "{changed:?}");
+    for (a, b) in changed {
+        assert!(a.starts_with("k_") && b.starts_with(&a[..6]) && b.ends_with(" N/m\""), "{a} became {b}");
+    }
+    for file in ["update.h5", "update_mac_before.svg", "update_mac_after.png", "update_frequencies.png"] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+    output_of(rotordyn().arg("check").arg(folder.path().join("overhung_rig_updated.toml")));
+    keep_pictures(folder.path(), "update");
+}
+
+/// What a command says on its way to exit code 2.
+fn refused(command: &str, args: &[&str]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = rotordyn();
+    run.args([command, RIG, "--no-figures", "--out"]).arg(folder.path());
+    for arg in args {
+        match *arg {
+            "TRUTH" => run.arg(truth()),
+            arg => run.arg(arg),
+        };
+    }
+    let said = run.assert().code(2).get_output().stderr.clone();
+    let said = String::from_utf8(said).unwrap();
+    // Folders differ from run to run.
+    let truth = truth().display().to_string();
+    said.replace(&truth, "truth.h5").replace(&folder.path().display().to_string(), "OUT")
+}
+
+fn update_refused(free: &str, more: &[&str]) -> String {
+    let mut args = vec!["--measured", "TRUTH", "--free", free];
+    args.extend_from_slice(more);
+    refused("update", &args)
+}
+
+/// A file of this name and text, kept for the whole test.
+fn file(folder: &tempfile::TempDir, name: &str, text: &str) -> String {
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn every_wrong_request_says_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let far = file(&folder, "far.toml", "[point.3]\nstation = \"dics\"\n");
+    let lost = file(&folder, "lost.toml", "[point.999]\nstation = \"disc\"\n");
+    let channels = file(&folder, "channels.toml", "[channel.B_ax]\nstation = \"B\"\ndirection = \"x\"\n");
+    let csv = file(&folder, "time.csv", "time [s],a [m/s^2]\n0,0\n0.001,1\n0.002,0\n");
+    let plain = file(&folder, "no_geometry.uff", &uff_mode_without_points());
+    let cases = [
+        ("unknown path", update_refused("housing.B.k_xx", &[])),
+        ("unknown item", update_refused("housing.C.k_x", &[])),
+        ("not stated", update_refused("bearing.B.ball_diameter", &[])),
+        ("no number", update_refused("bearing.B.designation", &[])),
+        ("two numbers", update_refused("belt.drive.pull", &[])),
+        ("a table", update_refused("housing.B", &[])),
+        ("no item has it", update_refused("housing.*.k_q", &[])),
+        ("several at once", update_refused("housing.B.k_xx,hosing.A.k_x", &[])),
+        ("free twice", update_refused("housing.*.k_x,housing.B.k_x", &[])),
+        ("two units", update_refused("housing.B.k_x+housing.B.c_x", &[])),
+        ("no influence", update_refused("unbalance.residual.magnitude", &[])),
+        ("zero without prior", update_refused("unbalance.residual.phase", &[])),
+        (
+            "more parameters than data",
+            update_refused(
+                "housing.*.k_x,housing.*.k_y,belt.drive.k_x",
+                &["--band", "26 .. 29 Hz", "--fit", "frequency"],
+            ),
+        ),
+        (
+            "start outside bounds",
+            update_refused("housing.B.k_x", &["--bounds", "housing.B.k_x=1e5 .. 1e6 N/m"]),
+        ),
+        ("bounds reversed", update_refused("housing.B.k_x", &["--bounds", "housing.B.k_x=1e8 .. 1e6 N/m"])),
+        (
+            "bounds in another unit",
+            update_refused("housing.B.k_x", &["--bounds", "housing.B.k_x=1 kN/mm .. 10 kN/mm"]),
+        ),
+        (
+            "bounds of what is not free",
+            update_refused("housing.B.k_x", &["--bounds", "housing.B.k_y=1e6 .. 1e8 N/m"]),
+        ),
+        ("no prior", update_refused("housing.B.k_x", &["--prior", "housing.B.k_x=about right"])),
+        ("frf without frfs", update_refused("housing.B.k_x", &["--fit", "frf"])),
+        ("no modes in band", refused("validate", &["--measured", "TRUTH", "--band", "400 .. 500 Hz"])),
+        ("band without unit", refused("validate", &["--measured", "TRUTH", "--band", "10 .. 300"])),
+        ("no such station", refused("validate", &["--measured", "TRUTH", "--mapping", &far])),
+        ("no such point", refused("validate", &["--measured", "TRUTH", "--mapping", &lost])),
+        ("channels for shapes", refused("validate", &["--measured", "TRUTH", "--mapping", &channels])),
+        ("neither modes nor FRFs", refused("validate", &["--measured", &csv])),
+        ("no geometry", refused("validate", &["--measured", &plain])),
+    ];
+    let base = folder.path().display().to_string();
+    let all: Vec<String> =
+        cases.iter().map(|(name, said)| format!("# {name}\n{}", said.replace(&base, "TMP"))).collect();
+    insta::assert_snapshot!(all.join("\n"));
+}
+
+/// A universal file 55 with one mode at points that no model of ours has, and without their places.
+fn uff_mode_without_points() -> String {
+    let mut out = String::from("    -1\n    55\nmode 1\nNONE\nNONE\nNONE\nNONE\n");
+    out += "         1         2         3         8         2         3\n";
+    out += "         2         4         0         1\n";
+    out += "  2.70000e+01  1.00000e+00  1.00000e-02  0.00000e+00\n";
+    for node in [1001, 1002] {
+        out += &format!("{node:>10}\n  1.00000e+00  0.00000e+00  0.00000e+00\n");
+    }
+    out += "    -1\n";
+    out
+}
+
+/// The rig's file with something put in place of something else.
+fn changed_rig(folder: &tempfile::TempDir, name: &str, changes: &[(&str, &str)]) -> String {
+    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG);
+    let mut text = std::fs::read_to_string(rig).unwrap();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    file(folder, name, &text)
+}
+
+#[test]
+fn noisy_frfs_give_the_housings_back_and_not_the_bearings() {
+    let folder = tempfile::tempdir().unwrap();
+    // Bearings of a steel of their own, so that their stiffness can be free alone.
+    let own =
+        "[material.bearing_steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n\n[shaft] ";
+    let bearing = [
+        "designation = \"6205\"\nmaterial = \"steel\"",
+        "designation = \"6205\"\nmaterial = \"bearing_steel\"",
+    ];
+    let rig = changed_rig(&folder, "rig.toml", &[("[shaft] ", own), (bearing[0], bearing[1])]);
+    let out = folder.path().join("test");
+    let mut test = rotordyn();
+    test.args(["frf", &rig, "--no-figures", "--noise", "40 dB", "--averages", "10", "--seed", "1", "--out"])
+        .arg(&out);
+    for set in [
+        "housing.A.k_x=4.2e6 N/m",
+        "housing.B.k_x=4.2e6 N/m",
+        "housing.A.k_y=2.1e7 N/m",
+        "housing.B.k_y=2.1e7 N/m",
+        "belt.drive.k_x=3e5 N/m",
+        "shaft.stiffness_damping=3e-5 s",
+        "bushing.disc_air.c_x=18 N s/m",
+        "bushing.disc_air.c_spin=0.5 N m s/rad",
+    ] {
+        test.args(["--set", set]);
+    }
+    test.assert().success();
+    let free = "housing.*.k_x,housing.*.k_y,belt.drive.k_x,material.bearing_steel.young";
+    let document = json_of(
+        rotordyn()
+            .args(["update", &rig, "--free", free, "--band", "5 .. 300 Hz", "--measured"])
+            .arg(out.join("frf_noisy.uff"))
+            .arg("--out")
+            .arg(folder.path().join("updated")),
+    );
+    println!("{:#}\nsteps {}", document["parameters"], document["steps"]);
+    for (k, truth) in [(0, 4.2e6), (1, 2.1e7)] {
+        let parameter = &document["parameters"][k];
+        assert_eq!(parameter["verdict"], "found", "{parameter}");
+        assert!((parameter["value"].as_f64().unwrap() / truth - 1.0).abs() < 0.02, "{parameter}");
+    }
+    assert_ne!(document["parameters"][3]["verdict"], "found", "{}", document["parameters"][3]);
+    keep_pictures(&folder.path().join("updated"), "noisy");
+}
+
+#[test]
+fn hammer_tests_of_two_forces_show_the_shift() {
+    let folder = tempfile::tempdir().unwrap();
+    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG);
+    let text = std::fs::read_to_string(rig).unwrap();
+    let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
+    let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
+        [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
+    let text = format!("{}{hammer}{}", &text[..start], &text[end..]);
+    let model = file(&folder, "hammer.toml", &text);
+    let mut runs = Vec::new();
+    for force in ["1", "200"] {
+        let out = folder.path().join(format!("blow_{force}N"));
+        rotordyn()
+            .args(["run-up", &model, "--no-figures", "--step", "50 us", "--set"])
+            .arg(format!("load.hammer.force=0, {force}, 0 N"))
+            .arg("--out")
+            .arg(&out)
+            .assert()
+            .success();
+        runs.push(out.join("results.h5"));
+    }
+    let mut command = rotordyn();
+    command.args(["validate", &model, "--band", "5 .. 300 Hz", "--out"]).arg(folder.path().join("levels"));
+    for run in &runs {
+        command.arg("--measured").arg(run);
+    }
+    let text = output_of(&mut command);
+    println!("{text}");
+    let document = json_of(&mut command);
+    let levels = document["levels"]["modes"].as_array().unwrap();
+    println!("{:#}", document["levels"]);
+    let shifts: Vec<f64> = levels.iter().filter_map(|m| m["others"][0]["shift"].as_f64()).collect();
+    assert!(shifts.len() >= 2, "{levels:?}");
+    // The small blow meets the linear machine; the large one works the clearance.
+    let largest = shifts.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a });
+    assert!(largest.abs() > 2e-3, "{shifts:?}");
+    assert!(text.contains("Shift of the measured modes from the first file"), "{text}");
+    keep_pictures(&folder.path().join("levels"), "levels");
+}
+
+/// Copies pictures to the folder that ROTORDYN_PICTURES names, to be looked at.
+fn keep_pictures(from: &Path, name: &str) {
+    let Some(to) = std::env::var_os("ROTORDYN_PICTURES") else { return };
+    let to = PathBuf::from(to).join(name);
+    std::fs::create_dir_all(&to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap().flatten() {
+        std::fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+    }
+}
