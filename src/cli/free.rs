@@ -38,6 +38,8 @@ fn one(name: &str, args: &UpdateArgs, origin: &Origin) -> Result<FreeParameter, 
     for path in name.split('+') {
         for found in stated(&origin.text, &origin.options, path.trim())? {
             let place = Place::read(&found.path, &found.text, found.quoted);
+            // A designation such as "6205" is a name.
+            let place = place.filter(|place| !(place.quoted && place.unit.is_empty()));
             places.push(place.ok_or_else(|| {
                 format!("{}: \"{}\" is not one number with its unit", found.path, found.text)
             })?);

@@ -47,7 +47,7 @@ pub fn identifiability(at: &Evaluation, prior: &Prior) -> Identifiability {
     };
     let told: f64 = values.iter().map(|s| s / (1.0 + s)).sum();
     let chi_squared = at.residual.norm_squared();
-    let degrees = at.residual.len() as f64 - told;
+    let degrees = at.data - told;
     let inflation = if degrees > 0.5 { (chi_squared / degrees).sqrt().max(1.0) } else { 1.0 };
     let prior_share: Vec<f64> = (0..n).map(|i| covariance(i, i)).collect();
     Identifiability {
@@ -75,6 +75,7 @@ mod tests {
         let at = Evaluation {
             residual: DVector::from_vec(vec![0.0]),
             jacobian: DMatrix::from_row_slice(1, 2, &[100.0, 100.0]),
+            data: 1.0,
         };
         let prior =
             Prior { mean: vec![0.0; 2], deviation: vec![1.0; 2], lower: vec![-9.0; 2], upper: vec![9.0; 2] };

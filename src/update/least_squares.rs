@@ -19,6 +19,8 @@ pub struct Evaluation {
     pub residual: DVector<f64>,
     /// ∂r_i/∂x_j.
     pub jacobian: DMatrix<f64>,
+    /// Number of data that the residuals are worth: a shape's are spread over many points and count as one.
+    pub data: f64,
 }
 
 /// Where the search stands after an iteration.
@@ -154,6 +156,7 @@ mod tests {
         Ok(Evaluation {
             residual: DVector::from_vec(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]),
             jacobian: DMatrix::from_row_slice(2, 2, &[-20.0 * x[0], 10.0, -1.0, 0.0]),
+            data: 2.0,
         })
     }
 
@@ -188,6 +191,7 @@ mod tests {
             Ok(Evaluation {
                 residual: DVector::from_vec(vec![(x[0] - 1.0) / 0.5]),
                 jacobian: DMatrix::from_element(1, 1, 2.0),
+                data: 1.0,
             })
         };
         let one = Prior { mean: vec![0.0], deviation: vec![1.0], lower: vec![-9.0], upper: vec![9.0] };

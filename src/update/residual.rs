@@ -48,6 +48,7 @@ const MOST_LINES: usize = 120;
 struct Rows {
     residual: Vec<f64>,
     slopes: Vec<Vec<f64>>,
+    data: f64,
 }
 
 impl Rows {
@@ -71,7 +72,7 @@ pub fn evaluation(
     by: &[SystemDerivative],
 ) -> Result<Evaluation, Error> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
-    let mut rows = Rows { residual: Vec::new(), slopes: Vec::new() };
+    let mut rows = Rows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
     for &k in kept {
         let measured = &target.modes[k];
         let found = state.pairing.pairs.iter().find(|p| p.measured == k);
@@ -88,6 +89,7 @@ pub fn evaluation(
     Ok(Evaluation {
         jacobian: DMatrix::from_fn(rows.slopes.len(), columns, |i, j| rows.slopes[i][j]),
         residual: DVector::from_vec(rows.residual),
+        data: rows.data,
     })
 }
 
@@ -107,6 +109,7 @@ fn mode_rows(
         let deviation = least.max(measured.frequency_error / measured.frequency_hz);
         let residual = (mode.frequency_hz() / measured.frequency_hz).ln() / deviation;
         rows.push(residual, slopes.iter().map(|s| s.im / value.im / deviation));
+        rows.data += 1.0;
     }
     if let (Some(least), Some(zeta)) = (fitting.damping, measured.damping_ratio.filter(|z| *z > 0.0)) {
         let deviation = least.max(measured.damping_error / zeta);
@@ -117,14 +120,15 @@ fn mode_rows(
             (-s.re / size + value.re * (value.conj() * s).re / size.powi(3)) / own / deviation
         };
         rows.push((own / zeta).ln() / deviation, slopes.iter().map(slope));
+        rows.data += 1.0;
     }
     if let Some(least) = fitting.shape
         && measured.shape.len() > 1
     {
-        // 1 − MAC = σ² spread over the parts of the shape.
-        let deviation = least / (2.0 * measured.shape.len() as f64).sqrt();
+        // All points together are one datum, √(1 − MAC)/σ, however many there are.
         let changes = sensitivity.shapes(by)?;
-        shape_rows(&state.rows, &state.shapes[place], &measured.shape, &changes, deviation, rows);
+        shape_rows(&state.rows, &state.shapes[place], &measured.shape, &changes, least, rows);
+        rows.data += 1.0;
     }
     Ok(())
 }
@@ -176,6 +180,7 @@ fn frf_rows(
     let (responses, references) = (of(&measured.responses), of(&measured.references));
     let found =
         frf_sensitivity(&state.linear, &frequencies, &references, &responses, &measured.quantities, by)?;
+    rows.data += (lines.len() * responses.len() * references.len()) as f64;
     for r in 0..responses.len() {
         for e in 0..references.len() {
             for (k, &line) in lines.iter().enumerate() {

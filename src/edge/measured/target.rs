@@ -10,8 +10,9 @@ use crate::edge::hdf5::Store;
 use crate::edge::measured;
 use crate::error::Error;
 use crate::identify::{self, Identified};
+use crate::linalg::Complex64;
 use crate::model::Model;
-use crate::signal::record::{Analysis, Dof, Kind, Measured, Shape};
+use crate::signal::record::{Analysis, Dof, FrfMatrix, Kind, Measured, Shape};
 use crate::update::UpdateError;
 use crate::update::target::{Sensor, Target, TargetFrfs, TargetMode, modes_of, sensors};
 
@@ -129,12 +130,14 @@ fn of_shapes(measured: &Measured, reading: &Reading, model: &Model) -> Result<Re
 }
 
 fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<ReadTarget, Error> {
-    let matrix = measured.frf_matrix()?;
+    let mut matrix = measured.frf_matrix()?;
+    let silent = drop_silent(&mut matrix);
     let settings = identify::Settings { band: reading.band, ..identify::Settings::default() };
     let found = identify::identify(&matrix, &settings)?;
     let speeds: Vec<f64> = measured.records.iter().filter_map(|r| r.speed_rpm).collect();
     let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);
     let mut warnings = found.dropped.clone();
+    warnings.extend(silent);
     if speeds.iter().any(|s| (s - speeds[0]).abs() > 1.0) {
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
     }
@@ -163,6 +166,27 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     let target = Target { speed, sensors: points, modes, frfs };
     let force = measured.scalars.iter().find(|(name, _)| name == super::blow_run::PEAK_FORCE).map(|s| s.1);
     Ok(ReadTarget { target, warnings, source, force })
+}
+
+/// Leaves out responses that one of the forces does not move at all, which no modal fit can take; says which.
+fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
+    let silent = |row: &[Vec<Complex64>]| row.iter().any(|frf| frf.iter().all(|h| h.norm_sqr() == 0.0));
+    let gone: Vec<usize> = (0..matrix.responses.len()).filter(|&r| silent(&matrix.values[r])).collect();
+    if gone.len() == matrix.responses.len() {
+        return Vec::new();
+    }
+    for &r in gone.iter().rev() {
+        matrix.values.remove(r);
+        matrix.units.remove(r);
+        if let Some(coherence) = &mut matrix.coherence {
+            coherence.remove(r);
+        }
+    }
+    let name = |&r: &usize| format!("response {} is left out: a force does not move it", matrix.responses[r]);
+    let said = gone.iter().map(name).collect();
+    let mut place = 0..;
+    matrix.responses.retain(|_| place.next().is_none_or(|r| !gone.contains(&r)));
+    said
 }
 
 /// FRFs of rotations are in rad, not at a radius.
