@@ -11,8 +11,8 @@ use clap::{Args, Parser, Subcommand};
 
 use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
-use manual::{AFTER, LONG_ABOUT};
 pub use bearing::BearingArgs;
+use manual::{AFTER, LONG_ABOUT};
 pub use measured::{IdentifyArgs, NoiseArgs};
 pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
 

@@ -126,7 +126,12 @@ fn levels(
         let mut row = vec![label.clone(), format!("{:.3}", mode.frequency_hz)];
         let mut others = Vec::new();
         for (k, pairing) in pairings.iter().enumerate() {
-            match pairing.pairs.iter().find(|p| p.measured == m) {
+            // A mode that has moved further than this is another one.
+            const FARTHEST: f64 = 0.2;
+            let near = |c: usize| {
+                (found[k + 1].target.modes[c].frequency_hz / mode.frequency_hz - 1.0).abs() < FARTHEST
+            };
+            match pairing.pairs.iter().find(|p| p.measured == m && near(p.computed)) {
                 Some(pair) => {
                     let other = &found[k + 1].target.modes[pair.computed];
                     let shift = other.frequency_hz / mode.frequency_hz - 1.0;

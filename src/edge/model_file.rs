@@ -149,7 +149,7 @@ mod tests {
     fn only_the_numbers_change() {
         let changes = [
             change("housing.B.k_x", 4_195_091.234),
-            change("housing.B.k_y", 20_934.8765),
+            change("housing.B.k_y", 20_934.876_5),
             change("belt.drive.k_x", 3.0635e5),
             change("belt.drive.ratio", 0.333_333_3),
             change("shaft.section.0.length", 610.123_45),

@@ -33,8 +33,9 @@ fn validate_pairs_all_modes() {
     );
     let modes = document["measured"][0]["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 12);
-    let paired = modes.iter().filter(|m| m["mac"].as_f64().is_some_and(|mac| mac > 0.8)).count();
-    assert!(paired >= 9, "{modes:#?}");
+    // Housings softer along x and stiffer along y part the planes, and turn the shapes with them.
+    let paired = modes.iter().filter(|m| m["mac"].as_f64().is_some_and(|mac| mac > 0.5)).count();
+    assert!(paired >= 8, "{modes:#?}");
     for file in ["validation.h5", "validation_mac.svg", "validation_mac.png", "validation_frequencies.svg"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }

@@ -68,6 +68,7 @@ fn frequencies(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> 
         x_unit: "Hz".into(),
         y_name: "error of the model".into(),
         y_unit: "%".into(),
+        x_range: Some([0.0, 1.05 * target.modes.iter().map(|m| m.frequency_hz).fold(1.0, f64::max)]),
         curves: curves.collect(),
         ..Lines::default()
     };

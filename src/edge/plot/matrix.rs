@@ -42,7 +42,7 @@ pub fn draw(data: &Matrix) -> Svg {
         let at = [frame.x + cell[0] * j as f64, frame.y + cell[1] * i as f64];
         svg.rect(at[0], at[1], cell[0], cell[1], Style::fill(color_map::table()[usize::from(shade)]));
         if cell[0] >= 26.0 && cell[1] >= LINE && *value >= 0.05 {
-            let color = if *value > 0.55 { WHITE } else { INK };
+            let color = if *value > 0.45 { WHITE } else { INK };
             let middle = [at[0] + 0.5 * cell[0], at[1] + 0.5 * cell[1] + 0.36 * SMALL];
             svg.text(middle, &format!("{value:.2}"), Text::new(SMALL, color).middle());
         }
