@@ -182,6 +182,7 @@ pub fn load_bearings_with(
         (name, title, sites, studies) = check::build_bearings(&root, &log);
         model = None;
     }
+    let radial = sites.iter().any(|(_, bearing)| matches!(bearing, Bearing::RadialBall(_)));
     let ball = |(name, bearing): (String, Bearing)| match bearing {
         Bearing::Ball(ball) => Some((name, ball)),
         Bearing::Linear(_) | Bearing::RadialBall(_) => None,
@@ -189,7 +190,12 @@ pub fn load_bearings_with(
     let bearings: Vec<_> = Vec::into_iter(sites).filter_map(ball).collect();
     if bearings.is_empty() && log.count() == 0 {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
-        log.error(problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"));
+        log.error(match radial {
+            true => problem.expected("a bearing of model = \"ball\"").hint(
+                "balls with coordinates of their own are part of a machine: study.static shows their loads",
+            ),
+            false => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
+        });
     }
     let (sources, warnings) = passed(sources, log)?;
     Ok(LoadedBearings { name, title, bearings, studies, model, warnings, sources, text })

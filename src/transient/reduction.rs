@@ -16,6 +16,10 @@ use crate::error::{Error, PhysicsError};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 use crate::model::{Drive, Model};
 
+/// What is added to K over M where K is not positive definite \[rad²/s²\]: 1 for a free motion, more for a shaft that
+/// balances on one ball.
+const SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
+
 /// A reduced machine with the way back to all DOFs.
 #[derive(Clone, Debug)]
 pub struct Reduction {
@@ -73,7 +77,11 @@ pub fn reduce(
     ]);
     let mass = assembly.mass.to_dense();
     let stiffness = held.to_dense();
-    let (squares, shapes) = eigen::undamped(&stiffness, &mass, 1.0).map_err(|e| failed(e.to_string()))?;
+    let modes_at = |shift: &f64| eigen::undamped(&stiffness, &mass, *shift);
+    let (squares, shapes) = SHIFTS[1..]
+        .iter()
+        .fold(modes_at(&SHIFTS[0]), |found, shift| found.or_else(|_| modes_at(shift)))
+        .map_err(|e| failed(e.to_string()))?;
     let limit = (std::f64::consts::TAU * cutoff).powi(2);
     let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
 
@@ -237,8 +245,8 @@ fn basis(
 ) -> Option<DMatrix<f64>> {
     let n = stiffness.nrows();
     // A free rotation leaves K singular; a shift of (0.16 Hz)² changes no static response that matters.
-    let factor =
-        nalgebra::Cholesky::new(stiffness.clone()).or_else(|| nalgebra::Cholesky::new(stiffness + mass))?;
+    let shifted = || SHIFTS.iter().find_map(|shift| nalgebra::Cholesky::new(stiffness + mass * *shift));
+    let factor = nalgebra::Cholesky::new(stiffness.clone()).or_else(shifted)?;
     let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();
     let mut momenta: Vec<DVector<f64>> = columns.iter().map(|c| mass * c).collect();
     for force in forces {

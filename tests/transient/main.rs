@@ -10,6 +10,7 @@ mod hammer;
 mod high_speed;
 mod imperfections;
 mod measured_run_up;
+mod radial_balls;
 mod run_up;
 mod torque;
 mod varying_compliance;

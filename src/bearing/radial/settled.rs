@@ -1,9 +1,12 @@
 //! Statics and small motions: every ball settled between the races, its coordinate condensed.
 
-use super::ball::Acting;
+use super::ball::{Acting, Pressed};
 use super::tangent::Y;
 use super::{RadialElement, Rings, Seen};
 use crate::bearing::{BallLoad, Reaction, Rotation, root};
+
+/// Displacement over pitch radius up to which statics know the races' shape.
+const FAR: f64 = 0.02;
 
 impl RadialElement {
     /// Force on the shaft with condensed tangents, every ball where contacts, centrifugal force and gravity balance.
@@ -13,7 +16,27 @@ impl RadialElement {
     /// centrifugal force beside −f ([`Reaction::carried`]). A ball between both contacts takes no part.
     ///
     /// `d`, `v`: displacement and velocity of the shaft relative to the housing, of which x and y count.
+    /// Left out of the stiffness is −F/χ along the race, 1e-5 of it: a ring that balances on one ball would roll off, but
+    /// is to be found as an equilibrium.
+    ///
+    /// Beyond a fiftieth of the pitch radius, where a search for equilibrium may look but no shaft goes, the force grows
+    /// in a straight line.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        let (size, most) = (d[0].hypot(d[1]), FAR * self.outer_reach);
+        if size <= most {
+            return self.near(d, v, rotation);
+        }
+        let mut out = self.near(&d.map(|d| d * most / size), v, rotation);
+        let stiffness = 1.5 * self.stiffness[0] * most.sqrt();
+        for (a, along) in d.iter().enumerate().take(2) {
+            out.force[a] -= stiffness * (1.0 - most / size) * along;
+            out.stiffness[a][a] += stiffness;
+        }
+        out.elastic_energy += 0.5 * stiffness * (size - most).powi(2);
+        out
+    }
+
+    fn near(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         let rings = Rings { shift: [d[0], d[1]], ..Rings::default() };
         let mut out = Reaction { mean_cos: 1.0, ..Reaction::default() };
         self.each_settled(&rings, rotation, |seen, _, acting| {
@@ -24,7 +47,10 @@ impl RadialElement {
             out.carried[0] += hr * c;
             out.carried[1] += hr * s;
             out.elastic_energy += acting.contacts[0].energy + acting.contacts[1].energy;
-            let tangent = acting.tangent(seen, self.mass);
+            // Without load the line of contact does not soften the ring beside it.
+            let [inner, outer] = acting.contacts;
+            let unloaded = Acting { contacts: [Pressed { force: 0.0, ..inner }, outer], ..*acting };
+            let tangent = unloaded.tangent(seen, self.mass);
             let (k, damping) = (&tangent.stiffness, &tangent.damping);
             let follow = |column: usize| if k[Y][Y] > 0.0 { -k[Y][column] / k[Y][Y] } else { 0.0 };
             let turn = [[c, -s], [s, c]];

@@ -7,11 +7,13 @@ use super::loading::increasing;
 use super::material;
 use super::mounting;
 use super::places::Places;
+use super::radial_bearing;
 use super::springs::{self, Family};
 use crate::bearing::{
-    BallBearing, BallGeometry, BallInertia, Bearing, Cage, LinearBearing, LinearBearingRow,
+    BallBearing, BallGeometry, BallInertia, Bearing, Cage, Fit, LinearBearing, LinearBearingRow, Preload,
+    Service,
 };
-use crate::contact::{ContactLaw, Lubricant};
+use crate::contact::{ContactDamping, ContactLaw, Lubricant};
 use crate::element::{Anchor, Material};
 use crate::model::BearingSite;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -31,6 +33,7 @@ pub(super) fn read(
     top: &Reader,
     materials: &[Material],
     lubricants: &[Lubricant],
+    gravity: [f64; 3],
     places: &Places,
 ) -> Vec<BearingSite> {
     let read = |(name, r): (&str, Reader)| {
@@ -39,7 +42,7 @@ pub(super) fn read(
         let housing = places
             .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
             .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
-        let bearing = bearing(&r, materials, lubricants);
+        let bearing = bearing(&r, materials, lubricants, gravity);
         r.finish();
         BearingSite { name: name.into(), node, housing, bearing }
     };
@@ -51,22 +54,33 @@ pub(super) fn read_alone(
     top: &Reader,
     materials: &[Material],
     lubricants: &[Lubricant],
+    gravity: [f64; 3],
 ) -> Vec<(String, Bearing)> {
     let read = |(name, r): (&str, Reader)| {
-        let bearing = bearing(&r, materials, lubricants);
+        let bearing = bearing(&r, materials, lubricants, gravity);
         r.finish();
         (name.to_string(), bearing)
     };
     top.items("bearing").into_iter().map(read).collect()
 }
 
-fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> Bearing {
+/// Words of the key `model`.
+#[derive(Clone, Copy)]
+enum Kinds {
+    Linear,
+    Ball,
+    RadialBall,
+}
+
+fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant], gravity: [f64; 3]) -> Bearing {
     if !r.has("model") {
-        r.missing("model", "\"ball\" or \"linear\"");
+        r.missing("model", "\"ball\", \"radial_ball\" or \"linear\"");
     }
-    match r.choice("model", &[("linear", false), ("ball", true)]) {
-        Some(true) => Bearing::Ball(ball(r, materials, lubricants)),
-        Some(false) => Bearing::Linear(linear(r)),
+    let kinds = [("linear", Kinds::Linear), ("ball", Kinds::Ball), ("radial_ball", Kinds::RadialBall)];
+    match r.choice("model", &kinds) {
+        Some(Kinds::Ball) => Bearing::Ball(ball(r, materials, lubricants)),
+        Some(Kinds::RadialBall) => Bearing::RadialBall(radial_bearing::read(r, materials, gravity)),
+        Some(Kinds::Linear) => Bearing::Linear(linear(r)),
         None => {
             r.entries();
             Bearing::Linear(LinearBearing { table: Vec::new() })
@@ -103,34 +117,13 @@ fn bearing_steel() -> Material {
 }
 
 fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBearing {
-    let entry = designation(r);
-    let geometry = geometry(r, entry.as_ref());
-    let part = |key: &str| match (r.has(key), r.has("material")) {
-        (true, _) => material(r, key, materials),
-        (_, true) => material(r, "material", materials),
-        _ => None,
-    };
-    let steel = bearing_steel();
-    let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
-    let free = (spacing - geometry.ball_diameter).max(0.0);
-    let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
-    let mut bearing = BallBearing {
-        ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
-        ring_material: part("ring_material").unwrap_or(steel),
-        service: contact::service(r, lubricants),
-        contact: ContactLaw::Hertz,
-        contact_stiffness: contact::stiffness(r),
-        damping: contact::damping(r),
-        inertia: r.choice("ball_inertia", &INERTIAS).unwrap_or_default(),
-        preload: mounting::preload(r),
-        duplex: mounting::duplex(r, geometry.contact_angle),
-        fit: mounting::fit(r, &geometry),
-        cage: cage(r),
-        cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
-        imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
-        cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
-        geometry,
-    };
+    let mut bearing = parts(r, materials, designation(r).as_ref(), None);
+    bearing.service = contact::service(r, lubricants);
+    bearing.damping = contact::damping(r);
+    bearing.inertia = r.choice("ball_inertia", &INERTIAS).unwrap_or_default();
+    bearing.preload = mounting::preload(r);
+    bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
+    bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::law(r, lubricants, &bearing.hertz());
     if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
         let message = format!("{} cannot part the two contacts of a fitted law", r.name("ball_inertia"));
@@ -151,7 +144,45 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     bearing
 }
 
-fn designation(r: &Reader) -> Option<CatalogueEntry> {
+/// What every bearing with balls has: geometry, materials, dry contacts, cage, imperfections; the rest by default.
+///
+/// `osculation`: of both grooves where neither file nor catalogue tells; `None` when they must.
+pub(super) fn parts(
+    r: &Reader,
+    materials: &[Material],
+    entry: Option<&CatalogueEntry>,
+    osculation: Option<f64>,
+) -> BallBearing {
+    let geometry = geometry(r, entry, osculation);
+    let part = |key: &str| match (r.has(key), r.has("material")) {
+        (true, _) => material(r, key, materials),
+        (_, true) => material(r, "material", materials),
+        _ => None,
+    };
+    let steel = bearing_steel();
+    let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
+    let free = (spacing - geometry.ball_diameter).max(0.0);
+    let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
+    BallBearing {
+        ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
+        ring_material: part("ring_material").unwrap_or(steel),
+        service: Service::default(),
+        contact: ContactLaw::Hertz,
+        contact_stiffness: contact::stiffness(r),
+        damping: ContactDamping::Constant { coefficient: 0.0, ramp: 1e-6 },
+        inertia: BallInertia::None,
+        preload: Preload::None,
+        duplex: None,
+        fit: Fit::default(),
+        cage: cage(r),
+        cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
+        imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
+        cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
+        geometry,
+    }
+}
+
+pub(super) fn designation(r: &Reader) -> Option<CatalogueEntry> {
     let name = r.text("designation")?;
     let found = catalogue::find(name);
     if found.is_none() {
@@ -166,7 +197,7 @@ fn designation(r: &Reader) -> Option<CatalogueEntry> {
 }
 
 /// Geometry by the catalogue, each field of which the file may state itself.
-fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
+fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Option<f64>) -> BallGeometry {
     // an unknown designation was reported; its fields are not asked for again
     let reported = r.has("designation") && entry.is_none();
     let field = |key: &str, from: fn(&CatalogueEntry) -> f64| match (r.get(key, positive(LENGTH)), entry) {
@@ -191,8 +222,10 @@ fn geometry(r: &Reader, entry: Option<&CatalogueEntry>) -> BallGeometry {
             Some(e) => e.osculation[k] * ball_diameter,
             None if reported => ball_diameter,
             None => {
-                r.missing(osculation, "0.52");
-                ball_diameter
+                default.unwrap_or_else(|| {
+                    r.missing(osculation, "0.52");
+                    1.0
+                }) * ball_diameter
             }
         },
     };
@@ -263,7 +296,7 @@ fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
 }
 
 /// Geometry that can be built: balls part from each other, grooves wider than balls, rings outside them.
-fn buildable(r: &Reader, bearing: &BallBearing) {
+pub(super) fn buildable(r: &Reader, bearing: &BallBearing) {
     let g = &bearing.geometry;
     let balls = g.balls as f64;
     let spacing = g.pitch_diameter * (PI / balls).sin();

@@ -12,6 +12,7 @@ mod loading;
 mod measured_speed;
 mod mounting;
 mod places;
+mod radial_bearing;
 mod rotor;
 mod shaft;
 mod springs;
@@ -49,7 +50,7 @@ pub(crate) fn build(root: &Table, files: &[SideFile], log: &Log) -> Model {
     bushings.extend(connections::bushings(&top, &places));
     let joints = connections::joints(&top, &places);
     let belts = connections::belts(&top, &places);
-    let bearings = bearing::read(&top, &materials, &lubricants, &places);
+    let bearings = bearing::read(&top, &materials, &lubricants, gravity, &places);
     let rotor_mass = line.mass() + discs.iter().map(|d| d.mass).sum::<f64>();
     let unbalances = loading::unbalances(&top, &places, rotor_mass);
     let loads = loading::loads(&top, &places);
@@ -90,9 +91,9 @@ pub(crate) fn build(root: &Table, files: &[SideFile], log: &Log) -> Model {
 /// Read a file of bearings alone: its name and title, bearings and studies.
 pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(String, Bearing)>, Studies) {
     let top = Reader::new(root, "", 0..0, log);
-    let (name, title, _) = head(&top);
+    let (name, title, gravity) = head(&top);
     let materials = materials(&top);
-    let bearings = bearing::read_alone(&top, &materials, &contact::lubricants(&top));
+    let bearings = bearing::read_alone(&top, &materials, &contact::lubricants(&top), gravity);
     let studies = study::read_for_bearings(&top, &bearings);
     top.finish();
     (name, title, bearings, studies)
