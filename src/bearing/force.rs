@@ -1,9 +1,9 @@
 //! A row's force alone, without tangents: what an explicit step asks for.
 
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 use super::preload::Seat;
-use super::row::Row;
+use super::row::{Row, passing_at};
 use super::{Passing, Rotation};
 use crate::contact::{ContactDamping, SpeedContacts};
 
@@ -14,15 +14,36 @@ const MOST: usize = 8;
 
 type Lane = [f64; LANES];
 
-/// The balls of a row, some at a time: cos and sin of 2πj/Z, and 1 where there is a ball.
+/// A row of dry massless balls between rigid rings, laid out for its force alone.
 #[derive(Clone, Debug)]
-pub(super) struct Lanes {
+pub(super) struct Lean {
+    /// The balls some at a time: cos and sin of 2πj/Z, and 1 where there is a ball.
     balls: Vec<[Lane; 3]>,
+    common: Common,
     arch: Arch,
 }
 
-impl Lanes {
-    pub fn new(spacing: &[[f64; 2]]) -> Self {
+/// What all balls share.
+#[derive(Clone, Copy, Debug)]
+struct Common {
+    /// Groove-centre offset with preload, radius of the inner groove centres, and their distance unloaded \[m\].
+    offset: [f64; 2],
+    arm: f64,
+    centre_distance: f64,
+    /// K \[N/m^1.5\].
+    stiffness: f64,
+    /// c \[N s/m\] and the length of its rise \[m\].
+    damping: [f64; 2],
+}
+
+impl Lean {
+    /// `None` where there is more to a ball than a dry spring and a damper.
+    pub fn new(row: &Row, spacing: &[[f64; 2]]) -> Option<Self> {
+        let ContactDamping::Constant { coefficient, ramp } = row.damping else { return None };
+        let SpeedContacts::Hertz(pair) = row.contacts.at_speed(1.0) else { return None };
+        if !matches!(row.seat, Seat::Fixed(_)) || row.inertia.is_some() || row.growing() {
+            return None;
+        }
         let lane = |balls: &[[f64; 2]]| {
             let mut lane = [[0.0; LANES]; 3];
             for (l, [cos, sin]) in balls.iter().enumerate() {
@@ -30,7 +51,15 @@ impl Lanes {
             }
             lane
         };
-        Self { balls: spacing.chunks(LANES).map(lane).collect(), arch: Arch::new() }
+        let balls: Vec<_> = spacing.chunks(LANES).map(lane).collect();
+        let common = Common {
+            offset: row.operating(&Rotation::default(), 0.0, false).offset,
+            arm: row.arm,
+            centre_distance: row.centre_distance,
+            stiffness: pair.stiffness,
+            damping: [coefficient, ramp],
+        };
+        (balls.len() <= MOST).then(|| Self { balls, common, arch: Arch::new() })
     }
 }
 
@@ -74,73 +103,65 @@ struct Sums {
     load_cos: Lane,
 }
 
-/// What all balls share.
-struct Common<'a> {
-    d: &'a [f64; 6],
-    v: &'a [f64; 6],
-    /// cos and sin of the cage angle, and the cage's speed.
-    cage: [f64; 3],
-    offset: [f64; 2],
-    arm: f64,
-    centre_distance: f64,
-    stiffness: f64,
-    /// c and the length of its rise.
-    damping: [f64; 2],
-}
-
 /// Deviations at the balls of a lane: height, damped rate, undamped rate.
 type Deviations = [Lane; 3];
 
 impl Row {
-    /// The force of [`Row::react`] on dry massless balls between rigid rings; `None` where there is more to it.
+    /// The force of [`Row::react`], where the row is [`Lean`] and its defects displace.
     ///
     /// The same sum in another order, so the same up to round-off of the largest ball force.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Option<RowForce> {
-        let (ContactDamping::Constant { coefficient, ramp }, Seat::Fixed(_)) = (self.damping, self.seat)
-        else {
-            return None;
+        let lean = self.lean.as_ref()?;
+        let deviations = match &self.profile {
+            None => None,
+            Some(profile) if profile.force_law().is_some() => return None,
+            Some(profile) => Some(deviations(&profile.at(&passing_at(rotation, rotation.cage_speed)))),
         };
-        let operating = self.operating(rotation, rotation.cage_speed, true);
-        if self.inertia.is_some() || self.force_law(&operating).is_some() {
-            return None;
-        }
-        let SpeedContacts::Hertz(pair) = operating.contacts else { return None };
         let (sin, cos) = rotation.cage_angle.sin_cos();
-        let common = Common {
-            d,
-            v,
-            cage: [cos, sin, rotation.cage_speed],
-            offset: operating.offset,
-            arm: self.arm,
-            centre_distance: self.centre_distance,
-            stiffness: pair.stiffness,
-            damping: [coefficient, ramp],
-        };
         let mut sums = Sums::default();
-        let passing = self.passing(rotation, &operating);
-        match &passing {
-            Some(_) if self.lanes.balls.len() > MOST => return None,
-            None => self.lanes.arch.dispatch(
-                #[inline(always)]
-                || {
-                    for lane in &self.lanes.balls {
-                        add(&mut sums, &common, lane, &[[0.0; LANES]; 3]);
-                    }
-                },
-            ),
-            Some(passing) => {
-                let deviations = deviations(passing);
-                self.lanes.arch.dispatch(
-                    #[inline(always)]
-                    || {
-                        for (lane, deviation) in self.lanes.balls.iter().zip(&deviations) {
-                            add(&mut sums, &common, lane, deviation);
-                        }
-                    },
-                );
+        lean.arch.dispatch(Balls {
+            lanes: &lean.balls,
+            common: &lean.common,
+            motion: [d, v],
+            cage: [cos, sin, rotation.cage_speed],
+            deviations: deviations.as_ref(),
+            sums: &mut sums,
+        });
+        Some(sums.total(self.arm))
+    }
+}
+
+/// The balls' sums, to be compiled for every kind of processor. (The compiler keeps closures apart from the code that is.)
+struct Balls<'a> {
+    lanes: &'a [[Lane; 3]],
+    common: &'a Common,
+    /// Displacement and velocity of the inner ring.
+    motion: [&'a [f64; 6]; 2],
+    /// cos and sin of the cage angle, and the cage's speed.
+    cage: [f64; 3],
+    deviations: Option<&'a [Deviations; MOST]>,
+    sums: &'a mut Sums,
+}
+
+impl NullaryFnOnce for Balls<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let mut sums = Sums::default();
+        match self.deviations {
+            None => {
+                for lane in self.lanes {
+                    self.add(&mut sums, lane, &[[0.0; LANES]; 3]);
+                }
+            }
+            Some(deviations) => {
+                for (lane, deviation) in self.lanes.iter().zip(deviations) {
+                    self.add(&mut sums, lane, deviation);
+                }
             }
         }
-        Some(sums.total(self.arm))
+        *self.sums = sums;
     }
 }
 
@@ -157,42 +178,45 @@ fn deviations(passing: &Passing) -> [Deviations; MOST] {
     out
 }
 
-/// Adds the balls of a lane; the law of `massless::react`, without branches.
-#[inline(always)]
-fn add(sums: &mut Sums, c: &Common, [ball_cos, ball_sin, present]: &[Lane; 3], deviation: &Deviations) {
-    let ([cage_cos, cage_sin, turned], r) = (c.cage, c.arm);
-    for l in 0..LANES {
-        let cos = cage_cos * ball_cos[l] - cage_sin * ball_sin[l];
-        let sin = cage_sin * ball_cos[l] + cage_cos * ball_sin[l];
-        let turn = [turned * (c.d[1] * cos - c.d[0] * sin), turned * r * (c.d[3] * cos + c.d[4] * sin)];
-        let radial = c.offset[0] + c.d[0] * cos + c.d[1] * sin;
-        let axial = c.offset[1] + c.d[2] + r * (c.d[3] * sin - c.d[4] * cos);
-        let radial_rate = c.v[0] * cos + c.v[1] * sin + turn[0];
-        let axial_rate = c.v[2] + r * (c.v[3] * sin - c.v[4] * cos) + turn[1];
-        let [height, passing, undamped] = [deviation[0][l], deviation[1][l], deviation[2][l]];
-        let distance = (radial * radial + axial * axial).sqrt();
-        let approach = distance - c.centre_distance + height;
-        // A state that is none any more must show: NaN is not "not positive".
-        let x = if approach <= 0.0 { 0.0 } else { approach };
-        let elastic = c.stiffness * x.sqrt() * x;
-        let inverse = 1.0 / distance;
-        let n = [radial * inverse, axial * inverse];
-        let rate = n[0] * radial_rate + n[1] * axial_rate + passing;
-        let t = if x >= c.damping[1] { 1.0 } else { x / c.damping[1] };
-        let damped = elastic + c.damping[0] * (t * t * (3.0 - 2.0 * t)) * rate;
-        let load = present[l] * if damped <= 0.0 { 0.0 } else { damped };
-        let elastic = present[l] * elastic;
-        let force = [load * n[0], load * n[1]];
-        sums.radial[0][l] += force[0] * cos;
-        sums.radial[1][l] += force[0] * sin;
-        sums.axial[0][l] += force[1];
-        sums.axial[1][l] += force[1] * sin;
-        sums.axial[2][l] += force[1] * cos;
-        sums.energy[l] += 0.4 * elastic * x;
-        sums.dissipated[l] += (load - elastic) * rate;
-        sums.power[l] += load * passing + elastic * undamped + force[0] * turn[0] + force[1] * turn[1];
-        sums.load[l] += load;
-        sums.load_cos[l] += force[0];
+impl Balls<'_> {
+    /// Adds the balls of a lane; the law of `massless::react`, without branches.
+    #[inline(always)]
+    fn add(&self, sums: &mut Sums, [ball_cos, ball_sin, present]: &[Lane; 3], deviation: &Deviations) {
+        let ([cage_cos, cage_sin, turned], [d, v], c) = (self.cage, self.motion, self.common);
+        let r = c.arm;
+        for l in 0..LANES {
+            let cos = cage_cos * ball_cos[l] - cage_sin * ball_sin[l];
+            let sin = cage_sin * ball_cos[l] + cage_cos * ball_sin[l];
+            let turn = [turned * (d[1] * cos - d[0] * sin), turned * r * (d[3] * cos + d[4] * sin)];
+            let radial = c.offset[0] + d[0] * cos + d[1] * sin;
+            let axial = c.offset[1] + d[2] + r * (d[3] * sin - d[4] * cos);
+            let radial_rate = v[0] * cos + v[1] * sin + turn[0];
+            let axial_rate = v[2] + r * (v[3] * sin - v[4] * cos) + turn[1];
+            let [height, passing, undamped] = [deviation[0][l], deviation[1][l], deviation[2][l]];
+            let distance = (radial * radial + axial * axial).sqrt();
+            let approach = distance - c.centre_distance + height;
+            // A state that is none any more must show: NaN is not "not positive".
+            let x = if approach <= 0.0 { 0.0 } else { approach };
+            let elastic = c.stiffness * x.sqrt() * x;
+            let inverse = 1.0 / distance;
+            let n = [radial * inverse, axial * inverse];
+            let rate = n[0] * radial_rate + n[1] * axial_rate + passing;
+            let t = if x >= c.damping[1] { 1.0 } else { x / c.damping[1] };
+            let damped = elastic + c.damping[0] * (t * t * (3.0 - 2.0 * t)) * rate;
+            let load = present[l] * if damped <= 0.0 { 0.0 } else { damped };
+            let elastic = present[l] * elastic;
+            let force = [load * n[0], load * n[1]];
+            sums.radial[0][l] += force[0] * cos;
+            sums.radial[1][l] += force[0] * sin;
+            sums.axial[0][l] += force[1];
+            sums.axial[1][l] += force[1] * sin;
+            sums.axial[2][l] += force[1] * cos;
+            sums.energy[l] += 0.4 * elastic * x;
+            sums.dissipated[l] += (load - elastic) * rate;
+            sums.power[l] += load * passing + elastic * undamped + force[0] * turn[0] + force[1] * turn[1];
+            sums.load[l] += load;
+            sums.load_cos[l] += force[0];
+        }
     }
 }
 

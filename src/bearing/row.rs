@@ -1,6 +1,6 @@
 //! One row of balls between two rings: where every ball stands, and the sum of what they do.
 
-use super::force::Lanes;
+use super::force::Lean;
 use super::jones::{Balls, Fling, Laws, Settled};
 use super::preload::Seat;
 use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
@@ -34,9 +34,9 @@ pub(super) struct Row {
     /// cos and sin of 2πj/Z.
     spacing: Vec<[f64; 2]>,
     /// Deviations of races and balls; `None` when they are perfect.
-    profile: Option<Box<Profile>>,
-    /// The places again, laid out for the force alone.
-    pub lanes: Lanes,
+    pub profile: Option<Box<Profile>>,
+    /// The row again, laid out for its force alone.
+    pub lean: Option<Lean>,
 }
 
 /// What holds for all balls of a row during one evaluation.
@@ -94,7 +94,7 @@ impl Row {
             direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
             seat: Seat::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
-            lanes: Lanes::new(&spacing),
+            lean: None,
             spacing,
             profile: None,
         };
@@ -102,6 +102,7 @@ impl Row {
         let (imperfections, start) = (&bearing.imperfections, bearing.cage_angle);
         row.profile = Profile::new(g, imperfections, number, start, pair.stiffness).map(Box::new);
         row.seat = Seat::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
+        row.lean = Lean::new(&row, &row.spacing);
         row
     }
 
@@ -121,6 +122,11 @@ impl Row {
         );
         let (ball, z) = (ball.unwrap_or_default(), self.balls() as f64);
         [z * self.direction * ball.force[1], z * ball.by_motion[3]]
+    }
+
+    /// Whether its clearance changes with speed.
+    pub fn growing(&self) -> bool {
+        self.growing.is_some()
     }
 
     pub fn balls(&self) -> usize {
@@ -211,7 +217,7 @@ impl Row {
     }
 
     /// Whether defects push the balls, and loaded ones only.
-    pub fn force_law(&self, operating: &Operating) -> Option<bool> {
+    fn force_law(&self, operating: &Operating) -> Option<bool> {
         self.profile.as_deref().filter(|_| operating.imperfect)?.force_law()
     }
 
@@ -321,10 +327,9 @@ impl Row {
     }
 
     /// The races and balls where they are; at rest in statics.
-    pub fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
+    fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
         let profile = self.profile.as_deref().filter(|_| operating.imperfect)?;
-        let shaft_speed = if operating.turning == 0.0 { 0.0 } else { rotation.shaft_speed };
-        Some(profile.at(&Rotation { cage_speed: operating.turning, shaft_speed, ..*rotation }))
+        Some(profile.at(&passing_at(rotation, operating.turning)))
     }
 
     /// Force on the inner ring and tangents from a sum.
@@ -370,6 +375,12 @@ impl Row {
             });
         });
     }
+}
+
+/// Speeds with which surfaces pass: none where the cage's does not count as motion.
+pub(super) fn passing_at(rotation: &Rotation, turning: f64) -> Rotation {
+    let shaft_speed = if turning == 0.0 { 0.0 } else { rotation.shaft_speed };
+    Rotation { cage_speed: turning, shaft_speed, ..*rotation }
 }
 
 /// Approach of a dry contact under a load Q ≥ 0: (Q/K)^{2/3}.

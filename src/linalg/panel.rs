@@ -1,7 +1,7 @@
 //! Dense matrix-vector products for the inner loop of a time step.
 
 use nalgebra::DMatrix;
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 /// Matrices side by side, \[A₁ A₂ …\], for y += A₁ x₁ + A₂ x₂ + …, in the widest vectors the processor has.
 ///
@@ -9,26 +9,33 @@ use pulp::Arch;
 #[derive(Clone, Debug)]
 pub struct Panel {
     rows: usize,
-    /// Column-major, `rows` long columns, padded with zero columns to a multiple of [`COLUMNS`].
+    /// Column-major, padded with zero columns to a multiple of [`COLUMNS`]; columns of `stride`.
     data: Vec<f64>,
     columns: usize,
+    /// `rows`; up to [`SMALL`] of them a multiple of [`LANES`], the rest zeros.
+    stride: usize,
     arch: Arch,
 }
 
 /// Columns taken at a time: y is loaded and stored once for all of them.
 const COLUMNS: usize = 4;
+/// Most rows for which y stays in registers over all columns.
+const SMALL: usize = 2 * LANES;
+const LANES: usize = 4;
 
 impl Panel {
     /// Panel of matrices with the same number of rows.
     pub fn new(blocks: &[&DMatrix<f64>]) -> Self {
         let rows = blocks.first().map_or(0, |b| b.nrows());
         let columns = blocks.iter().map(|b| b.ncols()).sum::<usize>();
-        let mut data = Vec::with_capacity(rows * columns.next_multiple_of(COLUMNS));
-        for block in blocks {
-            data.extend_from_slice(block.as_slice());
+        let stride = if rows <= SMALL { rows.next_multiple_of(LANES) } else { rows };
+        let mut data = Vec::with_capacity(stride * columns.next_multiple_of(COLUMNS));
+        for column in blocks.iter().flat_map(|block| block.column_iter()) {
+            data.extend(column.iter());
+            data.resize(data.len().next_multiple_of(stride.max(1)), 0.0);
         }
-        data.resize(rows * columns.next_multiple_of(COLUMNS), 0.0);
-        Self { rows, data, columns, arch: Arch::new() }
+        data.resize(stride * columns.next_multiple_of(COLUMNS), 0.0);
+        Self { rows, data, columns, stride, arch: Arch::new() }
     }
 
     /// Number of columns of all blocks together.
@@ -39,25 +46,60 @@ impl Panel {
     /// y ← y + \[A₁ A₂ …\] x; `x` holds x₁, x₂, … one after the other, `y` has as many elements as there are rows.
     pub fn mul_add(&self, x: &[f64], y: &mut [f64]) {
         debug_assert!(x.len() == self.columns && y.len() == self.rows);
-        let (rows, data) = (self.rows, &self.data[..]);
-        self.arch.dispatch(
-            #[inline(always)]
-            || {
-                for (k, columns) in data.chunks_exact(COLUMNS * rows).enumerate() {
-                    let factor = |c: usize| x.get(COLUMNS * k + c).copied().unwrap_or(0.0);
-                    let f: [f64; COLUMNS] = [factor(0), factor(1), factor(2), factor(3)];
-                    let (a, rest) = columns.split_at(rows);
-                    let (b, rest) = rest.split_at(rows);
-                    let (c, d) = rest.split_at(rows);
-                    // Equal lengths in sight of the compiler: no bounds checks, whole vectors.
-                    let d = &d[..rows];
-                    let y = &mut y[..rows];
-                    for i in 0..rows {
-                        y[i] = (((y[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
-                    }
-                }
-            },
-        );
+        self.arch.dispatch(Product { panel: self, x, y });
+    }
+}
+
+/// A product to be compiled for every kind of processor. (The compiler keeps closures apart from the code that is.)
+struct Product<'a> {
+    panel: &'a Panel,
+    x: &'a [f64],
+    y: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Panel { rows, data, stride, .. } = self.panel;
+        match *stride {
+            LANES => in_registers::<LANES>(*rows, data, self.x, self.y),
+            SMALL => in_registers::<SMALL>(*rows, data, self.x, self.y),
+            _ => column_by_column(*rows, data, self.x, self.y),
+        }
+    }
+}
+
+#[inline(always)]
+fn in_registers<const R: usize>(rows: usize, data: &[f64], x: &[f64], y: &mut [f64]) {
+    let mut sums = [0.0; R];
+    sums[..rows].copy_from_slice(y);
+    for (column, factor) in data.chunks_exact(R).zip(x) {
+        for i in 0..R {
+            sums[i] += factor * column[i];
+        }
+    }
+    y.copy_from_slice(&sums[..rows]);
+}
+
+#[inline(always)]
+fn column_by_column(rows: usize, data: &[f64], x: &[f64], y: &mut [f64]) {
+    if rows == 0 {
+        return;
+    }
+    for (k, columns) in data.chunks_exact(COLUMNS * rows).enumerate() {
+        let factor = |c: usize| x.get(COLUMNS * k + c).copied().unwrap_or(0.0);
+        let f: [f64; COLUMNS] = [factor(0), factor(1), factor(2), factor(3)];
+        let (a, rest) = columns.split_at(rows);
+        let (b, rest) = rest.split_at(rows);
+        let (c, d) = rest.split_at(rows);
+        // Equal lengths in sight of the compiler: no bounds checks, whole vectors.
+        let d = &d[..rows];
+        let y = &mut y[..rows];
+        for i in 0..rows {
+            y[i] = (((y[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
+        }
     }
 }
 
@@ -67,7 +109,7 @@ mod tests {
 
     #[test]
     fn equals_the_plain_product() {
-        for (rows, first, second) in [(1, 1, 1), (3, 4, 5), (41, 41, 10), (8, 2, 0)] {
+        for (rows, first, second) in [(1, 1, 1), (3, 4, 5), (6, 6, 7), (41, 41, 10), (8, 2, 0), (9, 9, 1)] {
             let a = DMatrix::from_fn(rows, first, |i, j| (i * 7 + j * 3) as f64 * 0.1 - 1.0);
             let b = DMatrix::from_fn(rows, second, |i, j| (i * 5 + j * 11) as f64 * 0.2 - 2.0);
             let panel = Panel::new(&[&a, &b]);

@@ -113,6 +113,16 @@ impl RungeKutta {
         system.add_from_interface(&self.force, acceleration);
     }
 
+    /// x and v of the state with the stages' rates by their weights.
+    fn combine(&mut self, state: &State, step: f64, weights: &[f64]) {
+        let (x, v) = (self.x.as_mut_slice(), self.v.as_mut_slice());
+        let [mut from_x, mut from_v] = [Some(state.x.as_slice()), Some(state.v.as_slice())];
+        for (weight, (rate, acceleration)) in weights.iter().zip(&self.stages).filter(|(w, _)| **w != 0.0) {
+            add(x, from_x.take(), step * weight, rate.as_slice());
+            add(v, from_v.take(), step * weight, acceleration.as_slice());
+        }
+    }
+
     /// Tries a step; returns the error estimate in units of the tolerance (0 without error control).
     ///
     /// `spin` gives the shaft's motion at an offset from the state's time. With `tolerance` = (relative,
@@ -133,14 +143,7 @@ impl RungeKutta {
             self.stages[0].1.copy_from(&state.a);
         }
         for stage in known..c.len() {
-            self.x.copy_from(&state.x);
-            self.v.copy_from(&state.v);
-            for (weight, (rate, acceleration)) in a[stage].iter().zip(&self.stages) {
-                if *weight != 0.0 {
-                    self.x.axpy(step * weight, rate, 1.0);
-                    self.v.axpy(step * weight, acceleration, 1.0);
-                }
-            }
+            self.combine(state, step, a[stage]);
             let offset = c[stage] * step;
             let at = if offset == 0.0 { state.spin } else { spin(offset) };
             self.evaluate(system, state, state.time + offset, &at, stage);
@@ -163,12 +166,7 @@ impl RungeKutta {
         }
         let end = spin(step);
         if !last_is_end {
-            self.x.copy_from(&state.x);
-            self.v.copy_from(&state.v);
-            for (weight, (rate, acceleration)) in b.iter().zip(&self.stages) {
-                self.x.axpy(step * weight, rate, 1.0);
-                self.v.axpy(step * weight, acceleration, 1.0);
-            }
+            self.combine(state, step, b);
             self.evaluate(system, state, state.time + step, &end, 0);
         }
         state.x.copy_from(&self.x);
@@ -182,5 +180,13 @@ impl RungeKutta {
         state.d_rate.copy_from_slice(&self.d_rate);
         state.force.copy_from_slice(&self.force);
         estimate
+    }
+}
+
+/// y ← base + factor · rate, the base being y itself where none is given.
+fn add(y: &mut [f64], base: Option<&[f64]>, factor: f64, rate: &[f64]) {
+    match base {
+        Some(base) => y.iter_mut().zip(base).zip(rate).for_each(|((y, b), r)| *y = b + factor * r),
+        None => y.iter_mut().zip(rate).for_each(|(y, r)| *y += factor * r),
     }
 }

@@ -225,7 +225,7 @@ impl System {
     pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
         let (square, rate) = (spin.speed * spin.speed, spin.acceleration);
         out.copy_from(&self.static_load);
-        if self.unbalance.iter().flatten().any(|u| *u != 0.0) {
+        if self.unbalance.iter().any(|u| u.as_slice().iter().any(|u| *u != 0.0)) {
             let (sin, cos) = spin.angle.sin_cos();
             out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
             out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
@@ -257,10 +257,12 @@ impl System {
         let (x, v) = (&x.as_slice()[..n], &v.as_slice()[..n]);
         let Spin { speed, acceleration, .. } = *spin;
         let factors = [(v, 1.0), (x, 1.0), (v, speed), (x, acceleration), (x, speed)];
-        scratch.clear();
-        for ((y, factor), there) in factors.into_iter().zip(self.panels.is_there) {
-            if there {
-                scratch.extend(y.iter().map(|y| weight * factor * y));
+        scratch.resize(self.panels.linear.columns(), 0.0);
+        let mut parts = scratch.chunks_exact_mut(n.max(1));
+        for ((y, factor), _) in factors.iter().zip(self.panels.is_there).filter(|(_, there)| *there) {
+            let factor = weight * factor;
+            if let Some(part) = parts.next() {
+                part.iter_mut().zip(*y).for_each(|(part, y)| *part = factor * y);
             }
         }
         self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);

@@ -43,8 +43,8 @@ pub struct Solution {
     pub converged: bool,
 }
 
-/// A step below this share of the prior's deviation is the end.
-const LAST_STEP: f64 = 1e-6;
+/// A step below this share of a parameter's standard error, the others held, is the end.
+const LAST_STEP: f64 = 1e-8;
 /// So is a relative fall of the cost below this.
 const LAST_FALL: f64 = 1e-10;
 const MAX_REJECTED: usize = 12;
@@ -77,8 +77,13 @@ pub fn minimise(
         let Some(step) = damped_step(&x, &at, prior, damping) else { break };
         let trial: Vec<f64> =
             (0..n).map(|j| (x[j] + step[j]).clamp(prior.lower[j], prior.upper[j])).collect();
-        let size = (0..n).map(|j| ((trial[j] - x[j]) / prior.deviation[j]).abs()).fold(0.0, f64::max);
-        if size < LAST_STEP {
+        let largest = |scale: &dyn Fn(usize) -> f64| {
+            (0..n).map(|j| ((trial[j] - x[j]) / scale(j)).abs()).fold(0.0, f64::max)
+        };
+        let error =
+            |j: usize| (at.jacobian.column(j).norm_squared() + prior.deviation[j].powi(-2)).sqrt().recip();
+        let size = largest(&|j| prior.deviation[j]);
+        if largest(&error) < LAST_STEP {
             converged = true;
             break;
         }

@@ -21,6 +21,7 @@ mod bal_2022_machine;
 mod bal_2022_preload;
 mod cakmak_2010;
 mod cakmak_2010_modes;
+mod cwru_6205;
 mod iso16281;
 mod iso_281_life;
 mod iso_vg_oils;

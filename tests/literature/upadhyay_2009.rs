@@ -132,7 +132,7 @@ fn statics_with_massless_balls() {
             let angle = format!("{} deg", -90.0 + beside * 360.0 / balls as f64);
             let count = balls.to_string();
             // Sixteen of the full size would not fit; with the stiffness given the size says nothing here.
-            let size = if balls == 16 { "9 mm" } else { "9.524 mm" };
+            let size = if balls == 16 { "8.5 mm" } else { "9.524 mm" };
             let place = [
                 ("bearing.B.cage_angle", angle.as_str()),
                 ("bearing.B.balls", count.as_str()),

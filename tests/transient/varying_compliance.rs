@@ -47,7 +47,7 @@ fn sections_are_those_of_the_two_equations() {
     for (rpm, settle, period) in [("1600", 600, 1), ("1800", 700, 1), ("3300", 1200, 2), ("3500", 1200, 2)] {
         let machine = machine(rpm);
         let points = reference(rpm);
-        // The same method and as many steps: what is left is the reference's distance from its limit.
+        // The same method with the same steps: what is left is round-off and a settling not quite done.
         let exact = seen(&machine, |study| {
             let passage = 60.0 / (rpm.parse::<f64>().unwrap() * 8.0 * 0.385_577);
             study.steady.integrator = Integrator::RungeKutta4;
@@ -65,7 +65,7 @@ fn sections_are_those_of_the_two_equations() {
         );
         assert_eq!([exact.motion.motion, plain.motion.motion], [Motion::Periodic(period); 2]);
         assert_eq!(exact.groups, period);
-        assert!(errors[0] < 1e-6 && errors[1] < 0.02, "{rpm}: {errors:?}");
+        assert!(errors[0] < 1e-9 && errors[1] < 1e-3, "{rpm}: {errors:?}");
     }
 }
 
@@ -95,5 +95,6 @@ fn chaos_and_period_two_by_their_exponents() {
     assert!(wild.value > 5.0 * wild.standard_error);
     assert!(tame.value < -5.0 * tame.standard_error);
     // The four exponents add up to the trace −2 c/m = −20 1/s: the largest is a quarter of it or more.
-    assert!(tame.value >= -5.0 * 1.01, "{}", tame.value);
+    // Its two multipliers are a complex pair, and so are the other two, of one size: a quarter it is.
+    assert!((tame.value / -5.0 - 1.0).abs() < 0.01, "{}", tame.value);
 }

@@ -90,6 +90,20 @@ fn cells(grid: &[f64], scale: &Scale, pixels: usize) -> Cells {
     Cells { of_pixel: (0..pixels).map(covered).collect(), order }
 }
 
+/// Evenly spaced cells as a picture of at most so many pixels; what is not a number is left transparent.
+///
+/// `value[row * columns + column]`, coloured from 0 to 1.
+pub fn cells_png(value: &[f64], [rows, columns]: [usize; 2], most: [usize; 2]) -> Option<Vec<u8>> {
+    let (height, width) = (rows.min(most[0]), columns.min(most[1]));
+    let shade = |p: usize| {
+        let (i, j) = (p / width * rows / height, p % width * columns / width);
+        let value = value.get(i * columns + j).copied().unwrap_or(f64::NAN);
+        color_map::index(value, 0.0, 1.0).unwrap_or(color_map::COUNT as u8)
+    };
+    let pixels: Vec<u8> = (0..width * height).map(shade).collect();
+    indexed_png(width, height, &pixels)
+}
+
 /// An indexed PNG of the colour map; the index after the last colour is transparent.
 fn indexed_png(width: usize, height: usize, pixels: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();

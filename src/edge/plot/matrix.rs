@@ -1,7 +1,7 @@
 //! A matrix of values from 0 to 1 as shaded cells: MAC, FRAC, FDAC.
 
 use super::axes::Frame;
-use super::heat::{BAR_ROOM, color_bar};
+use super::heat::{BAR_ROOM, cells_png, color_bar};
 use super::labels::head;
 use super::scale::Range;
 use super::style::*;
@@ -26,6 +26,8 @@ pub struct Matrix {
     pub marked: Vec<(usize, usize)>,
 }
 
+/// Most cells a side that are drawn one by one.
+const MOST: usize = 120;
 /// Room of a label on its axis \[px\].
 const LINE: f64 = 1.3 * SMALL;
 
@@ -36,7 +38,13 @@ pub fn draw(data: &Matrix) -> Svg {
     let cell = [((WIDTH - left - BAR_ROOM - 30.0) / columns).min(62.0), (440.0 / rows).min(30.0)];
     let (mut svg, top) = head(WIDTH, left, &data.title, &data.note, &[]);
     let frame = Frame { x: left, y: top, w: cell[0] * columns, h: cell[1] * rows };
-    for (k, value) in data.value.iter().enumerate() {
+    // Cells finer than a few pixels are a picture.
+    let picture = data.rows.len().max(data.columns.len()) > MOST;
+    if picture && let Some(png) = cells_png(&data.value, [data.rows.len(), data.columns.len()], [440, 600]) {
+        svg.image(frame.x, frame.y, frame.w, frame.h, &png);
+    }
+    let one_by_one = if picture { &[] } else { &data.value[..] };
+    for (k, value) in one_by_one.iter().enumerate() {
         let (i, j) = (k / data.columns.len().max(1), k % data.columns.len().max(1));
         let Some(shade) = color_map::index(*value, 0.0, 1.0) else { continue };
         let at = [frame.x + cell[0] * j as f64, frame.y + cell[1] * i as f64];

@@ -51,6 +51,7 @@ pub fn draw(data: &Wireframe) -> Svg {
     let Some(((x0, x1), (y0, y1))) =
         extremes(seen.iter().map(|p| p[0])).zip(extremes(seen.iter().map(|p| p[1])))
     else {
+        svg.height = top + 20.0;
         return svg;
     };
     let room = 2.0 * DEFLECTION * size;
