@@ -13,4 +13,5 @@ mod ross;
 
 mod ehl;
 mod integrators;
+mod radial_balls;
 mod shaft_element;

@@ -8,6 +8,7 @@ mod bearings;
 mod defects;
 mod measured_speed;
 mod mutations;
+mod radial_balls;
 mod steady;
 
 #[path = "../../src/cli/diagnostics.rs"]
