@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 21] = [
     "run",
     "check",
     "static",
@@ -22,6 +22,11 @@ const COMMANDS: [&str; 16] = [
     "export",
     "update",
     "validate",
+    "poincare",
+    "lyapunov",
+    "bifurcation",
+    "signal",
+    "identify",
 ];
 
 #[test]

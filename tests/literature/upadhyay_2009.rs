@@ -69,7 +69,7 @@ struct Lines {
 impl Lines {
     /// With the reference's bins of half a hertz (two seconds), in which a line may stand between two.
     ///
-    /// The reference settles for 2 s; the slowest motion here decays by 130 1/s, by e⁻¹³⁰ in one.
+    /// The reference settles for 2 s; the slowest motion here decays by 64 1/s (N = 7), by e⁻⁶⁴ in one.
     fn of(machine: &Machine, [settle, record]: [f64; 2]) -> Self {
         let thin = 10;
         let [x, y] = motion(&ready(machine), Integrator::Newmark, STEP, [settle, record], thin);

@@ -25,7 +25,7 @@ const SIDE: f64 = 470.0;
 const CELL: f64 = 44.0;
 
 /// Most modes of a set.
-const MOST: usize = 120;
+const MOST: usize = 80;
 
 pub fn draw(data: &MacMatrix) -> Svg {
     let names = |all: &[String]| -> Vec<String> {
