@@ -102,14 +102,15 @@
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
 //! | [`units`], [`material`] | quantities as text; material data |
 //! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
-//! | [`signal`] | spectra, STFT, order tracking, envelopes, orbits of sampled records |
+//! | [`signal`] | spectra, STFT, order tracking, envelopes, bearing faults, orbits of sampled records |
 //! | [`contact`] | Hertz contacts |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
-//! | [`bearing`] | linear and ball bearings: force and both tangents |
+//! | [`bearing`] | linear and ball bearings, sound or damaged: force and both tangents |
 //! | [`model`] | the model file, read and checked; the machine in SI |
 //! | [`assembly`] | degrees of freedom, matrices, joints eliminated, free motions |
 //! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
 //! | [`transient`] | reduction, time integration, energy account |
+//! | [`identify`] | poles, shapes and residues from measured FRFs, with their standard errors |
 //! | [`update`] | a model held against measured modes: pairs, sensitivities, least squares, what the data tell |
 //! | [`results`], [`study`] | what studies give, and the studies: one method of [`study::Machine`] each |
 //! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes: one owner each |
