@@ -129,9 +129,7 @@ pub fn spectrogram() -> Figure {
     Figure::Spectrogram(Spectrogram {
         title: "Overhung rig: run-up, bearing B vertical".to_string(),
         note: "STFT, Hann window 1.0 s, overlap 90 %; lines: linear Campbell diagram".to_string(),
-        rpm,
-        hz,
-        level_db: decibels(&values),
+        panels: vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: decibels(&values) }],
         quantity: "acceleration level".to_string(),
         unit: "dB re 1 m/s²".to_string(),
         span_db: 70.0,
@@ -148,9 +146,7 @@ pub fn waterfall() -> Figure {
     let (rpm, hz, amplitude) = spectra();
     Figure::Waterfall(Waterfall {
         title: "Overhung rig: waterfall of the run-up, bearing B vertical".to_string(),
-        rpm,
-        hz,
-        amplitude,
+        panels: vec![WaterfallPanel { name: String::new(), rpm, hz, amplitude }],
         unit: "m/s²".to_string(),
         orders: orders().into_iter().filter(|o| o.label != "2 BPFO").collect(),
         ..Default::default()

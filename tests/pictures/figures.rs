@@ -116,7 +116,8 @@ fn a_heat_map_keeps_a_ridge_one_cell_wide_and_its_place() {
         ((0..nx).map(f64::from).collect(), (0..ny).map(f64::from).collect());
     let mut level_db = vec![-100.0; (nx * ny) as usize];
     level_db[(750 * ny + 1500) as usize] = 0.0;
-    let map = Spectrogram { rpm, hz, level_db, span_db: 80.0, ..Default::default() };
+    let panels = vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db }];
+    let map = Spectrogram { panels, span_db: 80.0, ..Default::default() };
     let svg = Figure::Spectrogram(map).svg();
     let picture = tiny_skia::Pixmap::decode_png(&png(&svg).unwrap()).unwrap();
     let attribute = |name: &str| -> f64 {

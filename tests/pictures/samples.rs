@@ -37,9 +37,14 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
         }),
         Figure::Spectrogram(Spectrogram {
             title: name.clone(),
-            rpm: x.clone(),
-            hz: y.clone(),
-            level_db: grid.clone(),
+            panels: (0..2)
+                .map(|_| SpectrogramPanel {
+                    name: name.clone(),
+                    rpm: x.clone(),
+                    hz: y.clone(),
+                    level_db: grid.clone(),
+                })
+                .collect(),
             quantity: labelled("level"),
             unit: labelled("dB re 1 m/s²"),
             span_db: first(2),
@@ -49,9 +54,14 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
         }),
         Figure::Waterfall(Waterfall {
             title: name.clone(),
-            rpm: x.clone(),
-            hz: y.clone(),
-            amplitude: grid.clone(),
+            panels: (0..2)
+                .map(|_| WaterfallPanel {
+                    name: name.clone(),
+                    rpm: x.clone(),
+                    hz: y.clone(),
+                    amplitude: grid.clone(),
+                })
+                .collect(),
             unit: labelled("m/s²"),
             orders: orders.clone(),
             ..Default::default()

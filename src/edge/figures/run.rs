@@ -3,7 +3,10 @@
 use super::display::{Display, decibels, quantity, unit};
 use super::speed::{branches, order_lines};
 use super::{Named, TO_RPM};
-use crate::edge::plot::{Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, Waterfall};
+use crate::edge::plot::{
+    Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, SpectrogramPanel, Waterfall,
+    WaterfallPanel,
+};
 use crate::results::{self, CampbellResult, HistoryChannel, OrderResult, SpectrogramResult};
 use crate::signal::waterfall::waterfall;
 use crate::study::Machine;
@@ -62,51 +65,98 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
     figures
 }
 
+/// Spectra of one run over its speed.
+pub(super) struct OverSpeed<'a> {
+    pub name: &'a str,
+    /// Speed of every frame \[rpm\].
+    pub rpm: &'a [f64],
+    pub hz: &'a [f64],
+    /// `amplitude[frame * hz.len() + line]`.
+    pub amplitude: &'a [f64],
+}
+
+/// Waterfalls of runs at common speeds, amplitudes times `factor`; none where no speed changes.
+pub(super) fn waterfall_panels(runs: &[OverSpeed], factor: f64) -> Vec<WaterfallPanel> {
+    let every = || runs.iter().flat_map(|r| r.rpm.iter());
+    let (lo, hi) = every().fold((f64::INFINITY, 0.0f64), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
+    let step = (hi - lo) / STEPS as f64;
+    if step.is_nan() || step <= 0.0 {
+        return Vec::new();
+    }
+    let steps: Vec<f64> = (0..=STEPS).map(|k| lo + step * k as f64).collect();
+    let panel = |run: &OverSpeed| {
+        // Its refusals (NaN, sizes that do not fit) cannot come from a spectrogram.
+        let rows = waterfall(run.hz, run.amplitude, run.rpm, &steps, 0.5 * step).ok()?;
+        Some(WaterfallPanel {
+            name: run.name.into(),
+            rpm: rows.rpm,
+            hz: rows.axis,
+            amplitude: rows.amplitude.iter().map(|a| a * factor).collect(),
+        })
+    };
+    runs.iter().filter_map(panel).collect()
+}
+
 pub fn spectrogram(
     found: &SpectrogramResult,
     campbell: Option<&CampbellResult>,
     machine: &Machine,
 ) -> Vec<Named> {
-    let s = &found.spectrogram;
-    let shown = unit(&found.unit);
-    let rpm: Vec<f64> = found.speed.iter().map(|w| w * TO_RPM).collect();
-    let highest = s.frequencies.last().copied().unwrap_or(0.0);
+    spectrograms(&[("", found)], &format!("Run-up seen in {}", found.channel), campbell, machine)
+        .into_iter()
+        .map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure))
+        .collect()
+}
+
+/// Map and waterfall of one channel in runs side by side, each with its name; as "spectrogram" and "waterfall".
+pub(super) fn spectrograms(
+    runs: &[(&str, &SpectrogramResult)],
+    title: &str,
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+) -> Vec<(&'static str, Figure)> {
+    let Some((_, first)) = runs.first() else { return Vec::new() };
+    let shown = unit(&first.unit);
+    let highest = runs.iter().filter_map(|(_, r)| r.spectrogram.frequencies.last()).copied();
+    let highest = highest.fold(0.0, f64::max);
     let seen = |b: &Branch| b.hz.iter().any(|hz| *hz <= highest);
     let linear: Vec<Branch> = campbell.map(branches).into_iter().flatten().filter(seen).collect();
-    let orders = order_lines(&found.orders);
+    let orders = order_lines(&first.orders);
     let note = machine.model.title.clone();
     let span_db = machine.model.studies.spectrogram.as_ref().map_or(SPAN_DB, |study| study.dynamic_range_db);
-    let map = Spectrogram {
-        title: format!("Run-up seen in {}", found.channel),
-        note: note.clone(),
+    let rpm: Vec<Vec<f64>> = runs.iter().map(|(_, r)| r.speed.iter().map(|w| w * TO_RPM).collect()).collect();
+    let panel = |((name, found), rpm): (&(&str, &SpectrogramResult), &Vec<f64>)| SpectrogramPanel {
+        name: (*name).into(),
         rpm: rpm.clone(),
-        hz: s.frequencies.clone(),
-        level_db: decibels(&s.amplitude, shown),
-        quantity: format!("{} level", quantity(&found.unit)),
+        hz: found.spectrogram.frequencies.clone(),
+        level_db: decibels(&found.spectrogram.amplitude, shown),
+    };
+    let map = Spectrogram {
+        title: title.into(),
+        note: note.clone(),
+        panels: runs.iter().zip(&rpm).map(panel).collect(),
+        quantity: format!("{} level", quantity(&first.unit)),
         unit: reference(shown),
         span_db,
         orders: orders.clone(),
         branches: linear,
         max_hz: Some(highest),
     };
-    let mut figures = vec![(format!("spectrogram_{}", found.channel), Figure::Spectrogram(map))];
-    let (lo, hi) = rpm.iter().fold((f64::INFINITY, 0.0f64), |(lo, hi), r| (lo.min(*r), hi.max(*r)));
-    let step = (hi - lo) / STEPS as f64;
-    if step > 0.0 {
-        let steps: Vec<f64> = (0..=STEPS).map(|k| lo + step * k as f64).collect();
-        // Its refusals (NaN, sizes that do not fit) cannot come from a spectrogram.
-        if let Ok(rows) = waterfall(&s.frequencies, &s.amplitude, &rpm, &steps, 0.5 * step) {
-            let figure = Waterfall {
-                title: format!("Run-up seen in {}", found.channel),
-                note,
-                rpm: rows.rpm,
-                hz: rows.axis,
-                amplitude: rows.amplitude.iter().map(|a| a * shown.factor).collect(),
-                unit: shown.name.into(),
-                orders,
-            };
-            figures.push((format!("waterfall_{}", found.channel), Figure::Waterfall(figure)));
-        }
+    let mut figures = vec![("spectrogram", Figure::Spectrogram(map))];
+    let spectra: Vec<OverSpeed> = runs
+        .iter()
+        .zip(&rpm)
+        .map(|((name, found), rpm)| OverSpeed {
+            name,
+            rpm,
+            hz: &found.spectrogram.frequencies,
+            amplitude: &found.spectrogram.amplitude,
+        })
+        .collect();
+    let panels = waterfall_panels(&spectra, shown.factor);
+    if !panels.is_empty() {
+        let figure = Waterfall { title: title.into(), note, panels, unit: shown.name.into(), orders };
+        figures.push(("waterfall", Figure::Waterfall(figure)));
     }
     figures
 }

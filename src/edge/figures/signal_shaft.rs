@@ -1,21 +1,19 @@
 //! Records over the shaft's turns and over rates of modulation; jerk.
 
 use super::Named;
+use super::run::{OverSpeed, waterfall_panels};
 use super::signal::{GROUPS, group, levels, measured, rates, shown};
 use crate::edge::plot::{
     Channel, Cursor, CursorLines, CursorPanel, Curve, Figure, HeatMap, History, Lines, OrderLine, OrderMap,
-    Spectrogram, Waterfall,
+    Spectrogram, SpectrogramPanel, Waterfall,
 };
 use crate::results::{
     CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult, SpectrogramOverTime,
 };
 use crate::signal::race_defects::DefectKind;
-use crate::signal::waterfall::waterfall;
 
 /// Levels shown below the highest \[dB\].
 const SPAN_DB: f64 = 60.0;
-/// Spectra of a waterfall.
-const STEPS: usize = 40;
 
 pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
     let name = |what: &str| format!("signal_{what}_{}", r.channel);
@@ -88,9 +86,12 @@ fn over_speed(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> Vec<
     let map = Spectrogram {
         title: format!("{} over speed", r.channel),
         note: note.into(),
-        rpm: found.rpm.clone(),
-        hz: found.map.frequencies.clone(),
-        level_db,
+        panels: vec![SpectrogramPanel {
+            name: String::new(),
+            rpm: found.rpm.clone(),
+            hz: found.map.frequencies.clone(),
+            level_db,
+        }],
         quantity: format!("{} level", measured(r)),
         unit,
         span_db: SPAN_DB,
@@ -98,19 +99,15 @@ fn over_speed(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> Vec<
         ..Spectrogram::default()
     };
     let mut out = vec![("campbell", Figure::Spectrogram(map))];
-    let (lo, hi) = found.rpm.iter().fold((f64::INFINITY, 0.0f64), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
-    let step = (hi - lo) / STEPS as f64;
-    let steps: Vec<f64> = (0..=STEPS).map(|k| lo + step * k as f64).collect();
-    // Its refusals (NaN, sizes that do not fit) cannot come from a spectrogram.
-    if let Ok(rows) = waterfall(&found.map.frequencies, &found.map.amplitude, &found.rpm, &steps, 0.5 * step)
-    {
-        let d = shown(r);
+    let spectra =
+        OverSpeed { name: "", rpm: &found.rpm, hz: &found.map.frequencies, amplitude: &found.map.amplitude };
+    let d = shown(r);
+    let panels = waterfall_panels(&[spectra], d.factor);
+    if !panels.is_empty() {
         let figure = Waterfall {
             title: format!("{} over speed", r.channel),
             note: note.into(),
-            rpm: rows.rpm,
-            hz: rows.axis,
-            amplitude: rows.amplitude.iter().map(|a| a * d.factor).collect(),
+            panels,
             unit: d.name.into(),
             orders: order_lines(r),
         };

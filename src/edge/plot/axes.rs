@@ -116,6 +116,13 @@ impl Axes {
         svg.text([place, f.center()[1]], &label, Text::new(size, INK).middle().upright());
     }
 
+    /// Frame and x axis; y is told by the panel beside.
+    pub fn bare_border(&self, svg: &mut Svg, x_label: &str) {
+        let f = self.frame;
+        svg.rect(f.x, f.y, f.w, f.h, FRAME);
+        self.x_axis(svg, Some(x_label));
+    }
+
     fn x_axis(&self, svg: &mut Svg, x_label: Option<&str>) {
         let f = self.frame;
         for Tick { value, label } in &self.x.ticks {

@@ -17,15 +17,15 @@ pub struct Heat<'a> {
     pub level: &'a [f64],
 }
 
-impl Heat<'_> {
-    /// Level bounds for the colours: the highest level down by `span`, to steps of five.
-    pub fn bounds(&self, span: f64) -> Range {
-        let (lo, hi) = extremes(self.level.iter().copied()).unwrap_or((-1.0, 0.0));
-        let top = 5.0 * (hi / 5.0).ceil();
-        let span = if span > 0.0 && span.is_finite() { span } else { 80.0 };
-        Range::new(if hi - lo < 1.0 { top - 5.0 } else { top - span }, top)
-    }
+/// Level bounds for the colours: the highest level down by `span`, to steps of five.
+pub fn bounds(levels: impl Iterator<Item = f64>, span: f64) -> Range {
+    let (lo, hi) = extremes(levels).unwrap_or((-1.0, 0.0));
+    let top = 5.0 * (hi / 5.0).ceil();
+    let span = if span > 0.0 && span.is_finite() { span } else { 80.0 };
+    Range::new(if hi - lo < 1.0 { top - 5.0 } else { top - span }, top)
+}
 
+impl Heat<'_> {
     /// Draws the map into the axes: each pixel shows the highest level of the cells it covers, so that no
     /// narrow ridge is lost; non-finite levels and places outside the grid stay white.
     pub fn draw(&self, svg: &mut Svg, axes: &Axes, bounds: Range) {

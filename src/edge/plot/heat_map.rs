@@ -1,7 +1,7 @@
 //! General heat map: spectrogram over time, kurtogram, cyclic coherence, with a marked field.
 
 use super::axes::{Axes, Frame};
-use super::heat::{BAR_ROOM, Heat, color_bar};
+use super::heat::{self, BAR_ROOM, Heat, color_bar};
 use super::labels::head;
 use super::scale::{Range, Scale, extremes, nice_step};
 use super::style::*;
@@ -55,7 +55,7 @@ pub fn draw(data: &HeatMap) -> Svg {
     }
     let heat = Heat { x: &data.x, y: &data.y, level: &data.value };
     let bounds = match data.span {
-        Some(span) => heat.bounds(span),
+        Some(span) => heat::bounds(data.value.iter().copied(), span),
         None => round_bounds(&data.value),
     };
     heat.draw(&mut svg, &axes, bounds);

@@ -3,7 +3,7 @@
 //! | layer | files |
 //! |---|---|
 //! | page | [`svg`], `font`, `color_map`, `style` |
-//! | axes | [`scale`], [`axes`], [`labels`], `thin`, `heat` |
+//! | axes | [`scale`], [`axes`], [`labels`], `row`, `thin`, `heat` |
 //! | figures | one file each, one variant of [`Figure`] each |
 //!
 //! A new figure is one file, one variant and its arm. Non-finite data are left out with a gap; no data gives
@@ -40,6 +40,7 @@ mod panels;
 mod phase_plane;
 mod polar;
 mod rig;
+mod row;
 mod spectrogram;
 mod stabilisation;
 mod waterfall;
@@ -71,9 +72,9 @@ pub use order::OrderMap;
 pub use phase_plane::{PhasePlane, PhasePlanes};
 pub use polar::{Polar, PolarCurve};
 pub use rig::{Rig, RigBelt, RigBlock, RigSection, RigSpring, RigSupport};
-pub use spectrogram::Spectrogram;
+pub use spectrogram::{Spectrogram, SpectrogramPanel};
 pub use stabilisation::{Settled, Stabilisation};
-pub use waterfall::Waterfall;
+pub use waterfall::{Waterfall, WaterfallPanel};
 pub use wireframe::{WireShape, Wireframe};
 
 /// Pixels of the PNG per px of the SVG.

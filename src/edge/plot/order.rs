@@ -2,7 +2,7 @@
 
 use super::axes::{Axes, Frame};
 use super::campbell::OrderLine;
-use super::heat::{BAR_ROOM, Heat, color_bar};
+use super::heat::{self, BAR_ROOM, Heat, color_bar};
 use super::labels::{EndLabel, end_labels, end_room, head};
 use super::scale::Range;
 use super::style::*;
@@ -40,7 +40,7 @@ pub fn draw(data: &OrderMap) -> Svg {
     };
     let axes = Axes::linear(frame, Range::of(data.rpm.iter().copied()).near_zero(), y);
     let heat = Heat { x: &data.rpm, y: &data.order, level: &data.level_db };
-    let bounds = heat.bounds(data.span_db);
+    let bounds = heat::bounds(data.level_db.iter().copied(), data.span_db);
     heat.draw(&mut svg, &axes, bounds);
     let mut labels = Vec::new();
     for line in data.orders.iter().filter(|o| y.contains(o.order)) {

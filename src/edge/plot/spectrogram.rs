@@ -1,24 +1,33 @@
 //! Spectrogram over speed (the Campbell diagram as measured), with the linear lines laid over it.
 
-use super::axes::{Axes, Frame};
+use super::axes::Axes;
 use super::campbell::{Branch, OrderLine, branch_ends, order_lines};
-use super::heat::{BAR_ROOM, Heat, color_bar};
+use super::heat::{self, BAR_ROOM, Heat, color_bar};
 use super::labels::{Entry, end_labels, end_room, head};
+use super::row::Row;
 use super::scale::Range;
 use super::style::*;
 use super::svg::{Style, Svg};
 
-/// Data of a spectrogram over speed.
+/// One run as a map.
 #[derive(Clone, Debug, Default)]
-pub struct Spectrogram {
-    pub title: String,
-    pub note: String,
+pub struct SpectrogramPanel {
+    /// Written into the panel where there are several: "measured".
+    pub name: String,
     /// Shaft speed of each spectrum \[rpm\].
     pub rpm: Vec<f64>,
     /// Frequencies \[Hz\].
     pub hz: Vec<f64>,
     /// Levels \[dB\], `level_db[i * hz.len() + j]` at `rpm[i]`, `hz[j]`.
     pub level_db: Vec<f64>,
+}
+
+/// Data of a spectrogram over speed; several panels stand side by side on the same scales.
+#[derive(Clone, Debug, Default)]
+pub struct Spectrogram {
+    pub title: String,
+    pub note: String,
+    pub panels: Vec<SpectrogramPanel>,
     /// What the decibels are, e.g. "acceleration level" and "dB re 1 m/s²".
     pub quantity: String,
     pub unit: String,
@@ -37,29 +46,40 @@ pub fn draw(data: &Spectrogram) -> Svg {
             kinds.push(Entry::line(whirl.name(), Style::stroke(whirl.color(), 1.3)));
         }
     }
-    let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &kinds);
     let names = data.branches.iter().map(|b| &b.label).chain(data.orders.iter().map(|o| &o.label));
     let room = end_room(names.cloned());
-    let frame = Frame { x: LEFT, y: top + 16.0, w: WIDTH - LEFT - room - BAR_ROOM, h: 420.0 };
+    let row = Row::new(data.panels.len(), WIDTH - LEFT - room - BAR_ROOM);
+    let page = LEFT + row.width() + room + BAR_ROOM;
+    let (mut svg, top) = head(page, LEFT, &data.title, &data.note, &kinds);
+    let every = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(move |p| of(p)).copied();
     let y = match data.max_hz.filter(|hz| hz.is_finite() && *hz > 0.0) {
         Some(hz) => Range::new(0.0, hz),
-        None => Range::of(data.hz.iter().copied()).near_zero(),
+        None => Range::of(every(|p| &p.hz)).near_zero(),
     };
-    let axes = Axes::linear(frame, Range::of(data.rpm.iter().copied()).near_zero(), y);
-    let heat = Heat { x: &data.rpm, y: &data.hz, level: &data.level_db };
-    let bounds = heat.bounds(data.span_db);
-    heat.draw(&mut svg, &axes, bounds);
-    let mut labels = order_lines(&mut svg, &axes, &data.orders);
-    for branch in &data.branches {
-        // A white edge keeps the thin line apart from the ridge under it.
-        axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
-        axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(branch.whirl.color(), 1.1));
+    let x = Range::of(every(|p| &p.rpm)).near_zero();
+    let bounds = heat::bounds(every(|p| &p.level_db), data.span_db);
+    let count = data.panels.len().max(1);
+    for k in 0..count {
+        let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
+        if let Some(panel) = data.panels.get(k) {
+            Heat { x: &panel.rpm, y: &panel.hz, level: &panel.level_db }.draw(&mut svg, &axes, bounds);
+        }
+        let mut labels = order_lines(&mut svg, &axes, &data.orders);
+        for branch in &data.branches {
+            // A white edge keeps the thin line apart from the ridge under it.
+            axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
+            axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(branch.whirl.color(), 1.1));
+        }
+        labels.extend(branch_ends(&axes, &data.branches));
+        row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));
+        row.name(&mut svg, axes.frame, data.panels.get(k).map_or("", |p| &p.name));
+        // The panels have the same lines: those of the last are named.
+        if k + 1 == count {
+            end_labels(&mut svg, &axes, &labels);
+            let label = format!("{} [{}]", data.quantity, data.unit);
+            color_bar(&mut svg, axes.frame, page - BAR_ROOM, bounds, &label);
+            svg.height = axes.frame.bottom() + BOTTOM;
+        }
     }
-    labels.extend(branch_ends(&axes, &data.branches));
-    axes.border(&mut svg, Some(&axes.x.label("shaft speed", "rpm")), &axes.y.label("frequency", "Hz"));
-    end_labels(&mut svg, &axes, &labels);
-    let label = format!("{} [{}]", data.quantity, data.unit);
-    color_bar(&mut svg, frame, WIDTH - BAR_ROOM, bounds, &label);
-    svg.height = frame.bottom() + BOTTOM;
     svg
 }
