@@ -1,12 +1,14 @@
 //! What the studies of a model give: plain data, as computed, in SI.
 
 mod bearing;
+mod beside;
 mod signal;
 
 pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
     PickContact, SolvedFilm,
 };
+pub use beside::{ChannelPair, CutPair, CutPeak, level_over};
 pub use signal::{
     CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult, RatedBearing,
     ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramOverTime,

@@ -13,7 +13,7 @@ use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use bearing::BearingArgs;
 use manual::{AFTER, LONG_ABOUT};
-pub use measured::{IdentifyArgs, NoiseArgs};
+pub use measured::{IdentifyArgs, NoiseArgs, ShaftArgs};
 pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
 
 /// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
@@ -100,7 +100,7 @@ pub enum ChannelFormat {
 }
 
 /// A stored run.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct StoredArgs {
     /// results.h5 of a run-up, or the folder that holds it
     pub file: PathBuf,

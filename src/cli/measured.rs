@@ -14,8 +14,12 @@ use super::args::MeasuredArgs;
 use super::failure::Failure;
 use super::terminal::{Terminal, number, rpm};
 
-/// Reads every measured file into the model.
-pub fn read(args: &MeasuredArgs, model: &Model, terminal: &Terminal) -> Result<Vec<ReadTarget>, Failure> {
+/// Reads every measured file into the model; `None` for one that holds neither modes nor FRFs.
+pub fn read(
+    args: &MeasuredArgs,
+    model: &Model,
+    terminal: &Terminal,
+) -> Result<Vec<Option<ReadTarget>>, Failure> {
     let band = args.band.as_deref().map(|text| range(text, "--band")).transpose()?;
     let speed = match &args.speed {
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
@@ -28,7 +32,7 @@ pub fn read(args: &MeasuredArgs, model: &Model, terminal: &Terminal) -> Result<V
         let found = target::read(path, &reading, model);
         bar.finish_and_clear();
         let found = found?;
-        for warning in &found.warnings {
+        for warning in found.iter().flat_map(|found| &found.warnings) {
             terminal.complain("warning", &format!("{}: {warning}", path.display()));
         }
         out.push(found);

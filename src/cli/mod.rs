@@ -16,6 +16,7 @@ mod interrupt;
 mod machine;
 mod measured;
 mod noise;
+mod run_up_pair;
 mod settings;
 mod signal;
 mod steady;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use rotordyn::edge::figures::{self, Stage};
 use rotordyn::edge::hdf5::Store;
+use rotordyn::edge::measured::target;
 use rotordyn::edge::{model_file, results_file};
 use rotordyn::error::Error;
 use rotordyn::model::{self, Model, Options};
@@ -35,6 +36,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         return Err(Failure::Input("an update takes one measured file; merge the FRFs into one".into()));
     }
     let read = measured::read(&args.measured, &loaded.model, terminal)?.remove(0);
+    let read = read.ok_or_else(|| target::nothing(&args.measured.measured[0]))?;
     terminal.say(&format!("{}: {}", args.measured.measured[0].display(), read.source));
     let fitting = fitting(args, band(&read.target));
     if fitting.frf.is_some() && read.target.frfs.is_none() {

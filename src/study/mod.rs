@@ -2,6 +2,7 @@
 
 mod attractor;
 mod bearing;
+mod beside;
 mod bifurcation;
 mod record;
 pub mod signal;
@@ -10,6 +11,7 @@ mod tracking;
 
 pub use attractor::{CarriedState, Progress};
 pub use bearing::bearings_alone;
+pub use beside::MeasuredRun;
 pub use bifurcation::bifurcation;
 pub use record::Recorder;
 

@@ -80,7 +80,7 @@ const ENERGIES: [&str; 8] =
     ["kinetic", "strain", "contact", "work", "parametric", "damping_loss", "contact_loss", "residual"];
 
 /// Name, unit, place and direction of a probe.
-fn describe(model: &Model, probe: &Probe) -> HistoryChannel {
+pub(super) fn describe(model: &Model, probe: &Probe) -> HistoryChannel {
     let rotation = probe.direction[3..].iter().any(|d| *d != 0.0);
     let names = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];
     let single = (0..6)

@@ -4,6 +4,7 @@ mod bearings;
 mod commands;
 mod failures;
 mod held_against;
+mod run_ups;
 mod runs;
 mod signal;
 mod signal_failures;

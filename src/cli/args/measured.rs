@@ -18,6 +18,24 @@ pub struct NoiseArgs {
     pub seed: u64,
 }
 
+/// How the shaft turned during a record.
+#[derive(Args, Clone, Debug)]
+pub struct ShaftArgs {
+    /// Shaft angle from the pulses of a tacho: a channel, or a file of one channel or of pulse times
+    #[arg(long, value_name = "CHANNEL|FILE", help_heading = "Shaft", conflicts_with = "track")]
+    pub tacho: Option<String>,
+    /// Pulses of the tacho in a turn
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
+    pub pulses_per_turn: usize,
+    /// Take the jitter of the tacho's pulses away
+    #[arg(long, help_heading = "Shaft")]
+    pub smooth_tacho: bool,
+    /// Shaft angle from a line of the record itself: its order and the frequencies between which it stays, such as
+    /// 1="5 Hz .. 50 Hz"
+    #[arg(long, value_name = "ORDER=RANGE", help_heading = "Shaft")]
+    pub track: Option<String>,
+}
+
 /// Which FRFs, and how.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {

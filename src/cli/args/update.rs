@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{StudyArgs, assignment};
+use super::{ShaftArgs, StudyArgs, assignment};
 
 pub const VALIDATE: &str = "\
 A measured point k + 1 is node k of the model, as `export` writes it; a mapping file says otherwise:
@@ -12,11 +12,15 @@ A measured point k + 1 is node k of the model, as `export` writes it; a mapping 
   [point.12]
   station = \"disc\"
 
+A record of a run-up is held against one that the model makes with the measured speed, by the settings of the file's
+[study.run_up], [study.spectrogram] and [study.orders]; the speed is that of a channel of the file, or of a tacho.
+
 A run-up at 0 rpm under one [load.X] with a history is a hammer test: its results.h5 can be held against the model.
 
 Examples:
   rotordyn validate models/overhung_rig.toml --measured hammer.uff --mapping points.toml
   rotordyn validate models/overhung_rig.toml --measured modes.uff --band \"10 .. 300 Hz\"
+  rotordyn validate models/overhung_rig.toml --measured run_up.mat --mapping channels.toml --tacho tacho
   rotordyn validate my_machine.toml --measured out/tap/results.h5 --measured out/blow/results.h5";
 
 pub const UPDATE: &str = "\
@@ -32,7 +36,7 @@ Examples:
 /// What was measured, and where.
 #[derive(Args, Clone, Debug)]
 pub struct MeasuredArgs {
-    /// Measured modes or FRFs: universal file (58, 55, 2414), results.h5, MATLAB, NumPy, CSV; can be repeated
+    /// Measured modes, FRFs or run-ups: universal file (58, 55, 2414), results.h5, MATLAB, NumPy, CSV; can be repeated
     #[arg(long, value_name = "FILE", required = true)]
     pub measured: Vec<PathBuf>,
     /// Which measured point or channel is which station and direction (TOML)
@@ -53,6 +57,11 @@ pub struct ValidateArgs {
     pub study: StudyArgs,
     #[command(flatten)]
     pub measured: MeasuredArgs,
+    /// Part of a run-up's record, such as "0.5 s .. 14 s" or "0.5 s .." [default: all of it]
+    #[arg(long, value_name = "RANGE", allow_hyphen_values = true, help_heading = "Shaft")]
+    pub time: Option<String>,
+    #[command(flatten)]
+    pub shaft: ShaftArgs,
 }
 
 /// What to change until it agrees.

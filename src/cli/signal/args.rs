@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::super::args::ShaftArgs;
+
 /// Shown with the long help.
 pub const EXAMPLES: &str = "\
 Analyses: spectrum, psd, spectrogram, envelope, kurtogram, cepstrum, jerk, orders, average, cyclic.
@@ -38,21 +40,10 @@ pub struct SignalArgs {
     pub analyses: Vec<String>,
 
     /// Shaft speed, such as "1797 rpm" [default: as the file states it]
-    #[arg(long, value_name = "SPEED", help_heading = "Shaft")]
+    #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
     pub speed: Option<String>,
-    /// Shaft angle from the pulses of a tacho: a channel, or a file of one channel or of pulse times
-    #[arg(long, value_name = "CHANNEL|FILE", help_heading = "Shaft", conflicts_with_all = ["speed", "track"])]
-    pub tacho: Option<String>,
-    /// Pulses of the tacho in a turn
-    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
-    pub pulses_per_turn: usize,
-    /// Take the jitter of the tacho's pulses away
-    #[arg(long, help_heading = "Shaft")]
-    pub smooth_tacho: bool,
-    /// Shaft angle from a line of the record itself: its order and the frequencies between which it stays, such as
-    /// 1="5 Hz .. 50 Hz"
-    #[arg(long, value_name = "ORDER=RANGE", help_heading = "Shaft", conflicts_with = "speed")]
-    pub track: Option<String>,
+    #[command(flatten)]
+    pub shaft: ShaftArgs,
     /// Spacing of the orders
     #[arg(long, value_name = "NUMBER", default_value_t = 0.05, help_heading = "Shaft")]
     pub order_resolution: f64,

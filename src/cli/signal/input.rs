@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::edge::measured::run_up::is_clock;
 use rotordyn::edge::measured::{self, unit};
 use rotordyn::signal::record::{Measured, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
@@ -133,13 +134,6 @@ impl File {
     }
 }
 
-/// Whether a record is of the shaft's turning rather than of vibration.
-pub fn is_clock(record: &Record) -> bool {
-    let name = record.name.to_lowercase();
-    let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "speed", "rpm"];
-    matches!(record.unit.as_str(), "rpm" | "rad/s" | "s") || named.iter().any(|word| name.contains(word))
-}
-
 /// Which channels, and how they are to be taken.
 pub struct Choice<'a> {
     pub names: &'a [String],
@@ -242,6 +236,24 @@ fn channel(
         samples: values,
         beside,
     })
+}
+
+/// Leaves the part of a channel that a range of times names.
+pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings: &mut Findings) {
+    let (rate, start, samples) = (channel.sample_rate, channel.start, channel.samples.len());
+    let whole = [start, start + samples as f64 / rate];
+    let Some(ends) = time.and_then(|text| findings.range(flag, text, TIME, whole)) else { return };
+    let range = stretch(ends, start, rate, samples);
+    if range.len() < 2 {
+        findings.problem(format!(
+            "`{}` has {} samples in that time; two at least",
+            channel.name,
+            range.len()
+        ));
+        return;
+    }
+    channel.start += range.start as f64 / rate;
+    channel.samples = channel.samples[range].to_vec();
 }
 
 /// Samples between two times.

@@ -3,12 +3,13 @@
 mod against;
 pub mod args;
 mod bearing;
-mod input;
+pub mod input;
 mod line_tables;
 mod settings;
-mod shaft;
+pub mod shaft;
 mod tables;
 
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -20,6 +21,7 @@ use rotordyn::error::Error;
 use rotordyn::results::{RatedBearing, SignalResult};
 use rotordyn::signal::SignalError;
 use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
+use rotordyn::units::SPEED;
 use serde_json::json;
 
 use super::failure::Failure;
@@ -36,7 +38,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let file = File::read(&args.file)?;
     let mut findings = Findings::default();
-    let without: Vec<&str> = args.tacho.as_deref().into_iter().chain(args.beside.as_deref()).collect();
+    let without: Vec<&str> = args.shaft.tacho.as_deref().into_iter().chain(args.beside.as_deref()).collect();
     let choice = Choice {
         names: &args.channel,
         without: &without,
@@ -47,7 +49,12 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         flag: "--",
     };
     let channels = input::channels(&file, &choice, &mut findings);
-    let shaft = Shaft::of(args, &file, &mut findings);
+    let shaft = match &args.speed {
+        Some(text) => findings
+            .positive("--speed", text, SPEED)
+            .map_or(Shaft::Unknown, |speed| Shaft::Steady(speed / TAU, "as given".into())),
+        None => Shaft::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
+    };
     let rated = bearing::find(args, &file, &mut findings)?;
     let settings = settings::of(args, rated.is_some(), &mut findings);
     if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {

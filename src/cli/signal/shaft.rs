@@ -6,9 +6,9 @@ use std::path::Path;
 use rotordyn::signal::record::{Points, Record};
 use rotordyn::signal::tacho::{PulseTrain, rising_edges};
 use rotordyn::study::signal::{ShaftMotion, SignalChannel};
-use rotordyn::units::{FREQUENCY, SPEED};
+use rotordyn::units::FREQUENCY;
 
-use super::args::SignalArgs;
+use super::super::args::ShaftArgs;
 use super::input::{File, Findings};
 
 /// Fraction of a tacho's span by which it must fall before the next pulse counts.
@@ -40,12 +40,10 @@ pub enum Shaft {
 }
 
 impl Shaft {
-    /// By the flags, else as the file tells.
-    pub fn of(args: &SignalArgs, file: &File, findings: &mut Findings) -> Shaft {
-        let known = if let Some(text) = &args.speed {
-            findings.positive("--speed", text, SPEED).map(|w| Shaft::Steady(w / TAU, "as given".into()))
-        } else if let Some(name) = &args.tacho {
-            tacho(args, name, file, findings)
+    /// By the flags, else as the file tells; `rate` is that of records that state none.
+    pub fn of(args: &ShaftArgs, rate: Option<&str>, file: &File, findings: &mut Findings) -> Shaft {
+        let known = if let Some(name) = &args.tacho {
+            tacho(args, name, rate, file, findings)
         } else if let Some(text) = &args.track {
             line(text, findings)
         } else {
@@ -118,7 +116,13 @@ fn line(text: &str, findings: &mut Findings) -> Option<Shaft> {
 }
 
 /// A channel of the file, or a file of its own.
-fn tacho(args: &SignalArgs, name: &str, file: &File, findings: &mut Findings) -> Option<Shaft> {
+fn tacho(
+    args: &ShaftArgs,
+    name: &str,
+    rate: Option<&str>,
+    file: &File,
+    findings: &mut Findings,
+) -> Option<Shaft> {
     let own = file.measured.records.iter().find(|r| r.name == name);
     let other;
     let (record, source) = match own {
@@ -148,7 +152,7 @@ fn tacho(args: &SignalArgs, name: &str, file: &File, findings: &mut Findings) ->
             return None;
         }
     };
-    let times = pulse_times(record, args, findings)?;
+    let times = pulse_times(record, rate, findings)?;
     if times.len() < 3 {
         findings.problem(format!(
             "--tacho: `{}` has {} pulses, three at least are needed for a speed; is it the tacho?",
@@ -171,13 +175,13 @@ fn tacho(args: &SignalArgs, name: &str, file: &File, findings: &mut Findings) ->
 }
 
 /// Pulse times \[s\]: values that are times, or the rising edges of a channel.
-fn pulse_times(record: &Record, args: &SignalArgs, findings: &mut Findings) -> Option<Vec<f64>> {
+fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut Findings) -> Option<Vec<f64>> {
     let values = findings.keep("--tacho: ", record.time_samples())?;
     let rising = values.windows(2).all(|w| w[1] > w[0]);
     if record.axis.points == Points::Unknown && rising {
         return Some(values.to_vec());
     }
-    let rate = match (record.sample_rate(), &args.rate) {
+    let rate = match (record.sample_rate(), rate) {
         (Ok(rate), _) => rate,
         (Err(_), Some(text)) => findings.positive("--rate", text, FREQUENCY)?,
         (Err(error), None) => {

@@ -1,5 +1,6 @@
 //! Tables of what was found in records.
 
+use rotordyn::edge::measured::run_up::is_clock;
 use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
@@ -7,7 +8,7 @@ use rotordyn::signal::ridge::find_peaks;
 use rotordyn::signal::spectrum::Spectrum;
 
 use super::super::terminal::{Terminal, number};
-use super::input::{File, is_clock};
+use super::input::File;
 use super::line_tables;
 
 /// Rows of a list that can be long.

@@ -16,9 +16,11 @@
 //! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
 //! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | modes identified from FRFs |
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | a model beside measurements; `update_...` before and after |
+//! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | a run-up measured and computed, side by side |
 //! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
 
 mod bearing;
+mod beside;
 mod comparison;
 mod display;
 pub mod identified;
@@ -39,7 +41,7 @@ use rayon::prelude::*;
 
 use super::plot::{self, Figure};
 use crate::error::Error;
-use crate::results::{BearingResult, Results, SignalResult};
+use crate::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
 use crate::study::Machine;
 use crate::update::target::Target;
 
@@ -121,6 +123,20 @@ pub fn draw_validation(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Error> {
     write_all(&validation::figures(prefix, title, target, stages), folder)
+}
+
+/// Draws a measured run and the computed one, names beginning with `prefix`; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_pairs(
+    prefix: &str,
+    pairs: &[ChannelPair],
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    write_all(&beside::figures(prefix, pairs, campbell, machine), folder)
 }
 
 fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {

@@ -86,6 +86,12 @@ pub fn direction(word: &str) -> Option<i8> {
 }
 
 impl Mapping {
+    /// Sampling rate of records whose file tells none \[Hz\], where it is stated soundly.
+    pub fn rate(&self) -> Option<f64> {
+        let rate = units::parse(self.rate.as_ref()?, units::FREQUENCY).ok()?;
+        (rate > 0.0).then_some(rate)
+    }
+
     /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
     /// name; returns what deserves a warning.
     ///

@@ -13,6 +13,7 @@ pub mod arrays;
 mod blow_run;
 pub mod datasets;
 pub mod mapping;
+pub mod run_up;
 mod signal_calc;
 pub mod target;
 pub mod unit;

@@ -40,32 +40,28 @@ pub struct ReadTarget {
 /// Reads a file and puts what it holds into the model.
 ///
 /// Modes of a universal file (55, 2414) or of a results file come as they are; FRFs are identified on the way; the run
-/// of a hammer test, stored by `run-up` with a load over time, gives its FRFs first.
+/// of a hammer test, stored by `run-up` with a load over time, gives its FRFs first. `None` where it holds neither modes
+/// nor FRFs.
 ///
 /// # Errors
-/// A file that cannot be read or holds neither modes nor FRFs, a mapping or points that do not fit the model, no mode
-/// in the band.
-pub fn read(path: &Path, reading: &Reading, model: &Model) -> Result<ReadTarget, Error> {
+/// A file that cannot be read, a mapping or points that do not fit the model, no mode in the band.
+pub fn read(path: &Path, reading: &Reading, model: &Model) -> Result<Option<ReadTarget>, Error> {
     let mut measured = match own_results(path)? {
         Some(measured) => measured,
         None => measured::read(path)?,
     };
+    let has_modes = measured.shapes.iter().any(is_mode);
+    if !has_modes && !measured.records.iter().any(|r| r.kind == Kind::Frf) {
+        return Ok(None);
+    }
     let mut warnings = std::mem::take(&mut measured.notes);
     if let Some(file) = reading.mapping {
         let mapping = mapping::read(file)?;
         warnings.extend(place(&mapping, &mut measured, model, file)?);
     }
-    let mut out = if measured.shapes.iter().any(is_mode) {
-        of_shapes(&measured, reading, model)?
-    } else if measured.records.iter().any(|r| r.kind == Kind::Frf) {
-        of_frfs(&measured, reading, model)?
-    } else {
-        return Err(Error::Content {
-            path: path.into(),
-            problem: "it holds neither modes nor FRFs".into(),
-            advice: "give FRFs (universal file 58), modes (55, 2414), or the results of `rotordyn modal`"
-                .into(),
-        });
+    let mut out = match measured.shapes.iter().any(is_mode) {
+        true => of_shapes(&measured, reading, model)?,
+        false => of_frfs(&measured, reading, model)?,
     };
     if let Some([from, to]) = reading.band {
         let all = out.target.modes.len();
@@ -86,7 +82,16 @@ pub fn read(path: &Path, reading: &Reading, model: &Model) -> Result<ReadTarget,
             if n == 1 { "" } else { "s" }
         ));
     }
-    Ok(out)
+    Ok(Some(out))
+}
+
+/// That a file holds nothing to hold a model against.
+pub fn nothing(path: &Path) -> Error {
+    Error::Content {
+        path: path.into(),
+        problem: "it holds neither modes nor FRFs".into(),
+        advice: "give FRFs (universal file 58), modes (55, 2414), or the results of `rotordyn modal`".into(),
+    }
 }
 
 fn is_mode(shape: &Shape) -> bool {

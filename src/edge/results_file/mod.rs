@@ -37,7 +37,7 @@ use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::bearing::Bearing;
 use crate::error::Error;
 use crate::linalg::Complex64;
-use crate::results::{History, HistoryChannel, Results};
+use crate::results::{ChannelPair, History, HistoryChannel, Results};
 use crate::study::Machine;
 
 /// Where results come from.
@@ -98,8 +98,8 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     if let Some(found) = &results.run_up {
         run::summary(store, found)?;
     }
-    results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, found))?;
-    results.orders.iter().try_for_each(|found| run::orders(store, found))?;
+    results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, "", found))?;
+    results.orders.iter().try_for_each(|found| run::orders(store, "", found))?;
     results.poincare.iter().try_for_each(|found| steady::poincare(store, found))?;
     results.lyapunov.iter().try_for_each(|found| steady::lyapunov(store, found))?;
     results.bifurcation.iter().try_for_each(|found| steady::bifurcation(store, found))?;
@@ -116,6 +116,27 @@ pub fn write_bearings(store: &Store, results: &Results) -> Result<(), Error> {
     bearing::write(store, &results.bearings)?;
     write_warnings(store, &results.warnings)?;
     store.flush()
+}
+
+/// Writes a measured and a computed run as `/measured` and `/computed`, with their spectra.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_pairs(
+    store: &Store,
+    pairs: &[ChannelPair],
+    measured: &History,
+    computed: &History,
+) -> Result<(), Error> {
+    run::pairs(store, pairs, [measured, computed])
+}
+
+/// Says in `/meta` that the run's speed is not that of the model's text.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn note_measured_speed(store: &Store, source: &str) -> Result<(), Error> {
+    store.set_attribute("/meta", "speed", format!("as measured: {source}"))
 }
 
 fn write_warnings(store: &Store, warnings: &[String]) -> Result<(), Error> {

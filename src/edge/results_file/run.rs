@@ -3,7 +3,7 @@
 use super::Place;
 use crate::edge::hdf5::Store;
 use crate::error::Error;
-use crate::results::{OrderResult, RunUpResult, SpectrogramResult};
+use crate::results::{ChannelPair, History, OrderResult, RunUpResult, SpectrogramResult};
 use crate::signal::segment::Level;
 use crate::transient::run::End;
 
@@ -40,8 +40,9 @@ pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
     Ok(())
 }
 
-pub fn spectrogram(store: &Store, found: &SpectrogramResult) -> Result<(), Error> {
-    let place = Place::new(store, &format!("/spectra/{}/spectrogram", found.channel))?;
+/// `root` is empty, or the group that the spectra belong to.
+pub fn spectrogram(store: &Store, root: &str, found: &SpectrogramResult) -> Result<(), Error> {
+    let place = Place::new(store, &format!("{root}/spectra/{}/spectrogram", found.channel))?;
     let s = &found.spectrogram;
     let rpm: Vec<f64> = found.speed.iter().map(|w| w * 60.0 / std::f64::consts::TAU).collect();
     let (frames, bins) = (s.times.len(), s.frequencies.len());
@@ -56,8 +57,8 @@ pub fn spectrogram(store: &Store, found: &SpectrogramResult) -> Result<(), Error
     place.axis("amplitude", 1, "frequency")
 }
 
-pub fn orders(store: &Store, found: &OrderResult) -> Result<(), Error> {
-    let place = Place::new(store, &format!("/spectra/{}/orders", found.channel))?;
+pub fn orders(store: &Store, root: &str, found: &OrderResult) -> Result<(), Error> {
+    let place = Place::new(store, &format!("{root}/spectra/{}/orders", found.channel))?;
     let s = &found.spectrogram;
     let (windows, bins) = (s.times.len(), s.orders.len());
     place.note("level", level(s.level))?;
@@ -79,6 +80,26 @@ pub fn orders(store: &Store, found: &OrderResult) -> Result<(), Error> {
     place.axis("cuts/rms", 1, "rpm")?;
     place.texts("cuts/label", &[labels.len()], &labels)?;
     place.array("cuts/order", &[labels.len()], &orders, "1/revolution")
+}
+
+/// Measured and computed run as two groups, each with its channels over time and their spectra.
+pub fn pairs(store: &Store, pairs: &[ChannelPair], runs: [&History; 2]) -> Result<(), Error> {
+    for (k, (name, run)) in ["/measured", "/computed"].iter().zip(runs).enumerate() {
+        let place = Place::new(store, name)?;
+        let count = run.time.len();
+        place.note("sample_rate", run.sample_rate)?;
+        place.array("time/t", &[count], &run.time, "s")?;
+        place.array("time/theta", &[count], &run.angle, "rad")?;
+        place.array("time/speed", &[count], &run.speed, "rad/s")?;
+        for pair in pairs {
+            if let Some(channel) = run.channels.iter().find(|c| c.name == pair.channel) {
+                place.array(&format!("channels/{}", pair.channel), &[count], &channel.values, &pair.unit)?;
+            }
+            spectrogram(store, name, &pair.spectrograms[k])?;
+            orders(store, name, &pair.orders[k])?;
+        }
+    }
+    Ok(())
 }
 
 fn level(level: Level) -> &'static str {

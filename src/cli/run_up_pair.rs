@@ -1,0 +1,292 @@
+//! A measured run-up and the one that the model makes with the same speed, side by side.
+
+use std::path::{Path, PathBuf};
+
+use rotordyn::edge::hdf5::Store;
+use rotordyn::edge::measured::{mapping, run_up};
+use rotordyn::edge::{exchange, figures, results_file};
+use rotordyn::error::Error;
+use rotordyn::model::Model;
+use rotordyn::results::{CampbellResult, ChannelPair, level_over};
+use rotordyn::study::{Machine, MeasuredRun};
+use rotordyn::update::UpdateError;
+use serde_json::{Value, json};
+
+use super::args::{StoredArgs, ValidateArgs};
+use super::failure::Failure;
+use super::machine::Origin;
+use super::signal::input::{File, Findings, cut};
+use super::signal::shaft::Shaft;
+use super::studies::{Job, Study};
+use super::terminal::{Terminal, number};
+use super::{films, settings, store};
+
+/// Rows of a table.
+const MOST: usize = 40;
+/// A part of the highest speed: a run that begins faster than this begins with a transient of its own.
+const SLOW: f64 = 0.05;
+
+/// A measured run-up in the model, and what is told of it.
+pub struct Found {
+    pub run: MeasuredRun,
+    pub source: String,
+    /// Lowest and highest speed \[rpm\].
+    pub rpm: [f64; 2],
+}
+
+/// The run-up that a file holds; `None`, and why, where it holds none.
+pub fn read(
+    path: &Path,
+    args: &ValidateArgs,
+    model: &Model,
+    terminal: &Terminal,
+) -> Result<Result<Found, String>, Failure> {
+    let mut file = File::read(path)?;
+    let mut findings = Findings::default();
+    let mapping = args.measured.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
+    if let Some(rate) = mapping.as_ref().and_then(mapping::Mapping::rate) {
+        file.measured.set_missing_rate(rate);
+    }
+    if !file.time_records().any(|r| !run_up::is_clock(r)) {
+        return Ok(Err("it holds no record over time".into()));
+    }
+    if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
+        return Err(Error::Content {
+            path: path.into(),
+            problem: format!("`{}` does not state its sampling rate", record.name),
+            advice: "give it in the mapping, such as rate = \"12 kHz\"".into(),
+        }
+        .into());
+    }
+    let shaft = Shaft::of(&args.shaft, None, &file, &mut findings);
+    let named = |failure: Failure| match failure {
+        Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
+        other => other,
+    };
+    std::mem::take(&mut findings).settle().map_err(named)?;
+    if !shaft.is_known() {
+        return Ok(Err("the speed of the shaft is not known: give --tacho CHANNEL, or --track \
+             1=\"5 Hz .. 50 Hz\""
+            .into()));
+    }
+    let clocks = |r: &rotordyn::signal::record::Record| {
+        run_up::is_clock(r) || args.shaft.tacho.as_deref() == Some(&r.name)
+    };
+    file.measured.records.retain(|r| !clocks(r));
+    if let (Some(mapping), Some(of)) = (&mapping, &args.measured.mapping) {
+        let place = |name: &str| exchange::point(model, name);
+        for warning in mapping.apply(&mut file.measured, &place, of)? {
+            terminal.complain("warning", &format!("{}: {warning}", path.display()));
+        }
+        file.measured.geometry = Default::default();
+    }
+    let of_file = |error: Error| match error {
+        Error::Update(UpdateError { problem, advice }) => {
+            Error::Content { path: path.into(), problem, advice }
+        }
+        other => other,
+    };
+    let (mut channels, warnings) = run_up::channels(&file.measured, model).map_err(of_file)?;
+    for warning in warnings {
+        terminal.complain("warning", &format!("{}: {warning}", path.display()));
+    }
+    for (_, channel) in &mut channels {
+        cut(channel, args.time.as_deref(), "--time", &mut findings);
+    }
+    findings.settle().map_err(named)?;
+    let first = &channels[0].1;
+    let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
+    let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {
+        return Ok(Err(
+            "the speed of the shaft does not change; `rotordyn signal FILE --against RUN` holds \
+             records of one speed against each other"
+                .into(),
+        ));
+    };
+    let rpm = [motion.summary.least, motion.summary.most].map(|speed| 60.0 * speed);
+    let source = motion.summary.source.clone();
+    Ok(Ok(Found { run: MeasuredRun::new(channels, &motion, model)?, source, rpm }))
+}
+
+/// Makes the model's run, compares, writes; returns what is told to machines, and the files.
+pub fn compare(
+    found: &Found,
+    origin: &Origin,
+    prefix: &str,
+    folder: &Path,
+    draw: bool,
+    terminal: &Terminal,
+) -> Result<(Value, Vec<PathBuf>), Failure> {
+    let [least, most] = found.rpm;
+    let own = folder.join(format!("{prefix}_computed"));
+    let (mut job, campbell) = driven(found, origin, own, terminal)?;
+    if least > SLOW * most {
+        terminal.complain(
+            "warning",
+            &format!(
+                "the record begins at {least:.0} rpm, and the model from rest about its equilibrium: its first \
+                 seconds show how that dies away"
+            ),
+        );
+    }
+    long_enough(&found.run, &job.machine.model)?;
+    job.perform(&[Study::RunUp]);
+    // Whatever happened, what was computed is on disk.
+    job.write(false)?;
+    if let Some((_, failure)) = job.failures.pop() {
+        return Err(failure);
+    }
+    let Some(computed) = &job.results.run_up else { return Ok((Value::Null, job.files)) };
+    let pairs = job.machine.beside(&found.run.history, &computed.history)?;
+    tables(terminal, &pairs, &format!("{prefix}.h5"));
+    let mut files = std::mem::take(&mut job.files);
+    let path = folder.join(format!("{prefix}.h5"));
+    let file = Store::create(&path)?;
+    results_file::write_pairs(&file, &pairs, &found.run.history, &computed.history)?;
+    file.flush()?;
+    files.push(path);
+    if draw {
+        let spinner = terminal.spinner("figures");
+        files.extend(figures::draw_pairs(prefix, &pairs, campbell.as_ref(), &job.machine, folder)?);
+        spinner.finish_and_clear();
+    }
+    let document = json!({
+        "rpm": found.rpm,
+        "speed_source": found.source,
+        "seconds": found.run.profile.duration(),
+        "channels": pairs.iter().map(to_json).collect::<Vec<_>>(),
+    });
+    Ok((document, files))
+}
+
+/// What the record is too short for is told before the run is made.
+fn long_enough(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
+    let seconds = run.profile.duration();
+    let turns = run.history.angle.last().copied().unwrap_or(0.0) / std::f64::consts::TAU;
+    let (spectra, orders) = (&model.studies.spectrogram, &model.studies.orders);
+    let mut problems = Vec::new();
+    if let Some(study) = spectra.as_ref().filter(|study| study.length > seconds) {
+        problems.push(format!(
+            "the record's {} s are shorter than the window of the spectrogram, {} s: take more of it, or set \
+             study.spectrogram.length=\"{} s\"",
+            number(seconds, 3),
+            number(study.length, 3),
+            number(0.2 * seconds, 1)
+        ));
+    }
+    if let Some(study) = orders.as_ref().filter(|study| study.resolution * turns < 1.0) {
+        problems.push(format!(
+            "the record's {} turns are fewer than the {} of a resolution of {}: take more of it, or set \
+             study.orders.resolution={}",
+            number(turns, 3),
+            number(1.0 / study.resolution, 3),
+            study.resolution,
+            number((2.0 / turns).min(1.0), 1)
+        ));
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Failure::Input(problems.join("; "))) }
+}
+
+/// The model driven as measured, ready to run, with its Campbell diagram up to the highest speed.
+fn driven<'a>(
+    found: &Found,
+    origin: &Origin,
+    folder: PathBuf,
+    terminal: &'a Terminal,
+) -> Result<(Job<'a>, Option<CampbellResult>), Failure> {
+    let model = origin.load(&[])?.model;
+    let nothing = StoredArgs::default();
+    let top = format!("{} rpm", found.rpm[1]);
+    let drafts = [
+        settings::run_up(&model, None, None, None),
+        settings::spectrogram(&model, &nothing),
+        settings::orders(&model, &nothing),
+        settings::campbell(&model, Some(&top), None),
+    ];
+    let set: Vec<(String, String)> = drafts.into_iter().flat_map(|draft| draft.set).collect();
+    let mut loaded = origin.load(&set)?;
+    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let machine = Machine::new(found.run.driven(&loaded.model))?;
+    let studies = &machine.model.studies;
+    let campbell = studies.campbell.as_ref().map(|study| machine.campbell(study)).transpose()?;
+    let results = store::open(&folder, (&loaded).into(), origin, true, terminal)?;
+    results_file::note_measured_speed(&results, &found.source)?;
+    Ok((Job::new(terminal, machine, folder, results), campbell))
+}
+
+fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
+    let level = |of: [f64; 2]| format!("{:+.1}", level_over(of));
+    let rows: Vec<Vec<String>> = pairs
+        .iter()
+        .map(|p| {
+            let [m, c] = p.rms;
+            vec![p.channel.clone(), number(m, 4), number(c, 4), p.unit.clone(), level(p.rms)]
+        })
+        .collect();
+    let header = ["channel", "measured RMS", "computed RMS", "unit", "level dB"];
+    terminal.table("Run-up, measured and computed", &header, &rows);
+    let mut rows = Vec::new();
+    for pair in pairs {
+        for cut in &pair.cuts {
+            let [m, c] = cut.peaks;
+            rows.push(vec![
+                pair.channel.clone(),
+                cut.line.label.clone(),
+                format!("{:.1}", m.rpm),
+                format!("{:.1}", c.rpm),
+                match m.at_end || c.at_end {
+                    true => "(end)".into(),
+                    false => format!("{:+.2}", 100.0 * (c.rpm / m.rpm - 1.0)),
+                },
+                number(m.rms, 4),
+                number(c.rms, 4),
+                level([m.rms, c.rms]),
+                format!("{:.3}", cut.likeness),
+            ]);
+        }
+    }
+    let header = [
+        "channel",
+        "order",
+        "measured rpm",
+        "computed rpm",
+        "error %",
+        "measured RMS",
+        "computed RMS",
+        "level dB",
+        "likeness",
+    ];
+    let count = rows.len();
+    rows.truncate(MOST);
+    terminal.table("Orders where they are highest", &header, &rows);
+    if count > MOST {
+        terminal.say(&format!("  ... and {} more in {file}", count - MOST));
+    }
+    terminal.say(
+        "  level: computed over measured; (end): highest at the lowest or highest speed; likeness is that of an \
+         order's level\n  over the whole run, 1 for levels in proportion",
+    );
+}
+
+fn to_json(pair: &ChannelPair) -> Value {
+    let cut = |cut: &rotordyn::results::CutPair| {
+        let [m, c] = cut.peaks;
+        json!({
+            "order": cut.line.order,
+            "label": cut.line.label,
+            "measured_rpm": m.rpm,
+            "computed_rpm": c.rpm,
+            "measured_rms": m.rms,
+            "computed_rms": c.rms,
+            "at_end": m.at_end || c.at_end,
+            "likeness": cut.likeness,
+        })
+    };
+    json!({
+        "channel": pair.channel,
+        "unit": pair.unit,
+        "measured_rms": pair.rms[0],
+        "computed_rms": pair.rms[1],
+        "orders": pair.cuts.iter().map(cut).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,247 @@
+//! A measured run beside the model's own: the model driven as the shaft turned, seen where the machine was seen.
+
+use super::Machine;
+use super::record::describe;
+use super::signal::{ShaftMotion, SignalChannel};
+use crate::error::Error;
+use crate::model::study::{OrderStudy, SpectrogramStudy};
+use crate::model::{Model, Probe, SpeedProfile};
+use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult};
+use crate::signal::SignalError;
+use crate::signal::order::OrderCut;
+use crate::signal::resample::SAMPLES_PER_ORDER;
+
+/// Points a second by which the shaft's measured angle drives the model; a spline joins them.
+const POINTS_PER_SECOND: f64 = 100.0;
+/// Part of the speeds within which a maximum counts as at their end.
+const END: f64 = 5e-3;
+/// Orders that are cut where the model asks for none.
+const USUAL_CUTS: [f64; 3] = [1.0, 2.0, 3.0];
+
+/// A measured run, put into the model.
+#[derive(Clone, Debug)]
+pub struct MeasuredRun {
+    /// Channels while the shaft's angle is known, from time 0 on, without their means.
+    pub history: History,
+    /// What each channel measured, and where.
+    pub probes: Vec<Probe>,
+    /// How the shaft turned.
+    pub profile: SpeedProfile,
+}
+
+impl MeasuredRun {
+    /// Channels of one length and rate at their places in the model, and the motion of the shaft at their samples.
+    ///
+    /// # Errors
+    /// A shaft whose angle is not known.
+    pub fn new(
+        channels: Vec<(Probe, SignalChannel)>,
+        motion: &ShaftMotion,
+        model: &Model,
+    ) -> Result<Self, Error> {
+        let purpose = "a run beside the model's";
+        let Some((_, first)) = channels.first().filter(|_| motion.angle.len() > 1) else {
+            return Err(SignalError::Unknown { what: "the shaft's angle", purpose }.into());
+        };
+        let rate = first.sample_rate;
+        let profile = profile_of(&motion.angle, rate);
+        let curve = profile.curve();
+        let count = motion.angle.len();
+        let time: Vec<f64> = (0..count).map(|k| k as f64 / rate).collect();
+        let mut history = History {
+            sample_rate: rate,
+            angle: motion.angle.iter().map(|a| (a - motion.angle[0]).abs()).collect(),
+            speed: time.iter().map(|t| curve.at(*t).speed).collect(),
+            time,
+            channels: Vec::new(),
+        };
+        let mut probes = Vec::new();
+        for (probe, channel) in channels {
+            let mut values: Vec<f64> =
+                channel.samples.iter().skip(motion.first).take(count).copied().collect();
+            without_mean(&mut values);
+            let mut described = describe(model, &probe);
+            described.values = values;
+            history.channels.push(described);
+            probes.push(probe);
+        }
+        Ok(Self { history, probes, profile })
+    }
+
+    /// The model driven as measured, with its sensors where the machine had them.
+    ///
+    /// The computed channels are sampled as the measured ones, as far as the model's steps go.
+    pub fn driven(&self, model: &Model) -> Model {
+        let mut model = model.clone();
+        model.profile = self.profile.clone();
+        model.probes = self.probes.clone();
+        if let Some(study) = &mut model.studies.run_up {
+            study.sample_rate = self.history.sample_rate.min(1.0 / study.step);
+        }
+        model
+    }
+}
+
+/// Points of the angle, evenly in time, with the last.
+fn profile_of(angle: &[f64], rate: f64) -> SpeedProfile {
+    let last = angle.len() - 1;
+    let stride = ((rate / POINTS_PER_SECOND).round() as usize).clamp(1, last.div_ceil(4).max(1));
+    // Two points nearer than half a stride would make the spline ring.
+    let mut places: Vec<usize> = (0..last).step_by(stride).filter(|k| 2 * (last - k) >= stride).collect();
+    places.push(last);
+    // Which way it turned is a matter of the angle's sign, and the model turns forward.
+    let points = places.iter().map(|&k| [k as f64 / rate, (angle[k] - angle[0]).abs()]).collect();
+    SpeedProfile::Pulses { points, duration: last as f64 / rate }
+}
+
+fn without_mean(values: &mut [f64]) {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    values.iter_mut().for_each(|v| *v -= mean);
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+impl Machine {
+    /// Spectrograms, orders and order cuts of a measured run and the computed one of the same name, by the settings of
+    /// the model's studies as far as both sampling rates go.
+    ///
+    /// # Errors
+    /// A run too short for the window or for the order resolution, settings that make no sense.
+    pub fn beside(&self, measured: &History, computed: &History) -> Result<Vec<ChannelPair>, Error> {
+        let studies = &self.model.studies;
+        let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
+            return Ok(Vec::new());
+        };
+        let rate = measured.sample_rate.min(computed.sample_rate);
+        let fastest = measured.speed.iter().copied().fold(0.0, f64::max) / std::f64::consts::TAU;
+        let spectra = SpectrogramStudy {
+            channels: Vec::new(),
+            max_frequency: spectra.max_frequency.min(0.5 * rate),
+            ..spectra.clone()
+        };
+        let max_order = orders.max_order.min(0.95 * rate / (SAMPLES_PER_ORDER * fastest));
+        let cuts: Vec<f64> = if orders.cuts.is_empty() { USUAL_CUTS.to_vec() } else { orders.cuts.clone() };
+        let orders = OrderStudy {
+            channels: Vec::new(),
+            max_order,
+            cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
+            ..orders.clone()
+        };
+        let runs = [measured.clone(), centred(computed)];
+        let mut maps = Vec::new();
+        let mut tracked = Vec::new();
+        for run in &runs {
+            maps.push(self.spectrograms(&spectra, run)?);
+            tracked.push(self.orders(&orders, run)?);
+        }
+        let mut pairs = Vec::new();
+        for channel in &runs[0].channels {
+            let of = |run: usize| {
+                let place = maps[run].iter().position(|m| m.channel == channel.name)?;
+                let own = runs[run].channels.iter().find(|c| c.name == channel.name)?;
+                Some((rms(&own.values), maps[run][place].clone(), tracked[run][place].clone()))
+            };
+            let (Some((rms_m, map_m, orders_m)), Some((rms_c, map_c, orders_c))) = (of(0), of(1)) else {
+                continue;
+            };
+            pairs.push(ChannelPair {
+                channel: channel.name.clone(),
+                unit: channel.unit.clone(),
+                rms: [rms_m, rms_c],
+                cuts: cut_pairs(&orders_m, &orders_c),
+                spectrograms: [map_m, map_c],
+                orders: [orders_m, orders_c],
+            });
+        }
+        Ok(pairs)
+    }
+}
+
+/// The run without the means of its channels.
+fn centred(run: &History) -> History {
+    let mut run = run.clone();
+    run.channels.iter_mut().for_each(|c| without_mean(&mut c.values));
+    run
+}
+
+fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {
+    let pair = |((line, m), (_, c)): (&(OrderLine, OrderCut), &(OrderLine, OrderCut))| CutPair {
+        line: line.clone(),
+        peaks: [peak(m), peak(c)],
+        likeness: likeness(m, c),
+    };
+    measured.cuts.iter().zip(&computed.cuts).map(pair).collect()
+}
+
+fn peak(cut: &OrderCut) -> CutPeak {
+    let Some(k) = (0..cut.rms.len()).max_by(|a, b| cut.rms[*a].total_cmp(&cut.rms[*b])) else {
+        return CutPeak::default();
+    };
+    let (low, high) = cut.rpm.iter().fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(*v), h.max(*v)));
+    let near = END * (high - low);
+    let at_end = cut.rpm[k] - low < near || high - cut.rpm[k] < near;
+    let inside = (k > 0 && k + 1 < cut.rms.len() && !at_end).then(|| vertex(cut, k)).flatten();
+    let (rpm, rms) = inside.unwrap_or((cut.rpm[k], cut.rms[k]));
+    CutPeak { rpm, rms, at_end }
+}
+
+/// Vertex of the parabola through the window k and its neighbours: windows may be farther apart than peaks are wide.
+fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
+    let (x, y) = (&cut.rpm[k - 1..=k + 1], &cut.rms[k - 1..=k + 1]);
+    let (before, after) = ((y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]));
+    let curvature = (after - before) / (x[2] - x[0]);
+    let step = 0.5 * (x[0] + x[1]) - before / (2.0 * curvature);
+    let height = y[1] + before * (step - x[1]) + curvature * (step - x[0]) * (step - x[1]);
+    let between = step > x[0].min(x[2]) && step < x[0].max(x[2]);
+    (between && curvature < 0.0).then_some((step, height))
+}
+
+/// Likeness over the measured windows, the computed levels taken between theirs.
+fn likeness(measured: &OrderCut, computed: &OrderCut) -> f64 {
+    let at = |t: f64| {
+        let after = computed.times.partition_point(|own| *own < t);
+        match (after.checked_sub(1), computed.times.get(after)) {
+            (Some(k), Some(next)) => {
+                let part = (t - computed.times[k]) / (next - computed.times[k]);
+                computed.rms[k] + part * (computed.rms[after] - computed.rms[k])
+            }
+            (None, _) => computed.rms.first().copied().unwrap_or(0.0),
+            (Some(k), None) => computed.rms[k],
+        }
+    };
+    let (mut both, mut own, mut other) = (0.0, 0.0, 0.0);
+    for (t, m) in measured.times.iter().zip(&measured.rms) {
+        let c = at(*t);
+        both += m * c;
+        own += m * m;
+        other += c * c;
+    }
+    if own * other > 0.0 { both * both / (own * other) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_gives_its_own_vertex() {
+        let rpm = vec![100.0, 130.0, 180.0, 200.0];
+        let height = |x: f64| 5.0 - 2e-3 * (x - 141.0).powi(2);
+        let cut = OrderCut {
+            order: 1.0,
+            times: (0..4).map(f64::from).collect(),
+            rms: rpm.iter().map(|x| height(*x)).collect(),
+            rpm,
+        };
+        let found = peak(&cut);
+        assert!((found.rpm - 141.0).abs() < 1e-9 && (found.rms - 5.0).abs() < 1e-12, "{found:?}");
+        assert!(!found.at_end && (likeness(&cut, &cut) - 1.0).abs() < 1e-12);
+        let mut doubled = cut.clone();
+        doubled.rms.iter_mut().for_each(|v| *v *= 2.0);
+        assert!((likeness(&cut, &doubled) - 1.0).abs() < 1e-12);
+        let rising = OrderCut { rms: vec![1.0, 2.0, 3.0, 4.0], ..cut };
+        assert!(peak(&rising).at_end);
+    }
+}
