@@ -402,12 +402,13 @@ Examples:
         modes: Option<usize>,
     },
 
-    /// Hold the model against measured modes or FRFs: which mode is which, and how far apart
+    /// Hold the model against measured modes, FRFs or run-ups: which mode is which, and how far apart
     ///
     /// Pairs measured and computed modes by MAC and frequency (the assignment that is best for all together), lists
     /// frequencies, errors, damping and MAC, and what has no partner on either side; FRFs are identified on the way
     /// and laid over the model's, with FRAC and FDAC. Several files, such as hammer tests of different force, are also
-    /// held against the first: how far has every mode shifted?
+    /// held against the first: how far has every mode shifted? The record of a run-up is set beside the run-up that the
+    /// model makes with the same speed: maps, waterfalls, and where every order is highest.
     #[command(after_long_help = update::VALIDATE)]
     Validate(Box<ValidateArgs>),
 
