@@ -165,12 +165,12 @@ pub fn frac_table(
 ) -> Vec<Vec<f64>> {
     let Some(measured) = &target.frfs else { return Vec::new() };
     let model = &state.linear.model;
-    let values: Vec<Vec<f64>> = measured
-        .values
-        .iter()
-        .zip(computed)
-        .map(|(m, c)| m.iter().zip(c).map(|(m, c)| rotordyn::identify::mac::frac(m, c)).collect())
-        .collect();
+    let value = |r: usize, e: usize| match measured.moves(r, e) {
+        true => rotordyn::identify::mac::frac(&measured.values[r][e], &computed[r][e]),
+        false => f64::NAN,
+    };
+    let (rows, columns) = (measured.responses.len(), measured.references.len());
+    let values: Vec<Vec<f64>> = (0..rows).map(|r| (0..columns).map(|e| value(r, e)).collect()).collect();
     let mut header = vec!["response".to_string()];
     header.extend(measured.references.iter().map(|s| s.name(model)));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
@@ -179,7 +179,7 @@ pub fn frac_table(
         .iter()
         .zip(&values)
         .map(|(sensor, row)| {
-            let own = row.iter().map(|v| number(*v, 3));
+            let own = row.iter().map(|v| if v.is_nan() { "-".into() } else { number(*v, 3) });
             std::iter::once(sensor.name(model)).chain(own).collect()
         })
         .collect();

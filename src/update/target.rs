@@ -74,6 +74,13 @@ pub struct TargetFrfs {
     pub coherence: Option<Vec<Vec<Vec<f64>>>>,
 }
 
+impl TargetFrfs {
+    /// Whether a force moved a response at all; what it cannot reach is like nothing.
+    pub fn moves(&self, response: usize, reference: usize) -> bool {
+        self.values[response][reference].iter().any(|h| h.norm_sqr() > 0.0)
+    }
+}
+
 /// Everything that a model is held against.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {

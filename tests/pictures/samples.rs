@@ -324,15 +324,6 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             marked: vec![(0, 0)],
             ..Default::default()
         }),
-        Figure::MacMatrix(MacMatrix {
-            title: name.clone(),
-            row_set: name.clone(),
-            column_set: name.clone(),
-            rows: vec![name.clone(); x.len()],
-            columns: vec![name.clone(); x.len()],
-            values: x.iter().map(|_| y.iter().map(|v| 0.02 * v).collect()).collect(),
-            ..Default::default()
-        }),
         Figure::Wireframe(Wireframe {
             title: name.clone(),
             points: x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.0]).collect(),

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::display::pretty;
 use super::{Named, write_all};
-use crate::edge::plot::{Figure, Frf, FrfCurve, MacMatrix, Settled, Stabilisation, WireShape, Wireframe};
+use crate::edge::plot::{Figure, Frf, FrfCurve, Matrix, Settled, Stabilisation, WireShape, Wireframe};
 use crate::error::Error;
 use crate::identify::{Identified, Mode, Stability};
 use crate::linalg::Complex64;
@@ -83,15 +83,16 @@ fn indicator(found: &Identified) -> Vec<Vec<f64>> {
 fn auto_mac(found: &Identified, title: &str) -> Named {
     let names: Vec<String> = found.modes.iter().map(|m| format!("{:.2} Hz", m.frequency_hz())).collect();
     let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
-    let figure = MacMatrix {
+    let figure = Matrix {
         title: "AutoMAC of the identified shapes".into(),
         note: format!("{title}; over the {} {side}", found.deflection(&found.modes[0]).0.len()),
         rows: names.clone(),
         columns: names,
-        values: found.auto_mac(),
-        ..MacMatrix::default()
+        value: found.auto_mac().concat(),
+        quantity: "MAC".into(),
+        ..Matrix::default()
     };
-    ("auto_mac".into(), Figure::MacMatrix(figure))
+    ("auto_mac".into(), Figure::Matrix(figure))
 }
 
 fn fits(found: &Identified, frfs: &FrfMatrix, title: &str) -> Vec<Named> {

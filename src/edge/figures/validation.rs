@@ -2,7 +2,7 @@
 
 use super::Named;
 use super::display::pretty;
-use crate::edge::plot::{Curve, Figure, Frf, FrfCurve, Lines, Matrix};
+use crate::edge::plot::{Curve, Figure, Frf, FrfCurve, HeatMap, Lines, Matrix};
 use crate::identify::mac::{fdac, frac as likeness};
 use crate::linalg::Complex64;
 use crate::model::Quantity;
@@ -20,7 +20,7 @@ pub struct Stage<'a> {
 /// Most FRFs drawn, each as a figure of its own.
 const MOST_FRFS: usize = 12;
 /// Lines of an FDAC along each axis.
-const FDAC_LINES: usize = 60;
+const FDAC_LINES: usize = 200;
 
 /// All figures of one measurement against the stages of a model, names beginning with `prefix`.
 pub fn figures(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Vec<Named> {
@@ -35,7 +35,7 @@ pub fn figures(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> 
             let tail = if stages.len() > 1 { format!("_{}", stage.name) } else { String::new() };
             if let Some(computed) = stage.frfs {
                 out.push((format!("{prefix}_frac{tail}"), frac(title, measured, computed, stage)));
-                out.push((format!("{prefix}_fdac{tail}"), fdac_matrix(title, measured, computed, stage)));
+                out.push((format!("{prefix}_fdac{tail}"), fdac_map(title, measured, computed, stage)));
             }
         }
     }
@@ -95,6 +95,7 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
     let mut out = Vec::new();
     let ends = (0..measured.references.len())
         .flat_map(|e| (0..measured.responses.len()).map(move |r| (r, e)))
+        .filter(|&(r, e)| measured.moves(r, e))
         .take(MOST_FRFS);
     for (r, e) in ends {
         let Some(model) = stages.first().map(|s| &s.state.linear.model) else { continue };
@@ -139,7 +140,10 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
 
 fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let model = &stage.state.linear.model;
-    let value = |r: usize, e: usize| likeness(&measured.values[r][e], &computed[r][e]);
+    let value = |r: usize, e: usize| match measured.moves(r, e) {
+        true => likeness(&measured.values[r][e], &computed[r][e]),
+        false => f64::NAN,
+    };
     let columns = measured.references.len();
     Figure::Matrix(Matrix {
         title: "FRAC: likeness of every FRF over the band".into(),
@@ -154,12 +158,7 @@ fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], st
     })
 }
 
-fn fdac_matrix(
-    title: &str,
-    measured: &TargetFrfs,
-    computed: &[Vec<Vec<Complex64>>],
-    stage: &Stage,
-) -> Figure {
+fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let every = measured.frequencies.len().div_ceil(FDAC_LINES).max(1);
     let thin = |frfs: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Complex64>> {
         frfs.iter().flatten().map(|frf| frf.iter().step_by(every).copied().collect()).collect()
@@ -167,16 +166,23 @@ fn fdac_matrix(
     let (a, b) = (thin(&measured.values), thin(computed));
     let (a, b): (Vec<&[Complex64]>, Vec<&[Complex64]>) =
         (a.iter().map(Vec::as_slice).collect(), b.iter().map(Vec::as_slice).collect());
-    let names: Vec<String> = measured.frequencies.iter().step_by(every).map(|f| format!("{f:.0}")).collect();
-    Figure::Matrix(Matrix {
+    let lines: Vec<f64> = measured.frequencies.iter().step_by(every).copied().collect();
+    let ends = lines.first().copied().zip(lines.last().copied()).map(|(a, b)| [a, b]);
+    Figure::HeatMap(HeatMap {
         title: "FDAC: likeness of deflections at every pair of frequencies".into(),
         note: format!("{}; a ridge off the diagonal is a shift of frequency", note(title, stage)),
-        row_name: "measured [Hz]".into(),
-        column_name: "computed [Hz]".into(),
-        rows: names.clone(),
-        columns: names,
-        value: fdac(&a, &b).concat(),
+        x_name: "computed at".into(),
+        x_unit: "Hz".into(),
+        y_name: "measured at".into(),
+        y_unit: "Hz".into(),
+        // Rows of the map are computed lines.
+        value: fdac(&b, &a).concat(),
+        x: lines.clone(),
+        y: lines,
         quantity: "FDAC".into(),
-        marked: Vec::new(),
+        x_range: ends,
+        y_range: ends,
+        diagonal: true,
+        ..HeatMap::default()
     })
 }

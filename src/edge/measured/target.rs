@@ -147,24 +147,32 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
     }
     let responses = sensors(&matrix.responses, &measured.geometry, model)?;
-    let references = sensors(&matrix.references, &measured.geometry, model);
+    // A blow that no single point and direction describes has shapes all the same, and no FRF to compare.
+    let at = |dof: &Dof| sensors(std::slice::from_ref(dof), &measured.geometry, model).ok()?.pop();
+    let references: Vec<Option<Sensor>> = matrix.references.iter().map(at).collect();
+    let placed: Vec<usize> = (0..references.len()).filter(|&e| references[e].is_some()).collect();
     let (dofs, modes) = modes_of_identified(&found);
     let points = sensors(&dofs, &measured.geometry, model)?;
     let quantity = |r: usize| {
         let unit = matrix.units[r].first().map(String::as_str).unwrap_or_default();
         identify::quantity_of(unit).unwrap_or(found.quantity)
     };
-    // A blow that no single point and direction describes has shapes all the same, and no FRF to compare.
-    let frfs = references.as_ref().ok().map(|references| TargetFrfs {
+    let of_placed = |row: &Vec<Vec<Complex64>>| placed.iter().map(|&e| row[e].clone()).collect();
+    let frfs = (!placed.is_empty()).then(|| TargetFrfs {
         frequencies: matrix.frequencies.clone(),
         quantities: (0..responses.len()).map(quantity).collect(),
         responses: plain(&responses),
-        references: plain(references),
-        values: matrix.values.clone(),
-        coherence: matrix.coherence.clone(),
+        references: plain(&references.iter().flatten().cloned().collect::<Vec<_>>()),
+        values: matrix.values.iter().map(of_placed).collect(),
+        coherence: matrix
+            .coherence
+            .as_ref()
+            .map(|all| all.iter().map(|row| placed.iter().map(|&e| row[e].clone()).collect()).collect()),
     });
-    if let Err(problem) = references {
-        warnings.push(format!("FRFs are not compared: {}", problem.problem));
+    for (_, dof) in references.iter().zip(&matrix.references).filter(|(at, _)| at.is_none()) {
+        warnings.push(format!(
+            "FRFs under the force {dof} are not compared: its point and direction in the model are not known"
+        ));
     }
     let count = matrix.responses.len() * matrix.references.len();
     let source = format!("{} modes identified from {count} FRFs", modes.len());
@@ -173,9 +181,9 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     Ok(ReadTarget { target, warnings, source, force })
 }
 
-/// Leaves out responses that one of the forces does not move at all, which no modal fit can take; says which.
+/// Leaves out responses that no force moves; says which.
 fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
-    let silent = |row: &[Vec<Complex64>]| row.iter().any(|frf| frf.iter().all(|h| h.norm_sqr() == 0.0));
+    let silent = |row: &[Vec<Complex64>]| row.iter().all(|frf| frf.iter().all(|h| h.norm_sqr() == 0.0));
     let gone: Vec<usize> = (0..matrix.responses.len()).filter(|&r| silent(&matrix.values[r])).collect();
     if gone.len() == matrix.responses.len() {
         return Vec::new();
@@ -187,7 +195,7 @@ fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
             coherence.remove(r);
         }
     }
-    let name = |&r: &usize| format!("response {} is left out: a force does not move it", matrix.responses[r]);
+    let name = |&r: &usize| format!("response {} is left out: no force moves it", matrix.responses[r]);
     let said = gone.iter().map(name).collect();
     let mut place = 0..;
     matrix.responses.retain(|_| place.next().is_none_or(|r| !gone.contains(&r)));

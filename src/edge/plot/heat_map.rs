@@ -5,7 +5,7 @@ use super::heat::{self, BAR_ROOM, Heat, color_bar};
 use super::labels::head;
 use super::scale::{Range, Scale, extremes, nice_step};
 use super::style::*;
-use super::svg::{Style, Svg, Text};
+use super::svg::{Dash, Style, Svg, Text};
 
 /// A field of the map that is pointed out.
 #[derive(Clone, Debug, Default)]
@@ -40,6 +40,8 @@ pub struct HeatMap {
     /// Places and names of the ticks of y, in place of numbers.
     pub y_ticks: Vec<(f64, String)>,
     pub marked: Option<Field>,
+    /// A line where x and y are equal.
+    pub diagonal: bool,
 }
 
 pub fn draw(data: &HeatMap) -> Svg {
@@ -59,6 +61,12 @@ pub fn draw(data: &HeatMap) -> Svg {
         None => round_bounds(&data.value),
     };
     heat.draw(&mut svg, &axes, bounds);
+    if data.diagonal {
+        let (x, y) = (axes.x.range, axes.y.range);
+        let (lo, hi) = (x.lo.min(y.lo), x.hi.max(y.hi));
+        axes.segment(&mut svg, [lo, lo], [hi, hi], Style::stroke(WHITE, 2.6).faint(0.75));
+        axes.segment(&mut svg, [lo, lo], [hi, hi], Style::stroke(INK, 0.9).dashed(Dash::Short));
+    }
     if let Some(field) = &data.marked {
         let ([x0, y0], [x1, y1]) = (axes.at(field.x[0], field.y[0]), axes.at(field.x[1], field.y[1]));
         let (left, right) =

@@ -33,10 +33,17 @@ const LINE: f64 = 1.3 * SMALL;
 
 pub fn draw(data: &Matrix) -> Svg {
     let (rows, columns) = (data.rows.len().max(1) as f64, data.columns.len().max(1) as f64);
+    let short = |names: &[String]| -> Vec<String> {
+        names.iter().map(|n| font::fit(&font::shorten(n, 40), SMALL, 160.0)).collect()
+    };
+    let (row_names, column_names) = (short(&data.rows), short(&data.columns));
     let widest = |names: &[String]| names.iter().map(|n| font::width(n, SMALL)).fold(0.0, f64::max);
-    let left = 34.0 + widest(&data.rows);
+    let left = 34.0 + widest(&row_names);
     let cell = [((WIDTH - left - BAR_ROOM - 30.0) / columns).min(62.0), (440.0 / rows).min(30.0)];
-    let (mut svg, top) = head(WIDTH, left, &data.title, &data.note, &[]);
+    // No wider than a small matrix and its title need.
+    let text = font::width(&data.title, TITLE).max(font::width(&data.note, TICK)) + 12.0;
+    let page = (left + text.max(cell[0] * columns + BAR_ROOM + 26.0)).min(WIDTH);
+    let (mut svg, top) = head(page, left, &data.title, &data.note, &[]);
     let frame = Frame { x: left, y: top, w: cell[0] * columns, h: cell[1] * rows };
     // Cells finer than a few pixels are a picture.
     let picture = data.rows.len().max(data.columns.len()) > MOST;
@@ -62,14 +69,14 @@ pub fn draw(data: &Matrix) -> Svg {
     svg.rect(frame.x, frame.y, frame.w, frame.h, FRAME);
     // As many names as have room.
     let every = |size: f64| (LINE / size).ceil().max(1.0) as usize;
-    for (i, name) in data.rows.iter().enumerate().step_by(every(cell[1])) {
+    for (i, name) in row_names.iter().enumerate().step_by(every(cell[1])) {
         let y = frame.y + cell[1] * (i as f64 + 0.5);
         svg.line([frame.x - 4.0, y], [frame.x, y], FRAME);
         svg.text([frame.x - 7.0, y + 0.36 * SMALL], name, Text::new(SMALL, INK).end());
     }
     // Upright names begin below their column.
-    let names = widest(&data.columns);
-    for (j, name) in data.columns.iter().enumerate().step_by(every(cell[0])) {
+    let names = widest(&column_names);
+    for (j, name) in column_names.iter().enumerate().step_by(every(cell[0])) {
         let x = frame.x + cell[0] * (j as f64 + 0.5);
         svg.line([x, frame.bottom()], [x, frame.bottom() + 4.0], FRAME);
         svg.text([x + 0.36 * SMALL, frame.bottom() + 8.0], name, Text::new(SMALL, INK).upright().end());

@@ -31,7 +31,6 @@ mod grid;
 mod heat_map;
 mod history;
 mod lines;
-mod mac_matrix;
 mod matrix;
 mod mode_shape;
 mod orbit;
@@ -64,7 +63,6 @@ pub use grid::{Grid, GridPanel};
 pub use heat_map::{Field, HeatMap};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
-pub use mac_matrix::MacMatrix;
 pub use matrix::Matrix;
 pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
 pub use orbit::{Orbit, Orbits};
@@ -105,7 +103,6 @@ pub enum Figure {
     Matrix(Matrix),
     Rig(Rig),
     Stabilisation(Stabilisation),
-    MacMatrix(MacMatrix),
     Wireframe(Wireframe),
 }
 
@@ -135,7 +132,6 @@ impl Figure {
             Figure::Matrix(data) => matrix::draw(data),
             Figure::Rig(data) => rig::draw(data),
             Figure::Stabilisation(data) => stabilisation::draw(data),
-            Figure::MacMatrix(data) => mac_matrix::draw(data),
             Figure::Wireframe(data) => wireframe::draw(data),
         }
         .finish()
