@@ -51,12 +51,10 @@ pub fn read(
         return Ok(Err("it holds no record over time".into()));
     }
     if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
-        return Err(Error::Content {
-            path: path.into(),
-            problem: format!("`{}` does not state its sampling rate", record.name),
-            advice: "give it in the mapping, such as rate = \"12 kHz\"".into(),
-        }
-        .into());
+        return Ok(Err(format!(
+            "`{}` does not state its sampling rate: give it in the mapping, such as rate = \"12 kHz\"",
+            record.name
+        )));
     }
     let shaft = Shaft::of(&args.shaft, None, &file, &mut findings);
     let named = |failure: Failure| match failure {
@@ -78,7 +76,6 @@ pub fn read(
         for warning in mapping.apply(&mut file.measured, &place, of)? {
             terminal.complain("warning", &format!("{}: {warning}", path.display()));
         }
-        file.measured.geometry = Default::default();
     }
     let of_file = |error: Error| match error {
         Error::Update(UpdateError { problem, advice }) => {

@@ -122,7 +122,7 @@ fn geometry(model: &Model) -> Geometry {
             lines.push(Polyline { name: format!("bearing {}", site.name), strokes: vec![stroke] });
         }
     }
-    Geometry { nodes, lines, elements: Vec::new() }
+    Geometry { nodes, lines, ..Geometry::default() }
 }
 
 /// Records named as bearing data sets name them: `X<number>_<name>_time`, with `X<number>RPM`, the mean speed.

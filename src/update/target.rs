@@ -40,7 +40,8 @@ impl Sensor {
                 .find(|s| s.node == node)
                 .map_or_else(|| format!("z = {:.3} m", model.node_z[node]), |s| s.name.clone()),
         };
-        let beside = if self.at.offset == [0.0; 3] { String::new() } else { format!(" ({})", self.dof.node) };
+        let [x, y, z] = self.at.offset.map(|v| (1e4 * v).round() / 10.0);
+        let beside = if [x, y, z] == [0.0; 3] { String::new() } else { format!(" ({x}, {y}, {z} mm)") };
         format!("{place}{beside} {sign}{axis}")
     }
 }
@@ -107,6 +108,10 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
     let radius = rotation_radius(model);
     let place = |number: i64| -> Option<Anchor> {
         let own = usize::try_from(number - 1).ok().filter(|k| *k < nodes);
+        if let Some(mount) = geometry.mounts.iter().find(|m| m.number == number) {
+            let on = usize::try_from(mount.on - 1).ok().filter(|k| *k < nodes)?;
+            return Some(Anchor { node: Some(on), offset: mount.offset });
+        }
         let stated = geometry.nodes.iter().find(|n| n.number == number).map(|n| n.position);
         match (own, stated) {
             (Some(node), None) => Some(Anchor::node(node)),

@@ -1,6 +1,7 @@
 //! The command as users meet it: every model, every command, exit codes, Ctrl-C, JSON.
 
 mod bearings;
+mod blow_beside;
 mod commands;
 mod failures;
 mod held_against;

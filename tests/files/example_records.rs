@@ -68,6 +68,7 @@ pub fn geometry() -> Geometry {
         ],
         lines: vec![Polyline { name: "shaft".into(), strokes: vec![vec![3, 12, 5], vec![3, 7]] }],
         elements: vec![Element { number: 9, descriptor: 91, nodes: vec![3, 7, 12] }],
+        ..Geometry::default()
     }
 }
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use rotordyn::edge::measured::mapping::{self, Mapping, direction};
 use rotordyn::error::Error;
-use rotordyn::signal::record::{Dof, Measured, Points, Record, Values};
+use rotordyn::signal::Complex;
+use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Points, Record, Values};
 
 use crate::example_records::{frequency_records, time_records};
 
@@ -53,6 +54,52 @@ fn channels_are_placed_by_name_and_others_left_out() {
     assert_eq!((force.response, force.sample_rate()), (Dof::new(10, 6), Ok(6000.0)));
     let Values::Real(values) = &force.values else { panic!() };
     assert_eq!((values[0], force.unit.as_str()), (250e3, "N"));
+}
+
+#[test]
+fn sensors_and_blows_beside_a_station_are_points_of_their_own() {
+    let frf = |name: &str, kind: Kind| {
+        let values = Values::Complex(vec![Complex::new(1.0, 0.0); 4]);
+        Record::new(name, kind, Axis::even(AxisQuantity::Frequency, 0.0, 1.0), values, "")
+    };
+    let records = [frf("a", Kind::Frf), frf("b", Kind::Frf), frf("coherence a", Kind::Coherence)];
+    let text = r#"
+        [channel.a]
+        station = "B"
+        offset = "0, 40, 0 mm"
+        direction = "x"
+        unit = "g/N"
+        reference = { station = "disc", offset = "150, 0, 0 mm", direction = "y" }
+        [channel.b]
+        station = "A"
+        direction = "x"
+        unit = "g/N"
+        reference = { station = "disc", offset = "150 0 0 mm", direction = "-y" }
+    "#;
+    let (found, _) = apply(text, &records).unwrap();
+    let mounts = &found.geometry.mounts;
+    assert_eq!(mounts.len(), 2, "{mounts:?}");
+    assert_eq!((mounts[0].on, mounts[0].offset), (30, [0.0, 0.04, 0.0]));
+    assert_eq!((mounts[1].on, mounts[1].offset), (20, [0.15, 0.0, 0.0]));
+    let [a, b, coherence] = &found.records[..] else { panic!() };
+    assert_eq!((a.response, a.reference), (Dof::new(mounts[0].number, 1), Dof::new(mounts[1].number, 2)));
+    assert_eq!((b.response, b.reference), (Dof::new(10, 1), Dof::new(mounts[1].number, -2)));
+    // A coherence goes with its FRF, and has no unit.
+    assert_eq!((coherence.response, coherence.reference), (a.response, a.reference));
+    assert_eq!(coherence.unit, "");
+    let wrong = r#"
+        [channel.a]
+        station = "B"
+        offset = "40 mm"
+        direction = "x"
+        [channel.b]
+        station = "B"
+        offset = "1, 2, 3"
+        direction = "x"
+    "#;
+    let said = apply(wrong, &records).unwrap_err();
+    assert!(said.contains("offset = \"40 mm\" is not three lengths, such as \"150, 0, 0 mm\""), "{said}");
+    assert!(said.contains("offset: ") && said.contains("unit"), "{said}");
 }
 
 #[test]

@@ -12,6 +12,11 @@ A measured point k + 1 is node k of the model, as `export` writes it; a mapping 
   [point.12]
   station = \"disc\"
 
+  [channel.hammer_1]
+  station = \"B\"
+  direction = \"x\"
+  reference = { station = \"disc\", offset = \"150, 0, 0 mm\", direction = \"y\" }
+
 A record of a run-up is held against one that the model makes with the measured speed, by the settings of the file's
 [study.run_up], [study.spectrogram] and [study.orders]; the speed is that of a channel of the file, or of a tacho.
 

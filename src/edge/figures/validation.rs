@@ -169,8 +169,8 @@ fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>]
     let lines: Vec<f64> = measured.frequencies.iter().step_by(every).copied().collect();
     let ends = lines.first().copied().zip(lines.last().copied()).map(|(a, b)| [a, b]);
     Figure::HeatMap(HeatMap {
-        title: "FDAC: likeness of deflections at every pair of frequencies".into(),
-        note: format!("{}; a ridge off the diagonal is a shift of frequency", note(title, stage)),
+        title: "FDAC: a ridge off the diagonal is a shift of frequency".into(),
+        note: note(title, stage),
         x_name: "computed at".into(),
         x_unit: "Hz".into(),
         y_name: "measured at".into(),

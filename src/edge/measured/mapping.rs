@@ -15,7 +15,8 @@
 //! direction = "x"             # where the file tells none
 //! ```
 //!
-//! A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts.
+//! A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts. Beside a station,
+//! fixed to it: `offset = "150, 0, 0 mm"`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -24,7 +25,7 @@ use serde::Deserialize;
 
 use super::unit;
 use crate::error::Error;
-use crate::signal::record::{Dof, Measured, Record};
+use crate::signal::record::{Dof, Geometry, Kind, Measured, Mount, Record};
 use crate::units;
 
 /// Rates, axes and places, as the file gives them.
@@ -44,6 +45,7 @@ pub struct Mapping {
 #[serde(deny_unknown_fields)]
 struct Place {
     station: String,
+    offset: Option<String>,
     direction: Option<String>,
     unit: Option<String>,
     reference: Option<Reference>,
@@ -53,6 +55,7 @@ struct Place {
 #[serde(deny_unknown_fields)]
 struct Reference {
     station: String,
+    offset: Option<String>,
     direction: String,
 }
 
@@ -93,7 +96,8 @@ impl Mapping {
     }
 
     /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
-    /// name; returns what deserves a warning.
+    /// name; returns what deserves a warning. Of the geometry only points beside stations are left: points have the
+    /// model's numbers now, whatever the file calls by them.
     ///
     /// `place` is the number of a station, bearing or body, `path` the mapping's file, for messages.
     ///
@@ -134,9 +138,13 @@ impl Mapping {
 
         let mut mapped = Vec::new();
         let mut left_out = Vec::new();
+        let mut mounts = std::mem::take(&mut measured.geometry.mounts);
         for mut record in std::mem::take(&mut measured.records) {
-            let mut target = Target { place, axes, problems: &mut problems };
-            let found = match self.channel.get(&record.name) {
+            let mut target = Target { place, axes, problems: &mut problems, mounts: &mut mounts };
+            // A coherence is where its FRF is.
+            let of_frf = record.name.strip_prefix("coherence ").filter(|_| record.kind == Kind::Coherence);
+            let entry = self.channel.get(&record.name).or_else(|| self.channel.get(of_frf?));
+            let found = match entry {
                 Some(own) => target.channel(&mut record, own),
                 None => target.points(&mut record, &self.point),
             };
@@ -147,6 +155,7 @@ impl Mapping {
             }
         }
         measured.records = mapped;
+        measured.geometry = Geometry { mounts, ..Geometry::default() };
         problems.dedup();
         if !problems.is_empty() {
             return Err(Error::Content {
@@ -188,8 +197,9 @@ impl Mapping {
                 problems.push(format!("there is no point {number} in the shapes"));
             }
         }
+        let mut mounts = std::mem::take(&mut measured.geometry.mounts);
         for shape in &mut measured.shapes {
-            let mut target = Target { place, axes, problems: &mut problems };
+            let mut target = Target { place, axes, problems: &mut problems, mounts: &mut mounts };
             let parts = shape.components;
             let (mut nodes, mut values) = (Vec::new(), Vec::new());
             for (k, number) in shape.nodes.iter().enumerate() {
@@ -207,12 +217,13 @@ impl Mapping {
                         None => target.problems.push(format!("point {number} has no direction")),
                     }
                 }
-                nodes.push(target.station(&at.station));
+                nodes.push(target.point_at(&at.station, at.offset.as_deref()));
                 values.extend(turned);
             }
             shape.components = if parts == 1 { 3 } else { parts };
             (shape.nodes, shape.values) = (nodes, values);
         }
+        measured.geometry = Geometry { mounts, ..Geometry::default() };
         problems.sort();
         problems.dedup();
         if problems.is_empty() {
@@ -271,9 +282,37 @@ struct Target<'a> {
     place: &'a dyn Fn(&str) -> Option<i64>,
     axes: [i8; 3],
     problems: &'a mut Vec<String>,
+    mounts: &'a mut Vec<Mount>,
 }
 
+/// Numbers of points beside stations begin after this.
+const MOUNTS: i64 = 1_000_000;
+
 impl Target<'_> {
+    /// Number of a station, or of a point beside it.
+    fn point_at(&mut self, station: &str, offset: Option<&str>) -> i64 {
+        let on = self.station(station);
+        let Some(text) = offset else { return on };
+        let offset: [f64; 3] = match units::parse_list(text, units::LENGTH).map(|list| list.try_into()) {
+            Ok(Ok(offset)) => offset,
+            Ok(Err(_)) => {
+                self.problems
+                    .push(format!("offset = \"{text}\" is not three lengths, such as \"150, 0, 0 mm\""));
+                return on;
+            }
+            Err(error) => {
+                self.problems.push(format!("offset: {error}, such as \"150, 0, 0 mm\""));
+                return on;
+            }
+        };
+        if let Some(known) = self.mounts.iter().find(|m| m.on == on && m.offset == offset) {
+            return known.number;
+        }
+        let number = MOUNTS + 1 + self.mounts.len() as i64;
+        self.mounts.push(Mount { number, on, offset });
+        number
+    }
+
     fn station(&mut self, name: &str) -> i64 {
         (self.place)(name).unwrap_or_else(|| {
             self.problems.push(format!("the model has no station, bearing or body `{name}`"));
@@ -308,9 +347,9 @@ impl Target<'_> {
             Some(word) => self.direction(word),
             None => self.turned(record.response.direction),
         };
-        record.response = Dof::new(self.station(&own.station), way);
+        record.response = Dof::new(self.point_at(&own.station, own.offset.as_deref()), way);
         record.reference = match &own.reference {
-            Some(r) => Dof::new(self.station(&r.station), self.direction(&r.direction)),
+            Some(r) => Dof::new(self.point_at(&r.station, r.offset.as_deref()), self.direction(&r.direction)),
             None => Dof::NONE,
         };
         if way == 0 {
@@ -343,12 +382,12 @@ impl Target<'_> {
         if way == 0 {
             self.problems.push(format!("`{name}` has no direction at point {}", dof.node));
         }
-        Dof::new(self.station(&at.station), way)
+        Dof::new(self.point_at(&at.station, at.offset.as_deref()), way)
     }
 
     /// Converts values whose unit the file does not tell.
     fn unit(&mut self, record: &mut Record, label: Option<&str>) {
-        let Some(label) = label else { return };
+        let Some(label) = label.filter(|_| record.kind != Kind::Coherence) else { return };
         let Some(known) = unit::si(label) else {
             self.problems.push(format!("unit \"{label}\" of `{}` is not known", record.name));
             return;

@@ -113,8 +113,6 @@ fn place(
     if measured.shapes.iter().any(is_mode) {
         mapping.apply_to_shapes(measured, &place, file)?;
     }
-    // Points have the model's numbers now, whatever the file's geometry calls by them.
-    measured.geometry = Default::default();
     Ok(warnings)
 }
 

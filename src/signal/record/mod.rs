@@ -11,7 +11,7 @@ mod shape;
 pub use axis::{Axis, AxisQuantity, Points};
 pub use frf_matrix::FrfMatrix;
 pub use noisy::NoisyTest;
-pub use shape::{Analysis, Element, Geometry, Node, Polyline, Shape};
+pub use shape::{Analysis, Element, Geometry, Mount, Node, Polyline, Shape};
 
 use super::Complex;
 

@@ -8,6 +8,18 @@ pub struct Geometry {
     pub nodes: Vec<Node>,
     pub lines: Vec<Polyline>,
     pub elements: Vec<Element>,
+    /// Points beside others, which a mapping has placed.
+    pub mounts: Vec<Mount>,
+}
+
+/// A point fixed to another at a distance, as a sensor on a housing or a blow on a rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mount {
+    pub number: i64,
+    /// The point that carries it.
+    pub on: i64,
+    /// From there \[m\].
+    pub offset: [f64; 3],
 }
 
 /// A numbered point \[m\].
