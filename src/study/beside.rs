@@ -3,6 +3,7 @@
 use super::Machine;
 use super::record::describe;
 use super::signal::{ShaftMotion, SignalChannel};
+use super::tracking::without_mean;
 use crate::error::Error;
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
@@ -21,7 +22,7 @@ const USUAL_CUTS: [f64; 3] = [1.0, 2.0, 3.0];
 /// A measured run, put into the model.
 #[derive(Clone, Debug)]
 pub struct MeasuredRun {
-    /// Channels while the shaft's angle is known, from time 0 on, without their means.
+    /// Channels while the shaft's angle is known, from time 0 on.
     pub history: History,
     /// What each channel measured, and where.
     pub probes: Vec<Probe>,
@@ -94,11 +95,6 @@ fn profile_of(angle: &[f64], rate: f64) -> SpeedProfile {
     SpeedProfile::Pulses { points, duration: last as f64 / rate }
 }
 
-fn without_mean(values: &mut [f64]) {
-    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-    values.iter_mut().for_each(|v| *v -= mean);
-}
-
 fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
@@ -129,10 +125,10 @@ impl Machine {
             cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
             ..orders.clone()
         };
-        let runs = [measured.clone(), centred(computed)];
+        let runs = [measured, computed];
         let mut maps = Vec::new();
         let mut tracked = Vec::new();
-        for run in &runs {
+        for run in runs {
             maps.push(self.spectrograms(&spectra, run)?);
             tracked.push(self.orders(&orders, run)?);
         }
@@ -141,7 +137,7 @@ impl Machine {
             let of = |run: usize| {
                 let place = maps[run].iter().position(|m| m.channel == channel.name)?;
                 let own = runs[run].channels.iter().find(|c| c.name == channel.name)?;
-                Some((rms(&own.values), maps[run][place].clone(), tracked[run][place].clone()))
+                Some((rms(&without_mean(&own.values)), maps[run][place].clone(), tracked[run][place].clone()))
             };
             let (Some((rms_m, map_m, orders_m)), Some((rms_c, map_c, orders_c))) = (of(0), of(1)) else {
                 continue;
@@ -157,13 +153,6 @@ impl Machine {
         }
         Ok(pairs)
     }
-}
-
-/// The run without the means of its channels.
-fn centred(run: &History) -> History {
-    let mut run = run.clone();
-    run.channels.iter_mut().for_each(|c| without_mean(&mut c.values));
-    run
 }
 
 fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {

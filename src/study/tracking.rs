@@ -14,6 +14,8 @@ const CUT_BINS: f64 = 1.0;
 impl Machine {
     /// Spectrograms of the channels asked for, up to the frequency asked for, with the speed at every frame.
     ///
+    /// Channels are taken without their means: a static deflection is no vibration, and would outshine it.
+    ///
     /// # Errors
     /// A record too short for the window, or settings that make no sense.
     pub fn spectrograms(
@@ -28,7 +30,7 @@ impl Machine {
         let orders = self.order_lines(&study.orders);
         chosen(&study.channels, history)
             .map(|channel| {
-                let mut spectrogram = stft.spectrogram(&channel.values)?;
+                let mut spectrogram = stft.spectrogram(&without_mean(&channel.values))?;
                 let speed = spectrogram.speed_at_frames(&history.speed, rate)?;
                 crop(&mut spectrogram.amplitude, &mut spectrogram.frequencies, study.max_frequency);
                 Ok(SpectrogramResult {
@@ -42,7 +44,7 @@ impl Machine {
             .collect()
     }
 
-    /// Order spectrograms and cuts of the channels asked for.
+    /// Order spectrograms and cuts of the channels asked for, taken without their means.
     ///
     /// # Errors
     /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order.
@@ -56,7 +58,7 @@ impl Machine {
         let lines = self.order_lines(&study.cuts);
         chosen(&study.channels, history)
             .map(|channel| {
-                let records = tracker.resample(&[&channel.values])?;
+                let records = tracker.resample(&[&without_mean(&channel.values)])?;
                 let spectrogram = tracker.spectrogram(&records[0]);
                 let cut = |line: &crate::results::OrderLine| {
                     let cut = spectrogram.cut(line.order, CUT_BINS * study.resolution)?;
@@ -72,6 +74,12 @@ impl Machine {
             })
             .collect()
     }
+}
+
+/// Values less their mean.
+pub(super) fn without_mean(values: &[f64]) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    values.iter().map(|v| v - mean).collect()
 }
 
 /// The named channels; with no name given, everything that vibrates (no energies, no angles).
