@@ -51,6 +51,34 @@ fn validate_pairs_all_modes() {
     }
 }
 
+/// What `modal` stores and `export` writes is the model again, rotations with translations.
+#[test]
+fn a_model_held_against_its_own_modes_agrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("own");
+    rotordyn()
+        .args(["modal", RIG, "--speed", "600 rpm", "--no-figures", "--out"])
+        .arg(&out)
+        .assert()
+        .success();
+    rotordyn().args(["export", RIG, "--no-figures", "--out"]).arg(&out).assert().success();
+    for (file, speed) in [("results.h5", 600.0), ("modes.uff", 0.0)] {
+        let document = json_of(
+            rotordyn()
+                .args(["validate", RIG, "--no-figures", "--measured"])
+                .arg(out.join(file))
+                .arg("--out")
+                .arg(folder.path().join("out")),
+        );
+        let measured = &document["measured"][0];
+        assert!((measured["rpm"].as_f64().unwrap() - speed).abs() < 1e-6, "{measured}");
+        for mode in measured["modes"].as_array().unwrap() {
+            let value = |key: &str| mode[key].as_f64().unwrap();
+            assert!(value("mac") > 0.99999 && value("error").abs() < 1e-5, "{file}: {mode}");
+        }
+    }
+}
+
 #[test]
 fn update_writes_the_file_as_the_user_wrote_it() {
     let folder = tempfile::tempdir().unwrap();

@@ -205,8 +205,17 @@ fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut Findings) -> 
 
 /// What the file tells: angle, speed over time, speed.
 pub fn told(file: &File) -> Option<Shaft> {
+    // "X105_DE_time" of files with CWRU's names is "de".
+    let plain = |name: &str| {
+        let name = name.to_lowercase();
+        let bare = match name.split_once('_') {
+            Some((id, rest)) if id.starts_with('x') && id[1..].bytes().all(|b| b.is_ascii_digit()) => rest,
+            _ => &name,
+        };
+        bare.strip_suffix("_time").unwrap_or(bare).to_string()
+    };
     let sampled = |unit: &str, names: &[&str]| {
-        file.time_records().find(|r| r.unit == unit && names.contains(&r.name.to_lowercase().as_str()))
+        file.time_records().find(|r| r.unit == unit && names.contains(&plain(&r.name).as_str()))
     };
     let of = |record: &Record, factor: f64, is_angle: bool| {
         let rate = record.sample_rate().ok()?;

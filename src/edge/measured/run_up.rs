@@ -16,7 +16,7 @@ pub type Placed = (Vec<(Probe, SignalChannel)>, Vec<String>);
 /// Whether a record is of the shaft's turning rather than of vibration.
 pub fn is_clock(record: &Record) -> bool {
     let name = record.name.to_lowercase();
-    let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "speed", "rpm"];
+    let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "angle", "speed", "rpm"];
     matches!(record.unit.as_str(), "rpm" | "rad/s" | "s") || named.iter().any(|word| name.contains(word))
 }
 

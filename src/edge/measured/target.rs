@@ -126,6 +126,7 @@ fn of_shapes(measured: &Measured, reading: &Reading, model: &Model) -> Result<Re
         .into());
     };
     let sensors = sensors(&dofs, &measured.geometry, model)?;
+    let modes = weighed(modes, &sensors);
     let speed = rpm.map(|rpm| rpm * TAU / 60.0).or(reading.speed).unwrap_or(0.0);
     let source = format!("{} modes of the file", modes.len());
     let target = Target { speed, sensors, modes, frfs: None };
@@ -151,6 +152,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     let placed: Vec<usize> = (0..references.len()).filter(|&e| references[e].is_some()).collect();
     let (dofs, modes) = modes_of_identified(&found);
     let points = sensors(&dofs, &measured.geometry, model)?;
+    let modes = weighed(modes, &points);
     let quantity = |r: usize| {
         let unit = matrix.units[r].first().map(String::as_str).unwrap_or_default();
         identify::quantity_of(unit).unwrap_or(found.quantity)
@@ -198,6 +200,15 @@ fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
     let mut place = 0..;
     matrix.responses.retain(|_| place.next().is_none_or(|r| !gone.contains(&r)));
     said
+}
+
+/// Measured rotations at the radius at which the sensors see those of the model.
+fn weighed(mut modes: Vec<TargetMode>, sensors: &[Sensor]) -> Vec<TargetMode> {
+    let weight = |s: &Sensor| s.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
+    for mode in &mut modes {
+        mode.shape.iter_mut().zip(sensors).for_each(|(value, sensor)| *value *= weight(sensor));
+    }
+    modes
 }
 
 /// FRFs of rotations are in rad, not at a radius.

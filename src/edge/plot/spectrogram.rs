@@ -64,6 +64,11 @@ pub fn draw(data: &Spectrogram) -> Svg {
         if let Some(panel) = data.panels.get(k) {
             Heat { x: &panel.rpm, y: &panel.hz, level: &panel.level_db }.draw(&mut svg, &axes, bounds);
         }
+        // A pale edge lets dashes be seen on dark levels.
+        for order in &data.orders {
+            let at = |rpm: f64| [rpm, order.order * rpm / 60.0];
+            axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
+        }
         let mut labels = order_lines(&mut svg, &axes, &data.orders);
         for branch in &data.branches {
             // A white edge keeps the thin line apart from the ridge under it.
