@@ -148,6 +148,40 @@ fn a_results_file_holds_modes_and_a_run_up() {
     assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 1e-3, "{once}");
 }
 
+/// The channels as `export` writes them tell how the shaft turned, and most where they were measured.
+#[test]
+fn exported_channels_are_run_ups() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    rotordyn().args(["run-up", MODEL, "--no-figures", "--out"]).arg(&run).assert().success();
+    rotordyn().args(["export", MODEL, "--formats", "csv,uff,mat,npz", "--out"]).arg(&run).assert().success();
+    for file in ["channels.csv", "channels.uff", "channels.mat", "channels.npz"] {
+        let mut command = rotordyn();
+        command.args(["validate", MODEL, "--no-figures", "--measured"]).arg(run.join(file));
+        // Names of MATLAB's arrays are its own: there the probes are named.
+        if !file.ends_with("uff") && !file.ends_with("csv") {
+            let names = match file.ends_with("mat") {
+                true => ["X001_disc_x_time", "X001_disc_y_time"],
+                false => ["disc_x", "disc_y"],
+            };
+            let place = |(name, axis): (&str, &str)| {
+                format!("[channel.{name}]\nstation = \"disc\"\ndirection = \"{axis}\"\n")
+            };
+            let text: String = names.into_iter().zip(["x", "y"]).map(place).collect();
+            std::fs::write(folder.path().join("map.toml"), text).unwrap();
+            command.arg("--mapping").arg(folder.path().join("map.toml"));
+        }
+        let document = json_of(command.arg("--out").arg(folder.path().join("out")));
+        let once = order(&document, 0, "1x");
+        println!("{file} {once}");
+        assert!(number(&once["likeness"]) > 0.9999, "{file}: {once}");
+        assert!(
+            (number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 5e-3,
+            "{file}: {once}"
+        );
+    }
+}
+
 /// What `validate` says of a bad file; folders differ from run to run.
 fn said(folder: &Path, file: &str, flags: &[&str], code: i32) -> String {
     let mut command = rotordyn();
