@@ -18,7 +18,7 @@ use super::machine::Origin;
 use super::signal::input::{File, Findings, cut};
 use super::signal::shaft::Shaft;
 use super::studies::{Job, Study};
-use super::terminal::{Terminal, number};
+use super::terminal::{Terminal, number, rpm};
 use super::{films, settings, store};
 
 /// Rows of a table.
@@ -34,7 +34,7 @@ pub struct Found {
     pub rpm: [f64; 2],
 }
 
-/// The run-up that a file holds; `None`, and why, where it holds none.
+/// The run-up that a file holds, or in words why it holds none.
 pub fn read(
     path: &Path,
     args: &ValidateArgs,
@@ -114,14 +114,14 @@ pub fn compare(
     draw: bool,
     terminal: &Terminal,
 ) -> Result<(Value, Vec<PathBuf>), Failure> {
-    let [least, most] = found.rpm;
+    let first = rpm(found.run.history.speed[0]);
     let own = folder.join(format!("{prefix}_computed"));
     let (mut job, campbell) = driven(found, origin, own, terminal)?;
-    if least > SLOW * most {
+    if first > SLOW * found.rpm[1] {
         terminal.complain(
             "warning",
             &format!(
-                "the record begins at {least:.0} rpm, and the model from rest about its equilibrium: its first \
+                "the record begins at {first:.0} rpm, and the model from rest about its equilibrium: its first \
                  seconds show how that dies away"
             ),
         );
