@@ -13,7 +13,7 @@ use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use bearing::BearingArgs;
 use manual::{AFTER, LONG_ABOUT};
-pub use measured::{IdentifyArgs, NoiseArgs, ShaftArgs};
+pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
 pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
 
 /// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
@@ -369,14 +369,15 @@ Examples:
     ///
     /// Poly-reference least-squares complex frequency over all orders; poles that stay are chosen, refined together on
     /// all FRFs, and those that the data do not bear out dropped. Reads universal files, MATLAB, NumPy, CSV, HDF5 and
-    /// our own results.h5; time records of a hammer test are turned into FRFs first. Writes results.h5, modes.uff (data
-    /// sets 55) and figures: stabilisation diagram, autoMAC, FRFs measured and synthesised, shapes where the file has
-    /// geometry.
+    /// our own results.h5; time records of a hammer test are turned into FRFs first, blows of files with the same points
+    /// averaged, double hits and overloads left out. A run-up at 0 rpm under one [load.X] with a history is a simulated
+    /// hammer test. Writes results.h5, modes.uff (data sets 55) and figures: stabilisation diagram, autoMAC, FRFs
+    /// measured and synthesised, shapes where the file has geometry.
     #[command(after_long_help = "\
 Examples:
-  rotordyn identify frfs.uff --band \"5 Hz, 180 Hz\"
+  rotordyn identify frfs.uff --band \"5 .. 180 Hz\"
   rotordyn identify test.npz --quantity accelerance --max-order 40
-  rotordyn identify blow_*.mat --mapping channels.toml --window \"0.5 s\"
+  rotordyn identify blow_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
   rotordyn identify out/overhung_rig/results.h5 --json")]
     Identify(Box<IdentifyArgs>),
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rotordyn::edge::hdf5::Store;
+use rotordyn::edge::measured::blow_run;
 use rotordyn::edge::measured::mapping::{self, Mapping};
 use rotordyn::edge::{exchange, figures, identified, measured};
 use rotordyn::error::Error;
@@ -12,11 +13,12 @@ use rotordyn::identify::single::{circle_fit, peak_fit};
 use rotordyn::identify::{Identified, Settings, identify, quantity_of};
 use rotordyn::model::Quantity;
 use rotordyn::signal::hammer::{self, HammerTest};
-use rotordyn::signal::record::{FrfMatrix, Kind, Measured};
+use rotordyn::signal::impact::{Estimator, ImpactWindows};
+use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record};
 use rotordyn::units::{self, parse};
 use serde_json::json;
 
-use super::args::IdentifyArgs;
+use super::args::{EstimatorName, IdentifyArgs};
 use super::failure::Failure;
 use super::machine::Origin;
 use super::store::FILE;
@@ -29,28 +31,30 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
         force: args.force.clone(),
         block: value("--block", args.block.as_ref(), units::TIME)?,
         time_constant: value("--window", args.window.as_ref(), units::TIME)?,
+        estimator: match args.estimator {
+            EstimatorName::H1 => Estimator::H1,
+            EstimatorName::H2 => Estimator::H2,
+            EstimatorName::Hv => Estimator::Hv,
+        },
     };
     let start = Instant::now();
     let spinner = terminal.spinner("identify");
     let mut warnings = Vec::new();
-    let all = read(args, &test, &mut warnings)?;
-    let frfs = all.frf_matrix().map_err(Error::from)?;
-    doubts(&frfs, args, &mut warnings);
-    let outcome = identify(&frfs, &settings).map_err(Error::from);
+    let outcome = found(args, &test, &settings, &mut warnings);
     spinner.finish_and_clear();
-    let found = match outcome {
+    let (all, frfs, found) = match outcome {
         Ok(found) => found,
-        Err(error) => {
+        Err(failure) => {
             warnings.iter().for_each(|warning| terminal.complain("warning", warning));
-            return Err(error.into());
+            return Err(failure);
         }
     };
     let seconds = start.elapsed().as_secs_f64();
     tables(terminal, &found, &frfs);
 
-    let name = args.files[0].file_stem().unwrap_or_default().to_string_lossy();
+    let name = super::measured::stem(&args.files[0]);
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{name}")));
-    let title = if all.title.is_empty() { name.to_string() } else { all.title.clone() };
+    let title = if all.title.is_empty() { name } else { all.title.clone() };
     let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
     written(terminal, &folder, &files);
     for warning in &warnings {
@@ -62,6 +66,41 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     document["seconds"] = json!({ "identify": seconds });
     document["files"] = json!(files);
     Ok(document.into())
+}
+
+/// What the files hold, as a matrix, and its modes; warnings also where it fails.
+fn found(
+    args: &IdentifyArgs,
+    test: &HammerTest,
+    settings: &Settings,
+    warnings: &mut Vec<String>,
+) -> Result<(Measured, FrfMatrix, Identified), Failure> {
+    let (all, from_blows) = read(args, test, warnings)?;
+    // Channels of several files have their file's name.
+    let at = |error: Error| match &args.files[..] {
+        [only] => in_file(only, error),
+        _ => error.into(),
+    };
+    let frfs = all.frf_matrix().map_err(|error| at(error.into()))?;
+    doubts(&frfs, args, from_blows, warnings);
+    let found = identify(&frfs, settings).map_err(|error| at(error.into()))?;
+    for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
+        warnings.push(format!(
+            "without the window's share the mode at {:.3} Hz has a damping of {:.3} %: --window is not the time constant \
+             of the window that was used, or it is too short to tell so little damping",
+            mode.frequency_hz(),
+            100.0 * mode.damping_ratio()
+        ));
+    }
+    Ok((all, frfs, found))
+}
+
+/// An error with the file it is about.
+fn in_file(path: &Path, error: Error) -> Failure {
+    match error {
+        error @ (Error::Content { .. } | Error::Environment { .. }) => error.into(),
+        error => Failure::Input(format!("{}: {error}", path.display())),
+    }
 }
 
 fn write(
@@ -93,10 +132,11 @@ fn write(
 /// A setting with its unit.
 fn value(name: &str, text: Option<&String>, dimension: units::Dimension) -> Result<Option<f64>, Failure> {
     let Some(text) = text else { return Ok(None) };
+    let example = if dimension == units::TIME { "0.5 s" } else { "12 kHz" };
     match parse(text, dimension) {
         Ok(value) if value > 0.0 => Ok(Some(value)),
-        Ok(_) => Err(Failure::Input(format!("{name} \"{text}\" is not positive"))),
-        Err(error) => Err(Failure::Input(format!("{name}: {error}"))),
+        Ok(_) => Err(Failure::Input(format!("{name} \"{text}\" is not positive; write it as \"{example}\""))),
+        Err(error) => Err(Failure::Input(format!("{name}: {error}; write it as \"{example}\""))),
     }
 }
 
@@ -104,22 +144,19 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
     let band = match &args.band {
         None => None,
         Some(text) => {
-            let ends: Vec<&str> = text.split(',').map(str::trim).collect();
-            let [from, to] = ends[..] else {
-                return Err(Failure::Input(format!(
-                    "--band \"{text}\" has not two ends; write \"10 Hz, 200 Hz\""
-                )));
-            };
+            let wrong =
+                |why: &str| Failure::Input(format!("--band \"{text}\": {why}; write it as \"10 .. 200 Hz\""));
+            let ends = text.split_once("..").or_else(|| text.split_once(','));
+            let (from, to) = ends.ok_or_else(|| wrong("it has not two ends"))?;
+            let (from, to) = (from.trim(), to.trim());
             // "10, 200 Hz" has its unit at the end.
             let unit = to.trim_start_matches(|c: char| c.is_ascii_digit() || ".eE+-".contains(c));
             let from =
                 if from.parse::<f64>().is_ok() { format!("{from} {}", unit.trim()) } else { from.into() };
-            let hz = |text: &str| {
-                parse(text, units::FREQUENCY).map_err(|error| Failure::Input(format!("--band: {error}")))
-            };
-            let (from, to) = (hz(&from)?, hz(to)?);
+            let hz = |text: &str| parse(text, units::FREQUENCY).map_err(|error| wrong(&error.to_string()));
+            let (to, from) = (hz(to)?, hz(&from)?);
             if from >= to {
-                return Err(Failure::Input(format!("--band \"{text}\" ends before it begins")));
+                return Err(wrong("it ends before it begins"));
             }
             Some([from, to])
         }
@@ -145,8 +182,12 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
     })
 }
 
-/// Everything in the files, time records turned into FRFs.
-fn read(args: &IdentifyArgs, test: &HammerTest, warnings: &mut Vec<String>) -> Result<Measured, Failure> {
+/// Everything in the files, time records turned into FRFs; and whether some were.
+fn read(
+    args: &IdentifyArgs,
+    test: &HammerTest,
+    warnings: &mut Vec<String>,
+) -> Result<(Measured, bool), Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
         Some(path) => {
@@ -155,6 +196,7 @@ fn read(args: &IdentifyArgs, test: &HammerTest, warnings: &mut Vec<String>) -> R
         }
         None => None,
     };
+    let rate = value("--rate", args.rate.as_ref(), units::FREQUENCY)?;
     let names = RefCell::new(Vec::new());
     // Without a model stations are numbered as they come.
     let place = |name: &str| match (&model, name.parse::<i64>()) {
@@ -173,45 +215,109 @@ fn read(args: &IdentifyArgs, test: &HammerTest, warnings: &mut Vec<String>) -> R
         }
     };
     let mut all = Measured::default();
+    let mut tests: Vec<(&Path, Vec<Measured>)> = Vec::new();
+    let mut simulated = false;
     for path in &args.files {
-        let mut file = measured::read(path)?;
-        warnings.append(&mut file.notes);
+        let mut file = match of_run(path, test)? {
+            Some(run) => {
+                simulated = true;
+                run
+            }
+            None => measured::read(path)?,
+        };
+        let notes = std::mem::take(&mut file.notes);
+        rate.into_iter().for_each(|rate| file.set_missing_rate(rate));
         if let (Some(mapping), Some(of)) = (&mapping, &args.mapping) {
             warnings.extend(Mapping::apply(mapping, &mut file, &place, of)?);
         }
-        let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
-        let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
-        if !has_frf && has_time {
-            let (records, doubts) = hammer::frfs(&file, test)?;
-            warnings.extend(doubts);
-            file.records = records;
-        }
+        // What the file does not tell may be told by now.
+        let untold = file.records.iter().any(|r| r.axis.points == Points::Unknown);
+        warnings.extend(notes.into_iter().filter(|note| untold || !note.starts_with(measured::UNTOLD)));
         if all.title.is_empty() {
-            all.title = file.title;
+            all.title = std::mem::take(&mut file.title);
         }
         if all.geometry.nodes.is_empty() {
-            all.geometry = file.geometry;
+            all.geometry = std::mem::take(&mut file.geometry);
         }
-        all.records.extend(file.records);
+        let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
+        let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
+        if has_frf || !has_time {
+            put(args, path, file.records, &mut all);
+        } else {
+            // Blows of several files are averaged where their places are known to be the same.
+            match tests.iter_mut().find(|(_, files)| same_test(&files[0], &file)) {
+                Some((_, files)) => files.push(file),
+                None => tests.push((path, vec![file])),
+            }
+        }
     }
-    for (k, name) in names.into_inner().iter().enumerate() {
-        warnings.push(format!("point {} is {name}", k + 1));
+    if tests.is_empty() && (test.force.is_some() || test.block.is_some() || test.estimator != Estimator::H1) {
+        warnings
+            .push("--force, --block and --estimator are for time records, and there are FRFs only".into());
     }
-    Ok(all)
+    let from_blows = simulated || !tests.is_empty();
+    for (path, files) in tests {
+        let (records, doubts) = hammer::frfs(&files, test).map_err(|error| in_file(path, error))?;
+        warnings.extend(doubts);
+        put(args, path, records, &mut all);
+    }
+    let named: Vec<String> =
+        names.into_inner().iter().enumerate().map(|(k, name)| format!("{} is {name}", k + 1)).collect();
+    if !named.is_empty() {
+        warnings.push(format!("no --model numbers the mapping's stations: as points, {}", named.join(", ")));
+    }
+    Ok((all, from_blows))
 }
 
-fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, warnings: &mut Vec<String>) {
-    if frfs.coherence.is_none() {
+/// FRFs of a simulated hammer test.
+fn of_run(path: &Path, test: &HammerTest) -> Result<Option<Measured>, Failure> {
+    if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
+        return Ok(None);
+    }
+    let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
+    Ok(blow_run::frfs_windowed(&Store::open(path)?, windows)?)
+}
+
+/// Whether two files hold the same channels, all of them at places that are told.
+fn same_test(first: &Measured, other: &Measured) -> bool {
+    let channels = |file: &Measured| -> Vec<_> {
+        let time = file.records.iter().filter(|r| r.kind == Kind::Time);
+        time.map(|r| (r.name.clone(), r.response, r.unit.clone())).collect()
+    };
+    let own = channels(first);
+    own == channels(other) && own.iter().all(|(_, dof, _)| dof.node != 0)
+}
+
+/// Adds records; those of several files with the file's name.
+fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Measured) {
+    if args.files.len() > 1 {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        records.iter_mut().for_each(|r| r.name = format!("{file}: {}", r.name));
+    }
+    all.records.extend(records);
+}
+
+fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mut Vec<String>) {
+    if frfs.coherence.is_none() && !from_blows {
         warnings.push(
-            "there is no coherence beside the FRFs: where noise spoils them cannot be shown; export it with them"
-                .into(),
+            "not all FRFs have their coherence beside them: where noise spoils them cannot be shown; export it with \
+             them"
+            .into(),
         );
     }
-    let unknown = frfs.units.iter().flatten().filter(|unit| quantity_of(unit).is_none()).count();
-    if unknown > 0 && args.quantity.is_none() {
+    let names = frfs.responses.iter().zip(&frfs.units).flat_map(|(response, row)| {
+        let unknown = frfs.references.iter().zip(row).filter(|(_, unit)| quantity_of(unit).is_none());
+        unknown.map(move |(reference, _)| format!("{response}/{reference}"))
+    });
+    let mut unknown: Vec<String> = names.collect();
+    if !unknown.is_empty() && args.quantity.is_none() {
+        let count = unknown.len();
+        let more = if count > 4 { ", ..." } else { "" };
+        unknown.truncate(4);
         warnings.push(format!(
-            "{unknown} FRFs do not tell their unit and are taken as accelerances; state it in a mapping, or give \
-             --quantity"
+            "{count} FRFs do not tell their unit ({}{more}) and are taken as accelerances; state it in a mapping, or \
+             give --quantity",
+            unknown.join(", ")
         ));
     }
     if frfs.responses.len() * frfs.references.len() == 1 {

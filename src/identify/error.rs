@@ -8,7 +8,7 @@ pub enum IdentifyError {
     )]
     NotEven { index: usize, given: f64, expected: f64 },
     #[error(
-        "the band {from:.3} .. {to:.3} Hz holds {lines} lines of the {first:.3} .. {last:.3} Hz measured; choose a wider band"
+        "the band {from:.3} .. {to:.3} Hz holds {lines} lines of the {first:.3} .. {last:.3} Hz measured; choose a wider band of those"
     )]
     EmptyBand { from: f64, to: f64, lines: usize, first: f64, last: f64 },
     #[error(
@@ -16,15 +16,19 @@ pub enum IdentifyError {
     )]
     TooFewLines { lines: usize, order: usize, needed: usize, possible: usize },
     #[error(
-        "the FRF of response {response} to reference {reference} holds no finite number at {frequency:.3} Hz; leave it out, or choose a band without it"
+        "the FRF of response {response} to reference {reference} holds no finite number at {frequency:.3} Hz; leave it out (of the file or of the mapping), or choose a band without it"
     )]
     NotFinite { response: String, reference: String, frequency: f64 },
-    #[error("response {response} is zero throughout the band: a dead channel; leave it out")]
+    #[error(
+        "response {response} is zero throughout the band: a dead channel; leave it out (of the file or of the mapping)"
+    )]
     DeadResponse { response: String },
-    #[error("nothing answers to reference {reference} in the band: a dead channel; leave it out")]
+    #[error(
+        "nothing answers to reference {reference} in the band: a dead channel; leave it out (of the file or of the mapping)"
+    )]
     DeadReference { reference: String },
     #[error(
-        "no mode was found in {from:.3} .. {to:.3} Hz: {poles} poles came out of {orders} orders, and none of them stays; choose a band with a resonance, raise the order, or look at the coherence"
+        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none stays from order to order; choose a band with a resonance, raise the order, or look at the coherence"
     )]
     NoMode { from: f64, to: f64, poles: usize, orders: usize },
     #[error("{what}: {reason}")]

@@ -42,6 +42,18 @@ impl FrfEstimate {
     }
 }
 
+/// Which estimate of an FRF is taken: what noise it is right in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Estimator {
+    /// Noise in the response.
+    #[default]
+    H1,
+    /// Noise in the force.
+    H2,
+    /// Noise in both.
+    Hv,
+}
+
 /// One blow: force and response sampled together.
 #[derive(Clone, Copy, Debug)]
 pub struct Blow<'a> {

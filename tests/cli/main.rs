@@ -5,6 +5,7 @@ mod blow_beside;
 mod commands;
 mod failures;
 mod held_against;
+mod identify;
 mod run_ups;
 mod runs;
 mod signal;

@@ -36,6 +36,14 @@ pub struct ShaftArgs {
     pub track: Option<String>,
 }
 
+/// An estimate of FRFs from blows.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EstimatorName {
+    H1,
+    H2,
+    Hv,
+}
+
 /// Which FRFs, and how.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {
@@ -48,7 +56,7 @@ pub struct IdentifyArgs {
     /// Model whose stations the mapping names
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Frequencies, such as "10 Hz, 200 Hz" [default: all]
+    /// Frequencies, such as "10 .. 200 Hz" [default: all]
     #[arg(long, value_name = "BAND")]
     pub band: Option<String>,
     /// Highest order of the model [default: 60, or what the lines allow]
@@ -67,6 +75,12 @@ pub struct IdentifyArgs {
     /// Length of a blow's block in time records, such as "2 s" [default: up to the next blow]
     #[arg(long, value_name = "TIME")]
     pub block: Option<String>,
+    /// How blows are averaged: h1 bears noise of the responses, h2 noise of the force, hv noise of both
+    #[arg(long, value_name = "NAME", default_value = "h1")]
+    pub estimator: EstimatorName,
+    /// Sampling rate of time records whose file does not tell, such as "12 kHz"
+    #[arg(long, value_name = "RATE")]
+    pub rate: Option<String>,
     /// Folder for the results [default: out/identify_NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -20,6 +20,14 @@ pub const PEAK_FORCE: &str = "peak_force";
 /// # Errors
 /// The file cannot be read, or the run is too short to tell anything.
 pub fn frfs(store: &Store) -> Result<Option<Measured>, Error> {
+    frfs_windowed(store, ImpactWindows::default())
+}
+
+/// As [`frfs`], with windows over force and responses.
+///
+/// # Errors
+/// As [`frfs`].
+pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Measured>, Error> {
     if !store.contains("/time/t") {
         return Ok(None);
     }
@@ -42,7 +50,7 @@ pub fn frfs(store: &Store) -> Result<Option<Measured>, Error> {
         let rest = channel.values.first().copied().unwrap_or(0.0);
         let response: Vec<f64> = channel.values.iter().map(|v| v - rest).collect();
         let blow = Blow { force: &force, response: &response };
-        let found = frf_from_blows(&[blow], history.sample_rate, ImpactWindows::default())?;
+        let found = frf_from_blows(&[blow], history.sample_rate, windows)?;
         let count = found.frequencies.iter().filter(|f| **f <= top).count();
         let step = found.frequencies.get(1).copied().unwrap_or(1.0);
         let axis = Axis::even(AxisQuantity::Frequency, 0.0, step);

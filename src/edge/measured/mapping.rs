@@ -97,7 +97,7 @@ impl Mapping {
 
     /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
     /// name; returns what deserves a warning. Of the geometry only points beside stations are left: points have the
-    /// model's numbers now, whatever the file calls by them.
+    /// model's numbers now, whatever the file calls by them. A mapping that names none (but a rate, or axes) keeps all.
     ///
     /// `place` is the number of a station, bearing or body, `path` the mapping's file, for messages.
     ///
@@ -132,7 +132,12 @@ impl Mapping {
         for number in self.point.keys() {
             let is_at = |dof: Dof| dof.node.to_string() == *number;
             if !measured.records.iter().any(|r| is_at(r.response) || is_at(r.reference)) {
-                problems.push(format!("there is no record at point {number}"));
+                let points: Vec<String> = points_of(measured).iter().map(i64::to_string).collect();
+                let known: Vec<&str> = points.iter().map(String::as_str).collect();
+                problems.push(match known[..] {
+                    [] => format!("there is no record at point {number}: the file's records tell no points"),
+                    _ => format!("there is no record at point {number}{}", alike(number, &known)),
+                });
             }
         }
 
@@ -146,6 +151,7 @@ impl Mapping {
             let entry = self.channel.get(&record.name).or_else(|| self.channel.get(of_frf?));
             let found = match entry {
                 Some(own) => target.channel(&mut record, own),
+                None if self.channel.is_empty() && self.point.is_empty() => target.kept(&mut record),
                 None => target.points(&mut record, &self.point),
             };
             if found {
@@ -154,8 +160,17 @@ impl Mapping {
                 left_out.push(record.name);
             }
         }
+        if mapped.is_empty() && !left_out.is_empty() && problems.is_empty() {
+            let known: Vec<&str> = left_out.iter().map(String::as_str).collect();
+            problems.push(format!(
+                "it names none of the file's channels{}: add [channel.NAME] or [point.NUMBER]",
+                alike("", &known)
+            ));
+        }
         measured.records = mapped;
-        measured.geometry = Geometry { mounts, ..Geometry::default() };
+        if !(self.channel.is_empty() && self.point.is_empty()) {
+            measured.geometry = Geometry { mounts, ..Geometry::default() };
+        }
         problems.dedup();
         if !problems.is_empty() {
             return Err(Error::Content {
@@ -260,6 +275,19 @@ impl Mapping {
     }
 }
 
+/// Numbers of the points at which something was measured or pushed.
+fn points_of(measured: &Measured) -> Vec<i64> {
+    let mut points: Vec<i64> = measured
+        .records
+        .iter()
+        .flat_map(|r| [r.response.node, r.reference.node])
+        .filter(|n| *n != 0)
+        .collect();
+    points.sort_unstable();
+    points.dedup();
+    points
+}
+
 fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     problems.push(problem);
     None
@@ -358,6 +386,13 @@ impl Target<'_> {
         true
     }
 
+    /// Keeps a record where its file puts it, in the model's axes.
+    fn kept(&self, record: &mut Record) -> bool {
+        record.response.direction = self.turned(record.response.direction);
+        record.reference.direction = self.turned(record.reference.direction);
+        true
+    }
+
     /// Places a record by the points of its ends; false if one of them is not in the mapping.
     fn points(&mut self, record: &mut Record, points: &BTreeMap<String, Place>) -> bool {
         let of = |dof: Dof| points.get(&dof.node.to_string());
@@ -389,7 +424,10 @@ impl Target<'_> {
     fn unit(&mut self, record: &mut Record, label: Option<&str>) {
         let Some(label) = label.filter(|_| record.kind != Kind::Coherence) else { return };
         let Some(known) = unit::si(label) else {
-            self.problems.push(format!("unit \"{label}\" of `{}` is not known", record.name));
+            self.problems.push(format!(
+                "unit \"{label}\" of `{}` is not known: write it as \"m/s^2\", \"g\", \"mm/s\" or, of an FRF, \"g/N\"",
+                record.name
+            ));
             return;
         };
         if !record.unit.is_empty() {

@@ -10,7 +10,7 @@
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 pub mod arrays;
-mod blow_run;
+pub mod blow_run;
 pub mod datasets;
 pub mod mapping;
 pub mod run_up;
@@ -122,6 +122,9 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
     Ok(out)
 }
 
+/// How the note on channels without an axis begins.
+pub const UNTOLD: &str = "no sampling rate or frequency step is stated for";
+
 /// Makes names unique and points out values that are no numbers.
 fn finish(out: &mut Measured) {
     for k in 1..out.records.len() {
@@ -147,7 +150,7 @@ fn finish(out: &mut Measured) {
     if !without.is_empty() {
         let more = if without.len() > 6 { ", ..." } else { "" };
         let some = without[..without.len().min(6)].join(", ");
-        out.notes.push(format!("no sampling rate or frequency step is stated for {some}{more}"));
+        out.notes.push(format!("{UNTOLD} {some}{more}"));
     }
 }
 

@@ -63,6 +63,15 @@ impl Axis {
         }
     }
 
+    /// The first point; 0 where the file does not tell.
+    pub fn start(&self) -> f64 {
+        match &self.points {
+            Points::Even { start, .. } => *start,
+            Points::Listed(points) => points.first().copied().unwrap_or(0.0),
+            Points::Unknown => 0.0,
+        }
+    }
+
     /// The axis in words, "401 points from 0 Hz by 0.5 Hz".
     pub fn describe(&self, count: usize) -> String {
         let unit = self.quantity.unit();

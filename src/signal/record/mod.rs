@@ -198,14 +198,28 @@ pub enum RecordError {
         if *few_references { "reference" } else { "response" }
     )]
     MissingFrf { response: String, reference: String, few_references: bool },
-    #[error("`{first}` and `{second}` are both the FRF of {between}; leave one out")]
+    #[error(
+        "`{first}` and `{second}` are both the FRF of {between}; leave one out, or tell their places apart in a mapping"
+    )]
     DoubleFrf { first: String, second: String, between: String },
     #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
     NotFinite { channel: String, index: usize },
     #[error(
-        "no force is known among the time records ({found}); state its unit N in a mapping, or name its channel"
+        "no force is known among the time records ({found}); name its channel (--force), or state its unit N in a mapping"
     )]
     NoForce { found: String },
+    #[error("several time records are forces in N ({found}); name the channel of the hammer (--force)")]
+    SeveralForces { found: String },
+    #[error("there is no time record beside the force ({found}); add the channels of the accelerometers")]
+    NoResponse { found: String },
+    #[error(
+        "`{channel}` holds no blow: its largest value, {largest:.4} {unit}, does not stand out of its median size of {median:.4} {unit}; is it the hammer's channel (--force), and was it connected?"
+    )]
+    NoBlow { channel: String, largest: f64, median: f64, unit: String },
+    #[error(
+        "the record of `{channel}` ends {seconds:.3} s after its first blow, before a block of {block:.3} s; take shorter blocks (--block)"
+    )]
+    ShortRecord { channel: String, seconds: f64, block: f64 },
     #[error("none of the {blows} blows in `{channel}` is fit for use: {faults}")]
     NoGoodBlow { channel: String, blows: usize, faults: String },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]

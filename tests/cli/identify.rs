@@ -1,0 +1,605 @@
+//! `identify`: what is wrong with files, mappings and flags is told with what to do; FRFs of files and of hammer blows.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use crate::{json_of, rotordyn};
+use rotordyn::edge::{measured, uff};
+use rotordyn::linalg::Complex64;
+use rotordyn::signal::hammer::{self, HammerTest};
+use rotordyn::signal::impact::Estimator;
+use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Points, Record, Values};
+
+/// Natural frequency \[Hz\], damping ratio, shape of unit modal mass.
+type Mode = (f64, f64, [f64; 4]);
+
+/// A structure of three modes seen at four points.
+const MODES: [Mode; 3] = [
+    (21.0, 0.006, [0.5, 0.9, 1.2, 0.3]),
+    (48.0, 0.009, [1.1, 0.3, -0.8, 0.6]),
+    (83.0, 0.012, [0.7, -1.0, 0.6, -0.9]),
+];
+
+/// λ of a mode.
+fn pole((hz, zeta, _): Mode) -> Complex64 {
+    TAU * hz * Complex64::new(-zeta, (1.0 - zeta * zeta).sqrt())
+}
+
+/// Accelerance of point `r` to a force at point `e`.
+fn accelerance(r: usize, e: usize, hz: f64) -> Complex64 {
+    let s = Complex64::new(0.0, TAU * hz);
+    let one = |mode: &Mode| {
+        let pole = pole(*mode);
+        s * s * mode.2[r] * mode.2[e] / ((s - pole) * (s - pole.conj()))
+    };
+    MODES.iter().map(one).sum()
+}
+
+/// FRFs of the first three points along y to the forces, 5 to 110 Hz.
+fn frfs(references: &[usize]) -> Vec<Record> {
+    let lines: Vec<f64> = (0..421).map(|k| 5.0 + 0.25 * f64::from(k)).collect();
+    let mut out = Vec::new();
+    for &e in references {
+        for r in 0..3 {
+            let values = lines.iter().map(|f| accelerance(r, e, *f)).collect();
+            let axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.25);
+            let name = format!("y{}/f{}", r + 1, e + 1);
+            let mut record = Record::new(&name, Kind::Frf, axis, Values::Complex(values), "(m/s^2)/N");
+            record.response = Dof::new(r as i64 + 1, 2);
+            record.reference = Dof::new(e as i64 + 1, 2);
+            out.push(record);
+        }
+    }
+    out
+}
+
+/// Those FRFs, each with its coherence.
+fn with_coherence(frfs: Vec<Record>) -> Vec<Record> {
+    let coherence = |frf: &Record| {
+        let name = format!("coherence {}", frf.name);
+        let values = Values::Real(vec![0.999; frf.values.len()]);
+        let record = Record::new(&name, Kind::Coherence, frf.axis.clone(), values, "1");
+        Record { response: frf.response, reference: frf.reference, ..record }
+    };
+    let own: Vec<Record> = frfs.iter().map(coherence).collect();
+    frfs.into_iter().chain(own).collect()
+}
+
+fn changed(mut records: Vec<Record>, change: impl FnOnce(&mut Vec<Record>)) -> Vec<Record> {
+    change(&mut records);
+    records
+}
+
+fn complex(record: &mut Record) -> &mut Vec<Complex64> {
+    match &mut record.values {
+        Values::Complex(values) => values,
+        Values::Real(_) => panic!("{} is real", record.name),
+    }
+}
+
+fn write(folder: &Path, name: &str, records: Vec<Record>) {
+    measured::write(&folder.join(name), &Measured { records, ..Measured::default() }).unwrap();
+}
+
+/// Numbers in −1..1.
+fn noise(seed: u32) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / 2f64.powi(31) - 1.0
+    }
+}
+
+fn cut(folder: &Path, from: &str, to: &str, share: f64) {
+    let bytes = std::fs::read(folder.join(from)).unwrap();
+    let length = (share * bytes.len() as f64) as usize;
+    std::fs::write(folder.join(to), &bytes[..length]).unwrap();
+}
+
+/// Exit code and what is said beside the results.
+fn said(folder: &Path, files: &[&str], flags: &[&str]) -> String {
+    let mut command = rotordyn();
+    command
+        .current_dir(folder)
+        .arg("identify")
+        .args(files)
+        .args(["--no-figures", "--out", "out"])
+        .args(flags);
+    let output = command.output().unwrap();
+    assert!(output.status.success() || output.stdout.is_empty());
+    let code = output.status.code().unwrap();
+    format!("exit code {code}\n{}", String::from_utf8_lossy(&output.stderr).trim())
+}
+
+fn told(folder: &Path, cases: &[(&str, Vec<&str>, Vec<&str>)]) -> String {
+    let one = |(name, files, flags): &(&str, Vec<&str>, Vec<&str>)| {
+        format!("# {name}\n{}\n", said(folder, files, flags))
+    };
+    cases.iter().map(one).collect::<Vec<_>>().join("\n")
+}
+
+/// Files of FRFs, good and bad.
+fn frf_files(folder: &Path) {
+    let good = || with_coherence(frfs(&[0, 2]));
+    write(folder, "good.uff", good());
+    write(folder, "bare.uff", frfs(&[0, 2]));
+    write(folder, "half.uff", changed(good(), |r| drop(r.pop())));
+    write(folder, "one.npz", frfs(&[1]).into_iter().take(1).collect());
+    let other_axis = |r: &mut Vec<Record>| r[4].axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.5);
+    write(folder, "axes.uff", changed(good(), other_axis));
+    write(folder, "missing.uff", changed(frfs(&[0, 2]), |r| drop(r.remove(4))));
+    write(folder, "double.uff", changed(frfs(&[0]), |r| r[1].response = r[0].response));
+    let bare = |r: &mut Record| (r.unit, r.stated_unit) = (String::new(), String::new());
+    write(folder, "no_unit.npz", changed(frfs(&[0]), |r| r.iter_mut().for_each(bare)));
+    write(folder, "unit_of_one.npz", changed(with_coherence(frfs(&[0])), |r| bare(&mut r[0])));
+    let strange = |r: &mut Vec<Record>| {
+        r[1].unit = String::new();
+        r[1].stated_unit = "counts/EU".into();
+    };
+    write(folder, "strange_unit.npz", changed(frfs(&[0]), strange));
+    write(folder, "nan.npz", changed(frfs(&[0]), |r| complex(&mut r[2])[130].re = f64::NAN));
+    write(folder, "dead.uff", changed(frfs(&[0]), |r| complex(&mut r[1]).fill(Complex64::default())));
+    let mut random = noise(1);
+    let drown = |r: &mut Vec<Record>| {
+        for frf in r.iter_mut() {
+            complex(frf).iter_mut().for_each(|h| *h = Complex64::new(random(), random()));
+        }
+    };
+    write(folder, "noise.uff", changed(frfs(&[0]), drown));
+    write(folder, "good.mat", good());
+    cut(folder, "good.mat", "cut.mat", 0.6);
+    cut(folder, "good.uff", "cut.uff", 0.33);
+    let binary = uff::Options { binary: true, ..uff::Options::default() };
+    uff::write(&folder.join("binary.uff"), &Measured { records: good(), ..Measured::default() }, binary)
+        .unwrap();
+    cut(folder, "binary.uff", "cut_binary.uff", 0.36);
+    let psd = Record::new("A", Kind::Psd, frfs(&[0])[0].axis.clone(), Values::Real(vec![1.0; 421]), "");
+    write(folder, "psd.uff", vec![psd]);
+    std::fs::write(folder.join("empty.uff"), "").unwrap();
+    std::fs::write(folder.join("prose.txt"), "Dear colleague,\nthe FRFs follow by post.\n").unwrap();
+    for (name, text) in [
+        ("no_such_channel.toml", "[channel.\"y1/f4\"]\nstation = \"disc\"\ndirection = \"y\"\n"),
+        (
+            "direction.toml",
+            "[channel.\"y1/f1\"]\nstation = \"disc\"\ndirection = \"up\"\nreference = { station = \"disc\", direction = \"y\" }\n",
+        ),
+        (
+            "unit.toml",
+            "[point.1]\nstation = \"disc\"\nunit = \"g/lbf/furlong\"\n[point.3]\nstation = \"B\"\n",
+        ),
+        ("other_unit.toml", "[point.1]\nstation = \"disc\"\nunit = \"m/N\"\n[point.3]\nstation = \"B\"\n"),
+        (
+            "own_unit.toml",
+            "[point.1]\nstation = \"1\"\nunit = \"(m/s^2)/N\"\n[point.2]\nstation = \"2\"\n[point.3]\nstation = \"3\"\n",
+        ),
+        ("point.toml", "[point.7]\nstation = \"disc\"\n"),
+        ("some.toml", "[point.1]\nstation = \"disc\"\n[point.3]\nstation = \"B\"\n"),
+        ("none.toml", ""),
+        ("syntax.toml", "[channel.y1]\nplace = \"disc\"\n"),
+        ("station.toml", "[point.1]\nstation = \"dics\"\n[point.3]\nstation = \"B\"\n"),
+    ] {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+}
+
+#[test]
+fn bad_frfs_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    frf_files(folder);
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/models/overhung_rig.toml");
+    let cases: Vec<(&str, Vec<&str>, Vec<&str>)> = vec![
+        ("all is well", vec!["good.uff"], vec![]),
+        ("no coherence", vec!["bare.uff"], vec![]),
+        ("coherence of some", vec!["half.uff"], vec![]),
+        ("one FRF", vec!["one.npz"], vec![]),
+        ("frequencies that differ", vec!["axes.uff"], vec![]),
+        ("frequencies that differ between files", vec!["good.uff", "axes.uff"], vec![]),
+        ("an FRF missing", vec!["missing.uff"], vec![]),
+        ("an FRF twice", vec!["double.uff"], vec![]),
+        ("the same file twice", vec!["bare.uff", "bare.uff"], vec![]),
+        ("no unit", vec!["no_unit.npz"], vec![]),
+        ("a unit of one that is not known", vec!["strange_unit.npz"], vec![]),
+        ("the quantity given", vec!["no_unit.npz"], vec!["--quantity", "mobility"]),
+        ("no such quantity", vec!["good.uff"], vec!["--quantity", "receptence"]),
+        ("a value that is no number", vec!["nan.npz"], vec![]),
+        ("a dead channel", vec!["dead.uff"], vec![]),
+        ("noise alone", vec!["noise.uff"], vec!["--band", "10 .. 100 Hz"]),
+        ("no mode in the band", vec!["good.uff"], vec!["--band", "55 .. 70 Hz"]),
+        ("few lines", vec!["good.uff"], vec!["--band", "47 .. 49 Hz"]),
+        (
+            "an order that needs more lines",
+            vec!["good.uff"],
+            vec!["--band", "40 .. 60 Hz", "--max-order", "60"],
+        ),
+        ("an order too low", vec!["good.uff"], vec!["--max-order", "4"]),
+        ("a band beside the lines", vec!["good.uff"], vec!["--band", "200 .. 300 Hz"]),
+        ("a band the wrong way", vec!["good.uff"], vec!["--band", "90 Hz .. 10 Hz"]),
+        ("a band without unit", vec!["good.uff"], vec!["--band", "10, 90"]),
+        ("a band of one end", vec!["good.uff"], vec!["--band", "90 Hz"]),
+        ("a window without unit", vec!["good.uff"], vec!["--window", "0.5"]),
+        ("a window that is not that of the test", vec!["good.uff"], vec!["--window", "0.5 s"]),
+        ("flags of time records", vec!["good.uff"], vec!["--force", "f1", "--estimator", "h2"]),
+        ("no such estimator", vec!["good.uff"], vec!["--estimator", "h3"]),
+        ("cut off", vec!["cut.uff"], vec![]),
+        ("cut off in binary data", vec!["cut_binary.uff"], vec![]),
+        ("cut off .mat", vec!["cut.mat"], vec![]),
+        ("no FRF", vec!["psd.uff"], vec![]),
+        ("an empty file", vec!["empty.uff"], vec![]),
+        ("no file", vec!["nowhere.uff"], vec![]),
+        ("text", vec!["prose.txt"], vec![]),
+        ("mapping: no such channel", vec!["good.uff"], vec!["--mapping", "no_such_channel.toml"]),
+        ("mapping: no such point", vec!["good.uff"], vec!["--mapping", "point.toml"]),
+        ("mapping: no such direction", vec!["good.uff"], vec!["--mapping", "direction.toml"]),
+        ("mapping: no such unit", vec!["no_unit.npz"], vec!["--mapping", "unit.toml"]),
+        ("mapping: the unit of one", vec!["unit_of_one.npz"], vec!["--mapping", "own_unit.toml"]),
+        ("mapping: another unit than the file", vec!["good.uff"], vec!["--mapping", "other_unit.toml"]),
+        ("mapping of some points", vec!["good.uff"], vec!["--mapping", "some.toml"]),
+        ("mapping of nothing", vec!["good.uff"], vec!["--mapping", "none.toml"]),
+        ("mapping: not as described", vec!["good.uff"], vec!["--mapping", "syntax.toml"]),
+        ("mapping: no such station", vec!["good.uff"], vec!["--mapping", "station.toml", "--model", model]),
+        ("no mapping file", vec!["good.uff"], vec!["--mapping", "nowhere.toml"]),
+    ];
+    insta::assert_snapshot!("bad_frfs", told(folder, &cases));
+}
+
+/// Samples a second of the records of blows.
+const RATE: f64 = 1024.0;
+/// Steps of the simulation a sample.
+const FINE: usize = 8;
+
+/// One blow of the hammer: when \[s\], how hard \[N\].
+#[derive(Clone, Copy)]
+struct Strike {
+    at: f64,
+    peak: f64,
+}
+
+/// Force, and accelerations of all points, of half-sine blows of 4 ms at a point, without noise.
+fn struck(seconds: f64, point: usize, strikes: &[Strike]) -> (Vec<f64>, [Vec<f64>; 4]) {
+    let step = 1.0 / (RATE * FINE as f64);
+    let width = 4e-3;
+    let force = |t: f64| {
+        let one = |s: &Strike| {
+            let x = (t - s.at) / width;
+            if (0.0..1.0).contains(&x) { s.peak * (std::f64::consts::PI * x).sin() } else { 0.0 }
+        };
+        strikes.iter().map(one).sum::<f64>()
+    };
+    let mut out = (Vec::new(), [(); 4].map(|()| Vec::new()));
+    let poles = MODES.map(pole);
+    let turns = poles.map(|pole| (pole * step).exp());
+    // q'' + 2 zeta omega q' + omega^2 q = phi f: z' = pole z + f has q = phi Im z / Im pole.
+    let mut z = [Complex64::default(); 3];
+    let mut before = force(0.0);
+    for n in 0..(seconds * RATE) as usize * FINE {
+        let now = force(n as f64 * step);
+        for (k, z) in z.iter_mut().enumerate() {
+            // Exact for a force that is linear over the step.
+            let x = poles[k] * step;
+            let full = (turns[k] - 1.0) / x;
+            let late = (turns[k] - 1.0 - x) / (x * x);
+            *z = turns[k] * *z + step * (before * (full - late) + now * late);
+        }
+        before = now;
+        if n % FINE == 0 {
+            out.0.push(now);
+            for (r, samples) in out.1.iter_mut().enumerate() {
+                let one = |k: usize| {
+                    // z'' = pole^2 z + pole f + f'; the pulse's slope is real and shows in no imaginary part.
+                    let own = poles[k] * poles[k] * z[k] + poles[k] * now;
+                    MODES[k].2[r] * MODES[k].2[point] * own.im / poles[k].im
+                };
+                samples.push((0..3).map(one).sum());
+            }
+        }
+    }
+    out
+}
+
+/// What is on the channels of a hammer test.
+fn channels(force: Vec<f64>, responses: &[Vec<f64>]) -> Vec<Record> {
+    let mut out = vec![Record::samples("hammer", RATE, 0.0, force, "N")];
+    for (r, values) in responses.iter().enumerate() {
+        out.push(Record::samples(&format!("y{}", r + 1), RATE, 0.0, values.clone(), "m/s^2"));
+    }
+    out
+}
+
+/// Adds noise of a share of each channel's largest value.
+fn noisy(records: &mut [Record], share: [f64; 2], seed: u32) {
+    let mut random = noise(seed);
+    for (k, record) in records.iter_mut().enumerate() {
+        let Values::Real(values) = &mut record.values else { continue };
+        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        values.iter_mut().for_each(|v| *v += share[k.min(1)] * largest * random());
+    }
+}
+
+/// Modes of a document: frequency, damping ratio.
+fn modes(document: &serde_json::Value) -> Vec<(f64, f64)> {
+    let value = |mode: &serde_json::Value, name: &str| mode[name].as_f64().unwrap();
+    let all = document["modes"].as_array().unwrap();
+    all.iter().map(|m| (value(m, "frequency_hz"), value(m, "damping_ratio"))).collect()
+}
+
+/// Damped frequency \[Hz\] of a mode that is known.
+fn damped(mode: Mode) -> f64 {
+    pole(mode).im / TAU
+}
+
+fn identified(folder: &Path, files: &[&str], flags: &[&str]) -> serde_json::Value {
+    let mut command = rotordyn();
+    command
+        .current_dir(folder)
+        .arg("identify")
+        .args(files)
+        .args(["--no-figures", "--out", "out"])
+        .args(flags);
+    json_of(&mut command)
+}
+
+fn warnings(document: &serde_json::Value) -> Vec<String> {
+    document["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().into()).collect()
+}
+
+/// Eight blows six seconds apart, the fourth a double hit, the sixth clipped.
+fn eight_blows() -> Vec<Record> {
+    let mut strikes: Vec<Strike> = (0..8u8)
+        .map(|k| Strike { at: 0.5 + 6.0137 * f64::from(k), peak: 80.0 + 7.0 * f64::from(k % 3) })
+        .collect();
+    strikes.push(Strike { at: strikes[3].at + 0.05, peak: 40.0 });
+    let (force, responses) = struck(49.0, 2, &strikes);
+    let mut records = channels(force, &responses);
+    noisy(&mut records, [2e-3, 2e-3], 5);
+    if let Values::Real(force) = &mut records[0].values {
+        let from = (strikes[5].at * RATE) as usize;
+        force[from..from + 10].iter_mut().for_each(|f| *f = f.min(50.0));
+    }
+    records
+}
+
+/// What a hammer test of two seconds a blow gives: an exponential window ends decays of a fifth, and its damping is
+/// taken off again.
+#[test]
+fn hammer_test() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let records = eight_blows();
+    write(folder, "test.npz", records.clone());
+    write(folder, "test.csv", records.clone());
+    write(folder, "test.mat", records.clone());
+    let flags = ["--block", "2 s", "--window", "0.4 s", "--band", "10 .. 110 Hz"];
+    let document = identified(folder, &["test.npz"], &flags);
+    let found = modes(&document);
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (mode, (hz, zeta)) in MODES.iter().zip(&found) {
+        let off = [hz / damped(*mode) - 1.0, zeta / mode.1 - 1.0];
+        println!(
+            "{hz:.4} Hz off by {:.4} %, damping {zeta:.6} off by {:.2} %",
+            100.0 * off[0],
+            100.0 * off[1]
+        );
+        assert!(off[0].abs() < 2e-3 && off[1].abs() < 0.03, "{mode:?} {off:?}");
+    }
+    let said = warnings(&document);
+    assert_eq!(said.len(), 2, "{said:#?}");
+    assert!(
+        said[0].starts_with("blow 4 of `hammer` at 18.5")
+            && said[0].contains("there is another 0.050 s after")
+    );
+    assert!(
+        said[1].starts_with("blow 6 of `hammer` at 30.") && said[1].contains("it stays at 50 N"),
+        "{said:#?}"
+    );
+    // Formats hold the same samples.
+    for file in ["test.csv", "test.mat"] {
+        for (a, b) in modes(&identified(folder, &[file], &flags)).iter().zip(&found) {
+            assert!((a.0 / b.0 - 1.0).abs() < 1e-9 && (a.1 / b.1 - 1.0).abs() < 1e-6, "{file}: {a:?} {b:?}");
+        }
+    }
+
+    // The same FRFs without a word on their window are damped by 1/(tau omega) more.
+    let test = HammerTest { block: Some(2.0), time_constant: Some(0.4), ..HammerTest::default() };
+    let measured = Measured { records, ..Measured::default() };
+    let (windowed, _) = hammer::frfs(&[measured], &test).unwrap();
+    write(folder, "windowed.uff", windowed);
+    let told =
+        modes(&identified(folder, &["windowed.uff"], &["--window", "0.4 s", "--band", "10 .. 110 Hz"]));
+    let untold = modes(&identified(folder, &["windowed.uff"], &["--band", "10 .. 110 Hz"]));
+    for (k, mode) in MODES.iter().enumerate() {
+        let share = 1.0 / (0.4 * TAU * mode.0);
+        assert!(((untold[k].1 - told[k].1) / share - 1.0).abs() < 0.01, "{untold:?} {told:?}");
+        assert!(untold[k].1 / mode.1 > 1.3, "{untold:?}");
+        assert!((told[k].1 / found[k].1 - 1.0).abs() < 1e-3, "{told:?} {found:?}");
+    }
+}
+
+/// H1 bears noise of the responses, H2 noise of the force; Hv lies between.
+#[test]
+fn estimators() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let strikes: Vec<Strike> =
+        (0..6u8).map(|k| Strike { at: 0.5 + 8.0 * f64::from(k), peak: 80.0 }).collect();
+    let (force, responses) = struck(48.0, 2, &strikes);
+    // Noise during the contact that no window takes away, as of a cable: other in every blow.
+    let mut records = channels(force, &responses);
+    noisy(&mut records, [0.05, 1e-4], 3);
+    write(folder, "test.npz", records.clone());
+    let measured = Measured { records, ..Measured::default() };
+    let size = |estimator: Estimator| {
+        let test = HammerTest { estimator, ..HammerTest::default() };
+        let (frfs, _) = hammer::frfs(std::slice::from_ref(&measured), &test).unwrap();
+        let frf = frfs.iter().find(|r| r.kind == Kind::Frf).unwrap();
+        // Over the true one, on a flank where nothing is left of the decay.
+        let lines = frf.axis.points(frf.values.len()).unwrap();
+        let values = frf.frf().unwrap();
+        let at: Vec<usize> = (0..lines.len()).filter(|k| (30.0..40.0).contains(&lines[*k])).collect();
+        at.iter().map(|k| (values[*k] / accelerance(0, 2, lines[*k])).re).sum::<f64>() / at.len() as f64
+    };
+    let [h1, hv, h2] = [Estimator::H1, Estimator::Hv, Estimator::H2].map(size);
+    println!("H1 {h1:.5}, Hv {hv:.5}, H2 {h2:.5}");
+    assert!(h1 < hv && hv < h2, "{h1} {hv} {h2}");
+    assert!((h2 - 1.0).abs() < (h1 - 1.0).abs(), "{h1} {h2}");
+    let mut seen = Vec::new();
+    for name in ["h1", "hv", "h2"] {
+        let found =
+            modes(&identified(folder, &["test.npz"], &["--estimator", name, "--band", "10 .. 110 Hz"]));
+        assert_eq!(found.len(), 3, "{name}: {found:?}");
+        for (mode, (hz, _)) in MODES.iter().zip(&found) {
+            assert!((hz / damped(*mode) - 1.0).abs() < 2e-3, "{name}: {found:?}");
+        }
+        seen.push(found);
+    }
+    assert!(seen[0] != seen[1] && seen[1] != seen[2], "the flag changes nothing");
+}
+
+/// Blows of several files at points that are told are averaged; a bounce after a third of a second is one blow's fault
+/// and shortens no other block.
+#[test]
+fn blows_of_several_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for k in 0..3u32 {
+        let mut strikes = vec![Strike { at: 0.3, peak: 60.0 }, Strike { at: 8.3, peak: 70.0 }];
+        if k == 1 {
+            strikes.push(Strike { at: 8.63, peak: 50.0 });
+        }
+        let (force, responses) = struck(16.5, 2, &strikes);
+        let mut records = channels(force, &responses);
+        noisy(&mut records, [1e-3, 2e-3], 10 + k);
+        write(folder, &format!("blow_{k}.mat"), records);
+    }
+    let mut mapping = "[channel.hammer]\nstation = \"P3\"\ndirection = \"y\"\n".to_string();
+    for r in 1..=4 {
+        mapping += &format!("[channel.y{r}]\nstation = \"P{r}\"\ndirection = \"y\"\n");
+    }
+    std::fs::write(folder.join("points.toml"), mapping).unwrap();
+    let files = ["blow_0.mat", "blow_1.mat", "blow_2.mat"];
+    let document = identified(folder, &files, &["--mapping", "points.toml", "--band", "10 .. 110 Hz"]);
+    let found = modes(&document);
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (mode, (hz, zeta)) in MODES.iter().zip(&found) {
+        assert!((hz / damped(*mode) - 1.0).abs() < 5e-4 && (zeta / mode.1 - 1.0).abs() < 0.03, "{found:?}");
+    }
+    let said = warnings(&document);
+    assert!(
+        said[0].starts_with("blow 4 of `hammer` at 8.3") && said[0].contains("0.330 s after it"),
+        "{said:#?}"
+    );
+    // Blocks of eight seconds.
+    let lines = document["lines"].as_u64().unwrap();
+    assert!((780..=803).contains(&lines), "{lines} lines in 100 Hz");
+    assert_eq!(document["references"][0], "1:+y", "{}", document["references"]);
+}
+
+/// Time records that are no hammer test.
+#[test]
+fn bad_blows_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let strikes = [Strike { at: 0.3, peak: 60.0 }, Strike { at: 8.3, peak: 70.0 }];
+    let (force, responses) = struck(16.5, 2, &strikes);
+    let good = || channels(force.clone(), &responses[..2]);
+    let silent = |r: &mut Record| r.values = Values::Real(vec![0.0; r.values.len()]);
+    let random = |r: &mut Record| {
+        let mut random = noise(9);
+        r.values = Values::Real((0..r.values.len()).map(|_| random()).collect());
+    };
+    write(folder, "good.npz", good());
+    write(folder, "no_force.npz", good().split_off(1));
+    let volts = |r: &mut Vec<Record>| (r[0].unit, r[0].stated_unit) = ("V".into(), "V".into());
+    write(folder, "volts.npz", changed(good(), volts));
+    let two = |r: &mut Vec<Record>| r.push(Record { name: "cell".into(), ..r[0].clone() });
+    write(folder, "two_forces.npz", changed(good(), two));
+    write(folder, "force_only.npz", good().into_iter().take(1).collect());
+    write(folder, "silent.npz", changed(good(), |r| silent(&mut r[0])));
+    write(folder, "noise.npz", changed(good(), |r| random(&mut r[0])));
+    let spoilt = |r: &mut Vec<Record>| {
+        if let Values::Real(values) = &mut r[1].values {
+            values[700] = f64::NAN;
+        }
+    };
+    write(folder, "nan.npz", changed(good(), spoilt));
+    let slow = |r: &mut Vec<Record>| r[2].axis = Axis::even(AxisQuantity::Time, 0.0, 1.0 / 512.0);
+    write(folder, "rates.npz", changed(good(), slow));
+    let untold = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
+    write(folder, "no_rate.npz", changed(good(), untold));
+    let (force, responses) = struck(8.2, 2, &[strikes[0], Strike { at: 0.35, peak: 40.0 }]);
+    write(folder, "double.npz", channels(force, &responses[..2]));
+    let (force, responses) = struck(8.2, 2, &strikes[..1]);
+    write(folder, "once.npz", channels(force, &responses[..2]));
+    let clip = |r: &mut Vec<Record>| {
+        if let Values::Real(values) = &mut r[2].values {
+            values[7000..].iter_mut().for_each(|v| *v = v.clamp(-10.0, 10.0));
+        }
+    };
+    write(folder, "clipped.npz", changed(good(), clip));
+    std::fs::write(folder.join("rate.toml"), "rate = \"1024 Hz\"\n").unwrap();
+    let cases: Vec<(&str, Vec<&str>, Vec<&str>)> = vec![
+        ("all is well", vec!["good.npz"], vec![]),
+        ("no force", vec!["no_force.npz"], vec![]),
+        ("a force in volts", vec!["volts.npz"], vec![]),
+        ("the force named", vec!["volts.npz"], vec!["--force", "hammer"]),
+        ("no such force", vec!["volts.npz"], vec!["--force", "hamer"]),
+        ("two forces", vec!["two_forces.npz"], vec![]),
+        ("a force alone", vec!["force_only.npz"], vec![]),
+        ("no blow", vec!["silent.npz"], vec![]),
+        ("no blow but noise", vec!["noise.npz"], vec![]),
+        ("a value that is no number", vec!["nan.npz"], vec![]),
+        ("rates that differ", vec!["rates.npz"], vec![]),
+        ("no rate", vec!["no_rate.npz"], vec![]),
+        ("the rate given", vec!["no_rate.npz"], vec!["--rate", "1024 Hz"]),
+        ("the rate in a mapping", vec!["no_rate.npz"], vec!["--mapping", "rate.toml"]),
+        ("a rate without unit", vec!["no_rate.npz"], vec!["--rate", "1024"]),
+        ("one blow, a double hit", vec!["double.npz"], vec![]),
+        ("one blow", vec!["once.npz"], vec![]),
+        ("a response beyond its range", vec!["clipped.npz"], vec![]),
+        ("a block longer than the record", vec!["good.npz"], vec!["--block", "20 s"]),
+        ("a block of no length", vec!["good.npz"], vec!["--block", "0 s"]),
+        ("a block that cuts the decay", vec!["good.npz"], vec!["--block", "0.5 s", "--band", "10 .. 110 Hz"]),
+        ("two tests of the same points", vec!["good.npz", "once.npz"], vec![]),
+    ];
+    insta::assert_snapshot!("bad_blows", told(folder, &cases));
+}
+
+/// Results are the same to the byte whatever the number of threads.
+#[test]
+fn threads_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let lines: Vec<f64> = (0..421).map(|k| 5.0 + 0.25 * f64::from(k)).collect();
+    let mut random = noise(4);
+    let mut records = Vec::new();
+    for e in 0..3 {
+        for r in 0..4 {
+            let value = |f: &f64| accelerance(r, e, *f) + 0.02 * Complex64::new(random(), random());
+            let values = Values::Complex(lines.iter().map(value).collect());
+            let axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.25);
+            let mut record = Record::new(&format!("y{r}/f{e}"), Kind::Frf, axis, values, "(m/s^2)/N");
+            (record.response, record.reference) = (Dof::new(r as i64 + 1, 2), Dof::new(e as i64 + 1, 2));
+            records.push(record);
+        }
+    }
+    write(folder, "twelve.uff", records);
+    let run = |threads: &str| {
+        let out = folder.join(format!("out_{threads}"));
+        let mut command = rotordyn();
+        command.current_dir(folder).env("RAYON_NUM_THREADS", threads);
+        command.args(["identify", "twelve.uff", "--no-figures", "--out"]).arg(&out);
+        let mut document = json_of(&mut command);
+        for own in ["seconds", "files"] {
+            document.as_object_mut().unwrap().remove(own).unwrap();
+        }
+        let bytes = |name: &str| std::fs::read(out.join(name)).unwrap();
+        (document, bytes("results.h5"), bytes("modes.uff"))
+    };
+    let (one, two, three) = (run("1"), run("2"), run("3"));
+    assert_eq!(one.0["modes"].as_array().unwrap().len(), 3);
+    for other in [&two, &three] {
+        assert_eq!(one.0, other.0);
+        assert!(one.1 == other.1, "results.h5 differs");
+        assert!(one.2 == other.2, "modes.uff differs");
+    }
+}
