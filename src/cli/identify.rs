@@ -14,7 +14,7 @@ use rotordyn::identify::{Identified, Settings, identify, quantity_of};
 use rotordyn::model::Quantity;
 use rotordyn::signal::hammer::{self, HammerTest};
 use rotordyn::signal::impact::{Estimator, ImpactWindows};
-use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record};
+use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
 use serde_json::json;
 
@@ -99,6 +99,10 @@ fn found(
 fn in_file(path: &Path, error: Error) -> Failure {
     match error {
         error @ (Error::Content { .. } | Error::Environment { .. }) => error.into(),
+        Error::Record(RecordError::NoRate { channel }) => Failure::Input(format!(
+            "{}: `{channel}` does not state its sampling rate; give it, such as --rate \"12 kHz\"",
+            path.display()
+        )),
         error => Failure::Input(format!("{}: {error}", path.display())),
     }
 }

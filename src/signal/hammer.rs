@@ -58,6 +58,13 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
     let blows = blocks.iter().map(|own| own.len()).sum();
 
     let mut out = Vec::new();
+    if force.unit != "N" && !force.unit.is_empty() {
+        let unit = &force.unit;
+        warnings.push(format!(
+            "`{}` is in {unit}, not in N: frequencies and damping are right, shapes are for each {unit}",
+            force.name
+        ));
+    }
     let mut forces_said = false;
     let mut single = Vec::new();
     let responses = time.iter().filter(|r| r.name != force.name);
@@ -122,7 +129,7 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
     }
     if !single.is_empty() {
         warnings.push(format!(
-            "{} rests on one good blow, which tells no coherence and averages no noise; strike several times",
+            "there is one good blow only for {}, which tells no coherence and averages no noise; strike several times",
             single.join(", ")
         ));
     }
@@ -137,8 +144,9 @@ fn force_fault(&(number, start, ref seen, _): &Seen, force: &Record, rate: f64) 
     let blow = format!("blow {number} of `{}` at {at:.3} s is left out", force.name);
     if seen.overload[0].is_some() {
         return Some(format!(
-            "{blow}: the force is beyond its range, it stays at {:.4} {}; strike softer, or choose a larger range",
-            seen.peak.1, force.unit
+            "{blow}: the force is beyond its range, it stays at {} {}; strike softer, or choose a larger range",
+            digits(seen.peak.1),
+            force.unit
         ));
     }
     let second = seen.double_hit? as f64 / rate + start - at;
@@ -213,6 +221,7 @@ fn blocks(
     let median = median(force.iter().map(|f| f.abs()).collect());
     if largest <= STANDS_OUT * median {
         let (channel, unit) = (record.name.clone(), record.unit.clone());
+        let (largest, median) = (digits(largest), digits(median));
         return Err(RecordError::NoBlow { channel, largest, median, unit }.into());
     }
     // Second hits belong to the first.
@@ -253,6 +262,15 @@ fn starts(force: &[f64], level: f64, apart: usize) -> Vec<usize> {
         }
     }
     found
+}
+
+/// A number to four digits.
+fn digits(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let scale = 10f64.powi(3 - value.abs().log10().floor() as i32);
+    (value * scale).round() / scale
 }
 
 /// The middle value; 0 of none.

@@ -4,8 +4,12 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::{json_of, rotordyn};
+use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium};
+use rotordyn::analysis::modal;
+use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::edge::{measured, uff};
 use rotordyn::linalg::Complex64;
+use rotordyn::model::{self, Options};
 use rotordyn::signal::hammer::{self, HammerTest};
 use rotordyn::signal::impact::Estimator;
 use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Points, Record, Values};
@@ -244,9 +248,9 @@ fn bad_frfs_are_told() {
 }
 
 /// Samples a second of the records of blows.
-const RATE: f64 = 1024.0;
+const RATE: f64 = 4096.0;
 /// Steps of the simulation a sample.
-const FINE: usize = 8;
+const FINE: usize = 2;
 
 /// One blow of the hammer: when \[s\], how hard \[N\].
 #[derive(Clone, Copy)]
@@ -354,7 +358,7 @@ fn eight_blows() -> Vec<Record> {
     noisy(&mut records, [2e-3, 2e-3], 5);
     if let Values::Real(force) = &mut records[0].values {
         let from = (strikes[5].at * RATE) as usize;
-        force[from..from + 10].iter_mut().for_each(|f| *f = f.min(50.0));
+        force[from..from + 20].iter_mut().for_each(|f| *f = f.min(50.0));
     }
     records
 }
@@ -367,7 +371,6 @@ fn hammer_test() {
     let folder = folder.path();
     let records = eight_blows();
     write(folder, "test.npz", records.clone());
-    write(folder, "test.csv", records.clone());
     write(folder, "test.mat", records.clone());
     let flags = ["--block", "2 s", "--window", "0.4 s", "--band", "10 .. 110 Hz"];
     let document = identified(folder, &["test.npz"], &flags);
@@ -380,24 +383,18 @@ fn hammer_test() {
             100.0 * off[0],
             100.0 * off[1]
         );
-        assert!(off[0].abs() < 2e-3 && off[1].abs() < 0.03, "{mode:?} {off:?}");
+        assert!(off[0].abs() < 1e-3 && off[1].abs() < 0.02, "{mode:?} {off:?}");
     }
     let said = warnings(&document);
     assert_eq!(said.len(), 2, "{said:#?}");
-    assert!(
-        said[0].starts_with("blow 4 of `hammer` at 18.5")
-            && said[0].contains("there is another 0.050 s after")
-    );
+    assert!(said[0].starts_with("blow 4 of `hammer` at 18.5"), "{said:#?}");
+    assert!(said[0].contains("a double hit, there is another 0.049 s after it"), "{said:#?}");
     assert!(
         said[1].starts_with("blow 6 of `hammer` at 30.") && said[1].contains("it stays at 50 N"),
         "{said:#?}"
     );
     // Formats hold the same samples.
-    for file in ["test.csv", "test.mat"] {
-        for (a, b) in modes(&identified(folder, &[file], &flags)).iter().zip(&found) {
-            assert!((a.0 / b.0 - 1.0).abs() < 1e-9 && (a.1 / b.1 - 1.0).abs() < 1e-6, "{file}: {a:?} {b:?}");
-        }
-    }
+    assert_eq!(modes(&identified(folder, &["test.mat"], &flags)), found);
 
     // The same FRFs without a word on their window are damped by 1/(tau omega) more.
     let test = HammerTest { block: Some(2.0), time_constant: Some(0.4), ..HammerTest::default() };
@@ -422,37 +419,43 @@ fn estimators() {
     let folder = folder.path();
     let strikes: Vec<Strike> =
         (0..6u8).map(|k| Strike { at: 0.5 + 8.0 * f64::from(k), peak: 80.0 }).collect();
-    let (force, responses) = struck(48.0, 2, &strikes);
-    // Noise during the contact that no window takes away, as of a cable: other in every blow.
-    let mut records = channels(force, &responses);
-    noisy(&mut records, [0.05, 1e-4], 3);
+    let (mut force, responses) = struck(48.5, 2, &strikes);
+    // A fifth more and a fifth less in turn is noise of 0.04 over the force's power; none of it is in the responses.
+    for (k, f) in force.iter_mut().enumerate() {
+        *f *= if (k as f64 / RATE / 8.0) as usize % 2 == 0 { 1.2 } else { 0.8 };
+    }
+    let records = channels(force, &responses);
     write(folder, "test.npz", records.clone());
     let measured = Measured { records, ..Measured::default() };
-    let size = |estimator: Estimator| {
+    for (estimator, name, expected) in [
+        (Estimator::H1, "h1", 1.0 / 1.04),
+        (Estimator::Hv, "hv", 1.0 / 1.04_f64.sqrt()),
+        (Estimator::H2, "h2", 1.0),
+    ] {
         let test = HammerTest { estimator, ..HammerTest::default() };
-        let (frfs, _) = hammer::frfs(std::slice::from_ref(&measured), &test).unwrap();
+        let (frfs, said) = hammer::frfs(std::slice::from_ref(&measured), &test).unwrap();
+        assert!(said.is_empty(), "{said:#?}");
         let frf = frfs.iter().find(|r| r.kind == Kind::Frf).unwrap();
-        // Over the true one, on a flank where nothing is left of the decay.
         let lines = frf.axis.points(frf.values.len()).unwrap();
-        let values = frf.frf().unwrap();
-        let at: Vec<usize> = (0..lines.len()).filter(|k| (30.0..40.0).contains(&lines[*k])).collect();
-        at.iter().map(|k| (values[*k] / accelerance(0, 2, lines[*k])).re).sum::<f64>() / at.len() as f64
-    };
-    let [h1, hv, h2] = [Estimator::H1, Estimator::Hv, Estimator::H2].map(size);
-    println!("H1 {h1:.5}, Hv {hv:.5}, H2 {h2:.5}");
-    assert!(h1 < hv && hv < h2, "{h1} {hv} {h2}");
-    assert!((h2 - 1.0).abs() < (h1 - 1.0).abs(), "{h1} {h2}");
-    let mut seen = Vec::new();
-    for name in ["h1", "hv", "h2"] {
-        let found =
-            modes(&identified(folder, &["test.npz"], &["--estimator", name, "--band", "10 .. 110 Hz"]));
-        assert_eq!(found.len(), 3, "{name}: {found:?}");
-        for (mode, (hz, _)) in MODES.iter().zip(&found) {
-            assert!((hz / damped(*mode) - 1.0).abs() < 2e-3, "{name}: {found:?}");
+        let at = lines.iter().position(|hz| *hz >= 35.0).unwrap();
+        let ratio = frf.frf().unwrap()[at] / accelerance(0, 2, lines[at]);
+        println!("{name}: {ratio}");
+        // Before the next blow 0.2 % of the decay is left.
+        assert!((ratio / expected - 1.0).norm() < 5e-3, "{name}: {ratio} for {expected}");
+
+        let document = identified(folder, &["test.npz"], &["--estimator", name, "--band", "10 .. 110 Hz"]);
+        let found = &document["modes"];
+        assert_eq!(found.as_array().unwrap().len(), 3);
+        for (k, mode) in MODES.iter().enumerate() {
+            let value = |name: &str, at: usize| {
+                let pair = &found[k][name][at];
+                Complex64::new(pair[0].as_f64().unwrap(), pair[1].as_f64().unwrap())
+            };
+            let residue = value("shape", 1) * value("participation", 0);
+            let own = Complex64::from(mode.2[1] * mode.2[2]) / (2.0 * Complex64::i() * pole(*mode).im);
+            assert!((residue / own / expected - 1.0).norm() < 0.02, "{name}: {residue} for {own}");
         }
-        seen.push(found);
     }
-    assert!(seen[0] != seen[1] && seen[1] != seen[2], "the flag changes nothing");
 }
 
 /// Blows of several files at points that are told are averaged; a bounce after a third of a second is one blow's fault
@@ -485,7 +488,7 @@ fn blows_of_several_files() {
     }
     let said = warnings(&document);
     assert!(
-        said[0].starts_with("blow 4 of `hammer` at 8.3") && said[0].contains("0.330 s after it"),
+        said[0].starts_with("blow 4 of `hammer` at 8.3") && said[0].contains("0.328 s after it"),
         "{said:#?}"
     );
     // Blocks of eight seconds.
@@ -522,7 +525,7 @@ fn bad_blows_are_told() {
         }
     };
     write(folder, "nan.npz", changed(good(), spoilt));
-    let slow = |r: &mut Vec<Record>| r[2].axis = Axis::even(AxisQuantity::Time, 0.0, 1.0 / 512.0);
+    let slow = |r: &mut Vec<Record>| r[2].axis = Axis::even(AxisQuantity::Time, 0.0, 1.0 / 2048.0);
     write(folder, "rates.npz", changed(good(), slow));
     let untold = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
     write(folder, "no_rate.npz", changed(good(), untold));
@@ -532,11 +535,11 @@ fn bad_blows_are_told() {
     write(folder, "once.npz", channels(force, &responses[..2]));
     let clip = |r: &mut Vec<Record>| {
         if let Values::Real(values) = &mut r[2].values {
-            values[7000..].iter_mut().for_each(|v| *v = v.clamp(-10.0, 10.0));
+            values[(7.0 * RATE) as usize..].iter_mut().for_each(|v| *v = v.clamp(-10.0, 10.0));
         }
     };
     write(folder, "clipped.npz", changed(good(), clip));
-    std::fs::write(folder.join("rate.toml"), "rate = \"1024 Hz\"\n").unwrap();
+    std::fs::write(folder.join("rate.toml"), "rate = \"4096 Hz\"\n").unwrap();
     let cases: Vec<(&str, Vec<&str>, Vec<&str>)> = vec![
         ("all is well", vec!["good.npz"], vec![]),
         ("no force", vec!["no_force.npz"], vec![]),
@@ -550,9 +553,9 @@ fn bad_blows_are_told() {
         ("a value that is no number", vec!["nan.npz"], vec![]),
         ("rates that differ", vec!["rates.npz"], vec![]),
         ("no rate", vec!["no_rate.npz"], vec![]),
-        ("the rate given", vec!["no_rate.npz"], vec!["--rate", "1024 Hz"]),
+        ("the rate given", vec!["no_rate.npz"], vec!["--rate", "4096 Hz"]),
         ("the rate in a mapping", vec!["no_rate.npz"], vec!["--mapping", "rate.toml"]),
-        ("a rate without unit", vec!["no_rate.npz"], vec!["--rate", "1024"]),
+        ("a rate without unit", vec!["no_rate.npz"], vec!["--rate", "4096"]),
         ("one blow, a double hit", vec!["double.npz"], vec![]),
         ("one blow", vec!["once.npz"], vec![]),
         ("a response beyond its range", vec!["clipped.npz"], vec![]),
@@ -562,6 +565,61 @@ fn bad_blows_are_told() {
         ("two tests of the same points", vec!["good.npz", "once.npz"], vec![]),
     ];
     insta::assert_snapshot!("bad_blows", told(folder, &cases));
+}
+
+/// A simulated hammer test: the stored run of the rig at rest under a blow gives the modes of `modal` that it moves.
+#[test]
+fn simulated_hammer_test() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/overhung_rig.toml");
+    let text = std::fs::read_to_string(rig).unwrap();
+    let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
+    let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
+        [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
+    // Nothing turns: there are no orders to see.
+    let orders = text.find("[study.orders]").unwrap()..text.find("# --- the paper's other").unwrap();
+    let text = format!("{}{hammer}{}{}", &text[..start], &text[end..orders.start], &text[orders.end..]);
+    std::fs::write(folder.join("hammer.toml"), &text).unwrap();
+    let mut command = rotordyn();
+    command.current_dir(folder).args([
+        "run-up",
+        "hammer.toml",
+        "--no-figures",
+        "--step",
+        "50 us",
+        "--out",
+        "tap",
+    ]);
+    command.assert().success();
+    // The cage stands where it was placed; `modal` averages over its places, which is 0.4 % at most.
+    let machine = model::load("hammer.toml", text, &Options::default()).unwrap().model;
+    let assembly = Assembly::new(&machine).unwrap();
+    let rest = equilibrium(&machine, &assembly, 0.0, CageTreatment::AsPlaced, None).unwrap();
+    let system = LinearSystem::new(&assembly, &rest.tangents(), 0.0).unwrap();
+    let own: Vec<Complex64> =
+        modal::modes(&assembly, &system, 9).unwrap().iter().map(|m| m.eigenvalue).collect();
+    for window in [None, Some("0.5 s")] {
+        let mut flags = vec!["--band", "5 .. 300 Hz"];
+        flags.extend(window.iter().flat_map(|tau| ["--window", tau]));
+        let document = identified(folder, &["tap/results.h5"], &flags);
+        assert_eq!(warnings(&document), Vec::<String>::new());
+        let found = modes(&document);
+        // The blow along y hardly moves the shaft along itself, nor about.
+        assert_eq!(found.len(), 7, "{found:?}");
+        for (hz, zeta) in &found {
+            let off = |pole: &&Complex64| (pole.im / TAU / hz - 1.0).abs();
+            let near = own.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+            let damping = zeta / (-near.re / near.norm()) - 1.0;
+            println!(
+                "{hz:.4} Hz off by {:.4} %, damping {zeta:.6} by {:.2} %",
+                100.0 * off(&near),
+                100.0 * damping
+            );
+            assert!(off(&near) < 1e-3, "{hz} Hz for {}", near.im / TAU);
+            assert!(damping.abs() < 0.03, "{hz} Hz: damping off by {damping}");
+        }
+    }
 }
 
 /// Results are the same to the byte whatever the number of threads.

@@ -132,11 +132,12 @@ impl Mapping {
         for number in self.point.keys() {
             let is_at = |dof: Dof| dof.node.to_string() == *number;
             if !measured.records.iter().any(|r| is_at(r.response) || is_at(r.reference)) {
-                let points: Vec<String> = points_of(measured).iter().map(i64::to_string).collect();
-                let known: Vec<&str> = points.iter().map(String::as_str).collect();
-                problems.push(match known[..] {
+                let mut points: Vec<String> = points_of(measured).iter().map(i64::to_string).collect();
+                let more = if points.len() > 12 { ", ..." } else { "" };
+                points.truncate(12);
+                problems.push(match points[..] {
                     [] => format!("there is no record at point {number}: the file's records tell no points"),
-                    _ => format!("there is no record at point {number}{}", alike(number, &known)),
+                    _ => format!("there is no record at point {number}, but at {}{more}", points.join(", ")),
                 });
             }
         }

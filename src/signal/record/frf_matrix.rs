@@ -32,7 +32,15 @@ impl Measured {
         };
         let count = first.frf()?.len();
         let frequencies = first.axis.points(count);
-        for other in &frfs {
+        for (k, other) in frfs.iter().enumerate() {
+            let place = |r: &Record| (r.response, r.reference);
+            if let Some(before) = frfs[..k].iter().find(|before| place(before) == place(other)) {
+                return Err(RecordError::DoubleFrf {
+                    first: before.name.clone(),
+                    second: other.name.clone(),
+                    between: format!("response {} to reference {}", other.response, other.reference),
+                });
+            }
             let same = other.frf()?.len() == count
                 && match (&frequencies, other.axis.points(count)) {
                     (Some(a), Some(b)) => same_axis(a, &b),
@@ -48,19 +56,12 @@ impl Measured {
         for &response in &responses {
             let (mut row, mut row_units) = (Vec::new(), Vec::new());
             for &reference in &references {
-                let mut here = frfs.iter().filter(|r| (r.response, r.reference) == (response, reference));
-                let record = here.next().ok_or_else(|| RecordError::MissingFrf {
+                let here = frfs.iter().find(|r| (r.response, r.reference) == (response, reference));
+                let record = here.ok_or_else(|| RecordError::MissingFrf {
                     response: response.to_string(),
                     reference: reference.to_string(),
                     few_references: references.len() < responses.len(),
                 })?;
-                if let Some(second) = here.next() {
-                    return Err(RecordError::DoubleFrf {
-                        first: record.name.clone(),
-                        second: second.name.clone(),
-                        between: format!("response {response} to reference {reference}"),
-                    });
-                }
                 row.push(record.frf()?.to_vec());
                 row_units.push(record.unit.clone());
             }
