@@ -92,7 +92,32 @@ fn found(
             100.0 * mode.damping_ratio()
         ));
     }
+    misfits(&found, warnings);
     Ok((all, frfs, found))
+}
+
+/// Share of an FRF that the modes leave from which it is pointed out.
+const MISFIT: f64 = 0.5;
+
+/// FRFs that the modes do not explain.
+fn misfits(found: &Identified, warnings: &mut Vec<String>) {
+    let mut worst: Vec<(f64, String)> = Vec::new();
+    for (response, row) in found.responses.iter().zip(&found.errors) {
+        let own = found.references.iter().zip(row).filter(|(_, error)| **error > MISFIT);
+        worst.extend(own.map(|(reference, error)| (*error, format!("{response}/{reference}"))));
+    }
+    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let count = worst.len();
+    let some: Vec<String> =
+        worst.iter().take(4).map(|(error, name)| format!("{name} by {:.0} %", 100.0 * error)).collect();
+    if count > 0 {
+        warnings.push(format!(
+            "{count} FRFs do not fit the modes ({}{}): a bad blow, a wrong point or direction, or hardly any motion; look \
+             at their coherence, measure them again or leave them out",
+            some.join(", "),
+            if count > 4 { ", ..." } else { "" }
+        ));
+    }
 }
 
 /// An error with the file it is about.

@@ -196,10 +196,16 @@ impl<'a> Problem<'a> {
     }
 }
 
+/// Noise over the FRFs' mean square that is taken where there is less.
+const LEAST_NOISE: f64 = 1e-24;
+
 /// F of leaving a mode out: what it alone explains, an unknown, over what is left, a datum.
 pub(super) fn significance(at: &Point) -> Vec<f64> {
     let n = at.r.nrows();
-    let noise = at.noise().max(f64::MIN_POSITIVE);
+    let fitted = DMatrix::from_fn(n, at.x.ncols(), |k, o| at.sizes[k] * at.x[(k, o)]);
+    let all = at.cost + (&at.r * fitted).norm_squared();
+    // Where nothing is left but round-off, a mode that explains some of that is none.
+    let noise = at.noise().max(LEAST_NOISE * all / at.rest.len() as f64).max(f64::MIN_POSITIVE);
     // Cov(x) = (RᵀR)⁻¹ for columns of unit length.
     let inverse = at.r.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
     let cov = &inverse * inverse.transpose();

@@ -112,8 +112,10 @@ fn without_faults(
     }
     let significance = significance(at);
     let covariance = rough(at, &problem.step(at));
-    let verdict =
-        |m: usize| weak(&at.poles[m], covariance[m], significance[m]).or_else(|| twin(at, m, &significance));
+    let verdict = |m: usize| {
+        let weak = weak(&at.poles[m], covariance[m], significance[m]);
+        weak.or_else(|| twin(problem.data(), at, m, &significance))
+    };
     let worst = (0..count)
         .filter_map(|m| Some((m, verdict(m)?)))
         .min_by(|a, b| significance[a.0].total_cmp(&significance[b.0]));
@@ -173,13 +175,21 @@ const ALIKE: f64 = 0.7;
 
 /// Whether a more significant mode beside this one has its shape: FRFs that do not fit together (a structure that
 /// changed between blows) give one mode twice.
-fn twin(at: &Point, m: usize, significance: &[f64]) -> Option<String> {
-    let shape = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
+///
+/// Alike as measured, or as fitted: the weights of the fit raise outputs that hardly move, where twins share out at
+/// random.
+fn twin(data: &Data, at: &Point, m: usize, significance: &[f64]) -> Option<String> {
+    let fitted = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
+    let measured = |m: usize| {
+        let scaled = fitted(m).into_iter().zip(&data.output_scale);
+        scaled.map(|(v, scale)| v * *scale).collect::<Vec<_>>()
+    };
     let own = &at.poles[m];
     let other = (0..at.poles.len()).filter(|&k| k != m && significance[k] > significance[m]).find(|&k| {
         let other = &at.poles[k];
         let near = (own.value - other.value).norm() < TWIN * own.value.re.abs().max(other.value.re.abs());
-        near && at.x.ncols() >= FEW && mac(&shape(m), &shape(k)) > ALIKE
+        let alike = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
+        near && at.x.ncols() >= FEW && alike() > ALIKE
     })?;
     Some(format!("{}: the mode at {:.3} Hz once more", name(own.value), at.poles[other].value.im / TAU))
 }

@@ -142,6 +142,8 @@ fn frf_files(folder: &Path) {
     };
     write(folder, "strange_unit.npz", changed(frfs(&[0]), strange));
     write(folder, "nan.npz", changed(frfs(&[0]), |r| complex(&mut r[2])[130].re = f64::NAN));
+    let turned = |r: &mut Vec<Record>| complex(&mut r[1]).iter_mut().for_each(|h| *h = -*h);
+    write(folder, "turned.uff", changed(good(), turned));
     write(folder, "dead.uff", changed(frfs(&[0]), |r| complex(&mut r[1]).fill(Complex64::default())));
     let mut random = noise(1);
     let drown = |r: &mut Vec<Record>| {
@@ -208,6 +210,7 @@ fn bad_frfs_are_told() {
         ("no such quantity", vec!["good.uff"], vec!["--quantity", "receptence"]),
         ("a value that is no number", vec!["nan.npz"], vec![]),
         ("a dead channel", vec!["dead.uff"], vec![]),
+        ("a blow from the other side", vec!["turned.uff"], vec![]),
         ("noise alone", vec!["noise.uff"], vec!["--band", "10 .. 100 Hz"]),
         ("no mode in the band", vec!["good.uff"], vec!["--band", "55 .. 70 Hz"]),
         ("few lines", vec!["good.uff"], vec!["--band", "47 .. 49 Hz"]),

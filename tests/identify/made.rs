@@ -83,7 +83,8 @@ pub fn bent(k: usize, n: usize) -> Vec<f64> {
 
 /// Largest relative error of the poles, and of the residues over the largest of each mode; modes in order.
 pub fn distance(found: &Identified, known: &[Known]) -> (f64, f64) {
-    let list: Vec<_> = found.modes.iter().map(|m| (m.frequency_hz(), m.damping_ratio())).collect();
+    let list: Vec<_> =
+        found.modes.iter().map(|m| (m.frequency_hz(), m.damping_ratio(), m.significance)).collect();
     let made: Vec<_> = known.iter().map(|k| (k.hz(), k.zeta())).collect();
     assert_eq!(found.modes.len(), known.len(), "{list:?} of {made:?}; dropped {:?}", found.dropped);
     let (mut pole, mut residue) = (0.0f64, 0.0f64);
