@@ -107,12 +107,12 @@ fn misfits(found: &Identified, warnings: &mut Vec<String>) {
         worst.extend(own.map(|(reference, error)| (*error, format!("{response}/{reference}"))));
     }
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let count = worst.len();
+    let (count, all) = (worst.len(), found.responses.len() * found.references.len());
     let some: Vec<String> =
         worst.iter().take(4).map(|(error, name)| format!("{name} by {:.0} %", 100.0 * error)).collect();
     if count > 0 {
         warnings.push(format!(
-            "{count} FRFs do not fit the modes ({}{}): a bad blow, a wrong point or direction, or hardly any motion; look \
+            "{count} of {all} FRFs do not fit the modes ({}{}): a bad blow, a wrong point or direction, or hardly any motion; look \
              at their coherence, measure them again or leave them out",
             some.join(", "),
             if count > 4 { ", ..." } else { "" }
@@ -340,11 +340,11 @@ fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mu
     });
     let mut unknown: Vec<String> = names.collect();
     if !unknown.is_empty() && args.quantity.is_none() {
-        let count = unknown.len();
+        let (count, all) = (unknown.len(), frfs.responses.len() * frfs.references.len());
         let more = if count > 4 { ", ..." } else { "" };
         unknown.truncate(4);
         warnings.push(format!(
-            "{count} FRFs do not tell their unit ({}{more}) and are taken as accelerances; state it in a mapping, or \
+            "{count} of {all} FRFs do not tell their unit ({}{more}) and are taken as accelerances; state it in a mapping, or \
              give --quantity",
             unknown.join(", ")
         ));

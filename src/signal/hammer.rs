@@ -71,29 +71,7 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
     for (number, response) in responses.enumerate() {
         let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
         let (_, window) = windows.samples(length, rate)?;
-        let (mut good, mut faults, mut contact) = (Vec::new(), Vec::new(), 0);
-        let (mut left_over, mut strike) = (0.0f64, 0);
-        for (file, blocks) in files.iter().zip(&blocks) {
-            let (own_force, own) = (file.record(&force.name)?, file.record(&response.name)?);
-            same_rate(own_force, own)?;
-            if own_force.values.len() != own.values.len() {
-                return Err(RecordError::axes_differ(own_force, own).into());
-            }
-            finite(own)?;
-            let (samples, values) = (own_force.time_samples()?, own.time_samples()?);
-            for block in blocks {
-                strike += 1;
-                let blow = Blow { force: &samples[block.clone()], response: &values[block.clone()] };
-                let seen = inspect(&blow, &Limits::default(), Some(&window))?;
-                if seen.is_good() {
-                    contact = contact.max(seen.contact.end);
-                    left_over = left_over.max(if seen.cut_off { seen.left_over } else { 0.0 });
-                    good.push(blow);
-                }
-                let start = own_force.axis.start() + block.start as f64 / rate;
-                faults.push((strike, start, seen, response.name.as_str()));
-            }
-        }
+        let Judged { good, faults, contact, left_over } = judged(files, &blocks, force, response, &window)?;
         let of_force = faults.iter().filter_map(|f| force_fault(f, force, rate));
         let of_response = faults.iter().filter_map(response_fault);
         let said: Vec<String> = if forces_said && !good.is_empty() {
@@ -134,6 +112,49 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
         ));
     }
     Ok((out, warnings))
+}
+
+/// The blows of one response.
+#[derive(Default)]
+struct Judged<'a> {
+    good: Vec<Blow<'a>>,
+    faults: Vec<Seen<'a>>,
+    /// Samples of a block up to the end of the longest contact.
+    contact: usize,
+    /// Largest share of a good blow's peak at its end, where it is too much.
+    left_over: f64,
+}
+
+fn judged<'a>(
+    files: &'a [Measured],
+    blocks: &[Vec<Range<usize>>],
+    force: &Record,
+    response: &'a Record,
+    window: &[f64],
+) -> Result<Judged<'a>, Error> {
+    let mut out = Judged::default();
+    let rate = force.sample_rate()?;
+    for (file, blocks) in files.iter().zip(blocks) {
+        let (force, own) = (file.record(&force.name)?, file.record(&response.name)?);
+        same_rate(force, own)?;
+        if force.values.len() != own.values.len() {
+            return Err(RecordError::axes_differ(force, own).into());
+        }
+        finite(own)?;
+        let (samples, values) = (force.time_samples()?, own.time_samples()?);
+        for block in blocks {
+            let blow = Blow { force: &samples[block.clone()], response: &values[block.clone()] };
+            let seen = inspect(&blow, &Limits::default(), Some(window))?;
+            if seen.is_good() {
+                out.contact = out.contact.max(seen.contact.end);
+                out.left_over = out.left_over.max(if seen.cut_off { seen.left_over } else { 0.0 });
+                out.good.push(blow);
+            }
+            let start = force.axis.start() + block.start as f64 / rate;
+            out.faults.push((out.faults.len() + 1, start, seen, &response.name));
+        }
+    }
+    Ok(out)
 }
 
 /// Number of a blow, time of its block's start \[s\], what it is like, and the response.

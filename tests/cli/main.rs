@@ -4,6 +4,7 @@ mod bearings;
 mod blow_beside;
 mod commands;
 mod failures;
+mod hammer_blows;
 mod held_against;
 mod identify;
 mod run_ups;
