@@ -60,7 +60,7 @@ pub fn peak_fit(frequencies: &[f64], frf: &[Complex64], band: [f64; 2]) -> Optio
 ///
 /// The image of jω is a circle for every λ, so fitting jω M = λ M + c jω + d in λ, c and d (linear, complex) fits circle and
 /// angles along it at once; c takes up the modes beside, as the circle's offset does. `None` where the band holds fewer
-/// than four lines, or what is found does not oscillate or is not damped. Source: the circle of Kennedy & Pancu, J.
+/// than four lines, or what is found does not oscillate there or is not damped. Source: the circle of Kennedy & Pancu, J.
 /// Aeronautical Sciences 14 (1947); linear in this form as in Levy, IRE Trans. 4 (1959).
 pub fn circle_fit(
     frequencies: &[f64],
@@ -98,7 +98,8 @@ pub fn circle_fit(
     }
     let found: Vector3<Complex64> = square.lu().solve(&right)?;
     let value = middle + found[0] * width;
-    if value.im <= 0.0 || value.re >= 0.0 {
+    let inside = (TAU * band[0]..=TAU * band[1]).contains(&value.im);
+    if !inside || value.re >= 0.0 {
         return None;
     }
     // d = A − c λ, and sA_r/(s − λ) = A_r + λA_r/(s − λ) for the receptance's residue A_r.

@@ -31,5 +31,8 @@ fn no_peak_no_mode() {
     let known = [Known::real(40.0, 0.01, &bent(1, 3), &[1])];
     let made = frfs(&known, &lines(20.0, 60.0, 0.05), 2);
     assert_eq!(peak_fit(&made.frequencies, &made.values[1][0], [50.0, 55.0]), None);
-    assert_eq!(circle_fit(&made.frequencies, &made.values[1][0], [40.0, 40.1], Quantity::Acceleration), None);
+    // Too few lines; a flank of a mode elsewhere.
+    for band in [[40.0, 40.1], [50.0, 55.0]] {
+        assert_eq!(circle_fit(&made.frequencies, &made.values[1][0], band, Quantity::Acceleration), None);
+    }
 }
