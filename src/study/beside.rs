@@ -58,11 +58,8 @@ impl MeasuredRun {
         };
         let mut probes = Vec::new();
         for (probe, channel) in channels {
-            let mut values: Vec<f64> =
-                channel.samples.iter().skip(motion.first).take(count).copied().collect();
-            without_mean(&mut values);
             let mut described = describe(model, &probe);
-            described.values = values;
+            described.values = channel.samples.iter().skip(motion.first).take(count).copied().collect();
             history.channels.push(described);
             probes.push(probe);
         }

@@ -51,7 +51,7 @@ pub fn draw(data: &Spectrogram) -> Svg {
     let row = Row::new(data.panels.len(), WIDTH - LEFT - room - BAR_ROOM);
     let page = LEFT + row.width() + room + BAR_ROOM;
     let (mut svg, top) = head(page, LEFT, &data.title, &data.note, &kinds);
-    let every = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(move |p| of(p)).copied();
+    let every = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(of).copied();
     let y = match data.max_hz.filter(|hz| hz.is_finite() && *hz > 0.0) {
         Some(hz) => Range::new(0.0, hz),
         None => Range::of(every(|p| &p.hz)).near_zero(),

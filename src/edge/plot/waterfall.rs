@@ -44,7 +44,7 @@ pub fn draw(data: &Waterfall) -> Svg {
     let row = Row::new(data.panels.len(), WIDTH - LEFT - room);
     let page = LEFT + row.width() + room;
     let (mut svg, top) = head(page, LEFT, &data.title, &data.note, &[]);
-    let every = |of: fn(&WaterfallPanel) -> &[f64]| data.panels.iter().flat_map(move |p| of(p)).copied();
+    let every = |of: fn(&WaterfallPanel) -> &[f64]| data.panels.iter().flat_map(of).copied();
     let x = Range::of(every(|p| &p.hz)).near_zero();
     let speeds = Range::of(every(|p| &p.rpm)).near_zero();
     let highest = extremes(every(|p| &p.amplitude)).map_or(0.0, |e| e.1);
