@@ -7,9 +7,11 @@ use rotordyn::edge::hdf5::Store;
 use rotordyn::edge::measured::target;
 use rotordyn::edge::{model_file, results_file};
 use rotordyn::error::Error;
+use rotordyn::linalg::Complex64;
 use rotordyn::model::{self, Model, Options};
+use rotordyn::update::frf::{FrfFitting, decibels_apart};
 use rotordyn::update::parameter::FreeParameter;
-use rotordyn::update::residual::{Fitting, FrfFitting};
+use rotordyn::update::residual::Fitting;
 use rotordyn::update::{Job, Update, Verdict, update};
 use serde_json::{Value, json};
 
@@ -40,7 +42,15 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     terminal.say(&format!("{}: {}", args.measured.measured[0].display(), read.source));
     let fitting = fitting(args, band(&read.target));
     if fitting.frf.is_some() && read.target.frfs.is_none() {
-        return Err(Failure::Input("--fit frf needs FRFs, and the measured file holds none".into()));
+        return Err(Failure::Input(if read.source.contains("FRF") {
+            "--fit frf: the file's FRFs cannot be compared with the model's (see the warning); give the points and \
+             directions of responses and forces with --mapping, or leave frf out of --fit"
+                .into()
+        } else {
+            "--fit frf needs FRFs, and the measured file holds none; give FRFs (universal file 58), or fit \
+             frequency, damping and mac"
+                .into()
+        }));
     }
     let load = |set: &[(String, String)]| -> Result<Model, Error> {
         let mut options: Options = origin.options.clone();
@@ -70,6 +80,22 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     singular_table(terminal, &parameters, &found);
     measured::mode_table(terminal, "Modes before", &read.target, &found.before);
     measured::mode_table(terminal, "Modes after", &read.target, &found.after);
+    let frfs =
+        |state: &rotordyn::update::state::State| read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose();
+    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
+    let apart = |computed: &Option<Frfs>| -> Option<f64> {
+        let (measured, fitted) = (read.target.frfs.as_ref()?, fitting.frf.as_ref()?);
+        Some(decibels_apart(measured, computed.as_ref()?, fitted))
+    };
+    let apart = apart(&before).zip(apart(&after));
+    if let (Some((before, now)), Some(after)) = (apart, &after) {
+        measured::frac_table(terminal, &read.target, &found.after, after);
+        terminal.say(&format!(
+            "\nFRFs are {} dB apart after the update, {} dB before (RMS over the lines that were fitted)",
+            number(now, 2),
+            number(before, 2)
+        ));
+    }
     let told = &found.identifiability;
     terminal.say(&format!(
         "\nchi^2 = {} with {} degrees of freedom, {} steps{}",
@@ -82,9 +108,6 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
 
     std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
     let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
-    let frfs =
-        |state: &rotordyn::update::state::State| read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose();
-    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
     let path = folder.join("update.h5");
     let store = Store::create(&path)?;
     results_file::validation::write(&store, "/before", &read.target, &found.before, before.as_deref())?;
@@ -119,6 +142,8 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         "degrees": told.degrees,
         "converged": found.converged,
         "steps": found.iterations.len() - 1,
+        "frf_db_before": apart.map(|a| a.0),
+        "frf_db_after": apart.map(|a| a.1),
         "before": measured::to_json(&read.target, &found.before),
         "after": measured::to_json(&read.target, &found.after),
     });
@@ -126,10 +151,13 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     Ok(document.into())
 }
 
+/// `[response][reference][line]`.
+type Frfs = Vec<Vec<Vec<Complex64>>>;
+
 fn fitting(args: &UpdateArgs, band: [f64; 2]) -> Fitting {
     let wants = |word: FitWord| args.fit.contains(&word);
     let standard = Fitting::default();
-    let frf = |complex| FrfFitting { complex, deviation: 0.1, band };
+    let frf = |complex| FrfFitting::new(complex, band);
     Fitting {
         frequency: wants(FitWord::Frequency).then_some(0.01 * args.frequency_accuracy),
         damping: wants(FitWord::Damping).then_some(0.1),

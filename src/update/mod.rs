@@ -6,10 +6,12 @@
 //! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
 //! | [`state`] | the model's modes at the measured points, paired |
 //! | [`parameter`] | numbers of the file that may change, alone or in groups |
-//! | [`residual`] | frequencies, damping, shapes, FRFs with their exact derivatives |
+//! | [`residual`] | frequencies, damping and shapes as data, with their exact derivatives |
+//! | [`frf`] | FRFs alike: lines, what they are worth |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | what the data tell of each parameter |
 
+pub mod frf;
 pub mod identifiability;
 pub mod least_squares;
 pub mod pairing;
@@ -119,7 +121,8 @@ pub fn update(job: &Job) -> Result<Update, Error> {
     let start: Vec<f64> = prior.mean.clone();
     let before = State::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;
     let mut kept: Vec<usize> = before.pairing.pairs.iter().map(|p| p.measured).collect();
-    if kept.is_empty() && job.target.frfs.is_none() {
+    let frfs = job.fitting.frf.is_some() && job.target.frfs.is_some();
+    if kept.is_empty() && !frfs {
         return Err(UpdateError::new(
             "no measured mode has a partner in the model",
             "look at the MAC and the mapping with `rotordyn validate`, or start from a nearer model",
@@ -244,8 +247,7 @@ fn data_count(job: &Job, kept: &[usize]) -> usize {
         }
     }
     if let (Some(frf), Some(measured)) = (&fitting.frf, &job.target.frfs) {
-        let lines = measured.frequencies.iter().filter(|f| (frf.band[0]..=frf.band[1]).contains(f)).count();
-        count += lines * measured.responses.len() * measured.references.len();
+        count += frf::count(measured, frf);
     }
     count
 }

@@ -1,14 +1,13 @@
 //! What is to be made small, with its derivatives.
 
-use std::f64::consts::TAU;
-
 use nalgebra::{DMatrix, DVector};
 
+use super::frf::{FrfFitting, frf_rows};
 use super::least_squares::Evaluation;
 use super::state::State;
-use super::target::{Sensor, Target, TargetFrfs, TargetMode};
+use super::target::{Target, TargetMode};
 use crate::analysis::modal::Mode;
-use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative, frf_sensitivity};
+use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative};
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{Complex64, SparseRow};
 
@@ -24,15 +23,11 @@ pub struct Fitting {
     pub frf: Option<FrfFitting>,
 }
 
-/// How FRFs are fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrfFitting {
-    /// ln|H_computed/H_measured|, or the complex difference over the |H| of the line.
-    pub complex: bool,
-    /// Deviation of either, 0.1 is about 1 dB.
-    pub deviation: f64,
-    /// Band \[Hz\].
-    pub band: [f64; 2],
+impl Fitting {
+    /// Whether any of it is of single modes, which then need partners.
+    pub fn modes(&self) -> bool {
+        self.frequency.is_some() || self.damping.is_some() || self.shape.is_some()
+    }
 }
 
 impl Default for Fitting {
@@ -41,18 +36,16 @@ impl Default for Fitting {
     }
 }
 
-/// Lines of an FRF that are fitted at most.
-const MOST_LINES: usize = 120;
-
-/// One row under construction: the residual and its slope by every parameter.
-struct Rows {
+/// Rows under construction: residuals and their slopes by every parameter.
+pub(super) struct Rows {
     residual: Vec<f64>,
     slopes: Vec<Vec<f64>>,
-    data: f64,
+    /// What the rows are worth together.
+    pub data: f64,
 }
 
 impl Rows {
-    fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
+    pub fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
         self.residual.push(residual);
         self.slopes.push(slopes.collect());
     }
@@ -73,7 +66,7 @@ pub fn evaluation(
 ) -> Result<Evaluation, Error> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
     let mut rows = Rows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
-    for &k in kept {
+    for &k in kept.iter().filter(|_| fitting.modes()) {
         let measured = &target.modes[k];
         let found = state.pairing.pairs.iter().find(|p| p.measured == k);
         let Some(place) = found.map(|p| p.computed) else {
@@ -163,53 +156,4 @@ fn shape_rows(
         rows.push(residual.re / deviation, slopes.iter().map(|s| s[i].re / deviation));
         rows.push(residual.im / deviation, slopes.iter().map(|s| s[i].im / deviation));
     }
-}
-
-fn frf_rows(
-    state: &State,
-    measured: &TargetFrfs,
-    fitting: &FrfFitting,
-    by: &[&SystemDerivative],
-    rows: &mut Rows,
-) -> Result<(), Error> {
-    let lines = lines(measured, fitting.band);
-    let frequencies: Vec<f64> = lines.iter().map(|&k| measured.frequencies[k]).collect();
-    let of = |sensors: &[Sensor]| -> Vec<SparseRow> {
-        sensors.iter().map(|s| s.row(&state.linear.assembly)).collect()
-    };
-    let (responses, references) = (of(&measured.responses), of(&measured.references));
-    let found =
-        frf_sensitivity(&state.linear, &frequencies, &references, &responses, &measured.quantities, by)?;
-    rows.data += (lines.len() * responses.len() * references.len()) as f64;
-    for r in 0..responses.len() {
-        for e in 0..references.len() {
-            for (k, &line) in lines.iter().enumerate() {
-                let (h, m) = (found.values[r][e][k], measured.values[r][e][line]);
-                let slope = |p: usize| found.slopes[p][r][e][k];
-                let parameters = 0..by.len();
-                if h.norm() == 0.0 || m.norm() == 0.0 {
-                    continue;
-                }
-                if fitting.complex {
-                    let scale = m.norm() * fitting.deviation;
-                    let residual = (h - m) / scale;
-                    rows.push(residual.re, parameters.clone().map(|p| slope(p).re / scale));
-                    rows.push(residual.im, parameters.map(|p| slope(p).im / scale));
-                } else {
-                    let residual = (h.norm() / m.norm()).ln() / fitting.deviation;
-                    rows.push(residual, parameters.map(|p| (slope(p) / h).re / fitting.deviation));
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Lines within the band, thinned evenly.
-fn lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
-    let all: Vec<usize> = (0..measured.frequencies.len())
-        .filter(|&k| (from..=to).contains(&measured.frequencies[k]) && measured.frequencies[k] * TAU > 0.0)
-        .collect();
-    let every = all.len().div_ceil(MOST_LINES).max(1);
-    all.into_iter().step_by(every).collect()
 }

@@ -12,6 +12,7 @@ mod runs;
 mod signal;
 mod signal_failures;
 mod steady;
+mod update_frf;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

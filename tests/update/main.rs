@@ -3,4 +3,5 @@
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod frf_fit;
 mod rig_as_truth;

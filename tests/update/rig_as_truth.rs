@@ -51,12 +51,12 @@ impl Noise {
     }
 }
 
-fn point(model: &Model, name: &str) -> i64 {
+pub fn point(model: &Model, name: &str) -> i64 {
     model.stations.iter().find(|s| s.name == name).unwrap().node as i64 + 1
 }
 
 /// Modes of a model below 300 Hz at disc, pulley and both bearings, frequencies off by 0.05 % and shapes by 1 %.
-fn measured(model: Model) -> Target {
+pub fn measured(model: Model) -> Target {
     let dofs: Vec<Dof> = ["A", "pulley", "B", "disc"]
         .iter()
         .flat_map(|name| [1, 2].map(|direction| Dof::new(point(&model, name), direction)))
@@ -94,7 +94,7 @@ fn measured(model: Model) -> Target {
     Target { modes, ..empty }
 }
 
-fn free(path: &str) -> FreeParameter {
+pub fn free(path: &str) -> FreeParameter {
     let places = path
         .split('+')
         .flat_map(|path| stated(RIG.as_bytes(), &Options::default(), path).unwrap())
@@ -103,7 +103,7 @@ fn free(path: &str) -> FreeParameter {
     FreeParameter::new(path, places, true, None).unwrap()
 }
 
-fn load_rig(set: &[(String, String)]) -> Result<Model, Error> {
+pub fn load_rig(set: &[(String, String)]) -> Result<Model, Error> {
     let options = Options { variant: None, set: set.to_vec() };
     Ok(load("overhung_rig.toml", &*RIG, &options).unwrap_or_else(|errors| panic!("{errors:?}")).model)
 }
@@ -111,14 +111,13 @@ fn load_rig(set: &[(String, String)]) -> Result<Model, Error> {
 fn updated(paths: &[&str], fitting: Fitting) -> (Vec<FreeParameter>, Update) {
     let target = measured(variant(None, &TRUTH));
     assert!(target.modes.len() >= 8, "{}", target.modes.len());
+    fitted(paths, fitting, &target)
+}
+
+/// The update of the nominal rig, told of.
+pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreeParameter>, Update) {
     let parameters: Vec<FreeParameter> = paths.iter().map(|path| free(path)).collect();
-    let job = Job {
-        parameters: &parameters,
-        target: &target,
-        fitting: &fitting,
-        load: &load_rig,
-        max_iterations: 30,
-    };
+    let job = Job { parameters: &parameters, target, fitting: &fitting, load: &load_rig, max_iterations: 30 };
     let found = update(&job).unwrap();
     for (p, o) in parameters.iter().zip(&found.outcomes) {
         println!(
