@@ -17,8 +17,8 @@ pub struct Stated {
     pub quoted: bool,
 }
 
-/// What a file states at a path, variant and settings laid over; `*` stands for every item of a table that has the
-/// rest of the path, `housing.*.k_x`.
+/// What a file states at a path, variant and settings laid over; `*` stands for every item of a table or list that
+/// has the rest of the path, `housing.*.k_x`, `damping.modal.ratio.*`.
 ///
 /// # Errors
 /// Nothing there, with the nearest name that is; something that is no number.
@@ -47,10 +47,10 @@ fn look(
             Value::Integer(i) => (i.to_string(), false),
             Value::Float(f) => (f.to_string(), false),
             Value::List(items) => {
+                let here = at.join(".");
                 return Err(format!(
-                    "it is a list; take one of its {} numbers, {}.0",
-                    items.len(),
-                    at.join(".")
+                    "it is a list; take one of its {} numbers, {here}.0, or all of them together, {here}.*",
+                    items.len()
                 ));
             }
             Value::Table(table) => {
@@ -81,6 +81,10 @@ fn look(
             Some(entry) => into(part, &entry.node, found),
             None => Err(missing(table, part, parts, depth)),
         },
+        Value::List(items) if *part == "*" => {
+            let mut meant = items.iter().enumerate().filter(|(_, item)| holds(item, &parts[depth + 1..]));
+            meant.try_for_each(|(k, item)| into(&k.to_string(), item, found))
+        }
         Value::List(items) => match part.parse::<usize>().ok().and_then(|k| items.get(k)) {
             Some(item) => into(part, item, found),
             None => Err(format!("`{part}` is not one of the {} items, counted from 0", items.len())),
@@ -143,6 +147,7 @@ mod tests {
         assert_eq!(at("housing.*.k_x").unwrap().len(), 2);
         assert_eq!(at("housing.*.k_y").unwrap(), [one("housing.B.k_y", "7e6 N/m")]);
         assert_eq!(at("gains.1").unwrap(), [one("gains.1", "2")]);
+        assert_eq!(at("gains.*").unwrap(), [one("gains.0", "1"), one("gains.1", "2")]);
         let soft = Options { variant: Some("soft".into()), ..Options::default() };
         assert_eq!(stated(FILE.as_bytes(), &soft, "housing.B.k_x").unwrap()[0].text, "1e6 N/m");
     }
@@ -156,7 +161,7 @@ mod tests {
             ("housing.B", "it is a table; take one of its numbers, such as k_x"),
             ("housing.A.on", "\"body.block\" is no number"),
             ("housing.A.stiff", "write it into housing.A first"),
-            ("gains", "take one of its 2 numbers, gains.0"),
+            ("gains", "take one of its 2 numbers, gains.0, or all of them together, gains.*"),
             ("housing.*.q", "no item has it"),
         ] {
             let error = at(path).unwrap_err();

@@ -96,3 +96,42 @@ fn a_blow_askew_has_no_frfs_to_fit() {
         assert!(said.contains(part), "{said}");
     }
 }
+
+#[test]
+fn modal_damping_is_free_like_any_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("jeffcott.toml");
+    let text =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("models/jeffcott.toml")).unwrap();
+    let (old, new) = (
+        "frequency = \"25 Hz\"\nratio = 0.005",
+        "frequency = \"25, 300 Hz\"\nratio = [0.005, 0.01] # a guess",
+    );
+    assert!(text.contains(old));
+    std::fs::write(&model, text.replace(old, new)).unwrap();
+    let truth = folder.path().join("truth");
+    let mut modal = rotordyn();
+    modal.arg("modal").arg(&model).args(["--speed", "600 rpm", "--no-figures"]);
+    modal.args(["--set", "damping.modal.ratio=[0.008, 0.013]", "--out"]).arg(&truth);
+    modal.assert().success();
+    let update = |free: &str| {
+        let mut command = rotordyn();
+        command.arg("update").arg(&model).args(["--free", free, "--fit", "damping", "--no-figures"]);
+        command.arg("--measured").arg(truth.join("results.h5"));
+        command.arg("--out").arg(folder.path().join("updated"));
+        command
+    };
+    let document = json_of(&mut update("damping.modal.ratio.0,damping.modal.ratio.1"));
+    for (k, truth) in [(0, 0.008), (1, 0.013)] {
+        let value = document["parameters"][k]["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < 0.02, "{}", document["parameters"][k]);
+    }
+    let new = std::fs::read_to_string(folder.path().join("updated/jeffcott_updated.toml")).unwrap();
+    assert!(new.contains("# a guess"), "{new}");
+    println!("{}", new.lines().find(|line| line.contains("a guess")).unwrap());
+    // Both at once keep their ratio.
+    let document = json_of(&mut update("damping.modal.ratio.*"));
+    assert_eq!(document["parameters"][0]["paths"].as_array().unwrap().len(), 2);
+    let refused = update("damping.modal.ratio").assert().code(2).get_output().stderr.clone();
+    assert!(String::from_utf8(refused).unwrap().contains("damping.modal.ratio.*"));
+}

@@ -111,7 +111,11 @@ fn eigenvalues_of_the_rig() {
 
 /// A rotor on bearings with cross-coupled stiffness: left and right vectors differ at every speed.
 fn cross_coupled(factor: [f64; 3]) -> Model {
-    let text = format!(
+    load("cross.toml", cross_coupled_text(factor), &Options::default()).unwrap().model
+}
+
+fn cross_coupled_text(factor: [f64; 3]) -> String {
+    format!(
         r#"
         [model]
         name = "cross"
@@ -155,8 +159,7 @@ fn cross_coupled(factor: [f64; 3]) -> Model {
         10.0 * factor[0],
         1e7 * factor[1],
         3e6 * factor[2]
-    );
-    load("cross.toml", text, &Options::default()).unwrap().model
+    )
 }
 
 #[test]
@@ -237,6 +240,49 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
                 let scale = theirs.norm().max(1e-2 * largest);
                 let error = (slope - theirs).norm() / scale;
                 assert!(error < 1e-6, "{}: {slope} {theirs} {error:.1e}", parameter.path);
+            }
+        }
+    }
+}
+
+/// The rotor of [`cross_coupled`] with its modal damping: one of the two ratios, or both, times a factor.
+fn modally_damped(factor: [f64; 2]) -> Model {
+    let ratios = format!("[{:e}, {:e}]", 0.01 * factor[0], 0.02 * factor[1]);
+    let options = Options { variant: None, set: vec![("damping.modal.ratio".into(), ratios)] };
+    load("cross.toml", cross_coupled_text([1.0; 3]), &options).unwrap().model
+}
+
+#[test]
+fn modal_damping_moves_eigenvalues_and_frfs() {
+    let at = Linearised::new(modally_damped([1.0; 2]), 300.0, None).unwrap();
+    let models: [&dyn Fn(f64) -> Model; 3] =
+        [&|f| modally_damped([f, 1.0]), &|f| modally_damped([1.0, f]), &|f| modally_damped([f, f])];
+    let worst = check_eigenvalues(&at, &models, 6);
+    println!("{worst:.2e}");
+    assert!(worst < 1e-6, "{worst:.2e}");
+
+    let rows = |at: &Linearised| {
+        let node = at.model.stations.iter().find(|s| s.name == "disc").unwrap().node;
+        let all = at.assembly.anchor_rows(&Anchor::node(node));
+        [all[0].clone(), all[1].clone()]
+    };
+    let frequencies = [20.0, 33.0, 70.0, 140.0];
+    let frf = |at: &Linearised, by: &[&SystemDerivative]| {
+        let rows = rows(at);
+        frf_sensitivity(at, &frequencies, &rows[..1], &rows, &[Quantity::Velocity; 2], by).unwrap()
+    };
+    let by: Vec<SystemDerivative> = models.iter().map(|model| derivative(&at, model)).collect();
+    let ours = frf(&at, &by.iter().collect::<Vec<_>>());
+    for (p, model) in models.iter().enumerate() {
+        for r in 0..2 {
+            for k in 0..frequencies.len() {
+                let value =
+                    |f: f64| frf(&Linearised::new(model(f), 300.0, None).unwrap(), &[]).values[r][0][k];
+                let theirs = difference(value, sum, WIDE);
+                let slope = ours.slopes[p][r][0][k];
+                let scale = theirs.norm().max(1e-2 * ours.values[r][0][k].norm());
+                let error = (slope - theirs).norm() / scale;
+                assert!(error < 1e-6, "{p}, {} Hz: {slope} {theirs} {error:.1e}", frequencies[k]);
             }
         }
     }
