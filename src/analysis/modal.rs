@@ -156,6 +156,26 @@ fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Comple
     }
 }
 
+/// For every mode the other of a double eigenvalue that it shares, if it does; modes by natural frequency.
+pub fn doubles(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
+    let mut out = vec![None; modes.len()];
+    for k in 1..modes.len() {
+        let [a, b] = [&modes[k - 1], &modes[k]];
+        let near = (a.eigenvalue - b.eigenvalue).norm() <= NEAR * a.natural();
+        let value = 0.5 * (a.eigenvalue + b.eigenvalue);
+        if near && out[k - 1].is_none() && projected_residual(system, value, [&a.shape, &b.shape]) <= DOUBLE {
+            (out[k - 1], out[k]) = (Some(k), Some(k - 1));
+        }
+    }
+    out
+}
+
+/// The mode with another shape of its double eigenvalue; kind and label stay.
+pub fn with_shape(assembly: &Assembly, mode: &Mode, shape: Vec<Complex64>) -> Mode {
+    let described = mode_kind::describe(assembly, mode.eigenvalue, shape);
+    Mode { kind: mode.kind, label: mode.label.clone(), ..described }
+}
+
 /// Largest |φᵢᴴ (λ² M + λ D + S) φⱼ| / |λ|² of shapes with φᴴ M φ = 1.
 ///
 /// Projected, it is blind to the round-off of the stiffest motions that the shapes carry.

@@ -141,6 +141,14 @@ pub struct ModeSensitivity<'a> {
     norm: Complex64,
     /// (2λ M + D) φ.
     weighted: Vec<Complex64>,
+    other: Option<Other<'a>>,
+}
+
+/// The other mode of a double eigenvalue, made so that ψ_bᵀ (2λ M + D) φ_a = 0 and ψ_bᵀ (2λ M + D) φ_b = 1.
+struct Other<'a> {
+    right: &'a [Complex64],
+    left: Vec<Complex64>,
+    weighted: Vec<Complex64>,
 }
 
 /// Entries of D and S that mirror each other within this share of the largest make the matrices symmetric.
@@ -162,10 +170,55 @@ impl<'a> ModeSensitivity<'a> {
             let reason = format!("the eigenvalue at {:.3} Hz is defective", value.im / TAU);
             return Err(PhysicsError::NoDerivative { reason }.into());
         }
-        Ok(Self { system, value, right, left, norm, weighted })
+        Ok(Self { system, value, right, left, norm, weighted, other: None })
     }
 
-    /// λ′ = −ψᵀ (λ² dM + λ dD + dS) φ / ψᵀ (2λ M + D) φ, of a simple eigenvalue.
+    /// One mode of a double eigenvalue, beside `other`: left vectors are taken so that each leaves the other out.
+    ///
+    /// A parameter gives the two modes the slopes of the eigenvalues of the 2×2 matrix −Ψᵀ (λ² dM + λ dD + dS) Φ. This
+    /// has its diagonal for the shapes as they are given, and [`Self::coupling`] off it. It is for shapes that something
+    /// else holds in place, such as those of a test: the modes' own planes, which a parameter that parts the two would
+    /// choose at once, turn by no derivative.
+    ///
+    /// # Errors
+    /// A defective eigenvalue.
+    pub fn of_double(
+        system: &'a LinearSystem,
+        value: Complex64,
+        right: &'a [Complex64],
+        other: &'a [Complex64],
+    ) -> Result<Self, Error> {
+        let lefts = [left_vector(system, value, right)?, left_vector(system, value, other)?];
+        let weighted = [right, other].map(|v| {
+            let (m, d) = (system.mass.mul_complex(v), system.damping.mul_complex(v));
+            m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect::<Vec<Complex64>>()
+        });
+        // Ψ = L G⁻ᵀ with G = Lᵀ (2λ M + D) Φ has Ψᵀ (2λ M + D) Φ = 1.
+        let g = [0, 1].map(|i| [0, 1].map(|j| product(&lefts[i], &weighted[j])));
+        let determinant = g[0][0] * g[1][1] - g[0][1] * g[1][0];
+        let size = |v: &[Complex64]| inner(v, v).re;
+        let scale = (size(&lefts[0]) * size(&lefts[1]) * size(&weighted[0]) * size(&weighted[1])).sqrt();
+        if determinant.norm() <= 1e-12 * scale {
+            let reason = format!("the double eigenvalue at {:.3} Hz is defective", value.im / TAU);
+            return Err(PhysicsError::NoDerivative { reason }.into());
+        }
+        let combined = |a: Complex64, b: Complex64| -> Vec<Complex64> {
+            lefts[0].iter().zip(&lefts[1]).map(|(v, w)| (v * a + w * b) / determinant).collect()
+        };
+        let left = combined(g[1][1], -g[0][1]);
+        let across = combined(-g[1][0], g[0][0]);
+        let [weighted, beside] = weighted;
+        let other = Some(Other { right: other, left: across, weighted: beside });
+        Ok(Self { system, value, right, left, norm: 1.0.into(), weighted, other })
+    }
+
+    /// −ψ_bᵀ (λ² dM + λ dD + dS) φ_a / ψ_bᵀ (2λ M + D) φ_b with the other mode b of a double eigenvalue; 0 for a simple one.
+    pub fn coupling(&self, by: &SystemDerivative) -> Complex64 {
+        let change = |other: &Other| -product(&other.left, &by.apply(self.value, self.right));
+        self.other.as_ref().map_or_else(Complex64::default, change)
+    }
+
+    /// λ′ = −ψᵀ (λ² dM + λ dD + dS) φ / ψᵀ (2λ M + D) φ.
     pub fn eigenvalue(&self, by: &SystemDerivative) -> Complex64 {
         -product(&self.left, &by.apply(self.value, self.right)) / self.norm
     }
@@ -177,20 +230,16 @@ impl<'a> ModeSensitivity<'a> {
     /// # Errors
     /// A double eigenvalue, whose shapes are not defined alone.
     pub fn shapes(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
-        let held = (0..self.right.len())
-            .max_by(|&a, &b| {
-                let size = |i: usize| (self.right[i] * self.left[i]).norm_sqr();
-                size(a).total_cmp(&size(b))
-            })
-            .unwrap_or(0);
+        let held = self.held();
         let without = |a: &SparseMatrix, diagonal: f64| {
             let mut out = Triplets::new(a.rows(), a.cols());
-            a.iter().filter(|(i, j, _)| *i != held && *j != held).for_each(|(i, j, v)| out.add(i, j, v));
-            out.add(held, held, diagonal);
+            let kept = a.iter().filter(|(i, j, _)| !held.contains(i) && !held.contains(j));
+            kept.for_each(|(i, j, v)| out.add(i, j, v));
+            held.iter().for_each(|&k| out.add(k, k, diagonal));
             out.build()
         };
         let system = self.system;
-        let scale = system.stiffness.get(held, held).abs().max(f64::MIN_POSITIVE);
+        let scale = system.stiffness.get(held[0], held[0]).abs().max(f64::MIN_POSITIVE);
         let matrices =
             [without(&system.mass, 0.0), without(&system.damping, 0.0), without(&system.stiffness, scale)];
         let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
@@ -208,11 +257,34 @@ impl<'a> ModeSensitivity<'a> {
                 .zip(&self.weighted)
                 .map(|(f, w)| -(f + slope * w))
                 .collect();
-            b[held] = Complex64::default();
+            if let Some(other) = &self.other {
+                // What turns the two within their plane of shapes is left out.
+                let across = self.coupling(by);
+                b.iter_mut().zip(&other.weighted).for_each(|(b, w)| *b -= across * w);
+            }
+            held.iter().for_each(|&k| b[k] = Complex64::default());
             lu.solve(&mut b);
             b
         };
         Ok(by.iter().map(solve).collect())
+    }
+
+    /// Components that are held: where right and left vectors are large, of a double eigenvalue in all four.
+    fn held(&self) -> Vec<usize> {
+        let largest = |size: &dyn Fn(usize) -> f64| {
+            (0..self.right.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0)
+        };
+        let Some(other) = &self.other else {
+            return vec![largest(&|i| (self.right[i] * self.left[i]).norm_sqr())];
+        };
+        let all = |i: usize| {
+            let of = |a: &[Complex64], b: &[Complex64]| a[i].norm_sqr() + b[i].norm_sqr();
+            of(self.right, other.right) * of(&self.left, &other.left)
+        };
+        let first = largest(&all);
+        let minor =
+            |a: &[Complex64], b: &[Complex64], i: usize| (a[first] * b[i] - a[i] * b[first]).norm_sqr();
+        vec![first, largest(&|i| minor(self.right, other.right, i) * minor(&self.left, &other.left, i))]
     }
 }
 

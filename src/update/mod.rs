@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`target`] | measured points and modes put into the model |
 //! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
+//! | `double` | modes of one frequency turned to the measured shapes |
 //! | [`state`] | the model's modes at the measured points, paired |
 //! | [`parameter`] | numbers of the file that may change, alone or in groups |
 //! | [`residual`] | frequencies, damping and shapes as data, with their exact derivatives |
@@ -11,6 +12,7 @@
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | what the data tell of each parameter |
 
+mod double;
 pub mod frf;
 pub mod identifiability;
 pub mod least_squares;

@@ -34,18 +34,19 @@ pub struct Candidate<'a> {
     pub shape: &'a [Complex64],
 }
 
-/// The assignment with the largest sum of MAC · exp(−½ (ln(f_c/f_m)/0.25)²); pairs of MAC < 0.3 or a factor of two and
-/// more between their frequencies are none.
+/// MAC · exp(−½ (ln(f_c/f_m)/0.25)²) of two modes; 0 for a MAC < 0.3 or a factor of two and more between frequencies.
+pub fn likeness(mac: f64, computed_hz: f64, measured_hz: f64) -> f64 {
+    let apart = (computed_hz / measured_hz).ln();
+    let near = apart.abs() < std::f64::consts::LN_2;
+    if near && mac >= LEAST_MAC { mac * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp() } else { 0.0 }
+}
+
+/// The assignment with the largest sum of [`likeness`]; where that is 0 there is no pair.
 pub fn pair(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
     let measured_shapes: Vec<&[Complex64]> = measured.iter().map(|c| c.shape).collect();
     let computed_shapes: Vec<&[Complex64]> = computed.iter().map(|c| c.shape).collect();
     let mac = mac_matrix(&measured_shapes, &computed_shapes);
-    let score = |m: usize, c: usize| {
-        let apart = (computed[c].frequency_hz / measured[m].frequency_hz).ln();
-        let near = apart.abs() < std::f64::consts::LN_2;
-        let likeness = mac[m][c] * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp();
-        if near && mac[m][c] >= LEAST_MAC { likeness } else { 0.0 }
-    };
+    let score = |m: usize, c: usize| likeness(mac[m][c], computed[c].frequency_hz, measured[m].frequency_hz);
     let scores: Vec<Vec<f64>> =
         (0..measured.len()).map(|m| (0..computed.len()).map(|c| score(m, c)).collect()).collect();
     let chosen = assign(&scores);

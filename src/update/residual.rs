@@ -95,8 +95,12 @@ fn mode_rows(
     by: &[&SystemDerivative],
     rows: &mut Rows,
 ) -> Result<(), Error> {
-    let sensitivity = ModeSensitivity::new(&state.linear.system, mode.eigenvalue, &mode.shape)?;
     let value = mode.eigenvalue;
+    let system = &state.linear.system;
+    let sensitivity = match state.doubles[place] {
+        Some(other) => ModeSensitivity::of_double(system, value, &mode.shape, &state.modes[other].shape)?,
+        None => ModeSensitivity::new(system, value, &mode.shape)?,
+    };
     let slopes: Vec<Complex64> = by.iter().map(|by| sensitivity.eigenvalue(by)).collect();
     if let Some(least) = fitting.frequency {
         let deviation = least.max(measured.frequency_error / measured.frequency_hz);

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::double;
 use super::pairing::{Candidate, Pairing, pair};
 use super::target::{Target, TargetFrfs};
 use crate::analysis::modal::{self, Mode};
@@ -17,6 +18,8 @@ pub struct State {
     pub modes: Vec<Mode>,
     /// `shapes[mode][sensor]`.
     pub shapes: Vec<Vec<Complex64>>,
+    /// The other mode of a double eigenvalue, turned with it to the measured shapes.
+    pub doubles: Vec<Option<usize>>,
     /// Sensors as rows over the free DOFs.
     pub rows: Vec<SparseRow>,
     pub pairing: Pairing,
@@ -39,6 +42,8 @@ impl State {
         let top = target.modes.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
         modes.retain(|m| m.frequency_hz() < 2.0 * top);
         let rows: Vec<SparseRow> = target.sensors.iter().map(|s| s.row(&linear.assembly)).collect();
+        let doubles = modal::doubles(&linear.system, &modes);
+        double::align(&linear.assembly, &mut modes, &doubles, &rows, &target.modes);
         let shapes: Vec<Vec<Complex64>> =
             modes.iter().map(|m| rows.iter().map(|r| r.dot_complex(&m.shape)).collect()).collect();
         let measured: Vec<Candidate> = target
@@ -52,7 +57,7 @@ impl State {
             .map(|(m, shape)| Candidate { frequency_hz: m.frequency_hz(), shape })
             .collect();
         let pairing = pair(&measured, &computed);
-        Ok(Self { linear, modes, shapes, rows, pairing })
+        Ok(Self { linear, modes, shapes, doubles, rows, pairing })
     }
 
     /// The computed mode paired with a measured one, and their MAC.

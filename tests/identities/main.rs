@@ -7,6 +7,7 @@ mod machine;
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod double_eigenvalues;
 mod ehl;
 mod follow_speed;
 mod linear;

@@ -3,5 +3,6 @@
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod double_eigenvalues;
 mod frf_fit;
 mod rig_as_truth;
