@@ -19,7 +19,8 @@ pub struct Evaluation {
     pub residual: DVector<f64>,
     /// ∂r_i/∂x_j.
     pub jacobian: DMatrix<f64>,
-    /// Number of data that the residuals are worth: a shape's are spread over many points and count as one.
+    /// Number of data that the residuals are worth: a shape's are spread over many points and count as one; so do the lines
+    /// of all FRFs near one frequency where the model's error exceeds the noise.
     pub data: f64,
 }
 

@@ -275,14 +275,14 @@ fn modal_damping_moves_eigenvalues_and_frfs() {
     let ours = frf(&at, &by.iter().collect::<Vec<_>>());
     for (p, model) in models.iter().enumerate() {
         for r in 0..2 {
-            for k in 0..frequencies.len() {
+            for (k, hz) in frequencies.iter().enumerate() {
                 let value =
                     |f: f64| frf(&Linearised::new(model(f), 300.0, None).unwrap(), &[]).values[r][0][k];
                 let theirs = difference(value, sum, WIDE);
                 let slope = ours.slopes[p][r][0][k];
                 let scale = theirs.norm().max(1e-2 * ours.values[r][0][k].norm());
                 let error = (slope - theirs).norm() / scale;
-                assert!(error < 1e-6, "{p}, {} Hz: {slope} {theirs} {error:.1e}", frequencies[k]);
+                assert!(error < 1e-6, "{p}, {hz} Hz: {slope} {theirs} {error:.1e}");
             }
         }
     }

@@ -77,7 +77,7 @@ fn measured(model: Model, angle: f64) -> Target {
     let bending: Vec<usize> = (0..found.modes.len())
         .filter(|&k| found.modes[k].frequency_hz() < 300.0 && found.modes[k].label.contains("bending"))
         .collect();
-    assert!(bending.len() >= 6 && bending.len() % 2 == 0, "{}", bending.len());
+    assert!(bending.len() >= 6 && bending.len().is_multiple_of(2), "{}", bending.len());
     let mut seed = 17_u64;
     let mut noise = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

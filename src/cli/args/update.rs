@@ -77,7 +77,7 @@ pub struct UpdateArgs {
     #[command(flatten)]
     pub measured: MeasuredArgs,
     /// Numbers of the file that may change, separated by commas, such as housing.B.k_x,belt.drive.k_x; several move
-    /// together as housing.*.k_x or housing.A.k_x+housing.B.k_x
+    /// together as housing.*.k_x, housing.A.k_x+housing.B.k_x or damping.modal.ratio.*
     #[arg(long, value_name = "PATHS", value_delimiter = ',', required = true)]
     pub free: Vec<String>,
     /// Bounds of one, such as housing.B.k_x="1e6 .. 1e8 N/m"; can be repeated
@@ -112,7 +112,7 @@ pub enum FitWord {
     Mac,
     /// Magnitudes of the FRFs, logarithmic
     Frf,
-    /// FRFs, complex
+    /// FRFs by magnitude and phase
     FrfComplex,
 }
 
