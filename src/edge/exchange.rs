@@ -6,6 +6,7 @@
 use std::f64::consts::TAU;
 
 use crate::edge::measured::mapping::direction;
+use crate::element::Anchor;
 use crate::error::Error;
 use crate::model::Model;
 use crate::results::{FrfResult, History, ModalResult};
@@ -54,9 +55,8 @@ pub fn point(model: &Model, place: &str) -> Option<i64> {
 pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
     let model = &machine.model;
     let Some(study) = &model.studies.frf else { return Measured::default() };
-    let dof = |node: Option<usize>, weights: &[f64; 6]| {
-        Dof::new(node.map_or(0, |node| node as i64 + 1), single_direction(weights))
-    };
+    let mut geometry = geometry(model);
+    let mut beside = Vec::new();
     let axis = Axis::through(AxisQuantity::Frequency, found.frf.frequencies.clone());
     let mut records = Vec::new();
     for (r, probe) in study.responses.iter().enumerate() {
@@ -64,14 +64,42 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
             let values = Values::Complex(found.frf.values[r][e].clone());
             let name = format!("{}/{}", probe.name, excitation.name);
             records.push(Record {
-                response: dof(probe.at.node, &probe.direction),
-                reference: dof(excitation.at.node, &excitation.direction),
+                response: end(&probe.at, &probe.direction, model, &mut geometry, &mut beside),
+                reference: end(&excitation.at, &excitation.direction, model, &mut geometry, &mut beside),
                 speed_rpm: Some(found.speed * 60.0 / TAU),
                 ..Record::new(&name, Kind::Frf, axis.clone(), values, &found.units[r][e])
             });
         }
     }
-    Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
+    Measured { title: model.title.clone(), records, geometry, ..Measured::default() }
+}
+
+/// End of an FRF. A place beside a node is a point of its own after those of the model, with coordinates where the
+/// shaft carries it; beside a body coordinates alone would not tell what carries it.
+fn end(
+    at: &Anchor,
+    weights: &[f64; 6],
+    model: &Model,
+    geometry: &mut Geometry,
+    beside: &mut Vec<Anchor>,
+) -> Dof {
+    let direction = single_direction(weights);
+    let Some(node) = at.node else { return Dof::new(0, direction) };
+    if at.offset == [0.0; 3] {
+        return Dof::new(node as i64 + 1, direction);
+    }
+    let place = beside.iter().position(|known| known == at).unwrap_or_else(|| {
+        beside.push(*at);
+        beside.len() - 1
+    });
+    let number = (model.node_count() + 1 + place) as i64;
+    if let Some(z) = model.node_z.get(node)
+        && !geometry.nodes.iter().any(|n| n.number == number)
+    {
+        let [x, y, along] = at.offset;
+        geometry.nodes.push(Node { number, position: [x, y, z + along], local_system: 0 });
+    }
+    Dof::new(number, direction)
 }
 
 /// Number of a direction along one axis, with its sign; 0 for any other.

@@ -22,6 +22,17 @@ fn a_mapping_places_a_blow_beside_the_shaft() {
         .arg(&test)
         .assert()
         .success();
+    // The file's own coordinates place it as well.
+    let mut command = rotordyn();
+    command.args(["validate", RIG, "--no-figures", "--band", "5 .. 300 Hz", "--measured"]);
+    let document =
+        json_of(command.arg(test.join("frf_noisy.uff")).arg("--out").arg(folder.path().join("own")));
+    let frac = document["measured"][0]["frac"].as_array().unwrap();
+    assert!(frac.len() == 7 && frac.iter().all(|row| row.as_array().unwrap().len() == 2), "{frac:?}");
+    for value in frac.iter().flat_map(|row| row.as_array().unwrap()) {
+        // What a force does not move has none.
+        assert!(value.as_f64().is_none_or(|f| f > 0.999), "{frac:?}");
+    }
     let mut text = String::new();
     let responses = [
         ("disc_x", "disc.main", "x"),

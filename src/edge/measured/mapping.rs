@@ -146,10 +146,13 @@ impl Mapping {
         let mut left_out = Vec::new();
         let mut mounts = std::mem::take(&mut measured.geometry.mounts);
         for mut record in std::mem::take(&mut measured.records) {
-            let mut target = Target { place, axes, problems: &mut problems, mounts: &mut mounts };
-            // A coherence is where its FRF is.
+            // A coherence is where its FRF is, whose problems have been told.
+            let own = self.channel.get(&record.name);
             let of_frf = record.name.strip_prefix("coherence ").filter(|_| record.kind == Kind::Coherence);
-            let entry = self.channel.get(&record.name).or_else(|| self.channel.get(of_frf?));
+            let entry = own.or_else(|| self.channel.get(of_frf?));
+            let mut told = Vec::new();
+            let problems = if own.is_none() && entry.is_some() { &mut told } else { &mut problems };
+            let mut target = Target { place, axes, problems, mounts: &mut mounts };
             let found = match entry {
                 Some(own) => target.channel(&mut record, own),
                 None if self.channel.is_empty() && self.point.is_empty() => target.kept(&mut record),
