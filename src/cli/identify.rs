@@ -9,7 +9,6 @@ use rotordyn::edge::measured::blow_run;
 use rotordyn::edge::measured::mapping::{self, Mapping};
 use rotordyn::edge::{exchange, figures, identified, measured};
 use rotordyn::error::Error;
-use rotordyn::identify::single::{circle_fit, peak_fit};
 use rotordyn::identify::{Identified, Settings, identify, quantity_of};
 use rotordyn::model::Quantity;
 use rotordyn::signal::hammer::{self, HammerTest};
@@ -20,9 +19,11 @@ use serde_json::json;
 
 use super::args::{EstimatorName, IdentifyArgs};
 use super::failure::Failure;
+use super::identify_tables::tables;
 use super::machine::Origin;
+use super::measured::range;
 use super::store::FILE;
-use super::terminal::{Terminal, number};
+use super::terminal::Terminal;
 use super::{Outcome, written};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
@@ -170,26 +171,7 @@ fn value(name: &str, text: Option<&String>, dimension: units::Dimension) -> Resu
 }
 
 fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
-    let band = match &args.band {
-        None => None,
-        Some(text) => {
-            let wrong =
-                |why: &str| Failure::Input(format!("--band \"{text}\": {why}; write it as \"10 .. 200 Hz\""));
-            let ends = text.split_once("..").or_else(|| text.split_once(','));
-            let (from, to) = ends.ok_or_else(|| wrong("it has not two ends"))?;
-            let (from, to) = (from.trim(), to.trim());
-            // "10, 200 Hz" has its unit at the end.
-            let unit = to.trim_start_matches(|c: char| c.is_ascii_digit() || ".eE+-".contains(c));
-            let from =
-                if from.parse::<f64>().is_ok() { format!("{from} {}", unit.trim()) } else { from.into() };
-            let hz = |text: &str| parse(text, units::FREQUENCY).map_err(|error| wrong(&error.to_string()));
-            let (to, from) = (hz(to)?, hz(&from)?);
-            if from >= to {
-                return Err(wrong("it ends before it begins"));
-            }
-            Some([from, to])
-        }
-    };
+    let band = args.band.as_deref().map(|text| range(text, "--band")).transpose()?;
     let quantity = match args.quantity.as_deref() {
         None => None,
         Some("receptance") => Some(Quantity::Displacement),
@@ -356,97 +338,4 @@ fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mu
                 .into(),
         );
     }
-}
-
-fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
-    let rows: Vec<Vec<String>> = found
-        .modes
-        .iter()
-        .enumerate()
-        .map(|(k, m)| {
-            let strongest = |values: &[rotordyn::signal::Complex<f64>]| {
-                (0..values.len()).fold(0, |b, k| if values[k].norm() > values[b].norm() { k } else { b })
-            };
-            let whirl = match m.whirl {
-                Some(w) if w > 0.1 => format!("forward {w:.2}"),
-                Some(w) if w < -0.1 => format!("backward {:.2}", -w),
-                Some(_) => "straight".into(),
-                None => "-".into(),
-            };
-            vec![
-                (k + 1).to_string(),
-                format!("{:.4}", m.frequency_hz()),
-                number(m.frequency_error, 2),
-                format!("{:.4}", 100.0 * m.damping_ratio()),
-                number(100.0 * m.damping_error, 2),
-                format!("{:.3}", m.collinearity),
-                found.responses[strongest(&m.shape)].to_string(),
-                found.references[strongest(&m.participation)].to_string(),
-                whirl,
-            ]
-        })
-        .collect();
-    let count = found.responses.len() * found.references.len();
-    let title = format!(
-        "Modes from {count} FRFs, {:.3} to {:.3} Hz, order {}",
-        found.frequencies[0],
-        found.frequencies[found.frequencies.len() - 1],
-        found.orders.last().unwrap_or(&0)
-    );
-    let header = ["", "Hz", "+-", "zeta %", "+-", "MPC", "response", "reference", "whirl"];
-    terminal.table(&title, &header, &rows);
-    let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
-    terminal.say(&format!(
-        "  +- is one standard error; MPC is 1 for a real mode. Fit error {:.2} % of all FRFs, {:.2} % of the worst.",
-        100.0 * found.total_error,
-        100.0 * worst
-    ));
-    if !found.dropped.is_empty() {
-        terminal.say("\n  Stable at first, then dropped:");
-        found.dropped.iter().for_each(|reason| terminal.say(&format!("    {reason}")));
-    }
-    quick_look(terminal, found, frfs);
-}
-
-/// Peak and circle fit of the FRF that shows each mode best.
-fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
-    let rows: Vec<Vec<String>> = found
-        .modes
-        .iter()
-        .enumerate()
-        .map(|(k, m)| {
-            let mut best = (0, 0);
-            for r in 0..m.shape.len() {
-                for e in 0..m.participation.len() {
-                    let size = |(r, e): (usize, usize)| (m.shape[r] * m.participation[e]).norm();
-                    if size((r, e)) > size(best) {
-                        best = (r, e);
-                    }
-                }
-            }
-            let frf = &frfs.values[best.0][best.1];
-            let quantity = quantity_of(&frfs.units[best.0][best.1]).unwrap_or(found.quantity);
-            let (hz, zeta) = (m.frequency_hz(), m.damping_ratio());
-            let step = found.frequencies[1] - found.frequencies[0];
-            let around = |widths: f64| (widths * zeta * hz).max(3.0 * step);
-            let band = |half: f64| [hz - half, hz + half];
-            let fits = [
-                peak_fit(&frfs.frequencies, frf, band(around(4.0))),
-                circle_fit(&frfs.frequencies, frf, band(around(1.5)), quantity),
-            ];
-            let mut row = vec![
-                (k + 1).to_string(),
-                format!("{}/{}", found.responses[best.0], found.references[best.1]),
-                format!("{hz:.3}"),
-                format!("{:.3}", 100.0 * zeta),
-            ];
-            for fit in fits {
-                row.push(fit.map_or("-".into(), |f| format!("{:.3}", f.frequency_hz)));
-                row.push(fit.map_or("-".into(), |f| format!("{:.3}", 100.0 * f.damping_ratio)));
-            }
-            row
-        })
-        .collect();
-    let header = ["", "FRF", "Hz", "zeta %", "peak Hz", "zeta %", "circle Hz", "zeta %"];
-    terminal.table("Quick look: the FRF that shows each mode best, by peak and circle fit", &header, &rows);
 }

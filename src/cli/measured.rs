@@ -40,21 +40,22 @@ pub fn read(
     Ok(out)
 }
 
-/// "10 Hz .. 300 Hz" or "10 .. 300 Hz".
-fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
-    let wrong = |why: &str| Failure::Input(format!("{flag} \"{text}\": {why}; write \"10 .. 300 Hz\""));
+/// "10 Hz .. 300 Hz", "10 .. 300 Hz" or with a comma.
+pub fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
+    let wrong = |why: &str| Failure::Input(format!("{flag} \"{text}\": {why}; write it as \"10 .. 300 Hz\""));
     let ends = text.split_once("..").or_else(|| text.split_once(','));
-    let (from, to) = ends.ok_or_else(|| wrong("it is no range"))?;
-    let high = units::parse(to, FREQUENCY).map_err(|e| wrong(&e.to_string()))?;
+    let (from, to) = ends.ok_or_else(|| wrong("it has not two ends"))?;
+    let hz = |text: &str| units::parse(text, FREQUENCY).map_err(|e| wrong(&e.to_string()));
+    let high = hz(to)?;
     let low = match from.trim().parse::<f64>() {
         // The unit stands behind the second number for both.
         Ok(bare) => {
             let unit = to.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
-            units::parse(&format!("{bare} {unit}"), FREQUENCY).map_err(|e| wrong(&e.to_string()))?
+            hz(&format!("{bare} {unit}"))?
         }
-        Err(_) => units::parse(from, FREQUENCY).map_err(|e| wrong(&e.to_string()))?,
+        Err(_) => hz(from)?,
     };
-    if low < high { Ok([low, high]) } else { Err(wrong("its ends are the wrong way round")) }
+    if low < high { Ok([low, high]) } else { Err(wrong("it ends before it begins")) }
 }
 
 /// `out/NAME_ending` unless told otherwise.

@@ -12,6 +12,7 @@ mod failure;
 mod films;
 mod free;
 mod identify;
+mod identify_tables;
 mod interrupt;
 mod machine;
 mod measured;

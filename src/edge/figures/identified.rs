@@ -48,7 +48,7 @@ fn stabilisation(found: &Identified, title: &str) -> Named {
     let figure = Stabilisation {
         title: "Stabilisation diagram".into(),
         note: format!(
-            "{title}; a pole settles within 1 % in frequency, 5 % in damping, MAC 0.95 of the order before"
+            "settled: within 1 % in frequency, 5 % in damping, MAC 0.95 of the order before; {title}"
         ),
         poles: found.diagram.iter().map(|p| (hz(p.value), p.order, state(p.stability))).collect(),
         hz: found.frequencies.clone(),

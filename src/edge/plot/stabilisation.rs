@@ -49,7 +49,7 @@ pub fn draw(data: &Stabilisation) -> Svg {
             Entry::marker(name, *marker, mark(*color, *state == Settled::Stable))
         })
         .collect();
-    entries.push(Entry::line("mode indicator (log)", Style::stroke(PALE, 1.2)));
+    entries.push(Entry::line("mode indicator", Style::stroke(PALE, 1.2)));
     entries.push(Entry::line("chosen", Style::stroke(RED, 0.9).dashed(Dash::Short)));
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frame = Frame { x: LEFT, y: top + 30.0, w: WIDTH - LEFT - RIGHT, h: 400.0 };

@@ -1,0 +1,101 @@
+//! What `identify` prints: modes with their errors, and a quick look beside them.
+
+use rotordyn::identify::single::{circle_fit, peak_fit};
+use rotordyn::identify::{Identified, quantity_of};
+use rotordyn::signal::record::FrfMatrix;
+
+use super::terminal::{Terminal, number};
+
+/// Modes, what was dropped, and the quick look.
+pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
+    let rows: Vec<Vec<String>> = found
+        .modes
+        .iter()
+        .enumerate()
+        .map(|(k, m)| {
+            let strongest = |values: &[rotordyn::signal::Complex<f64>]| {
+                (0..values.len()).fold(0, |b, k| if values[k].norm() > values[b].norm() { k } else { b })
+            };
+            let whirl = match m.whirl {
+                Some(w) if w > 0.1 => format!("forward {w:.2}"),
+                Some(w) if w < -0.1 => format!("backward {:.2}", -w),
+                Some(_) => "straight".into(),
+                None => "-".into(),
+            };
+            vec![
+                (k + 1).to_string(),
+                format!("{:.4}", m.frequency_hz()),
+                number(m.frequency_error, 2),
+                format!("{:.4}", 100.0 * m.damping_ratio()),
+                number(100.0 * m.damping_error, 2),
+                format!("{:.3}", m.collinearity),
+                found.responses[strongest(&m.shape)].to_string(),
+                found.references[strongest(&m.participation)].to_string(),
+                whirl,
+            ]
+        })
+        .collect();
+    let count = found.responses.len() * found.references.len();
+    let title = format!(
+        "Modes from {count} FRFs, {:.3} to {:.3} Hz, order {}",
+        found.frequencies[0],
+        found.frequencies[found.frequencies.len() - 1],
+        found.orders.last().unwrap_or(&0)
+    );
+    let header = ["", "Hz", "+-", "zeta %", "+-", "MPC", "response", "reference", "whirl"];
+    terminal.table(&title, &header, &rows);
+    let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
+    terminal.say(&format!(
+        "  +- is one standard error; MPC is 1 for a real mode. Fit error {:.2} % of all FRFs, {:.2} % of the worst.",
+        100.0 * found.total_error,
+        100.0 * worst
+    ));
+    if !found.dropped.is_empty() {
+        terminal.say("\n  Stable at first, then dropped:");
+        found.dropped.iter().for_each(|reason| terminal.say(&format!("    {reason}")));
+    }
+    quick_look(terminal, found, frfs);
+}
+
+/// Peak and circle fit of the FRF that shows each mode best.
+fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
+    let rows: Vec<Vec<String>> = found
+        .modes
+        .iter()
+        .enumerate()
+        .map(|(k, m)| {
+            let mut best = (0, 0);
+            for r in 0..m.shape.len() {
+                for e in 0..m.participation.len() {
+                    let size = |(r, e): (usize, usize)| (m.shape[r] * m.participation[e]).norm();
+                    if size((r, e)) > size(best) {
+                        best = (r, e);
+                    }
+                }
+            }
+            let frf = &frfs.values[best.0][best.1];
+            let quantity = quantity_of(&frfs.units[best.0][best.1]).unwrap_or(found.quantity);
+            let (hz, zeta) = (m.frequency_hz(), m.damping_ratio());
+            let step = found.frequencies[1] - found.frequencies[0];
+            let around = |widths: f64| (widths * zeta * hz).max(3.0 * step);
+            let band = |half: f64| [hz - half, hz + half];
+            let fits = [
+                peak_fit(&frfs.frequencies, frf, band(around(4.0))),
+                circle_fit(&frfs.frequencies, frf, band(around(1.5)), quantity),
+            ];
+            let mut row = vec![
+                (k + 1).to_string(),
+                format!("{}/{}", found.responses[best.0], found.references[best.1]),
+                format!("{hz:.3}"),
+                format!("{:.3}", 100.0 * zeta),
+            ];
+            for fit in fits {
+                row.push(fit.map_or("-".into(), |f| format!("{:.3}", f.frequency_hz)));
+                row.push(fit.map_or("-".into(), |f| format!("{:.3}", 100.0 * f.damping_ratio)));
+            }
+            row
+        })
+        .collect();
+    let header = ["", "FRF", "Hz", "zeta %", "peak Hz", "zeta %", "circle Hz", "zeta %"];
+    terminal.table("Quick look: the FRF that shows each mode best, by peak and circle fit", &header, &rows);
+}
