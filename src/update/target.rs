@@ -156,7 +156,7 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
 }
 
 /// Radius at which rotations are compared with translations \[m\].
-fn rotation_radius(model: &Model) -> f64 {
+pub fn rotation_radius(model: &Model) -> f64 {
     let largest = model.discs.iter().map(|d| 0.5 * d.outer_diameter).fold(0.0, f64::max);
     let length = model.node_z.last().unwrap_or(&1.0) - model.node_z.first().unwrap_or(&0.0);
     if largest > 0.0 { largest } else { 0.1 * length }

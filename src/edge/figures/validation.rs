@@ -7,7 +7,7 @@ use crate::identify::mac::{fdac, frac as likeness};
 use crate::linalg::Complex64;
 use crate::model::Quantity;
 use crate::update::state::State;
-use crate::update::target::{Target, TargetFrfs};
+use crate::update::target::{Sensor, Target, TargetFrfs, rotation_radius};
 
 /// A state of the model with a name ("computed", "before", "after") and its FRFs at the measured points.
 pub struct Stage<'a> {
@@ -160,14 +160,22 @@ fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], st
 
 fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let every = measured.frequencies.len().div_ceil(FDAC_LINES).max(1);
+    // Rotations and moments weigh as at a radius.
+    let radius = rotation_radius(&stage.state.linear.model);
+    let weight = |of: &Sensor| if of.dof.is_rotation() { radius } else { 1.0 };
+    let ends = || {
+        let of_one = |r| measured.references.iter().map(move |e| weight(r) * weight(e));
+        measured.responses.iter().flat_map(of_one)
+    };
     let thin = |frfs: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Complex64>> {
-        frfs.iter().flatten().map(|frf| frf.iter().step_by(every).copied().collect()).collect()
+        let weighed = |(frf, w): (&Vec<Complex64>, f64)| frf.iter().step_by(every).map(|h| h * w).collect();
+        frfs.iter().flatten().zip(ends()).map(weighed).collect()
     };
     let (a, b) = (thin(&measured.values), thin(computed));
     let (a, b): (Vec<&[Complex64]>, Vec<&[Complex64]>) =
         (a.iter().map(Vec::as_slice).collect(), b.iter().map(Vec::as_slice).collect());
     let lines: Vec<f64> = measured.frequencies.iter().step_by(every).copied().collect();
-    let ends = lines.first().copied().zip(lines.last().copied()).map(|(a, b)| [a, b]);
+    let range = lines.first().copied().zip(lines.last().copied()).map(|(a, b)| [a, b]);
     Figure::HeatMap(HeatMap {
         title: "FDAC: a ridge off the diagonal is a shift of frequency".into(),
         note: note(title, stage),
@@ -180,8 +188,8 @@ fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>]
         x: lines.clone(),
         y: lines,
         quantity: "FDAC".into(),
-        x_range: ends,
-        y_range: ends,
+        x_range: range,
+        y_range: range,
         diagonal: true,
         ..HeatMap::default()
     })
