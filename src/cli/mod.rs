@@ -84,7 +84,7 @@ pub fn run() -> ExitCode {
     let interrupted = outcome.failures.iter().map(code).find(|code| *code == 130);
     let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(0);
     if cli.output.json {
-        print_json(outcome, code);
+        print_json(outcome, code, terminal.warnings());
     }
     code.into()
 }
@@ -269,6 +269,7 @@ fn warn(terminal: &Terminal, loaded: &Loaded) {
     if !loaded.warnings.is_empty() {
         let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
         eprint!("{text}");
+        loaded.warnings.iter().for_each(|warning| terminal.keep(&warning.message));
     }
 }
 
@@ -284,7 +285,7 @@ fn report(terminal: &Terminal, study: &str, failure: &Failure) {
 }
 
 /// The document, with what failed.
-fn print_json(outcome: Outcome, code: u8) {
+fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
     let mut document = outcome.document;
     if let Some(object) = document.as_object_mut() {
         let with_study = |(study, failure): &(&str, Failure)| {
@@ -292,6 +293,8 @@ fn print_json(outcome: Outcome, code: u8) {
             error["study"] = json!(study);
             error
         };
+        object.entry("warnings").or_insert_with(|| json!(warnings));
+        object.entry("schema").or_insert_with(|| json!(rotordyn::edge::json::SCHEMA));
         object.insert("program".into(), "rotordyn".into());
         object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
         object.insert("exit_code".into(), code.into());

@@ -7,12 +7,12 @@ use rotordyn::edge::measured::{mapping, run_up};
 use rotordyn::edge::{exchange, figures, results_file};
 use rotordyn::error::Error;
 use rotordyn::model::Model;
-use rotordyn::results::{CampbellResult, ChannelPair, level_over};
+use rotordyn::results::{CampbellResult, ChannelPair, CutPair, level_over};
 use rotordyn::study::{Machine, MeasuredRun};
 use rotordyn::update::UpdateError;
 use serde_json::{Value, json};
 
-use super::args::{StoredArgs, ValidateArgs};
+use super::args::{ShaftArgs, StoredArgs, ValidateArgs};
 use super::failure::Failure;
 use super::machine::Origin;
 use super::signal::input::{File, Findings, cut};
@@ -24,7 +24,9 @@ use super::{films, settings, store};
 /// Rows of a table.
 const MOST: usize = 40;
 /// A part of the highest speed: a run that begins faster than this begins with a transient of its own.
-const SLOW: f64 = 0.05;
+const SLOW: f64 = 0.2;
+/// Part of a channel's highest order below which an order is not listed.
+const FAINT: f64 = 1e-3;
 
 /// A measured run-up in the model, and what is told of it.
 pub struct Found {
@@ -47,6 +49,7 @@ pub fn read(
     if let Some(rate) = mapping.as_ref().and_then(mapping::Mapping::rate) {
         file.measured.set_missing_rate(rate);
     }
+    mapping.iter().for_each(|mapping| mapping.give_units(&mut file.measured));
     if !file.time_records().any(|r| !run_up::is_clock(r)) {
         return Ok(Err("it holds no record over time".into()));
     }
@@ -56,7 +59,9 @@ pub fn read(
             record.name
         )));
     }
-    let shaft = Shaft::of(&args.shaft, None, &file, &mut findings);
+    // The measured angle drives the model, which jitter of pulses would shake.
+    let steadied = ShaftArgs { smooth_tacho: true, ..args.shaft.clone() };
+    let shaft = Shaft::of(&steadied, None, &file, &mut findings);
     let named = |failure: Failure| match failure {
         Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
         other => other,
@@ -64,7 +69,8 @@ pub fn read(
     std::mem::take(&mut findings).settle().map_err(named)?;
     if !shaft.is_known() {
         return Ok(Err("the speed of the shaft is not known: give --tacho CHANNEL, or --track \
-             1=\"5 Hz .. 50 Hz\""
+             1=\"5 Hz .. 50 Hz\"; a channel `speed` needs its unit, such as [channel.speed] unit = \"rpm\" in the \
+             mapping"
             .into()));
     }
     let clocks = |r: &rotordyn::signal::record::Record| {
@@ -131,6 +137,15 @@ pub fn compare(
     // Whatever happened, what was computed is on disk.
     job.write(false)?;
     if let Some((_, failure)) = job.failures.pop() {
+        if !matches!(failure, Failure::Interrupted) {
+            terminal.complain(
+                "warning",
+                &format!(
+                    "the model was driven by {}: where that angle jumps or jitters, so does the shaft",
+                    found.source
+                ),
+            );
+        }
         return Err(failure);
     }
     let Some(computed) = &job.results.run_up else { return Ok((Value::Null, job.files)) };
@@ -224,7 +239,9 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
     terminal.table("Run-up, measured and computed", &header, &rows);
     let mut rows = Vec::new();
     for pair in pairs {
-        for cut in &pair.cuts {
+        let size = |cut: &CutPair| cut.peaks[0].rms.max(cut.peaks[1].rms);
+        let highest = pair.cuts.iter().map(size).fold(0.0, f64::max);
+        for cut in pair.cuts.iter().filter(|cut| size(cut) >= FAINT * highest) {
             let [m, c] = cut.peaks;
             rows.push(vec![
                 pair.channel.clone(),
@@ -266,7 +283,7 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
 }
 
 fn to_json(pair: &ChannelPair) -> Value {
-    let cut = |cut: &rotordyn::results::CutPair| {
+    let cut = |cut: &CutPair| {
         let [m, c] = cut.peaks;
         json!({
             "order": cut.line.order,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write, stderr, stdout};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -9,12 +10,14 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use super::args::Output;
 
 /// Where to speak, and whether.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Terminal {
     tables: bool,
     progress: bool,
     bold: bool,
     pub colour: bool,
+    /// Every warning that was given, for machines.
+    warnings: Mutex<Vec<String>>,
 }
 
 impl Terminal {
@@ -25,6 +28,7 @@ impl Terminal {
             progress: !output.quiet && stderr().is_terminal(),
             bold: colour_allowed && stdout().is_terminal(),
             colour: colour_allowed && stderr().is_terminal(),
+            warnings: Mutex::default(),
         }
     }
 
@@ -49,9 +53,26 @@ impl Terminal {
 
     /// A problem, whatever was asked about silence.
     pub fn complain(&self, word: &str, text: &str) {
+        if word == "warning" {
+            self.keep(text);
+        }
         let code = if word == "error" { 31 } else { 33 };
         let word = if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() };
         let _ = writeln!(stderr(), "{word}: {text}");
+    }
+
+    /// Keeps a warning that is told in another way.
+    pub fn keep(&self, text: &str) {
+        self.kept().push(text.to_string());
+    }
+
+    fn kept(&self) -> MutexGuard<'_, Vec<String>> {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Warnings given so far.
+    pub fn warnings(&self) -> Vec<String> {
+        self.kept().clone()
     }
 
     /// Something that runs without telling how far it is.

@@ -157,7 +157,7 @@ type Frfs = Vec<Vec<Vec<Complex64>>>;
 fn fitting(args: &UpdateArgs, band: [f64; 2]) -> Fitting {
     let wants = |word: FitWord| args.fit.contains(&word);
     let standard = Fitting::default();
-    let frf = |complex| FrfFitting::new(complex, band);
+    let frf = |complex| FrfFitting { deviation: 0.01 * args.frf_accuracy, ..FrfFitting::new(complex, band) };
     Fitting {
         frequency: wants(FitWord::Frequency).then_some(0.01 * args.frequency_accuracy),
         damping: wants(FitWord::Damping).then_some(0.1),
@@ -226,6 +226,11 @@ fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Upd
     terminal.table("What the data tell: below 1 the prior tells more", &header, &rows);
 }
 
+/// χ² over its degrees of freedom from which the model is said not to explain the data.
+const MISFIT: f64 = 4.0;
+/// Deviations of the prior from which data and prior are said to disagree.
+const PULL: f64 = 3.0;
+
 /// Correlations that hide one parameter behind another, bounds, no convergence.
 fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
     let correlation = &found.identifiability.correlation;
@@ -247,6 +252,33 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
             let name = &parameters[i].name;
             terminal
                 .complain("warning", &format!("{name} ended at its bound: what it stands for may be wrong"));
+        }
+    }
+    let told = &found.identifiability;
+    let misfit = told.chi_squared / told.degrees.max(1.0);
+    if misfit > MISFIT {
+        terminal.complain(
+            "warning",
+            &format!(
+                "the updated model does not explain the data: chi^2 is {} times its degrees of freedom; look at the \
+                 pairs, at points, directions, signs and units in the mapping, and at what else may be wrong in the \
+                 model, before any value is trusted",
+                number(misfit, 2)
+            ),
+        );
+    }
+    for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
+        let pull = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
+        if pull > PULL {
+            terminal.complain(
+                "warning",
+                &format!(
+                    "{}: the data pull it {} standard deviations of its prior away from the start; one of the two is \
+                     wrong",
+                    parameter.name,
+                    number(pull, 2)
+                ),
+            );
         }
     }
     if !found.converged {

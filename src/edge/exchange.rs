@@ -15,6 +15,7 @@ use crate::signal::record::{
     Shape, Values,
 };
 use crate::study::Machine;
+use crate::update::target::place_of;
 
 /// Channels of a run with the shaft's angle and speed \[rpm\], at the points where they are.
 pub fn run(history: &History, model: &Model) -> Measured {
@@ -74,8 +75,7 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
     Measured { title: model.title.clone(), records, geometry, ..Measured::default() }
 }
 
-/// End of an FRF. A place beside a node is a point of its own after those of the model, with coordinates where the
-/// shaft carries it; beside a body coordinates alone would not tell what carries it.
+/// End of an FRF. A place beside a node is a point of its own after those of the model.
 fn end(
     at: &Anchor,
     weights: &[f64; 6],
@@ -93,11 +93,9 @@ fn end(
         beside.len() - 1
     });
     let number = (model.node_count() + 1 + place) as i64;
-    if let Some(z) = model.node_z.get(node)
-        && !geometry.nodes.iter().any(|n| n.number == number)
-    {
-        let [x, y, along] = at.offset;
-        geometry.nodes.push(Node { number, position: [x, y, z + along], local_system: 0 });
+    if !geometry.nodes.iter().any(|n| n.number == number) {
+        let ([x, y, z], [a, b, c]) = (place_of(model, node), at.offset);
+        geometry.nodes.push(Node { number, position: [x + a, y + b, z + c], local_system: 0 });
     }
     Dof::new(number, direction)
 }

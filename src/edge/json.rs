@@ -28,6 +28,9 @@ mod steady;
 
 pub use signal::signal_to_json;
 
+/// Name of the document's form.
+pub const SCHEMA: &str = "rotordyn-results-1";
+
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;
@@ -47,7 +50,7 @@ const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 pub fn to_json(results: &Results, machine: &Machine) -> Value {
     let mut out = Map::new();
     let mut put = |key: &str, value: Value| out.insert(key.into(), value);
-    put("schema", "rotordyn-results-1".into());
+    put("schema", SCHEMA.into());
     put("program", "rotordyn".into());
     put("version", env!("CARGO_PKG_VERSION").into());
     put("model", machine.model.name.clone().into());
@@ -108,7 +111,7 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
 /// Ball bearings on their own as a document of the same form, where there is no machine.
 pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
     json!({
-        "schema": "rotordyn-results-1", "program": "rotordyn", "version": env!("CARGO_PKG_VERSION"),
+        "schema": SCHEMA, "program": "rotordyn", "version": env!("CARGO_PKG_VERSION"),
         "model": name, "title": title, "warnings": results.warnings,
         "bearings": results.bearings.iter().map(bearing).collect::<Value>(),
     })

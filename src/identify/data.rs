@@ -96,10 +96,36 @@ impl Data {
         };
         data.check(frfs)?;
         data.dead_channels(frfs)?;
-        let sizes: Vec<Vec<f64>> =
-            data.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
-        data.rescale(&sizes);
+        data.rescale(&data.sizes(frfs));
         Ok(data)
+    }
+
+    /// What every FRF is to count by: its RMS, but not less than 30 times its noise, nor than 1e-6 of the largest of its
+    /// kind (forces or moments, motions or rotations): what a sensor hears of nothing must not count like a resonance.
+    fn sizes(&self, frfs: &FrfMatrix) -> Vec<Vec<f64>> {
+        const NOISE: f64 = 30.0;
+        const LEAST: f64 = 1e-6;
+        let kind = |o: usize, i: usize| {
+            let (r, e) = if self.swapped { (i, o) } else { (o, i) };
+            [frfs.responses[r].is_rotation(), frfs.references[e].is_rotation()]
+        };
+        let own: Vec<Vec<f64>> =
+            self.values.iter().map(|row| row.iter().map(|frf| rms(frf)).collect()).collect();
+        let largest = |of: [bool; 2]| {
+            let all = own
+                .iter()
+                .enumerate()
+                .flat_map(|(o, row)| row.iter().enumerate().map(move |(i, v)| (o, i, v)));
+            all.filter(|(o, i, _)| kind(*o, *i) == of).map(|(_, _, v)| *v).fold(0.0, f64::max)
+        };
+        let of_kind = [[false, false], [false, true], [true, false], [true, true]].map(|k| (k, largest(k)));
+        let least = |o, i| of_kind.iter().find(|(k, _)| *k == kind(o, i)).map_or(0.0, |(_, v)| LEAST * v);
+        let size = |o: usize, i: usize| match own[o][i] {
+            // An FRF of zeros scales nothing.
+            0.0 => 0.0,
+            rms => rms.max(NOISE * scatter(&self.values[o][i])).max(least(o, i)),
+        };
+        (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| size(o, i)).collect()).collect()
     }
 
     /// The highest order to go to: as set, else 60 or what the lines allow.
@@ -200,6 +226,19 @@ fn highest_order(lines: usize) -> usize {
 /// Root mean square of |H|.
 fn rms(frf: &[Complex64]) -> f64 {
     (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt()
+}
+
+/// RMS of what scatters from line to line, by the median of third differences: E|n₃ − 3n₂ + 3n₁ − n₀|² = 20 σ², of
+/// which the median is ln 2. Resonances, wide over most lines or sharp over few, hardly show in it.
+fn scatter(frf: &[Complex64]) -> f64 {
+    let third = |w: &[Complex64]| (w[3] - w[2] * 3.0 + w[1] * 3.0 - w[0]).norm_sqr();
+    let mut all: Vec<f64> = frf.windows(4).map(third).collect();
+    if all.is_empty() {
+        return 0.0;
+    }
+    let middle = all.len() / 2;
+    let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
+    (median / (20.0 * std::f64::consts::LN_2)).sqrt()
 }
 
 /// Power of jω of every FRF: as set, else by its unit, else accelerance, which hammer tests give.

@@ -173,9 +173,13 @@ fn peak(cut: &OrderCut) -> CutPeak {
     CutPeak { rpm, rms, at_end }
 }
 
-/// Vertex of the parabola through the window k and its neighbours: windows may be farther apart than peaks are wide.
+/// Vertex of the parabola through the window k and its neighbours, where these are high enough for one.
 fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
+    const HIGH: f64 = 0.7;
     let (x, y) = (&cut.rpm[k - 1..=k + 1], &cut.rms[k - 1..=k + 1]);
+    if y[0].min(y[2]) < HIGH * y[1] {
+        return None;
+    }
     let (before, after) = ((y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]));
     let curvature = (after - before) / (x[2] - x[0]);
     let step = 0.5 * (x[0] + x[1]) - before / (2.0 * curvature);
@@ -213,8 +217,8 @@ mod tests {
 
     #[test]
     fn a_parabola_gives_its_own_vertex() {
-        let rpm = vec![100.0, 130.0, 180.0, 200.0];
-        let height = |x: f64| 5.0 - 2e-3 * (x - 141.0).powi(2);
+        let rpm = vec![100.0, 130.0, 160.0, 200.0];
+        let height = |x: f64| 5.0 - 1e-3 * (x - 141.0).powi(2);
         let cut = OrderCut {
             order: 1.0,
             times: (0..4).map(f64::from).collect(),

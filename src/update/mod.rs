@@ -222,18 +222,19 @@ fn fit(job: &Job, prior: &Prior, start: &[f64], kept: &[usize]) -> Result<least_
 /// A parameter whose prior's whole width moves no datum by this part of its deviation has no influence.
 const NO_INFLUENCE: f64 = 1e-4;
 
+/// One without influence among others stays at its start; where none has any there is nothing to fit.
 fn check_influence(job: &Job, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
     let without: Vec<&str> = (0..job.parameters.len())
         .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < NO_INFLUENCE)
         .map(|j| job.parameters[j].name.as_str())
         .collect();
-    if without.is_empty() {
+    if without.len() < job.parameters.len() {
         return Ok(());
     }
-    let verb = if without.len() == 1 { "changes" } else { "change" };
+    let (verb, it) = if without.len() == 1 { ("changes", "it changes") } else { ("change", "they change") };
     Err(UpdateError::new(
         format!("{} {verb} nothing that was measured", without.join(" and ")),
-        "leave it out of --free, or fit something that it changes (--fit damping, --fit frf)",
+        format!("free something else, or fit something that {it} (--fit damping, --fit frf)"),
     ))
 }
 

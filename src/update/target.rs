@@ -116,7 +116,7 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
         match (own, stated) {
             (Some(node), None) => Some(Anchor::node(node)),
             (Some(node), Some(position)) if is_at(model, node, position) => Some(Anchor::node(node)),
-            (_, Some(position)) => near_shaft(model, position),
+            (_, Some(position)) => known(model, position).or_else(|| near_shaft(model, position)),
             (None, None) => None,
         }
     };
@@ -148,7 +148,11 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
         let more = if lost.len() > 8 { ", ..." } else { "" };
         lost.truncate(8);
         return Err(UpdateError::new(
-            format!("the measured points {}{more} are no points of the model", lost.join(", ")),
+            {
+                let (are, points) =
+                    if lost.len() == 1 { ("is no point", "point") } else { ("are no points", "points") };
+                format!("the measured {points} {}{more} {are} of the model", lost.join(", "))
+            },
             "say with --mapping which point is which station",
         ));
     }
@@ -165,12 +169,34 @@ pub fn rotation_radius(model: &Model) -> f64 {
 /// Points given with the digits of a universal file lie within this of the model's \[m\].
 const NEAR: f64 = 1e-5;
 
-fn is_at(model: &Model, node: usize, [x, y, z]: [f64; 3]) -> bool {
-    let own = match node.checked_sub(model.node_z.len()) {
+fn is_at(model: &Model, node: usize, position: [f64; 3]) -> bool {
+    is_near(place_of(model, node), position)
+}
+
+/// A place of the model itself: of a probe, or of an end of its FRFs.
+fn known(model: &Model, position: [f64; 3]) -> Option<Anchor> {
+    let frf = model.studies.frf.iter();
+    let ends = frf.flat_map(|f| f.responses.iter().map(|p| p.at).chain(f.excitations.iter().map(|e| e.at)));
+    let mut places = model.probes.iter().map(|p| p.at).chain(ends);
+    places.find(|at| {
+        at.node.is_some_and(|node| {
+            let [a, b, c] = at.offset;
+            let [x, y, z] = place_of(model, node);
+            is_near([x + a, y + b, z + c], position)
+        })
+    })
+}
+
+/// Where a node lies, of the shaft or of a body.
+pub fn place_of(model: &Model, node: usize) -> [f64; 3] {
+    match node.checked_sub(model.node_z.len()) {
         None => [0.0, 0.0, model.node_z[node]],
         Some(body) => model.bodies[body].position,
-    };
-    (own[0] - x).abs() < NEAR && (own[1] - y).abs() < NEAR && (own[2] - z).abs() < NEAR
+    }
+}
+
+fn is_near(a: [f64; 3], b: [f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < NEAR)
 }
 
 /// The shaft node nearest along z, with the offset to the position; `None` beyond the shaft's ends.

@@ -8,7 +8,7 @@ use clap::Args;
 #[derive(Args, Clone, Debug)]
 pub struct NoiseArgs {
     /// Signal to noise of force and responses, such as "40 dB": writes frf_noisy.uff, as a test would measure it
-    #[arg(long, value_name = "LEVEL")]
+    #[arg(long, value_name = "LEVEL", allow_hyphen_values = true)]
     pub noise: Option<String>,
     /// Blows averaged
     #[arg(long, value_name = "N", default_value_t = 10)]
@@ -27,7 +27,7 @@ pub struct ShaftArgs {
     /// Pulses of the tacho in a turn
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
     pub pulses_per_turn: usize,
-    /// Take the jitter of the tacho's pulses away
+    /// Take the jitter of the tacho's pulses away (validate always does)
     #[arg(long, help_heading = "Shaft")]
     pub smooth_tacho: bool,
     /// Shaft angle from a line of the record itself: its order and the frequencies between which it stays, such as

@@ -93,6 +93,9 @@ pub struct UpdateArgs {
     /// Deviation of frequencies that even a good model leaves \[%\]
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1, value_parser = positive)]
     pub frequency_accuracy: f64,
+    /// Deviation of FRFs that even a good model leaves, of their size \[%\]: 10 is about 1 dB
+    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = positive)]
+    pub frf_accuracy: f64,
     /// Most steps
     #[arg(long, value_name = "N", default_value_t = 40)]
     pub iterations: usize,

@@ -15,7 +15,7 @@
 //! direction = "x"             # where the file tells none
 //! ```
 //!
-//! A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts. Beside a station,
+//! The shaft's speed or angle and a tacho have no station: `[channel.n] unit = "rpm"`. A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts. Beside a station,
 //! fixed to it: `offset = "150, 0, 0 mm"`.
 
 use std::collections::BTreeMap;
@@ -44,7 +44,8 @@ pub struct Mapping {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Place {
-    station: String,
+    /// None for the shaft's speed, its angle or a tacho, which only want a unit.
+    station: Option<String>,
     offset: Option<String>,
     direction: Option<String>,
     unit: Option<String>,
@@ -95,6 +96,20 @@ impl Mapping {
         (rate > 0.0).then_some(rate)
     }
 
+    /// Gives records the units of the mapping where their file tells none, whatever becomes of them.
+    pub fn give_units(&self, measured: &mut Measured) {
+        for record in &mut measured.records {
+            let label = self.channel.get(&record.name).and_then(|own| own.unit.as_deref());
+            if let Some((label, known)) = label.and_then(|l| Some((l, unit::si(l)?)))
+                && record.unit.is_empty()
+            {
+                record.values.scale(known.numerator, known.divisor);
+                record.unit = known.name;
+                record.stated_unit = label.into();
+            }
+        }
+    }
+
     /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
     /// name; returns what deserves a warning. Of the geometry only points beside stations are left: points have the
     /// model's numbers now, whatever the file calls by them. A mapping that names none (but a rate, or axes) keeps all.
@@ -126,7 +141,9 @@ impl Mapping {
         let axes = self.axes(&mut problems);
 
         let known: Vec<&str> = measured.records.iter().map(|r| r.name.as_str()).collect();
-        for name in self.channel.keys().filter(|name| !known.contains(&name.as_str())) {
+        // What has no station is the shaft's, and has been taken out.
+        let placed = self.channel.iter().filter(|(_, own)| own.station.is_some()).map(|(name, _)| name);
+        for name in placed.filter(|name| !known.contains(&name.as_str())) {
             problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
         }
         for number in self.point.keys() {
@@ -236,7 +253,7 @@ impl Mapping {
                         None => target.problems.push(format!("point {number} has no direction")),
                     }
                 }
-                nodes.push(target.point_at(&at.station, at.offset.as_deref()));
+                nodes.push(target.point_at(&number.to_string(), at.station.as_deref(), at.offset.as_deref()));
                 values.extend(turned);
             }
             shape.components = if parts == 1 { 3 } else { parts };
@@ -322,7 +339,11 @@ const MOUNTS: i64 = 1_000_000;
 
 impl Target<'_> {
     /// Number of a station, or of a point beside it.
-    fn point_at(&mut self, station: &str, offset: Option<&str>) -> i64 {
+    fn point_at(&mut self, name: &str, station: Option<&str>, offset: Option<&str>) -> i64 {
+        let Some(station) = station else {
+            self.problems.push(format!("`{name}` has no station"));
+            return 0;
+        };
         let on = self.station(station);
         let Some(text) = offset else { return on };
         let offset: [f64; 3] = match units::parse_list(text, units::LENGTH).map(|list| list.try_into()) {
@@ -379,9 +400,13 @@ impl Target<'_> {
             Some(word) => self.direction(word),
             None => self.turned(record.response.direction),
         };
-        record.response = Dof::new(self.point_at(&own.station, own.offset.as_deref()), way);
+        record.response =
+            Dof::new(self.point_at(&record.name, own.station.as_deref(), own.offset.as_deref()), way);
         record.reference = match &own.reference {
-            Some(r) => Dof::new(self.point_at(&r.station, r.offset.as_deref()), self.direction(&r.direction)),
+            Some(r) => Dof::new(
+                self.point_at(&record.name, Some(&r.station), r.offset.as_deref()),
+                self.direction(&r.direction),
+            ),
             None => Dof::NONE,
         };
         if way == 0 {
@@ -421,7 +446,7 @@ impl Target<'_> {
         if way == 0 {
             self.problems.push(format!("`{name}` has no direction at point {}", dof.node));
         }
-        Dof::new(self.point_at(&at.station, at.offset.as_deref()), way)
+        Dof::new(self.point_at(name, at.station.as_deref(), at.offset.as_deref()), way)
     }
 
     /// Converts values whose unit the file does not tell.

@@ -6,6 +6,8 @@ use super::svg::{Svg, Text};
 
 /// Width of each of several panels \[px\].
 const BESIDE: f64 = 400.0;
+/// Between them: the last number of one axis must keep off the first of the next \[px\].
+const BETWEEN: f64 = 34.0;
 
 /// A row of panels, the first with the scale of y.
 #[derive(Clone, Copy, Debug)]
@@ -22,11 +24,11 @@ impl Row {
 
     /// Of all panels with the gaps between them \[px\].
     pub fn width(self) -> f64 {
-        self.panel * self.count as f64 + GAP * (self.count - 1) as f64
+        self.panel * self.count as f64 + BETWEEN * (self.count - 1) as f64
     }
 
     pub fn frame(self, k: usize, y: f64, h: f64) -> Frame {
-        Frame { x: LEFT + (self.panel + GAP) * k as f64, y, w: self.panel, h }
+        Frame { x: LEFT + (self.panel + BETWEEN) * k as f64, y, w: self.panel, h }
     }
 
     /// Border with its labels, each a name and a unit; y is labelled at the first panel only.
