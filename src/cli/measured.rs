@@ -120,6 +120,30 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Sta
     terminal.table(&format!("{title} at {:.0} rpm", rpm(target.speed)), &header, &rows);
 }
 
+/// From this difference of frequencies on a pair is doubted.
+const FAR: f64 = 0.2;
+
+/// Pairs whose frequencies lie far apart.
+pub fn far_pairs(terminal: &Terminal, target: &Target, state: &State) {
+    for (k, measured) in target.modes.iter().enumerate() {
+        let Some((mode, mac)) = state.partner(k) else { continue };
+        let off = mode.frequency_hz() / measured.frequency_hz - 1.0;
+        if off.abs() > FAR {
+            terminal.complain(
+                "warning",
+                &format!(
+                    "{:.1} Hz as measured and {:.1} Hz as computed ({}) are {:+.0} % apart, MAC {mac:.2}: are they \
+                     the same mode, and the points and directions right?",
+                    measured.frequency_hz,
+                    mode.frequency_hz(),
+                    mode.label,
+                    100.0 * off
+                ),
+            );
+        }
+    }
+}
+
 /// Frequencies between which modes were measured, a little wider.
 pub fn band(target: &Target) -> [f64; 2] {
     let all = || target.modes.iter().map(|m| m.frequency_hz);

@@ -80,6 +80,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     singular_table(terminal, &parameters, &found);
     measured::mode_table(terminal, "Modes before", &read.target, &found.before);
     measured::mode_table(terminal, "Modes after", &read.target, &found.after);
+    measured::far_pairs(terminal, &read.target, &found.after);
     let frfs =
         |state: &rotordyn::update::state::State| read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose();
     let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
