@@ -117,6 +117,48 @@ fn update_writes_the_file_as_the_user_wrote_it() {
     keep_pictures(folder.path(), "update");
 }
 
+/// What a model cannot explain is said, not only counted; and machines are told as people are.
+#[test]
+fn updates_that_do_not_explain_the_data_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let warnings = |more: &[&str]| {
+        let mut command = rotordyn();
+        command.args(["update", RIG, "--free", "housing.B.k_x", "--no-figures", "--band", "5 .. 300 Hz"]);
+        command.args(more).arg("--measured").arg(truth()).arg("--out").arg(folder.path());
+        json_of(&mut command)["warnings"].to_string()
+    };
+    // Both housings and both planes differ, and one number is free.
+    let said = warnings(&[]);
+    assert!(said.contains("does not explain the data"), "{said}");
+    let said = warnings(&["--prior", "housing.B.k_x=+- 0.1 %"]);
+    assert!(said.contains("standard deviations of its prior away from the start"), "{said}");
+    // With all that differs free there is nothing to say.
+    let mut command = rotordyn();
+    command.args(["update", RIG, "--free", "housing.*.k_x,housing.*.k_y", "--no-figures", "--band"]);
+    command.args(["5 .. 300 Hz", "--measured"]).arg(truth()).arg("--out").arg(folder.path());
+    let document = json_of(&mut command);
+    assert!(!document["warnings"].to_string().contains("explain"), "{}", document["warnings"]);
+    assert_eq!(document["schema"], "rotordyn-results-1");
+}
+
+/// Sensors beside a housing's middle are found again by the model that has them.
+#[test]
+fn sensors_on_housings_are_found_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, out) = ("models/two_disc_pedestals.toml", folder.path().join("test"));
+    rotordyn().args(["frf", model, "--no-figures", "--noise", "40 dB", "--out"]).arg(&out).assert().success();
+    let mut command = rotordyn();
+    command.args(["validate", model, "--no-figures", "--measured"]).arg(out.join("frf_noisy.uff"));
+    let document = json_of(command.arg("--out").arg(folder.path().join("out")));
+    let measured = &document["measured"][0];
+    for row in measured["frac"].as_array().unwrap() {
+        assert!(row[0].as_f64().unwrap() > 0.999, "{}", measured["frac"]);
+    }
+    for mode in measured["modes"].as_array().unwrap() {
+        assert!(mode["mac"].as_f64().unwrap() > 0.95, "{mode}");
+    }
+}
+
 /// What a command says on its way to exit code 2.
 fn refused(command: &str, args: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();

@@ -133,6 +133,43 @@ fn a_thicker_shaft_shows_where_it_is_critical() {
     }
 }
 
+/// Edges of a square wave fall between samples: the angle jitters, and the shaft must not be shaken by it. And a
+/// recorder that stores a speed without its unit is told it by the mapping.
+#[test]
+fn coarse_tachos_and_bare_speeds_drive_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut run = rotordyn();
+    run.args(["run-up", MODEL, "--no-figures", "--sample-rate", "3 kHz", "--out"]).arg(&out);
+    run.assert().success();
+    let found = measured::read(&out.join("results.h5")).unwrap();
+    let values = |name: &str| found.record(name).unwrap().time_samples().unwrap().to_vec();
+    let theta = found.records.iter().find(|r| r.unit == "rad" && r.name.contains("theta")).unwrap();
+    let theta = theta.time_samples().unwrap();
+    let record = |name: &str, values: Vec<f64>, unit: &str| Record::samples(name, 3000.0, 0.0, values, unit);
+    let square = theta.iter().map(|a| f64::from((4.0 * a + 0.3).sin() > 0.0)).collect();
+    let speed = theta.windows(2).map(|w| (w[1] - w[0]) * 3000.0 * 30.0 / std::f64::consts::PI);
+    let mut speed: Vec<f64> = speed.collect();
+    speed.push(speed[speed.len() - 1]);
+    let records =
+        vec![record("x", values("disc_x"), "m"), record("pulses", square, "V"), record("speed", speed, "")];
+    let path = folder.path().join("record.npz");
+    measured::write(&path, &Measured { records, ..Measured::default() }).unwrap();
+    let mapping = folder.path().join("map.toml");
+    let text = "[channel.x]\nstation = \"disc\"\ndirection = \"x\"\n[channel.speed]\nunit = \"rpm\"\n";
+    std::fs::write(&mapping, text).unwrap();
+    for how in [&["--tacho", "pulses", "--pulses-per-turn", "4"][..], &[]] {
+        let mut command = rotordyn();
+        command.args(["validate", MODEL, "--no-figures", "--measured"]).arg(&path);
+        command.arg("--mapping").arg(&mapping).args(how);
+        let document = json_of(command.arg("--out").arg(folder.path().join("out")));
+        let once = order(&document, 0, "1x");
+        println!("{how:?} {once}");
+        assert!(number(&once["likeness"]) > 0.999, "{how:?}: {once}");
+        assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 0.01, "{once}");
+    }
+}
+
 #[test]
 fn a_results_file_holds_modes_and_a_run_up() {
     let folder = tempfile::tempdir().unwrap();

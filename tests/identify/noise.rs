@@ -1,7 +1,8 @@
 //! Noise: modes found all the same, and standard errors that are what the scatter is.
 
 use rotordyn::identify::{Settings, identify};
-use rotordyn::signal::record::NoisyTest;
+use rotordyn::linalg::Complex64;
+use rotordyn::signal::record::{Dof, NoisyTest};
 
 use crate::made::{Known, bent, frfs, lines};
 
@@ -86,4 +87,46 @@ fn same_seed_same_frfs() {
     assert!((ratio / 2e-5 - 1.0).abs() < 0.25, "{ratio:.3e}");
     let coherence = noisy.coherence.unwrap();
     assert!(coherence.iter().flatten().flatten().all(|c| (0.0..=1.0).contains(c)));
+}
+
+/// What sensors hear of nothing, beside what moves: no mode is lost by it and no error grows.
+#[test]
+fn responses_of_noise_alone_do_no_harm() {
+    let known = known(&[0, 4]);
+    let exact = frfs(&known, &lines(2.0, 110.0, 0.1), 2);
+    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
+    let settings = Settings { max_order: Some(30), ..Settings::default() };
+    let good = exact.measured_with(&test).unwrap();
+    let alone = identify(&good, &settings).unwrap();
+    let largest = good.values[0][0].iter().map(|h| h.norm()).fold(0.0, f64::max);
+    // A sensor's floor, a thousandth of the largest response, and round-off.
+    for floor in [1e-3 * largest, 1e-14 * largest] {
+        let mut state = 99_u64;
+        let mut noise = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            floor * ((state >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
+        };
+        let mut frfs = good.clone();
+        for k in 0..4 {
+            let own = |noise: &mut dyn FnMut() -> f64| {
+                good.frequencies.iter().map(|_| Complex64::new(noise(), noise())).collect::<Vec<_>>()
+            };
+            frfs.responses.push(Dof::new(20 + k, 1));
+            frfs.values.push(vec![own(&mut noise), own(&mut noise)]);
+            frfs.units.push(good.units[0].clone());
+            if let Some(coherence) = &mut frfs.coherence {
+                coherence.push(vec![vec![0.1; good.frequencies.len()]; 2]);
+            }
+        }
+        let found = identify(&frfs, &settings).unwrap();
+        assert_eq!(found.modes.len(), alone.modes.len(), "{:?}", found.dropped);
+        for (with, without) in found.modes.iter().zip(&alone.modes) {
+            let (a, b) = (with.frequency_error, without.frequency_error);
+            println!("{floor:.1e}: {:.4} Hz +- {a:.1e}, without +- {b:.1e}", with.frequency_hz());
+            assert!(a < 1.5 * b, "{a} {b}");
+            assert!((with.frequency_hz() - without.frequency_hz()).abs() < 3.0 * b);
+        }
+    }
 }
