@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn a_parabola_gives_its_own_vertex() {
         let rpm = vec![100.0, 130.0, 160.0, 200.0];
-        let height = |x: f64| 5.0 - 1e-3 * (x - 141.0).powi(2);
+        let height = |x: f64| 5.0 - 5e-4 * (x - 141.0).powi(2);
         let cut = OrderCut {
             order: 1.0,
             times: (0..4).map(f64::from).collect(),
