@@ -47,7 +47,7 @@ pub fn phase_collinearity(shape: &[Complex64]) -> f64 {
 }
 
 /// aᴴ b.
-pub(super) fn dot(a: &[Complex64], b: &[Complex64]) -> Complex64 {
+pub(crate) fn dot(a: &[Complex64], b: &[Complex64]) -> Complex64 {
     a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 

@@ -5,6 +5,7 @@ use super::pairing::{LEAST_MAC, likeness};
 use super::target::TargetMode;
 use crate::analysis::modal::{self, Mode};
 use crate::assembly::Assembly;
+use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
 /// Turns every pair of equal eigenvalues to the measured shapes that lie in its plane of shapes; without such, it stays.
@@ -27,10 +28,6 @@ pub(super) fn align(
             modes[k] = modal::with_shape(assembly, &modes[k], shape);
         }
     }
-}
-
-fn dot(a: &[Complex64], b: &[Complex64]) -> Complex64 {
-    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 
 /// Two unitary combinations of two shapes: those nearest to the two measured shapes that the plane of both holds best.

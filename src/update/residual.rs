@@ -9,6 +9,7 @@ use super::target::{Target, TargetMode};
 use crate::analysis::modal::Mode;
 use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative};
 use crate::error::{Error, PhysicsError};
+use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
 /// What is fitted, each with the standard deviation that it is taken to have at least; `None` is left out.
@@ -138,8 +139,6 @@ fn shape_rows(
     deviation: f64,
     rows: &mut Rows,
 ) {
-    let dot =
-        |a: &[Complex64], b: &[Complex64]| a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex64>();
     let size = dot(measured, measured).re.sqrt();
     let own = dot(computed, computed).re;
     if size == 0.0 || own == 0.0 {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::identify::{MODES, Mode, accelerance, changed, noise, pole, told, write};
-use crate::{json_of, rotordyn};
+use crate::{json_of, rotordyn, struck_rig};
 use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium};
 use rotordyn::analysis::modal;
 use rotordyn::assembly::{Assembly, LinearSystem};
@@ -339,14 +339,7 @@ fn bad_blows_are_told() {
 fn simulated_hammer_test() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/overhung_rig.toml");
-    let text = std::fs::read_to_string(rig).unwrap();
-    let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
-    let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
-        [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
-    // Nothing turns: there are no orders to see.
-    let orders = text.find("[study.orders]").unwrap()..text.find("# --- the paper's other").unwrap();
-    let text = format!("{}{hammer}{}{}", &text[..start], &text[end..orders.start], &text[orders.end..]);
+    let text = struck_rig();
     std::fs::write(folder.join("hammer.toml"), &text).unwrap();
     let mut command = rotordyn();
     command.current_dir(folder).args([

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use crate::{json_of, output_of, rotordyn};
+use crate::{json_of, output_of, rotordyn, struck_rig};
 
 const RIG: &str = "models/overhung_rig.toml";
 
@@ -320,15 +320,7 @@ fn noisy_frfs_give_the_housings_back_and_not_the_bearings() {
 #[test]
 fn hammer_tests_of_two_forces_show_the_shift() {
     let folder = tempfile::tempdir().unwrap();
-    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG);
-    let text = std::fs::read_to_string(rig).unwrap();
-    let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
-    let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
-        [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
-    // Nothing turns: there are no orders to see.
-    let orders = text.find("[study.orders]").unwrap()..text.find("# --- the paper's other").unwrap();
-    let text = format!("{}{hammer}{}{}", &text[..start], &text[end..orders.start], &text[orders.end..]);
-    let model = file(&folder, "hammer.toml", &text);
+    let model = file(&folder, "hammer.toml", &struck_rig());
     let mut runs = Vec::new();
     for force in ["1", "200"] {
         let out = folder.path().join(format!("blow_{force}N"));

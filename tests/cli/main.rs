@@ -42,3 +42,15 @@ fn models() -> Vec<PathBuf> {
     assert!(models.len() >= 4);
     models
 }
+
+/// The rig at rest, struck along y at its disc by a triangle of 2 ms, 1 N high.
+fn struck_rig() -> String {
+    let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/overhung_rig.toml");
+    let text = std::fs::read_to_string(rig).unwrap();
+    let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
+    let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
+        [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
+    // Nothing turns: there are no orders to see.
+    let orders = text.find("[study.orders]").unwrap()..text.find("# --- the paper's other").unwrap();
+    format!("{}{hammer}{}{}", &text[..start], &text[end..orders.start], &text[orders.end..])
+}

@@ -103,9 +103,7 @@ impl Mapping {
             if let Some((label, known)) = label.and_then(|l| Some((l, unit::si(l)?)))
                 && record.unit.is_empty()
             {
-                record.values.scale(known.numerator, known.divisor);
-                record.unit = known.name;
-                record.stated_unit = label.into();
+                convert(record, label, known);
             }
         }
     }
@@ -309,6 +307,13 @@ fn points_of(measured: &Measured) -> Vec<i64> {
     points
 }
 
+/// Values that were stored in a unit that their file does not tell.
+fn convert(record: &mut Record, label: &str, known: unit::SiUnit) {
+    record.values.scale(known.numerator, known.divisor);
+    record.unit = known.name;
+    record.stated_unit = label.into();
+}
+
 fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     problems.push(problem);
     None
@@ -466,8 +471,6 @@ impl Target<'_> {
             }
             return;
         }
-        record.values.scale(known.numerator, known.divisor);
-        record.unit = known.name;
-        record.stated_unit = label.into();
+        convert(record, label, known);
     }
 }
