@@ -1,4 +1,4 @@
-//! One interface for every integrator: fixed steps that are halved where they fail, or steps under error control.
+//! Common interface of the time integrators: fixed steps, halved on failure, or error-controlled steps.
 
 use super::generalised_alpha::{GeneralisedAlpha, Scheme};
 use super::runge_kutta::RungeKutta;
@@ -6,17 +6,17 @@ use super::system::{State, System};
 use crate::error::PhysicsError;
 use crate::model::study::Integrator;
 
-/// A step halved this often has no hope: 2⁻¹² of the step.
+/// Largest number of halvings of a step: 2⁻¹² of its length.
 const MAX_HALVINGS: u32 = 12;
-/// A bearing displacement beyond this \[m\] means the run has diverged.
+/// Bearing displacement above which the run counts as diverged \[m\].
 const DIVERGED: f64 = 0.1;
 
-/// An integrator at work on one system.
+/// A time integrator for one system.
 pub struct Stepper {
     method: Method,
     /// Steps accepted.
     pub steps: u64,
-    /// Steps that had to be halved (implicit) or were refused by error control (explicit).
+    /// Steps that were halved (implicit) or rejected by error control (explicit).
     pub halvings: u64,
 }
 
@@ -36,7 +36,7 @@ enum Method {
 pub type Taken<'a> = &'a mut dyn FnMut(&mut State, f64) -> Result<(), PhysicsError>;
 
 impl Stepper {
-    /// `step` is the first one under error control, else unused.
+    /// `step`: the initial step under error control, else unused.
     pub fn new(system: &System, integrator: Integrator, step: f64) -> Self {
         let implicit = |scheme| Method::Implicit(Box::new(GeneralisedAlpha::new(system, scheme)));
         let method = match integrator {
@@ -54,7 +54,7 @@ impl Stepper {
         Self { method, steps: 0, halvings: 0 }
     }
 
-    /// Whether the steps' lengths follow from error control.
+    /// Whether the step size is controlled by the error estimate.
     pub fn is_adaptive(&self) -> bool {
         matches!(self.method, Method::Adaptive { .. })
     }
@@ -62,15 +62,15 @@ impl Stepper {
     /// Newton iterations spent and effective matrices inverted by an implicit method.
     pub fn work(&self) -> (u64, u64) {
         match &self.method {
-            Method::Implicit(method) => (method.iterations, method.refactored),
+            Method::Implicit(method) => (method.iterations(), method.inverted()),
             _ => (0, 0),
         }
     }
 
-    /// Advances `state` by `step` to the time `end`, which the caller counts so that the clock does not drift.
+    /// Advances `state` by `step` to the time `end`, given by the caller to avoid accumulated round-off.
     ///
     /// # Errors
-    /// A step that fails however short it is, a state that is none any more, or what `taken` says.
+    /// A step that fails at the smallest length, or an error of `taken`.
     pub fn advance(
         &mut self,
         system: &System,
@@ -91,7 +91,7 @@ impl Stepper {
         Ok(())
     }
 
-    /// Takes one step of just this length, neither halved nor refused: that of a run beside the one that chose it.
+    /// Takes one step of exactly this length, neither halved nor rejected, as a perturbed trajectory must.
     ///
     /// # Errors
     /// An implicit step that does not converge.
@@ -143,7 +143,7 @@ impl Stepper {
         let smallest = 1e-12 * end.max(1e-3);
         while end - state.time > smallest {
             let left = end - state.time;
-            // Two equal steps rather than one full and one sliver.
+            // Two equal steps rather than a full and a very short one.
             let step = if *next >= left {
                 left
             } else if 2.0 * *next > left {
@@ -175,7 +175,7 @@ impl Stepper {
     }
 }
 
-/// One explicit step; returns the error estimate, above 1 when the step was refused.
+/// One explicit step; returns the error estimate, above 1 when the step was rejected.
 fn explicit(
     system: &System,
     state: &mut State,
@@ -202,7 +202,7 @@ fn no_convergence(
     }
 }
 
-/// Whether the state is still one: finite, and no bearing torn apart.
+/// Divergence check: all values finite and all bearing displacements within limits.
 ///
 /// # Errors
 /// [`PhysicsError::Diverged`] naming the largest displacement.
