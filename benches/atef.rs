@@ -1,4 +1,4 @@
-//! The six-degree-of-freedom bearing of models/atef_2022.toml with RK4 at 6 us: 0.1 s of it, to be compared with 0.02 s.
+//! The six-degree-of-freedom bearing of models/atef_2022.toml with RK4 at 6 us: 0.1 s, to compare with 0.02 s.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -13,8 +13,8 @@ fn machine(variant: Option<&str>) -> Machine {
     let options =
         Options { variant: variant.map(String::from), set: vec![("speed.duration".into(), "0.1 s".into())] };
     let text = include_str!("../models/atef_2022.toml");
-    let loaded = load("atef_2022.toml", text, &options).expect("the file is sound");
-    Machine::new(loaded.model).expect("the machine stands")
+    let loaded = load("atef_2022.toml", text, &options).expect("the file is valid");
+    Machine::new(loaded.model).expect("the machine has an equilibrium")
 }
 
 fn runs(c: &mut Criterion) {

@@ -1,4 +1,4 @@
-//! One bearing: force and tangents of its balls.
+//! One bearing: force and tangent stiffness of its balls; stiffness map.
 
 use std::hint::black_box;
 
@@ -17,7 +17,7 @@ fn reaction(c: &mut Criterion) {
     let dry = BallElement::new(&bearing::rig_6205());
     let still = Rotation { cage_angle: 0.3, ..Rotation::default() };
     let moving = Rotation { cage_angle: 0.3, cage_speed: 50.0, shaft_angle: 0.7, shaft_speed: 125.0 };
-    // Thrust puts all nine balls under load.
+    // Thrust loads all nine balls.
     let thrust = [1e-6, 2e-6, 1e-4, 1e-5, 2e-5, 0.0];
     for (name, place) in [("some", PLACE), ("all", thrust)] {
         c.bench_function(&format!("dry_9_balls_{name}_loaded"), |b| {

@@ -1,6 +1,6 @@
-//! Speed of one elastohydrodynamic contact, from nothing to the solution, and of the contact law read from a table.
+//! Speed of one elastohydrodynamic (EHL) contact solved from scratch, and of the tabulated contact law.
 //!
-//! 121 × 57 nodes over the whole domain, 29 rows of the half domain solved; three grids nested.
+//! 121 × 57 nodes over the whole domain, 29 rows solved by symmetry; three nested grids.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::contact::ehl::{self, Domain, Grid, Problem, TableSpec};

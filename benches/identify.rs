@@ -40,7 +40,7 @@ fn measured() -> FrfMatrix {
         frequencies,
     };
     let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
-    exact.measured_with(&test).expect("the test is sound")
+    exact.measured_with(&test).expect("a valid test")
 }
 
 fn poles(c: &mut Criterion) {

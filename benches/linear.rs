@@ -15,10 +15,10 @@ mod ross;
 
 fn linear(c: &mut Criterion) {
     let model = ross::model(&ross::read("ross/bench_model_40.json"));
-    let assembly = Assembly::new(&model).expect("the model is sound");
+    let assembly = Assembly::new(&model).expect("the model is valid");
     let tangents = |speed: f64| Ok(ross::tangents(&model, speed));
     let system = |speed: f64| {
-        LinearSystem::new(&assembly, &ross::tangents(&model, speed), speed).expect("the model is sound")
+        LinearSystem::new(&assembly, &ross::tangents(&model, speed), speed).expect("the model is valid")
     };
 
     c.bench_function("assembly, 40 elements", |b| b.iter(|| Assembly::new(black_box(&model))));

@@ -12,8 +12,8 @@ use rotordyn::study::Machine;
 fn rig(variant: Option<&str>) -> Machine {
     let options = Options { variant: variant.map(String::from), ..Options::default() };
     let text = include_str!("../models/overhung_rig.toml");
-    let loaded = load("overhung_rig.toml", text, &options).expect("the rig's file is sound");
-    Machine::new(loaded.model).expect("the rig stands")
+    let loaded = load("overhung_rig.toml", text, &options).expect("the rig's file is valid");
+    Machine::new(loaded.model).expect("the rig has an equilibrium")
 }
 
 fn run_up(c: &mut Criterion) {

@@ -1,4 +1,4 @@
-//! STFT and order analysis of a run-up record: 13 s at 20 kHz, 260 thousand samples; tools of fault finding on 120
+//! STFT and order tracking of a run-up record: 13 s at 20 kHz, 260 thousand samples; bearing diagnosis on 120
 //! thousand samples.
 
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! Speed of a bifurcation diagram: 200 speeds swept up, 300 ball passages each, on every core.
+//! Speed of a bifurcation diagram: 200 speeds swept up, 300 ball passages each, on all cores.
 
 use std::ops::ControlFlow;
 
@@ -8,7 +8,7 @@ use rotordyn::study::bifurcation;
 
 const MODEL: &str = include_str!("../models/varying_compliance.toml");
 
-/// One machine per value, as the command makes them.
+/// One machine per value, as the command line builds them.
 fn family() -> Vec<Model> {
     let settings = [
         ("study.bifurcation.values", "{ from = \"500 rpm\", to = \"6000 rpm\", count = 200 }"),
@@ -19,10 +19,10 @@ fn family() -> Vec<Model> {
     let load = |more: &[(String, String)]| {
         let set = settings.iter().map(|(path, value)| ((*path).to_string(), (*value).to_string()));
         let options = Options { set: set.chain(more.iter().cloned()).collect(), ..Options::default() };
-        load("varying_compliance.toml", MODEL, &options).expect("the model is sound").model
+        load("varying_compliance.toml", MODEL, &options).expect("the model is valid").model
     };
     let base = load(&[]);
-    let parameter = base.studies.bifurcation.as_ref().expect("the file asks for a diagram").parameter.clone();
+    let parameter = base.studies.bifurcation.as_ref().expect("a bifurcation study").parameter.clone();
     (0..parameter.values.len()).map(|k| load(&parameter.settings(k))).collect()
 }
 

@@ -1,4 +1,4 @@
-//! An update of the rig with four free parameters, from reading the file on; 5 s is the limit.
+//! Model updating of the rig with four free parameters, including reading the file; limit 5 s.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::model::stated::stated;
@@ -16,10 +16,10 @@ const FREE: [&str; 4] = ["housing.*.k_x", "housing.*.k_y", "belt.drive.k_x", "be
 
 fn rig(set: &[(String, String)]) -> Model {
     let options = Options { variant: None, set: set.to_vec() };
-    load("overhung_rig.toml", RIG, &options).expect("a sound model").model
+    load("overhung_rig.toml", RIG, &options).expect("a valid model").model
 }
 
-/// Modes of the rig with other housings, at both bearings and the disc.
+/// Modes of the rig with other housing stiffness, at both bearings and the disc.
 fn measured() -> Target {
     let other = [("A", "4.2e6", "2.1e7"), ("B", "4.2e6", "2.1e7")];
     let set: Vec<(String, String)> = other

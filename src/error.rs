@@ -2,37 +2,37 @@
 
 use std::path::PathBuf;
 
-/// Anything that can go wrong outside reading a model file.
+/// Any error other than those of reading a model file.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The physics has no answer here: item, speed, time, iteration and residual as far as known.
+    /// A failure of the physics or of its numerical solution.
     #[error("{0}")]
     Physics(#[from] PhysicsError),
     /// A record or setting that a signal function cannot work with.
     #[error(transparent)]
     Signal(#[from] crate::signal::SignalError),
-    /// A record that cannot serve as what was asked of it.
+    /// A record unsuitable for the requested evaluation.
     #[error(transparent)]
     Record(#[from] crate::signal::record::RecordError),
-    /// A model that cannot be held against what was measured.
+    /// A failure of model updating.
     #[error(transparent)]
     Update(#[from] crate::update::UpdateError),
-    /// FRFs from which no modes come.
+    /// FRFs in which no modes can be identified.
     #[error(transparent)]
     Identify(#[from] crate::identify::IdentifyError),
-    /// A file whose content cannot be used: what is wrong with it, and what to do.
+    /// A file whose content cannot be used: the problem, and a hint how to correct it.
     #[error("{}: {problem}; {advice}", path.display())]
     Content { path: PathBuf, problem: String, advice: String },
-    /// A file or folder did not obey.
+    /// A failed operation on a file or folder.
     #[error("{operation} {}: {source}", path.display())]
     Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
 }
 
-/// A failure of the physics, with all that is known about where it happened.
+/// A failure of the physics or of its numerical solution, with item, speed, time and residual if known.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PhysicsError {
     #[error(
-        "the system is singular: {motion} is free to move; hold it with a bearing, bushing, joint or drive"
+        "the system is singular: {motion} is unconstrained; constrain it with a bearing, bushing, joint or drive"
     )]
     Singular { motion: String },
     #[error(
@@ -45,9 +45,9 @@ pub enum PhysicsError {
     NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
     #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
     Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
-    #[error("the clock of the section stands still at {speed_rpm:.1} rpm")]
+    #[error("the clock of the Poincaré section does not advance at {speed_rpm:.1} rpm")]
     ClockStandsStill { speed_rpm: f64 },
-    #[error("no steady motion at any value: {reason}")]
+    #[error("no steady motion at any value of the parameter: {reason}")]
     NoMotion { reason: String },
     #[error(
         "bearing {bearing} has no equilibrium under F = ({:.4}, {:.4}, {:.4}) N, M = ({:.4}, {:.4}) N m at {speed_rpm:.1} rpm: residual {residual:.3e} N after {iterations} iterations",
@@ -56,7 +56,7 @@ pub enum PhysicsError {
     NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
     #[error("bearing {bearing}, {race} race: {reason}")]
     Film { bearing: String, race: String, reason: String },
-    #[error("no derivative by the parameter: {reason}")]
+    #[error("no derivative with respect to the parameter: {reason}")]
     NoDerivative { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },

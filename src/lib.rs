@@ -1,7 +1,7 @@
 //! rotordyn: a multibody rotor-bearing simulator with a flexible shaft.
 //!
-//! One text describes a machine; from it come its modes, Campbell diagram, FRFs and nonlinear run-ups. The whole
-//! pipeline, on a small rotor:
+//! A model file describes a machine; modes, Campbell diagram, FRFs and nonlinear run-ups are computed from
+//! it. The whole pipeline on a small rotor:
 //!
 //! ```
 //! use rotordyn::model::{self, study};
@@ -60,10 +60,10 @@
 //! "#;
 //! let model = model::load("small_rotor.toml", text, &Default::default())?.model;
 //!
-//! // Assembled, with its static equilibrium under gravity on the balls it rests on.
+//! // Assembled, with the static equilibrium under gravity.
 //! let machine = Machine::new(model)?;
 //!
-//! // Linearised about it: modes, labelled by orbit and energy, and a Campbell diagram followed by MAC.
+//! // Linearised about it: modes labelled by whirl and energy, and a Campbell diagram with MAC mode tracking.
 //! let modes = machine.modal(&study::ModalStudy { speeds: vec![0.0, TAU * 20.0], modes: 6 })?;
 //! let bending = modes[1].modes.iter().find(|m| m.label == "1st bending forward");
 //! assert!(bending.is_some_and(|m| m.frequency_hz() > 20.0));
@@ -73,8 +73,8 @@
 //!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, follow_bearings: true })?;
 //! assert_eq!(campbell.diagram.branches.len(), 4);
 //!
-//! // The nonlinear run-up: linear parts reduced to their modes, one Hertz contact per ball, every sample seen.
-//! let settings = machine.model.studies.run_up.clone().expect("asked for in the file");
+//! // The nonlinear run-up: linear parts reduced by component mode synthesis, one Hertz contact per ball.
+//! let settings = machine.model.studies.run_up.clone().expect("given in the file");
 //! let reduction = machine.reduce(&settings)?;
 //! let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
 //! let report = machine.run_up(&settings, &reduction, |sample| {
@@ -83,7 +83,7 @@
 //! });
 //! assert!(report.energy.residual().abs() < 1e-3 * report.energy.turnover());
 //!
-//! // What was measured in it, over the shaft's orders.
+//! // Order tracking of a recorded channel.
 //! let orders = study::OrderStudy {
 //!     channels: vec!["disc_y".into()],
 //!     resolution: 0.5,
@@ -97,7 +97,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
 //! | [`units`], [`material`] | quantities as text; material data |
@@ -105,16 +105,16 @@
 //! | [`signal`] | spectra, STFT, order tracking, envelopes, bearing faults, orbits of sampled records |
 //! | [`contact`] | Hertz contacts |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
-//! | [`bearing`] | linear and ball bearings, sound or damaged: force and both tangents |
-//! | [`model`] | the model file, read and checked; the machine in SI |
-//! | [`assembly`] | degrees of freedom, matrices, joints eliminated, free motions |
+//! | [`bearing`] | linear and ball bearings, healthy or with defects: force, tangent stiffness and damping |
+//! | [`model`] | the model file, read and validated; the machine in SI |
+//! | [`assembly`] | degrees of freedom, system matrices, eliminated joints, rigid-body modes |
 //! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
-//! | [`transient`] | reduction, time integration, energy account |
-//! | [`identify`] | poles, shapes and residues from measured FRFs, with their standard errors |
-//! | [`update`] | a model held against measured modes: pairs, sensitivities, least squares, what the data tell |
-//! | [`results`], [`study`] | what studies give, and the studies: one method of [`study::Machine`] each |
-//! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes: one owner each |
-//! | [`error`] | input, physics, environment |
+//! | [`transient`] | model reduction, time integration, energy balance |
+//! | [`identify`] | experimental modal analysis: poles, shapes and residues from FRFs, with standard errors |
+//! | [`update`] | model updating: mode pairing by MAC, sensitivities, least squares, identifiability |
+//! | [`results`], [`study`] | results of the studies; the studies, one method of [`study::Machine`] each |
+//! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes |
+//! | [`error`] | error types: input, physics, environment |
 //!
 //! Imports go down this table only.
 

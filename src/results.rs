@@ -1,4 +1,4 @@
-//! What the studies of a model give: plain data, as computed, in SI.
+//! Results of the studies of a model: plain data in SI.
 
 mod bearing;
 mod beside;
@@ -30,7 +30,7 @@ use crate::signal::period::Classified;
 use crate::signal::stft::Spectrogram;
 use crate::transient::run::Report;
 
-/// Everything computed from one model; a study that was not asked for is empty.
+/// Everything computed from one model; studies not requested are empty.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     pub equilibrium: Option<Equilibrium>,
@@ -46,7 +46,7 @@ pub struct Results {
     pub lyapunov: Option<LyapunovResult>,
     pub bifurcation: Option<BifurcationResult>,
     pub bearings: Vec<BearingResult>,
-    /// What the user should know, once each.
+    /// Warnings for the user, once each.
     pub warnings: Vec<String>,
 }
 
@@ -58,22 +58,22 @@ pub struct ModalResult {
     pub modes: Vec<Mode>,
 }
 
-/// A line of constant order, with the name a user would give it ("1x", "BPFO").
+/// A line of constant order with its usual name ("1x", "BPFO").
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderLine {
     pub label: String,
     pub order: f64,
-    /// Whether it belongs to a bearing rather than to the shaft.
+    /// Whether it is a bearing's characteristic order rather than a shaft order.
     pub bearing: bool,
 }
 
-/// Campbell diagram with its order lines and the crossings on it.
+/// Campbell diagram with order lines and their crossings (critical speeds).
 #[derive(Clone, Debug)]
 pub struct CampbellResult {
     pub diagram: Campbell,
     pub orders: Vec<OrderLine>,
     pub crossings: Vec<CriticalSpeed>,
-    /// Speeds at which a mode loses or regains its damping.
+    /// Stability thresholds: speeds at which a mode's damping changes sign.
     pub thresholds: Vec<Threshold>,
 }
 
@@ -84,7 +84,7 @@ pub struct CriticalResult {
     pub speeds: Vec<CriticalSpeed>,
 }
 
-/// FRFs with the names of their ends.
+/// FRFs with the names of excitations and responses.
 #[derive(Clone, Debug)]
 pub struct FrfResult {
     /// Ω \[rad/s\].
@@ -108,7 +108,7 @@ impl FrfResult {
 }
 
 impl FrfResult {
-    /// Whether an excitation moves a response at any frequency; what it cannot reach has no curve and no peak.
+    /// Whether the FRF is non-zero at any frequency; uncoupled responses have no curve and no peak.
     pub fn moves(&self, response: usize, excitation: usize) -> bool {
         self.frf.values[response][excitation].iter().any(|h| h.norm_sqr() > 0.0)
     }
@@ -119,7 +119,7 @@ pub fn is_rotation(direction: &[f64; 6]) -> bool {
     direction[..3].iter().all(|d| *d == 0.0)
 }
 
-/// Unbalance response of every asked response, and of the orbits of every disc.
+/// Unbalance response at every requested probe, and the orbit of every disc.
 #[derive(Clone, Debug)]
 pub struct UnbalanceResult {
     pub response: UnbalanceResponse,
@@ -127,7 +127,7 @@ pub struct UnbalanceResult {
     pub orbits: Vec<DiscOrbit>,
 }
 
-/// One response: complex amplitude over speed, per its quantity.
+/// One response: complex amplitude of the probe's quantity over speed.
 #[derive(Clone, Debug)]
 pub struct UnbalanceChannel {
     pub probe: Probe,
@@ -149,7 +149,7 @@ pub struct HistoryChannel {
     pub name: String,
     /// Unit, such as "m/s^2".
     pub unit: String,
-    /// Quantity in words: displacement, velocity, acceleration, force, angle, energy.
+    /// Name of the quantity: displacement, velocity, acceleration, force, angle, energy.
     pub quantity: String,
     /// Station or body, and direction.
     pub station: String,
@@ -168,10 +168,10 @@ pub struct History {
     pub channels: Vec<HistoryChannel>,
 }
 
-/// A run-up: what was kept of the model, what was sampled, how it went.
+/// A run-up: size and accuracy of the reduced model, recorded samples, report of the integration.
 #[derive(Clone, Debug)]
 pub struct RunUpResult {
-    /// Vibration modes and static-correction vectors of the reduced model.
+    /// Numbers of vibration modes and static correction modes of the reduced model.
     pub modes: usize,
     pub corrections: usize,
     /// Largest relative error of the reduced static equilibrium.
@@ -202,21 +202,21 @@ pub struct OrderResult {
     pub cuts: Vec<(OrderLine, OrderCut)>,
 }
 
-/// A signal that a section shows.
+/// A signal shown in a Poincaré section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionChannel {
     pub name: String,
     pub unit: String,
 }
 
-/// What a section was taken by.
+/// The clock (stroboscopic phase) of a Poincaré section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionClock {
-    /// In words: "shaft turn", "cage turn of B", "ball passage of B".
+    /// "shaft turn", "cage turn of B" or "ball passage of B".
     pub name: String,
-    /// Phase at which the section is taken \[rad\].
+    /// Phase of the section \[rad\].
     pub phase: f64,
-    /// Sections a second, mean over the recorded periods \[Hz\].
+    /// Mean frequency of the sections over the recorded periods \[Hz\].
     pub frequency: f64,
 }
 
@@ -227,7 +227,7 @@ pub struct PoincareResult {
     pub speed: f64,
     pub clock: SectionClock,
     pub motion: Classified,
-    /// Groups that the section points fall into, all planes together.
+    /// Number of clusters of section points, all planes together.
     pub groups: usize,
     /// Shaft angle at every sample of the orbits \[rad\].
     pub shaft_angle: Vec<f64>,
@@ -245,23 +245,23 @@ pub struct PlaneSection {
     pub sample_rate: f64,
     /// Section points, one per period of the clock.
     pub section: [Vec<f64>; 2],
-    /// Of an orbit proper, x and y of one point.
+    /// Only for a shaft orbit, x and y of one point.
     pub whirl: Option<Whirl>,
-    /// Radius that the bearing at this point leaves its shaft \[m\], where its housing stands still.
+    /// Radius of the bearing's clearance circle \[m\], for a fixed housing.
     pub clearance: Option<f64>,
 }
 
-/// How an orbit in x and y is run through.
+/// Whirl direction and 1x component of an orbit in x and y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Whirl {
-    /// Area swept forward (from x towards y, as the shaft spins) less that swept backward, over both: 1 is all forward.
+    /// Area swept forward (from x towards y, with the spin) minus backward, over their sum: 1 is all forward.
     pub forwardness: f64,
-    /// The 1x part, by least squares over the orbit.
+    /// The 1x (synchronous) component, by least squares over the orbit.
     pub once: FilteredOrbit,
 }
 
 impl Whirl {
-    /// "forward", "backward", or "mixed" where neither sweeps a twentieth more.
+    /// "forward", "backward", or "mixed" for |forwardness| ≤ 0.05.
     pub fn name(&self) -> &'static str {
         match self.forwardness {
             f if f > 0.05 => "forward",
@@ -287,12 +287,12 @@ pub struct BifurcationResult {
     /// Name of the clock.
     pub clock: String,
     pub channels: Vec<SectionChannel>,
-    /// The sweeps done: up, down, or one from equilibrium.
+    /// The computed sweeps: up, down, or one from equilibrium.
     pub sweeps: Vec<BifurcationSweep>,
-    /// Seams between chunks, and how many of the chunks had to be run again because they had met another branch.
+    /// Number of seams between chunks, and number of chunks rerun because they started on another branch.
     pub seams: usize,
     pub repaired: usize,
-    /// Whether every value was come to; what was not says "stopped".
+    /// Whether every value was computed; the others have the reason "stopped".
     pub complete: bool,
 }
 
@@ -312,21 +312,21 @@ pub struct BifurcationPoint {
     pub found: Result<SteadyMotion, String>,
 }
 
-/// What a steady motion looks like.
+/// A steady motion: Poincaré sections, extremes and classification.
 #[derive(Clone, Debug)]
 pub struct SteadyMotion {
-    /// Per channel its section.
+    /// Section of every channel.
     pub sections: Vec<Vec<f64>>,
-    /// Per channel the least and largest value of the whole orbit.
+    /// Minimum and maximum of every channel over the whole orbit.
     pub extremes: Vec<[f64; 2]>,
-    /// Sections a second \[Hz\].
+    /// Frequency of the sections \[Hz\].
     pub frequency: f64,
     pub motion: Classified,
-    /// Largest Lyapunov exponent, where it was asked for.
+    /// Largest Lyapunov exponent, if requested.
     pub exponent: Option<Exponent>,
 }
 
-/// Unit of a quantity of a translation, or of a rotation.
+/// SI unit of a quantity of a translation or rotation.
 pub fn unit_of(quantity: Quantity, rotation: bool) -> &'static str {
     match (quantity, rotation) {
         (Quantity::Displacement, false) => "m",

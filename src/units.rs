@@ -2,17 +2,17 @@
 //!
 //! A unit is a product of names with integer powers: factors are joined by a space, `*` or `·`, a `/` divides by
 //! the one factor behind it, powers are written `^2`, `²` or `³`: `N m/rad`, `kg m^2`, `m/s²`, `kg/m^3`, `1/s`.
-//! Conversions are kept as divisors (60 um is 60/10⁶ m, the double nearest to 60e-6) and whole turns are counted
-//! apart, so that 50 Hz is exactly 50 as a frequency and 2π·50 rad/s as a speed.
+//! Conversions are stored as divisors (60 um is 60/10⁶ m, the double nearest to 60e-6) and powers of 2π
+//! (turns) separately, so that 50 Hz is exactly 50 as a frequency and 2π·50 rad/s as a speed.
 //!
 //! Decisions: a speed takes rpm, rad/s, deg/s, rev/s and Hz (turns per second); a frequency takes the same and is
 //! a number of Hz; `1/s` is neither. `lb` is a mass, `lbf` a force. Rotational stiffness may be written with or
-//! without `/rad`. A pure number may be written bare or in per cent. `degC` stands alone behind a temperature only;
-//! differences and everything per degree are written with K.
+//! without `/rad`. A dimensionless number may be written without unit or in per cent. `degC` is accepted for
+//! a temperature only, and not in products; temperature differences and quantities per degree take K.
 
 use std::f64::consts::TAU;
 
-/// What a quantity is: its dimension, and how to speak about it.
+/// Physical dimension of a quantity, with its name, SI unit and an example for messages.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// Name for messages: "length".
@@ -92,7 +92,7 @@ pub const TEMPERATURE_DIFFERENCE: Dimension = thermal("temperature difference", 
 pub const EXPANSION: Dimension = thermal("coefficient of thermal expansion", "1/K", "12e-6 1/K", -1);
 pub const NUMBER: Dimension = dimension("number", "", "0.5", [0, 0, 0], Angle::Power(0));
 
-/// Why a text is not the quantity asked for.
+/// Why a text is not a quantity of the expected dimension.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
     #[error("`{0}` does not start with a number")]
@@ -113,7 +113,7 @@ pub enum UnitError {
     WrongCount { found: usize, expected: usize },
 }
 
-/// Every unit name known, with its scale (numerator, divisor), turns, and powers of m, kg, s, rad, K.
+/// Every known unit name, with its scale (numerator, divisor), power of 2π, and powers of m, kg, s, rad, K.
 #[rustfmt::skip]
 const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("1", 1.0, 1.0, 0, [0; 5]), ("%", 1.0, 100.0, 0, [0; 5]),
@@ -148,7 +148,7 @@ const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("psi", 4.4482216152605e8, 64516.0, 0, [-1, 1, -2, 0, 0]),
 ];
 
-/// Names of the one scale that does not start at zero.
+/// Names of the only unit with an offset.
 const CELSIUS: [&str; 2] = ["degC", "°C"];
 /// 0 °C \[K\].
 const ZERO_CELSIUS: f64 = 273.15;
@@ -175,7 +175,7 @@ struct Scale {
 /// Read one quantity, such as `"60 um"`, as a number in SI units (Hz for a frequency).
 ///
 /// # Errors
-/// Says what is missing or wrong; infinities and NaN are refused.
+/// What is missing or wrong; infinities and NaN are rejected.
 pub fn parse(text: &str, dimension: Dimension) -> Result<f64, UnitError> {
     let values = parse_list(text, dimension)?;
     match values[..] {
@@ -184,7 +184,7 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<f64, UnitError> {
     }
 }
 
-/// Read several numbers with one unit behind them, such as `"0, 600, 1200 rpm"`; commas may be left out.
+/// Read several numbers followed by one unit, such as `"0, 600, 1200 rpm"`; commas are optional.
 ///
 /// # Errors
 /// As [`parse`]. A list that is returned is never empty.

@@ -199,7 +199,7 @@ pub fn orbits() -> Figure {
         }
     };
     Figure::Orbits(Orbits {
-        title: "Orbits in steady running, 1200 rpm".to_string(),
+        title: "Steady-state orbits, 1200 rpm".to_string(),
         note: String::new(),
         orbits: vec![orbit("disc", 14.0, 9.0, 1.0, 1.2), orbit("bearing B", 4.0, 6.0, -1.0, 0.7)],
     })
@@ -263,7 +263,7 @@ pub fn history() -> Figure {
     };
     Figure::History(History {
         title: "Run-up of the overhung rig".to_string(),
-        note: "1 s settle, 10 s ramp to 1200 rpm, 2 s hold; 10⁶ samples".to_string(),
+        note: "1 s at rest, 10 s ramp to 1200 rpm, 2 s at constant speed; 10⁶ samples".to_string(),
         channels: vec![
             channel("speed", "speed", "rpm", &time, speed),
             channel("bearing B vertical", "acceleration", "m/s²", &time, value),
@@ -286,7 +286,7 @@ pub fn stiffness() -> Figure {
         points: true,
     };
     Figure::Lines(Lines {
-        title: "Radial stiffness of the 6205 against load".to_string(),
+        title: "Radial stiffness of the 6205 over load".to_string(),
         x_name: "radial load".to_string(),
         x_unit: "N".to_string(),
         y_name: "radial stiffness".to_string(),
@@ -309,7 +309,7 @@ pub fn rig() -> Figure {
     };
     let spring = |z| RigSpring { from: [z, -0.07], to: [z, -0.12], grounded: true };
     Figure::Rig(Rig {
-        title: "Overhung rig as understood".to_string(),
+        title: "Overhung rig: model sketch".to_string(),
         note: "shaft and bodies to scale; rotating parts dark".to_string(),
         sections: vec![
             cylinder(0.0, 0.1, 0.010),

@@ -1,4 +1,4 @@
-//! Draws every kind of figure from made-up but realistic data into `out/gallery`.
+//! Draws every kind of figure from synthetic but realistic data into `out/gallery`.
 //!
 //! `cargo run --release --example gallery`
 

@@ -6,7 +6,7 @@ pub fn steps(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| lo + (hi - lo) * k as f64 / (count - 1) as f64).collect()
 }
 
-/// Uniform noise from -1 to 1, the same in every run.
+/// Uniform pseudo-random noise from -1 to 1, the same in every run.
 pub struct Noise(pub u64);
 
 impl Noise {
@@ -80,7 +80,7 @@ pub fn lorentz(f: f64, f0: f64, zeta: f64) -> [f64; 2] {
     [a / d, -b / d]
 }
 
-/// Amplitude at a speed and frequency: orders amplified by the resonances, resonances in noise, floor.
+/// Amplitude at a speed and frequency: orders amplified by resonances, noise-excited resonances, noise floor.
 pub fn amplitude(rpm: f64, hz: f64, noise: &mut Noise) -> f64 {
     let mut sum = 2e-4 * (1.0 + 0.5 * noise.next()).abs();
     let gain = |f: f64| -> f64 {

@@ -1,7 +1,8 @@
-//! Peak-to-peak vibration against preload, after Figure 9 of Bal et al. 2022.
+//! Peak-to-peak vibration over preload, after Figure 9 of Bal et al. 2022.
 //!
-//! `cargo run --release --example preload [FOLDER]`: the machine of `models/bal_2022.toml` starts at rest in its
-//! bearings' centre, at preloads from 20 to 500 N; peak-to-peak displacement of the start and of what is left of it.
+//! `cargo run --release --example preload [FOLDER]`: the machine of `models/bal_2022.toml` starts at rest at
+//! the bearing centre, at preloads from 20 to 500 N; peak-to-peak displacement of the transient and of the
+//! steady state.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -12,14 +13,14 @@ use rotordyn::study::Machine;
 
 const MODEL: &str = include_str!("../../models/bal_2022.toml");
 const PRELOADS: [f64; 6] = [20.0, 50.0, 100.0, 150.0, 200.0, 500.0];
-/// The start \[s\]; the steady motion is read over as long a piece at the end of the run.
+/// Duration of the transient \[s\]; the steady motion is evaluated over the same time at the end of the run.
 const START: f64 = 0.1;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "out/preload".into()));
     std::fs::create_dir_all(&folder)?;
     let mut found = Vec::new();
-    println!("preload   start p-p x, y, z [um]          steady p-p x, y, z [nm]");
+    println!("preload   transient p-p x, y, z [um]      steady p-p x, y, z [nm]");
     for preload in PRELOADS {
         let [start, steady] = peak_to_peak(preload)?;
         let [a, b, c] = start.map(|v| 1e6 * v);
@@ -29,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let share = |k: usize| (found[0][0][k] - found[0][1][k]) / found[0][0][k];
     let note = format!(
-        "1400 rpm, film. Of the start at 20 N, {:.0} % in x and {:.0} % in y is ring-down of the drop into the bearings",
+        "1400 rpm, film. At 20 N, {:.0} % of the transient in x and {:.0} % in y are free decay from the initial position",
         100.0 * share(0),
         100.0 * share(1)
     );
@@ -41,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         curves: (0..2)
             .map(|which| Curve {
                 x: PRELOADS.to_vec(),
-                // Below a thousandth of a femtometre there is rounding alone.
+                // Below 1e-18 m there is only round-off.
                 y: found
                     .iter()
                     .map(|f| if f[which][k] > 1e-18 { 1e6 * f[which][k] } else { f64::NAN })
@@ -52,11 +53,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..GridPanel::default()
     };
     let grid = Grid {
-        title: "Vibration against preload (after Bal et al. 2022, Figure 9)".into(),
+        title: "Vibration over preload (after Bal et al. 2022, Figure 9)".into(),
         note,
         x_name: "preload".into(),
         x_unit: "N".into(),
-        legend: vec!["from the start".into(), "steady".into()],
+        legend: vec!["transient".into(), "steady".into()],
         panels: vec![panel(0, "x"), panel(1, "y"), panel(2, "z")],
         columns: 3,
         mark: None,
@@ -66,15 +67,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Peak-to-peak displacement of the probes x, y, z over the start and over the end of a run \[m\].
+/// Peak-to-peak displacement of the probes x, y, z over the transient and over the end of a run \[m\].
 fn peak_to_peak(preload: f64) -> Result<[[f64; 3]; 2], Box<dyn std::error::Error>> {
     let options = Options {
         variant: Some(format!("preload_{preload}")),
-        // A quarter of a ball pitch between the two sets: in step they would leave nothing along z.
+        // A quarter of a ball pitch between the two ball sets: in phase their axial forces would cancel.
         set: vec![("bearing.B.cage_angle".into(), "-83.0769 deg".into())],
     };
     let model = model::load("bal_2022.toml", MODEL, &options)?.model;
-    let study = model.studies.run_up.clone().ok_or("the model asks for no run")?;
+    let study = model.studies.run_up.clone().ok_or("the model has no run-up study")?;
     let machine = Machine::new(model)?;
     let reduction = machine.reduce(&study)?;
     let duration = machine.model.profile.duration();

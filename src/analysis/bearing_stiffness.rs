@@ -1,4 +1,4 @@
-//! Equilibrium and stiffness of one bearing alone: displacement under a load, or load under a displacement.
+//! Equilibrium and stiffness matrix of a single bearing under a load or a prescribed displacement.
 
 use super::equilibrium::{CAGE_ANGLES, CageTreatment};
 use crate::bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
@@ -10,16 +10,16 @@ const MAX_ITERATIONS: usize = 100;
 const MAX_HALVINGS: usize = 80;
 /// Residual at the solution over the largest force.
 const TOLERANCE: f64 = 1e-13;
-/// Residual that still counts as equilibrium, where round-off or a law's corner keeps the last digits away.
+/// Residual accepted as equilibrium where round-off or a kink in the contact law prevents full convergence.
 const ACCEPTED: f64 = 1e-8;
 
-/// What is asked of a bearing: of every motion of the inner ring (u_x u_y u_z θ_x θ_y) the load, or the
-/// displacement that is held.
+/// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
+/// or the prescribed displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
-    /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; of no effect where a displacement is held.
+    /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; ignored for prescribed motions.
     pub load: [f64; 5],
-    /// Displacements of the inner ring relative to the outer one that are held \[m, rad\].
+    /// Prescribed displacements of the inner ring relative to the outer one \[m, rad\]; `None`: free.
     pub held: [Option<f64>; 5],
     /// Shaft speed Ω \[rad/s\].
     pub speed: f64,
@@ -34,25 +34,25 @@ pub struct BearingEquilibrium {
     pub condition: Condition,
     /// Displacement of the inner ring relative to the outer one \[m, rad\].
     pub displacement: [f64; 5],
-    /// Load of the shaft on the bearing \[N, N m\]: the given one, and what held displacements take.
+    /// Load of the shaft on the bearing \[N, N m\]: applied load, and reactions of prescribed displacements.
     pub load: [f64; 5],
     /// K = ∂load/∂displacement in the order x y z θ_x θ_y \[N/m, N, N m/rad\]. Source: Zhang 2016 eq. 14.
     pub stiffness: [[f64; 5]; 5],
     /// Load-weighted mean of cos α over the loaded balls.
     pub mean_cos: f64,
     pub iterations: usize,
-    /// Largest force left over \[N\], moments over the pitch radius.
+    /// Largest unbalanced force \[N\], moments divided by the pitch radius.
     pub residual: f64,
 }
 
 impl BearingEquilibrium {
-    /// Stiffness along a direction n with all motions across it held: nᵀ K n.
+    /// Stiffness along a direction n with all other motions constrained: nᵀ K n.
     pub fn stiffness_held(&self, n: &[f64; 5]) -> f64 {
         (0..5).map(|a| n[a] * (0..5).map(|b| self.stiffness[a][b] * n[b]).sum::<f64>()).sum()
     }
 
-    /// Stiffness that a force along n meets while the motions across it that the condition leaves free give way,
-    /// 1 / (nᵀ K⁻¹ n) over them (static condensation); never above the held one, 0 where nothing resists.
+    /// Stiffness along n with the other motions free unless prescribed (static condensation), 1 / (nᵀ K⁻¹ n);
+    /// never above the constrained stiffness, 0 where nothing resists.
     ///
     /// `radius`: length \[m\] by which rotations are scaled in the solve.
     pub fn stiffness_free(&self, n: &[f64; 5], radius: f64) -> f64 {
@@ -70,7 +70,7 @@ impl BearingEquilibrium {
             for b in 0..5 {
                 k[5 * a + b] = if free[a] && free[b] { scaled(a, b) / largest } else { 0.0 };
             }
-            // Motions that nothing resists give way without end and then show as a stiffness of nothing.
+            // Regularisation: an unresisted motion gets a huge compliance, reported below as zero stiffness.
             k[6 * a] += if free[a] { 1e-14 } else { 1.0 };
         }
         if !solve_in_place(&mut k, &mut x) {
@@ -82,18 +82,18 @@ impl BearingEquilibrium {
     }
 }
 
-/// A ball bearing ready to be loaded.
+/// Static equilibrium solver of a single ball bearing.
 #[derive(Clone, Debug)]
 pub struct BearingSolver {
     pub name: String,
     pub element: BearingElement,
     /// Length by which rotations are scaled: the pitch radius \[m\].
     pub radius: f64,
-    /// Series stiffness of a ball's dry contacts, for a first guess of the stiffness \[N/m^1.5\].
+    /// Series stiffness of a ball's dry contacts, for an initial estimate of the stiffness \[N/m^1.5\].
     contact_stiffness: f64,
 }
 
-/// A trial state, forces and stiffness with rotations scaled to lengths.
+/// A trial state; displacements and residual with rotations scaled to lengths.
 struct Trial {
     x: [f64; 5],
     reaction: Reaction,
@@ -121,17 +121,17 @@ impl BearingSolver {
         }
     }
 
-    /// Every ball at an equilibrium, at the condition's cage angle.
+    /// Load of every ball at an equilibrium, at the condition's cage angle.
     pub fn balls(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
         let d = &found.displacement;
         self.element.ball_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
     }
 
-    /// Finds the equilibrium by damped Newton, from `start` or from the centred bearing.
+    /// Finds the equilibrium by damped Newton-Raphson (line search), from `start` or the centred bearing.
     ///
-    /// load + f(d) = 0 in every motion that is not held. The contacts' energy is convex, so a Newton step
-    /// shortened until the force along it has clearly fallen always gets closer, through clearance and loss of
-    /// contact; where nothing carries yet a share of Hertz' stiffness under the load keeps the step finite.
+    /// Solves load + f(d) = 0 in every free motion. The contact energy is convex, so a Newton step shortened
+    /// until the force along it has fallen converges through clearance and loss of contact; without contact a
+    /// fraction of the Hertz stiffness under the load regularises the step.
     ///
     /// # Errors
     /// [`PhysicsError::NoBearingEquilibrium`] with load, speed and residual.
@@ -162,7 +162,7 @@ impl BearingSolver {
         let scaled_load: [f64; 5] =
             std::array::from_fn(|a| if free[a] { unit[a] * condition.load[a] } else { 0.0 });
         let load_size = largest(&scaled_load);
-        // Largest force about: that of the load, or of the balls that hold each other.
+        // Reference force: of the load or, under preload, of the balls.
         let size_of = |t: &Trial| {
             let force: [f64; 5] = std::array::from_fn(|a| unit[a] * t.reaction.force[a]);
             load_size.max(largest(&force)).max(1e-9)
@@ -191,7 +191,7 @@ impl BearingSolver {
             }
             let along = |r: &[f64; 5]| r.iter().zip(&step).map(|(r, s)| r * s).sum::<f64>();
             let first = along(&now.residual);
-            // It vanishes or turns negative only by round-off, at the solution.
+            // Zero or negative only by round-off at the solution.
             let at_solution = first <= 0.0 || first.is_nan();
             let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
             for halving in 0..MAX_HALVINGS {
@@ -201,7 +201,7 @@ impl BearingSolver {
                     let after = largest(&next.residual);
                     let near = before <= ACCEPTED * size_of(&now);
                     stalled = if near && after > 0.5 * before { stalled + 1 } else { 0 };
-                    // The last steps only stir the round-off: keep the better side.
+                    // At round-off level: keep the smaller residual.
                     if !(near && after >= before) {
                         now = next;
                     }
@@ -238,7 +238,7 @@ impl BearingSolver {
         })
     }
 
-    /// Equilibria of a list of conditions, each started from the one before; ends at the first that has none.
+    /// Equilibria of a list of conditions, each started from the previous one; ends at the first failure.
     pub fn sweep(&self, conditions: &[Condition]) -> (Vec<BearingEquilibrium>, Option<PhysicsError>) {
         let mut found: Vec<BearingEquilibrium> = Vec::with_capacity(conditions.len());
         for condition in conditions {

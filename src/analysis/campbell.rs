@@ -1,4 +1,4 @@
-//! Campbell diagram: modes over speed, tracked by their shapes.
+//! Campbell diagram: modes over speed, tracked by the MAC of their shapes.
 
 use super::modal::{self, Mode, inner};
 use super::mode_kind::ModeKind;
@@ -8,16 +8,16 @@ use crate::error::Error;
 use crate::linalg::Complex64;
 use rayon::prelude::*;
 
-/// Modes computed beyond those asked for, so that a branch does not end where it is overtaken.
+/// Modes computed in addition to the requested ones, so that a branch continues when others drop below it.
 const SPARE: usize = 4;
-/// Below this MAC a step in speed is too long and halved.
+/// Below this MAC the speed step is halved.
 const SURE: f64 = 0.7;
 /// Below this MAC a branch is lost.
 const LOST: f64 = 0.2;
-/// Halvings of a step.
+/// Largest number of halvings of a speed step.
 const DEPTH: usize = 4;
 
-/// The bearings' tangents at a speed.
+/// Tangent stiffness and damping of all bearings as a function of speed.
 pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync {}
 impl<F: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync> Tangents for F {}
 
@@ -30,13 +30,13 @@ pub struct Campbell {
     pub branches: Vec<Branch>,
 }
 
-/// One mode followed over speed.
+/// One mode tracked over speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
-    /// Label and kind at the highest speed that the branch reaches.
+    /// Label and kind at the highest speed of the branch.
     pub label: String,
     pub kind: ModeKind,
-    /// The mode at every speed; `None` where it was lost.
+    /// The mode at every speed; `None` where tracking was lost.
     pub modes: Vec<Option<Mode>>,
 }
 
@@ -49,11 +49,11 @@ impl Branch {
 
 /// Campbell diagram of the `count` lowest modes over increasing speeds \[rad/s\].
 ///
-/// Modes of neighbouring speeds are joined by their mass-weighted MAC, |φ₁ᴴ M φ₂|², not by their place in the
-/// list; where that is in doubt, speeds in between are computed.
+/// Modes of neighbouring speeds are paired by their mass-weighted MAC, |φ₁ᴴ M φ₂|², not by frequency order;
+/// where the MAC is low, intermediate speeds are computed.
 ///
 /// # Errors
-/// Whatever the tangents or the eigenvalue computation report.
+/// Errors of the tangents or of the eigenvalue computation.
 pub fn campbell(
     assembly: &Assembly,
     speeds: &[f64],
@@ -62,7 +62,7 @@ pub fn campbell(
 ) -> Result<Campbell, Error> {
     let tracker = Tracker { assembly, tangents, count: count + SPARE };
     let sets: Vec<Vec<Mode>> = speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, Error>>()?;
-    // The mode of every branch at the current speed, by its place in the list there.
+    // Index of every branch's mode in the mode set of the current speed.
     let mut at: Vec<Option<usize>> =
         (0..sets.first().map_or(0, |set| set.len().min(count))).map(Some).collect();
     let mut paths: Vec<Vec<Option<usize>>> = vec![at.clone()];
@@ -85,7 +85,7 @@ pub fn campbell(
     Ok(Campbell { speeds: speeds.to_vec(), branches })
 }
 
-/// Branches that ended at different speeds may carry the same label: the later one says so.
+/// Makes labels unique by a number: branches that end at different speeds may have the same label.
 fn name_apart(branches: &mut [Branch]) {
     for k in 1..branches.len() {
         let same = (0..k).filter(|&i| branches[i].label == branches[k].label).count();
@@ -95,7 +95,7 @@ fn name_apart(branches: &mut [Branch]) {
     }
 }
 
-/// Follows modes from speed to speed.
+/// Mode tracking from speed to speed.
 pub(super) struct Tracker<'a, T> {
     pub assembly: &'a Assembly,
     pub tangents: &'a T,
@@ -109,7 +109,7 @@ impl<T: Tangents> Tracker<'_, T> {
         modal::modes(self.assembly, &system, self.count)
     }
 
-    /// For every mode of `a` its continuation among those of `b`; those in `followed` must be beyond doubt.
+    /// Continuation of every mode of `a` in `b`; the step is halved until those in `followed` are certain.
     fn join(
         &self,
         a: (f64, &[Mode]),
@@ -131,8 +131,8 @@ impl<T: Tangents> Tracker<'_, T> {
         Ok(first.into_iter().map(|i| i.and_then(|i| second[i])).collect())
     }
 
-    /// MAC of every mode of `a` with every mode of `b`; modes of one frequency share theirs, since any
-    /// combination of them is a mode too.
+    /// MAC matrix between the modes of `a` and `b`; modes of a repeated eigenvalue share their sum, since any
+    /// linear combination of them is a mode too.
     pub fn mac(&self, a: &[Mode], b: &[Mode]) -> Vec<Vec<f64>> {
         let momenta: Vec<Vec<Complex64>> =
             b.iter().map(|m| self.assembly.mass.mul_complex(&m.shape)).collect();
@@ -151,13 +151,13 @@ impl<T: Tangents> Tracker<'_, T> {
     }
 }
 
-/// Pairs rows with columns, best MAC first; among equals the order of the lists decides.
+/// Greedy pairing of rows with columns by descending MAC; ties are resolved by list order.
 fn assign(mac: &[Vec<f64>]) -> Vec<Option<usize>> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, row) in mac.iter().enumerate() {
         pairs.extend(row.iter().enumerate().filter(|(_, v)| **v > LOST).map(|(j, v)| (*v, i, j)));
     }
-    // Rounded, so that the shared MAC of a degenerate pair leaves the choice to the order.
+    // Rounded, so that a degenerate pair with equal MAC is paired in list order.
     let step = |v: f64| (v * 1e4).round() as i64;
     pairs.sort_by_key(|&(v, i, j)| (-step(v), i, j));
     let mut links = vec![None; mac.len()];

@@ -1,4 +1,4 @@
-//! Critical speeds: where a mode's frequency meets an order line ω = n Ω.
+//! Critical speeds: intersections of a mode's frequency with an order line ω = n Ω.
 
 use super::campbell::{Campbell, Tangents, Tracker};
 use super::modal::Mode;
@@ -15,13 +15,13 @@ pub struct CriticalSpeed {
     pub speed: f64,
     /// n in ω = n Ω.
     pub order: f64,
-    /// The mode there; its kind says how it whirls.
+    /// The mode at this speed; its kind gives the whirl direction.
     pub mode: Mode,
     /// Label of the branch that crosses.
     pub label: String,
 }
 
-/// Crossings of the tracked branches with the lines ω_d = n Ω, by speed; damping and bearings as they are.
+/// Crossings of the tracked branches with the lines ω_d = n Ω, by speed; damping and bearings included.
 ///
 /// # Errors
 /// As [`campbell`](super::campbell::campbell).
@@ -54,8 +54,8 @@ pub fn crossings(
 }
 
 impl<T: Tangents> Tracker<'_, T> {
-    /// The speed between a and b where `gap` of the mode vanishes, and the mode there (bisection safeguarded
-    /// secant to 1e-12 of the speed).
+    /// The speed between a and b where `gap` of the mode vanishes, and the mode there (secant method
+    /// safeguarded by bisection, to 1e-12 of the speed).
     pub(super) fn root(
         &self,
         (mut left, a): (f64, &Mode),
@@ -70,7 +70,7 @@ impl<T: Tangents> Tracker<'_, T> {
         let ends = [a.clone(), b.clone()];
         for step in 0..60 {
             let secant = (left * gb - right * ga) / (gb - ga);
-            // Every third step halves the bracket, so that neither end can stick.
+            // Every third step bisects the bracket, so that neither end stagnates.
             let speed = if step % 3 == 2 { 0.5 * (left + right) } else { secant };
             let modes = self.modes(speed)?;
             let mac = self.mac(&ends, &modes);
@@ -100,8 +100,7 @@ impl<T: Tangents> Tracker<'_, T> {
 
 /// Undamped critical speeds of order n up to a speed, solved directly: K q = Ω² (n² M − j n G) q.
 ///
-/// `system` gives M and K (its stiffness at standstill, which must be symmetric; an unsymmetric part and all
-/// damping are left out).
+/// `system` gives M and K (the stiffness at standstill; its unsymmetric part and all damping are ignored).
 ///
 /// # Errors
 /// A structure whose stiffness is not positive semi-definite, or an eigenvalue computation that fails.
@@ -122,8 +121,8 @@ pub fn undamped(
         let symmetric = |a: &SparseMatrix| dense(a) + dense(a).transpose();
         let (k, m) = (symmetric(&system.stiffness), symmetric(&system.mass) * (order * order));
         let g = (dense(gyroscopic) - dense(gyroscopic).transpose()) * order;
-        // B q = μ (K + σ B) q, Ω² = 1/μ − σ. The shift holds what is free to turn or slide along the axis; there
-        // G = 0 and B = n² M.
+        // B q = μ (K + σ B) q, Ω² = 1/μ − σ. The shift regularises rigid-body rotation and translation along
+        // the axis; there G = 0 and B = n² M.
         let sigma = if g.amax() == 0.0 { 1.0 } else { 0.0 };
         let lower = Cholesky::new(&k + &m * sigma)
             .ok_or_else(|| failed("the stiffness is not positive definite".into()))?

@@ -6,12 +6,12 @@ use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets};
 use crate::model::Model;
 
-/// Cage angles per ball pitch over which an averaged bearing is summed.
+/// Number of cage angles per ball pitch over which a bearing is averaged.
 pub const CAGE_ANGLES: usize = 12;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
 
-/// Bearing forces at the cage angle of the model, or averaged over one ball pitch.
+/// Bearing forces at the cage angle of the model (`AsPlaced`), or averaged over one ball pitch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CageTreatment {
     AsPlaced,
@@ -21,14 +21,14 @@ pub enum CageTreatment {
 /// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
-    /// Speed at which speed-dependent bearings were taken \[rad/s\].
+    /// Speed at which speed-dependent bearings are evaluated \[rad/s\].
     pub speed: f64,
     pub cage: CageTreatment,
     /// Displacements of the free DOFs \[m, rad\].
     pub q: Vec<f64>,
     pub bearings: Vec<BearingState>,
     pub iterations: usize,
-    /// Largest force left over \[N, N m\].
+    /// Largest unbalanced force or moment \[N, N m\].
     pub residual: f64,
 }
 
@@ -40,7 +40,7 @@ pub struct BearingState {
     pub displacement: [f64; 6],
     /// Force and moment on the shaft \[N, N m\].
     pub force: [f64; 6],
-    /// Tangents there; the housing side takes the opposite.
+    /// Tangent stiffness and damping at equilibrium; opposite sign for the housing.
     pub tangent: SiteTangent,
     /// Every ball at the cage angle of the model; empty for a linear bearing.
     pub balls: Vec<BallLoad>,
@@ -57,7 +57,7 @@ impl Equilibrium {
     }
 }
 
-/// The bearings of a model at a speed, ready to be summed.
+/// The bearings of a model at a speed, for the evaluation of their forces.
 pub(super) struct Sites {
     elements: Vec<(BearingElement, Rotation)>,
     cage: CageTreatment,
@@ -93,16 +93,16 @@ impl Sites {
     }
 }
 
-/// Finds the static equilibrium at a speed by damped Newton, from `start` or from rest.
+/// Finds the static equilibrium at a speed by damped Newton-Raphson (line search), from `start` or q = 0.
 ///
 /// The structure and the Hertz contacts have a convex energy, so a Newton step shortened until the force along
-/// it has fallen always gets closer, whatever the clearance and however many balls are unloaded. Where nothing
-/// yet carries the load (all balls within the clearance) a vanishing share of M keeps the step finite.
-/// Elastic forces only: no damping, no motion of the cage.
+/// it has fallen converges for any clearance and any number of unloaded balls. While no ball carries load
+/// (all within the clearance) a vanishing multiple of M regularises the step.
+/// Elastic forces only: no damping, cage fixed.
 ///
 /// # Errors
-/// [`PhysicsError::Singular`] when a load meets a free motion, [`PhysicsError::NoEquilibrium`] when Newton ends
-/// before the residual is below 1e-9 of the loads.
+/// [`PhysicsError::Singular`] when a load excites a rigid-body mode, [`PhysicsError::NoEquilibrium`] when
+/// Newton ends before the residual is below 1e-9 of the loads.
 pub fn equilibrium(
     model: &Model,
     assembly: &Assembly,
@@ -128,7 +128,7 @@ pub fn equilibrium(
     let mut stalled = 0;
     while max_abs(&residual) > tolerance && iterations < MAX_ITERATIONS && stalled < 3 {
         iterations += 1;
-        // (2π · 3 Hz)² while the residual is of the load's size, falling with it: fast convergence at the end.
+        // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
         let shift = 350.0 * (max_abs(&residual) / load_size).min(1.0) + 1e-4;
         let tangent = layout.scatter(&bearing_matrix(assembly, &reactions));
         let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
@@ -138,18 +138,18 @@ pub fn equilibrium(
         let mut direction = residual.clone();
         lu.solve(&mut direction);
         let before = dot(&residual, &direction);
-        // Shorten (bisection on the force along the step) until that force has clearly fallen.
+        // Line search: bisection on the force along the step until it has fallen.
         let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
         for halving in 0..MAX_HALVINGS {
             let trial: Vec<f64> = q.iter().zip(&direction).map(|(q, p)| q + length * p).collect();
             let trial_reactions = sites.reactions(assembly, &trial);
             let trial_residual = residual_of(&trial, &trial_reactions);
             let along = dot(&trial_residual, &direction);
-            // `before` vanishes or turns negative only by round-off, at the solution.
+            // `before` is zero or negative only by round-off, at the solution.
             let at_solution = before <= 0.0 || before.is_nan();
             if along.abs() <= 0.9 * before.abs() || at_solution || halving + 1 == MAX_HALVINGS {
                 let (now, then) = (max_abs(&trial_residual), max_abs(&residual));
-                // Round-off may keep the last digits from settling: three idle steps near the end are the end.
+                // Stagnation at round-off level: stop after three steps without progress near convergence.
                 stalled = if now > 0.999 * then && then <= 1e3 * tolerance { stalled + 1 } else { 0 };
                 (q, reactions, residual) = (trial, trial_reactions, trial_residual);
                 break;
@@ -207,7 +207,7 @@ pub(super) fn load(assembly: &Assembly) -> Vec<f64> {
     assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect()
 }
 
-/// What is left of a load beside the structure's and the bearings' forces, f − K q + Σ Rᵀ f_bearing.
+/// Residual force (out-of-balance force) f − K q + Σ Rᵀ f_bearing.
 pub(super) fn force_left(
     assembly: &Assembly,
     mut load: Vec<f64>,
@@ -233,7 +233,7 @@ fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation
         .fold(0.0, |most, ball| ball.load.max(most))
 }
 
-/// Rᵀ K R over all sites.
+/// Tangent stiffness of all bearings, Σ Rᵀ K R.
 pub(super) fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut triplets = Triplets::new(n, n);
@@ -243,12 +243,12 @@ pub(super) fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> Spa
     triplets.build()
 }
 
-/// Where bearings may have entries.
+/// Sparsity pattern of the bearings.
 fn full_pattern(assembly: &Assembly) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut triplets = Triplets::new(n, n);
     for site in &assembly.sites {
-        // Absolute values: entries that cancel in one reaction need not in the next.
+        // Absolute values: entries that cancel in one evaluation need not cancel in the next.
         let size = site.rows.clone().map(|mut row| {
             row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
             row

@@ -21,10 +21,11 @@ pub struct Frf {
 /// H(ω) = (jω)^p r (S − ω² M + jω D)⁻¹ eᵀ for rows r (responses) and e (excitations) over the free DOFs;
 /// p = 0, 1, 2 for receptance, mobility, accelerance.
 ///
-/// Every frequency costs one banded complex factorisation of the groups of unknowns that the excitations reach.
+/// Direct solution: one banded complex factorisation per frequency, of the groups of unknowns coupled to the
+/// excitations.
 ///
 /// # Errors
-/// A frequency at which the dynamic stiffness is singular (0 Hz of a free motion), by the motion's name.
+/// A frequency at which the dynamic stiffness is singular (0 Hz of a rigid-body mode), naming the motion.
 pub fn frf(
     assembly: &Assembly,
     system: &LinearSystem,

@@ -1,16 +1,16 @@
-//! Analyses of the linear and the static problem.
+//! Static and linear (small-vibration) analyses.
 //!
-//! | module | answers |
+//! | module | result |
 //! |---|---|
-//! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangents |
-//! | [`bearing_stiffness`] | equilibrium and stiffness of one bearing alone under any load |
+//! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangent stiffness and damping |
+//! | [`bearing_stiffness`] | load-displacement relation and stiffness matrix of a single bearing |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
-//! | [`campbell`] | the same over speed, tracked by MAC |
-//! | [`critical_speed`] | speeds where a mode meets an order line |
-//! | [`sensitivity`] | exact derivatives of eigenvalues, shapes and FRFs by any parameter |
-//! | [`stability`] | speeds where a mode's damping vanishes |
+//! | [`campbell`] | modes over speed (Campbell diagram), tracked by MAC |
+//! | [`critical_speed`] | critical speeds: intersections of modes with order lines |
+//! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
+//! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
-//! | [`unbalance`] | steady response to unbalance over speed |
+//! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
 pub mod bearing_stiffness;
 pub mod campbell;

@@ -6,7 +6,7 @@ use crate::error::{Error, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 
-/// Shift of the eigenvalue search \[rad/s\], below any natural frequency of interest.
+/// Spectral shift of the eigenvalue solver \[rad/s\], below any natural frequency of interest.
 pub const SHIFT: f64 = 30.0;
 
 /// One oscillatory mode, q(t) = Re(φ e^{λt}).
@@ -19,13 +19,13 @@ pub struct Mode {
     /// φ over all DOFs, six per node.
     pub full_shape: Vec<Complex64>,
     pub kind: ModeKind,
-    /// Such as "1st bending forward"; numbered by frequency within its kind.
+    /// For example "1st bending forward"; numbered by frequency within its kind.
     pub label: String,
-    /// Whirl of every shaft node from −1 (backward circle) over 0 (straight line) to 1 (forward circle).
+    /// Whirl index of every shaft node: −1 backward circle, 0 straight line, 1 forward circle.
     pub whirl: Vec<f64>,
-    /// Where the kinetic energy is.
+    /// Kinetic energy distribution.
     pub energy: Energy,
-    /// Share of the total mass that takes part when the ground moves along x, y, z.
+    /// Effective modal mass for base excitation along x, y, z, as a fraction of the total mass.
     pub effective_mass: [f64; 3],
 }
 
@@ -50,13 +50,13 @@ impl Mode {
         -self.eigenvalue.re / self.eigenvalue.norm()
     }
 
-    /// Logarithmic decrement δ = 2π ζ / √(1 − ζ²).
+    /// Logarithmic decrement (log dec) δ = 2π ζ / √(1 − ζ²).
     pub fn log_dec(&self) -> f64 {
         -TAU * self.eigenvalue.re / self.eigenvalue.im
     }
 }
 
-/// The lowest `count` oscillatory modes, by natural frequency; rigid-body and overdamped motions are left out.
+/// The lowest `count` oscillatory modes, by natural frequency; rigid-body and overdamped modes are omitted.
 ///
 /// # Errors
 /// An eigenvalue computation that fails.
@@ -64,7 +64,7 @@ pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
     let mut pairs = krylov::lowest(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
         .map_err(|e| failed(e.to_string()))?;
-    // One more than asked for keeps a degenerate pair at the end together.
+    // One more than requested keeps a degenerate pair at the end together.
     pairs.truncate(count + 1);
     let mut shapes: Vec<(Complex64, Vec<Complex64>)> =
         pairs.into_iter().map(|p| (p.value, normalised(p.vector, &system.mass))).collect();
@@ -108,14 +108,14 @@ pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
     a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 
-/// Eigenvalues nearer than this, relative to their size, may be one double eigenvalue that round-off has parted.
+/// Eigenvalues closer than this relative distance may be a repeated (double) eigenvalue split by round-off.
 const NEAR: f64 = 1e-5;
-/// They are when their turned shapes solve (λ² M + λ D + S) φ = 0 with one λ to this part of λ² M φ.
+/// They are if combined shapes solve (λ² M + λ D + S) φ = 0 with one common λ to this fraction of λ² M φ.
 const DOUBLE: f64 = 1e-7;
 
-/// Turns a pair of equal eigenvalues into one mode with the most and one with the least energy along x.
+/// Rotates the modes of a double eigenvalue into one with the most and one with the least energy along x.
 ///
-/// An axisymmetric rotor at rest has such pairs, and an eigenvalue solver returns any two of their combinations.
+/// An axisymmetric rotor at rest has such pairs; an eigenvalue solver returns arbitrary linear combinations.
 fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Complex64, Vec<Complex64>)]) {
     let mut k = 0;
     while k + 1 < pairs.len() {
@@ -156,7 +156,7 @@ fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Comple
     }
 }
 
-/// For every mode the other of a double eigenvalue that it shares, if it does; modes by natural frequency.
+/// Index of the other mode of each mode's double eigenvalue, if any; modes sorted by natural frequency.
 pub fn doubles(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
     let mut out = vec![None; modes.len()];
     for k in 1..modes.len() {
@@ -170,7 +170,7 @@ pub fn doubles(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
     out
 }
 
-/// The mode with another shape of its double eigenvalue; kind and label stay.
+/// The mode with another shape of its double eigenvalue; kind and label are kept.
 pub fn with_shape(assembly: &Assembly, mode: &Mode, shape: Vec<Complex64>) -> Mode {
     let described = mode_kind::describe(assembly, mode.eigenvalue, shape);
     Mode { kind: mode.kind, label: mode.label.clone(), ..described }
@@ -178,7 +178,7 @@ pub fn with_shape(assembly: &Assembly, mode: &Mode, shape: Vec<Complex64>) -> Mo
 
 /// Largest |φᵢᴴ (λ² M + λ D + S) φⱼ| / |λ|² of shapes with φᴴ M φ = 1.
 ///
-/// Projected, it is blind to the round-off of the stiffest motions that the shapes carry.
+/// The projection is insensitive to round-off in the stiffest components of the shapes.
 fn projected_residual(system: &LinearSystem, value: Complex64, shapes: [&[Complex64]; 2]) -> f64 {
     let mut largest: f64 = 0.0;
     for right in shapes {

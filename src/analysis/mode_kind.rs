@@ -1,23 +1,23 @@
-//! What a mode is: bending, torsional, axial or of a body, and how it whirls.
+//! Classification of modes: bending, torsional, axial or body (housing); forward, backward or mixed whirl.
 
 use super::modal::{Mode, inner};
 use crate::assembly::Assembly;
 use crate::linalg::Complex64;
 use std::collections::HashMap;
 
-/// A mode is plane when its orbits enclose less than this share of the area of circles.
+/// A mode is planar when its orbits enclose less than this fraction of the area of circular orbits.
 const PLANAR: f64 = 0.01;
-/// A mode is mixed when the nodes that whirl against the others enclose more than this share of all area.
+/// A mode is mixed when the minority whirl direction encloses more than this fraction of the orbit area.
 const MIXED: f64 = 0.05;
 
-/// Kind of a mode, by energy and orbit.
+/// Kind of a mode, by kinetic energy and whirl direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ModeKind {
-    /// Bending, the shaft whirls with the spin (x towards y), but for 5 % of the orbits' area at most.
+    /// Bending, forward whirl (in the direction of spin, x towards y) of at least 95 % of the orbit area.
     Forward,
-    /// Bending, the shaft whirls against the spin, likewise.
+    /// Bending, backward whirl (against the spin), likewise.
     Backward,
-    /// Bending, part of the shaft forward and part backward.
+    /// Bending, forward and backward whirl along the shaft.
     Mixed,
     /// Bending in a plane, mostly along x.
     PlaneX,
@@ -30,7 +30,7 @@ pub enum ModeKind {
 }
 
 impl ModeKind {
-    /// The kind in words.
+    /// Name of the kind.
     pub fn name(self) -> &'static str {
         match self {
             Self::Forward => "bending forward",
@@ -44,13 +44,13 @@ impl ModeKind {
         }
     }
 
-    /// Whether the shaft bends.
+    /// Whether the kind is shaft bending.
     pub fn is_bending(self) -> bool {
         !matches!(self, Self::Torsional | Self::Axial | Self::Body)
     }
 }
 
-/// Shares of a mode's kinetic energy; they add up to 1.
+/// Kinetic energy distribution of a mode; the fractions sum to 1.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Energy {
     /// Shaft, along u_x and θ_y.
@@ -72,7 +72,7 @@ impl Energy {
     }
 }
 
-/// A mode with its kind, its label still empty.
+/// The mode with phase-normalised shape, kind, energies and effective modal masses; without label.
 pub(super) fn describe(assembly: &Assembly, eigenvalue: Complex64, mut shape: Vec<Complex64>) -> Mode {
     let mut full_shape = assembly.dofs.expand_complex(&shape);
     turn_to_real(&mut shape, &mut full_shape);
@@ -100,11 +100,11 @@ fn translation_masses(assembly: &Assembly) -> [f64; 3] {
     total
 }
 
-/// Turns the phase so that the largest translation (or, without any, rotation) is real and positive.
+/// Rotates the phase so that the largest translation (if none, rotation) is real and positive.
 fn turn_to_real(shape: &mut [Complex64], full: &mut [Complex64]) {
     let largest = |translation: bool| {
         let candidates = full.iter().enumerate().filter(move |(i, _)| (i % 6 < 3) == translation);
-        // The first of equals, so that round-off between symmetric nodes cannot change the choice often.
+        // The first of nearly equal values, so that round-off of symmetric nodes rarely changes the choice.
         candidates
             .fold(Complex64::default(), |m, (_, v)| if v.norm() > m.norm() * 1.000_001 { *v } else { m })
     };
@@ -138,7 +138,7 @@ fn energy_shares(full: &[Complex64], momentum: &[Complex64], shaft_nodes: usize)
     energy
 }
 
-/// (|F|² − |B|²)/(|F|² + |B|²) with x + j y = F e^{jωt} + B e^{−jωt}.
+/// Whirl index (|F|² − |B|²)/(|F|² + |B|²) with x + j y = F e^{jωt} + B e^{−jωt}.
 pub fn whirl_of(x: Complex64, y: Complex64) -> f64 {
     // |X + jY|² − |X − jY|² = 4 Im(X* Y) (−1).
     let sum = x.norm_sqr() + y.norm_sqr();
@@ -177,10 +177,11 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
     }
 }
 
-/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing A, u_x"; a rigid rotor does not
-/// bend, and its modes are "1st rigid-body forward" and so on.
+/// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing A, u_x"; for a rigid
+/// rotor "rigid-body" replaces "bending".
 ///
-/// Bending modes come in pairs: a forward (or x) mode counts the forward ones below it, a mixed one half of all.
+/// Bending modes come in pairs: a forward (or x) mode is numbered by the forward modes below it, a mixed one
+/// by half of all bending modes.
 pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
     let mut count: HashMap<String, usize> = HashMap::new();
     let (mut bending, mut mixed) = (0, 0);
@@ -210,7 +211,7 @@ fn body_name(assembly: &Assembly, energy: &Energy) -> String {
     let all = energy.bodies.iter().enumerate().flat_map(|(b, e)| (0..6).map(move |d| (b, d, e[d])));
     let (body, dof, _) = all.max_by(|a, b| a.2.total_cmp(&b.2)).unwrap_or_default();
     let name = &assembly.dofs.node_names[assembly.dofs.shaft_nodes + body];
-    // A housing goes by the name of its bearing.
+    // A housing has the name of its bearing.
     let housing = if assembly.sites.iter().any(|site| site.name == *name) { "housing " } else { "" };
     format!("{housing}{name}, {}", crate::assembly::dofs::DOF_NAMES[dof])
 }

@@ -1,10 +1,11 @@
-//! Derivatives of eigenvalues, mode shapes and FRFs by a parameter of the model.
+//! Sensitivities: derivatives of eigenvalues, mode shapes and FRFs with respect to a parameter of the model.
 //!
-//! The matrices' derivatives come from two assemblies at p ± h. Where a matrix is linear in the parameter (stiffness
-//! and damping of housings, bushings, belts and linear bearings) their difference is exact to rounding; elsewhere it is
-//! off by h². Through nonlinear bearings the equilibrium moves with the parameter, and the tangents with it:
-//! q′ follows by implicit differentiation, (K + K_t) q′ = ∂r/∂p, and the tangents are taken at q ± h q′.
-//! From there on everything is analytic: left and right vectors, no eigenvalue is computed twice.
+//! The derivatives of the matrices are central differences of assemblies at p ± h: exact to rounding where a
+//! matrix is linear in the parameter (stiffness and damping of housings, bushings, belts and linear
+//! bearings), with an error of order h² elsewhere. With nonlinear bearings the equilibrium depends on the
+//! parameter, and so do the tangents: q′ follows by implicit differentiation, (K + K_t) q′ = ∂r/∂p, and the
+//! tangents are evaluated at q ± h q′. All else is analytic, from left and right eigenvectors; no eigenvalue
+//! is computed twice.
 
 use super::equilibrium::{CageTreatment, Equilibrium, Sites, bearing_matrix, equilibrium, force_left, load};
 use super::modal::inner;
@@ -17,7 +18,7 @@ use std::f64::consts::TAU;
 
 use super::frf::derivative as time_derivative;
 
-/// A machine linearised about its equilibrium at one speed, ball bearings averaged over the cage's position.
+/// A machine linearised about its equilibrium at one speed, ball bearings averaged over the cage angle.
 #[derive(Clone, Debug)]
 pub struct Linearised {
     pub model: Model,
@@ -27,7 +28,7 @@ pub struct Linearised {
 }
 
 impl Linearised {
-    /// Assembles, finds the equilibrium at `speed` Ω \[rad/s\] from `start` or from rest, and linearises.
+    /// Assembles, finds the equilibrium at `speed` Ω \[rad/s\] from `start` or from q = 0, and linearises.
     ///
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
@@ -39,10 +40,10 @@ impl Linearised {
         Ok(Self { model, assembly, equilibrium: found, system })
     }
 
-    /// dM/dp, dD/dp and dS/dp from the model at p − h and at p + h, `width` = 2h apart in p's own measure.
+    /// dM/dp, dD/dp and dS/dp from the models at p − h and p + h, `width` = 2h in units of p.
     ///
     /// # Errors
-    /// A parameter that changes which motions are free (a length that moves the mesh), or a singular tangent.
+    /// A parameter that changes the mesh or the free DOFs, or a singular tangent stiffness.
     pub fn derivative(&self, below: &Model, above: &Model, width: f64) -> Result<SystemDerivative, Error> {
         let speed = self.system.speed;
         let q = &self.equilibrium.q;
@@ -73,7 +74,7 @@ impl Linearised {
         })
     }
 
-    /// q′ of (K + K_t) q′ = `change`.
+    /// Derivative of the equilibrium, q′ of (K + K_t) q′ = `change`.
     fn equilibrium_shift(&self, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
         if change.iter().all(|r| *r == 0.0) {
             return Ok(change);
@@ -83,7 +84,7 @@ impl Linearised {
         let bearings = bearing_matrix(&self.assembly, &reactions);
         let (mass, stiffness) = (&self.assembly.mass, &self.assembly.stiffness);
         let layout = BandLayout::new(&[mass, stiffness, &bearings]);
-        // (2π · 0.002 Hz)² M holds what is free to move; against any spring it is nothing.
+        // (2π · 0.002 Hz)² M regularises rigid-body modes; negligible compared with any spring.
         const HOLD: f64 = 1e-4;
         let tangent = SparseMatrix::sum(&[(1.0, stiffness), (1.0, &bearings), (HOLD, mass)]);
         let lu = layout
@@ -94,7 +95,7 @@ impl Linearised {
     }
 }
 
-/// A neighbour of the model.
+/// The assembly at one of the two perturbed parameter values.
 struct Side {
     assembly: Assembly,
     sites: Sites,
@@ -110,7 +111,7 @@ impl Side {
     }
 }
 
-/// Derivatives of M, D and S by one parameter, the equilibrium's shift included.
+/// Derivatives of M, D and S with respect to one parameter, including the shift of the equilibrium.
 #[derive(Clone, Debug)]
 pub struct SystemDerivative {
     pub mass: SparseMatrix,
@@ -125,13 +126,13 @@ impl SystemDerivative {
         (0..s.len()).map(|i| value * value * m[i] + value * d[i] + s[i]).collect()
     }
 
-    /// Whether the parameter changes nothing.
+    /// Whether all derivatives vanish.
     pub fn is_zero(&self) -> bool {
         [&self.mass, &self.damping, &self.stiffness].iter().all(|m| m.max_abs() == 0.0)
     }
 }
 
-/// One eigenpair made ready to be differentiated by any number of parameters.
+/// One eigenpair with its left eigenvector, for derivatives with respect to any number of parameters.
 pub struct ModeSensitivity<'a> {
     system: &'a LinearSystem,
     value: Complex64,
@@ -144,19 +145,19 @@ pub struct ModeSensitivity<'a> {
     other: Option<Other<'a>>,
 }
 
-/// The other mode of a double eigenvalue, made so that ψ_bᵀ (2λ M + D) φ_a = 0 and ψ_bᵀ (2λ M + D) φ_b = 1.
+/// The other mode of a double eigenvalue, scaled so that ψ_bᵀ (2λ M + D) φ_a = 0 and ψ_bᵀ (2λ M + D) φ_b = 1.
 struct Other<'a> {
     right: &'a [Complex64],
     left: Vec<Complex64>,
     weighted: Vec<Complex64>,
 }
 
-/// Entries of D and S that mirror each other within this share of the largest make the matrices symmetric.
+/// D and S count as symmetric when mirrored entries agree within this fraction of the largest.
 const SYMMETRIC: f64 = 1e-9;
 
 impl<'a> ModeSensitivity<'a> {
-    /// Finds the left vector of an eigenpair λ, φ of (λ² M + λ D + S) φ = 0: φ itself where the matrices are symmetric,
-    /// else by inverse iteration on the transposed problem.
+    /// Computes the left eigenvector of an eigenpair λ, φ of (λ² M + λ D + S) φ = 0: φ itself for symmetric
+    /// matrices, else by inverse iteration on the transposed problem.
     ///
     /// # Errors
     /// A defective eigenvalue, whose left and right vectors are orthogonal: it has no derivative.
@@ -173,12 +174,12 @@ impl<'a> ModeSensitivity<'a> {
         Ok(Self { system, value, right, left, norm, weighted, other: None })
     }
 
-    /// One mode of a double eigenvalue, beside `other`: left vectors are taken so that each leaves the other out.
+    /// One mode of a double (repeated) eigenvalue, with `other`; left and right vectors are biorthogonal.
     ///
-    /// A parameter gives the two modes the slopes of the eigenvalues of the 2×2 matrix −Ψᵀ (λ² dM + λ dD + dS) Φ. This
-    /// has its diagonal for the shapes as they are given, and [`Self::coupling`] off it. It is for shapes that something
-    /// else holds in place, such as those of a test: the modes' own planes, which a parameter that parts the two would
-    /// choose at once, turn by no derivative.
+    /// The derivatives of the two eigenvalues are the eigenvalues of the 2×2 matrix −Ψᵀ (λ² dM + λ dD + dS)
+    /// Φ. This gives its diagonal for the given shapes, and [`Self::coupling`] its off-diagonal entries.
+    /// Intended for shapes fixed by other data, such as those of a test: a parameter that splits the pair
+    /// selects the modes' own planes discontinuously, so that their rotation has no derivative.
     ///
     /// # Errors
     /// A defective eigenvalue.
@@ -223,12 +224,12 @@ impl<'a> ModeSensitivity<'a> {
         -product(&self.left, &by.apply(self.value, self.right)) / self.norm
     }
 
-    /// φ′ by every parameter, with its largest component held (Nelson's method, one factorisation for all).
+    /// φ′ for every parameter, its largest component fixed (Nelson's method, one factorisation for all).
     ///
     /// Any multiple of φ may be added: it only scales the shape.
     ///
     /// # Errors
-    /// A double eigenvalue, whose shapes are not defined alone.
+    /// A double eigenvalue, whose individual shapes are not unique.
     pub fn shapes(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
         let held = self.held();
         let without = |a: &SparseMatrix, diagonal: f64| {
@@ -258,7 +259,7 @@ impl<'a> ModeSensitivity<'a> {
                 .map(|(f, w)| -(f + slope * w))
                 .collect();
             if let Some(other) = &self.other {
-                // What turns the two within their plane of shapes is left out.
+                // The rotation within the subspace of the two shapes is excluded.
                 let across = self.coupling(by);
                 b.iter_mut().zip(&other.weighted).for_each(|(b, w)| *b -= across * w);
             }
@@ -269,7 +270,7 @@ impl<'a> ModeSensitivity<'a> {
         Ok(by.iter().map(solve).collect())
     }
 
-    /// Components that are held: where right and left vectors are large, of a double eigenvalue in all four.
+    /// Fixed components in Nelson's method: where right and left vectors (of both double modes) are large.
     fn held(&self) -> Vec<usize> {
         let largest = |size: &dyn Fn(usize) -> f64| {
             (0..self.right.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0)
@@ -298,7 +299,7 @@ fn symmetric(a: &SparseMatrix) -> bool {
     a.iter().all(|(i, j, v)| (v - a.get(j, i)).abs() <= SYMMETRIC * largest)
 }
 
-/// ψ of ψᵀ (λ² M + λ D + S) = 0.
+/// Left eigenvector ψ of ψᵀ (λ² M + λ D + S) = 0, by inverse iteration.
 fn left_vector(
     system: &LinearSystem,
     value: Complex64,
@@ -310,7 +311,7 @@ fn left_vector(
     let matrices = [&system.mass, &system.damping, &system.stiffness].map(SparseMatrix::transposed);
     let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
     let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
-    // Next to the eigenvalue, so that the factors exist and one step gains eight digits.
+    // Shifted slightly off the eigenvalue, so that the factors exist and one step gains eight digits.
     let near = value * (1.0 + 1e-8);
     let values = (0..s.len()).map(|k| near * near * m[k] + near * d[k] + s[k]).collect();
     let lu = layout.factor::<Complex64>(values).map_err(|_| PhysicsError::NoDerivative {
@@ -326,7 +327,7 @@ fn left_vector(
     Ok(left)
 }
 
-/// FRFs and their derivatives at one frequency after another.
+/// FRFs and their derivatives with respect to parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrfSensitivity {
     /// H\[response\]\[excitation\]\[frequency\].
@@ -340,7 +341,7 @@ pub struct FrfSensitivity {
 /// `frequencies` in Hz; one banded complex factorisation each.
 ///
 /// # Errors
-/// A frequency at which the dynamic stiffness is singular, by the motion's name.
+/// A frequency at which the dynamic stiffness is singular, naming the motion.
 pub fn frf_sensitivity(
     at: &Linearised,
     frequencies: &[f64],

@@ -1,11 +1,11 @@
-//! Stability: the speed where a mode's damping vanishes.
+//! Stability threshold (onset speed of instability): the speed where a mode's damping vanishes.
 
 use super::campbell::{Campbell, Tangents, Tracker};
 use super::modal::Mode;
 use crate::assembly::Assembly;
 use crate::error::Error;
 
-/// A mode that loses (or regains) its damping.
+/// A zero crossing of a mode's damping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Threshold {
     /// Ω \[rad/s\].
@@ -30,7 +30,7 @@ pub fn thresholds(
     for branch in &diagram.branches {
         for (k, pair) in branch.modes.windows(2).enumerate() {
             let [Some(a), Some(b)] = pair else { continue };
-            // An undamped mode has a real part of round-off size at both ends; it crosses nothing.
+            // The real part of an undamped mode is round-off at both ends: no crossing.
             let unstable = |m: &Mode| m.eigenvalue.re >= 0.0;
             let real = a.zeta().abs().max(b.zeta().abs()) > 1e-9;
             if real && unstable(a) != unstable(b) {

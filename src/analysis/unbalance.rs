@@ -1,4 +1,4 @@
-//! Steady response to unbalance over speed.
+//! Steady-state unbalance response (synchronous, 1x) over speed.
 
 use super::campbell::Tangents;
 use super::frf::derivative;
@@ -23,11 +23,11 @@ pub struct UnbalanceResponse {
 pub struct Orbit {
     /// Semi-major axis \[m\].
     pub major: f64,
-    /// Semi-minor axis \[m\], positive when the orbit turns with the spin, negative against it.
+    /// Semi-minor axis \[m\], positive for forward whirl, negative for backward whirl.
     pub minor: f64,
     /// Angle of the major axis from +x towards +y \[rad\].
     pub inclination: f64,
-    /// From −1 (backward circle) to 1 (forward circle).
+    /// Whirl index from −1 (backward circle) to 1 (forward circle).
     pub whirl: f64,
 }
 
@@ -62,7 +62,7 @@ impl UnbalanceResponse {
 /// Q = (S − Ω² M + jΩ D)⁻¹ F with F_x = U Ω² e^{jϕ}, F_y = −j F_x at every speed \[rad/s\].
 ///
 /// # Errors
-/// A speed at which the dynamic stiffness is singular, or whatever the tangents report.
+/// A speed at which the dynamic stiffness is singular, or errors of the tangents.
 pub fn response(
     assembly: &Assembly,
     speeds: &[f64],

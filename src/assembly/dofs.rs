@@ -1,4 +1,4 @@
-//! DOF map: six DOFs per node, joints and the drive eliminated exactly.
+//! DOF map: six DOFs per node; constraints of joints and drive eliminated exactly (multi-point constraints).
 
 use crate::element::Anchor;
 use crate::linalg::{Complex64, SparseRow};
@@ -12,22 +12,22 @@ pub const DOF_NAMES: [&str; 6] = ["u_x", "u_y", "u_z", "θ_x", "θ_y", "θ_z"];
 pub struct DofMap {
     /// Row i of T: full DOF i as a combination of free DOFs.
     pub basis: Vec<SparseRow>,
-    /// Full DOF that free DOF k stands for.
+    /// Full DOF of free DOF k.
     pub free: Vec<usize>,
     /// Number of shaft nodes; bodies follow.
     pub shaft_nodes: usize,
-    /// Whether the shaft nodes are those of a rigid rotor.
+    /// Whether the rotor is rigid.
     pub rigid: bool,
     /// Name of every node.
     pub node_names: Vec<String>,
 }
 
 impl DofMap {
-    /// Eliminates the joints, the nodes of a rigid rotor but for its centre and, with a prescribed drive, the
+    /// Eliminates the joints, the nodes of a rigid rotor except its centre and, with a prescribed drive, the
     /// rotation of the driven node.
     ///
     /// Every locked relative motion is a row r · q_full = 0. Gauss-Jordan elimination with the largest
-    /// coefficient as pivot solves the rows for as many DOFs; rows that say nothing new vanish.
+    /// coefficient as pivot solves the rows for as many DOFs; redundant rows vanish.
     pub fn new(model: &Model) -> Self {
         let full = 6 * model.node_count();
         let mut rows: Vec<SparseRow> = Vec::new();
@@ -69,7 +69,7 @@ impl DofMap {
         self.free.len()
     }
 
-    /// Whether nothing can move.
+    /// Whether there are no free DOFs.
     pub fn is_empty(&self) -> bool {
         self.free.is_empty()
     }
@@ -95,7 +95,7 @@ impl DofMap {
         self.basis.iter().map(|row| row.dot_complex(q)).collect()
     }
 
-    /// Generalised force on the free DOFs of forces on all DOFs: Tᵀ f.
+    /// Generalised force on the free DOFs from forces on all DOFs: Tᵀ f.
     pub fn reduce(&self, full: &[f64]) -> Vec<f64> {
         let mut f = vec![0.0; self.len()];
         for (row, &value) in self.basis.iter().zip(full) {
@@ -144,7 +144,7 @@ pub(super) fn full_rows(anchor: &Anchor) -> [SparseRow; 6] {
     ]
 }
 
-/// Rows that hold every node of a rigid rotor to the node of its centre, solved for the former.
+/// Rigid-body constraint rows of every node of a rigid rotor to its centre node, solved for the former.
 fn rigid_rows(model: &Model) -> Vec<(usize, SparseRow)> {
     let Some(rotor) = &model.rigid_rotor else { return Vec::new() };
     let mut solved = Vec::new();
@@ -159,14 +159,15 @@ fn rigid_rows(model: &Model) -> Vec<(usize, SparseRow)> {
     solved
 }
 
-/// Rows solved each for one DOF (coefficient 1), which appears in no other row; `solved` are so already.
+/// Gauss-Jordan elimination: rows each solved for one DOF (coefficient 1) that appears in no other row;
+/// `solved` rows already are.
 fn eliminate(mut solved: Vec<(usize, SparseRow)>, rows: Vec<SparseRow>) -> Vec<(usize, SparseRow)> {
     for mut row in rows {
         for (pivot, other) in &solved {
             let factor = row.0.iter().find(|(i, _)| i == pivot).map_or(0.0, |&(_, v)| v);
             row.add_scaled(-factor, other);
         }
-        // What is left of a redundant row is round-off of coefficients of order one.
+        // The remainder of a redundant row is round-off of coefficients of order one.
         row.0.retain(|(_, v)| v.abs() > 1e-12);
         let Some(&(pivot, value)) =
             row.0.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(a.0.cmp(&b.0)))
@@ -186,7 +187,7 @@ fn eliminate(mut solved: Vec<(usize, SparseRow)>, rows: Vec<SparseRow>) -> Vec<(
     solved
 }
 
-/// Stations by their name, other shaft nodes by number and place, bodies by their name.
+/// Node names: stations and bodies by name, other shaft nodes by number and position.
 fn node_names(model: &Model) -> Vec<String> {
     let mut names: Vec<String> =
         model.node_z.iter().enumerate().map(|(k, z)| format!("shaft node {k} (z = {z:.4} m)")).collect();

@@ -1,4 +1,4 @@
-//! The matrices of all elements over all DOFs (six per node), before elimination.
+//! Assembly of the element matrices over all DOFs (six per node), before elimination of constraints.
 
 use super::dofs::full_rows;
 use crate::bearing::Bearing;
@@ -59,7 +59,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
             m.add_between_rows(&[row], &[[point.mass]]);
         }
     }
-    // Balls with coordinates of their own move with the housing across their line.
+    // Added mass on the housing of balls with radial degrees of freedom.
     for site in &model.bearings {
         if let Bearing::RadialBall(radial) = &site.bearing {
             let [x, y, ..] = full_rows(&site.housing);

@@ -1,4 +1,4 @@
-//! Free motions: what a singular system leaves without restraint, in words.
+//! Rigid-body modes (unconstrained motions) of a singular system, described in words.
 
 use super::dofs::DOF_NAMES;
 use super::{Assembly, DofMap, LinearSystem};
@@ -8,13 +8,14 @@ use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, eigen};
 use crate::model::{Drive, Model};
 
-/// Slower than this \[rad/s\], a motion counts as free: one turn in ten minutes.
+/// Natural frequency \[rad/s\] below which a mode counts as rigid-body mode: one cycle in ten minutes.
 const FREE_BELOW: f64 = 0.01;
 
-/// Fails when the stiffness leaves a motion free, naming it; `ignore_spin` lets the shaft turn about z.
+/// Fails on a rigid-body mode of the stiffness, naming it; `ignore_spin` permits rotation of the shaft about
+/// z.
 ///
 /// # Errors
-/// The free motion, such as "axial motion of the shaft (u_z)".
+/// [`PhysicsError::Singular`] with the rigid-body mode, such as "axial motion of the shaft (u_z)".
 pub fn check_restrained(
     assembly: &Assembly,
     stiffness: &SparseMatrix,
@@ -26,7 +27,7 @@ pub fn check_restrained(
     }
 }
 
-/// Every free motion of a linear system in words; empty when all is held.
+/// All rigid-body modes of a linear system in words; empty if fully constrained.
 ///
 /// # Errors
 /// No convergence of the undamped modes.
@@ -34,13 +35,13 @@ pub fn free_motions_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec
     free_motions(assembly, &system.stiffness)
 }
 
-/// Every motion that structure and bearings leave free at standstill, ball bearings taken as all in contact; rotation
-/// about z only when the drive holds it.
+/// All rigid-body modes of structure and bearings at standstill, all ball bearings taken as in contact;
+/// rotation about z is reported only with a prescribed drive station, which should constrain it.
 ///
 /// # Errors
 /// No convergence of the undamped modes.
 pub fn free_motions_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, Error> {
-    // What holds counts here, not how hard.
+    // Nominal stiffness: only the constrained directions matter, not the value.
     const CONTACT: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
     let diagonal =
         |k: [f64; 6]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { k[i] } else { 0.0 }));
@@ -66,14 +67,14 @@ pub fn free_motions_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec
     Ok(motions)
 }
 
-/// Whether the slowest motion may be a free one, by a few steps of inverse iteration on (K + M) x = M x.
+/// Whether the lowest mode may be a rigid-body mode, by a few steps of inverse iteration on (K + M) x = M x.
 fn may_move(assembly: &Assembly, stiffness: &SparseMatrix) -> bool {
     const STEPS: usize = 8;
     let mass = &assembly.mass;
     let layout = BandLayout::new(&[mass, stiffness]);
     let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
     let Ok(factors) = layout.factor::<f64>(values) else { return true };
-    // Any start with a share of every mode will do.
+    // Start vector with a component in every mode.
     let mut x: Vec<f64> = (0..assembly.dofs.len()).map(|k| (1.0 + k as f64).sin()).collect();
     let mut slowest = 0.0;
     for _ in 0..STEPS {
@@ -82,10 +83,10 @@ fn may_move(assembly: &Assembly, stiffness: &SparseMatrix) -> bool {
         x = momentum.iter().map(|p| p / size).collect();
         factors.solve(&mut x);
         let response = mass.mul(&x);
-        // 1/(ω² + 1) of the slowest motion is approached from below.
+        // Converges from below to 1/(ω² + 1) of the lowest mode.
         slowest = x.iter().zip(&response).map(|(x, p)| x * p).sum::<f64>().sqrt();
     }
-    // Half way between a free motion (1) and the slowest that a machine is held by.
+    // Threshold between a rigid-body mode (1) and the lowest elastic mode (near 0).
     slowest.is_nan() || slowest > 0.5
 }
 
@@ -106,7 +107,7 @@ fn free_motions(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<Str
     Ok(names)
 }
 
-/// A free motion by the body and direction that hold most of its kinetic energy.
+/// Describes a rigid-body mode by the body and direction with most of its kinetic energy.
 fn describe(assembly: &Assembly, shape: &[f64]) -> String {
     let dofs = &assembly.dofs;
     let full = dofs.expand(shape);
@@ -132,7 +133,7 @@ fn describe(assembly: &Assembly, shape: &[f64]) -> String {
     }
 }
 
-/// Every free DOF must carry inertia.
+/// Checks that every free DOF has inertia.
 pub(super) fn check_mass(assembly: &Assembly) -> Result<(), Error> {
     let dofs: &DofMap = &assembly.dofs;
     match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {

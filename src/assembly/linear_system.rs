@@ -1,4 +1,4 @@
-//! The linear equations at one speed, bearings included.
+//! Linearised equations of motion at one speed, bearings included.
 
 use super::Assembly;
 use crate::bearing::SiteTangent;
@@ -19,10 +19,10 @@ pub struct LinearSystem {
 }
 
 impl LinearSystem {
-    /// Linear equations with one tangent for every bearing site, in order.
+    /// Linearised equations with one tangent per bearing site, in order.
     ///
     /// # Errors
-    /// No undamped modes where modal damping asks for them.
+    /// Undamped modes for modal damping did not converge.
     pub fn new(assembly: &Assembly, tangents: &[SiteTangent], speed: f64) -> Result<Self, Error> {
         let n = assembly.dofs.len();
         let (mut k, mut c) = (Triplets::new(n, n), Triplets::new(n, n));
@@ -50,7 +50,7 @@ impl LinearSystem {
     }
 }
 
-/// C = M Φ diag(2 ζ ω) Φᵀ M from the undamped modes at standstill, Φᵀ M Φ = 1.
+/// Modal damping matrix C = M Φ diag(2 ζ ω) Φᵀ M from the undamped modes at standstill, Φᵀ M Φ = 1.
 pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<SparseMatrix, Error> {
     let n = assembly.dofs.len();
     if assembly.modal_damping.is_empty() {
@@ -65,7 +65,7 @@ pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Sp
         column *= 2.0 * omega * damping_ratio(&assembly.modal_damping, omega / std::f64::consts::TAU);
     }
     let mut dense = &momentum * (mass * shapes).transpose();
-    // Unknowns that nothing couples get round-off only; without it they stay apart.
+    // Entries between uncoupled unknowns are round-off only: set to zero to keep sparsity.
     let floor = 1e-12 * dense.amax();
     dense.apply(|v| {
         if v.abs() < floor {
@@ -75,7 +75,7 @@ pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Sp
     Ok(SparseMatrix::from_dense(&dense))
 }
 
-/// ζ at a frequency \[Hz\]: piecewise linear, constant beyond the ends.
+/// Damping ratio ζ at a frequency \[Hz\]: piecewise linear, constant beyond the ends.
 fn damping_ratio(table: &[[f64; 2]], hz: f64) -> f64 {
     let after = table.partition_point(|row| row[0] <= hz);
     match (after.checked_sub(1).map(|k| table[k]), table.get(after).copied()) {

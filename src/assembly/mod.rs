@@ -1,7 +1,7 @@
 //! Assembly: from the model to a DOF map, matrices and load vectors.
 //!
 //! M q̈ + (C + Ω G) q̇ + (K + Ω̇ K_s + Ω K_c) q = f over the free DOFs q; q_full = T q holds six DOFs per
-//! node, shaft nodes first, then bodies. θ_z of a shaft node is its twist beyond the drive's rotation.
+//! node, shaft nodes first, then bodies. θ_z of a shaft node is its twist relative to the drive's rotation.
 
 pub mod dofs;
 mod elements;
@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::linalg::{Complex64, SparseMatrix, SparseRow};
 use crate::model::Model;
 
-/// The machine's equations over its free DOFs, bearings apart.
+/// Equations of motion over the free DOFs, without bearings.
 #[derive(Clone, Debug)]
 pub struct Assembly {
     pub dofs: DofMap,
@@ -28,7 +28,7 @@ pub struct Assembly {
     pub mass: SparseMatrix,
     /// Stiffness K of shaft, bushings and belts on fixed centres, without bearings.
     pub stiffness: SparseMatrix,
-    /// Stiffness of belts with constant pull, which acts about the equilibrium but not in it.
+    /// Stiffness of belts with constant pull: acts on deviations from the equilibrium, not in statics.
     pub belt_stiffness: SparseMatrix,
     /// Damping C: of elements, bushings, belts, proportional and internal; without bearings and modal damping.
     pub damping: SparseMatrix,
@@ -42,26 +42,27 @@ pub struct Assembly {
     pub gravity_load: Vec<f64>,
     /// Constant loads and the belts' static pull \[N, N m\].
     pub static_load: Vec<f64>,
-    /// Momentum Tᵀ M r of the rigid rotation r of all shaft nodes about z: an acceleration Ω̇ puts −Ω̇ times this
-    /// on the twist. (With no drive station, each inertia is taken to be turned by its own torque: then leave it out.)
+    /// Momentum Tᵀ M r of the rigid rotation r of all shaft nodes about z: an acceleration Ω̇ loads the twist
+    /// by −Ω̇ times this. (Without a drive station each inertia is driven by its own torque: not to be
+    /// applied.)
     pub spin_momentum: Vec<f64>,
-    /// Polar moment of inertia rᵀ M r of shaft, discs and what rides on them \[kg m²\].
+    /// Polar moment of inertia rᵀ M r of shaft, discs and attached masses \[kg m²\].
     pub polar_inertia: f64,
     pub unbalances: Vec<UnbalanceForce>,
     pub sites: Vec<Site>,
-    /// Modal damping as measured: (frequency \[Hz\], ζ).
+    /// Modal damping table: (frequency \[Hz\], ζ).
     pub modal_damping: Vec<[f64; 2]>,
     /// Mass over all DOFs, before elimination.
     pub full_mass: SparseMatrix,
 }
 
-/// A bearing's place: how its six relative displacements follow from q.
+/// Bearing site: its six relative displacements as linear functions of q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
     pub name: String,
     /// Shaft node minus housing point: u_x u_y u_z θ_x θ_y θ_z as rows over the free DOFs.
     pub rows: [SparseRow; 6],
-    /// Housing point: u_x u_y; no entries where that is ground.
+    /// Housing point: u_x u_y; no entries for ground.
     pub frame: [SparseRow; 2],
 }
 
@@ -71,7 +72,7 @@ impl Site {
         std::array::from_fn(|i| self.rows[i].dot(q))
     }
 
-    /// Adds Rᵀ f: f on the shaft, −f and what is carried on the housing.
+    /// Adds Rᵀ f: f on the shaft, −f and the additional housing force on the housing.
     pub fn add_force(&self, reaction: &Reaction, to: &mut [f64]) {
         elements::add_force(&self.rows, &reaction.force, to);
         for (row, force) in self.frame.iter().zip(reaction.carried) {
@@ -80,7 +81,7 @@ impl Site {
     }
 }
 
-/// Unbalance U at phase ϕ on a node, as a force on the free DOFs.
+/// Unbalance U at phase ϕ on a node, as a rotating force on the free DOFs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnbalanceForce {
     pub name: String,
@@ -94,7 +95,7 @@ pub struct UnbalanceForce {
 }
 
 impl Assembly {
-    /// Assembles with exact cones and energy-consistent terms of angular acceleration.
+    /// Assembles with exact conical elements and energy-consistent angular acceleration terms.
     ///
     /// # Errors
     /// A mass matrix that is not positive definite.
@@ -102,7 +103,7 @@ impl Assembly {
         Self::with_forms(model, SpinUpForm::default(), ConeRule::default())
     }
 
-    /// Assembles with chosen forms, to compare with programs that differ.
+    /// Assembles with selected forms, for comparison with other programs.
     ///
     /// # Errors
     /// A mass matrix that is not positive definite.

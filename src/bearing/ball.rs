@@ -1,7 +1,7 @@
 //! Ball bearing element: one force element per ball, clearance, loss of contact, kinematic cage.
 //!
 //! Force law of Cakmak & Sanliturk 2010 §2.1 and §3.1 with massless balls: the groove centres of ball j are
-//! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line that joins them.
+//! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line joining them.
 
 use super::duplex::{motion_at, seen_from_station};
 use super::force::RowForce;
@@ -9,19 +9,19 @@ use super::row::Row;
 use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
 use crate::contact::{ContactPatch, HertzPair};
 
-/// A ball bearing made ready for evaluation: one row, or the two of a matched pair.
+/// A ball bearing prepared for evaluation: one row, or the two of a matched pair.
 #[derive(Clone, Debug)]
 pub struct BallElement {
     /// Dry contacts at the nominal contact angle.
     pub contacts: HertzPair,
-    /// Rows with their axial places from the bearing's station \[m\].
+    /// Rows with their axial offsets from the bearing's station \[m\].
     rows: Vec<(f64, Row)>,
     cage: Cage,
     ball_to_pitch: f64,
     nominal_cos: f64,
 }
 
-/// What one ball carries.
+/// Load state of one ball: contact loads, contact angles, deflection, film thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallLoad {
     /// Row of a matched pair: 0 towards −z, 1 towards +z; 0 in a single row.
@@ -32,18 +32,18 @@ pub struct BallLoad {
     pub load: f64,
     /// Contact angle at the inner race α_i \[rad\].
     pub contact_angle: f64,
-    /// Approach of the races δ_i + δ_o \[m\]; negative is the gap that is left.
+    /// Approach of the races δ_i + δ_o \[m\]; negative for a gap.
     pub deflection: f64,
-    /// Normal load Q_o \[N\] and contact angle α_o \[rad\] at the outer race; those of the inner one when the ball
-    /// counts as massless.
+    /// Normal load Q_o \[N\] and contact angle α_o \[rad\] at the outer race; equal to those of the inner
+    /// race for a massless ball.
     pub outer_load: f64,
     pub outer_contact_angle: f64,
-    /// Central film thickness at the inner and outer race \[m\]; 0 where dry or unloaded.
+    /// Central film thickness at the inner and outer race \[m\]; 0 if dry or unloaded.
     pub film: [f64; 2],
 }
 
 impl BallLoad {
-    /// Ellipse and maximum pressure at the inner and outer race.
+    /// Contact ellipse and maximum Hertzian pressure at the inner and outer race.
     pub fn patches(&self, contacts: &HertzPair) -> [ContactPatch; 2] {
         [contacts.inner.patch(self.load), contacts.outer.patch(self.outer_load)]
     }
@@ -91,12 +91,13 @@ impl BallElement {
         self.nominal_cos
     }
 
-    /// Whether the force at given displacement and velocity changes with speed: film, balls' inertia, ring growth.
+    /// Whether the force at given displacement and velocity depends on speed: film, ball inertia, ring
+    /// growth.
     pub fn depends_on_speed(&self) -> bool {
         self.rows.iter().any(|(_, row)| row.depends_on_speed())
     }
 
-    /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset, and the axial force that results.
+    /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset and resulting axial force.
     pub fn preload_state(&self, speed: f64) -> PreloadState {
         let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
         self.rows.first().map_or_else(PreloadState::default, |(_, row)| row.preload_state(&rotation))
@@ -106,19 +107,19 @@ impl BallElement {
     ///
     /// Ball j's inner groove centre is at s_j = (A cos α₀ − P_d/2 + x cos ψ_j + y sin ψ_j,
     /// A sin α₀ + δ₀ + z + R_i (θ_x sin ψ_j − θ_y cos ψ_j)) from the outer one, δ₀ the preload. A massless ball
-    /// carries Q_j = max(0, Q(δ) + damping), δ_j = |s_j| − A + w_i + w_o; f = −Σ Q_j ∂δ_j/∂d. A ball with inertia
-    /// settles between the races first. δ̇ is the full rate of approach: motion of the rings, of the cage and of
-    /// passing waves and defects, but where the law of defects leaves theirs out.
+    /// carries Q_j = max(0, Q(δ) + damping), δ_j = |s_j| − A + w_i + w_o; f = −Σ Q_j ∂δ_j/∂d. For a ball with
+    /// inertia the ball equilibrium is solved first. δ̇ is the full approach rate: motion of rings and cage,
+    /// passing waves and defects (defects unless their law excludes them from damping).
     ///
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
-    /// Limits: all balls unloaded gives zero force and zero tangents; the force never pulls.
+    /// Limits: all balls unloaded gives zero force and zero tangents; no ball transmits tension.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         self.react(d, v, rotation, rotation.cage_speed, true)
     }
 
     /// The force of [`BallElement::reaction`] with its energy, powers and mean contact angle, to `out`.
     ///
-    /// The tangents of `out` are as they happen to be; the force is the same up to round-off.
+    /// The tangents of `out` are unspecified; the force agrees up to round-off.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
         let mut sum = RowForce::default();
         for (place, row) in &self.rows {
@@ -169,8 +170,8 @@ impl BallElement {
     /// Elastic force and stiffness averaged over one ball pitch of cage angles at fixed ring displacement.
     ///
     /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average of massless balls is a potential force, so its tangent is
-    /// symmetric. Waves, defects and sizes of balls are left out: the bearing as it is on average over many turns, but for the small
-    /// mean of a dent. The reaction at one cage angle has them.
+    /// symmetric. Waviness, defects and off-size balls are left out (average over many revolutions,
+    /// neglecting the small mean of a dent); [`BallElement::reaction`] includes them.
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         let pitch = std::f64::consts::TAU / self.balls() as f64;
         let mut out = Reaction::default();

@@ -1,4 +1,4 @@
-//! A ball bearing as its user describes it.
+//! Ball bearing input data: geometry, materials, contact law, preload, fits, cage, imperfections, service.
 
 use super::{BallGeometry, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
@@ -11,34 +11,34 @@ pub struct BallBearing {
     /// Material of balls and of rings.
     pub ball_material: Material,
     pub ring_material: Material,
-    /// How a ball's contacts carry load.
+    /// Contact law of the balls.
     pub contact: ContactLaw,
-    /// Stiffness of the dry contacts, where it is given instead of following from curvatures and elasticity.
+    /// Stiffness of the dry contacts: from curvatures and elasticity, or given.
     pub contact_stiffness: ContactStiffness,
-    /// How they dissipate.
+    /// Contact damping.
     pub damping: ContactDamping,
     pub inertia: BallInertia,
     pub preload: Preload,
-    /// Second row that makes a matched pair of this bearing; `None` for a single row.
+    /// Arrangement of a matched (duplex) pair; `None` for a single row.
     pub duplex: Option<Duplex>,
     pub fit: Fit,
     pub cage: Cage,
-    /// Cage angle ψ₀ of ball 0 at the start \[rad\], from +x towards +y.
+    /// Initial cage angle ψ₀, position of ball 0 \[rad\], from +x towards +y.
     pub cage_angle: f64,
     pub imperfections: Imperfections,
-    /// Cage pocket diameter and cage width \[m\] for the overlap check and pictures.
+    /// Cage pocket diameter and cage width \[m\] for the overlap check and drawings.
     pub cage_pocket_diameter: f64,
     pub service: Service,
 }
 
-/// What a bearing's rating life is reckoned with beside its loads.
+/// Service conditions for the rating life (ISO 281): load ratings, lubricant, contamination, reliability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Service {
-    /// Load ratings C and C₀ and fatigue load limit C_u by the maker \[N\]; `None`: by the geometry.
+    /// Load ratings C and C₀ and fatigue load limit C_u from the catalogue \[N\]; `None`: from the geometry.
     pub dynamic_rating: Option<f64>,
     pub static_rating: Option<f64>,
     pub fatigue_limit: Option<f64>,
-    /// Oil of a bearing whose contact law has none.
+    /// Lubricant, if the contact law specifies none.
     pub lubricant: Option<Lubricant>,
     /// Contamination factor e_C from 0 (very severe) to 1 (extreme cleanliness).
     pub contamination: f64,
@@ -61,7 +61,7 @@ impl Default for Service {
 }
 
 impl BallBearing {
-    /// The oil it runs in: of its contact law, else of its service.
+    /// Lubricant of the contact law, else of the service conditions.
     pub fn lubricant(&self) -> Option<&Lubricant> {
         match &self.contact {
             ContactLaw::Film { lubricant, .. } => Some(lubricant),
@@ -70,7 +70,8 @@ impl BallBearing {
         }
     }
 
-    /// Whether forces at a given displacement change with the shaft's speed: film, ball inertia, growing ring.
+    /// Whether forces at a given displacement depend on shaft speed: film, ball inertia, centrifugal ring
+    /// growth.
     pub fn depends_on_speed(&self) -> bool {
         let dry = matches!(self.contact, ContactLaw::Hertz | ContactLaw::PowerLaw(_));
         !dry || self.inertia != BallInertia::None || self.fit.speed_growth
@@ -98,7 +99,7 @@ impl BallBearing {
 }
 
 impl BallBearing {
-    /// Why this bearing cannot be computed, one sentence each; empty when it can.
+    /// Validation errors, one sentence each: combinations and values that are not supported; empty if valid.
     pub fn problems(&self) -> Vec<String> {
         let mut out = Vec::new();
         let mut refuse = |wrong: bool, why: &str| {
@@ -109,32 +110,32 @@ impl BallBearing {
         let split = self.inertia != BallInertia::None;
         refuse(
             split && matches!(self.contact, ContactLaw::PowerLaw(_)),
-            "ball inertia needs each contact alone; a fitted power law knows only both together",
+            "ball inertia needs a contact law for each race; a fitted power law gives only both in series",
         );
         refuse(
             !matches!(self.contact, ContactLaw::Film { .. })
                 && matches!(self.damping, ContactDamping::Film { .. }),
-            "film damping needs the film formula, contact = \"film\"",
+            "film damping requires the film formula, contact = \"film\"",
         );
         refuse(
             self.contact_stiffness != ContactStiffness::Elastic
                 && matches!(self.contact, ContactLaw::PowerLaw(_) | ContactLaw::Ehl(_)),
-            "a contact stiffness says nothing beside a fitted law or a solved film, which have their own",
+            "a contact stiffness cannot be combined with a fitted power law or an EHL film",
         );
         refuse(
             self.imperfections.balls().any(|ball| ball >= self.geometry.balls),
-            "a wave, a size or a defect is on a ball that is not there",
+            "a wave, a size or a defect is on a ball number that does not exist (balls count from 0)",
         );
         let forced = matches!(self.imperfections.law, DefectLaw::Force { .. });
         refuse(
             forced && split,
-            "the force law of defects does not say which contact of a ball with inertia it pushes",
+            "the force law of defects is not defined for balls with inertia (two separate contacts)",
         );
         refuse(
             forced && matches!(self.preload, Preload::Spring { .. }),
-            "the force law of defects has no energy, which a ring on a spring is placed by",
+            "the force law of defects is not conservative and cannot be combined with spring preload",
         );
-        refuse(self.geometry.balls < 2, "a ball bearing has two balls at least");
+        refuse(self.geometry.balls < 2, "a ball bearing needs at least two balls");
         refuse(
             matches!(self.preload, Preload::Spring { stiffness, .. } if stiffness < 0.0 || stiffness.is_nan()),
             "the preload spring's stiffness is negative",
@@ -142,20 +143,20 @@ impl BallBearing {
         refuse(
             matches!(self.preload, Preload::DryForce(f) | Preload::Force(f) | Preload::Spring { force: f, .. }
                 if f < 0.0 || f.is_nan()),
-            "a preload force is negative: the bearing carries thrust one way",
+            "a preload force is negative; the bearing carries thrust in one direction only",
         );
         refuse(
             self.duplex.is_some_and(|pair| pair.spacing <= 0.0 || pair.spacing.is_nan()),
-            "the rows of a matched pair are no distance apart",
+            "the row spacing of a matched pair is not positive",
         );
         out
     }
 }
 
-/// Centrifugal force and gyroscopic moment of the balls.
+/// Ball inertia model: centrifugal force and gyroscopic moment, raceway control hypothesis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BallInertia {
-    /// Massless balls: both contacts carry the same load on one line.
+    /// Massless balls: equal load and contact angle at both races.
     #[default]
     None,
     /// Two contact angles per ball; the outer race alone resists the gyroscopic moment.
@@ -171,19 +172,20 @@ pub enum BallInertia {
 pub enum Preload {
     #[default]
     None,
-    /// Axial approach of the rings from their nominal place δ₀ \[m\], rigid; the film adds to it.
+    /// Rigid (fixed-position) preload: axial approach δ₀ of the rings from nominal \[m\]; the film adds to
+    /// it.
     Interference(f64),
     /// The interference at which the dry bearing at rest carries this axial force \[N\] when centred.
     DryForce(f64),
     /// The interference at which the centred bearing carries this axial force \[N\] at its speed, with
-    /// film and ball inertia: adjusted by a load cell, then held.
+    /// film and ball inertia: adjusted by load cell, then locked (rigid).
     Force(f64),
-    /// A spring pushes the outer ring, which slides axially without mass: axial force F₀ − k e, e the
-    /// ring's shift in the thrust direction.
+    /// Constant-pressure (spring) preload on a massless, axially sliding outer ring: axial force F₀ − k e,
+    /// e the ring's displacement in the thrust direction.
     Spring { stiffness: f64, force: f64 },
 }
 
-/// Two equal rows side by side.
+/// Duplex (matched) pair: two equal rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Duplex {
     pub arrangement: Arrangement,
@@ -194,15 +196,15 @@ pub struct Duplex {
 /// Arrangement of a matched pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {
-    /// O: load lines meet the axis outside the pair; stiff against tilting.
+    /// O arrangement (DB): load lines meet the axis outside the pair; high tilting stiffness.
     BackToBack,
-    /// X: load lines meet the axis between the rows or near them.
+    /// X arrangement (DF): load lines meet the axis between the rows or near them.
     FaceToFace,
-    /// Both rows carry thrust the same way, `thrust_direction`.
+    /// Tandem (DT): both rows carry thrust in the same direction, `thrust_direction`.
     Tandem,
 }
 
-/// How the cage turns with the shaft.
+/// Cage speed ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cage {
     /// Rolling without slip at the mean current contact angle: Ω_c/Ω = ½ (1 − D_w cos α / D_pw).

@@ -1,13 +1,14 @@
-//! The printed force law of defects: ±K_d |H|^{3/2} beside the load of an undisturbed ball.
+//! Force law of local defects as published (Atef 2022): ±K_d |H|^{3/2} added to the load of an undisturbed
+//! ball.
 
 use super::ring_sum::PlaneForce;
 use super::row::PlaneMotion;
 
-/// A massless ball's force with that of the defects under it, along the same line of contact n.
+/// Force of a massless ball plus the defect force, along the same contact line n.
 ///
-/// p = (Q + F_d) n. As printed, F_d acts on every ball at every time, so that a ball may pull; `on_loaded`, on a ball
-/// that carries load, which it unloads at most. F_d belongs to no energy: its work −F_d n·ṡ on the moving ring is
-/// power put in.
+/// p = (Q + F_d) n. As published, F_d acts on every ball at all times, so that a ball may pull; with
+/// `on_loaded` it acts on loaded balls only and cannot make the load negative. F_d is not conservative: its
+/// work −F_d n·ṡ on the moving ring counts as input power.
 ///
 /// Source: Atef 2022 eq. 11 and 12, without the centrifugal force, whose sum over equally spaced balls is zero.
 #[inline]
@@ -33,7 +34,7 @@ pub(super) fn pushed(ball: Option<PlaneForce>, on_loaded: bool, motion: &PlaneMo
     out.power -= push * closing;
     out.force[0] += push * n[0];
     out.force[1] += push * n[1];
-    // Along t = (−n_z, n_r) the force turns with the line.
+    // Geometric stiffness along t = (−n_z, n_r): the force direction rotates with the contact line.
     let bend = push / distance;
     let turn = [n[1] * n[1], -n[0] * n[1], -n[0] * n[1], n[0] * n[0]];
     for (value, t) in out.by_motion.iter_mut().zip(turn) {

@@ -1,11 +1,11 @@
-//! Two rows side by side on one shaft and in one housing.
+//! Duplex (matched) pair: two rows on one shaft and in one housing.
 
 use super::{Arrangement, Duplex, Reaction};
 
 impl Duplex {
-    /// Axial place of each row from the bearing's station \[m\] and the way in which it carries thrust.
+    /// Axial position of each row relative to the bearing's station \[m\] and its thrust direction.
     ///
-    /// A row of direction +1 has its load lines meet the axis on its −z side: back-to-back puts +1 at −z.
+    /// The load lines of a row of direction +1 meet the axis on its −z side: back-to-back puts +1 at −z.
     pub(super) fn rows(&self, thrust_direction: f64) -> [(f64, f64); 2] {
         let half = 0.5 * self.spacing;
         match self.arrangement {
@@ -16,7 +16,7 @@ impl Duplex {
     }
 }
 
-/// Motion of the ring at an axial place h from the station: u_x + h θ_y, u_y − h θ_x.
+/// Displacement of the ring at an axial offset h from the station: u_x + h θ_y, u_y − h θ_x.
 pub(super) fn motion_at(place: f64, d: &[f64; 6]) -> [f64; 6] {
     let mut out = *d;
     out[0] += place * d[4];
@@ -24,7 +24,7 @@ pub(super) fn motion_at(place: f64, d: &[f64; 6]) -> [f64; 6] {
     out
 }
 
-/// The reaction of a row at h as seen at the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`motion_at`].
+/// Reaction of a row at h transformed to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`motion_at`].
 pub(super) fn seen_from_station(place: f64, row: &Reaction) -> Reaction {
     let mut out = *row;
     out.force[4] += place * row.force[0];

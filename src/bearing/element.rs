@@ -1,8 +1,8 @@
-//! One interface for every bearing model.
+//! Common interface of all bearing models.
 
 use super::{BallElement, BallLoad, Bearing, LinearElement, PreloadState, RadialElement, Reaction, Rotation};
 
-/// A bearing made ready for evaluation.
+/// A bearing prepared for evaluation.
 #[derive(Clone, Debug)]
 pub enum BearingElement {
     Linear(LinearElement),
@@ -21,7 +21,7 @@ impl BearingElement {
     }
 
     /// Force on the shaft and both tangents at displacement `d` and velocity `v` of the shaft relative to
-    /// the housing (order u_x u_y u_z θ_x θ_y θ_z); balls with coordinates of their own settled between the races.
+    /// the housing (order u_x u_y u_z θ_x θ_y θ_z); balls with radial coordinates are in static equilibrium.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         match self {
             Self::Linear(linear) => linear.reaction(d, v, rotation.shaft_speed),
@@ -30,8 +30,8 @@ impl BearingElement {
         }
     }
 
-    /// The force of [`BearingElement::reaction`] with its energy, powers and mean contact angle, to `out`, whose tangents
-    /// are left as they happen to be: what an explicit step asks for.
+    /// The force of [`BearingElement::reaction`] with its energy, powers and mean contact angle, written to
+    /// `out`; the tangents of `out` are unspecified. For explicit time integration.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
         match self {
             Self::Linear(linear) => *out = linear.reaction(d, v, rotation.shaft_speed),
@@ -40,7 +40,7 @@ impl BearingElement {
         }
     }
 
-    /// Static reaction averaged over one ball pitch of cage angles (`angles` of them).
+    /// Static reaction averaged over one ball pitch of cage angles (`angles` samples).
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         match self {
             Self::Linear(linear) => linear.reaction(d, &[0.0; 6], rotation.shaft_speed),
@@ -66,7 +66,7 @@ impl BearingElement {
         }
     }
 
-    /// Whether its force at given displacement and velocity changes with speed.
+    /// Whether the force at given displacement and velocity depends on shaft speed.
     pub fn depends_on_speed(&self) -> bool {
         match self {
             Self::Linear(linear) => linear.depends_on_speed(),
@@ -84,7 +84,7 @@ impl BearingElement {
         }
     }
 
-    /// The bearing whose balls have coordinates of their own in a transient.
+    /// The bearing as one whose balls have their own radial degrees of freedom in a transient, if it is one.
     pub fn radial(&self) -> Option<&RadialElement> {
         match self {
             Self::RadialBall(radial) => Some(radial),
@@ -92,8 +92,8 @@ impl BearingElement {
         }
     }
 
-    /// Number of relative motions the bearing resists: 2 of a bearing in its plane, 5 when the shaft turns
-    /// freely in it, else 6.
+    /// Number of relative degrees of freedom the bearing acts on: 2 for a plane bearing, 5 with free rotation
+    /// of the shaft, else 6.
     pub fn rows(&self) -> usize {
         match self {
             Self::Linear(_) => 6,
@@ -102,7 +102,7 @@ impl BearingElement {
         }
     }
 
-    /// Cage speed over shaft speed at a mean contact angle; 0 where there is no cage.
+    /// Cage speed over shaft speed at a mean contact angle; 0 for a bearing without cage.
     pub fn cage_ratio(&self, mean_cos: f64) -> f64 {
         match self {
             Self::Linear(_) => 0.0,

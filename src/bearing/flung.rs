@@ -1,4 +1,5 @@
-//! What a settled ball with inertia does to the inner ring: force, friction moment, tangents, power.
+//! Reaction of a ball with inertia (centrifugal force, gyroscopic moment) on the inner ring: force, friction
+//! moment, tangents, power.
 
 use super::jones::{Fling, Settled, Side, difference, dot, solve};
 use super::ring_sum::{PlaneForce, PlaneMoment};
@@ -7,11 +8,12 @@ use super::row::PlaneMotion;
 use crate::contact::{ContactDamping, Loaded, SpeedContacts};
 
 impl Fling {
-    /// What a settled ball does to the inner ring, with tangents by implicit differentiation.
+    /// Force and friction moment of a ball in equilibrium on the inner ring, with tangents by implicit
+    /// differentiation.
     ///
     /// E(x, y) = 0 with x = s − b, y = b gives ∂b/∂s = S = −(∂E/∂b)⁻¹ ∂E/∂x, and p = R_i changes by
-    /// (∂R_i/∂x)(I − S) + (∂R_i/∂y) S. Damping acts along the inner contact as on the massless ball whose
-    /// contacts carry Q_i. Power at a fixed ring: the balls' inertia works along ḃ.
+    /// (∂R_i/∂x)(I − S) + (∂R_i/∂y) S. Damping acts along the inner contact, as for a massless ball with the
+    /// contact load Q_i. Power at a fixed ring: work of the ball's inertia force along ḃ.
     pub fn react(
         &self,
         settled: &Settled,
@@ -98,10 +100,10 @@ impl Fling {
         (ball, moment)
     }
 
-    /// cos α of the massless ball that would turn the cage at the same ratio ½ (1 − γ′ cos α).
+    /// Effective cos α: that of the massless ball with the same cage speed ratio ½ (1 − γ′ cos α).
     ///
-    /// Rolling on both races: ω_c/Ω = (1 − γ′ cos α_i)/(1 + cos Δ) when the outer race controls the spin and
-    /// (cos Δ − γ′ cos α_o)/(1 + cos Δ) when the inner does, Δ = α_i − α_o. Source: Harris.
+    /// Harris cage speed, rolling on both races: ω_c/Ω = (1 − γ′ cos α_i)/(1 + cos Δ) for outer-race control
+    /// and (cos Δ − γ′ cos α_o)/(1 + cos Δ) for inner-race control, Δ = α_i − α_o. Source: Harris.
     fn cage_cosine(&self, inner: &Side, outer: &Side, share: f64) -> f64 {
         let gamma = self.balls.gamma;
         let cos = dot(inner.n, outer.n);

@@ -1,4 +1,4 @@
-//! A row's force alone, without tangents: what an explicit step asks for.
+//! Force of a row without tangents, vectorised (SIMD), for explicit time integration.
 
 use pulp::{Arch, NullaryFnOnce};
 
@@ -7,37 +7,38 @@ use super::row::{Row, passing_at};
 use super::{Passing, Rotation};
 use crate::contact::{ContactDamping, SpeedContacts};
 
-/// Balls evaluated side by side.
+/// SIMD lane width: balls evaluated in parallel.
 const LANES: usize = 4;
-/// Most lanes of a row with deviations, 32 balls.
+/// Maximum number of lane groups of a row, 32 balls.
 const MOST: usize = 8;
 
 type Lane = [f64; LANES];
 
-/// A row of dry massless balls between rigid rings, laid out for its force alone.
+/// Force-only kernel of a row of dry massless balls with rigid preload, in SIMD layout.
 #[derive(Clone, Debug)]
 pub(super) struct Lean {
-    /// The balls some at a time: cos and sin of 2πj/Z, and 1 where there is a ball.
+    /// Balls in groups of [`LANES`]: cos and sin of 2πj/Z, and 1 for a ball, 0 for padding.
     balls: Vec<[Lane; 3]>,
     common: Common,
     arch: Arch,
 }
 
-/// What all balls share.
+/// Parameters common to all balls.
 #[derive(Clone, Copy, Debug)]
 struct Common {
-    /// Groove-centre offset with preload, radius of the inner groove centres, and their distance unloaded \[m\].
+    /// Groove-centre offset with preload, radius of the inner groove centres, unloaded distance of the groove
+    /// centres \[m\].
     offset: [f64; 2],
     arm: f64,
     centre_distance: f64,
     /// K \[N/m^1.5\].
     stiffness: f64,
-    /// c \[N s/m\] and the length of its rise \[m\].
+    /// c \[N s/m\] and its ramp length \[m\].
     damping: [f64; 2],
 }
 
 impl Lean {
-    /// `None` where there is more to a ball than a dry spring and a damper.
+    /// `None` unless every ball is a dry Hertzian spring with constant damping and rigid preload.
     pub fn new(row: &Row, spacing: &[[f64; 2]]) -> Option<Self> {
         let ContactDamping::Constant { coefficient, ramp } = row.damping else { return None };
         let SpeedContacts::Hertz(pair) = row.contacts.at_speed(1.0) else { return None };
@@ -63,7 +64,7 @@ impl Lean {
     }
 }
 
-/// Force of a row with what goes with it, as in a [`super::Reaction`].
+/// Force of a row with energy, powers and load sums, as in a [`super::Reaction`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RowForce {
     pub force: [f64; 6],
@@ -75,7 +76,8 @@ pub(super) struct RowForce {
 }
 
 impl RowForce {
-    /// Adds a row at an axial place from the bearing's station, as seen there (see `duplex::motion_at`).
+    /// Adds a row at an axial offset from the bearing's station, transformed to the station (see
+    /// `duplex::motion_at`).
     pub fn add(&mut self, row: &Self, place: f64) {
         for (sum, f) in self.force.iter_mut().zip(row.force) {
             *sum += f;
@@ -103,13 +105,13 @@ struct Sums {
     load_cos: Lane,
 }
 
-/// Deviations at the balls of a lane: height, damped rate, undamped rate.
+/// Deviations at the balls of a lane group: height, damped rate, undamped rate.
 type Deviations = [Lane; 3];
 
 impl Row {
-    /// The force of [`Row::react`], where the row is [`Lean`] and its defects displace.
+    /// The force of [`Row::react`]; `None` if the row has no [`Lean`] or its defects act by the force law.
     ///
-    /// The same sum in another order, so the same up to round-off of the largest ball force.
+    /// Summation order differs, so results agree up to round-off of the largest ball force.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Option<RowForce> {
         let lean = self.lean.as_ref()?;
         let deviations = match &self.profile {
@@ -131,13 +133,14 @@ impl Row {
     }
 }
 
-/// The balls' sums, to be compiled for every kind of processor. (The compiler keeps closures apart from the code that is.)
+/// Summation over the balls, compiled for each SIMD instruction set by `pulp` (a closure would not be inlined
+/// into that code).
 struct Balls<'a> {
     lanes: &'a [[Lane; 3]],
     common: &'a Common,
     /// Displacement and velocity of the inner ring.
     motion: [&'a [f64; 6]; 2],
-    /// cos and sin of the cage angle, and the cage's speed.
+    /// cos and sin of the cage angle, and the cage speed.
     cage: [f64; 3],
     deviations: Option<&'a [Deviations; MOST]>,
     sums: &'a mut Sums,
@@ -179,7 +182,7 @@ fn deviations(passing: &Passing) -> [Deviations; MOST] {
 }
 
 impl Balls<'_> {
-    /// Adds the balls of a lane; the law of `massless::react`, without branches.
+    /// Adds the balls of a lane group; the force law of `massless::react`, branch-free.
     #[inline(always)]
     fn add(&self, sums: &mut Sums, [ball_cos, ball_sin, present]: &[Lane; 3], deviation: &Deviations) {
         let ([cage_cos, cage_sin, turned], [d, v], c) = (self.cage, self.motion, self.common);
@@ -195,7 +198,7 @@ impl Balls<'_> {
             let [height, passing, undamped] = [deviation[0][l], deviation[1][l], deviation[2][l]];
             let distance = (radial * radial + axial * axial).sqrt();
             let approach = distance - c.centre_distance + height;
-            // A state that is none any more must show: NaN is not "not positive".
+            // Written so that NaN propagates (a diverged state must remain visible).
             let x = if approach <= 0.0 { 0.0 } else { approach };
             let elastic = c.stiffness * x.sqrt() * x;
             let inverse = 1.0 / distance;

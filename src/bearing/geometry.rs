@@ -18,13 +18,13 @@ pub struct BallGeometry {
     /// Nominal contact angle α₀ \[rad\]; 0 for deep groove. With α₀ ≠ 0 the radial distance of the groove
     /// centres is A cos α₀ − P_d/2 and the axial one A sin α₀.
     pub contact_angle: f64,
-    /// +1 when the inner ring carries thrust along +z (force on the shaft along −z), −1 for the other way;
-    /// of no effect when α₀ = 0.
+    /// +1 when the inner ring carries thrust along +z (force on the shaft along −z), −1 for the opposite
+    /// direction; no effect when α₀ = 0.
     pub thrust_direction: f64,
-    /// Radius at which the axial ball forces act \[m\] where it is to differ from the circle of inner groove
-    /// centres: some papers take D_pw/2.
+    /// Moment arm (radius) of the axial ball forces \[m\], to override the radius of the inner groove
+    /// centres; some papers use D_pw/2.
     pub moment_arm: Option<f64>,
-    /// Bore d, outside diameter D and width B, for shapes, masses and pictures.
+    /// Bore d, outside diameter D and width B, for fits, masses and drawings.
     pub bore: f64,
     pub outside_diameter: f64,
     pub width: f64,
@@ -42,7 +42,8 @@ impl BallGeometry {
             - 0.25 * self.radial_clearance
     }
 
-    /// Characteristic frequencies per revolution of the inner ring at contact angle α, outer ring at rest.
+    /// Bearing characteristic (defect) frequencies in orders of the inner ring speed at contact angle α,
+    /// outer ring stationary.
     pub fn orders(&self, contact_angle: f64) -> CharacteristicOrders {
         let gamma = self.ball_diameter * contact_angle.cos() / self.pitch_diameter;
         let z = self.balls as f64;
@@ -55,18 +56,18 @@ impl BallGeometry {
     }
 }
 
-/// Frequencies of a bearing in orders of the shaft speed.
+/// Characteristic bearing frequencies (FTF, BPFO, BPFI, BSF) in orders of the shaft speed.
 ///
 /// Cage ½ (1 − γ), outer race ½ Z (1 − γ), inner race ½ Z (1 + γ), ball spin (D_pw / 2 D_w)(1 − γ²) with
 /// γ = D_w cos α / D_pw. Source: Cakmak & Sanliturk 2010 eq. 20-23 in orders; eq. 23 without its N_b.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CharacteristicOrders {
-    /// Cage (fundamental train) order.
+    /// Cage order (fundamental train frequency, FTF).
     pub ftf: f64,
-    /// Ball pass order, outer race.
+    /// Ball pass order, outer race (BPFO).
     pub bpfo: f64,
-    /// Ball pass order, inner race.
+    /// Ball pass order, inner race (BPFI).
     pub bpfi: f64,
-    /// Ball spin order; a ball defect strikes twice per turn.
+    /// Ball spin order (BSF); a ball defect strikes both races, at 2 × BSF.
     pub bsf: f64,
 }

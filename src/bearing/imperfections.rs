@@ -1,13 +1,13 @@
-//! What is not perfect about a bearing's races and balls, as its user describes it.
+//! Bearing imperfections (input data): waviness, off-size balls, local defects.
 //!
-//! A deviation is measured along the normal at the contact, positive where it narrows the gap: a bump, a ball too
-//! large. Angles on the outer race are from +x towards +y, on the inner race the same in the ring's own frame, which
-//! turns with the shaft, on a ball from the point that meets the outer race at the start, against the ball's spin.
+//! A deviation is measured along the contact normal, positive where it narrows the gap: a bump, an oversize
+//! ball. Angles on the outer race are from +x towards +y, on the inner race the same in the ring's rotating
+//! frame, on a ball from the point initially at the outer race, against the ball's spin.
 
 use super::BallGeometry;
 use super::spall::SpallPath;
 
-/// Deviations of races and balls from their perfect shape; by default none.
+/// Deviations of races and balls from their ideal shape; none by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Imperfections {
     /// Waviness of the races; an eccentric race is a wave of order 1.
@@ -16,7 +16,7 @@ pub struct Imperfections {
     pub ball_waviness: Vec<BallWave>,
     pub off_size: Vec<OffSize>,
     pub defects: Vec<Defect>,
-    /// How defects act; waves and sizes always displace.
+    /// Law by which defects act; waviness and sizes always displace the surface.
     pub law: DefectLaw,
     pub spin: BallSpin,
 }
@@ -33,30 +33,30 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// Run-out of an inner race whose centre is `by` \[m\] off towards the angle φ₀ of its ring.
+    /// Run-out of an inner race with eccentricity `by` \[m\] towards the angle φ₀ of its ring.
     pub fn eccentric_inner(by: f64, towards: f64, contact_angle: f64) -> Self {
         Self { order: 1, amplitude: by * contact_angle.cos(), phase: -towards }
     }
 
-    /// The same of an outer race, which leaves the balls on the side it is moved to.
+    /// Run-out of an outer race, which recedes from the balls on the side of its eccentricity.
     pub fn eccentric_outer(by: f64, towards: f64, contact_angle: f64) -> Self {
         Self { order: 1, amplitude: by * contact_angle.cos(), phase: std::f64::consts::PI - towards }
     }
 }
 
-/// A wave on one ball, or on all of them alike.
+/// A wave on one ball, or on all balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallWave {
     pub ball: Option<usize>,
     pub wave: Wave,
 }
 
-/// A ball larger than the others by a difference of diameters \[m\].
+/// An off-size ball: diameter difference to the others \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffSize {
     pub ball: usize,
     pub by: f64,
-    /// Row of a matched pair; `None`: in each.
+    /// Row of a matched pair; `None`: both rows.
     pub row: Option<usize>,
 }
 
@@ -64,7 +64,7 @@ pub struct OffSize {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
     pub on: Surface,
-    /// Row of a matched pair; `None`: in each.
+    /// Row of a matched pair; `None`: both rows.
     pub row: Option<usize>,
     /// Angle at which it starts \[rad\].
     pub start: f64,
@@ -73,19 +73,19 @@ pub struct Defect {
     pub form: DefectForm,
 }
 
-/// Where a defect is.
+/// Surface on which a defect is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surface {
     Inner,
     Outer,
-    /// On this ball, which brings it to both races half a turn of its spin apart.
+    /// On this ball; it meets both races, half a turn of ball spin apart.
     Ball(usize),
 }
 
-/// What a defect looks like.
+/// Shape and size of a defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DefectForm {
-    /// A dent of this depth \[m\], or as deep as a ball sinks into its opening.
+    /// A dent of this depth \[m\]; `None`: the depth to which a ball sinks into its opening.
     Dent {
         depth: Option<f64>,
         shape: Shape,
@@ -94,7 +94,8 @@ pub enum DefectForm {
         height: f64,
         shape: Shape,
     },
-    /// A pit of even depth \[m\] between two edges of this radius \[m\]; its width is the opening in the surface.
+    /// A pit of constant depth \[m\] between two edges of this radius \[m\]; its width is the opening in the
+    /// surface.
     Spall {
         depth: f64,
         edge_radius: f64,
@@ -107,39 +108,39 @@ pub enum Shape {
     /// H = h sin(π p/Δφ) (Atef 2022 eq. 1).
     #[default]
     HalfSine,
-    /// The arc through both ends and the middle.
+    /// Circular arc through both ends and the middle.
     Cap,
 }
 
-/// How a defect acts on the balls.
+/// Law by which a defect acts on the balls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum DefectLaw {
-    /// It displaces the surface: inside the elastic approach, its rate inside the approach's rate.
+    /// Displacement of the surface: deviation in the elastic approach, its rate in the approach rate.
     #[default]
     Displacement,
-    /// The same, but its rate is left out of the contact damping (Atef 2022 eq. 15).
+    /// The same, with the rate left out of the contact damping (Atef 2022 eq. 15).
     UndampedDisplacement,
-    /// A force ±K_d |H|^{3/2} along the ball's line of contact beside the undisturbed load (Atef 2022 eq. 11-12).
+    /// A force ±K_d |H|^{3/2} along the contact line, added to the undisturbed load (Atef 2022 eq. 11-12).
     Force {
         /// K_d \[N/m^1.5\]; `None`: of the ball's dry contacts in series.
         stiffness: Option<f64>,
-        /// On loaded balls only, which it unloads at most; else on every ball at every time, as printed.
+        /// Only on loaded balls, with no negative load; else on every ball at all times, as published.
         on_loaded: bool,
     },
 }
 
-/// What turns the balls.
+/// Ball spin speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BallSpin {
     /// Rolling on both races.
     #[default]
     Rolling,
-    /// As fast as the shaft (Upadhyay 2009).
+    /// Equal to the shaft speed (Upadhyay 2009).
     Shaft,
 }
 
 impl Imperfections {
-    /// Whether there are none at all; one of zero size is one.
+    /// Whether no imperfection is given; one of zero size counts as given.
     pub fn is_empty(&self) -> bool {
         self.inner_waviness.is_empty()
             && self.outer_waviness.is_empty()
@@ -148,7 +149,8 @@ impl Imperfections {
             && self.defects.is_empty()
     }
 
-    /// State of health in words: "healthy, wavy races", "dent on outer race, spall on ball 3".
+    /// Text description of the bearing condition: "healthy, wavy races", "dent on outer race, spall on ball
+    /// 3".
     pub fn condition(&self) -> String {
         let mut parts: Vec<String> = self.defects.iter().map(Defect::name).collect();
         if parts.is_empty() {
@@ -167,7 +169,7 @@ impl Imperfections {
         parts.join(", ")
     }
 
-    /// The balls named, of those that waves, sizes and defects are on.
+    /// Ball numbers given for waviness, sizes and defects.
     pub fn balls(&self) -> impl Iterator<Item = usize> + '_ {
         let waves = self.ball_waviness.iter().filter_map(|w| w.ball);
         let sizes = self.off_size.iter().map(|s| s.ball);
@@ -192,7 +194,7 @@ impl Surface {
 }
 
 impl Defect {
-    /// Kind and place in words.
+    /// Kind and location in words.
     pub fn name(&self) -> String {
         let kind = match self.form {
             DefectForm::Dent { .. } => "dent",
@@ -211,8 +213,8 @@ impl Defect {
         self.width / self.on.radius(g)
     }
 
-    /// How far a ball sinks into an opening of this width at most \[m\]: D/2 − √((D/2)² − (d/2)²), with no end when
-    /// the ball falls through (Atef 2022 eq. 4); into a spall by its path round the edges.
+    /// Maximum depth to which a ball sinks into an opening of this width \[m\]: D/2 − √((D/2)² − (d/2)²),
+    /// infinite when the ball falls through (Atef 2022 eq. 4); for a spall from its path over the edges.
     pub fn reach(&self, g: &BallGeometry) -> f64 {
         match self.form {
             DefectForm::Spall { edge_radius, .. } => {
@@ -231,7 +233,7 @@ impl Defect {
         }
     }
 
-    /// Deviation at its middle \[m\]: a bump's height, or minus how deep a ball gets.
+    /// Deviation at its middle \[m\]: a bump's height, or minus the depth reached by a ball.
     pub fn height(&self, g: &BallGeometry) -> f64 {
         match self.form {
             DefectForm::Bump { height, .. } => height,

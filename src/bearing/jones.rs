@@ -1,4 +1,5 @@
-//! A ball with inertia: two contact angles, centrifugal force and gyroscopic moment (Jones 1960, Harris ch. 9).
+//! Quasi-static equilibrium of a ball with inertia: inner and outer contact angles, centrifugal force and
+//! gyroscopic moment (Jones 1960, Harris ch. 9).
 //!
 //! In the plane (radial, axial) the ball's centre is at b from the outer groove centre and the inner groove centre
 //! at s. With y = b, x = s − b, n = y/|y| or x/|x| at angle α, t = (−sin α, cos α), the approaches are
@@ -6,16 +7,16 @@
 //!
 //! Q_i n_i + f_i t_i − Q_o n_o − f_o t_o + F_c e_r = 0, F_c = ½ m D_pw ω_c².
 //!
-//! f_i = 2 φ M/D and f_o = 2 (1 − φ) M/D are the friction that turns the ball's spin round the axis with it:
+//! f_i = 2 φ M/D and f_o = 2 (1 − φ) M/D are the friction forces that balance the gyroscopic moment
 //! M = dL/dt = ω_c J ω_r, J = m D²/10, ω_r the radial part of the ball's rotation, outward for a positive contact
-//! angle. A ball that rolls on the outer race without spinning on it has ω_r = ω_c sin α_o / γ′, γ′ = D/D_pw, one
-//! that so rolls on the inner race ω_r = (Ω − ω_c) sin α_i / γ′: the same as Harris' attitude angles
+//! angle. Pure rolling without spin on the outer race gives ω_r = ω_c sin α_o / γ′, γ′ = D/D_pw, on the inner
+//! race ω_r = (Ω − ω_c) sin α_i / γ′: the same as Harris' attitude (pitch) angles
 //! tan β = sin α_o/(cos α_o + γ′) and sin α_i/(cos α_i − γ′). The share φ of the inner race is 0 for outer-race
 //! control, 1 for inner-race control and Q_i/(Q_i + Q_o) when shared, with ω_r the mean by the same shares.
-//! Inner-race control lets go smoothly as Q_i falls below F_c, since an unloaded race has no friction.
+//! Inner-race control fades smoothly as Q_i falls below F_c, since an unloaded race has no friction.
 //!
-//! The signs follow from dL/dt and are those of a marble in a bowl: on the outer race alone, friction adds 2/5 to
-//! the centrifugal force along the race, F_c (7/5) sin α_o.
+//! The signs follow from dL/dt, as for a ball rolling in a bowl: on the outer race alone, friction adds 2/5
+//! to the centrifugal force along the race, F_c (7/5) sin α_o.
 
 use super::row::PlaneMotion;
 use super::{BallGeometry, BallInertia, Rotation, root};
@@ -23,7 +24,7 @@ use crate::contact::{Loaded, Race};
 use crate::material::Material;
 
 const MAX_ITERATIONS: usize = 40;
-/// Newton steps taken in full before each must gain; nearly all balls need two to six in all.
+/// Full Newton steps before the line search demands a decrease; nearly all balls converge in two to six.
 const FREE_ITERATIONS: usize = 8;
 
 pub(super) type Matrix = [[f64; 2]; 2];
@@ -38,11 +39,11 @@ pub(super) struct Balls {
     pub gamma: f64,
     /// r − D/2 at the inner and outer race \[m\].
     lengths: [f64; 2],
-    /// r_i, the arm of friction about the inner groove centre \[m\].
+    /// r_i, moment arm of friction about the inner groove centre \[m\].
     pub groove_radius: f64,
 }
 
-/// The balls' inertia at one speed.
+/// Inertial loads of the balls at one speed: centrifugal force and gyroscopic moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fling {
     pub balls: Balls,
@@ -70,22 +71,22 @@ pub(super) struct Settled {
     pub outer: Side,
 }
 
-/// A bearing's contact law: both contacts in series, each alone, and an approach near that of a load.
+/// A bearing's contact law: both contacts in series, each contact alone, and an estimated approach at a load.
 pub(super) struct Laws<Series, Single, Guess> {
     pub series: Series,
     pub single: Single,
     pub guess: Guess,
-    /// Dry stiffness of both in series \[N/m^1.5\].
+    /// Dry stiffness of both contacts in series \[N/m^1.5\].
     pub stiffness: f64,
 }
 
-/// Where Newton starts.
+/// Start of the Newton iteration: ball centre and approaches.
 struct Start {
     centre: [f64; 2],
     approaches: [f64; 2],
 }
 
-/// What races exert on a ball: R = Q n + f t at each, with derivatives by x and y.
+/// Race forces on a ball, R = Q n + f t at each contact, with derivatives by x and y.
 pub(super) struct Forces {
     inner: [f64; 2],
     outer: [f64; 2],
@@ -116,7 +117,7 @@ impl Balls {
         })
     }
 
-    /// Inertia while the cage turns at `orbit` \[rad/s\]; `None` at rest.
+    /// Inertial loads (centrifugal, gyroscopic) at a cage speed `orbit` \[rad/s\]; `None` at rest.
     pub fn fling(
         &self,
         orbit: f64,
@@ -141,7 +142,8 @@ impl Balls {
 }
 
 impl Side {
-    /// Side whose groove centre is `to` from the ball's centre (or the other way at the outer race).
+    /// Contact with the vector `to` from ball centre to groove centre (at the outer race from groove to ball
+    /// centre).
     #[inline(always)]
     fn at(to: [f64; 2], free_length: f64, wave: f64) -> Self {
         let length = (to[0] * to[0] + to[1] * to[1]).sqrt();
@@ -173,12 +175,12 @@ impl Side {
 }
 
 impl Fling {
-    /// Whether the inner race may take part of the friction, and so a moment.
+    /// Whether the inner race may carry part of the friction, and so transmit a friction moment.
     pub fn on_inner(&self) -> bool {
         self.balls.control != BallInertia::OuterRaceControl
     }
 
-    /// Share φ of the inner race in the friction, and its slopes with Q_i and Q_o.
+    /// Share φ of the inner race in the friction, and its derivatives by Q_i and Q_o.
     fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
         match self.balls.control {
             BallInertia::None | BallInertia::OuterRaceControl => (0.0, 0.0, 0.0),
@@ -199,7 +201,7 @@ impl Fling {
     #[inline(always)]
     pub fn forces(&self, inner: &Side, outer: &Side) -> Forces {
         let (share, by_inner, by_outer) = self.share(inner.loaded.load, outer.loaded.load);
-        // M/D for a ball that rolls on one race alone: J ω_c²/(γ′ D) = F_c/5.
+        // M/D for rolling on one race alone: J ω_c²/(γ′ D) = F_c/5.
         let unit = [0.2 * self.force * self.inner_to_orbit, 0.2 * self.force];
         let moments = [unit[0] * inner.n[1], unit[1] * outer.n[1]];
         let moment = share * moments[0] + (1.0 - share) * moments[1];
@@ -214,7 +216,7 @@ impl Fling {
             friction_by: [[0.0; 2]; 2],
             share,
         };
-        // By x through α_i and Q_i, by y through α_o and Q_o.
+        // Derivatives by x through α_i and Q_i, by y through α_o and Q_o.
         let angle = [
             share * unit[0] * inner.n[0] / inner.length,
             (1.0 - share) * unit[1] * outer.n[0] / outer.length,
@@ -237,13 +239,14 @@ impl Fling {
         out
     }
 
-    /// Sum of the forces on the ball.
+    /// Resultant of contact and centrifugal forces on the ball (equilibrium residual).
     fn imbalance(&self, forces: &Forces) -> [f64; 2] {
         [forces.inner[0] - forces.outer[0] + self.force, forces.inner[1] - forces.outer[1]]
     }
 
-    /// Where the ball about is: aside of the line of groove centres by h, at which the load Q_i h/a, a the lengths'
-    /// harmonic sum, balances what pushes it aside, T = (7/5) F_c |sin α|; h adds h²/(2a) to the approach.
+    /// Initial estimate of the ball position: offset h from the line of groove centres at which the restoring
+    /// force Q_i h/a, a = l_i l_o/(l_i + l_o), balances the transverse force T = (7/5) F_c |sin α|; h adds
+    /// h²/(2a) to the approach.
     fn first_guess(
         &self,
         laws: &Laws<impl Fn(f64) -> Loaded, impl Fn(Race, f64) -> Loaded, impl Fn(Race, f64) -> f64>,
@@ -277,12 +280,12 @@ impl Fling {
         }
     }
 
-    /// The ball's equilibrium with the inner groove centre at s.
+    /// Equilibrium of the ball with the inner groove centre at s (Newton-Raphson iteration).
     ///
-    /// A ball thrown against the outer race that leaves the inner one free is in equilibrium there, exactly. Any other
-    /// ball is loaded at both races: Newton in b with the approaches as unknowns of their own, e, bound to the
-    /// geometry only in the linear step. A stiff contact on a curved path so costs no small steps; e is the
-    /// geometric approach again at the end.
+    /// If the centrifugal force holds the ball on the outer race without inner contact, that position is the
+    /// exact solution. Otherwise both races are loaded: Newton in b with the approaches as separate unknowns
+    /// e, tied to the geometry only in the linear step. This avoids small steps for a stiff contact on a
+    /// curved path; at convergence e equals the geometric approach.
     #[inline(always)]
     pub fn settle(
         &self,
@@ -312,7 +315,7 @@ impl Fling {
             let forces = self.forces(&inner, &outer);
             let force = self.imbalance(&forces);
             let lag = [slopes[0] * gap[0], slopes[1] * gap[1]];
-            // What round-off in |x| and |y| makes of the loads.
+            // Round-off of the loads due to round-off in |x| and |y|.
             let floor = 4e-16 * (slopes[0] * inner.length + slopes[1] * outer.length);
             let left = force[0].abs().max(force[1].abs()).max(lag[0].abs()).max(lag[1].abs());
             if left <= floor {
@@ -327,7 +330,8 @@ impl Fling {
             let step = solve(&difference(&by_y, &by_x), residual);
             let along = |n: [f64; 2]| n[0] * step[0] + n[1] * step[1];
             let de = [gap[0] - along(inner.n), gap[1] + along(outer.n)];
-            // Shorten while a contact that must stay loaded would open; far from the solution, while nothing is won.
+            // Line search: halve the step while a contact would open; after FREE_ITERATIONS, also without
+            // decrease.
             let merit = |force: [f64; 2], gap: [f64; 2]| {
                 let lag = [slopes[0] * gap[0], slopes[1] * gap[1]];
                 force[0] * force[0] + force[1] * force[1] + lag[0] * lag[0] + lag[1] * lag[1]
@@ -356,8 +360,9 @@ impl Fling {
         self.settle_by_bisection(single, s, &sides)
     }
 
-    /// The same by bisection in polar coordinates about the outer groove centre: the balance along the line of the
-    /// outer contact gives its length, that across it the angle. Slow and sure.
+    /// The same equilibrium by bisection in polar coordinates about the outer groove centre: the force
+    /// balance along the outer contact line gives its length, the balance across it the angle. Slow robust
+    /// fallback.
     #[cold]
     fn settle_by_bisection(
         &self,
@@ -377,7 +382,7 @@ impl Fling {
         let length = |angle: f64| {
             bisect(|l| -at(angle, l).2, [1e-3 * self.balls.lengths[1], self.balls.lengths[1] + reach])
         };
-        // Towards the inner groove centre from the direction in which the ball is thrown.
+        // From the direction of the centrifugal force (angle 0) towards the inner groove centre.
         let line = s[1].atan2(s[0]);
         let sign = if line < 0.0 { 1.0 } else { -1.0 };
         let share = bisect(|x| sign * at(x * line, length(x * line)).3, [0.0, 1.0]);
@@ -394,7 +399,7 @@ pub(super) fn difference(a: &Matrix, b: &Matrix) -> Matrix {
     [0, 1].map(|r| [0, 1].map(|c| a[r][c] - b[r][c]))
 }
 
-/// Zero of a function that rises, between two arguments.
+/// Root of an increasing function between two arguments, by bisection.
 fn bisect(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
@@ -410,7 +415,7 @@ fn bisect(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// x of A x = r.
+/// Solution x of the 2×2 system A x = r.
 pub(super) fn solve(a: &Matrix, r: [f64; 2]) -> [f64; 2] {
     let determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     [(a[1][1] * r[0] - a[0][1] * r[1]) / determinant, (a[0][0] * r[1] - a[1][0] * r[0]) / determinant]

@@ -1,11 +1,11 @@
 //! Load ratings and rating lives of radial ball bearings after ISO 281 and ISO/TS 16281.
 //!
-//! Lives are in millions of revolutions at a reliability of 90 % unless said otherwise.
+//! Lives are in millions of revolutions at 90 % reliability (L10) unless stated otherwise.
 
 use super::BallGeometry;
 use crate::contact::{HertzPair, Race};
 
-/// What a bearing can carry.
+/// Load ratings: basic dynamic, basic static, fatigue load limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadRating {
     /// Basic dynamic load rating C_r \[N\].
@@ -17,13 +17,13 @@ pub struct LoadRating {
 }
 
 impl LoadRating {
-    /// Ratings of a bearing by its internal geometry, where no catalogue gives them; i rows of Z balls.
+    /// Ratings from the internal geometry, for use without catalogue values; i rows of Z balls.
     ///
     /// C_r = b_m f_c (i cos α)^0.7 Z^{2/3} D_w^1.8 with b_m = 1.3, D_w in mm, and beyond 25.4 mm 3.647 D_w^1.4;
     /// C_0r = (1/5) i Z Q₄₂₀₀ cos α with the load Q₄₂₀₀ of a ball at 4200 MPa; C_u = C_0r/22, for pitch diameters
     /// above 100 mm times √(100 mm/D_pw).
     ///
-    /// Source: ISO 281 clause 5 and annex B; ISO 76 with the geometry's own grooves in place of its factor f₀.
+    /// Source: ISO 281 clause 5 and annex B; ISO 76 with the actual groove radii instead of its factor f₀.
     pub fn new(g: &BallGeometry, hertz: &HertzPair, rows: usize) -> Self {
         let (rows, balls) = (rows as f64, g.balls as f64);
         let cos = g.contact_angle.cos();
@@ -41,12 +41,13 @@ impl LoadRating {
 /// f_c = 38.2 (1 + (1.04 Γ^1.72 ρ^0.41)^{10/3})^{−3/10} γ^0.3 (1 − γ)^1.39 (1 + γ)^{−1/3} (2f_i/(2f_i − 1))^0.41.
 ///
 /// γ = D_w cos α/D_pw, Γ = (1 − γ)/(1 + γ), ρ = f_i (2f_e − 1)/(f_e (2f_i − 1)). With f_i = f_e = 0.52 this is
-/// table 2 of ISO 281 to its rounding; grooves up to 0.52 D_w inside and 0.53 D_w outside count as such there.
+/// table 2 of ISO 281 to its rounding; smaller grooves count as 0.52 D_w (inner) and 0.53 D_w (outer), as
+/// there.
 fn capacity_factor(g: &BallGeometry) -> f64 {
     let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
     let inner = (g.inner_groove_radius / g.ball_diameter).max(0.52);
     let outer = g.outer_groove_radius / g.ball_diameter;
-    // A rounding above 0.53 is still 0.53.
+    // 0.53 within round-off counts as 0.53.
     let outer = if outer <= 0.53 + 1e-9 { inner } else { outer };
     let rings = 1.04 * ring_ratio(gamma, inner, outer);
     38.2 * (1.0 + rings.powf(10.0 / 3.0)).powf(-0.3) * gamma.powf(0.3) * (1.0 - gamma).powf(1.39)
@@ -54,16 +55,16 @@ fn capacity_factor(g: &BallGeometry) -> f64 {
         * (2.0 * inner / (2.0 * inner - 1.0)).powf(0.41)
 }
 
-/// Capacity of the inner ring over the outer one's but for a constant: ((1 − γ)/(1 + γ))^1.72 ρ^0.41.
+/// Ratio of inner to outer ring capacity up to a constant factor: ((1 − γ)/(1 + γ))^1.72 ρ^0.41.
 fn ring_ratio(gamma: f64, inner: f64, outer: f64) -> f64 {
     let grooves = inner * (2.0 * outer - 1.0) / (outer * (2.0 * inner - 1.0));
     ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves.powf(0.41)
 }
 
-/// Dynamic equivalent radial load P = X F_r + Y F_a \[N\], or F_r where F_a/F_r ≤ e, of i rows acting alike.
+/// Dynamic equivalent radial load P = X F_r + Y F_a \[N\], or F_r where F_a/F_r ≤ e, of i rows in tandem.
 ///
-/// X, Y, e by the contact angle and, up to 20°, the relative axial load F_a/(i Z D_w²), interpolated between the
-/// rows of the table. Source: ISO 281 table 3, single-row bearings.
+/// X, Y, e from the contact angle and, up to 20°, the relative axial load F_a/(i Z D_w²), interpolated
+/// between the rows of the table. Source: ISO 281 table 3, single-row bearings.
 pub fn equivalent_load(g: &BallGeometry, rows: usize, radial: f64, axial: f64) -> f64 {
     let (radial, axial) = (radial.abs(), axial.abs());
     let size = (g.ball_diameter * 1e3).powi(2) * (rows * g.balls) as f64;
@@ -130,7 +131,7 @@ pub fn hours(life: f64, speed: f64) -> f64 {
     life * 1e6 * std::f64::consts::TAU / speed.abs() / 3600.0
 }
 
-/// Reference viscosity ν₁ \[m²/s\] at a speed Ω \[rad/s\], of which κ = ν/ν₁ is the viscosity ratio.
+/// Reference viscosity ν₁ \[m²/s\] at a speed Ω \[rad/s\], of the viscosity ratio κ = ν/ν₁.
 ///
 /// 45000 n^−0.83 D_pw^−0.5 mm²/s below 1000 rpm, 4500 n^−0.5 D_pw^−0.5 above, n in rpm, D_pw in mm.
 /// Source: ISO 281 eq. 28 and 29.
@@ -143,10 +144,10 @@ pub fn reference_viscosity(pitch_diameter: f64, speed: f64) -> f64 {
 /// Life modification factor a_ISO of radial ball bearings; L_nm = a₁ a_ISO L₁₀.
 ///
 /// a_ISO = 0.1 (1 − (2.5671 − c κ^−m)^0.83 (e_C C_u/P)^{1/3})^{−9.3} up to 50, with c, m = 2.2649, 0.054381 for
-/// κ < 0.4, 1.9987, 0.19087 for κ < 1, and 1.9987, 0.071739 above; κ counts up to 4.
+/// κ < 0.4, 1.9987, 0.19087 for κ < 1, and 1.9987, 0.071739 above; κ is limited to 4.
 ///
 /// `viscosity_ratio` κ, `contamination` e_C from 0 (very severe) to 1 (extreme cleanliness), `fatigue_limit` C_u \[N\],
-/// `load` P \[N\]. `None` for κ < 0.1, of which the standard says nothing. Source: ISO 281 eq. 31-33.
+/// `load` P \[N\]. `None` for κ < 0.1, outside the standard. Source: ISO 281 eq. 31-33.
 pub fn life_modification(
     viscosity_ratio: f64,
     contamination: f64,
@@ -161,7 +162,7 @@ pub fn life_modification(
     };
     let lubrication = (2.5671 - c * kappa.powf(-m)).max(0.0).powf(0.83);
     let stress = 1.0 - lubrication * (contamination * fatigue_limit / load).cbrt();
-    // From a_ISO = 50 on, down to where stress ≤ 0 means no fatigue at all, the standard stops at 50.
+    // The standard limits a_ISO to 50; stress ≤ 0 means no fatigue.
     let factor = if stress > 0.0 { (0.1 * stress.powf(-9.3)).min(50.0) } else { 50.0 };
     (viscosity_ratio >= 0.1).then_some(factor)
 }
@@ -183,16 +184,16 @@ pub fn reliability_factor(reliability: f64) -> f64 {
     factor
 }
 
-/// Life by the loads inside a bearing.
+/// Basic reference rating life (ISO/TS 16281) with its intermediate results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceLife {
     /// Basic reference rating life L_10r.
     pub life: f64,
-    /// Dynamic equivalent reference load P_ref = C_r/L_10r^{1/3} \[N\], at which a_ISO is taken.
+    /// Dynamic equivalent reference load P_ref = C_r/L_10r^{1/3} \[N\], for a_ISO.
     pub load: f64,
-    /// Loads of a ball that are the dynamic rating of the inner and outer ring, Q_ci and Q_ce \[N\].
+    /// Dynamic ball load ratings of the inner and outer ring, Q_ci and Q_ce \[N\].
     pub ratings: [f64; 2],
-    /// Dynamic equivalent loads of a ball on the inner and outer ring, Q_ei and Q_ee \[N\].
+    /// Dynamic equivalent ball loads on the inner and outer ring, Q_ei and Q_ee \[N\].
     pub equivalents: [f64; 2],
 }
 
@@ -201,10 +202,11 @@ pub struct ReferenceLife {
 /// L_10r = ((Q_ci/Q_ei)^{−10/3} + (Q_ce/Q_ee)^{−10/3})^{−9/10};
 /// Q_ci = C_r/(0.407 Z cos^0.7 α) (1 + x^{10/3})^{3/10}, Q_ce = C_r/(0.389 Z cos^0.7 α) (1 + x^{−10/3})^{3/10},
 /// x = 1.044 ((1 − γ)/(1 + γ))^1.72 (f_i (2f_e − 1)/(f_e (2f_i − 1)))^0.41;
-/// Q_e = (Σ Q_j³/Z)^{1/3} on the ring that turns under the load, (Σ Q_j^{10/3}/Z)^{3/10} on the one at rest.
+/// Q_e = (Σ Q_j³/Z)^{1/3} on the ring that rotates relative to the load, (Σ Q_j^{10/3}/Z)^{3/10} on the
+/// stationary one.
 ///
 /// `dynamic_rating` C_r of the row \[N\]; `inner`, `outer`: loads on the rings, one per ball \[N\]; `turning`: the
-/// ring that turns relative to the load. No load gives an infinite life. Source: ISO/TS 16281 eq. 19-29.
+/// ring rotating relative to the load. Zero load gives infinite life. Source: ISO/TS 16281 eq. 19-29.
 pub fn reference_life(
     g: &BallGeometry,
     dynamic_rating: f64,
@@ -232,7 +234,8 @@ pub fn reference_life(
     ReferenceLife { life, load: dynamic_rating / life.cbrt(), ratings, equivalents }
 }
 
-/// Life of parts that fail by themselves, rings or rows: L = (Σ L_k^{−10/9})^{−9/10} (Weibull slope 10/9).
+/// System life of parts that fail independently (rings, rows): L = (Σ L_k^{−10/9})^{−9/10} (Weibull slope
+/// 10/9).
 pub fn combined_life(lives: &[f64]) -> f64 {
     lives.iter().map(|life| life.powf(-10.0 / 9.0)).sum::<f64>().powf(-0.9)
 }

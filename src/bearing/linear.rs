@@ -21,17 +21,17 @@ impl From<&Reaction> for SiteTangent {
     }
 }
 
-/// A linear bearing made ready for evaluation.
+/// A linear bearing prepared for evaluation.
 #[derive(Clone, Debug)]
 pub struct LinearElement {
     constant: bool,
-    /// Entries that are not zero at every speed: row, column, curve over speed.
+    /// Entries that are not identically zero: row, column, curve over speed.
     stiffness: Vec<(usize, usize, Pchip)>,
     damping: Vec<(usize, usize, Pchip)>,
 }
 
 impl LinearElement {
-    /// Prepares a bearing; an empty table, or speeds that do not increase, leave it without force.
+    /// Prepares a bearing; an empty table or non-increasing speeds give zero force.
     pub fn new(bearing: &LinearBearing) -> Self {
         let speeds: Vec<f64> = bearing.table.iter().map(|r| r.speed).collect();
         let curves = |pick: &dyn Fn(usize, usize, usize) -> f64| {
@@ -87,7 +87,8 @@ impl LinearElement {
                 out.force[a] -= stiffness[a][b] * d[b] + damping[a][b] * v[b];
                 out.elastic_energy += 0.5 * d[a] * stiffness[a][b] * d[b];
                 out.dissipated_power += v[a] * damping[a][b] * v[b];
-                // The skew part of K does work that is not stored; booked as power put in.
+                // Work of the skew-symmetric part of K (cross-coupling) is not stored: counted as input
+                // power.
                 out.parametric_power += 0.5 * v[a] * (stiffness[b][a] - stiffness[a][b]) * d[b];
             }
         }

@@ -1,4 +1,4 @@
-//! A massless ball: both contacts carry one load along the line that joins the groove centres.
+//! Massless ball: both contacts carry the same load along the line joining the groove centres.
 
 use super::ring_sum::PlaneForce;
 use super::row::PlaneMotion;
@@ -6,11 +6,13 @@ use crate::contact::{ContactDamping, Loaded, SpeedContacts};
 
 /// Plane force of a massless ball.
 ///
-/// s is the inner groove centre seen from the outer one, n = s/|s|, δ = |s| − A + w_i + w_o its approach with
-/// deviations; p = Q n with Q = max(0, Q_e(δ) + damping) and δ̇ = n·ṡ + ẇ. Along t, across n, the load turns with the
-/// line: ∂p/∂s = Q′ n nᵀ + (Q/|s|) t tᵀ + (∂Q/∂δ̇) n (∂δ̇/∂s)ᵀ, ∂δ̇/∂s = t (t·ṡ)/|s|.
+/// s is the inner groove centre relative to the outer one, n = s/|s|, δ = |s| − A + w_i + w_o its approach
+/// with deviations; p = Q n with Q = max(0, Q_e(δ) + damping) and δ̇ = n·ṡ + ẇ. Along t ⊥ n the load rotates
+/// with the contact line (geometric stiffness): ∂p/∂s = Q′ n nᵀ + (Q/|s|) t tᵀ + (∂Q/∂δ̇) n (∂δ̇/∂s)ᵀ,
+/// ∂δ̇/∂s = t (t·ṡ)/|s|.
 ///
-/// `None` when the law says unloaded. A contact that would have to pull lets go: its elastic energy is lost.
+/// `None` when unloaded. A contact with tensile damped load is set to zero: its elastic energy counts as
+/// dissipated.
 #[inline(always)]
 pub(super) fn react(
     series: impl Fn(f64) -> Loaded,

@@ -1,4 +1,4 @@
-//! Bearings: force and both tangents between a shaft node and its housing.
+//! Bearing models: force, stiffness and damping between a shaft node and its housing.
 
 pub mod ball;
 pub mod ball_bearing;
@@ -36,7 +36,7 @@ pub use preload::PreloadState;
 pub use profile::{Deviation, Passing, Profile};
 pub use radial::{RadialBallBearing, RadialElement};
 
-/// Where a bearing's moving parts are at one instant.
+/// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Rotation {
     /// Cage angle ψ \[rad\] and speed ψ̇ \[rad/s\].
@@ -57,7 +57,7 @@ pub enum Bearing {
 }
 
 impl Bearing {
-    /// Cage angle at the start \[rad\]; 0 where there is no cage.
+    /// Initial cage angle \[rad\]; 0 for a bearing without cage.
     pub fn cage_angle(&self) -> f64 {
         self.ball().map_or(0.0, |ball| ball.cage_angle)
     }
@@ -91,12 +91,13 @@ pub struct LinearBearingRow {
     pub damping: [[f64; 6]; 6],
 }
 
-/// Force on the shaft with both tangents, at one relative displacement and velocity.
+/// Bearing force on the shaft with stiffness and damping tangents, at one relative displacement and velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Reaction {
-    /// Force and moment on the shaft f \[N, N m\]; the housing gets −f.
+    /// Force and moment on the shaft f \[N, N m\]; the reaction on the housing is −f.
     pub force: [f64; 6],
-    /// What the housing gets beside −f along x and y \[N\]: weight and centrifugal force of balls with inertia.
+    /// Additional force on the housing, on top of −f, along x and y \[N\]: weight and centrifugal force of
+    /// balls with inertia.
     pub carried: [f64; 2],
     /// −∂f/∂d.
     pub stiffness: [[f64; 6]; 6],
@@ -104,7 +105,8 @@ pub struct Reaction {
     pub damping: [[f64; 6]; 6],
     /// Elastic energy stored \[J\].
     pub elastic_energy: f64,
-    /// Power that the turning cage and passing waves and defects put into the elastic energy \[W\].
+    /// Parametric power \[W\]: input to the elastic energy by cage rotation, waviness and defects passing the
+    /// contacts.
     pub parametric_power: f64,
     /// Power lost in contact damping \[W\].
     pub dissipated_power: f64,

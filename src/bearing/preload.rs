@@ -1,30 +1,31 @@
-//! Axial preload: how far the rings are brought together, and a ring on a spring.
+//! Axial preload: rigid (displacement or force) and spring preload with a floating outer ring.
 
 use super::row::Row;
 use super::{Preload, Reaction, Rotation, root};
 
-/// Preload of a bearing whose rings are centred, at a speed.
+/// Preload of a bearing with centred rings at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PreloadState {
-    /// Axial approach of the rings from their nominal place in the direction of thrust \[m\].
+    /// Axial approach of the rings from nominal in the direction of thrust \[m\].
     pub offset: f64,
-    /// Axial force that results \[N\]; with a matched pair, of each row.
+    /// Resulting axial force \[N\]; per row in a matched pair.
     pub axial_force: f64,
 }
 
-/// How a row is preloaded, with what can be known before the speed.
+/// Preload mechanism of a row, with its speed-independent quantities.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Seat {
     /// Rigid, at this offset.
     Fixed(f64),
-    /// Rigid, where the centred bearing carries this force at its speed; the dry offset to start from.
+    /// Rigid, at the offset where the centred bearing carries this force at speed; `dry`: initial guess, dry
+    /// offset.
     Force { force: f64, dry: f64 },
-    /// On a spring; the dry centred offset, and the share of an axial motion that the ring follows there.
+    /// Spring preload; dry centred offset, and the ring's share in an axial displacement there.
     Spring { stiffness: f64, force: f64, dry: f64, follows: f64 },
 }
 
 impl Seat {
-    /// Seat of a row whose dry axial force and stiffness at an offset are given.
+    /// Preload mechanism of a row from its dry axial force and stiffness as a function of offset.
     pub fn new(preload: &Preload, dry: impl Fn(f64) -> [f64; 2]) -> Self {
         let guess = 1e-6;
         let carrying = |force: f64| {
@@ -56,7 +57,7 @@ impl Seat {
     }
 }
 
-/// A reaction with the sums that weigh the mean contact angle.
+/// A reaction with the load sums for the mean contact angle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RowReaction {
     pub reaction: Reaction,
@@ -65,7 +66,7 @@ pub(super) struct RowReaction {
 }
 
 impl Row {
-    /// Force on the inner ring and tangents, on whatever seat the outer ring has.
+    /// Force on the inner ring and tangents, for any preload mechanism of the outer ring.
     pub fn react(
         &self,
         d: &[f64; 6],
@@ -89,7 +90,7 @@ impl Row {
         let sum = self.sum(&moved, &[0.0; 6], rotation, &still);
         let elastic = self.reaction(&sum, &still);
         let whole = elastic.stiffness[2][2] + stiffness;
-        // The ring's axial motion per motion of the shaft; at a loose ring without a spring, none.
+        // Axial ring displacement per shaft displacement; zero for an unloaded ring without spring.
         let follow: [f64; 6] =
             std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
         let slip: f64 = follow.iter().zip(v).map(|(f, v)| f * v).sum();
@@ -103,7 +104,8 @@ impl Row {
         out
     }
 
-    /// Shift e of an outer ring on a spring, N(d, e) = F₀ − k e: one rising function of e.
+    /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
+    /// e.
     fn spring_shift(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> f64 {
         let Seat::Spring { stiffness, force, dry, follows } = self.seat else { return 0.0 };
         let still = self.operating(rotation, 0.0, imperfect);
@@ -117,7 +119,7 @@ impl Row {
         )
     }
 
-    /// Where a ring on a spring is, added to the displacement d.
+    /// Displacement d with the displacement of a spring-preloaded ring added.
     pub fn with_spring(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> [f64; 6] {
         shifted(d, self.direction * self.spring_shift(d, rotation, imperfect))
     }
@@ -142,11 +144,11 @@ fn shifted(d: &[f64; 6], by: f64) -> [f64; 6] {
     d
 }
 
-/// Static condensation of the ring's axial motion, ė = Σ follow_k v_k (in the direction of z).
+/// Static condensation of the ring's axial degree of freedom, ė = Σ follow_k v_k (in the direction of z).
 ///
-/// Elastic part: K − k_e k_eᵀ/(K_zz + k). The damping part, force and tangents, goes through the same transformation
-/// T = 1 + e_z followᵀ as Tᵀ f, Tᵀ C T: the ring has no mass and no damper of its own. The change of T with d is left
-/// out of the damping part's stiffness, which vanishes at rest.
+/// Elastic part: K − k_e k_eᵀ/(K_zz + k). The damping part, force and tangents, is transformed by
+/// T = 1 + e_z followᵀ as Tᵀ f, Tᵀ C T: the ring has no mass and no damper of its own. ∂T/∂d is neglected in
+/// the damping part's stiffness, which vanishes at rest.
 fn condense(out: &mut Reaction, elastic: &Reaction, follow: &[f64; 6]) {
     let project = |m: &[[f64; 6]; 6]| -> [[f64; 6]; 6] {
         std::array::from_fn(|a| {

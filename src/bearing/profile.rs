@@ -1,10 +1,11 @@
-//! Race and ball geometry as one profile: the deviation of both surfaces at every ball's two contacts.
+//! Surface profile of races and balls (waviness, off-size, local defects): deviation at both contacts of
+//! every ball.
 //!
-//! Ball j is at ψ_j = ψ + 2πj/Z. It meets the outer race at the race's angle ψ_j, the inner one at ψ_j − θ, with its
-//! own surface turned by the spin χ: the ball's angle χ at the outer race, χ + π at the inner one. Rolling on the
-//! outer race asks χ̇ = ψ̇ (D_pw/D)(1 + γ), on the inner one χ̇ = (θ̇ − ψ̇)(D_pw/D)(1 − γ), γ = (D/D_pw) cos α; their
-//! mean is taken, χ = (D_pw/D)(γ (ψ − ψ₀) + ½ (1 − γ) θ), which is both while the cage rolls. A cage of another ratio
-//! slips alike on both races.
+//! Ball j is at ψ_j = ψ + 2πj/Z. It touches the outer race at the race's angle ψ_j, the inner one at ψ_j − θ,
+//! with its own surface turned by the spin χ: at the ball's angle χ on the outer race, χ + π on the inner
+//! one. Rolling on the outer race requires χ̇ = ψ̇ (D_pw/D)(1 + γ), on the inner one
+//! χ̇ = (θ̇ − ψ̇)(D_pw/D)(1 − γ), γ = (D/D_pw) cos α; their mean is used, χ = (D_pw/D)(γ (ψ − ψ₀) + ½ (1 − γ)
+//! θ), which equals both at the rolling cage speed. At another cage ratio the slip is the same on both races.
 
 use super::imperfections::{BallSpin, Defect, DefectForm, DefectLaw, Imperfections, Surface};
 use super::raceway::{Feature, Path, Raceway};
@@ -12,14 +13,14 @@ use super::spall::SpallPath;
 use super::{BallGeometry, Rotation};
 use std::f64::consts::{PI, TAU};
 
-/// Deviations of the races and balls of a row, ready to be evaluated.
+/// Surface deviations of the races and balls of a row, prepared for evaluation.
 #[derive(Clone, Debug)]
 pub struct Profile {
     inner: Raceway,
     outer: Raceway,
-    /// One per ball, or none at all when the balls are perfect.
+    /// One per ball; empty when the balls are perfect.
     balls: Vec<Ball>,
-    /// Angle 2πj/Z of ball j with its cosine and sine.
+    /// Angular position 2πj/Z of ball j with its cosine and sine.
     places: Vec<[f64; 3]>,
     law: Law,
     /// ∂χ/∂ψ, ∂χ/∂θ, and the cage angle ψ₀ at which χ = 0.
@@ -27,12 +28,12 @@ pub struct Profile {
     start: f64,
 }
 
-/// A ball's own surface.
+/// Size and surface of a ball.
 #[derive(Clone, Debug, Default)]
 struct Ball {
-    /// Radius above the nominal one \[m\].
+    /// Radius minus the nominal one \[m\].
     oversize: f64,
-    /// Its surface as the inner and the outer race meet it: waves are the same, a spall's path is not.
+    /// Surface seen by the inner and the outer race: same waviness, different ball path over a spall.
     surface: [Raceway; 2],
 }
 
@@ -44,16 +45,16 @@ enum Law {
     Force(f64, bool),
 }
 
-/// What the surfaces do at one ball's contacts: inner race, outer race.
+/// Surface deviation at the contacts of one ball: inner race, outer race.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
     /// Deviation of race and ball together, positive where the gap narrows \[m\].
     pub height: [f64; 2],
-    /// Its rate \[m/s\], as far as it counts in the contact damping.
+    /// Rate of the deviation that enters the contact damping \[m/s\].
     pub rate: [f64; 2],
-    /// The rest of its rate \[m/s\].
+    /// Rate of the deviation left out of the contact damping \[m/s\].
     pub undamped_rate: [f64; 2],
-    /// Force of defects by the printed law \[N\], positive where the ball presses more.
+    /// Defect force by the published force law \[N\], positive where it increases the contact load.
     pub push: f64,
 }
 
@@ -69,7 +70,7 @@ impl Deviation {
     }
 }
 
-/// A profile at one instant.
+/// A profile at one kinematic state of cage and shaft.
 #[derive(Clone, Copy, Debug)]
 pub struct Passing<'a> {
     profile: &'a Profile,
@@ -93,14 +94,14 @@ impl Turn {
         Self { cos, sin, ..Self::on_defects(angle, rate) }
     }
 
-    /// On a surface without waves, where cosine and sine are not asked for.
+    /// Without cosine and sine, for a surface without waviness.
     fn on_defects(angle: f64, rate: f64) -> Self {
         // rem_euclid of a tiny negative angle is 2π itself.
         let angle = angle.rem_euclid(TAU);
         Self { angle: if angle < TAU { angle } else { 0.0 }, rate, ..Self::default() }
     }
 
-    /// On by an angle in [0, 2π).
+    /// Advanced by an angle in [0, 2π).
     #[inline]
     fn plus(&self, [angle, cos, sin]: [f64; 3]) -> Self {
         let sum = self.angle + angle;
@@ -114,9 +115,10 @@ impl Turn {
 }
 
 impl Profile {
-    /// Profile of a row (0 in a single one) whose cage starts at ψ₀ \[rad\]; `None` when nothing deviates.
+    /// Profile of a row (0 in a single-row bearing) with initial cage angle ψ₀ \[rad\]; `None` for perfect
+    /// surfaces.
     ///
-    /// `stiffness`: of a ball's contacts in series \[N/m^1.5\], for the force law that gives none.
+    /// `stiffness`: of a ball's contacts in series \[N/m^1.5\], default of the force law.
     pub fn new(
         geometry: &BallGeometry,
         imperfections: &Imperfections,
@@ -177,7 +179,7 @@ impl Profile {
         (!perfect).then_some(out)
     }
 
-    /// Whether defects act by the printed force, and on loaded balls only.
+    /// `Some` if defects act by the published force law: whether on loaded balls only.
     pub fn force_law(&self) -> Option<bool> {
         match self.law {
             Law::Force(_, on_loaded) => Some(on_loaded),
@@ -185,7 +187,7 @@ impl Profile {
         }
     }
 
-    /// The profile with cage and shaft where they are; its rates are those of their speeds.
+    /// The profile at the given cage and shaft angles, with rates from their speeds.
     pub fn at(&self, rotation: &Rotation) -> Passing<'_> {
         let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
         let [by_cage, by_shaft] = self.spin;
@@ -210,8 +212,8 @@ impl Profile {
 }
 
 impl Passing<'_> {
-    /// Calls `visit` with every ball that may deviate, with some more than once: of races with nothing but defects,
-    /// those at a defect.
+    /// Calls `visit` with every ball that may have a deviation, possibly more than once: with local defects
+    /// on the races alone, only the balls at a defect.
     #[inline]
     pub fn each_deviating(&self, mut visit: impl FnMut(usize)) {
         let profile = self.profile;
@@ -226,7 +228,7 @@ impl Passing<'_> {
         }
     }
 
-    /// Deviation at the contacts of ball j, positive towards the ball where a race deviates.
+    /// Deviation at the contacts of ball j, positive where it narrows the gap.
     #[inline]
     pub fn ball(&self, j: usize) -> Deviation {
         const HALF: [f64; 3] = [PI, -1.0, 0.0];
@@ -265,7 +267,7 @@ impl Passing<'_> {
     }
 }
 
-/// A defect as one race meets it; `None` when it has no size.
+/// A defect as seen at one contact; `None` when it has no size.
 fn feature(defect: &Defect, g: &BallGeometry, contact: usize) -> Option<Feature> {
     let height = defect.height(g);
     if height == 0.0 || defect.width == 0.0 {

@@ -1,20 +1,20 @@
-//! One surface that balls roll on, or that of a ball: its waves and its local defects over the angle.
+//! Surface of a race or ball over its angle: waviness and local defects.
 
 use super::imperfections::{Shape, Wave};
 use super::spall::SpallPath;
 use std::f64::consts::{PI, TAU};
 
-/// Deviations of one surface over its own angle.
+/// Deviations of one surface over its own angle: waviness and defects.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Raceway {
     waves: Waves,
     defects: Vec<Feature>,
 }
 
-/// A local defect, ready to be evaluated.
+/// A local defect, prepared for evaluation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Feature {
-    /// Where it starts, in [0, 2π), and its angle \[rad\].
+    /// Start angle, in [0, 2π), and angular extent \[rad\].
     pub start: f64,
     pub angle: f64,
     pub path: Path,
@@ -27,7 +27,7 @@ pub(super) enum Path {
     HalfSine {
         height: f64,
     },
-    /// Arc of some radius over a base \[m\]; `sign` −1 for a dent.
+    /// Circular arc of a radius over a chord `width` \[m\]; `sign` −1 for a dent.
     Cap {
         radius: f64,
         width: f64,
@@ -57,13 +57,14 @@ impl Raceway {
         !self.defects.is_empty()
     }
 
-    /// Deviation by waves and its slope with the angle, from the angle's cosine and sine.
+    /// Deviation by waviness and its derivative by the angle, from the angle's cosine and sine.
     #[inline]
     pub fn waves(&self, cos: f64, sin: f64) -> [f64; 2] {
         self.waves.at(cos, sin)
     }
 
-    /// Deviation by defects and its slope with the angle, at an angle in [0, 2π); overlapping ones add up.
+    /// Deviation by defects and its derivative by the angle, at an angle in [0, 2π); overlapping defects add
+    /// up.
     #[inline]
     pub fn defects(&self, angle: f64) -> [f64; 2] {
         let mut out = [0.0; 2];
@@ -76,14 +77,14 @@ impl Raceway {
         out
     }
 
-    /// Calls `visit` with the number k of every ball on a defect, ball k being `spacing` k past an angle in [0, 2π);
-    /// k runs on past a turn.
+    /// Calls `visit` with the number k of every ball on a defect, ball k being at `angle` + k `spacing`,
+    /// `angle` in [0, 2π); k is not reduced to one revolution.
     #[inline]
     pub fn each_on_defect(&self, angle: f64, spacing: f64, mut visit: impl FnMut(usize)) {
-        // Ball spacings by which a ball may miss a defect and still be visited: round-off and more.
+        // Tolerance in ball spacings, larger than round-off: no ball on a defect is missed.
         const SLACK: f64 = 1e-9;
         for feature in &self.defects {
-            // Two turns on, the defect is past ball 0 wherever that is.
+            // Offset by two revolutions, so that the quotient is positive.
             let start = (2.0 * TAU + feature.start - angle) / spacing;
             let end = start + feature.angle / spacing + SLACK;
             let mut k = (start - SLACK) as usize + 1;
@@ -111,7 +112,7 @@ impl Feature {
 }
 
 impl Path {
-    /// Path over a dent or bump of this deviation at its middle; `None` when it has no size.
+    /// Path over a dent or bump with this deviation at its middle.
     pub fn smooth(shape: Shape, height: f64, width: f64) -> Self {
         match shape {
             Shape::HalfSine => Self::HalfSine { height },
@@ -122,7 +123,8 @@ impl Path {
         }
     }
 
-    /// Deviation and slope with the angle, at an angle into the feature of all its angle.
+    /// Deviation and its derivative by the angle, at the angle `past` the start of a feature of extent
+    /// `angle`.
     #[inline]
     fn at(&self, past: f64, angle: f64) -> [f64; 2] {
         match *self {
@@ -133,7 +135,7 @@ impl Path {
             Self::Cap { radius, width, sign } => {
                 let (half, x) = (0.5 * width, width * (past / angle - 0.5));
                 let (root, ends) = ((radius * radius - x * x).sqrt(), (radius * radius - half * half).sqrt());
-                // √(r² − x²) − √(r² − (w/2)²) without the difference of near numbers.
+                // √(r² − x²) − √(r² − (w/2)²) without cancellation.
                 let height = (half * half - x * x) / (root + ends);
                 [sign * height, -sign * x / root * width / angle]
             }
@@ -145,7 +147,7 @@ impl Path {
     }
 }
 
-/// Waves as cosine and sine coefficients by order, summed by a rotation recurrence.
+/// Waviness as Fourier coefficients by order, summed by a rotation recurrence.
 #[derive(Clone, Debug, Default)]
 struct Waves {
     /// (Re, Im) of a e^{iϕ₀} for orders 0, 1, 2, ...
@@ -163,7 +165,7 @@ impl Waves {
         Self { coefficients }
     }
 
-    /// Deviation Σ a cos(n φ + ϕ₀) and its slope with φ, from cos φ and sin φ.
+    /// Deviation Σ a cos(n φ + ϕ₀) and its derivative by φ, from cos φ and sin φ.
     fn at(&self, cos: f64, sin: f64) -> [f64; 2] {
         let (mut c, mut s) = (1.0, 0.0);
         let (mut value, mut slope) = (0.0, 0.0);

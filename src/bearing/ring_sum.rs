@@ -1,14 +1,16 @@
-//! The sum over a row's balls: from plane forces and tangents to the five motions of the inner ring.
+//! Sum over a row's balls: from ball forces and tangents in their plane to the five degrees of freedom of the
+//! inner ring.
 //!
-//! Ball j sees the motion d = (u_x u_y u_z θ_x θ_y) of the inner ring as the motion B_j d of the inner groove
-//! centre in the plane of the axis and the ball,
+//! The displacement d = (u_x u_y u_z θ_x θ_y) of the inner ring moves the inner groove centre of ball j by
+//! B_j d in the plane of the axis and the ball,
 //! B = [[cos ψ, sin ψ, 0, 0, 0], [0, 0, 1, R sin ψ, −R cos ψ]] over (radial, axial).
 //! Force −Σ Bᵀ p, stiffness Σ Bᵀ (∂p/∂s) B, damping Σ Bᵀ (∂p/∂ṡ) B need each plane quantity only times 1, cos ψ,
-//! sin ψ and their products; the arm R comes in at the end.
+//! sin ψ and their products; the moment arm R is applied after summation.
 
 use super::Reaction;
 
-/// What one ball does in its plane; p is what resists the motion of the inner groove centre (radial, axial).
+/// Force of one ball in its plane, p opposing the motion of the inner groove centre (radial, axial), with
+/// tangents.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PlaneForce {
     /// p \[N\].
@@ -17,13 +19,13 @@ pub(super) struct PlaneForce {
     pub by_motion: [f64; 4],
     /// ∂p/∂ṡ, symmetric: rr, rz, zz.
     pub by_rate: [f64; 3],
-    /// Energy stored \[J\].
+    /// Elastic energy \[J\].
     pub energy: f64,
-    /// Power lost \[W\].
+    /// Dissipated power \[W\].
     pub dissipated: f64,
-    /// Power put in at a fixed inner groove centre \[W\].
+    /// Input power at a fixed inner groove centre \[W\].
     pub power: f64,
-    /// Load of the inner contact, and times the cosine that sets the cage's speed.
+    /// Load of the inner contact \[N\], and its product with the cos α that sets the cage speed.
     pub load: f64,
     pub load_cos: f64,
 }
@@ -43,9 +45,9 @@ type Harmonics = [f64; 6];
 const ONE: usize = 0;
 const COS: usize = 1;
 const SIN: usize = 2;
-/// Which harmonic the product of two of ONE, COS, SIN is.
+/// Harmonic of the product of two of ONE, COS, SIN.
 const PRODUCT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
-/// Rows of Bᵀ: plane component, harmonic. The arm's factors are (1, 1, 1, R, −R).
+/// Rows of Bᵀ: plane component, harmonic. Factors with the moment arm: (1, 1, 1, R, −R).
 const ROWS: [(usize, usize); 5] = [(0, COS), (0, SIN), (1, ONE), (1, SIN), (1, COS)];
 /// Rows of ∂Bᵀ/∂ψ, with factors (−1, 1, 0, R, R).
 const TURNED: [(usize, usize); 5] = [(0, SIN), (0, COS), (1, ONE), (1, COS), (1, SIN)];
@@ -106,9 +108,9 @@ impl RingSum {
         (self.force[1][ONE], self.by_motion[3][ONE])
     }
 
-    /// Force and tangents with moment arm R \[m\] while the cage turns at `turning` \[rad/s\].
+    /// Force and tangents with moment arm R \[m\] at a cage speed `turning` \[rad/s\].
     ///
-    /// ṡ = B ḋ + ψ̇ (∂B/∂ψ) d, so that the stiffness is Σ Bᵀ (∂p/∂s) B + ψ̇ Σ Bᵀ (∂p/∂ṡ) ∂B/∂ψ.
+    /// ṡ = B ḋ + ψ̇ (∂B/∂ψ) d; hence the stiffness is Σ Bᵀ (∂p/∂s) B + ψ̇ Σ Bᵀ (∂p/∂ṡ) ∂B/∂ψ.
     pub fn reaction(&self, arm: f64, turning: f64) -> Reaction {
         let factor = [1.0, 1.0, 1.0, arm, -arm];
         let turned = [-1.0, 1.0, 0.0, arm, arm].map(|f| f * turning);

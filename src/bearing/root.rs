@@ -1,7 +1,7 @@
-//! The one zero of a rising function of one unknown.
+//! Scalar root finding: the root of an increasing function (safeguarded Newton).
 
-/// Zero of a function that rises (where it is not flat) from its value and slope: Newton, kept between what is known to
-/// be too low and too high. `guess` sets the scale of the search while only one side is known.
+/// Root of a non-decreasing function from its value and slope: Newton's method safeguarded by a bracket and
+/// bisection. `guess` also sets the search step while the bracket is one-sided.
 pub(super) fn rising(f: impl Fn(f64) -> [f64; 2], guess: f64) -> f64 {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut x = guess;

@@ -1,4 +1,4 @@
-//! One row of balls between two rings: where every ball stands, and the sum of what they do.
+//! One row of balls between two rings: ball positions and the sum of the ball forces.
 
 use super::force::Lean;
 use super::jones::{Balls, Fling, Laws, Settled};
@@ -8,66 +8,66 @@ use super::{BallBearing, BallLoad, Deviation, Passing, Profile, Rotation};
 use super::{defect_force, massless, root};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
-/// A row of balls made ready for evaluation: constants and per-ball data laid out as arrays.
+/// A row of balls prepared for evaluation: constants and per-ball data laid out as arrays.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     pub contacts: BallContacts,
-    /// Distance of the groove centres of an unloaded ball A = r_i + r_o − D_w \[m\].
+    /// Distance of the groove centres with an unloaded ball, A = r_i + r_o − D_w \[m\].
     pub centre_distance: f64,
     /// Radius of the circle of inner groove centres R_i \[m\].
     pub arm: f64,
     /// Groove-centre offset of the centred bearing: radial A cos α₀ − P_d/2, axial A sin α₀ \[m\]; P_d as mounted,
     /// at rest.
     offset: [f64; 2],
-    /// The bearing whose clearance changes with speed.
+    /// The bearing, if its clearance changes with speed (centrifugal ring growth).
     growing: Option<Box<BallBearing>>,
     pub damping: ContactDamping,
-    /// The balls' inertia; `None` when they count as massless.
+    /// Inertia of the balls; `None` for massless balls.
     pub inertia: Option<Balls>,
     /// Cage speed over shaft speed at the nominal contact angle, for statics.
     cage_ratio: f64,
-    /// ±1: the way in which preload brings the inner ring.
+    /// ±1: direction of preload (thrust) on the inner ring.
     pub direction: f64,
     pub seat: Seat,
-    /// Entrainment speed over shaft speed D_pw/4 (1 − γ²) \[m\].
+    /// Entrainment speed over shaft speed, D_pw/4 (1 − γ²) \[m\].
     entrainment: f64,
     /// cos and sin of 2πj/Z.
     spacing: Vec<[f64; 2]>,
     /// Deviations of races and balls; `None` when they are perfect.
     pub profile: Option<Box<Profile>>,
-    /// The row again, laid out for its force alone.
+    /// SIMD force-only kernel of the row, if applicable.
     pub lean: Option<Lean>,
 }
 
-/// What holds for all balls of a row during one evaluation.
+/// Operating conditions common to all balls of a row during one evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Operating<'a> {
     pub contacts: SpeedContacts<'a>,
     /// Groove-centre offset with clearance change and preload \[m\].
     pub offset: [f64; 2],
-    /// Rigid preload in it, in the direction of thrust \[m\].
+    /// Rigid preload contained in `offset`, in the direction of thrust \[m\].
     pub preload: f64,
-    /// Inertia of the balls; `None` at rest and for massless balls.
+    /// Centrifugal force and gyroscopic moment of the balls; `None` at rest and for massless balls.
     fling: Option<Fling>,
-    /// Cage speed that counts as motion of the contacts \[rad/s\]; 0 in statics, where nothing passes.
+    /// Cage speed as motion of the contacts \[rad/s\]; 0 in statics.
     pub turning: f64,
-    /// Whether races and balls are as imperfect as they are.
+    /// Whether waviness, off-size balls and defects are included.
     pub imperfect: bool,
 }
 
-/// Where one ball's inner groove centre is, seen from the outer one, in the plane (radial, axial).
+/// Position of a ball's inner groove centre relative to the outer one, in the plane (radial, axial).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PlaneMotion {
     /// s \[m\].
     pub s: [f64; 2],
     /// ṡ \[m/s\].
     pub rate: [f64; 2],
-    /// What race and ball deviate by at both contacts.
+    /// Surface deviation of race and ball at both contacts.
     pub deviation: Deviation,
 }
 
 impl Row {
-    /// A row, by its number in a matched pair, that carries thrust in a direction, with the cage's ratio at the nominal
+    /// Row `number` of a matched pair with its thrust direction and the cage speed ratio at the nominal
     /// contact angle.
     pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64, cage_ratio: f64) -> Self {
         let g = &bearing.geometry;
@@ -124,7 +124,7 @@ impl Row {
         [z * self.direction * ball.force[1], z * ball.by_motion[3]]
     }
 
-    /// Whether its clearance changes with speed.
+    /// Whether the clearance changes with speed (centrifugal growth of the inner ring).
     pub fn growing(&self) -> bool {
         self.growing.is_some()
     }
@@ -133,16 +133,16 @@ impl Row {
         self.spacing.len()
     }
 
-    /// Whether the force at given displacement and velocity changes with speed.
+    /// Whether the force at given displacement and velocity depends on shaft speed.
     pub fn depends_on_speed(&self) -> bool {
         let dry = |contacts| matches!(contacts, SpeedContacts::Hertz(_) | SpeedContacts::Power { .. });
         !dry(self.contacts.at_speed(1.0)) || self.growing.is_some() || self.inertia.is_some()
     }
 
-    /// What holds for all balls: `turning` is the cage speed that counts as motion of the contacts.
+    /// Operating conditions of all balls; `turning`: cage speed as motion of the contacts.
     ///
-    /// The balls' inertia takes the cage's speed, or where none is given (statics) the shaft's times the ratio at the
-    /// nominal contact angle.
+    /// The inertial loads use the cage speed, or if it is zero (statics) the shaft speed times the nominal
+    /// cage ratio.
     pub fn operating(&self, rotation: &Rotation, turning: f64, imperfect: bool) -> Operating<'_> {
         let speed = self.entrainment * rotation.shaft_speed.abs();
         let contacts = self.contacts.at_speed(speed);
@@ -177,7 +177,7 @@ impl Row {
         out
     }
 
-    /// Axial force and stiffness of a centred row: all balls alike.
+    /// Axial force and stiffness of a centred row, where all balls carry the same load.
     fn centred_axial(&self, s: [f64; 2], operating: &Operating) -> (f64, f64) {
         let motion = PlaneMotion { s, ..PlaneMotion::default() };
         let ball = match &operating.fling {
@@ -201,7 +201,7 @@ impl Row {
             return self.sum_flung(d, v, rotation, operating, fling);
         }
         let a = self.centre_distance;
-        // One loop per law, so that the law is known inside it.
+        // One loop per contact law (monomorphised), to avoid dispatch per ball.
         let massless = |law: &SpeedContacts, motion: &PlaneMotion| {
             massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
         };
@@ -216,7 +216,7 @@ impl Row {
         }
     }
 
-    /// Whether defects push the balls, and loaded ones only.
+    /// `Some` if defects act by the force law: whether on loaded balls only.
     fn force_law(&self, operating: &Operating) -> Option<bool> {
         self.profile.as_deref().filter(|_| operating.imperfect)?.force_law()
     }
@@ -233,7 +233,7 @@ impl Row {
         let mut sum = RingSum::default();
         self.each(d, v, rotation, operating, |[cos, sin], motion, turn| {
             if let Some(mut ball) = react(&motion) {
-                // The cage carries the ball past the ring: at a still ring that is power put in.
+                // Cage rotation moves the ball past the ring: input power at a fixed ring.
                 ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
                 sum.add(cos, sin, &ball);
             }
@@ -241,7 +241,7 @@ impl Row {
         sum
     }
 
-    /// The same with the balls' inertia.
+    /// Sum over balls with inertial loads (centrifugal force, gyroscopic moment).
     fn sum_flung(
         &self,
         d: &[f64; 6],
@@ -263,7 +263,7 @@ impl Row {
         sum
     }
 
-    /// A ball with inertia, settled and evaluated.
+    /// Equilibrium of a ball with inertia, and its reaction on the inner ring.
     fn flung(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> (PlaneForce, PlaneMoment) {
         let settled = self.settle(fling, operating, motion);
         let stiffness = self.contacts.hertz.stiffness;
@@ -294,7 +294,8 @@ impl Row {
         }
     }
 
-    /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate from the cage's turning.
+    /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate due to cage
+    /// rotation.
     #[inline(always)]
     fn each(
         &self,
@@ -326,7 +327,7 @@ impl Row {
         }
     }
 
-    /// The races and balls where they are; at rest in statics.
+    /// Surface profile at the current angles; zero rates in statics.
     fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
         let profile = self.profile.as_deref().filter(|_| operating.imperfect)?;
         Some(profile.at(&passing_at(rotation, operating.turning)))
@@ -337,7 +338,7 @@ impl Row {
         sum.reaction(self.arm, operating.turning)
     }
 
-    /// Every ball under elastic forces alone; `row` says which of a matched pair this is.
+    /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
         let operating = self.operating(rotation, 0.0, true);
         let d = self.with_spring(d, rotation, true);
@@ -377,7 +378,7 @@ impl Row {
     }
 }
 
-/// Speeds with which surfaces pass: none where the cage's does not count as motion.
+/// Rotation with the surface speeds of the contacts: zero in statics (`turning` = 0).
 pub(super) fn passing_at(rotation: &Rotation, turning: f64) -> Rotation {
     let shaft_speed = if turning == 0.0 { 0.0 } else { rotation.shaft_speed };
     Rotation { cage_speed: turning, shaft_speed, ..*rotation }

@@ -1,26 +1,27 @@
-//! The path of a ball over a spall: round its edges, and along its floor where it gets there.
+//! Path of a ball over a spall: rolling over its rounded edges and, if it reaches it, along the floor.
 
 use super::{BallGeometry, Surface};
 
-/// How far a round body sinks as it rolls over a pit of another round body.
+/// Depth to which a round body sinks as it rolls over a pit (spall) in another round body.
 ///
-/// Seen across the axis: the pitted surface has the signed radius s (positive where convex), the body over it t. Each
-/// edge is an arc of radius ρ that leaves the surface without a corner where the opening begins, its centre at
-/// a = s − ρ from the surface's centre. With φ the angle past that point the body on the edge has sunk by
+/// In the plane across the axis: the pitted surface has the signed radius s (positive where convex), the
+/// rolling body t. Each edge is an arc of radius ρ tangent to the surface where the opening begins, its
+/// centre at a = s − ρ from the surface's centre. At an angle φ past that point the body on the edge has sunk
+/// by
 ///
 /// H = 2 a sin²(φ/2) + x²/(T + √(T² − x²)), T = t + ρ, x = a sin φ, the root with the sign of T,
 ///
-/// the same from the other end, and no deeper than the floor: the least of the three is the envelope. The walls
-/// below the edges are never touched, as the body is far larger than the pit is deep.
+/// the same from the other end, and no deeper than the floor: the minimum of the three is the envelope. The
+/// walls below the edges are never touched, as the body is much larger than the pit depth.
 ///
 /// Limits: H = 0 with zero slope at both ends; a flat surface and a sharp edge give t − √(t² − x²).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpallPath {
     width: f64,
     depth: f64,
-    /// s: angle = length / s.
+    /// |s|: angle = length / |s|.
     surface: f64,
-    /// a and T.
+    /// a and T \[m\].
     edge: f64,
     reach: f64,
 }
@@ -38,9 +39,9 @@ impl SpallPath {
         }
     }
 
-    /// Paths of a pit over what it meets at the inner and the outer race; the same twice for a pit of a race.
+    /// Ball paths over a pit at the inner and outer contact; identical for a pit in a race.
     ///
-    /// Radii are of the normal section along rolling, R / cos α for a race of radius R.
+    /// Radii are those of the normal section in the rolling direction, R / cos α for a race of radius R.
     pub fn on(on: Surface, g: &BallGeometry, width: f64, depth: f64, edge_radius: f64) -> [Self; 2] {
         let ball = 0.5 * g.ball_diameter;
         let axis = 0.5 * g.pitch_diameter / g.contact_angle.cos();
@@ -53,7 +54,7 @@ impl SpallPath {
         }
     }
 
-    /// How deep the body has sunk and its slope, at a length 0 ≤ p ≤ width into the pit \[m\].
+    /// Depth of the body and its slope at a length 0 ≤ p ≤ width into the pit \[m\].
     pub fn at(&self, p: f64) -> [f64; 2] {
         let entry = self.round(p);
         let exit = self.round(self.width - p);
@@ -61,7 +62,7 @@ impl SpallPath {
         if on_edge[0] < self.depth { on_edge } else { [self.depth, 0.0] }
     }
 
-    /// The same with one edge alone, at a length past its beginning; infinite where the body has left it.
+    /// The same for one edge alone, at a length past its start; infinite where the body no longer touches it.
     fn round(&self, length: f64) -> [f64; 2] {
         let (sin, cos) = (length / self.surface).sin_cos();
         let half = (0.5 * length / self.surface).sin();
@@ -80,8 +81,8 @@ impl SpallPath {
 mod tests {
     use super::*;
 
-    /// Least distance to which a circle centred on the ray at `angle` can sink, by bisection against every point of the
-    /// pit's outline: an independent reading of the same picture.
+    /// Depth to which a circle can sink along the ray at p, by bisection against sampled points of the pit's
+    /// outline: an independent check of the closed form.
     fn against_outline(pit: &SpallPath, s: f64, t: f64, rho: f64, p: f64) -> f64 {
         // Points of the outline in coordinates along (u) and out of (v) the surface at the ray.
         let turn = |angle: f64, radius: f64| (angle, radius);
@@ -104,8 +105,8 @@ mod tests {
             outline.push(turn(at / s.abs(), s - pit.depth));
         }
         let ray = p / s.abs();
-        // The circle of radius |t| at the signed distance c along the ray; convex bodies stay outside each other, a
-        // concave one around.
+        // The circle of radius |t| at the signed distance c along the ray: no penetration of convex bodies, a
+        // concave one encloses the outline.
         let clear = |c: f64| {
             outline.iter().all(|&(angle, radius)| {
                 let (x, y) = (radius * (angle - ray).sin(), radius * (angle - ray).cos());
@@ -113,7 +114,7 @@ mod tests {
                 if t > 0.0 { distance >= t } else { distance <= -t }
             })
         };
-        // From touching the undamaged surface inwards.
+        // Inwards from contact with the undamaged surface.
         let (mut free, mut stuck) = (0.0, pit.depth + 1e-4);
         for _ in 0..45 {
             let middle = 0.5 * (free + stuck);
@@ -137,7 +138,8 @@ mod tests {
                     let p = width * f64::from(k) / 10.0;
                     let [sunk, _] = pit.at(p);
                     let outline = against_outline(&pit, surface, roller, edge, p);
-                    // Points 1.6e-7 m apart on a floor of 4 mm radius at least: a chord is within 1e-12 m of its arc.
+                    // Points 1.6e-7 m apart on a floor radius of at least 4 mm: chord within 1e-12 m of its
+                    // arc.
                     assert!((sunk - outline).abs() < 1e-11, "{surface} {roller} {p}: {sunk} {outline}");
                 }
             }

@@ -1,4 +1,4 @@
-//! Arguments of the command, and its manual.
+//! Command-line arguments (clap) and their help texts.
 
 mod bearing;
 mod manual;
@@ -35,35 +35,35 @@ pub struct Cli {
     pub output: Output,
 }
 
-/// How to speak; for every command.
+/// Output options common to all commands.
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Output")]
 pub struct Output {
-    /// Print one JSON document to standard output, and nothing else there
+    /// Print one JSON document to standard output instead of tables
     #[arg(long, global = true)]
     pub json: bool,
     /// Print no tables and no progress, only errors and warnings
     #[arg(long, short, global = true)]
     pub quiet: bool,
-    /// Number of threads; the numbers computed do not depend on it [default: all cores]
+    /// Number of threads; results do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }
 
-/// Which machine.
+/// Model file, variant and overrides.
 #[derive(Args, Clone, Debug)]
 pub struct ModelArgs {
     /// The model file (TOML)
     pub model: PathBuf,
-    /// Lay [variant.NAME] of the file over the model
+    /// Apply [variant.NAME] of the file
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
-    /// Set any value of the model, such as bearing.B.radial_clearance="20 um"; can be repeated
+    /// Override any value of the model, such as bearing.B.radial_clearance="20 um"; can be repeated
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
 }
 
-/// Which machine, and where its results go.
+/// Model and results folder.
 #[derive(Args, Clone, Debug)]
 pub struct StudyArgs {
     #[command(flatten)]
@@ -76,20 +76,20 @@ pub struct StudyArgs {
     pub no_figures: bool,
 }
 
-/// What to export.
+/// Arguments of `export`.
 #[derive(Args, Clone, Debug)]
 pub struct ExportArgs {
     #[command(flatten)]
     pub study: StudyArgs,
-    /// Formats of a run's channels, separated by commas
+    /// File formats of the run-up's channels (time histories), separated by commas
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"])]
     pub formats: Vec<ChannelFormat>,
-    /// Number in the names of channels.mat
+    /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub number: u32,
 }
 
-/// A format of channels.
+/// File format of exported time histories.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelFormat {
     Csv,
@@ -99,12 +99,12 @@ pub enum ChannelFormat {
     Wav,
 }
 
-/// A stored run.
+/// Stored run-up and analysis settings (`spectrogram`, `orders`).
 #[derive(Args, Clone, Debug, Default)]
 pub struct StoredArgs {
-    /// results.h5 of a run-up, or the folder that holds it
+    /// results.h5 of a run-up, or its folder
     pub file: PathBuf,
-    /// Channels to look at, separated by commas [default: those of the model file, else all that vibrate]
+    /// Channels, separated by commas [default: those of the model file, else all vibration channels]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub channels: Vec<String>,
     /// Window length, such as "0.5 s" (spectrogram only)
@@ -119,13 +119,13 @@ pub struct StoredArgs {
     /// Highest order (orders only)
     #[arg(long, value_name = "NUMBER")]
     pub max_order: Option<String>,
-    /// Order lines to draw or to cut, such as 1,2,BPFO,"2 BPFO"
+    /// Order lines to draw or to extract (order cuts), such as 1,2,BPFO,"2 BPFO"
     #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
     pub orders: Vec<String>,
-    /// Overlap of neighbouring windows, 0 to below 1
+    /// Overlap of successive windows, from 0 to below 1
     #[arg(long, value_name = "NUMBER")]
     pub overlap: Option<String>,
-    /// Window: rectangular, hann, hamming, blackman, flat-top
+    /// Window function: rectangular, hann, hamming, blackman, flat-top
     #[arg(long, value_name = "NAME")]
     pub window: Option<String>,
     /// Draw no figures
@@ -135,11 +135,11 @@ pub struct StoredArgs {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Do every study that the model file asks for
+    /// Run all studies of the model file
     ///
-    /// Writes results.h5 and all figures to out/NAME/, and prints tables of modes, critical speeds, bearing loads,
-    /// orders and the energy balance of the run-up. results.h5 is started anew. A study that fails is named at the
-    /// end (exit code 3); the others are done all the same.
+    /// Writes results.h5 and all figures to out/NAME/, and prints tables of modes, critical speeds, bearing
+    /// loads, orders and the energy balance of the run-up. An existing results.h5 is overwritten. A failed
+    /// study is reported at the end (exit code 3); the other studies still run.
     #[command(after_long_help = "\
 Examples:
   rotordyn run models/overhung_rig.toml
@@ -147,11 +147,12 @@ Examples:
   rotordyn run models/jeffcott.toml --json --quiet > jeffcott.json")]
     Run(StudyArgs),
 
-    /// Check a model file with all its variants, and say what is in it
+    /// Validate a model file with all its variants and summarise the machine
     ///
-    /// Reports every problem of the file at once, each with its place; balls, cage pockets and rings that overlap;
-    /// and motions that nothing holds. Prints masses, stations, bearings with their characteristic orders (FTF, BPFO,
-    /// BPFI, BSF per revolution) and the number of degrees of freedom. With --variant only that one is checked.
+    /// Reports all errors of the file at once with their locations, overlapping bearing parts (balls, cage
+    /// pockets, rings) and unconstrained rigid-body modes. Prints masses, stations, bearings with their
+    /// defect frequencies as orders (FTF, BPFO, BPFI, BSF per revolution) and the number of degrees of
+    /// freedom. With --variant only that variant is checked.
     #[command(after_long_help = "\
 Examples:
   rotordyn check models/overhung_rig.toml
@@ -160,8 +161,8 @@ Examples:
 
     /// Static equilibrium: bearing forces, ball loads, bearing stiffness
     ///
-    /// Under gravity, belt pull, preload and constant loads, found by damped Newton for any clearance. Without
-    /// [study.static] at standstill, with the bearings averaged over the cage's position.
+    /// Under gravity, belt pull, preload and constant loads, solved by a damped Newton iteration for any
+    /// clearance. Default without [study.static]: standstill, bearing forces averaged over the cage angle.
     #[command(after_long_help = "\
 Units: forces N, moments N m, displacements um, ball positions and contact angles deg, stiffness N/m.
 
@@ -171,7 +172,7 @@ Examples:
     Static {
         #[command(flatten)]
         study: StudyArgs,
-        /// Speed at which bearings tabulated over speed are taken, such as "1200 rpm"
+        /// Shaft speed for speed-dependent bearings, such as "1200 rpm"
         #[arg(long, value_name = "SPEED")]
         speed: Option<String>,
         /// Keep the cage angle of the model instead of averaging over it
@@ -181,10 +182,11 @@ Examples:
 
     /// Natural frequencies, damping and mode shapes at given speeds
     ///
-    /// Damped modes of the machine linearised about its equilibrium, labelled by orbit and energy. Without
-    /// [study.modal]: 12 modes at standstill and at the highest speed of [speed].
+    /// Damped (complex) modes of the machine linearised about its static equilibrium, labelled by whirl
+    /// direction and energy share. Default without [study.modal]: 12 modes at standstill and at the highest
+    /// speed of [speed].
     #[command(after_long_help = "\
-Units: frequencies Hz and rpm (cycles per minute), damping ratio zeta in %, logarithmic decrement.
+Units: frequencies Hz and rpm (cycles per minute), damping ratio zeta in %, logarithmic decrement (log dec).
 
 Examples:
   rotordyn modal models/jeffcott.toml
@@ -200,9 +202,9 @@ Examples:
         modes: Option<usize>,
     },
 
-    /// Linear Campbell diagram, crossings with order lines, stability thresholds
+    /// Campbell diagram (linear), critical speeds at order-line crossings, stability thresholds
     ///
-    /// Modes are followed over speed by their shapes (MAC). Without [study.campbell]: 12 modes at 25 speeds up to the
+    /// Modes are tracked over speed by MAC. Default without [study.campbell]: 12 modes at 25 speeds up to the
     /// highest of [speed], else 3000 rpm.
     #[command(after_long_help = "\
 Examples:
@@ -221,8 +223,8 @@ Examples:
 
     /// Critical speeds with whirl direction and damping
     ///
-    /// Speeds at which a mode's frequency is n times the speed. Without [study.critical]: order 1, up to three times
-    /// the highest speed of [speed], else 6000 rpm.
+    /// Speeds at which a damped natural frequency equals n times the speed (order n). Default without
+    /// [study.critical]: order 1, up to three times the highest speed of [speed], else 6000 rpm.
     #[command(after_long_help = "\
 Examples:
   rotordyn critical models/jeffcott.toml
@@ -240,8 +242,9 @@ Examples:
 
     /// Frequency response functions at a fixed speed
     ///
-    /// Every probe's response to every excitation, solved directly at each frequency. Without [study.frf]: unit forces
-    /// along x and y at the first disc (else station), 1 to 500 Hz by 0.25 Hz, receptance.
+    /// Response of every probe to every excitation, solved directly at each frequency. Default without
+    /// [study.frf]: receptance for unit forces along x and y at the first disc (else station), 1 to 500 Hz in
+    /// steps of 0.25 Hz.
     #[command(after_long_help = "\
 Units: receptance m/N, mobility m/(s N), accelerance m/(s^2 N).
 
@@ -255,7 +258,7 @@ Examples:
         /// Speed, such as "1200 rpm"
         #[arg(long, value_name = "SPEED")]
         speed: Option<String>,
-        /// Highest frequency, such as "400 Hz"; from 1 Hz by 0.25 Hz
+        /// Highest frequency, such as "400 Hz"; from 1 Hz in steps of 0.25 Hz
         #[arg(long, value_name = "FREQUENCY")]
         max_frequency: Option<String>,
         /// receptance, mobility or accelerance
@@ -265,9 +268,9 @@ Examples:
         test: NoiseArgs,
     },
 
-    /// Steady unbalance response over speed: Bode diagrams and orbits
+    /// Synchronous (1x) unbalance response over speed: Bode plots and orbits
     ///
-    /// Without [study.unbalance]: 200 speeds up to one and a half times the highest of [speed], else 6000 rpm.
+    /// Default without [study.unbalance]: 200 speeds up to 1.5 times the highest of [speed], else 6000 rpm.
     #[command(after_long_help = "\
 Examples:
   rotordyn unbalance models/jeffcott.toml
@@ -280,12 +283,13 @@ Examples:
         max_speed: Option<String>,
     },
 
-    /// Nonlinear run-up through the speed profile, one Hertz contact per ball
+    /// Nonlinear transient run-up through the speed profile, one Hertz contact per ball
     ///
-    /// Integrates the machine through [speed]: linear parts reduced to their modes below the cutoff with static
-    /// correction, every ball a nonlinear contact. Samples go to results.h5 as they come; Ctrl-C ends the run cleanly
-    /// and what was computed stays readable. Without [study.run_up]: generalised-alpha, steps of 100 us, sampling at
-    /// 2 kHz, all modes. Where the file has [study.spectrogram] and [study.orders], they are done too.
+    /// Time integration of the machine through [speed]: linear parts reduced to their modes below the cutoff
+    /// frequency plus static correction modes, every ball a nonlinear contact. Samples are streamed to
+    /// results.h5; after Ctrl-C the samples so far remain readable. Default without [study.run_up]:
+    /// generalised-alpha, steps of 100 us, sampling at 2 kHz, all modes. [study.spectrogram] and
+    /// [study.orders] of the file are run too.
     #[command(after_long_help = "\
 Examples:
   rotordyn run-up models/overhung_rig.toml
@@ -305,57 +309,60 @@ Examples:
         sample_rate: Option<String>,
     },
 
-    /// Spectrograms over rpm of a stored run-up: the measured-style Campbell diagram
+    /// Spectrograms over rpm of a stored run-up: waterfall and Campbell map from the signal
     ///
-    /// Settings come from the model text stored in the file; flags override them. Adds to the same results.h5 and
-    /// draws beside it.
+    /// Settings come from the model text stored in the file; flags override them. Results are added to the
+    /// same results.h5, figures go to its folder.
     #[command(after_long_help = "\
 Examples:
   rotordyn spectrogram out/overhung_rig
   rotordyn spectrogram out/overhung_rig/results.h5 --channels B_ax,B_ay --length \"0.5 s\"")]
     Spectrogram(StoredArgs),
 
-    /// Order spectra and order cuts of a stored run-up
+    /// Order tracking of a stored run-up: order spectra and order cuts
     ///
-    /// Resamples the channels at even shaft angles. Settings come from the model text stored in the file; flags
-    /// override them. Adds to the same results.h5 and draws beside it.
+    /// The channels are resampled at equal shaft angle increments (computed order tracking). Settings come
+    /// from the model text stored in the file; flags override them. Results are added to the same results.h5,
+    /// figures go to its folder.
     #[command(after_long_help = "\
 Examples:
   rotordyn orders out/overhung_rig
   rotordyn orders out/overhung_rig --resolution 0.02 --orders 7,\"2 BPFO\"")]
     Orders(StoredArgs),
 
-    /// Orbits and Poincaré sections at steady speed, and what kind of motion it is
+    /// Orbits and Poincaré sections at constant speed, and classification of the motion
     ///
-    /// Runs from static equilibrium, lets the motion settle, then looks at it once per turn of the shaft or of a cage,
-    /// or per ball passage: period n, quasi-periodic or chaotic. Settings come from [study.poincare]; flags override
-    /// them.
+    /// Starts at static equilibrium, discards the transient, then samples the state once per shaft
+    /// revolution, cage revolution or ball passage. Classes: period n, quasi-periodic, chaotic. Settings come
+    /// from [study.poincare]; flags override them.
     #[command(after_long_help = super::steady_args::POINCARE)]
     Poincare(Box<PoincareArgs>),
 
-    /// Largest Lyapunov exponent at steady speed, with its standard error
+    /// Largest Lyapunov exponent at constant speed, with its standard error
     ///
-    /// Follows a run beside the first from a slightly different state, at the same shaft and cage angles. Settings come
-    /// from [study.lyapunov]; flags override them.
+    /// Integrates a perturbed trajectory with the same shaft and cage angles and measures its separation from
+    /// the reference trajectory. Settings come from [study.lyapunov]; flags override them.
     #[command(after_long_help = super::steady_args::LYAPUNOV)]
     Lyapunov(Box<SteadyArgs>),
 
-    /// Bifurcation diagram over any value of the model, swept up and down on every core
+    /// Bifurcation diagram over any model parameter, swept up and down in parallel
     ///
-    /// Each value starts from where the one before ended, so that the two ways may find two motions. Settings come from
-    /// [study.bifurcation]; flags override them. Ctrl-C leaves what was computed.
+    /// By default each value starts from the final state of the previous one, so up and down sweeps show
+    /// coexisting motions (hysteresis). Settings come from [study.bifurcation]; flags override them. Ctrl-C
+    /// keeps the points computed so far.
     #[command(after_long_help = super::steady_args::BIFURCATION)]
     Bifurcation(Box<BifurcationArgs>),
 
-    /// Ball bearings one by one: loads, contacts, stiffness, film, frequencies, life
+    /// Ball bearing analysis: load distribution, contacts, stiffness, film, defect frequencies, life
     ///
-    /// Takes a machine, or a file that holds bearings alone. The operating load is that of the machine's equilibrium
-    /// unless one is given; a bearing alone gets a tenth of its dynamic load rating. Prints ball loads, contact
-    /// angles, pressures, film, the 5x5 stiffness and the characteristic frequencies; sweeps load, cage angle and, where
-    /// it matters, speed unless told otherwise. Settings come from [study.bearing]; flags override them.
+    /// Takes a machine model or a file with bearings only. Default load: that of the machine's static
+    /// equilibrium; for a file with bearings only a tenth of the dynamic load rating. Prints ball loads,
+    /// contact angles and pressures, film thickness, the 5x5 stiffness matrix, defect frequencies and rating
+    /// life. Default sweeps: load, cage angle and, for speed-dependent bearings, speed. Settings come from
+    /// [study.bearing]; flags override them.
     #[command(after_long_help = "\
-Loads are those of the shaft on the bearing. Motions are x, y, z (along the shaft), theta_x, theta_y. With a given \
-load the tilts are held unless a moment is given; in a machine the shaft holds tilts and axial place in the sweeps.
+Loads act from the shaft on the bearing. DOFs are x, y, z (along the shaft), theta_x, theta_y. With --load, tilts are \
+constrained unless --moment is given; in a machine, tilts and axial position are constrained in the sweeps.
 
 Examples:
   rotordyn bearing models/overhung_rig.toml
@@ -365,26 +372,28 @@ Examples:
   rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
     Bearing(Box<BearingArgs>),
 
-    /// Modes from measured FRFs or hammer records: poles, damping, shapes, with their standard errors
+    /// Experimental modal analysis of FRFs or impact-test records: poles, damping, mode shapes, standard
+    /// errors
     ///
-    /// Poly-reference least-squares complex frequency over all orders; poles that stay are chosen, refined together on
-    /// all FRFs, and those that the data do not bear out dropped. Reads universal files, MATLAB, NumPy, CSV, HDF5 and
-    /// our own results.h5; time records of a hammer test are turned into FRFs first, blows of files with the same points
-    /// averaged, double hits and overloads left out. A run-up at 0 rpm under one [load.X] with a history is a simulated
-    /// hammer test. Writes results.h5, modes.uff (data sets 55) and figures: stabilisation diagram, autoMAC, FRFs
-    /// measured and synthesised, shapes where the file has geometry.
+    /// Poly-reference least-squares complex frequency (pLSCF, PolyMAX) with automatic pole selection from the
+    /// stabilisation diagram and joint refinement on all FRFs; modes not supported by the data are dropped.
+    /// Reads universal files (UFF), MATLAB, NumPy, CSV, HDF5 and results.h5 of this program. Time records of
+    /// an impact test are converted to FRFs first: hits at the same points are averaged, double hits and
+    /// overloads rejected. A run-up at 0 rpm with one [load.X] history is a simulated impact test. Writes
+    /// results.h5, modes.uff (dataset 55) and figures: stabilisation diagram, auto-MAC, measured and
+    /// synthesised FRFs, and mode shapes if the file has geometry.
     #[command(after_long_help = "\
 Examples:
   rotordyn identify frfs.uff --band \"5 .. 180 Hz\"
   rotordyn identify test.npz --quantity accelerance --max-order 40
-  rotordyn identify blow_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
+  rotordyn identify hit_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
   rotordyn identify out/overhung_rig/results.h5 --json")]
     Identify(Box<IdentifyArgs>),
 
-    /// Compare variants of one machine: frequencies side by side, FRFs overlaid
+    /// Compare variants of one machine: table of natural frequencies, FRF overlays
     ///
-    /// Modes of the variants are paired with those of the first by their shapes along the shaft (mass-weighted MAC).
-    /// `base` is the file without a variant.
+    /// Modes of the variants are paired with those of the first by the mass-weighted MAC of their shaft
+    /// deflection. `base` is the model without a variant.
     #[command(after_long_help = "\
 Examples:
   rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
@@ -403,55 +412,58 @@ Examples:
         modes: Option<usize>,
     },
 
-    /// Hold the model against measured modes, FRFs or run-ups: which mode is which, and how far apart
+    /// Correlate the model with measured modes, FRFs or run-ups: mode pairing, MAC, frequency errors
     ///
-    /// Pairs measured and computed modes by MAC and frequency (the assignment that is best for all together), lists
-    /// frequencies, errors, damping and MAC, and what has no partner on either side; FRFs are identified on the way
-    /// and laid over the model's, with FRAC and FDAC. Several files, such as hammer tests of different force, are also
-    /// held against the first: how far has every mode shifted? The record of a run-up is set beside the run-up that the
-    /// model makes with the same speed: maps, waterfalls, and where every order is highest.
+    /// Pairs measured and computed modes by MAC and frequency (optimal assignment) and lists frequencies,
+    /// errors, damping, MAC and unpaired modes. Measured FRFs are identified and compared with the model's,
+    /// with FRAC and FDAC. Several files, such as impact tests at different force levels, are also compared
+    /// with the first: shift of every mode. A measured run-up is compared with a simulation driven by the
+    /// same speed: spectrogram maps, waterfalls and the peak of every order.
     #[command(after_long_help = update::VALIDATE)]
     Validate(Box<ValidateArgs>),
 
-    /// Fit stiffnesses, dampings or any other numbers of the model to what was measured
+    /// Model updating: fit stiffnesses, dampings or any other parameters to measurements
     ///
-    /// Weighted least squares with priors and bounds on frequencies, shapes, damping or FRFs, by Levenberg-Marquardt
-    /// with exact sensitivities. Says of every number whether the data tell it: with its standard error, the share of
-    /// the prior that is left, and the directions in which the data are blind. Writes the model file with the numbers
-    /// that were found, everything else as you wrote it, and figures of before and after.
+    /// Weighted least squares with priors and bounds on frequencies, mode shapes, damping or FRFs, by
+    /// Levenberg-Marquardt with exact sensitivities. Reports the identifiability of every parameter: standard
+    /// error, posterior over prior variance, and the poorly determined parameter combinations. Writes the
+    /// model file with the updated values, the rest of its text unchanged, and figures before and after.
     #[command(after_long_help = update::UPDATE)]
     Update(Box<UpdateArgs>),
 
-    /// Look up bearings of the built-in catalogue
+    /// List or look up bearings of the built-in catalogue
     ///
-    /// Without a designation lists all; with one (or its beginning) shows internal geometry, clearance classes after
-    /// ISO 5753-1, characteristic orders, and where the geometry comes from.
+    /// Without a designation lists all; with one (or its first characters) shows internal geometry, clearance
+    /// classes of ISO 5753-1, defect frequencies as orders (FTF, BPFO, BPFI, BSF), and the source of the
+    /// geometry.
     #[command(after_long_help = "\
 Examples:
   rotordyn catalogue
   rotordyn catalogue 6205
   rotordyn catalogue 72 --json")]
     Catalogue {
-        /// Designation, or how it begins
+        /// Designation or its first characters
         designation: Option<String>,
     },
 
-    /// A record, measured or simulated: spectra, envelope with bearing lines and verdict, kurtogram, orders, jerk
+    /// Analyse a measured or simulated record: spectra, envelope analysis, bearing diagnosis, kurtogram,
+    /// orders, jerk
     ///
-    /// Reads universal files, MATLAB, NumPy, WAV, tables, HDF5 and stored runs, whichever the content is. Says which part
-    /// of the bearing is damaged by the lines in the envelope's spectrum; with --against the envelope spectra of two
-    /// records, such as measured and simulated, come into one figure.
+    /// Reads universal files (UFF), MATLAB, NumPy, WAV, CSV, HDF5 and stored runs; the format is detected
+    /// from the content. The envelope spectrum is searched for bearing defect frequencies (BPFO, BPFI, BSF,
+    /// FTF) to find the damaged part. With --against, the envelope spectra of two records, such as measured
+    /// and simulated, are drawn in one figure.
     #[command(after_long_help = super::signal::args::EXAMPLES)]
     Signal(Box<SignalArgs>),
 
-    /// Export for viewing and for other programs: glb, VTK, universal files, MATLAB, NumPy, CSV, WAV
+    /// Export geometry, modes, FRFs and time histories: glTF (glb), VTK, UFF, MATLAB, NumPy, CSV, WAV
     ///
-    /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer); mode shapes as
-    /// VTK for ParaView; mode shapes and, where the file has [study.frf], FRFs as universal files for modal programs;
-    /// and, when the folder holds a run-up, its channels in each of the formats.
+    /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer); mode
+    /// shapes as VTK for ParaView; mode shapes and, with [study.frf], FRFs as universal files for modal
+    /// analysis programs; and the channels of a run-up stored in the folder in each of the formats.
     #[command(after_long_help = "\
-Names: channels.mat has X001_B_ax_time, fs is the rate in Hz, X001RPM is the mean speed. A WAV file holds one channel as \
-32-bit floats of its values in SI units.
+Names: channels.mat has X001_B_ax_time, fs is the sampling rate in Hz, X001RPM is the mean speed. A WAV file contains \
+one channel as 32-bit floats in SI units.
 
 Examples:
   rotordyn export models/overhung_rig.toml
@@ -459,7 +471,7 @@ Examples:
     Export(ExportArgs),
 }
 
-/// PATH=VALUE.
+/// Parse PATH=VALUE.
 fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().into(), value.trim().into())),

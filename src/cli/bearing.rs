@@ -1,4 +1,4 @@
-//! `bearing`: the ball bearings of a machine, or of a file of bearings alone, one by one.
+//! `bearing`: analysis of the ball bearings of a machine, or of a file with bearings only.
 
 use std::time::Instant;
 
@@ -52,7 +52,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     }
     written(terminal, &folder, &files);
     if files.len() > 1 {
-        terminal.say("  (every figure is there as SVG and as PNG)");
+        terminal.say("  (figures are written as SVG and PNG)");
     }
     if !loaded.warnings.is_empty() {
         eprint!(

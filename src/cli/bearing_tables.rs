@@ -1,4 +1,4 @@
-//! Tables of a ball bearing on its own.
+//! Tables of a ball bearing analysis.
 
 use rotordyn::bearing::Preload;
 use rotordyn::bearing::life::hours;
@@ -7,7 +7,7 @@ use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
 use super::terminal::{Terminal, number, rpm, table};
 
-/// Rows shown of a sweep; all of it is in the file.
+/// Rows printed of a sweep; results.h5 contains all points.
 const ROWS: usize = 6;
 
 pub fn bearing(terminal: &Terminal, found: &BearingResult) {
@@ -16,13 +16,13 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     let held: Vec<&str> =
         MOTIONS.iter().zip(found.held).filter(|(_, held)| *held).map(|(name, _)| *name).collect();
     terminal.heading(&format!("Bearing {} at {:.0} rpm", found.name, rpm(state.condition.speed)));
-    terminal.say(&format!("  load of the shaft: {}", found.load_from));
+    terminal.say(&format!("  load by the shaft: {}", found.load_from));
     if !held.is_empty() {
-        terminal.say(&format!("  held: {}", held.join(", ")));
+        terminal.say(&format!("  constrained DOFs: {}", held.join(", ")));
     }
     let marks = &found.bearing.imperfections;
     if !marks.is_empty() {
-        terminal.say(&format!("  races and balls: {}", marks.condition()));
+        terminal.say(&format!("  imperfections of races and balls: {}", marks.condition()));
     }
     let arm = 0.5 * found.bearing.geometry.pitch_diameter;
     let size = |a: usize| if a > 2 { arm } else { 1.0 };
@@ -42,19 +42,19 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
             row
         })
         .collect();
-    let header = ["motion", "load", "", "displacement", "", "K: x", "y", "z", "theta_x", "theta_y"];
+    let header = ["DOF", "load", "", "displacement", "", "K: x", "y", "z", "theta_x", "theta_y"];
     terminal.say(table(&header, &rows).trim_end());
     let [[radial, radial_held], [axial, axial_held]] = [point.radial_stiffness, point.axial_stiffness];
     for (way, [free, all]) in [("radial", [radial, radial_held]), ("axial", [axial, axial_held])] {
         terminal.say(&format!(
-            "  {way} stiffness {} N/m while what is not held gives way, {} N/m with all held",
+            "  {way} stiffness {} N/m with the unconstrained DOFs free, {} N/m with all other DOFs fixed",
             number(free, 4),
             number(all, 4)
         ));
     }
     if found.bearing.preload != Preload::None {
         terminal.say(&format!(
-            "  preload at this speed: {} N along the axis, rings {:.3} um from their nominal place",
+            "  preload at this speed: {} N axial, ring offset {:.3} um from the nominal position",
             number(found.preload.axial_force, 4),
             1e6 * found.preload.offset
         ));
@@ -64,19 +64,20 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     life(terminal, found);
     let matters = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
     if !matters && !found.sweeps.iter().any(|s| s.of == Swept::Speed) {
-        terminal.say("\n  Dry balls without inertia carry the same at every speed: no sweep over it.");
+        terminal
+            .say("\n  No speed sweep: without film and ball inertia the bearing does not depend on speed.");
     }
     for sweep in &found.sweeps {
         sweep_table(terminal, found, sweep);
     }
 }
 
-/// A value, or nothing where it is the round-off of larger ones.
+/// The value, or 0 if it is below round-off of `size`.
 fn clean(value: f64, size: f64) -> f64 {
     if value.abs() < 1e-9 * size { 0.0 } else { value }
 }
 
-/// With a number of decimals, and no minus before nothing.
+/// Fixed number of decimals, without a negative zero.
 fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -115,7 +116,7 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
     }
     let mut header = vec![
         "ball",
-        "at deg",
+        "position deg",
         "Q_i N",
         "Q_o N",
         "a_i deg",
@@ -128,11 +129,11 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
     if filmed {
         header.extend(["h_i um", "h_o um"]);
     }
-    let title = format!("Loaded balls ({} of {}), semi-axes of the contacts", rows.len(), point.balls.len());
+    let title = format!("Loaded balls ({} of {}), contact ellipse semi-axes", rows.len(), point.balls.len());
     terminal.table(&title, &header, &rows);
     if filmed {
         terminal.say(&format!(
-            "  smallest film {:.3} um, film ratio lambda {:.2}",
+            "  minimum film thickness {:.3} um, film ratio lambda {:.2}",
             1e6 * point.least_film(),
             point.film_ratio
         ));
@@ -143,10 +144,10 @@ fn frequencies(terminal: &Terminal, found: &BearingResult) {
     let turns = found.point.state.condition.speed / std::f64::consts::TAU;
     let (nominal, loaded) = (&found.nominal_orders, &found.point.orders);
     let rows: Vec<Vec<String>> = [
-        ("FTF, cage", nominal.ftf, loaded.ftf),
-        ("BPFO, outer race", nominal.bpfo, loaded.bpfo),
-        ("BPFI, inner race", nominal.bpfi, loaded.bpfi),
-        ("BSF, ball spin", nominal.bsf, loaded.bsf),
+        ("FTF (cage)", nominal.ftf, loaded.ftf),
+        ("BPFO (outer race)", nominal.bpfo, loaded.bpfo),
+        ("BPFI (inner race)", nominal.bpfi, loaded.bpfi),
+        ("BSF (ball spin)", nominal.bsf, loaded.bsf),
     ]
     .iter()
     .map(|(name, nominal, loaded)| {
@@ -157,7 +158,7 @@ fn frequencies(terminal: &Terminal, found: &BearingResult) {
     })
     .collect();
     let header = ["", "order, nominal", "order, loaded", "Hz, nominal", "Hz, loaded"];
-    terminal.table("Frequencies at the nominal and at the loaded contact angle", &header, &rows);
+    terminal.table("Bearing defect frequencies at the nominal and the loaded contact angle", &header, &rows);
 }
 
 fn life(terminal: &Terminal, found: &BearingResult) {
@@ -182,7 +183,7 @@ fn life(terminal: &Terminal, found: &BearingResult) {
     terminal.table("Rating life", &["", "10^6 revolutions", "hours"], &rows);
     let r = &found.rating;
     let [c, c0, cu] = [r.dynamic, r.stationary, r.fatigue].map(|f| number(f, 4));
-    let source = if service.dynamic_rating.is_some() { "as given" } else { "by the internal geometry" };
+    let source = if service.dynamic_rating.is_some() { "as given" } else { "from the internal geometry" };
     let mut line = format!("  C {c} N ({source}), C_0 {c0} N, C_u {cu} N");
     if life.equivalent_load.is_finite() {
         line += &format!(", P {} N", number(life.equivalent_load, 4));
@@ -233,7 +234,7 @@ fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepR
         "k_tilt,y",
         "Q_max N",
         "p_max GPa",
-        "loaded",
+        "loaded balls",
     ];
-    terminal.table(&format!("Bearing {} over {name}, {n} points", found.name), &header, &rows);
+    terminal.table(&format!("Sweep of bearing {} over {name}, {n} points", found.name), &header, &rows);
 }

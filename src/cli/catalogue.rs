@@ -1,4 +1,4 @@
-//! `catalogue`: the built-in bearings.
+//! `catalogue`: the built-in bearing catalogue.
 
 use rotordyn::bearing::BallGeometry;
 use rotordyn::model::catalogue::{CLASSES, CatalogueEntry, clearance, entries, find};
@@ -66,10 +66,20 @@ fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
             ]
         })
         .collect();
-    let header =
-        ["designation", "bore", "outside", "width", "balls", "ball", "pitch", "angle deg", "BPFO", "BPFI"];
+    let header = [
+        "designation",
+        "bore",
+        "OD",
+        "width",
+        "balls",
+        "ball dia.",
+        "pitch dia.",
+        "angle deg",
+        "BPFO",
+        "BPFI",
+    ];
     terminal.table(
-        &format!("{} bearings, lengths in mm, frequencies per revolution", found.len()),
+        &format!("{} bearings: lengths in mm, defect frequencies per revolution", found.len()),
         &header,
         &rows,
     );
@@ -99,7 +109,7 @@ fn sheet(terminal: &Terminal, e: &CatalogueEntry) {
             row(&format!("radial clearance {class}"), format!("{} to {} um", um(least), um(most)))
         }));
     }
-    rows.push(row("internal geometry", e.origin.to_string()));
+    rows.push(row("source of geometry", e.origin.to_string()));
     terminal.table(e.designation, &["", ""], &rows);
 }
 

@@ -1,4 +1,4 @@
-//! `check`: is the model sound with all its variants, and what is in it?
+//! `check`: validates a model with all its variants and prints a summary.
 
 use rayon::prelude::*;
 use rotordyn::assembly::free_motion;
@@ -13,7 +13,7 @@ use super::machine::Origin;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
 
-/// What is known of one variant after the check.
+/// Check result of one variant.
 struct Checked {
     name: String,
     loaded: Loaded,
@@ -29,7 +29,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         Some(variant) => vec![variant.clone()],
         None => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
     };
-    // The first alone: what is wrong with it is wrong with all.
+    // The first one separately: its errors usually apply to all variants.
     let (first, others) = names.split_first().ok_or_else(|| Failure::Input("nothing to check".into()))?;
     let first = check(&origin, first)?;
     let others: Vec<Result<Checked, (String, Failure)>> =
@@ -50,16 +50,16 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let rows: Vec<Vec<String>> = checked
         .iter()
         .map(|c| {
-            let free = if c.free.is_empty() { "nothing".into() } else { c.free.join("; ") };
+            let free = if c.free.is_empty() { "none".into() } else { c.free.join("; ") };
             let dofs = c.machine.assembly.dofs.len().to_string();
             vec![c.name.clone(), number(c.mass, 4), dofs, free]
         })
         .collect();
     if checked.len() > 1 {
-        terminal.table("Variants, all sound", &["variant", "mass kg", "DOFs", "free to move"], &rows);
+        terminal.table("Variants, all valid", &["variant", "mass kg", "DOFs", "rigid-body modes"], &rows);
     }
     for (c, motion) in checked.iter().flat_map(|c| c.free.iter().map(move |motion| (c, motion))) {
-        terminal.complain("warning", &format!("{}: {motion} is free to move", c.name));
+        terminal.complain("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
         super::warn(terminal, &c.loaded);
@@ -77,7 +77,7 @@ fn check(origin: &Origin, variant: &str) -> Result<Checked, Failure> {
     let machine = Machine::new(loaded.model.clone())?;
     let free = free_motion::free_motions_of_machine(&machine.model, &machine.assembly)?;
     let full = &machine.assembly.full_mass;
-    // Everything moved along x: uᵀ M u is the total mass.
+    // Unit rigid-body translation u along x: uᵀ M u is the total mass.
     let along: Vec<f64> =
         (0..machine.assembly.dofs.full_len()).map(|i| f64::from(u8::from(i % 6 == 0))).collect();
     let mass = full.mul(&along).iter().zip(&along).map(|(p, u)| p * u).sum();
@@ -133,7 +133,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
         .iter()
         .map(|s| vec![s.name.clone(), number(1e3 * s.z, 5), (s.node + 1).to_string(), carried(model, s.node)])
         .collect();
-    terminal.table("Stations", &["station", "z mm", "node", "carries"], &rows);
+    terminal.table("Stations", &["station", "z mm", "node", "components"], &rows);
 
     let rows: Vec<Vec<String>> = model
         .bearings
@@ -150,7 +150,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
                     let g = &ball.geometry;
                     let orders = g.orders(g.contact_angle);
                     let kind =
-                        if matches!(bearing, Bearing::RadialBall(_)) { ", each free radially" } else { "" };
+                        if matches!(bearing, Bearing::RadialBall(_)) { ", radial ball DOF" } else { "" };
                     row.push(format!("{} balls of {} mm{kind}", g.balls, number(1e3 * g.ball_diameter, 4)));
                     row.push(number(1e3 * g.pitch_diameter, 5));
                     row.push(format!("{:.1}", 1e6 * g.radial_clearance));
@@ -167,11 +167,11 @@ fn summary(terminal: &Terminal, found: &Checked) {
             ["bearing", "model", "pitch mm", "clearance um", "angle deg", "FTF", "BPFO", "BPFI", "BSF"];
         let balls = rows.iter().any(|row| row.len() > 2);
         let header = if balls { &header[..] } else { &header[..2] };
-        terminal.table("Bearings, with their frequencies per revolution", header, &rows);
+        terminal.table("Bearings and their defect frequencies per revolution", header, &rows);
     }
 }
 
-/// What sits on a shaft node.
+/// Names of the components at a shaft node.
 fn carried(model: &Model, node: usize) -> String {
     let discs = model.discs.iter().filter(|d| d.node == node).map(|d| format!("disc.{}", d.name));
     let bearings = model.bearings.iter().filter(|b| b.node == node).map(|b| format!("bearing.{}", b.name));

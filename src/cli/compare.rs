@@ -1,4 +1,4 @@
-//! `compare`: variants of one machine side by side.
+//! `compare`: natural frequencies and FRFs of the variants of one machine.
 
 use rotordyn::analysis::Mode;
 use rotordyn::edge::figures;
@@ -12,7 +12,7 @@ use super::machine::Origin;
 use super::terminal::{Terminal, rpm};
 use super::{Outcome, films, settings, warn, written};
 
-/// Below this MAC two modes are no pair.
+/// Smallest MAC of a mode pair.
 const PAIR: f64 = 0.3;
 
 /// A variant with its modes and FRFs.
@@ -36,7 +36,7 @@ pub fn run(
     };
     if names.len() < 2 {
         return Err(Failure::Input(
-            "compare needs two variants or more, such as --variants base,NAME".into(),
+            "compare needs at least two variants, such as --variants base,NAME".into(),
         ));
     }
     let mut variants = Vec::new();
@@ -74,14 +74,14 @@ pub fn run(
         .into())
 }
 
-/// One row for every mode: its frequency in each variant.
+/// Table row of one mode: the paired modes of all variants.
 struct Row<'a> {
     modes: Vec<Option<&'a Mode>>,
-    /// Least MAC with the mode that opened the row.
+    /// Smallest MAC with the reference mode of the row (its first entry).
     mac: f64,
 }
 
-/// Prints and returns the frequencies at the k-th speed.
+/// Prints the frequencies at the k-th speed and returns them as JSON.
 fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
     let found: Vec<Option<&ModalResult>> = variants.iter().map(|v| v.results.modal.get(k)).collect();
     let speed = found[0].map_or(0.0, |at| rpm(at.speed));
@@ -90,7 +90,7 @@ fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
     let mut header = vec!["mode"];
     let titles: Vec<String> = variants.iter().map(|v| format!("{} Hz", v.name)).collect();
     header.extend(titles.iter().map(String::as_str));
-    header.push("least MAC");
+    header.push("min MAC");
     let text: Vec<Vec<String>> = rows
         .iter()
         .map(|row| {
@@ -101,7 +101,7 @@ fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
             line
         })
         .collect();
-    terminal.table(&format!("Frequencies at {speed:.0} rpm"), &header, &text);
+    terminal.table(&format!("Natural frequencies at {speed:.0} rpm"), &header, &text);
     let rows: Vec<Value> = rows
         .iter()
         .map(|row| {
@@ -120,7 +120,7 @@ fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
     json!({ "rpm": speed, "modes": rows })
 }
 
-/// Joins the modes of every variant with the rows opened so far, likest first.
+/// Pairs the modes of every variant with the existing rows, greedily by decreasing MAC.
 fn pair<'a>(variants: &'a [Variant], found: &[Option<&'a ModalResult>]) -> Vec<Row<'a>> {
     let mut rows: Vec<Row> = Vec::new();
     for (v, at) in found.iter().enumerate() {
@@ -156,7 +156,8 @@ fn pair<'a>(variants: &'a [Variant], found: &[Option<&'a ModalResult>]) -> Vec<R
     rows
 }
 
-/// |aᴴ M b|² / (aᴴ M a · bᴴ M b) over the shaft's DOFs, which the variants share; 0 when their shafts differ.
+/// Mass-weighted MAC |aᴴ M b|² / (aᴴ M a · bᴴ M b) over the shaft DOFs common to the variants; 0 if shafts
+/// differ.
 fn mac(machine: &Machine, a: &Mode, b: &Mode) -> f64 {
     let shaft = 6 * machine.assembly.dofs.shaft_nodes;
     let full = machine.assembly.dofs.full_len();

@@ -1,4 +1,4 @@
-//! Problems of a model file on the terminal, each with the lines of TOML that it is about.
+//! Prints errors and warnings of a model file, each with the TOML lines that it refers to (miette).
 
 use miette::{
     Diagnostic as Report, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError,
@@ -7,11 +7,11 @@ use miette::{
 use rotordyn::model::{Diagnostic, Source};
 use std::fmt;
 
-/// Show at most this many problems; the rest is counted.
+/// Largest number of problems shown; the rest is counted.
 const MOST: usize = 25;
-/// A snippet longer than this is cut around its problem \[bytes\]: machine-made lines can be megabytes long.
+/// Longest snippet shown without truncation \[bytes\]: generated lines can be megabytes long.
 const LONG: usize = 2000;
-/// What is left on each side of the problem in a cut snippet \[bytes\].
+/// Context kept on each side of the problem in a truncated snippet \[bytes\].
 const MARGIN: usize = 50;
 
 /// Render errors (or warnings) with their snippets.
@@ -33,7 +33,7 @@ pub fn render(diagnostics: &[Diagnostic], sources: &[Source], severity: Severity
     out
 }
 
-/// One problem as miette wants it.
+/// One problem as a miette diagnostic.
 #[derive(Debug)]
 struct Problem<'a> {
     diagnostic: &'a Diagnostic,
@@ -72,7 +72,7 @@ impl Report for Problem<'_> {
     }
 }
 
-/// A text that can be shown: control characters are masked, byte by byte.
+/// Printable source text: control characters are masked, byte by byte.
 #[derive(Debug)]
 struct Snippet {
     name: String,

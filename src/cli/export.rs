@@ -1,4 +1,4 @@
-//! `export`: the machine for viewers, its modes for ParaView, runs, modes and FRFs for measurement programs.
+//! `export`: geometry as glTF, mode shapes as VTK, time histories, modes and FRFs for measurement programs.
 
 use std::path::{Path, PathBuf};
 
@@ -54,7 +54,7 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     Ok(json!({ "command": "export", "files": files }))
 }
 
-/// Writes the channels of a run in one format; WAV has a file for every channel.
+/// Writes the channels of a run in one format; WAV has one file per channel.
 fn channels(
     run: &Measured,
     format: ChannelFormat,

@@ -1,17 +1,17 @@
-//! How a command can fail, with its exit code.
+//! Failures of a command and their exit codes.
 
 use rotordyn::error::Error;
 use rotordyn::model::ModelErrors;
 use serde_json::{Value, json};
 
-/// Why a command ended early.
+/// Reason for which a command failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// Problems of the model file or of `--set`, each with its place.
+    /// Errors of the model file or of `--set`, each with its location.
     Model(ModelErrors),
-    /// Anything else that is wrong with what was asked.
+    /// Other invalid input: arguments, settings, measured data.
     Input(String),
-    /// The library found no answer, or a file did not obey.
+    /// Error of the library: no solution, invalid data or a file operation.
     Library(Error),
     /// Ctrl-C.
     Interrupted,
@@ -61,7 +61,7 @@ impl Failure {
         }
     }
 
-    /// One line in words.
+    /// Message in one line.
     pub fn message(&self) -> String {
         match self {
             Self::Model(errors) => errors.to_string(),
@@ -71,7 +71,7 @@ impl Failure {
         }
     }
 
-    /// For machines: kind, exit_code, message, and the places in the model file.
+    /// JSON: kind, exit_code, message, and the locations in the model file.
     pub fn to_json(&self) -> Value {
         let problems = match self {
             Self::Model(errors) => errors

@@ -1,4 +1,4 @@
-//! Films that bearings ask to have solved: from the cache, or computed now with a bar.
+//! EHL film tables of bearings: read from the cache, or computed with a progress bar.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use rotordyn::model::Model;
 use super::failure::Failure;
 use super::terminal::Terminal;
 
-/// The tables of a machine's bearings.
+/// Prepares the film tables of all bearings of a machine.
 pub fn of_machine(model: &mut Model, folder: &Path, terminal: &Terminal) -> Result<(), Failure> {
     for site in &mut model.bearings {
         if let Bearing::Ball(ball) = &mut site.bearing {
@@ -19,7 +19,8 @@ pub fn of_machine(model: &mut Model, folder: &Path, terminal: &Terminal) -> Resu
     Ok(())
 }
 
-/// The tables of one bearing; the fields of a contact that does not converge go to `folder`.
+/// Prepares the film tables of one bearing; fields of a contact that does not converge are written to
+/// `folder`.
 pub fn of_bearing(
     name: &str,
     bearing: &mut BallBearing,
@@ -28,7 +29,7 @@ pub fn of_bearing(
 ) -> Result<(), Failure> {
     let bar = terminal.count_bar();
     let progress = |race: &str, done: usize, total: usize| {
-        bar.set_message(format!("film of bearing {name}, {race} race"));
+        bar.set_message(format!("EHL film of bearing {name}, {race} race"));
         bar.set_length(total as u64);
         bar.set_position(done as u64);
     };

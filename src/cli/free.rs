@@ -1,4 +1,4 @@
-//! `--free`, `--bounds` and `--prior`: which numbers of the file may change, and how far.
+//! Free parameters of `update` from `--free`, `--bounds` and `--prior`.
 
 use rotordyn::model::stated::stated;
 use rotordyn::units::leading_number;
@@ -8,7 +8,7 @@ use super::args::UpdateArgs;
 use super::failure::Failure;
 use super::machine::Origin;
 
-/// The free parameters, or every problem of the three flags at once.
+/// The free parameters, or all errors of the three flags at once.
 pub fn parameters(args: &UpdateArgs, origin: &Origin) -> Result<Vec<FreeParameter>, Failure> {
     let mut problems = Vec::new();
     let mut out: Vec<FreeParameter> = Vec::new();
@@ -22,13 +22,14 @@ pub fn parameters(args: &UpdateArgs, origin: &Origin) -> Result<Vec<FreeParamete
         for place in &parameter.places {
             let twice = out[..i].iter().any(|p| p.places.iter().any(|other| other.path == place.path));
             if twice {
-                problems.push(format!("{} is free twice; name it once", place.path));
+                problems.push(format!("{} is listed twice in --free; list it once", place.path));
             }
         }
     }
     let known = |name: &str| args.free.iter().any(|free| free == name);
     for (name, _) in args.bounds.iter().chain(&args.prior).filter(|(name, _)| !known(name)) {
-        problems.push(format!("{name} is not free; --bounds and --prior name parameters as --free does"));
+        problems
+            .push(format!("{name} is not in --free; --bounds and --prior take the names given to --free"));
     }
     if problems.is_empty() { Ok(out) } else { Err(Failure::Input(problems.join("\n"))) }
 }
@@ -38,17 +39,19 @@ fn one(name: &str, args: &UpdateArgs, origin: &Origin) -> Result<FreeParameter, 
     for path in name.split('+') {
         for found in stated(&origin.text, &origin.options, path.trim())? {
             let place = Place::read(&found.path, &found.text, found.quoted);
-            // A designation such as "6205" is a name.
+            // A designation such as "6205" is a name, not a number.
             let place = place.filter(|place| !(place.quoted && place.unit.is_empty()));
             places.push(place.ok_or_else(|| {
-                format!("{}: \"{}\" is not one number with its unit", found.path, found.text)
+                format!("{}: \"{}\" is not a single number with its unit", found.path, found.text)
             })?);
         }
     }
-    let Some(first) = places.first().cloned() else { return Err(format!("{name} names nothing")) };
+    let Some(first) = places.first().cloned() else {
+        return Err(format!("{name} matches no value of the file"));
+    };
     if let Some(other) = places.iter().find(|p| p.unit != first.unit) {
         return Err(format!(
-            "{name}: {} is in {} and {} in {}; write them in one unit to move them together",
+            "{name}: {} is in {} and {} in {}; write them in the same unit to link them",
             first.path, first.unit, other.path, other.unit
         ));
     }
@@ -56,22 +59,22 @@ fn one(name: &str, args: &UpdateArgs, origin: &Origin) -> Result<FreeParameter, 
     let quantity = |text: &str, what: &str| -> Result<f64, String> {
         let text = text.trim();
         let (value, length) =
-            leading_number(text).ok_or_else(|| format!("{what} of {name}: \"{text}\" is no number"))?;
+            leading_number(text).ok_or_else(|| format!("{what} of {name}: \"{text}\" is not a number"))?;
         let unit = text[length..].trim();
         match unit == first.unit {
             true => Ok(value),
             false => Err(format!(
-                "{what} of {name}: \"{text}\" is not in the file's unit; write it in {}",
-                if first.unit.is_empty() { "no unit" } else { &first.unit }
+                "{what} of {name}: \"{text}\" is not in the unit of the file; expected unit: {}",
+                if first.unit.is_empty() { "none" } else { &first.unit }
             )),
         }
     };
     let bounds = match of(&args.bounds) {
         Some(text) => {
             let (low, high) = text.split_once("..").ok_or_else(|| {
-                format!("bounds of {name}: \"{text}\" is no range; write \"1e6 N/m .. 1e8 N/m\"")
+                format!("bounds of {name}: \"{text}\" is not a range; write \"1e6 N/m .. 1e8 N/m\"")
             })?;
-            // One unit behind the second number does for both.
+            // A unit after the second number applies to both.
             let low = low.trim();
             let low =
                 if low.parse::<f64>().is_ok() { format!("{low} {}", first.unit) } else { low.to_string() };
@@ -85,19 +88,22 @@ fn one(name: &str, args: &UpdateArgs, origin: &Origin) -> Result<FreeParameter, 
         None => (None, None),
     };
     let mut parameter = FreeParameter::new(name, places, positive, deviation).ok_or_else(|| {
-        format!("{name} is 0, which tells nothing of its size; say how far it may be off, --prior {name}=\"+- ...\"")
+        format!("{name} is 0, so its default prior has no scale; give a standard deviation, --prior {name}=\"+- ...\"")
     })?;
     if let Some(mean) = mean {
         parameter.mean = parameter.coordinate(mean);
     }
     if let Some([low, high]) = bounds {
         if low >= high {
-            return Err(format!("bounds of {name}: {low} .. {high} are the wrong way round"));
+            return Err(format!(
+                "bounds of {name}: {low} .. {high}: the lower bound must be below the upper bound"
+            ));
         }
         let start = parameter.value(parameter.mean);
         if start < low || start > high {
             return Err(format!(
-                "bounds of {name}: {low} .. {high} {} leave out its start, {start} {}; widen them, or start elsewhere with --set",
+                "bounds of {name}: {low} .. {high} {} exclude the start value {start} {}; widen them, or change the \
+                 start with --set",
                 first.unit, first.unit
             ));
         }
@@ -106,7 +112,7 @@ fn one(name: &str, args: &UpdateArgs, origin: &Origin) -> Result<FreeParameter, 
     Ok(parameter)
 }
 
-/// "6e6 +- 2e6 N/m", "+- 30 %": the mean, where stated, and the coordinate's deviation.
+/// "6e6 +- 2e6 N/m", "+- 30 %": mean, if stated, and standard deviation of the coordinate.
 fn prior(
     name: &str,
     text: &str,
@@ -115,7 +121,7 @@ fn prior(
     quantity: &dyn Fn(&str, &str) -> Result<f64, String>,
 ) -> Result<(Option<f64>, Option<f64>), String> {
     let shape =
-        || format!("prior of {name}: \"{text}\" is no prior; write \"+- 30 %\" or \"6e6 +- 2e6 N/m\"");
+        || format!("prior of {name}: \"{text}\" is not a prior; write \"+- 30 %\" or \"6e6 +- 2e6 N/m\"");
     let (mean, spread) = text.split_once("+-").or_else(|| text.split_once('±')).ok_or_else(shape)?;
     let mean = match mean.trim() {
         "" => None,
@@ -131,9 +137,9 @@ fn prior(
         None => quantity(spread, "prior")?,
     };
     if width <= 0.0 || width.is_nan() {
-        return Err(format!("prior of {name}: \"{text}\" has no width"));
+        return Err(format!("prior of {name}: \"{text}\" has no positive standard deviation"));
     }
-    // Of ln(value): what one deviation upwards is.
+    // Standard deviation of ln(value), from one standard deviation above the mean.
     let deviation = if positive { (1.0 + width / centre.abs()).ln() } else { width };
     Ok((mean, Some(deviation)))
 }

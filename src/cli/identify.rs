@@ -1,4 +1,4 @@
-//! `identify`: modes from measured FRFs, or from the time records of a hammer test.
+//! `identify`: experimental modal analysis of measured FRFs or of impact-test time records.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     Ok(document.into())
 }
 
-/// What the files hold, as a matrix, and its modes; warnings also where it fails.
+/// FRF matrix of the files and its modes; warnings are also collected on failure.
 fn found(
     args: &IdentifyArgs,
     test: &HammerTest,
@@ -77,7 +77,7 @@ fn found(
     warnings: &mut Vec<String>,
 ) -> Result<(Measured, FrfMatrix, Identified), Failure> {
     let (all, from_blows) = read(args, test, warnings)?;
-    // Channels of several files have their file's name.
+    // With several files the channel names already contain the file name.
     let at = |error: Error| match &args.files[..] {
         [only] => in_file(only, error),
         _ => error.into(),
@@ -87,8 +87,8 @@ fn found(
     let found = identify(&frfs, settings).map_err(|error| at(error.into()))?;
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
-            "without the window's share the mode at {:.3} Hz has a damping of {:.3} %: --window is not the time constant \
-             of the window that was used, or it is too short to tell so little damping",
+            "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: --window \
+             is not the time constant of the window used, or it is too short for such light damping",
             mode.frequency_hz(),
             100.0 * mode.damping_ratio()
         ));
@@ -97,10 +97,10 @@ fn found(
     Ok((all, frfs, found))
 }
 
-/// Share of an FRF that the modes leave from which it is pointed out.
+/// Relative fit error of an FRF above which a warning is issued.
 const MISFIT: f64 = 0.5;
 
-/// FRFs that the modes do not explain.
+/// Warns about FRFs with a large fit error.
 fn misfits(found: &Identified, warnings: &mut Vec<String>) {
     let mut worst: Vec<(f64, String)> = Vec::new();
     for (response, row) in found.responses.iter().zip(&found.errors) {
@@ -113,15 +113,15 @@ fn misfits(found: &Identified, warnings: &mut Vec<String>) {
         worst.iter().take(4).map(|(error, name)| format!("{name} by {:.0} %", 100.0 * error)).collect();
     if count > 0 {
         warnings.push(format!(
-            "{count} of {all} FRFs do not fit the modes ({}{}): a bad blow, a wrong point or direction, or hardly any motion; look \
-             at their coherence, measure them again or leave them out",
+            "{count} of {all} FRFs have a large fit error ({}{}): bad hit, wrong point or direction, or low response; check \
+             their coherence, repeat the measurement or exclude them",
             some.join(", "),
             if count > 4 { ", ..." } else { "" }
         ));
     }
 }
 
-/// An error with the file it is about.
+/// Adds the file name to an error.
 fn in_file(path: &Path, error: Error) -> Failure {
     match error {
         error @ (Error::Content { .. } | Error::Environment { .. }) => error.into(),
@@ -159,7 +159,7 @@ fn write(
     Ok(files)
 }
 
-/// A setting with its unit.
+/// Parses a positive quantity of a flag.
 fn value(name: &str, text: Option<&String>, dimension: units::Dimension) -> Result<Option<f64>, Failure> {
     let Some(text) = text else { return Ok(None) };
     let example = if dimension == units::TIME { "0.5 s" } else { "12 kHz" };
@@ -193,7 +193,7 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
     })
 }
 
-/// Everything in the files, time records turned into FRFs; and whether some were.
+/// Reads all files, converts time records to FRFs; also returns whether any FRF comes from hits.
 fn read(
     args: &IdentifyArgs,
     test: &HammerTest,
@@ -209,7 +209,7 @@ fn read(
     };
     let rate = value("--rate", args.rate.as_ref(), units::FREQUENCY)?;
     let names = RefCell::new(Vec::new());
-    // Without a model stations are numbered as they come.
+    // Without a model, stations are numbered in order of appearance.
     let place = |name: &str| match (&model, name.parse::<i64>()) {
         (Some(model), _) => exchange::point(model, name),
         (None, Ok(number)) => Some(number),
@@ -241,7 +241,7 @@ fn read(
         if let (Some(mapping), Some(of)) = (&mapping, &args.mapping) {
             warnings.extend(Mapping::apply(mapping, &mut file, &place, of)?);
         }
-        // What the file does not tell may be told by now.
+        // The mapping or --rate may have supplied what the file lacks.
         let untold = file.records.iter().any(|r| r.axis.points == Points::Unknown);
         warnings.extend(notes.into_iter().filter(|note| untold || !note.starts_with(measured::UNTOLD)));
         if all.title.is_empty() {
@@ -255,7 +255,7 @@ fn read(
         if has_frf || !has_time {
             put(args, path, file.records, &mut all);
         } else {
-            // Blows of several files are averaged where their places are known to be the same.
+            // Hits of several files are averaged if their points are known to be the same.
             match tests.iter_mut().find(|(_, files)| same_test(&files[0], &file)) {
                 Some((_, files)) => files.push(file),
                 None => tests.push((path, vec![file])),
@@ -263,8 +263,9 @@ fn read(
         }
     }
     if tests.is_empty() && (test.force.is_some() || test.block.is_some() || test.estimator != Estimator::H1) {
-        warnings
-            .push("--force, --block and --estimator are for time records, and there are FRFs only".into());
+        warnings.push(
+            "--force, --block and --estimator apply to time records, but the files contain only FRFs".into(),
+        );
     }
     let from_blows = simulated || !tests.is_empty();
     for (path, files) in tests {
@@ -275,12 +276,13 @@ fn read(
     let named: Vec<String> =
         names.into_inner().iter().enumerate().map(|(k, name)| format!("{} is {name}", k + 1)).collect();
     if !named.is_empty() {
-        warnings.push(format!("no --model numbers the mapping's stations: as points, {}", named.join(", ")));
+        warnings
+            .push(format!("without --model the stations of the mapping are numbered: {}", named.join(", ")));
     }
     Ok((all, from_blows))
 }
 
-/// FRFs of a simulated hammer test.
+/// FRFs of a simulated impact test.
 fn of_run(path: &Path, test: &HammerTest) -> Result<Option<Measured>, Failure> {
     if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
         return Ok(None);
@@ -289,7 +291,7 @@ fn of_run(path: &Path, test: &HammerTest) -> Result<Option<Measured>, Failure> {
     Ok(blow_run::frfs_windowed(&Store::open(path)?, windows)?)
 }
 
-/// Whether two files hold the same channels, all of them at places that are told.
+/// Whether two files contain the same channels, all at known points.
 fn same_test(first: &Measured, other: &Measured) -> bool {
     let channels = |file: &Measured| -> Vec<_> {
         let time = file.records.iter().filter(|r| r.kind == Kind::Time);
@@ -299,7 +301,7 @@ fn same_test(first: &Measured, other: &Measured) -> bool {
     own == channels(other) && own.iter().all(|(_, dof, _)| dof.node != 0)
 }
 
-/// Adds records; those of several files with the file's name.
+/// Adds records; with several files their names are prefixed by the file name.
 fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Measured) {
     if args.files.len() > 1 {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
@@ -311,8 +313,8 @@ fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Mea
 fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mut Vec<String>) {
     if frfs.coherence.is_none() && !from_blows {
         warnings.push(
-            "not all FRFs have their coherence beside them: where noise spoils them cannot be shown; export it with \
-             them"
+            "not all FRFs have a coherence function, so noisy frequency ranges are not known; export the coherence with \
+             the FRFs"
             .into(),
         );
     }
@@ -326,15 +328,15 @@ fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mu
         let more = if count > 4 { ", ..." } else { "" };
         unknown.truncate(4);
         warnings.push(format!(
-            "{count} of {all} FRFs do not tell their unit ({}{more}) and are taken as accelerances; state it in a mapping, or \
-             give --quantity",
+            "{count} of {all} FRFs have no unit ({}{more}) and are treated as accelerance; give the unit in a mapping, or \
+             --quantity",
             unknown.join(", ")
         ));
     }
     if frfs.responses.len() * frfs.references.len() == 1 {
         warnings.push(
-            "there is one FRF only: poles come of it, but no shapes, and close modes may be taken for one; \
-             measure at more points"
+            "there is only one FRF: it gives poles but no mode shapes, and close modes may appear as one; measure at \
+             more points"
                 .into(),
         );
     }

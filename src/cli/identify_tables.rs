@@ -1,4 +1,4 @@
-//! What `identify` prints: modes with their errors, and a quick look beside them.
+//! Tables of `identify`: modes with standard errors, and single-degree-of-freedom (SDOF) fits for comparison.
 
 use rotordyn::identify::single::{circle_fit, peak_fit};
 use rotordyn::identify::{Identified, quantity_of};
@@ -6,7 +6,7 @@ use rotordyn::signal::record::FrfMatrix;
 
 use super::terminal::{Terminal, number};
 
-/// Modes, what was dropped, and the quick look.
+/// Table of modes, dropped modes and SDOF fits.
 pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
     let rows: Vec<Vec<String>> = found
         .modes
@@ -37,7 +37,7 @@ pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
         .collect();
     let count = found.responses.len() * found.references.len();
     let title = format!(
-        "Modes from {count} FRFs, {:.3} to {:.3} Hz, order {}",
+        "Modes from {count} FRFs, {:.3} to {:.3} Hz, model order {}",
         found.frequencies[0],
         found.frequencies[found.frequencies.len() - 1],
         found.orders.last().unwrap_or(&0)
@@ -46,18 +46,19 @@ pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
     terminal.table(&title, &header, &rows);
     let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
     terminal.say(&format!(
-        "  +- is one standard error; MPC is 1 for a real mode. Fit error {:.2} % of all FRFs, {:.2} % of the worst.",
+        "  +- is one standard error; MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over all \
+         FRFs, {:.2} % for the worst FRF.",
         100.0 * found.total_error,
         100.0 * worst
     ));
     if !found.dropped.is_empty() {
-        terminal.say("\n  Stable at first, then dropped:");
+        terminal.say("\n  Stable poles that were rejected:");
         found.dropped.iter().for_each(|reason| terminal.say(&format!("    {reason}")));
     }
     quick_look(terminal, found, frfs);
 }
 
-/// Peak and circle fit of the FRF that shows each mode best.
+/// SDOF check of each mode: half-power peak fit and circle fit of the FRF with its largest residue.
 fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
     let rows: Vec<Vec<String>> = found
         .modes
@@ -97,5 +98,9 @@ fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
         })
         .collect();
     let header = ["", "FRF", "Hz", "zeta %", "peak Hz", "zeta %", "circle Hz", "zeta %"];
-    terminal.table("Quick look: the FRF that shows each mode best, by peak and circle fit", &header, &rows);
+    terminal.table(
+        "SDOF check: peak and circle fit of the FRF with the largest residue of each mode",
+        &header,
+        &rows,
+    );
 }

@@ -1,17 +1,17 @@
-//! Ctrl-C: the first asks the work to end cleanly, the second ends it at once.
+//! Ctrl-C: the first requests a clean stop, the second exits at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Listens for Ctrl-C from now on.
+/// Installs the Ctrl-C handler.
 pub fn listen() {
     let asked = || {
         if REQUESTED.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
     };
-    // Without a handler Ctrl-C ends the process as it always does; the streamed file stays readable even then.
+    // Without a handler Ctrl-C kills the process; the streamed file stays readable even then.
     let _ = ctrlc::set_handler(asked);
 }
 

@@ -1,4 +1,5 @@
-//! From a model file to a machine: read, vary, check, look for overlapping parts.
+//! Loads a model file: reads it, applies variant and overrides, validates it, checks bearing parts for
+//! overlap.
 
 use std::path::{Path, PathBuf};
 
@@ -12,20 +13,20 @@ use rotordyn::model::{
 use super::args::ModelArgs;
 use super::failure::Failure;
 
-/// How far a ball may stand in a race, as a share of its diameter: interference fits squeeze balls by some
-/// micrometres, a wrong groove or clearance by far more.
+/// Allowed overlap of ball and race as a fraction of the ball diameter: negative clearance overlaps by some
+/// micrometres, a wrong groove radius or clearance by far more.
 const ELASTIC: f64 = 5e-3;
 
-/// The text of a model file, and what the user laid over it.
+/// Text of a model file, with variant and overrides of the user.
 #[derive(Clone, Debug)]
 pub struct Origin {
-    /// What messages call the file.
+    /// File name used in messages.
     pub name: String,
     pub text: Vec<u8>,
     pub options: Options,
-    /// Folder that the paths in it count from.
+    /// Base folder of relative paths in the file.
     pub folder: PathBuf,
-    /// The files that it names, where they are known already: those of a stored run.
+    /// Referenced files, if already read (from a stored run).
     pub files: Option<Vec<SideFile>>,
 }
 
@@ -39,7 +40,7 @@ impl Origin {
         Ok(Self { name: args.model.display().to_string(), text, options, folder, files: None })
     }
 
-    /// The checked model, with settings of a command laid over those of the user.
+    /// Validated model, with settings of the command applied after those of the user.
     pub fn load(&self, settings: &[(String, String)]) -> Result<Loaded, Failure> {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
@@ -51,7 +52,7 @@ impl Origin {
         Ok(loaded)
     }
 
-    /// The checked ball bearings of a machine or of a file of bearings alone, with settings laid over.
+    /// Validated ball bearings of a machine or of a file with bearings only, with settings applied.
     pub fn load_bearings(&self, settings: &[(String, String)]) -> Result<LoadedBearings, Failure> {
         let mut options = self.options.clone();
         options.set.extend_from_slice(settings);
@@ -62,14 +63,14 @@ impl Origin {
         Ok(loaded)
     }
 
-    /// The files that the model names, varied as told.
+    /// Files referenced by the model with these options.
     pub fn side_files(&self, options: &Options) -> Vec<SideFile> {
         let read = || model::side_files(&self.text, options);
         let named = || read().iter().map(|path| side_file::read(&self.folder, path)).collect();
         self.files.clone().unwrap_or_else(named)
     }
 
-    /// The same file with another variant; `base` is none.
+    /// The same file with another variant; `base` means no variant.
     pub fn with_variant(&self, variant: &str) -> Self {
         let mut other = self.clone();
         other.options.variant = Some(variant.to_string()).filter(|name| name != "base");
@@ -81,7 +82,7 @@ impl Origin {
         std::str::from_utf8(&self.text).map(model::variants).unwrap_or_default()
     }
 
-    /// `out/NAME` or `out/NAME_VARIANT`, unless told otherwise.
+    /// Results folder; default `out/NAME` or `out/NAME_VARIANT`.
     pub fn folder(&self, out: Option<&PathBuf>, model_name: &str) -> PathBuf {
         let name = match &self.options.variant {
             Some(variant) => format!("{model_name}_{variant}"),
@@ -91,7 +92,7 @@ impl Origin {
     }
 }
 
-/// Balls, pockets and rings of every ball bearing must not share space.
+/// Interference check: balls, cage pockets and rings of every ball bearing must not overlap.
 fn overlaps<'a>(
     bearings: impl Iterator<Item = (&'a str, &'a BallBearing)>,
     text: &str,

@@ -1,4 +1,4 @@
-//! Measured files against a model: what `validate` and `update` share.
+//! Comparison of measured files with a model: shared by `validate` and `update`.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use super::args::MeasuredArgs;
 use super::failure::Failure;
 use super::terminal::{Terminal, number, rpm};
 
-/// Reads every measured file into the model; `None` for one that holds neither modes nor FRFs.
+/// Reads the measured files and maps them to the model; `None` for a file without modes and FRFs.
 pub fn read(
     args: &MeasuredArgs,
     model: &Model,
@@ -40,40 +40,40 @@ pub fn read(
     Ok(out)
 }
 
-/// "10 Hz .. 300 Hz", "10 .. 300 Hz" or with a comma.
+/// Parses a frequency range: "10 Hz .. 300 Hz", "10 .. 300 Hz", or with a comma.
 pub fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
     let wrong = |why: &str| Failure::Input(format!("{flag} \"{text}\": {why}; write it as \"10 .. 300 Hz\""));
     let ends = text.split_once("..").or_else(|| text.split_once(','));
-    let (from, to) = ends.ok_or_else(|| wrong("it has not two ends"))?;
+    let (from, to) = ends.ok_or_else(|| wrong("not a range of two values"))?;
     let hz = |text: &str| units::parse(text, FREQUENCY).map_err(|e| wrong(&e.to_string()));
     let high = hz(to)?;
     let low = match from.trim().parse::<f64>() {
-        // The unit stands behind the second number for both.
+        // A unit after the second number applies to both.
         Ok(bare) => {
             let unit = to.trim().trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
             hz(&format!("{bare} {unit}"))?
         }
         Err(_) => hz(from)?,
     };
-    if low < high { Ok([low, high]) } else { Err(wrong("it ends before it begins")) }
+    if low < high { Ok([low, high]) } else { Err(wrong("the lower end must be below the upper end")) }
 }
 
-/// `out/NAME_ending` unless told otherwise.
+/// Results folder; default `out/NAME_ending`.
 pub fn folder(out: Option<&PathBuf>, model: &str, ending: &str) -> PathBuf {
     out.cloned().unwrap_or_else(|| Path::new("out").join(format!("{model}_{ending}")))
 }
 
-/// The file's name without folder and extension.
+/// File name without folder and extension.
 pub fn stem(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    // All runs end in results.h5: their folder tells them apart.
+    // All stored runs are named results.h5: use the folder name instead.
     match path.parent().and_then(Path::file_name) {
         Some(folder) if stem == "results" => folder.to_string_lossy().into_owned(),
         _ => stem,
     }
 }
 
-/// One row for every measured mode with its partner, then what only the model has, by frequency.
+/// Table of mode pairs and of unpaired measured and computed modes, sorted by frequency.
 pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &State) {
     let per_cent = |v: f64| format!("{:.3}", 100.0 * v);
     let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
@@ -95,7 +95,7 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Sta
                 damping,
                 "-".into(),
                 "-".into(),
-                "(no partner in the model)".into(),
+                "(not in the model)".into(),
             ]),
         }
         rows.push((measured.frequency_hz, row));
@@ -120,10 +120,10 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Sta
     terminal.table(&format!("{title} at {:.0} rpm", rpm(target.speed)), &header, &rows);
 }
 
-/// From this difference of frequencies on a pair is doubted.
+/// Relative frequency difference above which a mode pair gets a warning.
 const FAR: f64 = 0.2;
 
-/// Pairs whose frequencies lie far apart.
+/// Warns about mode pairs with a large frequency difference.
 pub fn far_pairs(terminal: &Terminal, target: &Target, state: &State) {
     for (k, measured) in target.modes.iter().enumerate() {
         let Some((mode, mac)) = state.partner(k) else { continue };
@@ -132,8 +132,8 @@ pub fn far_pairs(terminal: &Terminal, target: &Target, state: &State) {
             terminal.complain(
                 "warning",
                 &format!(
-                    "{:.1} Hz as measured and {:.1} Hz as computed ({}) are {:+.0} % apart, MAC {mac:.2}: are they \
-                     the same mode, and the points and directions right?",
+                    "mode pair {:.1} Hz measured, {:.1} Hz computed ({}): frequency error {:+.0} %, MAC {mac:.2}; check \
+                     that it is the same mode, and the points and directions of the mapping",
                     measured.frequency_hz,
                     mode.frequency_hz(),
                     mode.label,
@@ -144,13 +144,13 @@ pub fn far_pairs(terminal: &Terminal, target: &Target, state: &State) {
     }
 }
 
-/// Frequencies between which modes were measured, a little wider.
+/// Frequency band of the measured modes, widened to 0.8 and 1.1 times its ends.
 pub fn band(target: &Target) -> [f64; 2] {
     let all = || target.modes.iter().map(|m| m.frequency_hz);
     [0.8 * all().fold(f64::INFINITY, f64::min), 1.1 * all().fold(0.0, f64::max)]
 }
 
-/// Pairs, what is left over, MAC, for machines.
+/// JSON of mode pairs, unpaired modes and MAC matrix.
 pub fn to_json(target: &Target, state: &State) -> Value {
     let pairs: Vec<Value> = target
         .modes
@@ -181,7 +181,7 @@ pub fn to_json(target: &Target, state: &State) -> Value {
     })
 }
 
-/// FRAC of every response and reference, as a table.
+/// Table of the frequency response assurance criterion (FRAC) of every response and reference.
 pub fn frac_table(
     terminal: &Terminal,
     target: &Target,
@@ -208,6 +208,6 @@ pub fn frac_table(
             std::iter::once(sensor.name(model)).chain(own).collect()
         })
         .collect();
-    terminal.table("FRAC, by force", &header, &rows);
+    terminal.table("FRAC by response and reference (force)", &header, &rows);
     values
 }

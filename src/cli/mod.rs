@@ -1,4 +1,4 @@
-//! The command line: arguments in, studies done, tables and files out, exit codes.
+//! Command-line interface: parses arguments, runs studies, prints tables, writes files, sets the exit code.
 
 mod args;
 mod bearing;
@@ -47,7 +47,7 @@ use settings::Settings;
 use studies::{Job, Study};
 use terminal::Terminal;
 
-/// What a command leaves: a document for machines, and studies that failed.
+/// Result of a command: JSON document and failed studies.
 struct Outcome {
     document: Value,
     failures: Vec<(&'static str, Failure)>,
@@ -59,18 +59,18 @@ impl From<Value> for Outcome {
     }
 }
 
-/// The whole program.
+/// Entry point of the program.
 pub fn run() -> ExitCode {
     std::panic::set_hook(Box::new(|bug| {
         eprintln!(
-            "rotordyn {} has met a bug of its own: {bug}\nPlease report it, with the model file and the command.",
+            "internal error in rotordyn {}: {bug}\nPlease report this bug, with the model file and the command.",
             env!("CARGO_PKG_VERSION")
         );
     }));
     let cli = Cli::parse();
     let terminal = Terminal::new(&cli.output);
     if let Some(threads) = cli.output.threads {
-        // Fails only when there is a pool already, and this is the first thing done.
+        // Fails only if the global pool already exists; nothing has created it yet.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     interrupt::listen();
@@ -79,7 +79,7 @@ pub fn run() -> ExitCode {
     for (study, failure) in &outcome.failures {
         report(&terminal, study, failure);
     }
-    // Ctrl-C before all, then what failed first.
+    // Ctrl-C takes precedence, then the first failure.
     let code = |(_, failure): &(&str, Failure)| failure.exit_code();
     let interrupted = outcome.failures.iter().map(code).find(|code| *code == 130);
     let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(0);
@@ -148,7 +148,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     }
 }
 
-/// One study, or all that the file asks for.
+/// Runs one study, or all studies of the file.
 fn studies_of(
     args: &StudyArgs,
     terminal: &Terminal,
@@ -174,7 +174,7 @@ fn studies_of(
         None => Study::ALL.into_iter().filter(asked).collect(),
     };
     if wanted.is_empty() {
-        let message = format!("{} asks for no study; add [study.modal] or another", origin.name);
+        let message = format!("{} contains no study; add [study.modal] or another", origin.name);
         return Err(Failure::Input(message));
     }
     let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
@@ -194,7 +194,7 @@ fn studies_of(
     Ok(outcome)
 }
 
-/// Writes what came out of a job, says where it is, and what the user should know.
+/// Writes the results and figures of a job, prints the file list and the quality warnings.
 fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
     doubts(&mut job);
@@ -202,10 +202,10 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
     let terminal = job.terminal;
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
-    terminal.table("Time taken", &["", "s"], &rows);
+    terminal.table("Computing time", &["", "s"], &rows);
     written(terminal, &job.folder, &job.files);
     if job.files.len() > 1 {
-        terminal.say("  (every figure is there as SVG and as PNG)");
+        terminal.say("  (figures are written as SVG and PNG)");
     }
     for warning in &job.results.warnings[known..] {
         terminal.complain("warning", warning);
@@ -221,7 +221,7 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
     Ok(Outcome { document, failures: job.failures })
 }
 
-/// What in the results deserves doubt.
+/// Quality warnings: unstable modes, energy balance of the run-up, error of the reduced model.
 fn doubts(job: &mut Job) {
     let mut found = Vec::new();
     for at in &job.results.modal {
@@ -236,19 +236,19 @@ fn doubts(job: &mut Job) {
         let open = energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE);
         if open > 1e-3 {
             found.push(format!(
-                "the run-up's energy balance is open by {:.2} %: shorten the step",
+                "the energy balance of the run-up has a residual of {:.2} %: reduce the time step",
                 100.0 * open
             ));
         }
         if run.frequency_error > 0.01 {
             let error = 100.0 * run.frequency_error;
-            found.push(format!("the reduced model's frequencies are off by {error:.1} %: raise the cutoff"));
+            found.push(format!("frequency error of the reduced model is {error:.1} %: raise the cutoff"));
         }
     }
     job.results.warnings.extend(found);
 }
 
-/// The list of files, in lines of bearable length.
+/// Prints the list of written files, wrapped to the line width.
 fn written(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.heading(&format!("Written to {}", folder.display()));
     let mut line = String::from(" ");
@@ -264,7 +264,7 @@ fn written(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.say(&line);
 }
 
-/// Shows what was doubtful in the model file.
+/// Prints the warnings of the model file.
 fn warn(terminal: &Terminal, loaded: &Loaded) {
     if !loaded.warnings.is_empty() {
         let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
@@ -284,7 +284,7 @@ fn report(terminal: &Terminal, study: &str, failure: &Failure) {
     terminal.complain("error", &format!("{place}{}", failure.message()));
 }
 
-/// The document, with what failed.
+/// Prints the JSON document with errors, version and exit code.
 fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
     let mut document = outcome.document;
     if let Some(object) = document.as_object_mut() {
@@ -301,7 +301,7 @@ fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
         object.insert("errors".into(), outcome.failures.iter().map(with_study).collect());
     }
     let mut out = std::io::stdout();
-    // A reader who has gone is no failure of ours.
+    // A closed pipe (EPIPE) is ignored.
     let _ = serde_json::to_writer(&mut out, &document);
     let _ = std::io::Write::write_all(&mut out, b"\n");
 }

@@ -1,4 +1,4 @@
-//! `frf --noise`: the FRFs as a test would measure them.
+//! `frf --noise`: FRFs with simulated measurement noise, as estimated in an impact test.
 
 use rotordyn::edge::{exchange, measured};
 use rotordyn::model::Model;
@@ -12,7 +12,7 @@ use super::machine::Origin;
 use super::settings::Settings;
 use super::terminal::Terminal;
 
-/// Writes frf_noisy.uff with FRFs and coherence, where a level is given.
+/// Writes frf_noisy.uff with FRFs and coherence, if a signal-to-noise ratio is given.
 pub fn run(
     study: &StudyArgs,
     test: &NoiseArgs,
@@ -22,7 +22,7 @@ pub fn run(
     let Some(text) = &test.noise else { return Ok(()) };
     let level = text.trim().strip_suffix("dB").and_then(|level| level.trim().parse::<f64>().ok());
     let Some(signal_to_noise_db) = level else {
-        return Err(Failure::Input(format!("--noise \"{text}\" is no level; write \"40 dB\"")));
+        return Err(Failure::Input(format!("--noise \"{text}\" is not a level in dB; write \"40 dB\"")));
     };
     let origin = Origin::read(&study.model)?;
     let base = origin.load(&[])?;

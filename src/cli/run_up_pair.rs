@@ -1,4 +1,4 @@
-//! A measured run-up and the one that the model makes with the same speed, side by side.
+//! Comparison of a measured run-up with a simulated run-up driven by the measured speed.
 
 use std::path::{Path, PathBuf};
 
@@ -21,14 +21,15 @@ use super::studies::{Job, Study};
 use super::terminal::{Terminal, number, rpm};
 use super::{films, settings, store};
 
-/// Rows of a table.
+/// Largest number of rows printed.
 const MOST: usize = 40;
-/// A part of the highest speed: a run that begins faster than this begins with a transient of its own.
+/// Fraction of the highest speed: a record that starts faster than this causes a start transient in the
+/// simulation.
 const SLOW: f64 = 0.2;
-/// Part of a channel's highest order below which an order is not listed.
+/// Fraction of a channel's largest order below which an order is not listed.
 const FAINT: f64 = 1e-3;
 
-/// A measured run-up in the model, and what is told of it.
+/// A measured run-up mapped to the model.
 pub struct Found {
     pub run: MeasuredRun,
     pub source: String,
@@ -36,7 +37,7 @@ pub struct Found {
     pub rpm: [f64; 2],
 }
 
-/// The run-up that a file holds, or in words why it holds none.
+/// The run-up in a file, or the reason why it contains none.
 pub fn read(
     path: &Path,
     args: &ValidateArgs,
@@ -51,15 +52,15 @@ pub fn read(
     }
     mapping.iter().for_each(|mapping| mapping.give_units(&mut file.measured));
     if !file.time_records().any(|r| !run_up::is_clock(r)) {
-        return Ok(Err("it holds no record over time".into()));
+        return Ok(Err("it contains no time record".into()));
     }
     if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
         return Ok(Err(format!(
-            "`{}` does not state its sampling rate: give it in the mapping, such as rate = \"12 kHz\"",
+            "`{}` has no sampling rate: give it in the mapping, such as rate = \"12 kHz\"",
             record.name
         )));
     }
-    // The measured angle drives the model, which jitter of pulses would shake.
+    // The measured shaft angle drives the model; pulse jitter would excite it.
     let steadied = ShaftArgs { smooth_tacho: true, ..args.shaft.clone() };
     let shaft = Shaft::of(&steadied, None, &file, &mut findings);
     let named = |failure: Failure| match failure {
@@ -101,8 +102,8 @@ pub fn read(
     let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
     let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {
         return Ok(Err(
-            "the speed of the shaft does not change; `rotordyn signal FILE --against RUN` holds \
-             records of one speed against each other"
+            "the shaft speed is constant; `rotordyn signal FILE --against RUN` compares records at constant \
+             speed"
                 .into(),
         ));
     };
@@ -111,7 +112,7 @@ pub fn read(
     Ok(Ok(Found { run: MeasuredRun::new(channels, &motion, model)?, source, rpm }))
 }
 
-/// Makes the model's run, compares, writes; returns what is told to machines, and the files.
+/// Simulates the run-up, compares it with the record and writes the results; returns the JSON and the files.
 pub fn compare(
     found: &Found,
     origin: &Origin,
@@ -127,21 +128,21 @@ pub fn compare(
         terminal.complain(
             "warning",
             &format!(
-                "the record begins at {first:.0} rpm, and the model from rest about its equilibrium: its first \
-                 seconds show how that dies away"
+                "the record starts at {first:.0} rpm, but the simulation starts at static equilibrium: its first \
+                 seconds contain the start transient"
             ),
         );
     }
     long_enough(&found.run, &job.machine.model)?;
     job.perform(&[Study::RunUp]);
-    // Whatever happened, what was computed is on disk.
+    // Partial results are written even if the run failed.
     job.write(false)?;
     if let Some((_, failure)) = job.failures.pop() {
         if !matches!(failure, Failure::Interrupted) {
             terminal.complain(
                 "warning",
                 &format!(
-                    "the model was driven by {}: where that angle jumps or jitters, so does the shaft",
+                    "the simulation was driven by the shaft angle of {}: jumps or jitter of that angle excite the shaft",
                     found.source
                 ),
             );
@@ -171,7 +172,7 @@ pub fn compare(
     Ok((document, files))
 }
 
-/// What the record is too short for is told before the run is made.
+/// Checks before the simulation that the record is long enough for the spectrogram and the order resolution.
 fn long_enough(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
     let seconds = run.profile.duration();
     let turns = run.history.angle.last().copied().unwrap_or(0.0) / std::f64::consts::TAU;
@@ -179,7 +180,7 @@ fn long_enough(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
     let mut problems = Vec::new();
     if let Some(study) = spectra.as_ref().filter(|study| study.length > seconds) {
         problems.push(format!(
-            "the record's {} s are shorter than the window of the spectrogram, {} s: take more of it, or set \
+            "the record of {} s is shorter than the spectrogram window of {} s: use a longer record, or set \
              study.spectrogram.length=\"{} s\"",
             number(seconds, 3),
             number(study.length, 3),
@@ -188,8 +189,8 @@ fn long_enough(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
     }
     if let Some(study) = orders.as_ref().filter(|study| study.resolution * turns < 1.0) {
         problems.push(format!(
-            "the record's {} turns are fewer than the {} of a resolution of {}: take more of it, or set \
-             study.orders.resolution={}",
+            "the record has {} revolutions, fewer than the {} needed for an order resolution of {}: use a longer \
+             record, or set study.orders.resolution={}",
             number(turns, 3),
             number(1.0 / study.resolution, 3),
             study.resolution,
@@ -199,7 +200,7 @@ fn long_enough(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
     if problems.is_empty() { Ok(()) } else { Err(Failure::Input(problems.join("; "))) }
 }
 
-/// The model driven as measured, ready to run, with its Campbell diagram up to the highest speed.
+/// Job of the model driven by the measured speed, and its Campbell diagram up to the highest speed.
 fn driven<'a>(
     found: &Found,
     origin: &Origin,
@@ -236,7 +237,7 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
         })
         .collect();
     let header = ["channel", "measured RMS", "computed RMS", "unit", "level dB"];
-    terminal.table("Run-up, measured and computed", &header, &rows);
+    terminal.table("Run-up: measured and computed RMS", &header, &rows);
     let mut rows = Vec::new();
     for pair in pairs {
         let size = |cut: &CutPair| cut.peaks[0].rms.max(cut.peaks[1].rms);
@@ -268,17 +269,17 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
         "measured RMS",
         "computed RMS",
         "level dB",
-        "likeness",
+        "correlation",
     ];
     let count = rows.len();
     rows.truncate(MOST);
-    terminal.table("Orders where they are highest", &header, &rows);
+    terminal.table("Peaks of the order cuts, measured and computed", &header, &rows);
     if count > MOST {
         terminal.say(&format!("  ... and {} more in {file}", count - MOST));
     }
     terminal.say(
-        "  level: computed over measured; (end): highest at the lowest or highest speed; likeness is that of an \
-         order's level\n  over the whole run, 1 for levels in proportion",
+        "  level: computed over measured; (end): peak at the lowest or highest speed; correlation of the order level \
+         over\n  the whole run, 1 for proportional levels",
     );
 }
 

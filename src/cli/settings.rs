@@ -1,4 +1,5 @@
-//! What flags and missing sections of the file lay over the model: every setting is a path and a value, as `--set`.
+//! Study settings from flags and from defaults for missing sections; every setting is a path and a value, as
+//! in `--set`.
 
 use rotordyn::model::Model;
 use rotordyn::model::study::Swept;
@@ -6,11 +7,11 @@ use rotordyn::model::study::Swept;
 use super::args::{BearingArgs, StoredArgs};
 use super::failure::Failure;
 
-/// Settings of one study, and what to tell the user about them.
+/// Settings of one study, and a note to the user.
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
     pub set: Vec<(String, String)>,
-    /// Why the file alone does not say what is done.
+    /// Defaults used because the file has no section of the study.
     pub note: Option<String>,
 }
 
@@ -25,12 +26,12 @@ impl Draft {
         Self { name, settings: Settings::default() }
     }
 
-    /// A flag that was given.
+    /// Adds the value of a flag, if given.
     pub fn flag(&mut self, key: &str, value: Option<String>) {
         self.settings.set.extend(value.map(|value| (format!("study.{}.{key}", self.name), value)));
     }
 
-    /// With no section in the file: what is done instead, unless a flag says otherwise.
+    /// Adds the default values if the file has no section of the study; flags take precedence.
     pub fn defaults(mut self, missing: bool, words: &str, values: &[(&str, String)]) -> Settings {
         if missing {
             let path = |key: &str| format!("study.{}.{key}", self.name);
@@ -39,7 +40,7 @@ impl Draft {
                 values.iter().filter(|(key, _)| !given(key)).map(|(key, v)| (path(key), v.clone())).collect();
             set.append(&mut self.settings.set);
             self.settings.set = set;
-            self.settings.note = Some(format!("the file has no [study.{}]: {words}", self.name));
+            self.settings.note = Some(format!("the file has no [study.{}]; default: {words}", self.name));
         }
         self.settings
     }
@@ -50,7 +51,7 @@ pub fn equilibrium(model: &Model, speed: Option<&String>, as_placed: bool) -> Se
     draft.flag("speed", speed.map(quoted));
     draft.flag("cage_average", as_placed.then(|| "false".into()));
     let missing = model.studies.equilibrium.is_none();
-    draft.defaults(missing, "averaged over the cage's position", &[("cage_average", "true".into())])
+    draft.defaults(missing, "averaged over the cage angle", &[("cage_average", "true".into())])
 }
 
 pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Settings {
@@ -58,10 +59,8 @@ pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Set
     draft.flag("speeds", speed.map(quoted));
     draft.flag("modes", modes.map(|n| n.to_string()));
     let (speeds, words) = match top_speed(model) {
-        Some(top) => {
-            (format!("\"0, {top} rpm\""), format!("12 modes at 0 and {top} rpm unless told otherwise"))
-        }
-        None => ("\"0 rpm\"".to_string(), "12 modes at standstill unless told otherwise".to_string()),
+        Some(top) => (format!("\"0, {top} rpm\""), format!("12 modes at 0 and {top} rpm")),
+        None => ("\"0 rpm\"".to_string(), "12 modes at standstill".to_string()),
     };
     draft.defaults(model.studies.modal.is_none(), &words, &[("speeds", speeds)])
 }
@@ -71,7 +70,7 @@ pub fn campbell(model: &Model, max_speed: Option<&String>, modes: Option<usize>)
     draft.flag("speeds", max_speed.map(|top| sweep("0 rpm", top, 25)));
     draft.flag("modes", modes.map(|n| n.to_string()));
     let top = rpm_or(top_speed(model), 3000.0);
-    let words = format!("25 speeds up to {top} and 12 modes unless told otherwise");
+    let words = format!("25 speeds up to {top}, 12 modes");
     draft.defaults(model.studies.campbell.is_none(), &words, &[("speeds", sweep("0 rpm", &top, 25))])
 }
 
@@ -80,7 +79,7 @@ pub fn critical(model: &Model, max_speed: Option<&String>, orders: &[String]) ->
     draft.flag("max_speed", max_speed.map(quoted));
     draft.flag("orders", list(orders));
     let top = rpm_or(top_speed(model).map(|top| 3.0 * top), 6000.0);
-    let words = format!("up to {top} unless told otherwise");
+    let words = format!("up to {top}");
     draft.defaults(model.studies.critical.is_none(), &words, &[("max_speed", quoted(&top))])
 }
 
@@ -102,7 +101,7 @@ pub fn frf(
         (None, None, None) => "ground".to_string(),
     };
     let blow = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", quoted(&place));
-    let words = format!("unit forces along x and y at {place}, 1 to 500 Hz unless told otherwise");
+    let words = format!("unit forces along x and y at {place}, 1 to 500 Hz");
     let values = [("frequencies", sweep("500 Hz")), ("excitation.x", blow("x")), ("excitation.y", blow("y"))];
     draft.defaults(model.studies.frf.is_none(), &words, &values)
 }
@@ -111,7 +110,7 @@ pub fn unbalance(model: &Model, max_speed: Option<&String>) -> Settings {
     let mut draft = Draft::new("unbalance");
     draft.flag("speeds", max_speed.map(|top| sweep("1 rpm", top, 200)));
     let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
-    let words = format!("200 speeds up to {top} unless told otherwise");
+    let words = format!("200 speeds up to {top}");
     draft.defaults(model.studies.unbalance.is_none(), &words, &[("speeds", sweep("1 rpm", &top, 200))])
 }
 
@@ -125,17 +124,17 @@ pub fn run_up(
     draft.flag("step", step.map(quoted));
     draft.flag("integrator", integrator.map(quoted));
     draft.flag("sample_rate", sample_rate.map(quoted));
-    let words = "generalised-alpha, steps of 100 us, samples at 2 kHz unless told otherwise";
+    let words = "generalised-alpha, time step 100 us, sampling rate 2 kHz";
     draft.defaults(model.studies.run_up.is_none(), words, &[("step", quoted("100 us"))])
 }
 
-/// Points of a sweep whose range is given in a flag.
+/// Number of points of a sweep given by a flag.
 const POINTS: usize = 41;
 
-/// Settings of `study.bearing`; for files without it the study has defaults of its own.
+/// Settings of `study.bearing`; files without it use the defaults of the study.
 ///
 /// # Errors
-/// A sweep that is neither a name nor a name with a range.
+/// `--sweep` that is neither a name nor a name with a range.
 pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
     let mut draft = Draft::new("bearing");
     draft.flag("bearings", list(&args.bearing));
@@ -154,7 +153,8 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
         let known = Swept::ALL.iter().find(|(of, _)| of.name() == name.trim());
         let (Some((_, key)), Some((from, to))) = (known, range.split_once("..")) else {
             let message = format!(
-                "--sweep {text}: expected load, displacement, speed or cage_angle with a range, such as load=\"0 N .. 2 kN\""
+                "--sweep {text}: expected load, displacement, speed or cage_angle with a range, such as \
+                 load=\"0 N .. 2 kN\""
             );
             return Err(Failure::Input(message));
         };
@@ -172,7 +172,7 @@ pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
     draft.flag("overlap", args.overlap.clone());
     draft.flag("max_frequency", args.max_frequency.as_ref().map(quoted));
     draft.flag("orders", list(&args.orders));
-    let words = "Hann windows of 1 s unless told otherwise";
+    let words = "Hann window of 1 s";
     let settings = draft.defaults(model.studies.spectrogram.is_none(), words, &[("window", quoted("hann"))]);
     with_run_up(model, settings)
 }
@@ -185,12 +185,12 @@ pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
     draft.flag("overlap", args.overlap.clone());
     draft.flag("max_order", args.max_order.clone());
     draft.flag("cuts", list(&args.orders));
-    let words = "resolution 0.05 up to order 20 unless told otherwise";
+    let words = "order resolution 0.05 up to order 20";
     let settings = draft.defaults(model.studies.orders.is_none(), words, &[("window", quoted("hann"))]);
     with_run_up(model, settings)
 }
 
-/// A run-up made with defaults left no section in the file, which its analyses need.
+/// Adds the run-up section that the analyses need, missing in the file if the run-up used defaults.
 fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
     if model.studies.run_up.is_none() {
         settings.set.insert(0, ("study.run_up.step".into(), quoted("100 us")));
@@ -198,7 +198,7 @@ fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
     settings
 }
 
-/// Highest speed of the profile \[rpm\], if it turns at all.
+/// Highest speed of the profile \[rpm\]; `None` at standstill.
 pub fn top_speed(model: &Model) -> Option<f64> {
     let top = super::terminal::rpm(model.profile.top_speed());
     (top > 0.0).then(|| (top * 1e6).round() / 1e6)
@@ -208,7 +208,7 @@ fn rpm_or(speed: Option<f64>, other: f64) -> String {
     format!("{} rpm", speed.unwrap_or(other))
 }
 
-/// A TOML text.
+/// A quoted TOML string.
 pub fn quoted(text: impl AsRef<str>) -> String {
     toml::Value::String(text.as_ref().into()).to_string()
 }
@@ -217,7 +217,7 @@ fn sweep(from: &str, to: &str, count: usize) -> String {
     format!("{{ from = {}, to = {}, count = {count} }}", quoted(from), quoted(to))
 }
 
-/// A TOML list: numbers as they are, everything else as text; none when empty.
+/// A TOML array: numbers unquoted, everything else as strings; `None` if empty.
 pub fn list(items: &[String]) -> Option<String> {
     let item = |text: &String| if text.parse::<f64>().is_ok() { text.clone() } else { quoted(text) };
     (!items.is_empty()).then(|| format!("[{}]", items.iter().map(item).collect::<Vec<_>>().join(", ")))

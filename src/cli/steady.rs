@@ -1,4 +1,5 @@
-//! Does the studies of steady motion: progress on the way, and what was computed when Ctrl-C comes.
+//! Runs the steady-speed studies (Poincaré, Lyapunov, bifurcation) with progress bars; Ctrl-C keeps partial
+//! results.
 
 use std::ops::ControlFlow;
 
@@ -13,10 +14,10 @@ use super::studies::Job;
 use super::terminal::Terminal;
 use super::{films, interrupt, steady_tables};
 
-/// Thousandths that a single run's bar counts in.
+/// Length of the progress bar of a single run.
 const WHOLE: f64 = 1000.0;
 
-/// The machines of a bifurcation diagram, one per value, each with the settings of the command.
+/// Models of a bifurcation diagram, one per parameter value, with the settings of the command.
 pub fn family(
     origin: &Origin,
     settings: &[(String, String)],
@@ -26,7 +27,7 @@ pub fn family(
 ) -> Result<Vec<Model>, Failure> {
     let Some(study) = &loaded.model.studies.bifurcation else { return Ok(Vec::new()) };
     let parameter = &study.parameter;
-    let spinner = terminal.spinner("models of the diagram");
+    let spinner = terminal.spinner("models of the bifurcation diagram");
     let model = |k: usize| -> Result<Model, Failure> {
         let mut set = settings.to_vec();
         set.extend(parameter.settings(k));
@@ -63,7 +64,7 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// All values on all cores; what was done before Ctrl-C is kept.
+    /// Computes all values in parallel; results before Ctrl-C are kept.
     pub fn bifurcation(&mut self) -> Result<(), Failure> {
         let bar = self.terminal.count_bar();
         bar.set_message("bifurcation diagram");

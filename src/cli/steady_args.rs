@@ -1,4 +1,4 @@
-//! Arguments of the studies of steady motion, and what they lay over the model.
+//! Arguments of the steady-speed studies (`poincare`, `lyapunov`, `bifurcation`) and their model settings.
 
 use clap::Args;
 use rotordyn::model::Model;
@@ -25,7 +25,7 @@ Examples:
   rotordyn bifurcation my_machine.toml --parameter bearing.B.radial_clearance --from \"0 um\" --to \"40 um\" --lyapunov
   rotordyn bifurcation my_machine.toml --parameter bearing.B.balls --from 6 --to 16 --start equilibrium";
 
-/// A run at steady speed.
+/// A run at constant speed.
 #[derive(Args, Clone, Debug)]
 pub struct SteadyArgs {
     #[command(flatten)]
@@ -33,19 +33,20 @@ pub struct SteadyArgs {
     /// Speed, such as "3000 rpm" [default: the highest of the speed profile]
     #[arg(long, value_name = "SPEED")]
     pub speed: Option<String>,
-    /// Clock of the section: shaft, cage or ball-pass
+    /// Poincaré section once per: shaft revolution (shaft), cage revolution (cage) or ball passage
+    /// (ball-pass)
     #[arg(long, value_name = "CLOCK")]
     pub section: Option<String>,
-    /// Ball bearing whose cage is the clock [default: the first of the file]
+    /// Ball bearing whose cage triggers the section [default: the first of the file]
     #[arg(long, value_name = "NAME")]
     pub bearing: Option<String>,
-    /// Phase of the clock at which sections are taken, such as "90 deg"
+    /// Phase angle of the section, such as "90 deg"
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     pub phase: Option<String>,
-    /// Periods of the clock before anything is recorded
+    /// Periods discarded as transient before recording
     #[arg(long, value_name = "N")]
     pub settle: Option<usize>,
-    /// Periods of the clock recorded
+    /// Periods recorded
     #[arg(long, value_name = "N")]
     pub periods: Option<usize>,
     /// Largest time step, such as "20 us"
@@ -56,22 +57,23 @@ pub struct SteadyArgs {
     pub integrator: Option<String>,
 }
 
-/// Orbits and sections.
+/// Arguments of `poincare`.
 #[derive(Args, Clone, Debug)]
 pub struct PoincareArgs {
     #[command(flatten)]
     pub steady: SteadyArgs,
-    /// Plane to look at: two probes "disc_x, disc_y", or one, which is seen over its rate; can be repeated
+    /// Plane of the section: two probes "disc_x, disc_y" (orbit), or one with its velocity (phase plane); can
+    /// be repeated
     #[arg(long, value_name = "PROBES")]
     pub plane: Vec<String>,
 }
 
-/// A diagram over a parameter.
+/// Arguments of `bifurcation`.
 #[derive(Args, Clone, Debug)]
 pub struct BifurcationArgs {
     #[command(flatten)]
     pub steady: SteadyArgs,
-    /// Path of any value of the model, or speed; repeated, the paths change together
+    /// Bifurcation parameter: path of any model value, or speed; repeated paths vary together
     #[arg(long, value_name = "PATH")]
     pub parameter: Vec<String>,
     /// First value with its unit, such as "0 um"
@@ -80,19 +82,19 @@ pub struct BifurcationArgs {
     /// Last value with its unit
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<String>,
-    /// Number of values [default: 200, or every whole number between whole ends]
+    /// Number of values [default: 200, or every integer between integer ends]
     #[arg(long, value_name = "N")]
     pub count: Option<usize>,
-    /// Which way: up, down or both
+    /// Sweep direction: up, down or both
     #[arg(long, value_name = "WAY")]
     pub sweep: Option<String>,
-    /// Where each value starts from: carried (the end of the value before) or equilibrium
+    /// Initial state of each value: carried (final state of the previous value) or equilibrium
     #[arg(long, value_name = "START")]
     pub start: Option<String>,
-    /// Probes to show, separated by commas
+    /// Probes to plot, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub channels: Vec<String>,
-    /// Follow the largest Lyapunov exponent too (twice the work)
+    /// Also compute the largest Lyapunov exponent (twice the computing time)
     #[arg(long)]
     pub lyapunov: bool,
 }
@@ -108,13 +110,13 @@ fn common(draft: &mut Draft, args: &SteadyArgs) {
     draft.flag("integrator", args.integrator.as_ref().map(quoted));
 }
 
-/// What a file without the section is done with.
+/// Note on the defaults used if the file lacks the study.
 fn usual(model: &Model, settle: usize, periods: usize) -> String {
     let speed = match top_speed(model) {
-        Some(top) => format!("at {top} rpm, "),
+        Some(top) => format!("{top} rpm, "),
         None => String::new(),
     };
-    format!("{speed}{settle} shaft turns to settle and {periods} recorded unless told otherwise")
+    format!("{speed}{settle} shaft revolutions discarded, {periods} recorded")
 }
 
 pub fn poincare(model: &Model, args: &PoincareArgs) -> Settings {
@@ -140,7 +142,7 @@ pub fn bifurcation(model: &Model, args: &BifurcationArgs) -> Settings {
     let ends = [("from", args.from.as_ref().map(quoted)), ("to", args.to.as_ref().map(quoted))];
     let values = ends.into_iter().chain([("count", args.count.map(|n| n.to_string()))]);
     let given: Vec<(&str, String)> = values.filter_map(|(key, value)| Some((key, value?))).collect();
-    // Another parameter has other values altogether; else a flag replaces one of the file's.
+    // A different parameter replaces all values; otherwise a flag replaces a single entry of the file.
     if missing || !args.parameter.is_empty() {
         let table: Vec<String> = given.iter().map(|(key, value)| format!("{key} = {value}")).collect();
         draft.flag("values", (!given.is_empty()).then(|| format!("{{ {} }}", table.join(", "))));

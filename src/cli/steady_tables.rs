@@ -1,4 +1,4 @@
-//! Tables of steady motions.
+//! Tables of Poincaré sections, Lyapunov exponents and bifurcation diagrams.
 
 use rotordyn::results::{
     BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
@@ -8,9 +8,9 @@ use rotordyn::signal::lyapunov::Exponent;
 
 use super::terminal::{Terminal, number, rpm};
 
-/// Rows shown of a sweep; the rest is in the file.
+/// Largest number of rows printed of a sweep; the rest is in results.h5.
 const MOST: usize = 40;
-/// Standard errors that an exponent must be from zero to have a sign.
+/// Number of standard errors from zero at which the sign of an exponent is significant.
 const SURE: f64 = 3.0;
 
 pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
@@ -19,11 +19,11 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     let chaos = if m.chaos.is_nan() { "-".into() } else { format!("{:.3}", m.chaos) };
     terminal.table(
         &format!(
-            "Motion at {:.1} rpm, {points} points, one per {}",
+            "Motion at {:.1} rpm, {points} section points, one per {}",
             rpm(found.speed),
             in_words(&found.clock)
         ),
-        &["motion", "recurrence", "K of 0-1 test", "groups"],
+        &["motion", "recurrence", "K of 0-1 test", "clusters"],
         &[vec![m.motion.name(), format!("{:.1e}", m.recurrence), chaos, found.groups.to_string()]],
     );
     let span = |v: &mut dyn Iterator<Item = &f64>, unit: &str| {
@@ -33,7 +33,7 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     let row = |p: &PlaneSection| {
         let mut row = vec![p.name.clone()];
         for k in 0..2 {
-            // Of the orbit only the last periods are kept.
+            // Only the last periods of the orbit are stored.
             row.push(span(&mut p.orbit[k].iter().chain(&p.section[k]), &p.axes[k].unit));
             row.push(span(&mut p.section[k].iter(), &p.axes[k].unit));
         }
@@ -43,7 +43,7 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     };
     let rows: Vec<Vec<String>> = found.planes.iter().map(row).collect();
     terminal.table(
-        "Orbits and sections, peak to peak",
+        "Orbits and Poincaré sections, peak to peak",
         &["plane", "x orbit", "x section", "y orbit", "y section", "whirl", "1x semi-axis"],
         &rows,
     );
@@ -60,7 +60,7 @@ pub fn lyapunov(terminal: &Terminal, found: &LyapunovResult) {
             e.times.len(),
             in_words(&found.clock)
         ),
-        &["1/s", "standard error", "per period", "says"],
+        &["1/s", "standard error", "per period", "motion"],
         &[vec![
             number(e.value, 4),
             number(e.standard_error, 2),
@@ -70,14 +70,14 @@ pub fn lyapunov(terminal: &Terminal, found: &LyapunovResult) {
     );
 }
 
-/// What an exponent says, where it is sure.
+/// Class of the motion by the sign of the exponent, if significant.
 fn sign(e: &Exponent) -> &'static str {
     if e.value > SURE * e.standard_error {
-        "neighbours part: chaotic"
+        "divergent: chaotic"
     } else if e.value < -SURE * e.standard_error {
-        "neighbours meet: regular"
+        "convergent: regular"
     } else {
-        "not to be told from zero"
+        "not significantly different from zero"
     }
 }
 
@@ -88,26 +88,26 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
         let rows = runs(sweep);
         let mut shown: Vec<Vec<String>> = rows.iter().take(MOST).map(|run| run.row(&sweep.points)).collect();
         if rows.len() > MOST {
-            shown.push(vec![format!("and {} more stretches: results.h5", rows.len() - MOST)]);
+            shown.push(vec![format!("and {} more ranges in results.h5", rows.len() - MOST)]);
         }
         let title = format!(
-            "Motions over {}{unit}, {}, one section per {}",
+            "Motion over {}{unit}, sweep {}, one section per {}",
             parameter.name(),
             sweep.name,
             found.clock
         );
-        let header = ["from", "to", "values", "motion", "exponent 1/s"];
+        let header = ["from", "to", "values", "motion", "Lyapunov exponent 1/s"];
         terminal.table(&title, &header, &shown);
     }
     if found.seams > 0 {
         terminal.say(&format!(
-            "  {} seams between pieces run side by side; {} pieces run again from the one before",
+            "  {} boundaries between chunks computed in parallel; {} chunks recomputed from the previous one",
             found.seams, found.repaired
         ));
     }
 }
 
-/// Neighbouring values of one kind of motion.
+/// Range of successive values with the same kind of motion.
 struct Run {
     first: usize,
     last: usize,

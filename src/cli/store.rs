@@ -1,4 +1,4 @@
-//! The results file of a folder: started anew, or added to when it belongs to the same machine.
+//! Results file of a folder: created, or extended if it belongs to the same model.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use super::failure::Failure;
 use super::machine::Origin;
 use super::terminal::Terminal;
 
-/// Name of the results file in its folder.
+/// Name of the results file.
 pub const FILE: &str = "results.h5";
 
-/// What a results file is of.
+/// Model text and title stored in a results file.
 #[derive(Clone, Copy)]
 pub struct Text<'a> {
     /// Text of the model file.
@@ -27,7 +27,7 @@ impl<'a> From<&'a Loaded> for Text<'a> {
     }
 }
 
-/// Opens the folder's results file; one of another version of the model is kept aside.
+/// Opens the results file of a folder; one of a different model version is renamed to results_previous.h5.
 pub fn open(
     folder: &Path,
     text: Text,
@@ -47,7 +47,7 @@ pub fn open(
         let aside = folder.join("results_previous.h5");
         std::fs::rename(&path, &aside).map_err(|e| Failure::environment("rename", &path, e))?;
         terminal.say(&format!(
-            "{} is of another version of the model: now {}",
+            "{} belongs to another version of the model: renamed to {}",
             path.display(),
             aside.display()
         ));
@@ -66,11 +66,11 @@ pub fn open(
     Ok(store)
 }
 
-/// The model text, variant and settings that a results file was made from.
+/// Model text, variant and settings stored in a results file.
 pub fn stored_origin(store: &Store) -> Result<Origin, Failure> {
     let text = |name: &str| match store.attribute("/meta", name) {
         Ok(Some(Attribute::Text(text))) => Ok(text),
-        _ => Err(Failure::Input(format!("{} holds no run of rotordyn", store.path().display()))),
+        _ => Err(Failure::Input(format!("{} contains no rotordyn run", store.path().display()))),
     };
     let setting = |line: &str| line.split_once(" = ").map(|(path, value)| (path.into(), value.into()));
     let variant = Some(text("variant")?).filter(|name| !name.is_empty());

@@ -1,4 +1,4 @@
-//! `spectrogram` and `orders`: analyses of a run-up that is on disk.
+//! `spectrogram` and `orders`: analyses of a stored run-up.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
     let stored = Store::open(&path)?;
     let origin = stored_origin(&stored)?;
     if !stored.contains("/time/t") {
-        let message = format!("{} holds no run-up; `rotordyn run-up` makes one", path.display());
+        let message = format!("{} contains no run-up; compute one with `rotordyn run-up`", path.display());
         return Err(Failure::Input(message));
     }
     let history = results_file::read_history(&stored)?;
@@ -44,7 +44,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
         job.results.orders = job.machine.orders(wanted, &history)?;
         tables::orders(terminal, &job.results.orders);
     } else if let Some(wanted) = &studies.spectrogram {
-        // Its lines are laid over the picture.
+        // The Campbell lines are drawn over the spectrogram.
         job.results.campbell = studies.campbell.as_ref().map(|c| job.machine.campbell(c)).transpose()?;
         job.results.spectrograms = job.machine.spectrograms(wanted, &history)?;
         tables::spectrograms(terminal, &job.results.spectrograms);
@@ -52,7 +52,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
     job.seconds.push((study.name(), start.elapsed().as_secs_f64()));
     let outcome = finish(job, !args.no_figures, study.name())?;
     if let Some(Attribute::Text(end)) = end.filter(|end| *end != Attribute::Text("complete".into())) {
-        terminal.complain("warning", &format!("the stored run did not end by itself: {end}"));
+        terminal.complain("warning", &format!("the stored run is incomplete: {end}"));
     }
     Ok(outcome)
 }

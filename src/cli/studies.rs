@@ -1,4 +1,4 @@
-//! Does the studies of a machine one after another: computes, prints tables, keeps what came out.
+//! Runs the studies of a machine one after another: computes, prints tables, collects the results.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ impl Study {
         Self::Bearing,
     ];
 
-    /// Name of the command that does it.
+    /// Name of its command.
     pub fn name(self) -> &'static str {
         match self {
             Self::Static => "static",
@@ -71,7 +71,7 @@ impl Study {
         }
     }
 
-    /// Whether a model asks for it.
+    /// Whether the model file contains it.
     pub fn is_asked(self, studies: &Studies) -> bool {
         match self {
             Self::Static => studies.equilibrium.is_some(),
@@ -91,20 +91,20 @@ impl Study {
     }
 }
 
-/// A machine at work: where its results go, and what has come out so far.
+/// A sequence of studies of one machine, with its results file and the results so far.
 pub struct Job<'a> {
     pub terminal: &'a Terminal,
     pub machine: Machine,
-    /// The machines of a bifurcation diagram, one per value.
+    /// Models of a bifurcation diagram, one per parameter value.
     pub family: Vec<Model>,
     pub folder: PathBuf,
     pub store: Store,
     pub results: Results,
-    /// Seconds that every study took.
+    /// Computing time of every study \[s\].
     pub seconds: Vec<(&'static str, f64)>,
-    /// Files written beside results.h5.
+    /// Files written, results.h5 included.
     pub files: Vec<PathBuf>,
-    /// Studies that failed, and why.
+    /// Failed studies with their errors.
     pub failures: Vec<(&'static str, Failure)>,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Job<'a> {
         Self { terminal, machine, family, folder, store, results, seconds, files, failures }
     }
 
-    /// Does studies in order; one that fails does not keep the others from being done, Ctrl-C does.
+    /// Runs studies in order; a failed study does not stop the others, Ctrl-C does.
     pub fn perform(&mut self, wanted: &[Study]) {
         for &study in wanted {
             let analyses_run = matches!(study, Study::Spectrogram | Study::Orders);
@@ -228,7 +228,7 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
-    /// The run-up, streamed to the file sample by sample.
+    /// Transient run-up, streamed to the file sample by sample.
     fn run_up(&mut self) -> Result<(), Failure> {
         let machine = &self.machine;
         let Some(settings) = &machine.model.studies.run_up else { return Ok(()) };
@@ -281,7 +281,7 @@ impl<'a> Job<'a> {
         failure.map_or(Ok(()), Err)
     }
 
-    /// Writes what has come out, whatever failed, and draws it.
+    /// Writes and draws the results so far, also after failures.
     pub fn write(&mut self, draw: bool) -> Result<(), Failure> {
         let start = Instant::now();
         results_file::write_study(&self.store, &self.results, &self.machine)?;

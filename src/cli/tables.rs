@@ -1,4 +1,4 @@
-//! Tables of results on the terminal.
+//! Tables of study results on the terminal.
 
 use rotordyn::analysis::Mode;
 use rotordyn::analysis::critical_speed::CriticalSpeed;
@@ -13,16 +13,16 @@ use rotordyn::results::{
 
 use super::terminal::{Terminal, number, rpm};
 
-/// Rows shown of a list that can be long; the rest is in the file.
+/// Largest number of rows printed; the rest is in results.h5.
 const MOST: usize = 40;
 
 pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
     let cage = match found.cage {
-        CageTreatment::AsPlaced => "cage as placed",
-        CageTreatment::Averaged => "averaged over the cage's position",
+        CageTreatment::AsPlaced => "at the cage angle of the model",
+        CageTreatment::Averaged => "averaged over the cage angle",
     };
     if found.bearings.is_empty() {
-        terminal.heading("Static equilibrium: the machine has no bearings, only joints and springs");
+        terminal.heading("Static equilibrium: the machine has only joints and springs, no bearings");
         return;
     }
     let rows: Vec<Vec<String>> = found
@@ -50,7 +50,7 @@ pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
         })
         .collect();
     let header = ["bearing", "k_xx N/m", "k_yy N/m", "k_zz N/m", "k_tilt,x N m/rad", "k_tilt,y N m/rad"];
-    terminal.table("Bearing stiffness (diagonal; all of it is in results.h5)", &header, &rows);
+    terminal.table("Bearing stiffness (diagonal; full matrix in results.h5)", &header, &rows);
     let rows: Vec<Vec<String>> = found
         .bearings
         .iter()
@@ -69,9 +69,10 @@ pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
         })
         .collect();
     if !rows.is_empty() {
-        let header = ["bearing", "ball", "at deg", "load N", "angle deg", "deflection um", "largest N"];
+        let header =
+            ["bearing", "ball", "position deg", "load N", "contact angle deg", "deflection um", "max load N"];
         terminal.table(
-            "Loaded balls at the model's cage angle; largest over all cage angles",
+            "Loaded balls at the cage angle of the model; max load over all cage angles",
             &header,
             &rows,
         );
@@ -102,7 +103,7 @@ pub fn modes(terminal: &Terminal, found: &[ModalResult], model: &Model) {
     }
 }
 
-/// Where a mode's kinetic energy is: the two largest shares, in per cent.
+/// The two largest shares of the kinetic energy of a mode, in per cent.
 fn shares(mode: &Mode, model: &Model) -> String {
     let e = &mode.energy;
     let shaft = [("x", e.bending_x), ("y", e.bending_y), ("axial", e.axial), ("torsion", e.torsion)];
@@ -132,7 +133,8 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
         })
         .collect();
     let (from, to) = (format!("Hz at {:.0} rpm", rpm(*first)), format!("Hz at {:.0} rpm", rpm(*last)));
-    let header = ["mode", from.as_str(), to.as_str(), "zeta % there"];
+    let zeta = format!("zeta % at {:.0} rpm", rpm(*last));
+    let header = ["mode", from.as_str(), to.as_str(), zeta.as_str()];
     terminal.table(&format!("Campbell diagram over {} speeds", diagram.speeds.len()), &header, &rows);
     if !found.crossings.is_empty() {
         crossings(terminal, "Crossings with order lines", &found.crossings);
@@ -200,7 +202,7 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
     rows.truncate(MOST);
     let title =
         format!("{} at {:.0} rpm, {} frequencies: peaks", found.name(), rpm(found.speed), frequencies.len());
-    terminal.table(&title, &["excitation", "response", "peak at Hz", "peak", "unit"], &rows);
+    terminal.table(&title, &["excitation", "response", "peak Hz", "peak magnitude", "unit"], &rows);
     more(terminal, count);
 }
 
@@ -230,7 +232,7 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
             rows.push(vec![name, format!("{speed:.1}"), number(size, 4), "m".into()]);
         }
     }
-    let title = format!("Unbalance response over {} speeds: largest amplitudes", speeds.len());
+    let title = format!("Unbalance response (1x) over {} speeds: peak amplitudes", speeds.len());
     terminal.table(&title, &["response", "at rpm", "amplitude", "unit"], &rows);
 }
 
@@ -240,10 +242,10 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
     let (end, speed) = (history.time.last().unwrap_or(&0.0), history.speed.last().unwrap_or(&0.0));
     let newton = match report.iterations {
         0 => String::new(),
-        n => format!(", {:.2} Newton iterations a step", n as f64 / report.steps.max(1) as f64),
+        n => format!(", {:.2} Newton iterations per step", n as f64 / report.steps.max(1) as f64),
     };
     terminal.say(&format!(
-        "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or refused, {} samples",
+        "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or rejected steps, {} samples",
         end,
         rpm(*speed),
         report.steps,
@@ -251,19 +253,19 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         report.samples
     ));
     terminal.say(&format!(
-        "  reduced model: {} modes and {} static corrections; error {:.1e} of the static deflection, {:.1e} of the\n  \
-         frequencies up to half the cutoff",
+        "  reduced model: {} modes and {} static correction modes; relative error {:.1e} of the static deflection,\n  \
+         {:.1e} of the frequencies up to half the cutoff",
         found.modes, found.corrections, found.static_error, found.frequency_error
     ));
     let e = &report.energy;
     let rows: Vec<Vec<String>> = [
-        ("stored at the start", e.start),
+        ("energy at the start", e.start),
         ("work of loads, unbalance and drive", e.work),
-        ("work of turning cages", e.parametric),
-        ("lost in damping", -e.damping_loss),
-        ("lost in contacts", -e.contact_loss),
-        ("stored at the end", -(e.kinetic + e.strain + e.contact)),
-        ("unexplained", -e.residual()),
+        ("parametric work (cage rotation)", e.parametric),
+        ("dissipated by damping", -e.damping_loss),
+        ("dissipated in contacts", -e.contact_loss),
+        ("energy at the end", -(e.kinetic + e.strain + e.contact)),
+        ("residual", -e.residual()),
     ]
     .iter()
     .map(|(name, value)| vec![(*name).to_string(), number(*value, 6)])
@@ -281,8 +283,8 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
             vec![c.name.clone(), number(mean, 4), number(rms, 4), number(peak, 4), c.unit.clone()]
         })
         .collect();
-    let header = ["channel", "mean", "RMS about it", "largest from it", "unit"];
-    terminal.table("Channels of the run-up", &header, &rows);
+    let header = ["channel", "mean", "RMS", "peak", "unit"];
+    terminal.table("Channels of the run-up (RMS and peak about the mean)", &header, &rows);
 }
 
 pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) {
@@ -291,7 +293,7 @@ pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) {
         .filter_map(|s| {
             let bins = s.spectrogram.frequencies.len();
             let amplitude = &s.spectrogram.amplitude;
-            // the mean is no vibration: leave out the window's main lobe about 0 Hz
+            // skip the DC component: main lobe of the window around 0 Hz
             let least = 3.min(bins.saturating_sub(1));
             let at = (0..amplitude.len())
                 .filter(|k| k % bins >= least)
@@ -305,11 +307,7 @@ pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) {
             ])
         })
         .collect();
-    terminal.table(
-        "Spectrograms: largest amplitudes",
-        &["channel", "amplitude", "unit", "Hz", "at rpm"],
-        &rows,
-    );
+    terminal.table("Spectrograms: peak amplitudes", &["channel", "amplitude", "unit", "Hz", "at rpm"], &rows);
 }
 
 pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
@@ -331,7 +329,7 @@ pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
     }
     let count = rows.len();
     rows.truncate(MOST);
-    let header = ["channel", "order", "value", "largest RMS", "unit", "at rpm"];
-    terminal.table("Order cuts: largest levels", &header, &rows);
+    let header = ["channel", "order line", "order", "peak RMS", "unit", "at rpm"];
+    terminal.table("Order cuts: peak levels", &header, &rows);
     more(terminal, count);
 }

@@ -1,4 +1,4 @@
-//! What is said and where: tables on standard output, everything else on standard error.
+//! Terminal output: tables on standard output, progress, warnings and errors on standard error.
 
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write, stderr, stdout};
@@ -9,14 +9,14 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::args::Output;
 
-/// Where to speak, and whether.
+/// Output streams and what is printed to them.
 #[derive(Debug)]
 pub struct Terminal {
     tables: bool,
     progress: bool,
     bold: bool,
     pub colour: bool,
-    /// Every warning that was given, for machines.
+    /// All warnings, for the JSON document.
     warnings: Mutex<Vec<String>>,
 }
 
@@ -32,26 +32,26 @@ impl Terminal {
         }
     }
 
-    /// A line (or several) for the reader.
+    /// Prints one or more lines to standard output.
     pub fn say(&self, text: &str) {
         if self.tables {
-            // A reader who has gone (a closed pipe) is no reason to stop computing.
+            // A closed pipe (EPIPE) must not stop the computation.
             let _ = writeln!(stdout(), "{text}");
         }
     }
 
-    /// A heading with a blank line before it.
+    /// Prints a heading with a blank line before it.
     pub fn heading(&self, text: &str) {
         if self.bold { self.say(&format!("\n\x1b[1m{text}\x1b[0m")) } else { self.say(&format!("\n{text}")) }
     }
 
-    /// A heading, then a table (see [`table`]).
+    /// Prints a heading and a table (see [`table`]).
     pub fn table(&self, title: &str, header: &[&str], rows: &[Vec<String>]) {
         self.heading(title);
         self.say(table(header, rows).trim_end());
     }
 
-    /// A problem, whatever was asked about silence.
+    /// Prints a warning or an error to standard error, also with `--quiet`.
     pub fn complain(&self, word: &str, text: &str) {
         if word == "warning" {
             self.keep(text);
@@ -61,7 +61,7 @@ impl Terminal {
         let _ = writeln!(stderr(), "{word}: {text}");
     }
 
-    /// Keeps a warning that is told in another way.
+    /// Records a warning that is printed elsewhere.
     pub fn keep(&self, text: &str) {
         self.kept().push(text.to_string());
     }
@@ -70,12 +70,12 @@ impl Terminal {
         self.warnings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Warnings given so far.
+    /// Warnings so far.
     pub fn warnings(&self) -> Vec<String> {
         self.kept().clone()
     }
 
-    /// Something that runs without telling how far it is.
+    /// Spinner for work of unknown length.
     pub fn spinner(&self, what: &str) -> ProgressBar {
         let bar = self.bar(None);
         bar.set_style(style("{spinner} {msg} {elapsed}"));
@@ -86,7 +86,7 @@ impl Terminal {
         bar
     }
 
-    /// A bar over simulated time in ms; its message is set by the caller.
+    /// Progress bar over simulated time in ms; its message is set by the caller.
     pub fn time_bar(&self, duration: f64) -> ProgressBar {
         let bar = self.bar(Some((1e3 * duration).round() as u64));
         let seconds = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
@@ -99,14 +99,14 @@ impl Terminal {
         bar
     }
 
-    /// A bar over a number of equal pieces of work; length and message are set by the caller.
+    /// Progress bar over a number of equal work items; length and message are set by the caller.
     pub fn count_bar(&self) -> ProgressBar {
         let bar = self.bar(Some(0));
         bar.set_style(style("{msg} {wide_bar} {pos} of {len}, {eta} left"));
         bar
     }
 
-    /// A bar over one piece of work that knows what share of it is done.
+    /// Progress bar over a completed fraction.
     pub fn share_bar(&self) -> ProgressBar {
         let bar = self.bar(Some(0));
         bar.set_style(style("{msg} {wide_bar} {percent} %, {eta} left"));
@@ -120,11 +120,11 @@ impl Terminal {
 }
 
 fn style(template: &str) -> ProgressStyle {
-    // The templates are fixed and sound; a plain bar is no harm if they were not.
+    // The templates are constants and valid; fall back to the default bar.
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// Aligned text: columns of numbers to the right, of words to the left, two spaces between.
+/// Aligned text table: numeric columns right-aligned, text columns left-aligned, two spaces between.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let cell = |row: &'_ [String], k: usize| row.get(k).map(String::as_str).unwrap_or_default().to_string();
     let numeric = |k: usize| {
@@ -156,7 +156,7 @@ pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     out
 }
 
-/// A number with about `digits` significant digits: plain where that is short, else with an exponent.
+/// Formats a number with about `digits` significant digits: fixed-point if short, otherwise with an exponent.
 pub fn number(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".into();

@@ -1,4 +1,4 @@
-//! `update`: free numbers of the model fitted to measured modes, and what the data tell of each.
+//! `update`: model updating of free parameters to measured modes and FRFs, with their identifiability.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,9 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let folder = folder(args.study.out.as_ref(), &name, "updated");
     films::of_machine(&mut loaded.model, &folder, terminal)?;
     if args.measured.measured.len() > 1 {
-        return Err(Failure::Input("an update takes one measured file; merge the FRFs into one".into()));
+        return Err(Failure::Input(
+            "update takes a single measured file; merge the FRFs into one file".into(),
+        ));
     }
     let read = measured::read(&args.measured, &loaded.model, terminal)?.remove(0);
     let read = read.ok_or_else(|| target::nothing(&args.measured.measured[0]))?;
@@ -47,7 +49,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
              directions of responses and forces with --mapping, or leave frf out of --fit"
                 .into()
         } else {
-            "--fit frf needs FRFs, and the measured file holds none; give FRFs (universal file 58), or fit \
+            "--fit frf needs FRFs, but the measured file contains none; give FRFs (universal file dataset 58), or fit \
              frequency, damping and mac"
                 .into()
         }));
@@ -58,7 +60,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         let changed = |e: &dyn std::fmt::Display| Error::Content {
             path: args.study.model.model.clone(),
             problem: e.to_string(),
-            advice: "set --bounds that keep the free parameters sound".into(),
+            advice: "set --bounds that keep the free parameters valid".into(),
         };
         let mut model = model::load(&origin.name, &origin.text, &options).map_err(|e| changed(&e))?.model;
         films::of_machine(&mut model, &folder, terminal).map_err(|e| changed(&e.message()))?;
@@ -92,14 +94,14 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     if let (Some((before, now)), Some(after)) = (apart, &after) {
         measured::frac_table(terminal, &read.target, &found.after, after);
         terminal.say(&format!(
-            "\nFRFs are {} dB apart after the update, {} dB before (RMS over the lines that were fitted)",
+            "\nFRF difference {} dB after the update, {} dB before (RMS over the fitted frequency lines)",
             number(now, 2),
             number(before, 2)
         ));
     }
     let told = &found.identifiability;
     terminal.say(&format!(
-        "\nchi^2 = {} with {} degrees of freedom, {} steps{}",
+        "\nchi^2 = {} with {} degrees of freedom, {} iterations{}",
         number(told.chi_squared, 3),
         number(told.degrees, 3),
         found.iterations.len() - 1,
@@ -175,7 +177,7 @@ fn value(parameter: &FreeParameter, x: f64) -> String {
     format!("{} {}", number(parameter.value(x), 5), parameter.unit()).trim_end().to_string()
 }
 
-/// Standard error of a parameter, per cent of its value.
+/// Standard error of a parameter in per cent of its value.
 fn error_per_cent(parameter: &FreeParameter, x: f64, error: f64) -> f64 {
     100.0 * (error * parameter.slope(x) / parameter.value(x)).abs()
 }
@@ -196,11 +198,19 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
             ]
         })
         .collect();
-    let header = ["parameter", "start", "updated", "change %", "standard error %", "prior left %", ""];
+    let header = [
+        "parameter",
+        "start",
+        "updated",
+        "change %",
+        "standard error %",
+        "prior variance left %",
+        "identifiability",
+    ];
     terminal.table("Free parameters", &header, &rows);
     terminal.say(
-        "  found: a tenth of the prior's variance is left at most, and the standard error is 10 % at most;\n  \
-         poorly determined: half of it at most; else the data do not tell, and the value stays at its start",
+        "  prior variance left = posterior variance / prior variance. Identifiable: at most 10 % left and a standard\n  \
+         error of at most 10 %; poorly identifiable: at most 50 % left; otherwise not identifiable, start value kept",
     );
 }
 
@@ -224,15 +234,19 @@ fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Upd
         })
         .collect();
     let header = ["sigma", "direction"];
-    terminal.table("What the data tell: below 1 the prior tells more", &header, &rows);
+    terminal.table(
+        "Singular values of the scaled sensitivity matrix (below 1: the prior dominates the data)",
+        &header,
+        &rows,
+    );
 }
 
-/// χ² over its degrees of freedom from which the model is said not to explain the data.
+/// Reduced χ² (χ² per degree of freedom) above which a lack-of-fit warning is issued.
 const MISFIT: f64 = 4.0;
-/// Deviations of the prior from which data and prior are said to disagree.
+/// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
 const PULL: f64 = 3.0;
 
-/// Correlations that hide one parameter behind another, bounds, no convergence.
+/// Quality warnings: strongly correlated parameters, active bounds, lack of fit, no convergence.
 fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
     let correlation = &found.identifiability.correlation;
     for i in 0..parameters.len() {
@@ -243,7 +257,7 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
                 terminal.complain(
                     "warning",
                     &format!(
-                        "the data hardly part {} from {} (correlation {c:.3}): they tell their {what} only",
+                        "{} and {} are strongly correlated ({c:.3}): the data determine only their {what}",
                         parameters[i].name, parameters[j].name
                     ),
                 );
@@ -251,8 +265,10 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
         }
         if found.outcomes[i].verdict == Verdict::AtBound {
             let name = &parameters[i].name;
-            terminal
-                .complain("warning", &format!("{name} ended at its bound: what it stands for may be wrong"));
+            terminal.complain(
+                "warning",
+                &format!("{name} is at its bound: it may compensate another model error"),
+            );
         }
     }
     let told = &found.identifiability;
@@ -261,9 +277,9 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
         terminal.complain(
             "warning",
             &format!(
-                "the updated model does not explain the data: chi^2 is {} times its degrees of freedom; look at the \
-                 pairs, at points, directions, signs and units in the mapping, and at what else may be wrong in the \
-                 model, before any value is trusted",
+                "the updated model does not fit the data: chi^2 is {} times its degrees of freedom; before using the \
+                 values check the mode pairs, the points, directions, signs and units of the mapping, and the model for \
+                 other errors",
                 number(misfit, 2)
             ),
         );
@@ -274,8 +290,8 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
             terminal.complain(
                 "warning",
                 &format!(
-                    "{}: the data pull it {} standard deviations of its prior away from the start; one of the two is \
-                     wrong",
+                    "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
+                     inconsistent",
                     parameter.name,
                     number(pull, 2)
                 ),
@@ -283,11 +299,14 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
         }
     }
     if !found.converged {
-        terminal.complain("warning", "the update did not converge: allow more --iterations, or free fewer");
+        terminal.complain(
+            "warning",
+            "the update did not converge: increase --iterations, or reduce the number of free parameters",
+        );
     }
 }
 
-/// The model file with the numbers that were found, the rest as the user wrote it.
+/// Writes the model file with the updated values; the rest of its text is unchanged.
 fn write_model(
     args: &UpdateArgs,
     origin: &Origin,

@@ -1,4 +1,4 @@
-//! `validate`: which measured mode is which of the model, and how far apart they are.
+//! `validate`: correlation of the model with measured modes, FRFs and run-ups (mode pairing, MAC, FRAC).
 
 use std::path::{Path, PathBuf};
 
@@ -79,16 +79,17 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     Ok(document.into())
 }
 
-/// That a file holds nothing to hold a model against, and why it is no run-up.
+/// Error for a file without modes, FRFs or a usable run-up.
 fn nothing(path: &Path, why: &str) -> Error {
     Error::Content {
         path: path.into(),
-        problem: format!("it holds neither modes nor FRFs, and no run-up: {why}"),
-        advice: "`rotordyn identify` makes FRFs from hammer blows".into(),
+        problem: format!("it contains neither modes nor FRFs, nor a usable run-up: {why}"),
+        advice: "`rotordyn identify` computes FRFs from impact-test records".into(),
     }
 }
 
-/// Modes and FRFs of every file against the model: what is told to machines, shifts with level, files written.
+/// Compares modes and FRFs of every file with the model; returns the JSON, the shifts with force level and
+/// the files.
 fn compare_structures(
     args: &ValidateArgs,
     found: &[(&Path, ReadTarget)],
@@ -138,8 +139,8 @@ fn compare_structures(
     Ok((json!(documents), levels, files))
 }
 
-/// Modes of every file beside those of the first: with blows of different force the shift is what the machine's
-/// clearances and contacts make of it.
+/// Frequency shift of every mode relative to the first file: with impact tests at different force levels it
+/// shows the nonlinearity of clearances and contacts.
 fn levels(found: &[(&Path, ReadTarget)], states: &[State], terminal: &Terminal) -> Value {
     fn candidates(target: &Target) -> Vec<Candidate<'_>> {
         target
@@ -151,8 +152,10 @@ fn levels(found: &[(&Path, ReadTarget)], states: &[State], terminal: &Terminal) 
     let first = &found[0].1.target;
     let alike = found.iter().all(|(_, f)| f.target.sensors.len() == first.sensors.len());
     if !alike {
-        terminal
-            .complain("warning", "the files were measured at different points: no shift with level is shown");
+        terminal.complain(
+            "warning",
+            "the files have different measurement points: no frequency shift is computed",
+        );
         return Value::Null;
     }
     let pairings: Vec<_> =
@@ -172,7 +175,7 @@ fn levels(found: &[(&Path, ReadTarget)], states: &[State], terminal: &Terminal) 
         let mut row = vec![label.clone(), format!("{:.3}", mode.frequency_hz)];
         let mut others = Vec::new();
         for (k, pairing) in pairings.iter().enumerate() {
-            // A mode that has moved further than this is another one.
+            // Largest relative frequency shift of the same mode; beyond it the pair is rejected.
             const FARTHEST: f64 = 0.2;
             let near = |c: usize| {
                 (found[k + 1].1.target.modes[c].frequency_hz / mode.frequency_hz - 1.0).abs() < FARTHEST
@@ -200,6 +203,6 @@ fn levels(found: &[(&Path, ReadTarget)], states: &[State], terminal: &Terminal) 
         documents.push(json!({ "label": label, "hz": mode.frequency_hz, "others": others }));
     }
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    terminal.table("Shift of the measured modes from the first file", &header, &rows);
+    terminal.table("Frequency shift of the measured modes relative to the first file", &header, &rows);
     json!({ "forces": found.iter().map(|(_, f)| f.force).collect::<Vec<_>>(), "modes": documents })
 }

@@ -1,11 +1,11 @@
-//! Damping of a ball's contacts.
+//! Contact damping of balls: constant, Hunt-Crossley, lubricant film.
 
 use super::{Loaded, SpeedContacts};
 
-/// Force that resists the approach of the races along a ball's line of contact.
+/// Damping law: force against the approach rate of the races along a ball's contact line.
 ///
 /// With Q_e the elastic load of both contacts in series at the approach δ, the ball carries
-/// Q = max(0, Q_e + F_d(δ, δ̇)): a contact that would have to pull lets go. F_d = 0 where Q_e = 0.
+/// Q = max(0, Q_e + F_d(δ, δ̇)): no tensile force. F_d = 0 where Q_e = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactDamping {
     /// F_d = c w(δ) δ̇ with a constant c \[N s/m\]; w rises smoothly from 0 where load begins to 1 over `ramp` \[m\].
@@ -14,14 +14,14 @@ pub enum ContactDamping {
     HuntCrossley { factor: f64 },
     /// F_d = β (b/u) K_f (1 − K_f/K_e) δ̇ of the film, with a relaxation factor β \[-\] of order one.
     ///
-    /// A film is made at the inlet of a contact and carried through it at the entrainment speed u, so that the
-    /// thickness which the load calls for arrives late: τ ḣ = h(Q) − h, τ = β b/u with b the semi-axis along
-    /// rolling. A fast approach so meets the elastic stiffness K_e = (3/2) K √s, a slow one the lower K_f = dQ/dδ
-    /// of contact and film; this is the first order in τ. Two contacts in series: τ is the mean of theirs,
-    /// weighted by film thickness. Valid for motions slow against u/b; nothing without a film.
+    /// A film forms at the inlet and is convected through the contact at the entrainment speed u, so that its
+    /// thickness follows the load with a time lag: τ ḣ = h(Q) − h, τ = β b/u with b the semi-axis along
+    /// rolling. A fast approach sees the elastic stiffness K_e = (3/2) K √s, a slow one the lower K_f = dQ/dδ
+    /// of contact and film; the damping is the first order in τ. Two contacts in series: τ is their mean,
+    /// weighted by film thickness. Valid for frequencies well below u/b; zero without a film.
     ///
-    /// Source: derived from the film law, in place of the curve fits to transient numerical solutions of
-    /// Wijnant 1998 and of Nonato & Cavalca 2014, which hold for the contacts they were made for.
+    /// Source: derived from the film law, instead of the curve fits to transient numerical solutions of
+    /// Wijnant 1998 and of Nonato & Cavalca 2014, which are limited to the contacts they were fitted for.
     Film { factor: f64 },
 }
 
@@ -37,8 +37,8 @@ pub struct Damped {
 }
 
 impl ContactDamping {
-    /// Load of both contacts in series with damping: `elastic` as [`SpeedContacts::series`] gives it at the
-    /// approach δ \[m\], and the approach's rate δ̇ \[m/s\].
+    /// Load of both contacts in series with damping; `elastic`: result of [`SpeedContacts::series`] at the
+    /// approach δ \[m\]; `rate`: approach rate δ̇ \[m/s\].
     #[inline(always)]
     pub fn apply(&self, contacts: &SpeedContacts, elastic: &Loaded, approach: f64, rate: f64) -> Damped {
         if elastic.load <= 0.0 {
@@ -63,7 +63,7 @@ impl ContactDamping {
     }
 }
 
-/// Smooth rise from 0 at x = 0 to 1 at `length`, C¹; returns value and slope.
+/// Smoothstep from 0 at x = 0 to 1 at `length`, C¹; returns value and slope.
 fn rise(x: f64, length: f64) -> (f64, f64) {
     if x >= length {
         return (1.0, 0.0);

@@ -1,16 +1,17 @@
-//! The elastohydrodynamic film of Hamrock and Dowson, and the spring a Hertz contact makes behind it.
+//! Hamrock-Dowson elastohydrodynamic (EHL) film thickness, and the spring of a Hertzian contact in series
+//! with it.
 
 use super::{EllipticContact, Loaded, Lubricant};
 use std::sync::LazyLock;
 
-/// Thickness of the film between two rolling bodies, for a fully flooded, isothermal contact.
+/// EHL film thickness of a rolling contact, fully flooded and isothermal (Hamrock-Dowson).
 ///
 /// With U = η₀ u/(E′ R_x), G = α E′, W = Q/(E′ R_x²), E′ = 2 E*, and κ the ellipse ratio (across/along rolling):
 /// h_c = 2.69 R_x U^0.67 G^0.53 W^−0.067 (1 − 0.61 e^{−0.73 κ}),
 /// h_min = 3.63 R_x U^0.68 G^0.49 W^−0.073 (1 − e^{−0.68 κ}).
 ///
-/// Source: Hamrock & Dowson 1977; Bal 2022 eq. 5. Fitted for hard contacts with κ from 1 to 8; as Q → 0 the
-/// formula grows without bound, which no film does (see [`FilmSpring`]).
+/// Source: Hamrock & Dowson 1977; Bal 2022 eq. 5. Fitted for hard contacts with κ from 1 to 8; the formula
+/// is unbounded as Q → 0 (for the regularisation see [`FilmSpring`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmFormula {
     /// Thickness at u = 1 m/s and Q = 1 N \[m\].
@@ -55,20 +56,20 @@ impl FilmFormula {
     }
 }
 
-/// Film thickness over roughness λ = h/√(R_q1² + R_q2²), the root-mean-square heights of the two surfaces \[m\].
+/// Film parameter (lambda ratio) λ = h/√(R_q1² + R_q2²) with the RMS roughness of both surfaces \[m\].
 pub fn lambda_ratio(thickness: f64, roughness: [f64; 2]) -> f64 {
     thickness / roughness[0].hypot(roughness[1])
 }
 
-/// One Hertz contact, or the two of a ball in series, behind films of central thickness h(Q) at one speed.
+/// One Hertzian contact, or the two of a ball in series, with films of central thickness h(Q) at one speed.
 ///
 /// Q = K s^{3/2} with the elastic deformation s = δ + h(Q), h = C Q^−0.067 summed over the contacts. Below
-/// Q_t = [`FilmSpring::THRESHOLD`] the film is continued by its tangent in s, so that it ends at a finite
-/// thickness h₀ ≈ 1.1 h(Q_t): the contact is then a softer Hertz spring, unloaded for δ ≤ −h₀. Q and dQ/dδ are
-/// continuous, Q rises with δ, and without speed the dry contact is left.
+/// Q_t = [`FilmSpring::THRESHOLD`] the film is continued by its tangent in s, so that it remains finite,
+/// h₀ ≈ 1.1 h(Q_t) at zero load: the contact is there a softer Hertzian spring, unloaded for δ ≤ −h₀. Q and
+/// dQ/dδ are continuous, Q increases with δ, and zero speed gives the dry contact.
 ///
-/// In units of the length λ = (C K^−0.067)^{1/(1+q)}, q = 1.5 · 0.067, every such spring is the one curve
-/// σ − σ^−q = δ/λ.
+/// In units of the length λ = (C K^−0.067)^{1/(1+q)}, q = 1.5 · 0.067, every such spring follows the same
+/// curve σ − σ^−q = δ/λ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmSpring {
     /// K \[N/m^1.5\].
@@ -78,7 +79,7 @@ pub struct FilmSpring {
     /// Deformation s/λ and film h/λ at the threshold load.
     knee: f64,
     knee_film: f64,
-    /// B in b = B √s, semi-axis of the contacts along rolling, weighted by their films \[m^0.5\].
+    /// B in b = B √s, semi-axis of the contacts along rolling, film-weighted mean \[m^0.5\].
     width: f64,
 }
 
@@ -86,10 +87,10 @@ pub struct FilmSpring {
 const LOAD_POWER: f64 = 0.067;
 const POWER: f64 = 1.5 * LOAD_POWER;
 
-/// How the springs of all contacts grow with the entrainment speed u: λ by u^{0.67/(1+q)}.
+/// Scaling of the film springs with entrainment speed u: λ by u^{0.67/(1+q)}.
 pub(super) struct FilmGrowth {
     length: f64,
-    /// Its power q.
+    /// `length` to the power q.
     film: f64,
 }
 
@@ -101,12 +102,12 @@ impl FilmGrowth {
 }
 
 impl FilmSpring {
-    /// Load below which the film formula is no longer followed \[N\].
+    /// Load below which the film is continued linearly \[N\].
     ///
-    /// A thousandth of a newton: far below any load that matters, far above rounding.
+    /// A thousandth of a newton: far below relevant loads, far above round-off.
     pub const THRESHOLD: f64 = 1e-3;
 
-    /// Spring at u = 1 m/s of contacts that carry the same load, with a stiffness K of all in series.
+    /// Spring at u = 1 m/s of contacts in series under the same load, with series stiffness K.
     pub fn new(contacts: &[(&EllipticContact, &FilmFormula)], stiffness: f64) -> Self {
         let film: f64 = contacts.iter().map(|(_, film)| film.central).sum();
         let width: f64 = contacts
@@ -118,7 +119,7 @@ impl FilmSpring {
         Self { stiffness, length, knee, knee_film: knee.powf(-POWER), width: width / film }
     }
 
-    /// The spring of the contacts at another speed, from that at 1 m/s.
+    /// The spring at another speed, scaled from 1 m/s.
     pub(super) fn grown(&self, growth: &FilmGrowth) -> Self {
         Self {
             length: self.length * growth.length,
@@ -128,12 +129,12 @@ impl FilmSpring {
         }
     }
 
-    /// Whether there is a film: not without speed or viscosity.
+    /// Whether a film exists: requires non-zero speed and viscosity.
     pub(super) fn exists(&self) -> bool {
         self.length.is_normal() && self.knee.is_normal() && self.knee_film.is_normal()
     }
 
-    /// Film h₀ \[m\] at which the contact lets go: no load for δ ≤ −h₀.
+    /// Film h₀ at zero load \[m\]: no load for δ ≤ −h₀.
     pub fn reach(&self) -> f64 {
         self.length * self.knee_film * (1.0 + POWER)
     }
@@ -150,8 +151,8 @@ impl FilmSpring {
 
     /// Load, slope and energy at the approach δ \[m\] of the bodies.
     ///
-    /// dQ/dδ = (3/2) K √s/(1 + q h/s); ∫Q dδ = K (2/5 s^{5/2} + q/(3/2 − q) h s^{3/2}) + a constant, which makes
-    /// it zero where the load is.
+    /// dQ/dδ = (3/2) K √s/(1 + q h/s); ∫Q dδ = K (2/5 s^{5/2} + q/(3/2 − q) h s^{3/2}) + const, with
+    /// zero energy at zero load.
     pub fn load(&self, approach: f64) -> Loaded {
         let (knee, knee_film) = (self.knee, self.knee_film);
         let reduced = approach / self.length;
@@ -179,7 +180,8 @@ impl FilmSpring {
         }
     }
 
-    /// Damping per unit of relaxation and speed, b K_f (1 − K_f/K_e) \[N\], and its slope with δ \[N/m\].
+    /// Film damping per unit of relaxation factor and 1/u, b K_f (1 − K_f/K_e) \[N\], and its slope with δ
+    /// \[N/m\].
     ///
     /// K_e = (3/2) K √s is the stiffness at constant film, K_f = dQ/dδ of `elastic`; with r = K_e/K_f − 1 = q h/s
     /// this is b K_e r/(1 + r)². See [`super::ContactDamping::Film`].
@@ -191,7 +193,7 @@ impl FilmSpring {
         let frozen = 1.5 * self.stiffness * root;
         let r = (frozen / elastic.slope - 1.0).max(0.0);
         let value = self.width * root * elastic.slope * r / (1.0 + r);
-        // r falls as s^−(1+q) on the formula and is constant below the threshold.
+        // r ∝ s^−(1+q) on the film formula, constant below the threshold.
         let fall = if elastic.load > Self::THRESHOLD { 1.0 + POWER } else { 0.0 };
         (value, value / (root * root) * (1.0 - fall * (1.0 - r) / (1.0 + r)) / (1.0 + r))
     }
@@ -199,7 +201,7 @@ impl FilmSpring {
 
 /// Solves σ − σ^−q = d for σ > 0; returns σ and σ^−q to machine precision.
 ///
-/// Halley steps in ln σ from a table of the curve: one for d between −4 and 64, a few outside.
+/// Halley iteration in ln σ from a tabulated initial value: one step for d between −4 and 64, a few outside.
 fn deformation(d: f64) -> (f64, f64) {
     let mut log = start(d);
     for _ in 0..60 {
@@ -208,7 +210,8 @@ fn deformation(d: f64) -> (f64, f64) {
         let (first, second) = (s + POWER * film, s - POWER * POWER * film);
         let newton = -residual / first;
         let step = newton / (1.0 + 0.5 * newton * second / first);
-        // What is left after a step is of its third power: applied to σ and σ^−q as a series, it is exact.
+        // The error after a step is of third order in it: series expansion of σ and σ^−q is exact to
+        // round-off.
         if step.abs() < 1e-5 {
             let grow = |x: f64| 1.0 + x * (1.0 + 0.5 * x * (1.0 + x / 3.0));
             return (s * grow(step), film * grow(-POWER * step));
@@ -222,13 +225,13 @@ const LOW: f64 = -4.0;
 const HIGH: f64 = 64.0;
 const PER_UNIT: f64 = 16.0;
 
-/// ln σ and its slope over d from `LOW` to `HIGH`, where the curve is evaluated for nearly every ball.
+/// Lookup table of ln σ and its slope over d from `LOW` to `HIGH`, the range of nearly all evaluations.
 static CURVE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
     let mut log: f64 = -13.8;
     (0..=((HIGH - LOW) * PER_UNIT) as usize)
         .map(|k| {
             let d = LOW + k as f64 / PER_UNIT;
-            // Newton from the node before, which lies close.
+            // Newton from the previous node.
             let slope = (0..8).fold(0.0, |_, _| {
                 let (s, film) = (log.exp(), (-POWER * log).exp());
                 log -= (s - film - d) / (s + POWER * film);
@@ -239,7 +242,7 @@ static CURVE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
         .collect()
 });
 
-/// ln σ to about 1e-6 by the cubic through the table; outside it, what the far ends of the curve tend to.
+/// Initial value of ln σ, to about 1e-6 by cubic Hermite interpolation of the table; outside it, asymptotes.
 fn start(d: f64) -> f64 {
     if d >= HIGH {
         return (d + d.powf(-POWER)).ln();

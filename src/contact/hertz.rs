@@ -1,9 +1,9 @@
-//! Dry Hertzian point contact with exact elliptic integrals.
+//! Dry Hertzian (elliptic point) contact with exact elliptic integrals.
 
 use super::elliptic;
 use crate::material::Material;
 
-/// Elliptic Hertz contact of two bodies: everything that does not depend on the load.
+/// Elliptic Hertzian contact of two bodies: the load-independent quantities.
 ///
 /// With curvature sum Σρ, curvature difference F(ρ), ellipse ratio κ = a/b ≥ 1 and integrals K, E of
 /// m = 1 − κ⁻²:
@@ -31,7 +31,7 @@ pub struct EllipticContact {
     pub stiffness: f64,
 }
 
-/// Ellipse and pressure of a contact under load.
+/// Contact ellipse and maximum pressure under load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPatch {
     /// Semi-axis across the rolling direction a \[m\].
@@ -71,7 +71,7 @@ impl EllipticContact {
 
     /// Semi-axes of the ellipse along and across the rolling direction \[m\] under a load Q ≥ 0 \[N\].
     ///
-    /// The shorter lies in the direction of the larger curvature, so along rolling in a ball groove.
+    /// The shorter axis lies in the direction of the larger curvature: along rolling in a ball groove.
     pub fn semi_axes(&self, load: f64) -> [f64; 2] {
         let patch = self.patch(load);
         if self.rolling_radius <= self.transverse_radius {
@@ -99,7 +99,7 @@ impl EllipticContact {
 
 /// Ellipse ratio κ ≥ 1 whose curvature difference is `difference` in \[0, 1).
 ///
-/// Newton in ln κ on F(κ) = ((κ² + 1) E − 2 K)/((κ² − 1) E), bracketed; F rises from 0 to 1.
+/// Newton in ln κ on F(κ) = ((κ² + 1) E − 2 K)/((κ² − 1) E), bracketed; F increases from 0 to 1.
 fn ellipse_ratio(difference: f64) -> f64 {
     if difference < 1e-12 {
         return 1.0;
@@ -130,7 +130,7 @@ fn ellipse_ratio(difference: f64) -> f64 {
     x.exp()
 }
 
-/// The two contacts of one ball, inner and outer race, as one spring in series.
+/// The two contacts of one ball, inner and outer race, as springs in series.
 ///
 /// K⁻²ᐟ³ = K_i⁻²ᐟ³ + K_o⁻²ᐟ³, since both carry the same load Q = K δ^{3/2} and δ = δ_i + δ_o.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,7 +163,7 @@ impl HertzPair {
         Self { stiffness: in_series([inner.stiffness, outer.stiffness]), inner, outer }
     }
 
-    /// The same contacts with the stiffness that is given; ellipse and pressure stay those of the curvatures.
+    /// The same contacts with a given stiffness; ellipse and pressure remain those of the curvatures.
     pub fn with_stiffness(mut self, given: ContactStiffness) -> Self {
         match given {
             ContactStiffness::Elastic => {}
@@ -186,14 +186,14 @@ fn in_series(each: [f64; 2]) -> f64 {
     each.map(|k| k.powf(-2.0 / 3.0)).iter().sum::<f64>().powf(-1.5)
 }
 
-/// Where the stiffness K of a ball's dry contacts Q = K δ^{3/2} comes from, in N/m^1.5.
+/// Source of the stiffness K of a ball's dry contacts, Q = K δ^{3/2} \[N/m^1.5\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ContactStiffness {
-    /// Curvatures and elasticity.
+    /// Computed from curvatures and elasticity (Hertz).
     #[default]
     Elastic,
-    /// Both contacts in series as given; each keeps its share of the compliance.
+    /// Given for both contacts in series; each keeps its share of the compliance.
     Series(f64),
-    /// Inner and outer contact as given.
+    /// Given for inner and outer contact.
     Each([f64; 2]),
 }

@@ -1,18 +1,18 @@
-//! The laws by which a contact carries load.
+//! Contact laws: load versus approach.
 
 use super::ehl::EhlLaw;
 use super::{Lubricant, PowerLaw};
 
-/// How the two contacts of a ball carry load, as chosen for a bearing.
+/// Contact law of a ball's two contacts, as selected for a bearing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ContactLaw {
-    /// Dry elastic contact.
+    /// Dry elastic Hertzian contact.
     #[default]
     Hertz,
-    /// Hertz contact behind a film of Hamrock-Dowson central thickness.
+    /// Hertzian contact in series with a film of Hamrock-Dowson central thickness.
     Film { lubricant: Lubricant, speed_factor: f64 },
-    /// Fitted Q = K δⁿ + ΔQ of both contacts together.
+    /// Fitted power law Q = K δⁿ + ΔQ of both contacts in series.
     PowerLaw(PowerLaw),
-    /// Film solved numerically over loads and speeds, before the machine is computed.
+    /// Numerical EHL film, tabulated over loads and speeds before the machine is computed.
     Ehl(EhlLaw),
 }

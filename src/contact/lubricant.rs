@@ -1,6 +1,7 @@
-//! Lubricating oil at its operating temperature, and the ISO VG grades of mineral oil.
+//! Lubricant properties at operating temperature: viscosity, pressure-viscosity coefficient, density; ISO VG
+//! grades.
 
-/// Oil at one temperature: what film formulae and the numerical point contact need.
+/// Lubricating oil at one temperature, for film formulae and the numerical EHL contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lubricant {
     pub name: String,
@@ -15,8 +16,8 @@ pub struct Lubricant {
 /// ISO VG grades of mineral oil with a viscosity index of 95: kinematic viscosity at 40 and 100 °C \[mm²/s\] and
 /// density at 15 °C \[kg/m³\].
 ///
-/// At 40 °C by definition (ISO 3448); at 100 °C what a viscosity index of 95 means (ASTM D2270); densities typical
-/// of oils on sale, within 2 %.
+/// At 40 °C by definition (ISO 3448); at 100 °C from the viscosity index of 95 (ASTM D2270); densities
+/// typical of commercial oils, within 2 %.
 const GRADES: [(&str, [f64; 3]); 12] = [
     ("ISO VG 10", [10.0, 2.637, 850.0]),
     ("ISO VG 15", [15.0, 3.381, 858.0]),
@@ -41,18 +42,19 @@ impl Lubricant {
     /// Temperatures for which a grade's properties hold \[K\]: −10 to 130 °C.
     pub const GRADE_TEMPERATURES: [f64; 2] = [263.15, 403.15];
 
-    /// Names of the grades [`Lubricant::grade`] knows.
+    /// Names of the grades supported by [`Lubricant::grade`].
     pub fn grades() -> impl Iterator<Item = &'static str> {
         GRADES.iter().map(|(name, _)| *name)
     }
 
     /// Mineral oil of an ISO VG grade, such as `"ISO VG 68"`, at a temperature T \[K\].
     ///
-    /// log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T with ν in mm²/s (Walther's line, ASTM D341);
+    /// log₁₀ log₁₀(ν + 0.7) = A − B log₁₀ T with ν in mm²/s (Walther equation, ASTM D341);
     /// ρ = ρ₁₅ (1 − 6.5e−4 (T − 288.15 K)); η₀ = ρ ν; α = (0.6 + 0.965 log₁₀ η₀) · 1e−8 1/Pa with η₀ in mPa s.
     ///
-    /// `None` for a grade it does not know or a temperature outside [`Lubricant::GRADE_TEMPERATURES`]. An oil on sale
-    /// differs: by 10 % in ν at 40 °C, with its viscosity index elsewhere, by 15 % and more in α.
+    /// `None` for an unknown grade or a temperature outside [`Lubricant::GRADE_TEMPERATURES`]. Commercial
+    /// oils differ: by 10 % in ν at 40 °C, by their viscosity index at other temperatures, by 15 % and more
+    /// in α.
     ///
     /// Source: ISO 3448, ASTM D341 and D2270; Wooster's rule for α of mineral oils.
     pub fn grade(name: &str, temperature: f64) -> Option<Self> {

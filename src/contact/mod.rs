@@ -1,4 +1,5 @@
-//! Contact of ball and race: Hertz with exact elliptic integrals, the lubricant's film, damping, traction.
+//! Contact of ball and race: Hertzian contact with exact elliptic integrals, EHL film, contact damping,
+//! traction.
 
 pub mod damping;
 pub mod ehl;

@@ -1,4 +1,4 @@
-//! The two contacts of one ball under a bearing's contact law, at one entrainment speed.
+//! The two contacts of one ball (inner and outer race) under a contact law, at one entrainment speed.
 
 use super::ehl::{EhlLaw, EhlPair};
 use super::film::FilmGrowth;
@@ -22,14 +22,14 @@ pub struct Loaded {
     pub energy: f64,
 }
 
-/// A ball's contacts under a law, before a speed is known.
+/// A ball's contacts under a contact law, speed-independent part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BallContacts {
     pub hertz: HertzPair,
     law: Law,
 }
 
-/// What a law fixes before the speed.
+/// Speed-independent data of a contact law.
 #[derive(Clone, Debug, PartialEq)]
 enum Law {
     Hertz,
@@ -38,12 +38,12 @@ enum Law {
     Ehl(Box<EhlLaw>),
 }
 
-/// A ball's contacts at one entrainment speed, ready to be evaluated for every ball.
+/// A ball's contacts at one entrainment speed, prepared for evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpeedContacts<'a> {
     Hertz(&'a HertzPair),
     Film(FilmPair),
-    /// Both contacts together; one alone takes its share of the dry compliance.
+    /// Power law of both contacts in series; a single contact takes its share of the dry compliance.
     Power {
         pair: &'a HertzPair,
         spring: &'a PowerSpring,
@@ -98,7 +98,7 @@ impl FilmPair {
 impl BallContacts {
     /// Contacts of a ball between grooves under a law.
     ///
-    /// A solved film whose tables are not there yet is stood in for by the film formula.
+    /// An EHL film whose tables are not yet computed is replaced by the film formula.
     pub fn new(hertz: HertzPair, law: ContactLaw) -> Self {
         let law = match law {
             ContactLaw::Hertz => Law::Hertz,
@@ -139,7 +139,7 @@ impl BallContacts {
 impl SpeedContacts<'_> {
     /// Both contacts in series under the same load (massless ball) at the total approach δ of the races \[m\].
     ///
-    /// Limits: Q = 0 and slope 0 where the law says unloaded; Q and dQ/dδ continuous everywhere.
+    /// Limits: Q = 0 and slope 0 where unloaded; Q and dQ/dδ continuous everywhere.
     pub fn series(&self, approach: f64) -> Loaded {
         match self {
             Self::Hertz(pair) => pair.series(approach),
@@ -181,7 +181,7 @@ impl SpeedContacts<'_> {
         }
     }
 
-    /// Total approach \[m\] from which both contacts in series carry load: 0 for a dry law, −h₀ with a film.
+    /// Total approach \[m\] above which both contacts in series carry load: 0 for a dry law, −h₀ with a film.
     #[inline]
     pub fn onset(&self) -> f64 {
         match self {
@@ -192,7 +192,7 @@ impl SpeedContacts<'_> {
         }
     }
 
-    /// Whether a ball's load \[N\] lies outside what the law was fitted to.
+    /// Whether a ball's load \[N\] is outside the fitted range of the law.
     pub fn outside(&self, load: f64) -> bool {
         match self {
             Self::Hertz(_) | Self::Film(_) | Self::Ehl(_) => false,
@@ -200,8 +200,8 @@ impl SpeedContacts<'_> {
         }
     }
 
-    /// Film's damping coefficient of both contacts in series per unit of relaxation \[N s/m\] and its slope with
-    /// δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
+    /// Film damping coefficient of both contacts in series per unit of relaxation factor \[N s/m\] and its
+    /// slope with δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
     pub(super) fn film_damping(&self, elastic: &Loaded) -> (f64, f64) {
         match self {
             Self::Hertz(_) | Self::Power { .. } | Self::Ehl(_) => (0.0, 0.0),

@@ -1,12 +1,12 @@
-//! Fitted power law of a ball's contacts, smooth down to no load, and the fit itself.
+//! Fitted power law of a ball's contacts, smooth down to zero load, and its least-squares fit.
 
 use super::Loaded;
 use nalgebra::{DMatrix, DVector};
 
 /// Q = K δⁿ + ΔQ between the two races, fitted over a range of loads.
 ///
-/// Source: Zhang 2016 eq. 2 and 11, after Nonato & Cavalca 2014. Below [`PowerLaw::smooth_below`] a ball follows a
-/// softer curve that begins without load (see [`PowerSpring`]).
+/// Source: Zhang 2016 eq. 2 and 11, after Nonato & Cavalca 2014. Below [`PowerLaw::smooth_below`] a softer
+/// curve continues it to zero load (see [`PowerSpring`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
     /// K \[N/mⁿ\].
@@ -15,20 +15,20 @@ pub struct PowerLaw {
     pub exponent: f64,
     /// ΔQ \[N\].
     pub offset: f64,
-    /// Loads over which the fit was made \[N\]; outside a warning is due.
+    /// Load range of the fit \[N\]; loads outside give a warning.
     pub range: [f64; 2],
 }
 
 impl PowerLaw {
-    /// Whether a loaded ball carries what the fit was not made for.
+    /// Whether a ball load is outside the range of the fit.
     pub fn outside(&self, load: f64) -> bool {
         load > 0.0 && (load < self.range[0] || load > self.range[1])
     }
 
-    /// Load Q_s \[N\] down to which the law is followed as it stands; below the range [Q_min, Q_max] of the fit.
+    /// Load Q_s \[N\] down to which the law is used unchanged; below the range [Q_min, Q_max] of the fit.
     ///
-    /// A quarter of Q_min; more where the law jumps (ΔQ > 0: 2 ΔQ, or midway to Q_min) or breaks off (ΔQ < 0: −ΔQ)
-    /// at loads comparable with it. Zhang's laws of Table 2 (600 to 2000 N): 150 and 155 N; the least load of a
+    /// A quarter of Q_min; more where the law jumps (ΔQ > 0: 2 ΔQ, or midway to Q_min) or ends (ΔQ < 0: −ΔQ)
+    /// at comparable loads. Zhang's laws of Table 2 (600 to 2000 N): 150 and 155 N; the smallest load of a
     /// loaded ball in the paper's cases is 547 N.
     pub fn smooth_below(&self) -> f64 {
         let [least, _] = self.range;
@@ -37,11 +37,11 @@ impl PowerLaw {
     }
 }
 
-/// A power law made continuous with its slope down to no load.
+/// A power law with a C¹ continuation to zero load.
 ///
 /// For Q ≥ Q_s: Q = K δⁿ + ΔQ. Below: Q = Q_s ((δ − δ₀)/L)^{3/2}, L and δ₀ such that load and slope meet at Q_s:
-/// L = (3/2) Q_s/Q′(δ_s), δ₀ = δ_s − L. A law with ΔQ > 0 so takes load a little before the races touch, as a
-/// film does; the pure K δ^{3/2} is left as it is.
+/// L = (3/2) Q_s/Q′(δ_s), δ₀ = δ_s − L. A law with ΔQ > 0 thus carries load slightly before dry contact, as
+/// with a film; pure K δ^{3/2} is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerSpring {
     pub law: PowerLaw,
@@ -60,7 +60,7 @@ impl PowerSpring {
         Self { law, knee: [approach, load], length }
     }
 
-    /// δ₀ \[m\]: no load up to it.
+    /// δ₀ \[m\]: zero load up to this approach.
     pub fn onset(&self) -> f64 {
         self.knee[0] - self.length
     }
@@ -94,8 +94,8 @@ impl PowerSpring {
 
 /// Least-squares fit of Q = K δⁿ + ΔQ in the loads Q \[N\] over approaches δ > 0 \[m\].
 ///
-/// Gauss-Newton from n = 3/2 with halved steps. `None` unless at least three points are given, all finite, with
-/// positive approaches that differ.
+/// Gauss-Newton from n = 3/2 with step halving. `None` unless at least three points are given, all finite,
+/// with distinct positive approaches.
 pub fn fit_power_law(loads: &[f64], approaches: &[f64]) -> Option<PowerLaw> {
     let points = loads.len();
     let sound = approaches.iter().chain(loads).all(|v| v.is_finite()) && approaches.iter().all(|v| *v > 0.0);

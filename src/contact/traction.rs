@@ -1,4 +1,4 @@
-//! Traction between rolling bodies: Coulomb friction made smooth about zero slip.
+//! Traction between rolling bodies: Coulomb friction regularised at zero slip.
 
 use nalgebra::Vector3;
 
@@ -12,10 +12,10 @@ pub struct Traction {
 }
 
 impl Traction {
-    /// Force \[N\] on the body that slips with velocity v \[m/s\]: F = −μ Q v / √(v² + v₀²).
+    /// Friction force \[N\] on the body with slip velocity v \[m/s\]: F = −μ Q v / √(v² + v₀²).
     ///
-    /// Limits: −μ Q v/v₀ for small slip (so a load is carried at a small creep, not at rest), −μ Q v/|v| for
-    /// large slip; F · v ≤ 0 always, so traction never drives.
+    /// Limits: −μ Q v/v₀ for small slip (a tangential load causes creep, no sticking), −μ Q v/|v| for
+    /// large slip; F · v ≤ 0 always (dissipative).
     pub fn force(&self, load: f64, slip: &Vector3<f64>) -> Vector3<f64> {
         -slip * (self.friction * load / slip.norm().hypot(self.slip_speed))
     }

@@ -38,9 +38,9 @@ impl Column<'_> {
     }
 }
 
-/// A table of any columns as text; numbers are the shortest that read back exactly.
+/// Columns as CSV text; numbers in the shortest form that reads back exactly.
 ///
-/// Shorter columns leave their last cells empty.
+/// The last cells of shorter columns are empty.
 pub fn to_csv(columns: &[Column]) -> String {
     let mut out = columns.iter().map(Column::header).collect::<Vec<_>>().join(",");
     out.push('\n');
@@ -72,7 +72,7 @@ pub fn write(path: &Path, columns: &[Column]) -> Result<(), Error> {
     })
 }
 
-/// Writes channels of one constant sample rate, led by the column `time_s` = t₀ + k/f_s.
+/// Writes channels of one constant sample rate, with the first column `time_s` = t₀ + k/f_s.
 ///
 /// `rate`: f_s \[Hz\]; `start`: t₀ \[s\].
 ///
@@ -86,10 +86,11 @@ pub fn write_series(path: &Path, rate: f64, start: f64, channels: &[Column]) -> 
     write(path, &columns)
 }
 
-/// Writes records over one axis, led by the column `time_s` or `frequency_Hz`; complex ones as `name_re`, `name_im`.
+/// Writes records over one axis, with the first column `time_s` or `frequency_Hz`; complex ones as `name_re`,
+/// `name_im`.
 ///
 /// # Errors
-/// No record, axes that differ or are not told, or a file that cannot be written.
+/// Axes that differ or are unknown, or a file that cannot be written.
 pub fn write_records(path: &Path, records: &[&Record]) -> Result<(), Error> {
     let Some(first) = records.first() else { return write(path, &[]) };
     let count = first.values.len();

@@ -1,7 +1,7 @@
-//! What a machine and its runs hold, as records, geometry and shapes for measurement programs.
+//! Machine, runs, FRFs and modes as records, geometry and shapes for measurement programs.
 //!
-//! Node k of the machine is point k + 1: shaft nodes first, then bodies. Directions x y z are 1 2 3, rotations
-//! about them 4 5 6.
+//! Node k of the machine is point k + 1: shaft nodes first, then bodies. Directions x y z are 1 2 3,
+//! rotations about them 4 5 6.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ use crate::signal::record::{
 use crate::study::Machine;
 use crate::update::target::place_of;
 
-/// Channels of a run with the shaft's angle and speed \[rpm\], at the points where they are.
+/// Channels of a run, at their points, with the shaft's angle and speed \[rpm\].
 pub fn run(history: &History, model: &Model) -> Measured {
     let start = history.time.first().copied().unwrap_or(0.0);
     let axis = Axis::even(AxisQuantity::Time, start, 1.0 / history.sample_rate);
@@ -35,8 +35,8 @@ pub fn run(history: &History, model: &Model) -> Measured {
     Measured { title: model.title.clone(), records, geometry: geometry(model), ..Measured::default() }
 }
 
-/// Point of a station, bearing or body of this name; `housing.A`, `body.block`, `disc.main` and `station.B` say which is
-/// meant where several share a name.
+/// Point number of a station, bearing or body; the prefixes of `housing.A`, `body.block`, `disc.main` and
+/// `station.B` resolve names that are used more than once.
 pub fn point(model: &Model, place: &str) -> Option<i64> {
     let station = |name: &str| model.stations.iter().find(|s| s.name == name).map(|s| s.node);
     let bearing = |name: &str| model.bearings.iter().find(|b| b.name == name).map(|b| b.node);
@@ -52,7 +52,7 @@ pub fn point(model: &Model, place: &str) -> Option<i64> {
     node.map(|node| node as i64 + 1)
 }
 
-/// Computed FRFs between the points that are excited and seen.
+/// Computed FRFs between excitation and response points.
 pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
     let model = &machine.model;
     let Some(study) = &model.studies.frf else { return Measured::default() };
@@ -75,7 +75,8 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Measured {
     Measured { title: model.title.clone(), records, geometry, ..Measured::default() }
 }
 
-/// End of an FRF. A place beside a node is a point of its own after those of the model.
+/// Response or excitation DOF of an FRF. A location at an offset from a node gets its own point after those
+/// of the model.
 fn end(
     at: &Anchor,
     weights: &[f64; 6],
@@ -134,7 +135,7 @@ pub fn modes(found: &[ModalResult], machine: &Machine) -> Measured {
     Measured { title: model.title.clone(), shapes, geometry: geometry(model), ..Measured::default() }
 }
 
-/// Points of shaft and bodies, the shaft as a line, every bearing's line to its housing.
+/// Points of shaft and bodies; lines along the shaft and from every bearing to its housing.
 fn geometry(model: &Model) -> Geometry {
     let shaft = model.node_z.iter().map(|&z| [0.0, 0.0, z]);
     let places = shaft.chain(model.bodies.iter().map(|b| b.position));
@@ -151,7 +152,7 @@ fn geometry(model: &Model) -> Geometry {
     Geometry { nodes, lines, ..Geometry::default() }
 }
 
-/// Records named as bearing data sets name them: `X<number>_<name>_time`, with `X<number>RPM`, the mean speed.
+/// Records named as in the CWRU bearing data: `X<number>_<name>_time`, with `X<number>RPM`, the mean speed.
 ///
 /// `number` is written with three digits.
 pub fn numbered(measured: &Measured, number: u32) -> Measured {
@@ -167,16 +168,16 @@ pub fn numbered(measured: &Measured, number: u32) -> Measured {
     out
 }
 
-/// Whether a record vibrates: it has an even axis and is an acceleration, velocity, displacement or force.
+/// Whether a record is a vibration signal: uniformly sampled acceleration, velocity, displacement or force.
 pub fn is_audible(record: &Record) -> bool {
     let even = matches!(record.axis.points, Points::Even { .. });
     even && matches!(record.unit.as_str(), "m" | "m/s" | "m/s^2" | "N")
 }
 
-/// FRFs as a test with noise would give them, each with its coherence.
+/// FRFs of a simulated test with measurement noise, each with its coherence.
 ///
 /// # Errors
-/// Records that are no matrix of FRFs, no average, a signal to noise that is not finite.
+/// Records that do not form an FRF matrix, zero averages, a signal-to-noise ratio that is not finite.
 pub fn noisy(exact: &Measured, test: &NoisyTest) -> Result<Measured, Error> {
     let matrix = exact.frf_matrix()?.measured_with(test)?;
     let mut out = exact.clone();

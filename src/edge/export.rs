@@ -1,4 +1,4 @@
-//! Shapes and motions for viewers: the machine and its bearings as .glb, mode shapes for ParaView.
+//! 3D export: the machine and its bearings as .glb, mode shapes for ParaView (.vtu, .pvd).
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::results::Results;
 use crate::study::Machine;
 
-/// Largest displacement of an exported mode shape over the length of the shaft.
+/// Ratio of the largest displacement of an exported mode shape to the length of the shaft.
 const SIZE: f64 = 0.1;
 
 /// Writes `machine.glb` and `bearing_<name>.glb` of every ball bearing; returns the files.
@@ -34,10 +34,10 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
     Ok(files)
 }
 
-/// Writes every mode as `modes_<speed>rpm_<number>.vtu` and per speed `modes_<speed>rpm.pvd`, whose time is the
-/// mode's number; returns the .pvd files.
+/// Writes every mode as `modes_<speed>rpm_<number>.vtu` and per speed `modes_<speed>rpm.pvd`, whose time is
+/// the mode's number; returns the .pvd files.
 ///
-/// Motion is Re(u e^{jωt}): fields `displacement` and `rotation` hold Re u, `displacement_quarter` and
+/// Motion is Re(u e^{jωt}): fields `displacement` and `rotation` are Re u, `displacement_quarter` and
 /// `rotation_quarter` −Im u, a quarter of a cycle later. The largest displacement is a tenth of
 /// the shaft's length, or the largest rotation 1 rad.
 ///
@@ -75,7 +75,7 @@ fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
     };
     let mut fields = machine_fields(grid, &part(|u| u.re), &[]);
     let mut quarter = machine_fields(grid, &part(|u| -u.im), &[]);
-    // No balls are loaded by a mode.
+    // A mode shape has no ball loads.
     for list in [&mut fields, &mut quarter] {
         list.retain(|f| matches!(f.values, Values::Vectors(_)));
     }

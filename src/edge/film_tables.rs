@@ -1,4 +1,5 @@
-//! Tables of solved films, computed when a model asks for them and kept on disk by their inputs.
+//! Tables of EHL (elastohydrodynamic) films, computed when a model needs them and cached on disk by their
+//! inputs.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use crate::contact::ehl::{Failure, Solution, Table, TableSpec};
 use crate::edge::csv::{self, Column};
 use crate::error::{Error, PhysicsError};
 
-/// Where tables are kept: `ROTORDYN_CACHE`, or `rotordyn` in the user's folder for caches; `None` without either.
+/// Cache folder: `ROTORDYN_CACHE`, or `rotordyn` in the user's cache folder; `None` without either.
 pub fn cache_folder() -> Option<PathBuf> {
     let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
     variable("ROTORDYN_CACHE")
@@ -17,13 +18,14 @@ pub fn cache_folder() -> Option<PathBuf> {
         .or_else(|| Some(variable("HOME")?.join(".cache").join("rotordyn")))
 }
 
-/// Computes the tables of a bearing with a solved film, or reads them from `cache`; other bearings are left alone.
+/// Computes the tables of a bearing with an EHL film, or reads them from `cache`; other bearings are
+/// unchanged.
 ///
 /// `progress(race, done, total)` is called after every contact that is solved, from any thread.
 ///
 /// # Errors
-/// [`PhysicsError::Film`] when a contact does not converge: `last` then gets its last fields, as CSV. A cache that
-/// cannot be written is no error: the tables are only computed again.
+/// [`PhysicsError::Film`] when a contact does not converge: its last fields are then written to `last`, as
+/// CSV. A cache that cannot be written is not an error: the tables are then computed again next time.
 pub fn prepare(
     name: &str,
     bearing: &mut BallBearing,
@@ -52,7 +54,7 @@ pub fn prepare(
     Ok(())
 }
 
-/// The error for the user; the last fields of a contact that did not converge go to the file `last`.
+/// The error of a film; the last fields of a contact that did not converge are written to the file `last`.
 fn film_error(name: &str, race: &str, failure: &Failure, last: &Path) -> Error {
     let mut reason = failure.to_string();
     if let Failure::NoConvergence { last: fields, .. } = failure {
@@ -88,21 +90,21 @@ pub fn write_fields(fields: &Solution, path: &Path) -> Result<(), Error> {
 }
 
 fn file(folder: &Path, key: &str) -> PathBuf {
-    // FNV-1a: short and the same for ever; the key inside the file is what counts.
+    // FNV-1a hash: short and stable; the key inside the file is decisive.
     let hash = key.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     });
     folder.join(format!("film-{hash:016x}.json"))
 }
 
-/// A table with this key, if the cache has it whole.
+/// Reads the table of a key from the cache; `None` if missing or damaged.
 fn read(folder: &Path, key: &str) -> Option<Table> {
     let text = std::fs::read(file(folder, key)).ok()?;
     let table: Table = serde_json::from_slice(&text).ok()?;
     (table.key == key).then_some(table)
 }
 
-/// Through a file of its own, so that a reader never meets half a table.
+/// Writes a temporary file and renames it (atomic), so that no reader sees an incomplete table.
 fn write(folder: &Path, table: &Table) {
     let path = file(folder, &table.key);
     let draft = path.with_extension(format!("{}.tmp", std::process::id()));

@@ -7,23 +7,23 @@ use serde_json::{Value, json};
 use super::mesh::Mesh;
 use crate::error::Error;
 
-/// Parts to look at, in metres, y up: the model's own axes are glTF's.
+/// Parts to display, in metres, y up: the model's axes are those of glTF.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     pub name: String,
     pub meshes: Vec<ColouredMesh>,
-    /// A node's children come after it; nodes that are nobody's child stand in the scene itself.
+    /// Children come after their parent; nodes without a parent are the roots of the scene.
     pub nodes: Vec<Node>,
 }
 
-/// A mesh and its look.
+/// A mesh and its material (glTF).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColouredMesh {
     pub mesh: Mesh,
     pub look: Look,
 }
 
-/// Colour (linear red, green, blue, opacity), metallic share and roughness, each in 0 to 1.
+/// Material: colour (linear red, green, blue, opacity), metallic share and roughness, each in 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     pub name: &'static str,
@@ -32,7 +32,7 @@ pub struct Look {
     pub roughness: f64,
 }
 
-/// A part at its place; several nodes may show the same mesh.
+/// A part at its position; several nodes may use the same mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     pub name: String,
@@ -147,7 +147,7 @@ fn node(node: &Node) -> Value {
     out
 }
 
-/// The binary chunk while it grows, with what describes it.
+/// The binary chunk under construction, with its buffer views and accessors.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,

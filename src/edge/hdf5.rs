@@ -1,8 +1,8 @@
 //! HDF5 files: groups, attributes, data sets and streamed channels, readable with plain h5py.
 //!
-//! The only module that uses the hdf5 crate. Files need HDF5 1.8 or later to read, hold no time stamps (so that
-//! rerunning gives the same file) and name objects by absolute paths, `/modes/omega`; groups on the way are
-//! made as needed.
+//! The only module that uses the hdf5 crate. Files can be read by HDF5 1.8 or later and contain no time
+//! stamps, so that a repeated run gives the same file. Objects are named by absolute paths, `/modes/omega`;
+//! missing parent groups are created.
 
 mod attribute;
 mod scale;
@@ -18,11 +18,11 @@ use hdf5::{Dataset, File, Group, H5Type, OpenMode};
 use nalgebra::Complex;
 use std::path::{Path, PathBuf};
 
-/// Values in a chunk at most (256 kB of f64).
+/// Most values per chunk (256 kB of f64).
 const CHUNK_VALUES: usize = 32_768;
-/// Data sets with fewer values than this are stored whole and uncompressed.
+/// Data sets with fewer values are stored contiguously and uncompressed.
 const SMALL: usize = 1024;
-/// Compression level 1 to 9: above 1 shuffled samples hardly shrink further.
+/// Deflate (gzip) level, 1 to 9: levels above 1 hardly reduce shuffled samples further.
 const DEFLATE: u8 = 1;
 
 /// An open HDF5 file.
@@ -32,16 +32,16 @@ pub struct Store {
     path: PathBuf,
 }
 
-/// What a name in a file stands for.
+/// Kind of object that a name in a file refers to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Item {
     Group,
-    /// Numbers that are read as f64, and the shape.
+    /// Numbers, read as f64, with their shape.
     Real(Vec<usize>),
     /// Compounds {r, i}.
     Complex(Vec<usize>),
     Text(Vec<usize>),
-    /// Anything that is not read here.
+    /// Any other data type; not read.
     Other,
 }
 
@@ -61,7 +61,7 @@ struct ComplexPair {
 }
 
 impl Store {
-    /// Creates a file, replacing one that is there, and the folders on the way to it.
+    /// Creates a file and its parent folders; an existing file is replaced.
     pub fn create(path: impl AsRef<Path>) -> Result<Store, Error> {
         let path = path.as_ref();
         if let Some(folder) = path.parent() {
@@ -75,7 +75,7 @@ impl Store {
         Store::open_as(path.as_ref(), OpenMode::Read, "open")
     }
 
-    /// Opens a file for writing more into it, or creates it.
+    /// Opens a file for appending; creates it if missing.
     pub fn append(path: impl AsRef<Path>) -> Result<Store, Error> {
         match path.as_ref().exists() {
             true => Store::open_as(path.as_ref(), OpenMode::ReadWrite, "open for writing"),
@@ -85,8 +85,8 @@ impl Store {
 
     fn open_as(path: &Path, mode: OpenMode, operation: &'static str) -> Result<Store, Error> {
         let mut options = File::with_options();
-        // The 1.8 format has no "open for writing" mark, so a file whose writer was killed opens as any other.
-        // No lock, so that a run can be looked at while it goes on.
+        // The 1.8 format has no "open for writing" flag, so a file whose writer was killed can still be
+        // opened. No file locking, so that a file can be read during the run.
         options.with_fapl(|access| {
             access.libver_bounds(LibraryVersion::V18, LibraryVersion::V18).file_locking(false)
         });
@@ -100,7 +100,7 @@ impl Store {
         &self.path
     }
 
-    /// Hands all that was written to the operating system.
+    /// Flushes all written data to the operating system.
     pub fn flush(&self) -> Result<(), Error> {
         self.file.flush().map_err(|e| failure("write", &self.path, e))
     }
@@ -117,9 +117,10 @@ impl Store {
         Ok(names)
     }
 
-    /// Removes a group with all in it, or a data set; nothing happens if there is none.
+    /// Removes a group with its members, or a data set; no effect if missing.
     ///
-    /// Remove data sets together with their scales. The space is used again only until the file is closed.
+    /// Remove data sets together with their dimension scales. Freed space is reused only until the file is
+    /// closed.
     pub fn remove(&self, name: &str) -> Result<(), Error> {
         match self.contains(name) {
             true => self.writing(name, self.file.unlink(name)),
@@ -127,12 +128,12 @@ impl Store {
         }
     }
 
-    /// Creates a group and those above it; nothing happens if it is there.
+    /// Creates a group and its parent groups; no effect if it exists.
     pub fn create_group(&self, name: &str) -> Result<(), Error> {
         self.writing(name, self.group(name)).map(drop)
     }
 
-    /// Writes a data set of f64 with its shape and attributes; the name must be free.
+    /// Writes a data set of f64 with its shape and attributes; the name must not exist yet.
     pub fn write(
         &self,
         name: &str,
@@ -143,7 +144,7 @@ impl Store {
         self.writing(name, self.dataset(name, shape, data, attributes))
     }
 
-    /// Writes a data set of complex numbers, a compound {r, i} of f64; the name must be free.
+    /// Writes a data set of complex numbers, a compound {r, i} of f64; the name must not exist yet.
     pub fn write_complex(
         &self,
         name: &str,
@@ -155,7 +156,7 @@ impl Store {
         self.writing(name, self.dataset(name, shape, &pairs, attributes))
     }
 
-    /// Writes a list of UTF-8 strings; the name must be free.
+    /// Writes a list of UTF-8 strings; the name must not exist yet.
     pub fn write_texts<T: AsRef<str>>(
         &self,
         name: &str,
@@ -165,7 +166,7 @@ impl Store {
         self.write_text_array(name, &[texts.len()], texts, attributes)
     }
 
-    /// Writes a data set of UTF-8 strings with its shape; the name must be free.
+    /// Writes a data set of UTF-8 strings with its shape; the name must not exist yet.
     pub fn write_text_array<T: AsRef<str>>(
         &self,
         name: &str,
@@ -181,7 +182,7 @@ impl Store {
         self.writing(name, written)
     }
 
-    /// What stands under a name, with its shape.
+    /// Kind and shape of the object of a name.
     pub fn item(&self, name: &str) -> Result<Item, Error> {
         let Ok(dataset) = self.file.dataset(name) else { return Ok(Item::Group) };
         let shape = dataset.shape();
@@ -225,7 +226,7 @@ impl Store {
         self.writing(object, set)
     }
 
-    /// Reads an attribute of a data set or group; `None` if it has none of this name.
+    /// Reads an attribute of a data set or group; `None` if missing.
     pub fn attribute(&self, object: &str, name: &str) -> Result<Option<Attribute>, Error> {
         let read = match self.file.dataset(object) {
             Ok(dataset) => attribute::get(&dataset, name),
@@ -234,7 +235,7 @@ impl Store {
         self.reading(object, read)
     }
 
-    /// Makes the one-dimensional data set `scale` the axis of one dimension (from 0) of `dataset`.
+    /// Attaches the one-dimensional data set `scale` as dimension scale to a dimension (from 0) of `dataset`.
     ///
     /// `label` (at most 63 bytes) names the axis, "frequency"; h5py shows both as `dataset.dims[dimension]`.
     pub fn attach_scale(
@@ -247,7 +248,7 @@ impl Store {
         self.writing(dataset, scale::attach(&self.file, &self.path, dataset, dimension, scale, label))
     }
 
-    /// The group of this name, created with those above it if missing.
+    /// The group of this name; it and its parent groups are created if missing.
     fn group(&self, name: &str) -> hdf5::Result<Group> {
         let mut group = self.file.as_group()?;
         for prefix in prefixes(name) {
@@ -313,7 +314,7 @@ fn prefixes(name: &str) -> impl Iterator<Item = &str> {
     ends.filter(|&end| end > 0).map(|end| &name[..end])
 }
 
-/// A chunk of at most `CHUNK_VALUES` values, whole in the last dimensions as far as they go.
+/// Chunk shape of at most `CHUNK_VALUES` values, filled from the last dimension.
 fn chunk(shape: &[usize]) -> Vec<usize> {
     let mut left = CHUNK_VALUES;
     let mut chunk = shape.to_vec();

@@ -1,4 +1,4 @@
-//! Identified modes as JSON, HDF5 and shapes for other programs.
+//! Identified modes (experimental modal analysis) as JSON, HDF5 and shapes for other programs.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use crate::identify::{Identified, Mode};
 use crate::linalg::Complex64;
 use crate::signal::record::{Analysis, Dof, Geometry, Measured, Shape};
 
-/// The modes with their errors, the fit, and what was dropped.
+/// The modes with their standard errors, the fit errors, and messages on dropped poles.
 pub fn to_json(found: &Identified) -> Value {
     let names = |dofs: &[Dof]| dofs.iter().map(Dof::to_string).collect::<Vec<_>>();
     let complex = |values: &[Complex64]| values.iter().map(|v| json!([v.re, v.im])).collect::<Vec<_>>();
@@ -39,7 +39,8 @@ pub fn to_json(found: &Identified) -> Value {
     })
 }
 
-/// `/identified`: poles, shapes, participations, FRFs measured and synthesised, the stabilisation diagram.
+/// `/identified`: poles, mode shapes, modal participation, phase collinearity (MPC), FRFs measured and
+/// synthesised, stabilisation diagram.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -83,7 +84,8 @@ pub fn write_hdf5(store: &Store, found: &Identified) -> Result<(), Error> {
     store.flush()
 }
 
-/// Complex shapes over the points of the side with more DOFs, for universal files; scalars count as along z.
+/// Complex mode shapes at the points of the side (responses or references) with more DOFs, for universal
+/// files; DOFs without a direction are assigned to z.
 pub fn shapes(found: &Identified, geometry: &Geometry) -> Measured {
     let shape = |(k, mode): (usize, &Mode)| {
         let (dofs, values) = found.deflection(mode);

@@ -1,4 +1,4 @@
-//! Deflated bytes, as .npz and .mat files hold them.
+//! Decompression (inflate) of zlib and raw deflate streams in .npz and .mat files.
 //!
 //! The only module that uses the flate2 crate.
 

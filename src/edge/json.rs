@@ -1,9 +1,9 @@
 //! Results as JSON, for other programs: the document "rotordyn-results-1".
 //!
-//! Frequencies in Hz, speeds in rpm, all else in SI; what is not a finite number is null. Keys of parts that
-//! were not computed are absent.
+//! Frequencies in Hz, speeds in rpm, all else in SI; non-finite numbers are null. Keys of results that were
+//! not computed are absent.
 //!
-//! | key | holds |
+//! | key | contents |
 //! |---|---|
 //! | `schema`, `program`, `version` | "rotordyn-results-1", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
@@ -17,18 +17,18 @@
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
-//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
-//! | `lyapunov` | `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
+//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
+//! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `seams`, `repaired`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
-//! | `bearings` | per ball bearing on its own {name, load_from, nominal_orders, operating, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
-//! | `warnings` | sentences |
+//! | `bearings` | per stand-alone ball bearing {name, load_from, held, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `warnings` | messages |
 
 mod signal;
 mod steady;
 
 pub use signal::signal_to_json;
 
-/// Name of the document's form.
+/// Name and version of the document's schema.
 pub const SCHEMA: &str = "rotordyn-results-1";
 
 use serde_json::{Map, Value, json};
@@ -108,7 +108,7 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
     Value::Object(out)
 }
 
-/// Ball bearings on their own as a document of the same form, where there is no machine.
+/// Stand-alone ball bearings (no machine) as a document of the same schema.
 pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
     json!({
         "schema": SCHEMA, "program": "rotordyn", "version": env!("CARGO_PKG_VERSION"),
@@ -160,7 +160,7 @@ fn point(p: &BearingPoint) -> Value {
         "load": p.state.load, "displacement": p.state.displacement, "stiffness": p.state.stiffness,
         "balls": p.balls.iter().map(ball).collect::<Value>(),
     });
-    // What a standard does not give is left out.
+    // Quantities for which a standard gives no value (NaN) are omitted.
     for (name, _, value) in BearingPoint::COLUMNS.iter().filter(|(_, _, value)| !value(p).is_nan()) {
         out[*name] = json!(value(p));
     }

@@ -1,6 +1,6 @@
 //! MATLAB v5 .mat files: numeric and text arrays, compressed or not, either byte order; written uncompressed.
 //!
-//! Cells, structs and sparse matrices are left out and named. Version 7.3 files are HDF5.
+//! Cells, structs and sparse matrices are skipped and their names reported. Version 7.3 files are HDF5.
 //! Format: MATLAB MAT-File Format, The MathWorks, R2019b.
 
 use std::borrow::Cow;
@@ -24,21 +24,21 @@ const DOUBLE_CLASS: u8 = 6;
 const NUMERIC: std::ops::RangeInclusive<u8> = 6..=15;
 const COMPLEX_FLAG: u32 = 0x0800;
 const HEADER: usize = 128;
-/// Longest name MATLAB takes.
+/// Longest variable name in MATLAB (`namelengthmax`).
 pub const NAME_LENGTH: usize = 63;
 
-/// What is wrong with a file.
+/// Message on an error in a file.
 type Problem = &'static str;
 
-/// Whether a file begins like a v5 .mat file.
+/// Whether a file starts with the header of a v5 .mat file.
 pub fn is_mat(head: &[u8]) -> bool {
     matches!(head.get(124..128), Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
 }
 
-/// Reads every numeric and text array of a file; the second list names what was left out.
+/// Reads every numeric and text array of a file; the second list has the names of skipped arrays.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, or is no v5 .mat file.
+/// The file cannot be read, is cut off, or is not a v5 .mat file.
 pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
     let bytes = std::fs::read(path).map_err(|source| Error::Environment {
         operation: "read",
@@ -54,7 +54,7 @@ pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
 
 fn parse(bytes: &[u8]) -> Result<(Vec<Array>, Vec<String>), Problem> {
     if !is_mat(bytes) {
-        return Err("it is no MATLAB v5 file");
+        return Err("it is not a MATLAB v5 file");
     }
     let little = bytes[126] == b'I';
     let (mut arrays, mut left_out) = (Vec::new(), Vec::new());
@@ -66,7 +66,7 @@ fn parse(bytes: &[u8]) -> Result<(Vec<Array>, Vec<String>), Problem> {
             MATRIX => data.into(),
             _ => continue,
         };
-        // A compressed element holds a whole one, with its tag.
+        // A compressed element contains a complete element with its tag.
         let mut inner = Reader { rest: &inflated, little };
         let body = if kind == COMPRESSED { inner.element()?.1 } else { &inflated };
         match matrix(Reader { rest: body, little })? {
@@ -77,7 +77,7 @@ fn parse(bytes: &[u8]) -> Result<(Vec<Array>, Vec<String>), Problem> {
     Ok((arrays, left_out))
 }
 
-/// Reads elements from the left.
+/// Reads data elements in sequence.
 struct Reader<'a> {
     rest: &'a [u8],
     little: bool,
@@ -94,7 +94,7 @@ impl<'a> Reader<'a> {
         u32::from_le_bytes(self.number(bytes))
     }
 
-    /// Type and data of the next element; up to four bytes stand within its tag.
+    /// Type and data of the next element; data of up to four bytes are stored within its tag.
     fn element(&mut self) -> Result<(u32, &'a [u8]), Problem> {
         let (tag, rest) = self.rest.split_at_checked(8).ok_or(CUT)?;
         let first = self.u32(&tag[..4]);
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Reads one array, or the name of one that is neither of numbers nor of text.
+/// Reads one array, or the name of one that is neither numeric nor text.
 fn matrix(mut body: Reader) -> Result<Result<Array, String>, Problem> {
     let flags = body.element()?.1;
     let flags = body.u32(flags.get(..4).ok_or(CUT)?);
@@ -168,12 +168,12 @@ fn matrix(mut body: Reader) -> Result<Result<Array, String>, Problem> {
         Data::Complex(rows_first(&values, &shape))
     };
     if data.len() != count {
-        return Err("an array has fewer values than its size says");
+        return Err("an array has fewer values than its size states");
     }
     Ok(Ok(Array { name, shape, data }))
 }
 
-/// Characters of a text; UTF-8 takes several bytes for one.
+/// Character codes of a text; UTF-8 has several bytes per character.
 fn text_codes(body: &mut Reader, count: usize) -> Result<Vec<u32>, Problem> {
     let before = body.rest;
     let (kind, data) = body.element()?;
@@ -183,17 +183,17 @@ fn text_codes(body: &mut Reader, count: usize) -> Result<Vec<u32>, Problem> {
     body.rest = before;
     let codes = body.numbers()?;
     if codes.len() < count {
-        return Err("a text has fewer letters than its size says");
+        return Err("a text has fewer characters than its size states");
     }
     Ok(codes.iter().map(|&c| c as u32).collect())
 }
 
-/// Values stored first index fastest, reordered to last index fastest.
+/// Column-major values (first index fastest) reordered to row-major (last index fastest).
 pub(super) fn rows_first<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
     reorder(values, shape, shape.iter().scan(1, |stride, n| Some(std::mem::replace(stride, *stride * n))))
 }
 
-/// Values stored last index fastest, reordered to first index fastest.
+/// Row-major values reordered to column-major.
 fn columns_first<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
     let mirrored: Vec<usize> = shape.iter().rev().copied().collect();
     rows_first(values, &mirrored)
@@ -218,7 +218,7 @@ fn reorder<T: Copy>(values: &[T], shape: &[usize], strides: impl Iterator<Item =
     out
 }
 
-/// Writes arrays as doubles and texts, uncompressed, little endian; one-dimensional ones as columns.
+/// Writes arrays as doubles and texts, uncompressed, little endian; one-dimensional ones as column vectors.
 ///
 /// # Errors
 /// An array of 4 GB or more, or a file that cannot be written.
@@ -235,7 +235,7 @@ pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
     })
 }
 
-/// The bytes of a file; errors name the array that is too large.
+/// The bytes of a file; error: the name of an array that is too large.
 fn to_bytes(arrays: &[Array]) -> Result<Vec<u8>, String> {
     let mut out = format!("{:<124}", "MATLAB 5.0 MAT-file, Platform: any, written by rotordyn").into_bytes();
     out.extend([0, 1, b'I', b'M']);
@@ -246,7 +246,7 @@ fn to_bytes(arrays: &[Array]) -> Result<Vec<u8>, String> {
     Ok(out)
 }
 
-/// Flags, dimensions, name and values; `None` if they do not fit.
+/// Flags, dimensions, name and values; `None` if a size exceeds its 32-bit field.
 fn body(array: &Array) -> Option<Vec<u8>> {
     let mut out = Vec::new();
     let (class, flags) = match array.data {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::parry::{CageShape, Ring};
 
-/// Triangles with a normal at every vertex, lengths \[m\]; seen from outside they turn counter-clockwise.
+/// Triangles with a normal at every vertex, lengths \[m\]; counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     pub positions: Vec<[f64; 3]>,
@@ -24,7 +24,7 @@ impl Mesh {
                 .map(|(&[r, z], &[nr, nz])| {
                     let first = mesh.positions.len() as u32;
                     for k in 0..=sectors {
-                        // The last column lies on the first to the last bit.
+                        // The last column is bit-identical to the first.
                         let (sin, cos) = (TAU * (k % sectors) as f64 / sectors as f64).sin_cos();
                         mesh.vertex([r * cos, r * sin, z], [nr * cos, nr * sin, nz]);
                     }

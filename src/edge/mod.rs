@@ -1,4 +1,4 @@
-//! Edges: one owner per foreign crate or file format.
+//! File formats, figures and bearing geometry; each foreign crate is used by one module only.
 
 pub mod csv;
 pub mod exchange;

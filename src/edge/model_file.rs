@@ -1,4 +1,4 @@
-//! Numbers of a model file changed in place: comments, order, layout and units stay as the user wrote them.
+//! Changes numbers of a model file in place; comments, order, layout and units are preserved.
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
@@ -9,19 +9,19 @@ use crate::units::leading_number;
 pub struct Change {
     /// Such as "housing.B.k_x".
     pub path: String,
-    /// New value, in the unit that stands there.
+    /// New value, in the unit used in the file.
     pub value: f64,
-    /// Its standard error, which says how many digits have a sense.
+    /// Its standard error, which determines the number of digits.
     pub error: f64,
 }
 
 /// The file's text with changed numbers.
 ///
-/// With a variant, the variant's own statement is changed where it has one (else that of the variant it is based on,
-/// else the file's).
+/// With a variant, the variant's own value is changed if present (else that of the variant it is based on,
+/// else that of the base model).
 ///
 /// # Errors
-/// A path at which the file states no number, by its name.
+/// A path without a number in the file, by its name.
 pub fn rewrite(text: &str, variant: Option<&str>, changes: &[Change]) -> Result<String, String> {
     let (mark, body) = match text.strip_prefix('\u{feff}') {
         Some(body) => ("\u{feff}", body),
@@ -83,7 +83,7 @@ fn in_value<'a>(value: &'a mut Value, parts: &[&str]) -> Option<&'a mut Value> {
     }
 }
 
-/// Puts the number there with what stood around it; false where there is none.
+/// Replaces the number and keeps the text around it; false if there is none.
 fn set(value: &mut Value, change: &Change) -> bool {
     let old = match value {
         Value::String(text) => text.value().trim_start().to_string(),
@@ -107,7 +107,8 @@ fn set(value: &mut Value, change: &Change) -> bool {
     true
 }
 
-/// A value with digits to a hundredth of its error, at least as many as `like` has, with an exponent if that has one.
+/// Formats a value with digits to a hundredth of its error, at least those of `like`, with an exponent if
+/// `like` has one.
 pub fn written(like: &str, value: f64, error: f64) -> String {
     let mantissa = like.split(['e', 'E']).next().unwrap_or(like);
     let given =

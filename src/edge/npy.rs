@@ -12,18 +12,18 @@ use crate::signal::Complex;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Whether a file begins like a .npy file.
+/// Whether a file starts with the .npy magic bytes.
 pub fn is_npy(head: &[u8]) -> bool {
     head.starts_with(MAGIC)
 }
 
-/// Whether a file begins like a .npz archive.
+/// Whether a file starts with the signature of a .npz (ZIP) archive.
 pub fn is_npz(head: &[u8]) -> bool {
     head.starts_with(b"PK\x03\x04") || head.starts_with(b"PK\x05\x06")
 }
 
-/// Reads the array of a .npy file, named after the file, or those of a .npz archive; the second list names what
-/// was left out.
+/// Reads the array of a .npy file, named after the file, or those of a .npz archive; the second list has the
+/// names of skipped members.
 ///
 /// # Errors
 /// The file cannot be read, is damaged or cut off.
@@ -57,7 +57,7 @@ pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
     Ok((arrays, left_out))
 }
 
-/// What is wrong with a file.
+/// Message on an error in a file.
 type Problem = &'static str;
 
 const CUT: Problem = "the file is cut off";
@@ -74,7 +74,7 @@ fn u32_at(bytes: &[u8], at: usize) -> Result<usize, Problem> {
 
 /// Files of a ZIP archive by its central directory.
 fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Problem> {
-    // The directory's end is followed by a comment of at most 65535 bytes.
+    // The end record of the directory is followed by a comment of at most 65535 bytes.
     let from = bytes.len().saturating_sub(22 + 65_535);
     let end = bytes[from..].windows(4).rposition(|w| w == b"PK\x05\x06").ok_or(CUT)? + from;
     let count = u16_at(bytes, end + 10)?;
@@ -94,17 +94,17 @@ fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Problem> {
         let data = match method {
             0 => data.to_vec(),
             8 => inflate::raw(data).map_err(|_| DAMAGED)?,
-            _ => return Err("an array is compressed otherwise than by deflate"),
+            _ => return Err("an array has a compression method other than deflate"),
         };
         out.push((String::from_utf8_lossy(name).into_owned(), data));
     }
     Ok(out)
 }
 
-/// Reads one .npy; `None` for objects and records, which are no plain arrays.
+/// Reads one .npy; `None` for object and structured arrays, which are not supported.
 fn array(name: &str, bytes: &[u8]) -> Result<Option<Array>, Problem> {
     if !is_npy(bytes) {
-        return Err("it is no NumPy array");
+        return Err("it is not a NumPy array");
     }
     let version = *bytes.get(6).ok_or(CUT)?;
     let (length, start) = if version == 1 { (u16_at(bytes, 8)?, 10) } else { (u32_at(bytes, 8)?, 12) };
@@ -214,7 +214,7 @@ fn npy(array: &Array) -> Vec<u8> {
     let shape: String = array.shape.iter().map(|n| format!("{n}, ")).collect();
     let shape = if array.shape.len() == 1 { shape.trim_end() } else { shape.trim_end_matches(", ") };
     let mut header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({shape}), }}");
-    // Magic, version, length and header fill multiples of 64 bytes.
+    // Magic, version, length and header are padded to a multiple of 64 bytes.
     let padded = (10 + header.len() + 1).next_multiple_of(64) - 10;
     header = format!("{header:<width$}\n", width = padded - 1);
     let mut out = MAGIC.to_vec();

@@ -1,7 +1,8 @@
-//! Free balls and cage of one bearing as rigid bodies in rapier: the full picture beside the kinematic cage.
+//! Free balls and cage of one bearing as rigid bodies in rapier: reference for the kinematic cage model.
 //!
-//! rapier moves the bodies and finds the contacts; the forces are ours (Hertz and traction at the races, a
-//! stiff spring at the pockets), for rapier's own contacts are no elastic law. One step is symplectic Euler.
+//! rapier integrates the bodies (symplectic Euler) and detects the contacts; the contact forces are computed
+//! here (Hertz and traction at the races, a stiff spring at the pockets), since those of rapier are not an
+//! elastic law.
 
 use nalgebra::{Point3, Vector3};
 use rapier3d_f64::geometry::{ContactPair, Group, InteractionGroups, InteractionTestMode};
@@ -15,27 +16,27 @@ use super::parry::{BearingShapes, vector};
 use crate::bearing::BallBearing;
 use crate::contact::{HertzPair, Traction};
 
-/// How a free-ball bearing is run.
+/// Settings of a free-ball simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeBallSettings {
     /// Time step \[s\]; stable below about 2 √(m / (k_i + k_o)) of a ball between its contacts.
     pub step: f64,
     /// Speed Ω of the inner ring about z \[rad/s\].
     pub speed: f64,
-    /// Displacement of the inner ring from the centre \[m\], held.
+    /// Prescribed constant displacement of the inner ring from the centre \[m\].
     pub displacement: [f64; 3],
     pub gravity: [f64; 3],
     /// Traction at the races.
     pub traction: Traction,
     /// Whether there is a cage; its pockets are frictionless.
     pub cage: bool,
-    /// Stiffness \[N/m\] and damping \[N s/m\] of ball against pocket and of ball against ball.
+    /// Stiffness \[N/m\] and damping \[N s/m\] of the ball-pocket and ball-ball contacts.
     pub pocket: [f64; 2],
     /// Damping of the contacts of ball and race \[N s/m\].
     pub race_damping: f64,
 }
 
-/// One bearing with free balls: outer ring at rest, inner ring turning steadily, balls and cage free.
+/// One bearing with free balls: outer ring at rest, inner ring at constant speed, balls and cage free.
 pub struct FreeBallBearing {
     world: PhysicsWorld,
     balls: Vec<RigidBodyHandle>,
@@ -46,7 +47,7 @@ pub struct FreeBallBearing {
     settings: FreeBallSettings,
 }
 
-/// One contact as rapier found it.
+/// One contact detected by rapier.
 struct Touch {
     bodies: [RigidBodyHandle; 2],
     colliders: [ColliderHandle; 2],
@@ -66,12 +67,13 @@ impl FreeBallBearing {
         world.gravity = Vector::from_array(settings.gravity);
         let p = &mut world.integration_parameters;
         p.dt = settings.step;
-        // More solver iterations would hold our forces over substeps: unstable with stiff contacts.
+        // More solver iterations would keep the applied forces constant over substeps: unstable with stiff
+        // contacts.
         p.num_solver_iterations = 1;
-        // Recycled and clustered contacts would be some 1e-4 m old.
+        // Recycled and clustered contacts would be out of date by about 1e-4 m.
         p.contact_recycling = false;
         p.contact_clustering = false;
-        // Only contacts that touch bear force.
+        // Only penetrating contacts carry force.
         p.normalized_prediction_distance = 1e-6;
         p.normalized_max_linear_velocity = f64::MAX;
 
@@ -145,7 +147,7 @@ impl FreeBallBearing {
         } else {
             None
         };
-        // Damping never makes a contact pull.
+        // Damping causes no tensile contact force.
         let (load, traction) = match race {
             Some(stiffness) => {
                 let load =
@@ -191,7 +193,7 @@ impl FreeBallBearing {
     }
 }
 
-/// The contacts of a pair that touch; the point is midway between the two surfaces.
+/// The penetrating contacts of a pair; the point is midway between the two surfaces.
 fn touches(pair: &ContactPair, colliders: &ColliderSet) -> Vec<Touch> {
     let mut found = vec![];
     let handles = [pair.collider1, pair.collider2];

@@ -1,4 +1,4 @@
-//! Scenes for viewing: one bearing, or the whole machine of a model.
+//! 3D scenes for viewers: one bearing, or the whole machine of a model.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 
@@ -102,7 +102,8 @@ pub(crate) struct ShaftSection {
     pub inner: [f64; 2],
 }
 
-/// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball bearings.
+/// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball
+/// bearings.
 pub(crate) fn shaft_sections(model: &Model) -> Vec<ShaftSection> {
     let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
     let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| ShaftSection {
@@ -119,7 +120,7 @@ pub(crate) fn shaft_sections(model: &Model) -> Vec<ShaftSection> {
 fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<ShaftSection> {
     let (radius, length) = disc_size(rotor);
     let centre = model.node_z[rotor.node];
-    // It reaches every node, whatever length was given or follows from its inertia.
+    // It extends over every node, even if the length given or derived from its inertia is shorter.
     let start = model.node_z.iter().copied().fold(centre - 0.5 * length, f64::min);
     let end = model.node_z.iter().copied().fold(centre + 0.5 * length, f64::max);
     let seats: Vec<([f64; 2], f64)> = ball_seats(model).filter(|seat| seat.1 < radius).collect();
@@ -165,16 +166,17 @@ pub(crate) fn disc_size(disc: &Disc) -> (f64, f64) {
     let radius2 = 2.0 * disc.polar_inertia / disc.mass;
     let thickness2 = 12.0 * disc.diametral_inertia / disc.mass - 3.0 * radius2;
     let radius = radius2.max(0.0).sqrt();
-    // A thin disc's inertias may leave no thickness; a tenth of the radius is then just a picture.
+    // A thin disc's inertias may give no thickness; a tenth of the radius is then drawn.
     (given(0.5 * disc.outer_diameter, radius), given(disc.thickness, thickness2.max(0.01 * radius2).sqrt()))
 }
 
-/// Edges and orientation of the homogeneous box with the body's mass and inertias: a² = 6 (I_b + I_c − I_a)/m.
+/// Edges and orientation of the homogeneous box with the body's mass and inertias:
+/// a² = 6 (I_b + I_c − I_a)/m.
 pub(crate) fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
     let tensor = Matrix3::from_fn(|i, j| body.inertia[i][j]);
     let diagonal = tensor.diagonal();
     let off = (tensor - Matrix3::from_diagonal(&diagonal)).amax();
-    // A diagonal tensor keeps the model's axes; eigenvectors of equal moments would turn it at will.
+    // A diagonal tensor keeps the model's axes; eigenvectors of equal moments would be arbitrary.
     let (moments, turn) = if off <= 1e-9 * diagonal.amax() {
         (diagonal, UnitQuaternion::identity())
     } else {
@@ -186,7 +188,7 @@ pub(crate) fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>
         (eigen.eigenvalues, UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)))
     };
     let trace = moments.sum();
-    // A body given as a point mass, or with inertias of no real body, is drawn 10 mm small.
+    // A point mass, or a body with physically impossible inertias, is drawn with edges of 10 mm.
     let edge = |k: usize| (6.0 * (trace - 2.0 * moments[k]) / body.mass).max(1e-4).sqrt();
     ([edge(0), edge(1), edge(2)], turn)
 }

@@ -1,4 +1,4 @@
-//! Files that a model file names, read as columns of numbers.
+//! External data files referenced by a model file, read as columns of numbers.
 
 use std::path::Path;
 
@@ -6,9 +6,9 @@ use super::measured;
 use crate::model::{SideColumn, SideFile};
 use crate::signal::record::{AxisQuantity, Values};
 
-/// Reads a file whose path counts from `folder`; why it could not be read is part of the answer.
+/// Reads a file with a path relative to `folder`; the result contains the error if it could not be read.
 ///
-/// The axis of times that columns share becomes a column `time` of its own.
+/// The time axis of the columns becomes a column `time`.
 pub fn read(folder: &Path, path: &str) -> SideFile {
     let content = measured::read(&folder.join(path)).map_err(|error| error.to_string()).map(|found| {
         let mut columns: Vec<SideColumn> = Vec::new();

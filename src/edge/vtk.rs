@@ -7,7 +7,7 @@ use crate::edge::parry::BearingShapes;
 use crate::error::Error;
 use crate::model::Model;
 
-/// Points with lines between some of them; a point without a line is drawn by itself.
+/// Points and lines between them; a point without a line becomes a vertex cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
     /// Positions \[m\].
@@ -48,8 +48,8 @@ impl Grid {
 
 /// Fields `displacement` \[m\], `rotation` \[rad\] and `ball_load` \[N\] on [`Grid::of_machine`].
 ///
-/// `q`: six DOFs per node, shaft nodes then bodies; `ball_loads`: one per ball, in the grid's order. Balls get
-/// no displacement, nodes no load; what is missing counts as zero.
+/// `q`: six DOFs per node, shaft nodes then bodies; `ball_loads`: one per ball, in the grid's order. Balls
+/// get no displacement, nodes no load; missing values are zero.
 pub fn machine_fields(grid: &Grid, q: &[f64], ball_loads: &[f64]) -> Vec<Field> {
     let nodes = q.len() / 6;
     let at = |k: usize, first: usize| match q.get(6 * k + first..6 * k + first + 3) {
@@ -71,7 +71,7 @@ pub fn machine_fields(grid: &Grid, q: &[f64], ball_loads: &[f64]) -> Vec<Field> 
 /// The text of a .vtu file.
 ///
 /// # Errors
-/// A sentence naming the field that has not one value per point, or a number that is not finite, which VTK's
+/// A message naming a field without one value per point, or with a number that is not finite, which VTK
 /// readers take for the end of the file.
 pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
     let count = grid.points.len();
@@ -91,7 +91,7 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
             Values::Vectors(v) => (3, v.iter().flatten().copied().collect()),
         };
         if numbers.len() != components * count {
-            return Err(format!("field {} has not one value for each of {count} points", field.name));
+            return Err(format!("field {} does not have one value for each of {count} points", field.name));
         }
         array(&mut out, &field.name, components, &numbers)?;
     }
@@ -117,13 +117,13 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
 /// Writes one .vtu file.
 ///
 /// # Errors
-/// [`Error::Environment`] when [`to_vtu`] refuses the data or the file cannot be written.
+/// [`Error::Environment`] when [`to_vtu`] rejects the data or the file cannot be written.
 pub fn write_vtu(path: &Path, grid: &Grid, fields: &[Field]) -> Result<(), Error> {
     let text = to_vtu(grid, fields).map_err(|reason| failure(path, reason.into()))?;
     std::fs::write(path, text).map_err(|source| failure(path, source.into()))
 }
 
-/// Writes the .pvd file that plays .vtu files beside it over time \[s\] (or phase, or mode number).
+/// Writes a .pvd collection of .vtu files in the same folder over time \[s\] (or phase, or mode number).
 ///
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
@@ -149,7 +149,7 @@ fn array(out: &mut String, name: &str, components: usize, numbers: &[f64]) -> Re
     for row in numbers.chunks(components) {
         for (k, x) in row.iter().enumerate() {
             if !x.is_finite() {
-                return Err(format!("{name} holds a number that is not finite"));
+                return Err(format!("{name} contains a number that is not finite"));
             }
             let _ = write!(out, "{}{x:e}", if k > 0 { " " } else { "" });
         }

@@ -1,6 +1,7 @@
 //! WAV files: PCM of 8 to 32 bits and 32-bit floats read, 32-bit floats or PCM written.
 //!
-//! The only module that uses the hound crate. PCM values are parts of full scale, −1 to 1; WAV knows no units.
+//! The only module that uses the hound crate. PCM values are fractions of full scale, −1 to 1; WAV has no
+//! units.
 
 use std::path::Path;
 
@@ -13,11 +14,11 @@ pub enum Samples {
     /// 32-bit floats of the values as they are.
     #[default]
     Float,
-    /// PCM of 16, 24 or 32 bits; a value of `full_scale` is the largest one.
+    /// PCM of 16, 24 or 32 bits; a value of `full_scale` becomes the largest sample.
     Pcm { bits: u16, full_scale: f64 },
 }
 
-/// Whether a file begins like a WAV file.
+/// Whether a file starts with a WAV header.
 pub fn is_wav(head: &[u8]) -> bool {
     head.starts_with(b"RIFF") && head.get(8..12) == Some(b"WAVE")
 }
@@ -25,7 +26,7 @@ pub fn is_wav(head: &[u8]) -> bool {
 /// Reads every channel, named after the file and numbered if there is more than one.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, or holds another coding than PCM and 32-bit floats.
+/// The file cannot be read, is cut off, or has another encoding than PCM and 32-bit floats.
 pub fn read(path: &Path) -> Result<Measured, Error> {
     let failed = |error: hound::Error| failure("read", path, error);
     let mut file = hound::WavReader::open(path).map_err(failed)?;
@@ -63,8 +64,8 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
 /// Writes time records of one rate and length as the channels of one file.
 ///
 /// # Errors
-/// No record, rates or lengths that differ, a rate that is not a whole number of Hz, NaN, a value beyond full
-/// scale, or a file that cannot be written.
+/// No record, rates or lengths that differ, a rate that is not an integer number of Hz, NaN, a value beyond
+/// full scale, or a file that cannot be written.
 pub fn write(path: &Path, records: &[&Record], samples: Samples) -> Result<(), Error> {
     let content =
         |problem: String, advice: &str| Error::Content { path: path.into(), problem, advice: advice.into() };
@@ -85,7 +86,7 @@ pub fn write(path: &Path, records: &[&Record], samples: Samples) -> Result<(), E
     }
     let whole = rate.round();
     if (rate - whole).abs() > 1e-9 * rate || !(1.0..=f64::from(u32::MAX)).contains(&whole) {
-        let problem = format!("a WAV file has a whole number of Hz, not {rate}");
+        let problem = format!("a WAV file needs an integer sampling rate in Hz, not {rate}");
         return Err(content(problem, "resample, or write .uff or .mat"));
     }
     let (bits, format) = match samples {

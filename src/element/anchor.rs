@@ -1,6 +1,6 @@
-//! Where an element takes hold: a node of the model or ground, with an offset.
+//! Attachment point of an element: a node of the model or ground, with an offset.
 
-/// Point of attachment: a node (shaft node or body) or ground, with a rigid offset.
+/// Attachment point: a node (shaft node or body) or ground, with a rigid offset.
 ///
 /// Nodes are numbered shaft nodes first (0 .. n_shaft), then rigid bodies in file order;
 /// node `k` owns DOFs `6 k .. 6 k + 6` = u_x u_y u_z θ_x θ_y θ_z before joints are eliminated.

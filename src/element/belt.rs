@@ -1,10 +1,10 @@
-//! Belt: a static pull on a station and a linear spring and damper across the shaft.
+//! Belt: static pull (belt tension) on a station, and a linear spring-damper across the shaft.
 
 /// Belt on a shaft node, to ground.
 ///
-/// On fixed centres the pull is that of the undeflected shaft and falls as the shaft gives way: the stiffness
-/// acts in statics as everywhere. With a constant pull (dead-weight or spring tensioner) the pull stays as
-/// given and the stiffness only resists fast deviation from the equilibrium.
+/// With fixed centres the pull is that of the undeflected shaft and decreases as the shaft deflects: the
+/// stiffness also acts in statics. With constant pull (dead-weight or spring tensioner) the pull is
+/// independent of deflection and the stiffness only acts on deviations from the equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Belt {
     pub name: String,
@@ -12,7 +12,7 @@ pub struct Belt {
     pub node: usize,
     /// Static pull on the shaft \[N\], along x and y.
     pub pull: [f64; 2],
-    /// Whether the pull stays as given while the shaft gives way; else it belongs to the undeflected shaft.
+    /// Whether the pull is independent of shaft deflection; else it is that of the undeflected shaft.
     pub constant_pull: bool,
     /// Stiffness along x, y and about z \[N/m, N/m, N m/rad\].
     pub stiffness: [f64; 3],

@@ -1,4 +1,4 @@
-//! Bushing: a linear six-by-six spring and damper between two anchors.
+//! Bushing: linear 6 × 6 spring-damper between two anchors.
 
 use super::anchor::Anchor;
 

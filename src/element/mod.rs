@@ -1,4 +1,4 @@
-//! Mechanical elements: plain data with their matrices or forces.
+//! Mechanical elements (shaft, disc, rigid body, bushing, belt, joint): data with their matrices or forces.
 
 pub mod anchor;
 pub mod belt;

@@ -2,7 +2,7 @@
 
 use super::anchor::Anchor;
 
-/// Rigid body with six DOFs at its centre of mass; it does not spin with the shaft.
+/// Rigid body with six DOFs at its centre of mass; does not rotate with the shaft.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidBody {
     pub name: String,
@@ -14,7 +14,7 @@ pub struct RigidBody {
     pub inertia: [[f64; 3]; 3],
 }
 
-/// Rigid disc fixed to a shaft node; it spins with the shaft.
+/// Rigid disc fixed to a shaft node; rotates with the shaft (gyroscopic moment).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disc {
     pub name: String,
@@ -26,13 +26,13 @@ pub struct Disc {
     pub polar_inertia: f64,
     /// Diametral moment of inertia I_d about x and y \[kg m²\].
     pub diametral_inertia: f64,
-    /// Outer diameter \[m\], for pictures and blows at the rim; 0 when the disc is given by inertia alone.
+    /// Outer diameter \[m\], for drawings and impacts at the rim; 0 when the disc is given by inertia alone.
     pub outer_diameter: f64,
-    /// Axial thickness \[m\], for pictures; 0 when unknown.
+    /// Axial thickness \[m\], for drawings; 0 when unknown.
     pub thickness: f64,
 }
 
-/// Point mass rigidly attached to a body or station, such as an accelerometer; it has no rotary inertia of its own.
+/// Point mass rigidly attached to a body or station, such as an accelerometer; no rotary inertia of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointMass {
     pub name: String,

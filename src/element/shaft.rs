@@ -3,7 +3,7 @@
 use crate::material::Material;
 use std::f64::consts::PI;
 
-/// How the shear coefficient κ of a section is found.
+/// Formula for the shear coefficient κ of a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShearCoefficient {
     /// No shear deformation (Rayleigh, or Euler-Bernoulli without rotary inertia).
@@ -33,7 +33,7 @@ pub struct ShaftElement {
     pub axial_force: f64,
     /// Torque \[N m\] transmitted along +z.
     pub torque: f64,
-    /// Damping C = α M + β K: α \[1/s\], β \[s\] (non-rotating, of the element).
+    /// Proportional (Rayleigh) damping C = α M + β K: α \[1/s\], β \[s\] (non-rotating, of the element).
     pub proportional: [f64; 2],
     /// Internal (rotating) viscous damping coefficient η_v \[s\]: C_i = η_v K_e, with circulatory stiffness Ω η_v K_c.
     pub internal_viscous: f64,
@@ -101,8 +101,8 @@ impl ShaftElement {
     }
 }
 
-/// ∫₀¹ f dξ by Gauss-Legendre with five points, exact up to degree 9: all that the polynomials of a
-/// conical element (8 at most) need.
+/// ∫₀¹ f dξ by five-point Gauss-Legendre quadrature, exact up to degree 9; the polynomials of a conical
+/// element have degree 8 at most.
 pub(super) fn quadrature(f: impl Fn(f64) -> f64) -> f64 {
     gauss(|xi, w| w * f(xi)).iter().sum()
 }

@@ -1,10 +1,10 @@
-//! Matrices of the shaft element.
+//! Matrices of the Timoshenko shaft element: mass, stiffness, geometric stiffness, gyroscopic, circulatory.
 //!
 //! Bending follows the cubic Timoshenko shape functions with one shear parameter φ per element
-//! (Friswell et al. 2010, §5.4); conical sections are integrated exactly. For length h and wave number k a
-//! frequency comes out high by (k h)⁴/1440 + ρω²h²/(24 κG): of fourth order while h is well above the
-//! diameter, with a small second-order tail from shear below. The two planes share one
-//! set of functions over (u, ψ): u = u_x, ψ = θ_y in one plane, u = u_y, ψ = −θ_x in the other.
+//! (Friswell et al. 2010, §5.4); conical sections are integrated exactly. For element length h and wave
+//! number k a frequency is overestimated by (k h)⁴/1440 + ρω²h²/(24 κG): fourth order while h is well above
+//! the diameter, with a small second-order term from shear below. Both planes use the same
+//! functions over (u, ψ): u = u_x, ψ = θ_y in one plane, u = u_y, ψ = −θ_x in the other.
 
 use super::shaft::{ShaftElement, gauss, quadrature};
 
@@ -19,7 +19,7 @@ const PLANE_X: [usize; 4] = [0, 4, 6, 10];
 const PLANE_Y: [usize; 4] = [1, 3, 7, 9];
 const SIGN_Y: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
-/// How axial and torsional properties of a cone are averaged.
+/// Averaging rule for axial and torsional properties of a conical element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ConeRule {
     /// Exact flexibility 1/k = ∫ dz/(E A) and exactly integrated inertia.
@@ -92,7 +92,7 @@ impl ShaftElement {
         out
     }
 
-    /// Consistent mass matrix M, with rotary inertia ρ I when switched on.
+    /// Consistent mass matrix M, with rotary inertia ρ I if enabled.
     pub fn mass_matrix(&self, rule: ConeRule) -> Matrix12 {
         let rho = self.material.density;
         let phi = self.shear_parameter();
@@ -155,11 +155,11 @@ impl ShaftElement {
         k
     }
 
-    /// Section property of the uniform bar of equal stiffness.
+    /// Section property of the uniform bar of equal axial or torsional stiffness.
     fn bar_mean(&self, rule: ConeRule, section: impl Fn(f64) -> f64) -> f64 {
         match rule {
             ConeRule::ArithmeticMean => 0.5 * (section(0.0) + section(1.0)),
-            // 1/section is no polynomial: eight pieces bring five points to round-off for any usual cone.
+            // 1/section is not polynomial: five points on eight pieces reach round-off for any usual cone.
             ConeRule::Exact => {
                 let pieces = 8.0;
                 let flexibility: f64 =
@@ -173,7 +173,7 @@ impl ShaftElement {
     ///
     /// Force: N ∫ u′ u′ dz in both planes, positive in tension. Torque (positive on the face towards +z,
     /// acting along the tangent at both nodes): Friswell et al. 2010, §5.4.8; its end terms ±T/2 cancel between
-    /// neighbours of equal torque and make a lone element's matrix unsymmetric.
+    /// neighbours of equal torque and make a single element's matrix unsymmetric.
     pub fn geometric_stiffness(&self) -> Matrix12 {
         let n = self.axial_force;
         let mut k = both_planes(&self.integrate(self.shear_parameter(), |_| n, |s| (s.slope, s.slope)));
@@ -199,7 +199,7 @@ impl ShaftElement {
 
     /// Circulatory stiffness K_c of internal damping, for unit speed: η_v K_e P.
     ///
-    /// Damping acts on the velocity seen by the rotating shaft, q̇ + Ω P q with (P q)_x = q_y and
+    /// Damping acts on the velocity in the rotating frame, q̇ + Ω P q with (P q)_x = q_y and
     /// (P q)_y = −q_x for displacements and rotations alike, so that f = −η_v K_e (q̇ + Ω P q). Forward
     /// whirl at ω gets the damping η_v K_e (ω − Ω)/ω, negative above the critical speed.
     pub fn circulatory_stiffness(&self) -> Matrix12 {
@@ -218,8 +218,8 @@ impl ShaftElement {
 
     /// Torque geometric stiffness of internal torque T(ξ) in symmetric (energy) form.
     ///
-    /// V = ½ ∫ T (θ_x θ_y′ − θ_x′ θ_y) dz, T being what the part on the left exerts on the part on the
-    /// right, along the tangent; see [`SpinUpForm`](crate::assembly::SpinUpForm).
+    /// V = ½ ∫ T (θ_x θ_y′ − θ_x′ θ_y) dz, T the torque of the part on the left on the part on the right,
+    /// along the tangent; see [`SpinUpForm`](crate::assembly::SpinUpForm).
     pub fn torque_energy_stiffness(&self, torque: impl Fn(f64) -> f64) -> Matrix12 {
         // ∫ T ψ_y ψ_x′ dz over the planes' own coordinates.
         let b = self.integrate(self.shear_parameter(), torque, |s| (s.rotation, s.curvature));
@@ -259,7 +259,7 @@ fn gyroscopic_of(rotary: &Matrix4) -> Matrix12 {
     let mut g = [[0.0; 12]; 12];
     for a in 0..4 {
         for b in 0..4 {
-            // θ_x = −ψ_y turns +G[θ_x, θ_y] into −G[ψ_y, ψ_x].
+            // With θ_x = −ψ_y, +G[θ_x, θ_y] becomes −G[ψ_y, ψ_x].
             let v = -2.0 * SIGN_Y[a] * rotary[a][b];
             g[PLANE_Y[a]][PLANE_X[b]] = v;
             g[PLANE_X[b]][PLANE_Y[a]] = -v;

@@ -1,4 +1,4 @@
-//! FRFs made ready for identification: one band, one quantity, a common scale.
+//! FRF preparation for identification: one band, one quantity, a common scale.
 
 use std::f64::consts::TAU;
 
@@ -7,27 +7,27 @@ use crate::linalg::Complex64;
 use crate::model::Quantity;
 use crate::signal::record::FrfMatrix;
 
-/// FRFs over a band, outputs being the larger side of the test and inputs the smaller one.
+/// FRFs over a band; outputs are the larger side of the test (responses or references), inputs the other.
 ///
-/// By reciprocity of the modal form Σ ψ lᵀ/(s − λ) either side may carry the shapes: a roving hammer has many
-/// references and few responses.
+/// ψ and l are interchangeable in the modal form Σ ψ lᵀ/(s − λ), so that either side may carry the shapes: a
+/// roving-hammer test has many references and few responses.
 #[derive(Clone, Debug)]
 pub(super) struct Data {
-    /// Even frequencies \[Hz\].
+    /// Uniformly spaced frequencies \[Hz\].
     pub frequencies: Vec<f64>,
     /// Step Δf \[Hz\].
     pub step: f64,
-    /// Power p of jω that makes the quantity from a receptance.
+    /// Power p of jω that converts a receptance to the quantity (0, 1, 2: receptance, mobility, accelerance).
     pub power: i32,
     /// `values[output][input][line]`, each over its output's and its input's scale.
     pub values: Vec<Vec<Vec<Complex64>>>,
     pub output_scale: Vec<f64>,
     pub input_scale: Vec<f64>,
-    /// Whether outputs are the references of the test.
+    /// Whether the outputs are the references of the test.
     pub swapped: bool,
 }
 
-/// Deviation from even steps, over the step, that printed digits leave.
+/// Tolerated deviation from uniform spacing, over the step (rounding of printed digits).
 const JITTER: f64 = 0.02;
 
 impl Data {
@@ -42,7 +42,7 @@ impl Data {
         }) {
             return Err(IdentifyError::NotEven { index: k, given: f[k], expected: first + step * k as f64 });
         }
-        // A mode at 0 Hz is none, and quantities other than accelerance have no place for rigid motion there.
+        // Exclude 0 Hz: no mode is there, and only accelerance is finite for rigid-body motion.
         let lines: Vec<usize> = (0..f.len())
             .filter(|&k| f[k] >= from - 1e-6 * step && f[k] <= to + 1e-6 * step && f[k] > 0.0)
             .collect();
@@ -52,7 +52,7 @@ impl Data {
         if let Some(order) = settings.max_order {
             let possible = highest_order(lines.len());
             if order < LEAST_ORDER {
-                let reason = format!("{order} is too low; {LEAST_ORDER} or more find modes that stay");
+                let reason = format!("{order} is too low; stable poles need {LEAST_ORDER} or more");
                 return Err(IdentifyError::Setting { what: "highest order", reason });
             }
             if order > possible {
@@ -100,8 +100,9 @@ impl Data {
         Ok(data)
     }
 
-    /// What every FRF is to count by: its RMS, but not less than 30 times its noise, nor than 1e-6 of the largest of its
-    /// kind (forces or moments, motions or rotations): what a sensor hears of nothing must not count like a resonance.
+    /// Scale of every FRF: its RMS, but at least 30 times its noise and 1e-6 of the largest of its kind
+    /// (force or moment, translation or rotation), so that FRFs of noise only are not weighted like a
+    /// resonance.
     fn sizes(&self, frfs: &FrfMatrix) -> Vec<Vec<f64>> {
         const NOISE: f64 = 30.0;
         const LEAST: f64 = 1e-6;
@@ -121,14 +122,14 @@ impl Data {
         let of_kind = [[false, false], [false, true], [true, false], [true, true]].map(|k| (k, largest(k)));
         let least = |o, i| of_kind.iter().find(|(k, _)| *k == kind(o, i)).map_or(0.0, |(_, v)| LEAST * v);
         let size = |o: usize, i: usize| match own[o][i] {
-            // An FRF of zeros scales nothing.
+            // An FRF of zeros has no scale.
             0.0 => 0.0,
             rms => rms.max(NOISE * scatter(&self.values[o][i])).max(least(o, i)),
         };
         (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| size(o, i)).collect()).collect()
     }
 
-    /// The highest order to go to: as set, else 60 or what the lines allow.
+    /// Highest model order: as set, else 60 or the maximum for the number of lines.
     pub fn max_order(&self, settings: &Settings) -> usize {
         settings.max_order.unwrap_or(60.min(highest_order(self.lines())))
     }
@@ -150,7 +151,7 @@ impl Data {
         Ok(())
     }
 
-    /// A response that nothing moves, or a reference that moves nothing, is a dead channel.
+    /// Error for dead channels: a response that is zero for all references, or a reference without response.
     fn dead_channels(&self, frfs: &FrfMatrix) -> Result<(), IdentifyError> {
         let zero = |o: usize, i: usize| self.values[o][i].iter().all(|h| h.norm_sqr() == 0.0);
         let (no, ni) = (self.outputs(), self.inputs());
@@ -183,10 +184,10 @@ impl Data {
         self.frequencies.iter().map(|f| Complex64::new(0.0, TAU * f)).collect()
     }
 
-    /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which keeps residues
-    /// of rank one; returns the b.
+    /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which
+    /// preserves rank-one residues; returns the b.
     ///
-    /// RMS over inputs and over outputs in turn: FRFs that are zero, as those of torsion to a blow along x, do no harm.
+    /// Alternating RMS over inputs and outputs; zero FRFs (such as torsion due to a hit along x) do no harm.
     pub fn rescale(&mut self, sizes: &[Vec<f64>]) -> Vec<f64> {
         const ROUNDS: usize = 5;
         let (no, ni) = (self.outputs(), self.inputs());
@@ -215,10 +216,10 @@ impl Data {
     }
 }
 
-/// Lowest order that tells modes from noise.
+/// Minimum model order that separates modes from noise.
 const LEAST_ORDER: usize = 8;
 
-/// The order whose unknowns are as many as the data of one FRF.
+/// The order with as many unknowns as the data of one FRF.
 fn highest_order(lines: usize) -> usize {
     lines.saturating_sub(2) / 2
 }
@@ -228,8 +229,8 @@ fn rms(frf: &[Complex64]) -> f64 {
     (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt()
 }
 
-/// RMS of what scatters from line to line, by the median of third differences: E|n₃ − 3n₂ + 3n₁ − n₀|² = 20 σ², of
-/// which the median is ln 2. Resonances, wide over most lines or sharp over few, hardly show in it.
+/// Noise RMS (scatter from line to line), by the median of third differences: E|n₃ − 3n₂ + 3n₁ − n₀|² = 20
+/// σ², of which the median is ln 2. Robust to resonances, whether wide or sharp.
 fn scatter(frf: &[Complex64]) -> f64 {
     let third = |w: &[Complex64]| (w[3] - w[2] * 3.0 + w[1] * 3.0 - w[0]).norm_sqr();
     let mut all: Vec<f64> = frf.windows(4).map(third).collect();
@@ -241,7 +242,7 @@ fn scatter(frf: &[Complex64]) -> f64 {
     (median / (20.0 * std::f64::consts::LN_2)).sqrt()
 }
 
-/// Power of jω of every FRF: as set, else by its unit, else accelerance, which hammer tests give.
+/// Power of jω of every FRF: as set, else by its unit, else accelerance, usual in impact tests.
 fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
     let power = |unit: &String| match settings.quantity.or_else(|| quantity_of(unit)) {
         Some(Quantity::Displacement) => 0,
@@ -251,7 +252,8 @@ fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
     frfs.units.iter().map(|row| row.iter().map(power).collect()).collect()
 }
 
-/// The quantity that an FRF's SI unit tells: "(m/s^2)/N" is an acceleration, "m/N" a displacement.
+/// Quantity of an FRF by its SI unit: "(m/s^2)/N" is an acceleration (accelerance), "m/N" a displacement
+/// (receptance).
 pub fn quantity_of(unit: &str) -> Option<Quantity> {
     let moved = match unit.rsplit_once(")/") {
         Some((moved, _)) if unit.starts_with('(') => moved.trim_start_matches('('),

@@ -1,9 +1,9 @@
-//! Products of tall matrices by blocks of rows, in parallel and summed in a fixed order.
+//! Products and QR of tall matrices by blocks of rows, in parallel, summed in a fixed order (reproducible).
 
 use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
 
-/// Rows of a block; sums over blocks go in order, so that results do not depend on threads.
+/// Rows of a block; sums over blocks are in order, so that results do not depend on the number of threads.
 const BLOCK: usize = 2048;
 
 fn blocks(rows: usize) -> Vec<(usize, usize)> {
@@ -28,10 +28,10 @@ pub(super) fn mul(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     out
 }
 
-/// Thin QR of a matrix with columns of unit length: Q, R and the lengths; A = Q R diag(lengths).
+/// Thin QR of a matrix with columns scaled to unit length: Q, R and the lengths; A = Q R diag(lengths).
 ///
-/// By the Cholesky factor of AᵀA, twice (Yamamoto et al. 2015): as orthogonal as Householder's up to a condition of
-/// 1e7 or so, and all of it products; beyond that Householder's.
+/// CholeskyQR2 (Yamamoto et al. 2015): Cholesky factor of AᵀA, twice; as orthogonal as Householder QR up to a
+/// condition number of about 1e7, and matrix products only; Householder QR beyond that.
 pub(super) fn thin_qr(mut a: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>, Vec<f64>) {
     let sizes: Vec<f64> = a.column_iter().map(|c| c.norm().max(f64::MIN_POSITIVE)).collect();
     for (mut column, size) in a.column_iter_mut().zip(&sizes) {
@@ -58,9 +58,9 @@ pub(super) fn thin_qr(mut a: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>, Vec<f
     (q, r, sizes)
 }
 
-/// Least squares A x = y through the normal equations of columns of unit length: quick, for candidates.
+/// Least squares A x = y by the normal equations of columns scaled to unit length: fast, for candidates.
 ///
-/// `None` where two columns are alike to round-off.
+/// `None` if two columns are linearly dependent to round-off.
 pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let sizes: Vec<f64> = a.column_iter().map(|c| c.norm()).collect();
     for (mut column, size) in a.column_iter_mut().zip(&sizes) {
@@ -71,7 +71,7 @@ pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatr
     let transposed = a.transpose();
     let mut gram = &transposed * &a;
     for k in 0..gram.nrows() {
-        // A grain for columns alike to round-off, as two poles on one another give them.
+        // Diagonal regularisation for columns equal to round-off, as of coincident poles.
         gram[(k, k)] += 1e-13;
     }
     let mut x = Cholesky::new(gram)?.solve(&(&transposed * y));
@@ -81,7 +81,7 @@ pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatr
     Some(x)
 }
 
-/// R⁻¹ z over the lengths of the columns; unknowns that round-off alone determines are zero.
+/// Back substitution R⁻¹ z over the lengths of the columns; unknowns determined by round-off alone are zero.
 pub(super) fn back(r: &DMatrix<f64>, sizes: &[f64], mut z: DMatrix<f64>) -> DMatrix<f64> {
     let mut mended = r.clone();
     for k in 0..mended.nrows() {

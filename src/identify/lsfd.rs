@@ -1,8 +1,9 @@
-//! Least-squares frequency domain: residues and residual terms of known poles.
+//! Least-squares frequency-domain method (LSFD): residues and residual terms of known poles.
 //!
-//! H_oi(s) = s^p [Σ_r (ψ_or l_ir /(s − λ_r) + conj. pair) + U_oi + V_oi / s²], s = jω, p = 0, 1, 2 for receptance,
-//! mobility, accelerance. U stands for the modes above the band (a stiffness), V for those below it (a mass). With real
-//! and imaginary parts of ψ, U and V as unknowns the problem is real, and its matrix the same for all outputs.
+//! H_oi(s) = s^p [Σ_r (ψ_or l_ir /(s − λ_r) + conj. pair) + U_oi + V_oi / s²], s = jω, p = 0, 1, 2 for
+//! receptance, mobility, accelerance. U represents the modes above the band (upper residual, stiffness), V
+//! those below (lower residual, mass). With real and imaginary parts of ψ, U and V as unknowns the problem is
+//! real, and its matrix the same for all outputs.
 
 use nalgebra::DMatrix;
 
@@ -11,7 +12,7 @@ use super::dense::{back, thin_qr, tr_mul};
 use super::plscf::Pole;
 use crate::linalg::Complex64;
 
-/// Rows are inputs, and for each the real, then the imaginary parts of all lines.
+/// Basis functions of the fit. Rows: for each input the real, then the imaginary parts of all lines.
 pub(super) struct Basis {
     s: Vec<Complex64>,
     /// s^p.
@@ -19,7 +20,7 @@ pub(super) struct Basis {
     inputs: usize,
 }
 
-/// What LSFD finds.
+/// Result of LSFD.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
     /// ψ\[mode\]\[output\].
@@ -41,8 +42,8 @@ impl Basis {
         2 * self.s.len() * self.inputs
     }
 
-    /// Writes the columns of the real and the imaginary part of c in c g(s) + conj(c) g̃(s), g̃ being g with conjugate
-    /// constants, into `matrix` for one input.
+    /// Writes the columns of Re c and Im c in c g(s) + conj(c) g̃(s), g̃ being g with conjugate constants,
+    /// into `matrix` for one input.
     fn put(
         &self,
         matrix: &mut DMatrix<f64>,
@@ -62,7 +63,7 @@ impl Basis {
         }
     }
 
-    /// Columns of Re ψ_r, Im ψ_r (mode by mode), then of U and V (input by input).
+    /// Design matrix: columns of Re ψ_r, Im ψ_r (mode by mode), then of U and V (input by input).
     pub fn design(&self, poles: &[Pole]) -> DMatrix<f64> {
         let modes = poles.len();
         let mut a = DMatrix::zeros(self.rows(), 2 * modes + 2 * self.inputs);
@@ -84,8 +85,8 @@ impl Basis {
         a
     }
 
-    /// Columns along which the FRFs change with λ_r, and with l_ir of every input but the largest: pairs as in
-    /// [`Self::design`], for the products ψ δλ and ψ δl; and what each pair belongs to.
+    /// Derivatives of the FRFs by λ_r, and by l_ir of every input but the largest: column pairs as in
+    /// [`Self::design`], for the products ψ δλ and ψ δl; and the parameter of each pair.
     pub fn changes(&self, poles: &[Pole]) -> (DMatrix<f64>, Vec<Change>) {
         let mut list = Vec::new();
         for (r, pole) in poles.iter().enumerate() {
@@ -113,7 +114,7 @@ impl Basis {
         (d, list)
     }
 
-    /// The FRFs as columns, one an output, in the order of the rows.
+    /// Right-hand side: the FRFs as columns, one per output, in the order of the rows.
     pub fn right_side(&self, outputs: &[Vec<Vec<Complex64>>]) -> DMatrix<f64> {
         let lines = self.s.len();
         let mut y = DMatrix::zeros(self.rows(), outputs.len());
@@ -128,7 +129,7 @@ impl Basis {
         y
     }
 
-    /// Unknowns of [`Self::design`], one column an output, by their names.
+    /// Unpacks the unknowns of [`Self::design`], one column per output.
     pub fn fit(&self, x: &DMatrix<f64>, modes: usize) -> Fit {
         let outputs = x.ncols();
         let shape =
@@ -142,20 +143,20 @@ impl Basis {
     }
 }
 
-/// A complex parameter of the fit: λ of a mode, or its participation in an input.
+/// A complex nonlinear parameter of the fit: λ of a mode, or its participation in an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Change {
     pub mode: usize,
     pub input: Option<usize>,
 }
 
-/// The input with the largest participation, which is 1 by definition.
+/// The input with the largest participation, normalised to 1.
 pub(super) fn fixed_input(pole: &Pole) -> usize {
     let sizes = pole.participation.iter().map(|l| l.norm()).enumerate();
     sizes.fold((0, -1.0), |best, here| if here.1 > best.1 { here } else { best }).0
 }
 
-/// Residue matrices \[mode\]\[output\]\[input\] of poles, each FRF on its own: no rank is assumed.
+/// Residue matrices \[mode\]\[output\]\[input\] of poles, each FRF fitted separately: no rank-one constraint.
 pub(super) fn free_residues(data: &Data, values: &[Complex64]) -> Vec<DMatrix<Complex64>> {
     let single = Data { values: vec![vec![data.values[0][0].clone()]], ..data.clone() };
     let basis = Basis::new(&single);

@@ -1,8 +1,8 @@
-//! Likeness of shapes and of FRFs: MAC, FRAC, FDAC, phase collinearity.
+//! Correlation of mode shapes and FRFs: MAC, FRAC, FDAC, modal phase collinearity (MPC).
 
 use crate::linalg::Complex64;
 
-/// Modal assurance criterion |aᴴ b|² / (aᴴ a · bᴴ b) of two shapes over the same DOFs, 0..1; 0 where one is zero.
+/// Modal assurance criterion (MAC) |aᴴ b|² / (aᴴ a · bᴴ b) of two shapes, 0..1; 0 for a zero shape.
 ///
 /// Source: Allemang & Brown, IMAC 1 (1982).
 pub fn mac(a: &[Complex64], b: &[Complex64]) -> f64 {
@@ -10,21 +10,23 @@ pub fn mac(a: &[Complex64], b: &[Complex64]) -> f64 {
     if size > 0.0 { dot(a, b).norm_sqr() / size } else { 0.0 }
 }
 
-/// MAC of every shape of `a` (rows) with every shape of `b` (columns).
+/// MAC matrix: every shape of `a` (rows) with every shape of `b` (columns).
 pub fn mac_matrix(a: &[&[Complex64]], b: &[&[Complex64]]) -> Vec<Vec<f64>> {
     a.iter().map(|a| b.iter().map(|b| mac(a, b)).collect()).collect()
 }
 
-/// Frequency response assurance criterion of two FRFs over the same frequencies, |Σ a* b|² / (Σ|a|² Σ|b|²), 0..1.
+/// Frequency response assurance criterion (FRAC) of two FRFs over the same frequencies, |Σ a* b|² / (Σ|a|²
+/// Σ|b|²), 0..1.
 ///
 /// Source: Heylen & Lammens, IMAC 14 (1996).
 pub fn frac(a: &[Complex64], b: &[Complex64]) -> f64 {
     mac(a, b)
 }
 
-/// Frequency-domain assurance criterion: MAC of the deflections at every line of `a` (rows) and of `b` (columns).
+/// Frequency-domain assurance criterion (FDAC): MAC of the deflections at every line of `a` (rows) and of `b`
+/// (columns).
 ///
-/// `a[frf][line]`, `b[frf][line]` over the same FRFs; a shift of frequency shows as a ridge off the diagonal.
+/// `a[frf][line]`, `b[frf][line]` over the same FRFs; a frequency shift gives a ridge off the diagonal.
 /// Source: Pascual, Golinval & Razeto, IMAC 15 (1997).
 pub fn fdac(a: &[&[Complex64]], b: &[&[Complex64]]) -> Vec<Vec<f64>> {
     let lines = |frfs: &[&[Complex64]]| -> Vec<Vec<Complex64>> {
@@ -35,10 +37,11 @@ pub fn fdac(a: &[&[Complex64]], b: &[&[Complex64]]) -> Vec<Vec<f64>> {
     a.iter().map(|a| b.iter().map(|b| mac(a, b)).collect()).collect()
 }
 
-/// Modal phase collinearity ((S_xx − S_yy)² + 4 S_xy²) / (S_xx + S_yy)² of the real and imaginary parts, 0..1.
+/// Modal phase collinearity (MPC) ((S_xx − S_yy)² + 4 S_xy²) / (S_xx + S_yy)² of the real and imaginary
+/// parts, 0..1.
 ///
-/// 1 where all points move in phase or against it, 0 for a circular whirl. Source: Vacher, Jacquier & Bucharles,
-/// ISMA (2010), the form without mean.
+/// 1 if all points move in phase or in antiphase (real mode), 0 for a circular whirl. Source: Vacher,
+/// Jacquier & Bucharles, ISMA (2010), the form without mean.
 pub fn phase_collinearity(shape: &[Complex64]) -> f64 {
     let sum = |of: &dyn Fn(&Complex64) -> f64| shape.iter().map(of).sum::<f64>();
     let (xx, yy, xy) = (sum(&|v| v.re * v.re), sum(&|v| v.im * v.im), sum(&|v| v.re * v.im));

@@ -1,20 +1,21 @@
-//! Modes from measured FRFs, without a user in the loop.
+//! Automatic experimental modal analysis (EMA): modes from measured FRFs.
 //!
-//! | module | what it does |
+//! | module | contents |
 //! |---|---|
 //! | `data` | one band, one quantity, scales |
-//! | `plscf` | poles and participations of every order: poly-reference least-squares complex frequency |
+//! | `plscf` | poles, participations of all orders: poly-reference least-squares complex frequency (pLSCF) |
 //! | `stabilise` | shapes for each, stabilisation diagram |
-//! | `select` | the poles that stay |
-//! | `lsfd` | residues, residual terms |
-//! | `refine`, `settle` | poles by nonlinear least squares; what is borne out, what is dropped |
-//! | `uncertainty` | standard errors of poles |
+//! | `select` | automatic pole selection |
+//! | `lsfd` | residues, residual terms: least-squares frequency domain (LSFD) |
+//! | `refine`, `settle` | poles by nonlinear least squares; mode selection, duplicates |
+//! | `uncertainty` | standard errors of poles (jackknife) |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
-//! | [`single`] | circle and peak fit of one mode, a quick look |
-//! | `whirl` | direction of whirl from x and y |
+//! | [`single`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
+//! | `whirl` | whirl direction from x and y |
 //!
-//! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the shape (right vector), l the participation
-//! (left vector). On a rotating machine l is not proportional to ψ, and nothing here assumes it.
+//! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the mode shape (right eigenvector),
+//! l the modal participation (left eigenvector). No reciprocity is assumed: on a rotating machine l is not
+//! proportional to ψ.
 
 mod data;
 mod dense;
@@ -42,18 +43,18 @@ use data::Data;
 use lsfd::Fit;
 use plscf::{NormalEquations, Pole};
 
-/// What to look for, and where.
+/// Settings of modal identification.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Frequencies \[Hz\]; all that were measured if `None`.
+    /// Frequency band \[Hz\]; all measured lines if `None`.
     pub band: Option<[f64; 2]>,
-    /// Highest order of the denominator, 60 (or what the lines allow) if `None`.
+    /// Highest model order (of the denominator); 60, or the maximum for the number of lines, if `None`.
     pub max_order: Option<usize>,
-    /// What the FRFs are, where their unit does not tell; accelerance if `None`.
+    /// Quantity of the FRFs, if not given by their unit; accelerance if `None`.
     pub quantity: Option<Quantity>,
     /// Largest damping ratio of a mode.
     pub largest_damping: f64,
-    /// Decay rate that an exponential window added to all poles \[1/s\].
+    /// Decay rate added to all poles by an exponential window \[1/s\], corrected in the result.
     pub added_decay: f64,
 }
 
@@ -68,8 +69,8 @@ impl Default for Settings {
 pub struct Mode {
     /// λ \[1/s\], Im λ > 0.
     pub pole: Complex64,
-    /// ψ over [`Identified::responses`]; ψ lᵀ is the residue of the receptance \[m/(N s) for a displacement under a
-    /// force\].
+    /// ψ over [`Identified::responses`]; ψ lᵀ is the residue of the receptance
+    /// \[m/(N s) for a displacement under a force\].
     pub shape: Vec<Complex64>,
     /// l over [`Identified::references`].
     pub participation: Vec<Complex64>,
@@ -77,12 +78,12 @@ pub struct Mode {
     pub frequency_error: f64,
     /// Standard error of the damping ratio.
     pub damping_error: f64,
-    /// Modal phase collinearity of the side with more DOFs, 1 for a real mode.
+    /// Modal phase collinearity (MPC) of the side with more DOFs, 1 for a real mode.
     pub collinearity: f64,
-    /// Whirl at the points measured along x and y: 1 forward circle (x towards y), 0 straight line, −1 backward;
-    /// `None` where no point has both.
+    /// Whirl at the points measured along x and y: 1 forward circular (x towards y), 0 planar, −1 backward
+    /// circular; `None` if no point has both.
     pub whirl: Option<f64>,
-    /// F of the mode against the fit without it: what it explains over what nothing does.
+    /// F statistic of the mode: variance that it explains over residual variance.
     pub significance: f64,
 }
 
@@ -98,23 +99,23 @@ impl Mode {
     }
 }
 
-/// How a pole of the diagram compares with the order before.
+/// Stability of a pole relative to the next lower order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
     /// No pole within 1 % of its frequency.
     New,
     /// Within 1 % in frequency.
     Frequency,
-    /// And within 5 % in damping.
+    /// In frequency, and within 5 % in damping.
     Damping,
     /// In frequency, and MAC above 0.95.
     Shape,
-    /// In all three.
+    /// In frequency, damping and shape.
     Stable,
 }
 
 impl Stability {
-    /// In a word.
+    /// Label.
     pub fn word(self) -> &'static str {
         match self {
             Stability::New => "new",
@@ -130,43 +131,43 @@ impl Stability {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiagramPole {
     pub order: usize,
-    /// λ \[1/s\], as measured.
+    /// λ \[1/s\], without correction for an exponential window.
     pub value: Complex64,
     pub stability: Stability,
 }
 
-/// What was identified.
+/// Result of modal identification: identified modes, synthesised FRFs, stabilisation diagram.
 #[derive(Clone, Debug)]
 pub struct Identified {
-    /// By frequency.
+    /// In order of frequency.
     pub modes: Vec<Mode>,
     pub responses: Vec<Dof>,
     pub references: Vec<Dof>,
-    /// Quantity of the measured FRFs as taken.
+    /// Quantity assumed for the measured FRFs.
     pub quantity: Quantity,
     /// Lines in the band \[Hz\].
     pub frequencies: Vec<f64>,
-    /// `measured[response][reference][line]` in the band, as given (all brought to one quantity).
+    /// `measured[response][reference][line]` in the band, converted to one quantity.
     pub measured: Vec<Vec<Vec<Complex64>>>,
-    /// The modal model's alike.
+    /// FRFs synthesised from the modal model, with the same indices.
     pub synthesised: Vec<Vec<Vec<Complex64>>>,
     /// ‖measured − synthesised‖ / ‖measured‖ of every FRF.
     pub errors: Vec<Vec<f64>>,
-    /// Root mean square of them all.
+    /// Root mean square of all errors.
     pub total_error: f64,
-    /// Residual terms U (stiffness of modes above) and V (mass of those below) of the receptance, per FRF.
+    /// Upper residual U (stiffness of modes above), lower residual V (mass of modes below) of receptances.
     pub upper: Vec<Vec<f64>>,
     pub lower: Vec<Vec<f64>>,
     pub diagram: Vec<DiagramPole>,
     pub orders: Vec<usize>,
-    /// Poles that were stable but fell to a test afterwards, with the reason.
+    /// Stable poles that were rejected afterwards, with the reason.
     pub dropped: Vec<String>,
 }
 
 impl Identified {
-    /// The side of the test with more DOFs, and a mode's vector over it: what to draw and to compare.
+    /// The side of the test with more DOFs, and a mode's vector over it, for display and comparison.
     ///
-    /// With a roving hammer these are the references.
+    /// In a roving-hammer test these are the references.
     pub fn deflection<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
         if self.references.len() > self.responses.len() {
             (&self.references, &mode.participation)
@@ -175,7 +176,7 @@ impl Identified {
         }
     }
 
-    /// MAC of every mode with every other, over the side with more DOFs.
+    /// AutoMAC: MAC of every mode with every other, over the side with more DOFs.
     pub fn auto_mac(&self) -> Vec<Vec<f64>> {
         let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.deflection(m).1).collect();
         mac::mac_matrix(&shapes, &shapes)
@@ -187,12 +188,12 @@ const FIRST_ORDER: usize = 2;
 
 /// Identifies the modes in FRFs.
 ///
-/// Poles of all orders by pLSCF, those that stay chosen, then refined together by nonlinear least squares on all FRFs;
-/// modes that the data do not bear out are dropped and listed.
+/// Poles of all orders by pLSCF, automatic selection of stable poles, joint refinement by nonlinear least
+/// squares on all FRFs; insignificant modes are dropped and listed.
 ///
 /// # Errors
-/// Uneven frequencies, a band without data, too few lines for the order, values that are not finite, a dead channel,
-/// no mode.
+/// Non-uniform frequencies, a band without data, too few lines for the order, values that are not finite, a
+/// dead channel, no mode.
 pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<Identified, IdentifyError> {
     let mut data = Data::new(frfs, settings)?;
     let equations = NormalEquations::new(&data, settings)?;
@@ -274,7 +275,7 @@ fn assembled(
     let mut modes: Vec<Mode> = (0..found.poles.len())
         .map(|m| {
             let pole = &found.poles[m];
-            // The larger side carries the size of the residue, the smaller one's largest entry is 1.
+            // The larger side carries the residue's magnitude, the smaller has a largest entry of 1.
             let mut small: Vec<Complex64> =
                 pole.participation.iter().zip(&data.input_scale).map(|(l, b)| l * *b).collect();
             let before = small.clone();

@@ -1,11 +1,12 @@
-//! Poly-reference least-squares complex frequency: poles and participations for every order at once.
+//! Poly-reference least-squares complex frequency (pLSCF, PolyMAX): poles and participations of all orders.
 //!
-//! H_o(ω) A(z) = B_o(z) row by row, A(z) = Σ A_j z^j with real N_i × N_i coefficients, A₀ = I, z = e^{jωT}. The
-//! numerators are eliminated output by output: M = Σ_o (T_o − S_oᵀ R_o⁻¹ S_o), and M a = 0 gives A. With A₀ fixed the
-//! poles that only fit noise lie outside the unit circle: they look unstable, and the physical ones stand alone.
+//! H_o(ω) A(z) = B_o(z) row by row, A(z) = Σ A_j z^j with real N_i × N_i coefficients, A₀ = I, z = e^{jωT}.
+//! The numerators are eliminated output by output: M = Σ_o (T_o − S_oᵀ R_o⁻¹ S_o), and M a = 0 gives A. With
+//! A₀ fixed the computational (noise) poles lie outside the unit circle: they are unstable and easily
+//! separated from physical ones.
 //!
-//! Source: Peeters, Van der Auweraer, Guillaume & Leuridan, Shock and Vibration 11 (2004) 395; Cauberghe, thesis
-//! VUB (2004), on the constraint.
+//! Source: Peeters, Van der Auweraer, Guillaume & Leuridan, Shock and Vibration 11 (2004) 395; Cauberghe,
+//! thesis VUB (2004), on the constraint.
 
 use std::f64::consts::TAU;
 
@@ -17,16 +18,16 @@ use super::data::Data;
 use super::{IdentifyError, Settings};
 use crate::linalg::{Complex64, eigen};
 
-/// A pole with its participation, of one order.
+/// A pole with its participation vector, of one order.
 #[derive(Clone, Debug)]
 pub(super) struct Pole {
     /// λ \[1/s\].
     pub value: Complex64,
-    /// l over the inputs (scaled data), its largest entry 1.
+    /// Participation l over the inputs (scaled data), its largest entry 1.
     pub participation: Vec<Complex64>,
 }
 
-/// Reduced normal equations, and the map between z and s.
+/// Reduced normal equations, and the mapping between z and s.
 pub(super) struct NormalEquations {
     matrix: DMatrix<f64>,
     order: usize,
@@ -39,19 +40,19 @@ pub(super) struct NormalEquations {
     largest_damping: f64,
 }
 
-/// Outputs summed one after the other before sums are added in order: the result does not depend on threads.
+/// Outputs per parallel chunk; chunk sums are added in order: results do not depend on the number of threads.
 const CHUNK: usize = 4;
 
 impl NormalEquations {
-    /// Builds M for the highest order; its leading blocks serve all lower ones.
+    /// Builds M for the highest order; its leading blocks are those of all lower ones.
     pub fn new(data: &Data, settings: &Settings) -> Result<Self, IdentifyError> {
         let n = data.max_order(settings);
         let (ni, lines) = (data.inputs(), data.lines());
-        // The band begins at most a fifth up the half circle: nearer its end the powers of z become alike.
+        // Start at most a fifth along the half circle: near its end powers of z are ill-conditioned.
         let start = ((data.frequencies[0] / data.step).round() as usize).min(lines / 4);
         let length = fast_length((2 * (start + lines)).max(2 * n + 2));
         let fft = FftPlanner::<f64>::new().plan_fft_forward(length);
-        // Sums Σ x_k z_k^l for l = −n..n, by one transform: X[m] = Σ x_k e^{−2πjkm/N}.
+        // Sums Σ x_k z_k^l for l = −n..n, by one FFT: X[m] = Σ x_k e^{−2πjkm/N}.
         let sums = |series: &mut dyn Iterator<Item = Complex64>| -> Vec<f64> {
             let mut buffer = vec![Complex64::default(); length];
             for (slot, value) in buffer[start..].iter_mut().zip(series) {
@@ -60,7 +61,7 @@ impl NormalEquations {
             fft.process(&mut buffer);
             (0..=2 * n).map(|k| buffer[(length + n - k) % length].re).collect()
         };
-        // Receptances fall with ω²: mobility-like sizes weigh all modes alike.
+        // Receptances fall with ω²: mobility-like weights give all modes similar weight.
         let weight: Vec<f64> = data
             .frequencies
             .iter()
@@ -119,7 +120,7 @@ impl NormalEquations {
         })
     }
 
-    /// Poles of every order asked for with a frequency in the band and a positive damping ratio that may be.
+    /// Poles of every requested order with a frequency in the band and a damping ratio in 0..largest.
     pub fn poles(&self, orders: &[usize]) -> Result<Vec<Vec<Pole>>, IdentifyError> {
         let ni = self.inputs;
         let size = ni * self.order;
@@ -175,7 +176,7 @@ impl NormalEquations {
     }
 }
 
-/// l over its largest entry.
+/// Normalises l to a largest entry of 1.
 pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
     let largest =
         l.iter().copied().fold(Complex64::default(), |a, b| if b.norm() > a.norm() { b } else { a });
@@ -185,8 +186,8 @@ pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
     l
 }
 
-/// Cholesky factor of a matrix that is positive definite but for round-off, which a grain on its diagonal mends:
-/// FRFs without noise leave M singular beyond their own order.
+/// Cholesky factor of a matrix that is positive definite up to round-off, with the least diagonal
+/// regularisation (jitter) needed: FRFs without noise leave M singular beyond their model order.
 fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
     let size = matrix.diagonal().amax().max(f64::MIN_POSITIVE);
     let mut grain = 0.0;
@@ -198,12 +199,12 @@ fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
         if let Some(found) = Cholesky::new(mended) {
             return found;
         }
-        // Ends at the latest where the diagonal dominates.
+        // Terminates at the latest when the diagonal dominates.
         grain = if grain == 0.0 { 1e-15 } else { 10.0 * grain };
     }
 }
 
-/// The next length of small factors.
+/// Next FFT length with prime factors 2, 3, 5 only.
 fn fast_length(at_least: usize) -> usize {
     let smooth = |mut n: usize| {
         for p in [2, 3, 5] {

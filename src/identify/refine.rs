@@ -1,7 +1,8 @@
-//! Poles and participations by nonlinear least squares.
+//! Refinement of poles and participations by nonlinear least squares (Levenberg-Marquardt).
 //!
-//! Shapes and residual terms are linear and follow from poles and participations (variable projection, Golub & Pereyra
-//! 1973, in Kaufman's form); the same matrix serves all outputs, so an iteration costs about as much as one LSFD.
+//! Shapes and residual terms are linear unknowns, eliminated by variable projection (Golub & Pereyra 1973,
+//! Kaufman's approximation); the matrix is the same for all outputs, so an iteration costs about as much as
+//! one LSFD.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -19,7 +20,7 @@ pub(super) struct Point {
     /// Lengths of the columns of the design: A = Q R diag(sizes).
     pub sizes: Vec<f64>,
     pub x: DMatrix<f64>,
-    /// What the fit leaves.
+    /// Residuals of the fit.
     pub rest: DMatrix<f64>,
     pub cost: f64,
 }
@@ -38,17 +39,17 @@ impl Point {
         Complex64::new(self.x[(2 * mode, output)], self.x[(2 * mode + 1, output)])
     }
 
-    /// Mean square that is left of a datum, over the data less the unknowns.
+    /// Residual variance: squared residuals over the degrees of freedom (data minus unknowns).
     pub fn noise(&self) -> f64 {
         let unknowns = self.x.len() + 2 * self.poles.iter().map(|p| p.participation.len()).sum::<usize>();
         self.cost / (self.rest.len() as f64 - unknowns as f64).max(1.0)
     }
 }
 
-/// Normal equations in the poles and participations.
+/// Gauss-Newton normal equations in the poles and participations.
 pub(super) struct Step {
     pub list: Vec<Change>,
-    /// Changes of the FRFs that the linear unknowns do not follow.
+    /// Projected Jacobian: derivatives of the FRFs orthogonal to the linear unknowns.
     pub free: DMatrix<f64>,
     pub square: DMatrix<f64>,
     gradient: DVector<f64>,
@@ -102,7 +103,7 @@ impl Step {
     /// A diagonal block of (JᵀJ)⁻¹.
     pub fn inverse_block(&self, first: usize, count: usize) -> DMatrix<f64> {
         let mut square = self.square.clone();
-        // Repeated poles leave the turn of their participations free.
+        // Regularised: repeated poles leave the rotation of their participations undetermined.
         (0..square.nrows()).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
         let unit = DMatrix::from_fn(square.nrows(), count, |i, j| f64::from(u8::from(i == first + j)));
         match Cholesky::new(square) {
@@ -111,7 +112,7 @@ impl Step {
         }
     }
 
-    /// Poles after a damped step, and the fall of the cost that the linear model expects of it.
+    /// Poles after a damped (Levenberg-Marquardt) step, and the cost reduction predicted by the linear model.
     fn taken(&self, poles: &[Pole], damping: f64) -> Option<(Vec<Pole>, f64)> {
         let mut square = self.square.clone();
         for k in 0..square.nrows() {
@@ -130,12 +131,12 @@ impl Step {
     }
 }
 
-/// A step that lowers the cost by less than this share of one datum's is within a hundredth of the standard errors.
+/// Convergence: predicted cost reduction over the residual variance (a hundredth of the standard errors).
 const SETTLED: f64 = 1e-4;
-/// Left of the FRFs' square sum by round-off.
+/// Round-off level of the cost over the FRFs' sum of squares.
 const ROUND_OFF: f64 = 1e-28;
 
-/// FRFs with the matrices to fit them by.
+/// Fit problem: FRFs with basis functions and right-hand side.
 pub(super) struct Problem<'a> {
     data: &'a Data,
     basis: Basis,
@@ -153,7 +154,7 @@ impl<'a> Problem<'a> {
         self.data
     }
 
-    /// Minimises the square sum of what the modal model leaves of the FRFs, in so many steps at most.
+    /// Minimises the sum of squared residuals of the FRFs, in at most `steps` steps.
     pub fn refine(&self, poles: Vec<Pole>, steps: usize) -> Point {
         let mut at = Point::new(&self.basis, &self.y, poles);
         let least = ROUND_OFF * self.y.norm_squared();
@@ -179,7 +180,7 @@ impl<'a> Problem<'a> {
             }
             break;
         }
-        // The largest participation is 1 again.
+        // Renormalise the largest participation to 1.
         for pole in &mut at.poles {
             pole.participation = unit(std::mem::take(&mut pole.participation));
         }
@@ -196,15 +197,15 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Noise over the FRFs' mean square that is taken where there is less.
+/// Lower limit of the residual variance over the FRFs' mean square.
 const LEAST_NOISE: f64 = 1e-24;
 
-/// F of leaving a mode out: what it alone explains, an unknown, over what is left, a datum.
+/// F statistic of leaving a mode out: explained variance per unknown over the residual variance.
 pub(super) fn significance(at: &Point) -> Vec<f64> {
     let n = at.r.nrows();
     let fitted = DMatrix::from_fn(n, at.x.ncols(), |k, o| at.sizes[k] * at.x[(k, o)]);
     let all = at.cost + (&at.r * fitted).norm_squared();
-    // Where nothing is left but round-off, a mode that explains some of that is none.
+    // Noise floor, so that a mode fitted to round-off is not significant.
     let noise = at.noise().max(LEAST_NOISE * all / at.rest.len() as f64).max(f64::MIN_POSITIVE);
     // Cov(x) = (RᵀR)⁻¹ for columns of unit length.
     let inverse = at.r.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));

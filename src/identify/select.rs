@@ -1,8 +1,8 @@
-//! Stable poles chosen without a user: groups of poles that many orders share.
+//! Automatic pole selection from the stabilisation diagram: clusters of poles that many orders share.
 //!
-//! Every candidate is scored by the other orders' poles that are like it in frequency, damping, participation and
-//! shape; the best is taken with all that are like it, and so on until what is left has too little support. Groups that
-//! lie on one another are one mode, unless the residues there have more than one direction.
+//! Every candidate is scored by its similarity to poles of the other orders in frequency, damping,
+//! participation and shape; the best is taken with all similar ones as a cluster, until the remaining support
+//! is too small. Overlapping clusters are one mode, unless the residues there have rank two (repeated poles).
 
 use nalgebra::DMatrix;
 
@@ -13,28 +13,28 @@ use super::plscf::{Pole, unit};
 use super::stabilise::Candidate;
 use crate::linalg::Complex64;
 
-/// Difference of frequency, relative, at which likeness ends.
+/// Relative difference of frequency at which the similarity is zero.
 const FREQUENCY: f64 = 0.005;
-/// Difference of damping over its mean.
+/// Likewise, difference of damping over its mean.
 const DAMPING: f64 = 0.6;
-/// 1 − MAC of the residues.
+/// Likewise, 1 − MAC of the residues.
 const SHAPE: f64 = 0.15;
-/// Support, over the number of orders, that makes a mode.
+/// Minimum support of a mode, relative to the number of orders.
 const SUPPORT: f64 = 0.1;
-/// Poles nearer than this share of their decay rate may be one mode found twice.
+/// Distance of two poles, relative to their decay rate, below which they may be duplicates of one mode.
 const ONE: f64 = 0.8;
-/// Singular value of the residues, over the largest, from which there is a second mode.
+/// Ratio of second to first singular value of the residues from which there is a second mode.
 const SECOND: f64 = 0.2;
 
 struct Cluster {
     value: Complex64,
     participation: Vec<Complex64>,
     score: f64,
-    /// Poles per order that has any.
+    /// Mean number of poles per order in the cluster.
     multiplicity: f64,
 }
 
-/// Poles to start the refinement from, by frequency.
+/// Selected poles in order of frequency: start values of the refinement.
 pub(super) fn select(data: &Data, candidates: &[Candidate], orders: usize) -> Vec<Pole> {
     let mut clusters = clusters(candidates, orders);
     clusters.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
@@ -66,7 +66,7 @@ pub(super) fn select(data: &Data, candidates: &[Candidate], orders: usize) -> Ve
             poles.push(Pole { value: first.value, participation: first.participation });
             continue;
         }
-        // The second mode: the one of the group least like the first, else the residues' second direction.
+        // Second mode: the cluster with the lowest MAC to the first, else the residues' second direction.
         let unlike = group.into_iter().min_by(|a, b| {
             let likeness = |c: &Cluster| mac(&c.participation, &first.participation);
             likeness(a).total_cmp(&likeness(b))
@@ -90,7 +90,7 @@ fn clusters(candidates: &[Candidate], orders: usize) -> Vec<Cluster> {
     let mut sorted: Vec<&Candidate> = candidates.iter().collect();
     sorted.sort_by(|a, b| a.pole.value.im.total_cmp(&b.pole.value.im).then(a.order.cmp(&b.order)));
     let n = sorted.len();
-    // Likeness 0..1 with the neighbours in frequency.
+    // Similarity 0..1 with the neighbours in frequency.
     let mut like: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
     for i in 0..n {
         like[i].push((i, 1.0));
@@ -148,7 +148,7 @@ fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) ->
     }
 }
 
-/// 1 for equal poles, falling to 0 with the square of what parts them.
+/// Similarity of two poles: 1 if equal, falling to 0 with the square of their scaled distance.
 fn likeness(a: &Candidate, b: &Candidate) -> f64 {
     let (va, vb) = (a.pole.value, b.pole.value);
     let apart = (va.im - vb.im) / va.im.min(vb.im) / FREQUENCY;
@@ -162,7 +162,7 @@ fn likeness(a: &Candidate, b: &Candidate) -> f64 {
     (1.0 - distance).max(0.0)
 }
 
-/// Right singular directions of a residue matrix (as participations) and their singular values, falling.
+/// Right singular vectors of a residue matrix (as participations) and its singular values, descending.
 fn directions(residue: &DMatrix<Complex64>) -> (Vec<Vec<Complex64>>, Vec<f64>) {
     let svd = residue.clone().svd(false, true);
     let Some(v) = svd.v_t else { return (Vec::new(), Vec::new()) };

@@ -1,5 +1,5 @@
-//! From poles that stay to modes that the data bear out: refined together, those that run off or explain nothing
-//! dropped, those found twice made one.
+//! Mode selection: stable poles are refined together; diverging, insignificant or uncertain ones are dropped,
+//! duplicate poles are merged.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use super::uncertainty::{PoleCovariance, covariance, errors, rough};
 use super::{Settings, synthesised};
 use crate::linalg::Complex64;
 
-/// Poles at the minimum, and what goes with them.
+/// Selected modes: poles at the minimum with residues, covariance and significance.
 pub(super) struct Settled {
     pub poles: Vec<Pole>,
     pub fit: Fit,
@@ -20,18 +20,18 @@ pub(super) struct Settled {
     pub significance: Vec<f64>,
 }
 
-/// Steps of the refinement while poles may still be dropped, and at the end.
+/// Refinement steps while poles may still be dropped, and at the end.
 const TRIAL: usize = 4;
 const FINAL: usize = 40;
-/// Change of frequency, relative, by which a pole that was stable has run off.
+/// Relative change of frequency from which a stable pole counts as drifted away.
 const RUN_OFF: f64 = 0.01;
-/// Significance F below which a mode is noise: the largest of many tries stays below it.
+/// Minimum significance F of a mode; the largest of many noise poles stays below it.
 const LEAST_SIGNIFICANCE: f64 = 10.0;
-/// Standard errors that make a mode worthless: of the frequency, relative, and of the damping, relative.
+/// Maximum relative standard errors of a mode: of the frequency and of the damping ratio.
 const WORST_FREQUENCY: f64 = 0.01;
 const WORST_DAMPING: f64 = 0.5;
 
-/// Settles poles; the data are rescaled by what a first fit leaves of each FRF. `None` where no pole is left.
+/// Refines and selects poles; FRFs are reweighted by the residuals of a first fit. `None` if no pole remains.
 pub(super) fn settle(
     data: &mut Data,
     mut poles: Vec<Pole>,
@@ -39,7 +39,7 @@ pub(super) fn settle(
     dropped: &mut Vec<String>,
 ) -> Option<Settled> {
     poles = pruned(&Problem::new(data), poles, settings, dropped)?;
-    // First with all FRFs alike, then each by what the first fit left of it.
+    // First fit with equal weights, then reweighted by its residuals.
     let first = Problem::new(data).refine(poles, TRIAL);
     let poles = reweighted(data, first);
     let problem = Problem::new(data);
@@ -53,7 +53,7 @@ pub(super) fn settle(
         }
         let covariance = covariance(problem.data(), &at, &problem.step(&at));
         let significance = significance(&at);
-        // A pole that follows the noise of a few lines is betrayed by what becomes of it without them.
+        // The jackknife covariance exposes poles that fit the noise of a few lines.
         let fault = |m: usize| weak(&at.poles[m], covariance[m], significance[m]);
         let worst = (0..at.poles.len())
             .filter(|&m| fault(m).is_some())
@@ -72,7 +72,7 @@ pub(super) fn settle(
     }
 }
 
-/// Poles that stand a few steps of refinement.
+/// Poles that remain valid over a few steps of refinement.
 fn pruned(
     problem: &Problem,
     mut poles: Vec<Pole>,
@@ -89,8 +89,8 @@ fn pruned(
     }
 }
 
-/// What is left when the faulty are taken away; `None` where none is. Poles that ran off go together, of the others
-/// the least significant: the rest may recover without it.
+/// Poles left after removing faulty ones; `None` if there is no faulty one. Drifted poles are removed
+/// together, of the others only the least significant: the rest may recover without it.
 fn without_faults(
     problem: &Problem,
     at: &Point,
@@ -103,7 +103,7 @@ fn without_faults(
     let off: Vec<Option<String>> =
         (0..count).map(|m| run_off(at.poles[m].value, started.map(|s| s[m].value), band, settings)).collect();
     if off.iter().any(Option::is_some) {
-        // Those that stayed go on from where they were: the others pulled at them.
+        // Restart the remaining poles from their previous values: the drifted ones have biased them.
         let stay = |m: &usize| off[*m].is_none();
         let from = started.unwrap_or(&at.poles);
         let left = (0..count).filter(stay).map(|m| from[m].clone()).collect();
@@ -140,17 +140,17 @@ fn run_off(
     let zeta = -pole.re / pole.norm();
     let name = name(started.unwrap_or(pole));
     if zeta.is_nan() || zeta <= 0.0 {
-        return Some(format!("{name}: not damped when fitted to the FRFs"));
+        return Some(format!("{name}: not positively damped when fitted to the FRFs"));
     }
     if hz < band[0] || hz > band[1] {
         return Some(format!("{name}: outside the band when fitted to the FRFs"));
     }
     if zeta > settings.largest_damping {
-        return Some(format!("{name}: damped too highly when fitted to the FRFs"));
+        return Some(format!("{name}: damping above the limit when fitted to the FRFs"));
     }
     match started {
         Some(first) if (pole.im / first.im - 1.0).abs() > RUN_OFF => {
-            Some(format!("{name}: goes to {hz:.3} Hz when fitted to the FRFs"))
+            Some(format!("{name}: moves to {hz:.3} Hz when fitted to the FRFs"))
         }
         _ => None,
     }
@@ -161,23 +161,25 @@ fn weak(pole: &Pole, covariance: PoleCovariance, significance: f64) -> Option<St
     let zeta = -pole.value.re / pole.value.norm();
     let name = name(pole.value);
     if significance < LEAST_SIGNIFICANCE {
-        return Some(format!("{name}: explains no more than noise would (F = {significance:.1})"));
+        return Some(format!("{name}: not significant against noise (F = {significance:.1})"));
     }
     let uncertain = frequency > WORST_FREQUENCY * pole.value.im / TAU || damping > WORST_DAMPING * zeta;
-    uncertain.then(|| format!("{name}: known to {frequency:.2e} Hz and {:.2e} % only", 100.0 * damping))
+    uncertain.then(|| {
+        format!("{name}: standard error too large ({frequency:.2e} Hz, damping {:.2e} %)", 100.0 * damping)
+    })
 }
 
-/// Poles nearer than this many decay rates may be one.
+/// Distance, in decay rates, below which two poles may be duplicates.
 const TWIN: f64 = 3.0;
-/// They are where their shapes over at least so many outputs are alike to this MAC.
+/// Minimum number of outputs, and MAC of the shapes, for two close poles to be duplicates.
 const FEW: usize = 8;
 const ALIKE: f64 = 0.7;
 
-/// Whether a more significant mode beside this one has its shape: FRFs that do not fit together (a structure that
-/// changed between blows) give one mode twice.
+/// Duplicate pole: whether a more significant mode close to this one has the same shape. Inconsistent FRFs (a
+/// structure that changed between hits) give one mode twice.
 ///
-/// Alike as measured, or as fitted: the weights of the fit raise outputs that hardly move, where twins share out at
-/// random.
+/// MAC of the shapes as measured or as scaled for the fit: the fit's weights amplify outputs of small motion,
+/// over which duplicates split at random.
 fn twin(data: &Data, at: &Point, m: usize, significance: &[f64]) -> Option<String> {
     let fitted = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
     let measured = |m: usize| {
@@ -191,10 +193,10 @@ fn twin(data: &Data, at: &Point, m: usize, significance: &[f64]) -> Option<Strin
         let alike = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
         near && at.x.ncols() >= FEW && alike() > ALIKE
     })?;
-    Some(format!("{}: the mode at {:.3} Hz once more", name(own.value), at.poles[other].value.im / TAU))
+    Some(format!("{}: duplicate of the mode at {:.3} Hz", name(own.value), at.poles[other].value.im / TAU))
 }
 
-/// Rescales every FRF by what a fit left of it; returns its poles in the new scales.
+/// Reweights every FRF by the residual of a fit; returns its poles in the new scales.
 fn reweighted(data: &mut Data, found: Point) -> Vec<Pole> {
     let fit = Problem::new(data).fit(&found);
     let model = synthesised(data, &found.poles, &fit);
@@ -208,7 +210,7 @@ fn reweighted(data: &mut Data, found: Point) -> Vec<Pole> {
         .zip(&model)
         .map(|(row, model)| row.iter().zip(model).map(|(frf, model)| left(frf, model)).collect())
         .collect();
-    // An FRF that fits a thousand times better than the worst is fitted no better than that.
+    // Lower limit of the scale: a thousandth of the largest residual.
     let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
     sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));
     let b = data.rescale(&sizes);

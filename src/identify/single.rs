@@ -1,4 +1,4 @@
-//! Circle and peak fit: one mode from one FRF, a quick look beside the poly-reference fit.
+//! Single-degree-of-freedom (SDOF) fits: half-power (peak picking) and circle fit of one mode from one FRF.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::linalg::Complex64;
 use crate::model::Quantity;
 
-/// One mode from one FRF.
+/// Result of an SDOF fit: one mode from one FRF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingleMode {
     /// Natural frequency \[Hz\].
@@ -18,10 +18,11 @@ pub struct SingleMode {
     pub residue: Complex64,
 }
 
-/// Peak of |H| in a band with its half-power width, ζ = (f₂² − f₁²)/(4 f²).
+/// Half-power bandwidth method (peak picking): peak of |H| in a band, ζ = (f₂² − f₁²)/(4 f²).
 ///
-/// Between lines the peak and the crossings of |H|/√2 are found on parabolas and straight lines. `None` where a side
-/// does not fall to half power within the band. Valid for a mode alone, some lines wide, with ζ below a tenth or so.
+/// The peak is interpolated by a parabola, the crossings of |H|/√2 linearly. `None` if |H| does not fall to
+/// half power on both sides within the band. Valid for an isolated mode several lines wide, with ζ below
+/// about 0.1.
 pub fn peak_fit(frequencies: &[f64], frf: &[Complex64], band: [f64; 2]) -> Option<SingleMode> {
     let inside: Vec<usize> =
         (0..frf.len()).filter(|&k| frequencies[k] >= band[0] && frequencies[k] <= band[1]).collect();
@@ -51,17 +52,18 @@ pub fn peak_fit(frequencies: &[f64], frf: &[Complex64], band: [f64; 2]) -> Optio
     let lower = (first..top).rev().find(|&k| 1.0 / square(k) >= half).map(|k| crossing(k + 1, k))?;
     let damping_ratio = (upper * upper - lower * lower) / (4.0 * natural * natural);
     let omega = TAU * natural;
-    // At resonance H = A/(ζ ω_n) in size, for H = A/(s − λ).
+    // At resonance |H| = |A|/(ζ ω_n), for H = A/(s − λ).
     let residue = frf[top] * damping_ratio * omega;
     Some(SingleMode { frequency_hz: natural, damping_ratio, residue })
 }
 
-/// Circle through the FRF near a mode, run through as one pole runs: M = c + A/(jω − λ) in the mobility M.
+/// Circle fit of an FRF near a mode (Nyquist circle of the mobility M): M = c + A/(jω − λ).
 ///
-/// The image of jω is a circle for every λ, so fitting jω M = λ M + c jω + d in λ, c and d (linear, complex) fits circle and
-/// angles along it at once; c takes up the modes beside, as the circle's offset does. `None` where the band holds fewer
-/// than four lines, or what is found does not oscillate there or is not damped. Source: the circle of Kennedy & Pancu, J.
-/// Aeronautical Sciences 14 (1947); linear in this form as in Levy, IRE Trans. 4 (1959).
+/// The image of jω is a circle for every λ, so a linear complex fit of jω M = λ M + c jω + d in λ, c and d
+/// fits the circle and the angles along it together; c represents neighbouring modes (offset of the circle).
+/// `None` if the band contains fewer than four lines, or if the fitted pole is outside the band or undamped.
+/// Source: the circle of Kennedy & Pancu, J. Aeronautical Sciences 14 (1947); linearised as in Levy, IRE
+/// Trans. 4 (1959).
 pub fn circle_fit(
     frequencies: &[f64],
     frf: &[Complex64],
@@ -85,7 +87,7 @@ pub fn circle_fit(
     if points.len() < 4 {
         return None;
     }
-    // About the middle of the band and in units of the FRF's size, or the columns are alike.
+    // Centred on the band and scaled by the FRF's magnitude, for the conditioning of the columns.
     let middle = points.iter().map(|(s, _)| s).sum::<Complex64>() / points.len() as f64;
     let width = points.iter().map(|(s, _)| (s - middle).norm()).fold(0.0, f64::max);
     let size = points.iter().map(|(_, m)| m.norm()).fold(0.0, f64::max);

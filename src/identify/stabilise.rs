@@ -1,4 +1,4 @@
-//! Stabilisation diagram: the poles of every order with their shapes, and which of them stay from order to order.
+//! Stabilisation diagram: poles of every order with their shapes, and their stability from order to order.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -11,20 +11,20 @@ use super::plscf::Pole;
 use super::{DiagramPole, IdentifyError, Stability};
 use crate::linalg::{Complex64, eigen};
 
-/// A pole of one order with its shape over the outputs, or over what they span.
+/// A pole of one order with its shape over the outputs, or over their principal directions.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     /// Index of the order.
     pub order: usize,
     pub pole: Pole,
     pub shape: Vec<Complex64>,
-    /// Another pole of the same order lies on it: the two shapes may be any of their combinations.
+    /// Whether it is a repeated (double) pole: the two shapes may then be any linear combinations.
     pub double: bool,
 }
 
-/// Outputs that shapes of candidates are taken over; more are projected on their principal directions.
+/// Maximum number of outputs of candidate shapes; more are projected on their principal directions.
 const DIRECTIONS: usize = 16;
-/// Poles of one order nearer to each other than this share of their decay rate are one double pole.
+/// Distance, relative to the decay rate, below which two poles of one order are a double pole.
 const DOUBLE: f64 = 0.3;
 
 /// Shapes for the poles of every order, by LSFD with all poles of that order.
@@ -54,7 +54,7 @@ pub(super) fn candidates(data: &Data, poles: Vec<Vec<Pole>>) -> Result<Vec<Candi
     Ok(lists.into_iter().flatten().collect())
 }
 
-/// FRFs of the outputs' principal directions, which keep lengths and angles of the shapes.
+/// FRFs projected on the outputs' principal directions (PCA); lengths and angles of shapes are preserved.
 fn compressed(data: &Data) -> Result<Vec<Vec<Vec<Complex64>>>, IdentifyError> {
     let outputs = data.outputs();
     if outputs <= DIRECTIONS {
@@ -81,7 +81,7 @@ fn compressed(data: &Data) -> Result<Vec<Vec<Vec<Complex64>>>, IdentifyError> {
     Ok((0..DIRECTIONS).map(along).collect())
 }
 
-/// The diagram: each pole held against those of the order before.
+/// Stabilisation diagram: each pole compared with those of the next lower order.
 pub(super) fn diagram(candidates: &[Candidate], orders: &[usize]) -> Vec<DiagramPole> {
     let describe = |c: &Candidate| {
         let before = candidates.iter().filter(|b| b.order + 1 == c.order);

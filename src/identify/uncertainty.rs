@@ -1,13 +1,14 @@
-//! Standard errors of poles.
+//! Standard errors (covariance) of poles by a grouped jackknife.
 //!
-//! Σ δ δᵀ, δ being the change of the poles when the FRFs to one reference at one line are left out:
-//! δ = (JᵀJ − G)⁻¹ g, with g and G the group's share of the gradient and of JᵀJ (jackknife by groups). Noise that changes
-//! over frequency, and noise that the responses to one blow share (that of the force), is thereby counted as it is. The
-//! share G matters: a lightly damped mode rests on few lines, bends to the noise of each, and what the fit leaves there
-//! is far less than the noise was.
+//! Covariance Σ δ δᵀ, δ being the change of the poles when the FRFs to one reference at one line are left
+//! out: δ = (JᵀJ − G)⁻¹ g, with g and G the group's share of the gradient and of JᵀJ (jackknife by groups,
+//! cluster-robust). This includes frequency-dependent noise and noise common to all responses of one hit
+//! (that of the force). The leverage G matters: a lightly damped mode depends on few lines and fits the noise
+//! of each, so that residuals there are much smaller than the noise.
 //!
-//! Where few groups decide, their sum is itself uncertain. It is then drawn towards what two sizes of noise, found over
-//! all lines, would give: that of the responses, and that of the force, in proportion to the FRF and common to all.
+//! If few groups dominate, their sum is itself uncertain. It is then shrunk towards the covariance of a noise
+//! model with two variances estimated over all lines: that of the responses, and that of the force,
+//! proportional to the FRF and common to all.
 //!
 //! Source: Liang & Zeger, Biometrika 73 (1986); Bell & McCaffrey, Survey Methodology 28 (2002).
 
@@ -23,11 +24,11 @@ use crate::linalg::Complex64;
 /// Variances of Re λ and Im λ, and their covariance.
 pub(super) type PoleCovariance = [f64; 3];
 
-/// Rows of (JᵀJ)⁻¹ that belong to poles; `None` where poles cannot be told apart.
+/// Rows of (JᵀJ)⁻¹ that belong to poles; `None` if JᵀJ is singular (poles not distinguishable).
 fn pole_rows(step: &Step) -> Option<(Vec<usize>, DMatrix<f64>)> {
     let mut square = step.square.clone();
     let n = square.nrows();
-    // Repeated poles leave the turn of their participations free.
+    // Regularised: repeated poles leave the rotation of their participations undetermined.
     (0..n).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
     let inverse = Cholesky::new(square)?.inverse();
     let own: Vec<usize> = (0..step.list.len())
@@ -38,7 +39,7 @@ fn pole_rows(step: &Step) -> Option<(Vec<usize>, DMatrix<f64>)> {
     Some((own, rows))
 }
 
-/// Covariances as if all that is left were noise of one size: quick, to judge by.
+/// Covariances assuming white residuals of one variance: fast, for the selection.
 pub(super) fn rough(at: &Point, step: &Step) -> Vec<PoleCovariance> {
     let Some((own, rows)) = pole_rows(step) else { return unknown(at) };
     let noise = at.noise();
@@ -54,13 +55,13 @@ fn unknown(at: &Point) -> Vec<PoleCovariance> {
     vec![[f64::INFINITY, f64::INFINITY, 0.0]; at.poles.len()]
 }
 
-/// Covariances by leaving groups out.
+/// Covariances by the grouped jackknife (leave one group out).
 pub(super) fn covariance(data: &Data, at: &Point, step: &Step) -> Vec<PoleCovariance> {
     let Some((_, lambda)) = pole_rows(step) else { return unknown(at) };
     let groups = Groups::new(at, step, &lambda);
     let (lines, inputs, outputs) = (data.lines(), data.inputs(), data.outputs());
     let all: Vec<usize> = (0..outputs).collect();
-    // Blows are to references: outputs where they are those (then inputs answer together), else inputs.
+    // Hits are at references: if these are the outputs, group the inputs of an output, else vice versa.
     let sizes = NoiseSizes::new(data, at);
     let of_line = |k: usize| {
         let mut sums = vec![Sums::default(); at.poles.len()];
@@ -83,13 +84,13 @@ pub(super) fn covariance(data: &Data, at: &Point, step: &Step) -> Vec<PoleCovari
     total.iter().zip(white).map(|(sum, white)| sum.covariance(white, share, sizes.force)).collect()
 }
 
-/// Groups that the two sizes of noise count for.
+/// Weight of the noise model, as an equivalent number of groups.
 const PRIOR: f64 = 10.0;
 
 /// Sums over groups for one pole.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
-    /// Of δ δᵀ as measured, and of its square.
+    /// Of δ δᵀ from the residuals, and of its squared trace.
     found: PoleCovariance,
     square: f64,
     /// Of δ δᵀ for force noise of mean square 1.
@@ -114,14 +115,14 @@ impl Sums {
     }
 }
 
-/// Mean squares of the noise: of a datum of the responses, and of the force over the force.
+/// Noise variances: of a response datum, and of the force relative to the force.
 struct NoiseSizes {
     response: f64,
     force: f64,
 }
 
 impl NoiseSizes {
-    /// |e|² = 2a + b|H|² over all data but those that the fit follows, weighted by what they scatter.
+    /// Weighted regression of |e|² = 2a + b|H|² over all data except those of high leverage.
     fn new(data: &Data, at: &Point) -> Self {
         let lines = data.lines();
         let (mut a, mut b) = (at.noise(), 0.0);
@@ -163,7 +164,7 @@ impl NoiseSizes {
     }
 }
 
-/// What groups of rows have to do with the poles.
+/// Influence of groups of rows on the poles.
 struct Groups<'a> {
     at: &'a Point,
     step: &'a Step,
@@ -171,11 +172,11 @@ struct Groups<'a> {
     lambda: &'a DMatrix<f64>,
     /// Diagonal block of (JᵀJ)⁻¹ of each mode, its first parameter and their number.
     blocks: Vec<(DMatrix<f64>, usize, usize)>,
-    /// 1 over what the linear unknowns leave of a row's noise.
+    /// Leverage correction: 1 over the fraction of a row's noise that is not absorbed by the linear unknowns.
     enlarge: Vec<f64>,
 }
 
-/// Share of a mode's knowledge below which leaving a group out changes nothing else.
+/// Leverage of a group on a mode below which the correction for leaving it out is skipped.
 const NO_SHARE: f64 = 0.01;
 
 impl<'a> Groups<'a> {
@@ -197,7 +198,7 @@ impl<'a> Groups<'a> {
         for m in 0..self.at.poles.len() {
             self.without(m, rows, outputs, &mut left);
         }
-        // Noise n of the force changes an FRF by −H n: once for its real, once for its imaginary part.
+        // Force noise n changes an FRF by −H n: once for the real, once for the imaginary part of n.
         let force = [0, 1].map(|part| {
             self.gradient(rows, outputs, &|row, o| {
                 let (block, k) = (row / lines, row % lines);
@@ -245,7 +246,7 @@ impl<'a> Groups<'a> {
         gradient
     }
 
-    /// (I − G B)⁻¹ on a mode's part of the gradient, B being its block of (JᵀJ)⁻¹: as if the group were not there.
+    /// Leave-one-out correction (I − G B)⁻¹ of a mode's part of the gradient, B being its block of (JᵀJ)⁻¹.
     fn without(&self, m: usize, rows: &[usize], outputs: &[usize], gradient: &mut [f64]) {
         let (inverse, first, count) = &self.blocks[m];
         let (mut rr, mut ri, mut ii) = (0.0, 0.0, 0.0);
@@ -256,7 +257,7 @@ impl<'a> Groups<'a> {
             ii += psi.im * psi.im;
         }
         let size = 2 * count;
-        // The pole's own share tells whether the rest is worth it.
+        // Skip the correction if the leverage on the pole is negligible.
         let reach = |a: usize| {
             let own = rows.iter().map(|&row| {
                 let free = |k: usize| self.step.free[(row, 2 * (first + a) + k)];

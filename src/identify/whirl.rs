@@ -1,11 +1,12 @@
-//! Direction of whirl from shapes measured along x and y.
+//! Whirl direction (forward, backward) from shapes measured along x and y.
 
 use crate::linalg::Complex64;
 use crate::signal::record::Dof;
 
-/// Whirl of a shape over the points that have x and y, weighted by their motion: 2 Im(φ_x φ_y*) / (|φ_x|² + |φ_y|²).
+/// Whirl measure of a shape over the points measured along x and y, weighted by their amplitude: 2 Im(φ_x
+/// φ_y*) / (|φ_x|² + |φ_y|²).
 ///
-/// q(t) = Re(φ e^{λt}) turns from x towards y, with the spin, where φ_y lags φ_x by 90°.
+/// q(t) = Re(φ e^{λt}) rotates from x towards y (forward, with the spin) if φ_y lags φ_x by 90°.
 pub(super) fn whirl(dofs: &[Dof], shape: &[Complex64]) -> Option<f64> {
     let along = |node: i64, axis: i8| {
         let at = dofs.iter().position(|d| d.node == node && d.direction.abs() == axis)?;

@@ -1,12 +1,12 @@
-//! Banded LU, real and complex, block by block of uncoupled unknowns.
+//! Banded LU factorisation, real and complex, of block diagonal matrices.
 //!
-//! A shaft's equations couple only neighbours. Unknowns that nothing couples (axial, torsional and
-//! lateral motion of a plain rotor) form blocks of their own, each numbered by reverse Cuthill-McKee.
+//! A shaft's equations couple neighbouring nodes only. Uncoupled groups of unknowns (axial, torsional and
+//! lateral motion of a simple rotor) form separate blocks, each in reverse Cuthill-McKee order.
 
 use super::sparse::SparseMatrix;
 use nalgebra::ComplexField;
 
-/// Numbering of the unknowns in blocks, and the band storage that goes with it.
+/// Numbering of the unknowns in blocks, with the corresponding band storage.
 #[derive(Clone, Debug)]
 pub struct BandLayout {
     size: usize,
@@ -15,29 +15,29 @@ pub struct BandLayout {
 
 #[derive(Clone, Debug)]
 struct Block {
-    /// Unknowns in their order of elimination.
+    /// Unknowns in elimination order.
     order: Vec<usize>,
     /// Half bandwidth.
     half: usize,
-    /// Place of the block's first value in the storage.
+    /// Offset of the block's first value in the storage.
     start: usize,
 }
 
 impl Block {
-    /// Row length: the band plus what row exchanges fill in on the right.
+    /// Row length: the band plus the fill-in by row exchanges on the right.
     fn width(&self) -> usize {
         3 * self.half + 1
     }
 }
 
-/// A zero pivot: the matrix is singular, and this unknown takes part in the free motion.
+/// A zero pivot: the matrix is singular, and this unknown takes part in its null space (a rigid-body mode).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ZeroPivot {
     pub unknown: usize,
 }
 
 impl BandLayout {
-    /// Layout for matrices whose entries lie where any of `patterns` (or its transpose) has one.
+    /// Layout for matrices with the union of the sparsity `patterns` and their transposes.
     pub fn new(patterns: &[&SparseMatrix]) -> Self {
         let size = patterns.first().map_or(0, |p| p.rows());
         let mut neighbours = vec![Vec::new(); size];
@@ -67,7 +67,7 @@ impl BandLayout {
         Self { size, blocks }
     }
 
-    /// The same layout with only those groups that hold one of `unknowns`; solving leaves the others alone.
+    /// The layout of only those groups that contain one of `unknowns`; solving leaves the others unchanged.
     pub fn restricted_to(&self, unknowns: &[usize]) -> Self {
         let mut start = 0;
         let mut blocks = Vec::new();
@@ -88,7 +88,7 @@ impl BandLayout {
         self.blocks.last().map_or(0, |b| b.start + b.order.len() * b.width())
     }
 
-    /// The groups of unknowns that nothing couples.
+    /// The mutually uncoupled groups of unknowns.
     pub fn groups(&self) -> impl Iterator<Item = &[usize]> {
         self.blocks.iter().map(|b| b.order.as_slice())
     }
@@ -113,7 +113,7 @@ impl BandLayout {
     /// LU factors of the matrix in `values` (band storage of this layout), with partial pivoting.
     ///
     /// # Errors
-    /// A column without a pivot, named by its unknown.
+    /// A column without a pivot, with its unknown.
     pub fn factor<T>(&self, values: Vec<T>) -> Result<BandLu<'_, T>, ZeroPivot>
     where
         T: ComplexField<RealField = f64> + Copy,
@@ -123,7 +123,7 @@ impl BandLayout {
         Ok(lu)
     }
 
-    /// Memory for factors, to be filled by [`BandLu::refactor`].
+    /// Memory for LU factors, to be computed by [`BandLu::refactor`].
     pub fn workspace<T>(&self) -> BandLu<'_, T>
     where
         T: ComplexField<RealField = f64> + Copy,
@@ -144,7 +144,7 @@ impl<T> BandLu<'_, T>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    /// Factors another matrix of the same layout in the same memory: `fill(k)` gives value k of its storage.
+    /// Factorises another matrix of the same layout in the same memory: `fill(k)` gives its value k.
     ///
     /// # Errors
     /// As [`BandLayout::factor`].
@@ -187,7 +187,7 @@ where
     }
 }
 
-/// Row p holds columns p − half ..= p + 2 half at p·width; the multipliers stay in the lower part.
+/// Row p contains columns p − half ..= p + 2 half at p·width; the multipliers are stored in the lower part.
 fn factor_block<T>(a: &mut [T], pivots: &mut [usize], half: usize) -> Result<(), usize>
 where
     T: ComplexField<RealField = f64> + Copy,
@@ -254,7 +254,7 @@ where
     }
 }
 
-/// Connected groups of unknowns, each ordered to a narrow band (Cuthill & McKee 1969, reversed).
+/// Connected groups of unknowns, each in bandwidth-reducing order (Cuthill & McKee 1969, reversed).
 fn reverse_cuthill_mckee(neighbours: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut seen = vec![false; neighbours.len()];
     let mut groups = Vec::new();
@@ -262,7 +262,7 @@ fn reverse_cuthill_mckee(neighbours: &[Vec<usize>]) -> Vec<Vec<usize>> {
         if seen[root] {
             continue;
         }
-        // Start from the far end: the last unknown reached from any start is peripheral.
+        // Start from a pseudo-peripheral unknown: the last one of a breadth-first search.
         let mut start = root;
         for _ in 0..2 {
             let mut visited = vec![false; neighbours.len()];

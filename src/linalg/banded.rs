@@ -1,18 +1,18 @@
-//! LU factors of a square band matrix in its natural order, without row exchanges.
+//! LU factorisation of a square band matrix in its natural order, without pivoting.
 
 use pulp::Arch;
 
 use super::ZeroPivot;
 
-/// Square band matrix; once factored, its LU factors in the same memory.
+/// Square band matrix; after factorisation, its LU factors in the same memory.
 ///
-/// No rows are exchanged: for matrices whose diagonal carries them, as those that precondition a Krylov method.
+/// No row exchanges: for diagonally dominant matrices, such as preconditioners of a Krylov method.
 #[derive(Clone, Debug)]
 pub struct BandMatrix {
     size: usize,
     lower: usize,
     upper: usize,
-    /// Row r holds columns r − lower ..= r + upper.
+    /// Row r contains columns r − lower ..= r + upper.
     values: Vec<f64>,
     arch: Arch,
 }
@@ -37,7 +37,7 @@ impl BandMatrix {
     /// Replaces the matrix by its factors L (unit diagonal) and U.
     ///
     /// # Errors
-    /// A pivot that vanishes or is not finite, named by its row.
+    /// A zero or non-finite pivot, with its row.
     pub fn factor(&mut self) -> Result<(), ZeroPivot> {
         let (n, lower, upper) = (self.size, self.lower, self.upper);
         let width = lower + upper + 1;
@@ -86,7 +86,7 @@ impl BandMatrix {
     }
 }
 
-/// Σ a b over four partial sums, so that it vectorises and still rounds the same everywhere.
+/// Dot product in four partial sums: vectorisable, with the same rounding on every processor.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (mut sums, whole) = ([0.0; 4], a.len() / 4 * 4);
     for (a, b) in a[..whole].chunks_exact(4).zip(b.chunks_exact(4)) {

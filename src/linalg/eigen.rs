@@ -13,7 +13,7 @@ pub enum EigenError {
     NoConvergence,
     #[error("the mass matrix is not positive definite")]
     NotDefinite,
-    #[error("a matrix holds a value that is not finite")]
+    #[error("a matrix contains a value that is not finite")]
     NotFinite,
     #[error("the shifted matrix is singular")]
     SingularShift,
@@ -34,7 +34,7 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     let mut u = faer::Mat::<f64>::zeros(n, n);
     let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
     let scratch = evd::evd_scratch::<f64>(n, no, yes, Par::Seq, params);
-    // In sequence: the threads of faer wait for each other busily, which crawls where all cores are taken.
+    // Sequential: faer's threads spin while waiting, which is very slow when all cores are busy.
     evd::evd_real(
         source.as_ref(),
         re.as_mut(),
@@ -47,7 +47,7 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     )
     .map_err(|_| EigenError::NoConvergence)?;
     let values: Vec<Complex64> = (0..n).map(|j| Complex64::new(re[j], im[j])).collect();
-    // Columns j, j + 1 hold the real and the imaginary part of the first vector of a conjugate pair.
+    // Columns j, j + 1 contain the real and the imaginary part of the first vector of a conjugate pair.
     let mut vectors = DMatrix::zeros(n, n);
     let mut j = 0;
     while j < n {
@@ -65,9 +65,9 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     Ok((values, vectors))
 }
 
-/// Eigenpairs with Im θ ≥ 0 of a small real matrix, in no given order; of a conjugate pair the other is the conjugate.
+/// Eigenpairs of a small real matrix with Im θ ≥ 0 (one of each conjugate pair), in no given order.
 ///
-/// By the real Schur form A = Q T Qᵀ of nalgebra, several times as fast as faer's below a hundred rows.
+/// By the real Schur form A = Q T Qᵀ of nalgebra, several times faster than faer below a hundred rows.
 ///
 /// # Errors
 /// No convergence, or entries that are not finite.
@@ -92,7 +92,7 @@ pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)
             value = 0.5 * (a + d) + root;
             (y[k], y[k + 1]) = if b != 0.0 { (b.into(), value - a) } else { (value - d, c.into()) };
             if root.im == 0.0 {
-                // Two real values in one block: this is one of them, and here comes the other.
+                // A block with two real eigenvalues: add the other one here.
                 let other = 0.5 * (a + d) - root;
                 let mut z = vec![Complex64::default(); n];
                 (z[k], z[k + 1]) = if b != 0.0 { (b.into(), other - a) } else { (other - d, c.into()) };
@@ -110,11 +110,11 @@ pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)
     Ok(pairs)
 }
 
-/// Fills y above row k so that (T − θ) y = 0, T upper triangular but for 2×2 blocks.
+/// Fills y above row k so that (T − θ) y = 0, T quasi upper triangular (2×2 diagonal blocks).
 fn back_substitute(t: &DMatrix<f64>, value: Complex64, k: usize, y: &mut [Complex64]) {
     let n = t.nrows();
     let smallest = f64::EPSILON * t.amax();
-    // A multiple eigenvalue would divide by zero; LAPACK nudges it likewise.
+    // A multiple eigenvalue would divide by zero; perturbed as in LAPACK.
     let safe = |v: Complex64| if v.norm() < smallest { smallest.into() } else { v };
     let mut i = k;
     while i > 0 {
@@ -135,7 +135,7 @@ fn back_substitute(t: &DMatrix<f64>, value: Complex64, k: usize, y: &mut [Comple
 
 /// Solution of two equations [a, b, right side], by elimination with complete pivoting.
 ///
-/// Where the block holds the eigenvalue once more, both rows say the same; Cramer's rule would give 0/0.
+/// If the block has the same eigenvalue, both rows are linearly dependent; Cramer's rule would give 0/0.
 fn solve_two(mut rows: [[Complex64; 3]; 2], safe: impl Fn(Complex64) -> Complex64) -> [Complex64; 2] {
     let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
     let (row, column) = places
@@ -195,8 +195,8 @@ pub fn symmetric(a: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Eigen
 /// Undamped modes K φ = ω² M φ: ω² ascending and φ with φᵀ M φ = 1.
 ///
 /// Solved as M φ = μ (K + σ M) φ, ω² = 1/μ − σ, which keeps the low modes accurate whatever the
-/// stiffest element; σ \[rad²/s²\] must make K + σ M positive definite (1 will do for any
-/// structure held or free).
+/// stiffest element; σ \[rad²/s²\] must make K + σ M positive definite (1 suffices for any
+/// constrained or free structure).
 ///
 /// # Errors
 /// A matrix that is not positive definite, no convergence, or entries that are not finite.
@@ -224,7 +224,7 @@ pub fn undamped(
 
 /// All eigenpairs of (λ² M + λ C + K) φ = 0: λ and φ, in no given order.
 ///
-/// The state matrix is balanced by measuring time in units of T, since faer does not balance:
+/// The state matrix is balanced by scaling time with T, since faer does not balance:
 /// \[0, I; −M⁻¹K T², −M⁻¹C T\] has eigenvalues λ T.
 ///
 /// # Errors
@@ -237,7 +237,7 @@ pub fn quadratic(
     let n = m.nrows();
     let mass = Cholesky::new(m.clone()).ok_or(EigenError::NotDefinite)?;
     let (stiff, damp) = (mass.solve(k), mass.solve(c));
-    // The highest frequency is about the root of the largest row sum.
+    // The highest frequency is about the square root of the largest row sum.
     let fastest = stiff.row_iter().map(|r| r.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max);
     let t = if fastest > 0.0 { 1.0 / fastest.sqrt() } else { 1.0 };
     let mut state = DMatrix::zeros(2 * n, 2 * n);
@@ -266,8 +266,8 @@ pub fn hermitian(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Result<(Vec<f64>, DMatri
     real.view_mut((0, n), (n, n)).copy_from(&-b);
     real.view_mut((n, 0), (n, n)).copy_from(b);
     let (values, vectors) = symmetric(&real)?;
-    // (x, y) and (−y, x) stand for v = x + j y and j v; of vectors with one value keep those that are
-    // independent over the complex numbers.
+    // (x, y) and (−y, x) represent v = x + j y and j v; of vectors with the same eigenvalue keep those that
+    // are linearly independent over the complex numbers.
     let mut kept: Vec<(f64, nalgebra::DVector<Complex64>)> = Vec::with_capacity(n);
     for (value, column) in values.iter().zip(vectors.column_iter()) {
         let mut v = nalgebra::DVector::from_fn(n, |i, _| Complex64::new(column[i], column[n + i]));

@@ -1,11 +1,11 @@
-//! Generalised minimal residual method with a right preconditioner.
+//! Generalised minimal residual method (GMRES) with right preconditioning.
 
 use super::banded::dot;
 
-/// What a run of [`gmres`] gave.
+/// Result of [`gmres`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Krylov {
-    /// Best x in the space searched.
+    /// Best x in the Krylov space.
     pub solution: Vec<f64>,
     /// ‖b − A x‖ / ‖b‖.
     pub residual: f64,
@@ -13,10 +13,11 @@ pub struct Krylov {
     pub products: usize,
 }
 
-/// Solves A x = b from x = 0 to ‖b − A x‖ ≤ `tolerance` ‖b‖ in at most `space` products.
+/// Solves A x = b from x = 0 to ‖b − A x‖ ≤ `tolerance` ‖b‖ in at most `space` matrix-vector products.
 ///
-/// `apply(v, out)`: out = A v; `precondition(v)`: v ← M⁻¹ v in place, M near A. Arnoldi by modified Gram-Schmidt,
-/// least squares by Givens rotations; not restarted. Check `residual`: the space may end first.
+/// `apply(v, out)`: out = A v; `precondition(v)`: v ← M⁻¹ v in place, M ≈ A. Arnoldi by modified
+/// Gram-Schmidt, least squares by Givens rotations; no restarts. Check `residual`: the tolerance may not be
+/// reached.
 ///
 /// Source: Saad & Schultz 1986.
 pub fn gmres(

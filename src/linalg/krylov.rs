@@ -1,8 +1,8 @@
-//! The lowest eigenvalues of the quadratic problem by shift and invert.
+//! Lowest eigenvalues of the quadratic eigenvalue problem by shift-and-invert Arnoldi.
 //!
-//! An Arnoldi process in real arithmetic about a small real shift σ. Unknowns that nothing couples are searched
-//! group by group, always the one known least far. Without gyroscopic effect it works
-//! on blocks of two, which find the double eigenvalues of an axisymmetric rotor at rest; rotation parts them.
+//! Real arithmetic about a small real shift σ. Uncoupled groups of unknowns are searched separately, always
+//! extending the one with the lowest converged eigenvalue. Without gyroscopic effect the block size is two,
+//! to find the double eigenvalues of an axisymmetric rotor at rest, which rotation splits.
 
 use super::eigen::{self, EigenError};
 use super::{BandLayout, BandLu, Complex64, SparseMatrix, Triplets};
@@ -10,8 +10,8 @@ use nalgebra::DMatrix;
 
 /// Residual of an accepted Ritz pair relative to its value.
 const TOLERANCE: f64 = 1e-11;
-/// Ritz pairs that are no nearer than this stand for nothing (the operator is far from normal); those on their way
-/// to a true eigenvalue are nearer long before higher ones have converged.
+/// Ritz pairs with a larger residual are spurious (the operator is highly non-normal); those converging to a
+/// true eigenvalue fall below it long before higher ones have converged.
 const SPURIOUS: f64 = 1e-3;
 /// Below this many unknowns the dense solver is as fast.
 const DENSE_BELOW: usize = 24;
@@ -23,15 +23,15 @@ pub struct QuadraticPair {
     pub value: Complex64,
     /// φ over all unknowns.
     pub vector: Vec<Complex64>,
-    /// Group of coupled unknowns that it belongs to.
+    /// Index of its group of coupled unknowns.
     pub group: usize,
 }
 
-/// The oscillatory eigenpairs (Im λ > 0) of lowest |λ|, sorted by |λ|: the first `count` without a gap, if there
-/// are so many, and what was found beyond.
+/// The oscillatory eigenpairs (Im λ > 0) of lowest |λ|, sorted by |λ|: the first `count` without a gap, if
+/// they exist, and any further converged ones.
 ///
-/// `shift` σ \[1/s\] > 0 should lie below the lowest frequency; eigenvalues with |λ| < 1e-3 σ are rigid-body
-/// motion and left out, as are overdamped ones.
+/// `shift` σ \[1/s\] > 0 should lie below the lowest frequency; rigid-body modes, |λ| < 1e-3 σ, and
+/// overdamped modes are omitted.
 ///
 /// # Errors
 /// A singular shifted matrix, no convergence, or entries that are not finite.
@@ -51,10 +51,10 @@ pub fn lowest(
             searches.iter().flat_map(|s| s.found.iter().map(|(value, _)| value.norm())).collect();
         sizes.sort_by(f64::total_cmp);
         let limit = sizes.get(count.max(1) - 1).copied().unwrap_or(f64::INFINITY);
-        // The group that is known least far goes on until all are known as far as the last of the wanted pairs.
+        // Extend the group with the lowest reach until all groups reach the last of the wanted pairs.
         let behind = searches.iter_mut().filter(|s| s.reach < limit);
         let Some(least) = behind.min_by(|a, b| a.reach.total_cmp(&b.reach)) else { break };
-        // A group's share of the modes is about that of its unknowns.
+        // A group's share of the modes is taken proportional to its number of unknowns.
         least.extend((count * least.part.order()).div_ceil(layout.size()))?;
     }
     let mut pairs: Vec<QuadraticPair> = Vec::new();
@@ -71,12 +71,12 @@ pub fn lowest(
     Ok(pairs)
 }
 
-/// Whether λ is an oscillation, one of the conjugate pair, and no rigid-body motion.
+/// Whether λ is oscillatory with Im λ > 0, and not a rigid-body mode.
 fn oscillatory(value: Complex64, shift: f64) -> bool {
     value.im > 1e-6 * value.norm() && value.norm() > 1e-3 * shift
 }
 
-/// The rows and columns of a group of unknowns.
+/// Submatrix of a group of unknowns.
 fn restrict(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
     let mut place = vec![None; a.rows()];
     for (p, &i) in unknowns.iter().enumerate() {
@@ -127,12 +127,12 @@ impl Part {
     }
 }
 
-/// The search in one group.
+/// The eigenvalue search in one group.
 struct Search<'a> {
     part: &'a Part,
-    /// Oscillatory eigenvalues, each with its vector: in the basis of the Arnoldi process, if there is one.
+    /// Converged oscillatory eigenpairs; vectors in the Arnoldi basis, if any.
     found: Vec<(Complex64, Vec<Complex64>)>,
-    /// All oscillatory eigenvalues up to this |λ| are found.
+    /// All oscillatory eigenvalues up to this |λ| have converged.
     reach: f64,
     arnoldi: Option<Arnoldi<'a>>,
 }
@@ -149,7 +149,7 @@ impl<'a> Search<'a> {
         Ok(Self { part, found: part.solve_dense()?, reach: f64::INFINITY, arnoldi: None })
     }
 
-    /// Goes on with a larger basis; the first is to do for `share` pairs.
+    /// Extends the basis; the first one is sized for `share` pairs.
     fn extend(&mut self, share: usize) -> Result<(), EigenError> {
         let Some(arnoldi) = &mut self.arnoldi else { return Ok(()) };
         let size = match arnoldi.columns.len() {
@@ -157,17 +157,17 @@ impl<'a> Search<'a> {
             size => size + 8 + size / 8,
         };
         if size >= 2 * self.part.order() - arnoldi.block {
-            // Nearly the whole space: the dense solver is as fast.
+            // Nearly the full space: the dense solver is as fast.
             *self = Self::dense(self.part)?;
             return Ok(());
         }
         arnoldi.grow(size);
         let mut ritz = ritz_pairs(&arnoldi.columns, &arnoldi.basis, size, self.part.shift)?;
-        // Overdamped values pile up at −1/β under damping β K and hardly converge: nothing waits for them.
+        // Overdamped eigenvalues accumulate at −1/β under damping β K and converge slowly: they are ignored.
         ritz.retain(|r| r.residual < SPURIOUS && oscillatory(r.value, self.part.shift));
         let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
         let last = ritz[..converged].last().map_or(0.0, |r| r.value.norm());
-        // The next is known well enough to say that nothing else lies below half of it.
+        // The next one is accurate enough to exclude any other below half of it.
         let next = ritz.get(converged).map_or(0.0, |r| 0.5 * r.value.norm());
         self.reach = last.max(next);
         ritz.truncate(converged);
@@ -175,7 +175,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// The vector of a found pair over the group's unknowns.
+    /// The eigenvector over the group's unknowns.
     fn expand(&self, vector: &[Complex64]) -> Vec<Complex64> {
         match &self.arnoldi {
             Some(arnoldi) => expand(vector, &arnoldi.basis, self.part.order()),
@@ -186,14 +186,14 @@ impl<'a> Search<'a> {
 
 /// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
 ///
-/// The factor 1/σ brings the halves of the wanted vectors nearer in size.
+/// The factor 1/σ balances the two halves of the wanted vectors.
 struct Arnoldi<'a> {
     part: &'a Part,
     lu: BandLu<'a, f64>,
-    /// Vectors that the space grows from.
+    /// Block size: number of start vectors.
     block: usize,
     basis: Vec<Vec<f64>>,
-    /// Column j holds the image of basis vector j in the basis.
+    /// Hessenberg matrix: column j is the image of basis vector j in the basis.
     columns: Vec<Vec<f64>>,
     noise: Noise,
 }
@@ -203,7 +203,7 @@ impl<'a> Arnoldi<'a> {
         let lu = part.layout.factor(part.layout.scatter(&part.shifted));
         let lu = lu.map_err(|_| EigenError::SingularShift)?;
         let largest = part.c.iter().map(|(_, _, v)| v.abs()).fold(0.0, f64::max);
-        // Beyond the round-off of modal damping.
+        // Above the round-off of modal damping.
         let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
         let block = if rotating { 1 } else { 2 };
         let noise = Noise(0x9E37_79B9_7F4A_7C15);
@@ -285,7 +285,8 @@ fn expand(y: &[Complex64], basis: &[Vec<f64>], n: usize) -> Vec<Complex64> {
     q
 }
 
-/// Appends x, made orthonormal to the basis; returns its coordinates (the last is its remaining length).
+/// Appends x, orthonormalised against the basis (Gram-Schmidt); returns its coordinates (the last is its
+/// remaining length).
 fn orthonormalise(mut x: Vec<f64>, basis: &mut Vec<Vec<f64>>, noise: &mut Noise) -> Vec<f64> {
     let mut h = vec![0.0; basis.len() + 1];
     let before = norm(&x);
@@ -298,7 +299,7 @@ fn orthonormalise(mut x: Vec<f64>, basis: &mut Vec<Vec<f64>>, noise: &mut Noise)
         h[basis.len()] = length;
         x.iter_mut().for_each(|v| *v /= length);
     } else {
-        // An invariant subspace: go on with a fresh direction that nothing maps to.
+        // Invariant subspace (breakdown): continue with a random direction.
         x = (0..x.len()).map(|_| noise.next()).collect();
         for _ in 0..2 {
             project_out(&mut x, basis, &mut vec![0.0; basis.len()]);
@@ -320,7 +321,7 @@ fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) {
     }
 }
 
-/// Dot product in four partial sums, which the compiler can lay side by side.
+/// Dot product in four partial sums, which the compiler can vectorise.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
@@ -337,7 +338,7 @@ fn norm(x: &[f64]) -> f64 {
     dot(x, x).sqrt()
 }
 
-/// Fixed pseudo-random numbers in (−1, 1) (xorshift64), so that a run repeats bit for bit.
+/// Fixed pseudo-random numbers in (−1, 1) (xorshift64), for bitwise reproducible runs.
 struct Noise(u64);
 
 impl Noise {

@@ -1,16 +1,16 @@
-//! Linear algebra: sparse and banded matrices of our own, dense eigenvalue problems through faer.
+//! Linear algebra: sparse and banded matrices; dense eigenvalue problems through faer and nalgebra.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
-//! | [`sparse`] | [`Triplets`] to assemble into, [`SparseMatrix`] (compressed columns), [`SparseRow`] |
-//! | [`band`] | node ordering, [`BandLayout`] and the banded [`BandLu`], real and complex |
+//! | [`sparse`] | [`Triplets`] for assembly, [`SparseMatrix`] (compressed columns, CSC), [`SparseRow`] |
+//! | [`band`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
 //! | [`banded`] | the banded [`BandMatrix`] in natural order |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
-//! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
-//! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
+//! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
+//! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
-//! | [`small`] | small dense systems |
+//! | [`small`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 
 pub mod band;

@@ -3,23 +3,23 @@
 use nalgebra::DMatrix;
 use pulp::{Arch, NullaryFnOnce};
 
-/// Matrices side by side, \[A₁ A₂ …\], for y += A₁ x₁ + A₂ x₂ + …, in the widest vectors the processor has.
+/// Block row of matrices, \[A₁ A₂ …\], for y += A₁ x₁ + A₂ x₂ + …, with the widest SIMD vectors.
 ///
-/// Each element of y is summed in the order of the columns on every processor, so results are the same to the bit.
+/// Each element of y is summed in column order on every processor, so results are bitwise identical.
 #[derive(Clone, Debug)]
 pub struct Panel {
     rows: usize,
     /// Column-major, padded with zero columns to a multiple of [`COLUMNS`]; columns of `stride`.
     data: Vec<f64>,
     columns: usize,
-    /// `rows`; up to [`SMALL`] of them a multiple of [`LANES`], the rest zeros.
+    /// Column stride: `rows`, rounded up to a multiple of [`LANES`] if at most [`SMALL`] (zero padding).
     stride: usize,
     arch: Arch,
 }
 
-/// Columns taken at a time: y is loaded and stored once for all of them.
+/// Columns processed together: y is loaded and stored once for all of them.
 const COLUMNS: usize = 4;
-/// Most rows for which y stays in registers over all columns.
+/// Largest number of rows for which y stays in registers over all columns.
 const SMALL: usize = 2 * LANES;
 const LANES: usize = 4;
 
@@ -43,14 +43,14 @@ impl Panel {
         self.columns
     }
 
-    /// y ← y + \[A₁ A₂ …\] x; `x` holds x₁, x₂, … one after the other, `y` has as many elements as there are rows.
+    /// y ← y + \[A₁ A₂ …\] x; `x` is the concatenation of x₁, x₂, …, `y` has one element per row.
     pub fn mul_add(&self, x: &[f64], y: &mut [f64]) {
         debug_assert!(x.len() == self.columns && y.len() == self.rows);
         self.arch.dispatch(Product { panel: self, x, y });
     }
 }
 
-/// A product to be compiled for every kind of processor. (The compiler keeps closures apart from the code that is.)
+/// A product compiled for every instruction set (closures are not inlined into dispatched code).
 struct Product<'a> {
     panel: &'a Panel,
     x: &'a [f64],
@@ -94,7 +94,7 @@ fn column_by_column(rows: usize, data: &[f64], x: &[f64], y: &mut [f64]) {
         let (a, rest) = columns.split_at(rows);
         let (b, rest) = rest.split_at(rows);
         let (c, d) = rest.split_at(rows);
-        // Equal lengths in sight of the compiler: no bounds checks, whole vectors.
+        // Equal lengths visible to the compiler: no bounds checks, full vectorisation.
         let d = &d[..rows];
         let y = &mut y[..rows];
         for i in 0..rows {

@@ -1,8 +1,8 @@
-//! Dense solves that allocate nothing, for the small systems inside a time step.
+//! Allocation-free dense solver for small linear systems inside a time step.
 
-/// Solves A x = b in place by Gauss elimination with row pivoting; `b` becomes x.
+/// Solves A x = b in place by Gaussian elimination with partial pivoting; `b` becomes x.
 ///
-/// `a`: row-major n × n, destroyed; `b`: n. Returns false when a pivot vanishes or is not finite.
+/// `a`: row-major n × n, destroyed; `b`: n. Returns false for a zero or non-finite pivot.
 pub fn solve_in_place(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
     debug_assert_eq!(a.len(), n * n);

@@ -1,8 +1,8 @@
-//! Sparse matrices: triplets to assemble into, compressed columns to compute with.
+//! Sparse matrices: triplets (COO) for assembly, compressed sparse columns (CSC) for computation.
 
 use nalgebra::DMatrix;
 
-/// Matrix under assembly: entries at the same place add up.
+/// Matrix under assembly: entries at the same position are summed.
 #[derive(Clone, Debug, Default)]
 pub struct Triplets {
     rows: usize,
@@ -27,12 +27,12 @@ impl Triplets {
         self.entries.extend(matrix.iter().map(|(i, j, v)| (row + i, col + j, factor * v)));
     }
 
-    /// Adds Rᵀ S R, S a small dense matrix between the rows R.
+    /// Adds Rᵀ S R, S a small dense matrix.
     pub fn add_between_rows<const N: usize>(&mut self, rows: &[SparseRow; N], block: &[[f64; N]; N]) {
         self.add_between(rows, block, rows);
     }
 
-    /// Adds Lᵀ S R, S a small dense matrix between the rows L and R.
+    /// Adds Lᵀ S R, S a small dense matrix.
     pub fn add_between<const N: usize>(
         &mut self,
         left: &[SparseRow; N],
@@ -52,16 +52,16 @@ impl Triplets {
         }
     }
 
-    /// The compressed matrix; entries that add up to exactly zero are left out.
+    /// The compressed matrix; entries that sum to exactly zero are dropped.
     pub fn build(mut self) -> SparseMatrix {
-        // A stable sort keeps the order of addition, so that sums round the same every time.
+        // A stable sort keeps the order of addition, so that sums are reproducible.
         self.entries.sort_by_key(|&(i, j, _)| (j, i));
         let mut matrix = SparseMatrix::zeros(self.rows, self.cols);
         let mut place = None;
         let mut columns = Vec::with_capacity(self.entries.len());
         for (i, j, v) in self.entries {
             if place == Some((i, j)) {
-                *matrix.values.last_mut().expect("an entry stands at `place`") += v;
+                *matrix.values.last_mut().expect("an entry exists at `place`") += v;
             } else {
                 place = Some((i, j));
                 columns.push(j);
@@ -74,7 +74,7 @@ impl Triplets {
     }
 }
 
-/// Sparse matrix in compressed columns.
+/// Sparse matrix in compressed sparse column (CSC) format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SparseMatrix {
     rows: usize,
@@ -142,7 +142,7 @@ impl SparseMatrix {
         self.row_index[range.clone()].iter().copied().zip(self.values[range].iter().copied())
     }
 
-    /// Entry at (i, j); zero when none is stored.
+    /// Entry at (i, j); zero if not stored.
     pub fn get(&self, i: usize, j: usize) -> f64 {
         let range = self.start[j]..self.start[j + 1];
         self.row_index[range.clone()].binary_search(&i).map_or(0.0, |k| self.values[range.start + k])
@@ -221,7 +221,7 @@ impl SparseMatrix {
         out
     }
 
-    /// Tᵀ A T, `basis[i]` being row i of T.
+    /// Congruence transformation Tᵀ A T, `basis[i]` being row i of T.
     pub fn congruence(&self, basis: &[SparseRow], reduced: usize) -> SparseMatrix {
         let mut out = Triplets::new(reduced, reduced);
         for (i, j, v) in self.iter() {
@@ -271,7 +271,7 @@ impl SparseRow {
         self.0.iter().map(|&(i, v)| x[i] * v).sum()
     }
 
-    /// y ← y + factor rᵀ, which is how a force at the row's point enters the equations.
+    /// y ← y + factor rᵀ: the load vector of a force in the row's direction.
     pub fn add_to(&self, factor: f64, y: &mut [f64]) {
         for &(i, v) in &self.0 {
             y[i] += factor * v;

@@ -1,4 +1,4 @@
-//! One call from the text of a model file to the checked model.
+//! Loading: from the text of a model file to the validated model.
 
 mod family;
 
@@ -12,7 +12,7 @@ use super::{Model, SideFile};
 use crate::bearing::{BallBearing, Bearing};
 use std::ops::Range;
 
-/// What is laid over a model file before it is checked.
+/// Overrides applied to a model file before it is validated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Name of a `[variant.NAME]` of the file.
@@ -21,26 +21,26 @@ pub struct Options {
     pub set: Vec<(String, String)>,
 }
 
-/// A model with what was said about it while it was read.
+/// A validated model with the warnings of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
     pub model: Model,
     pub warnings: Vec<Diagnostic>,
-    /// The texts that the warnings point into: the file, then every `--set`.
+    /// Texts that the spans of the warnings refer to: the file, then every `--set`.
     pub sources: Vec<Source>,
     /// Text of the model file.
     pub text: String,
 }
 
 impl Loaded {
-    /// Where the file states an item, such as `["bearing", "B"]`: in the model itself, else in a variant; the start of
-    /// the file when it is nowhere (set by `--set`).
+    /// Span of an item's definition, such as `["bearing", "B"]`: in the model itself, else in a variant; 0..0
+    /// if the file does not contain it (set by `--set`).
     pub fn place_of(&self, path: &[&str]) -> Range<usize> {
         place_of(&self.text, path)
     }
 }
 
-/// Where the text of a model file states an item, as [`Loaded::place_of`].
+/// Span of an item's definition in the text of a model file, see [`Loaded::place_of`].
 pub fn place_of(text: &str, path: &[&str]) -> Range<usize> {
     let root = Table::parse(text, 0).unwrap_or_default();
     let variants = match root.get("variant").map(|e| &e.node.value) {
@@ -64,10 +64,11 @@ fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
     }
 }
 
-/// Read, vary and check a model; `name` is what messages call the file.
+/// Read a model, apply its variant and `--set` overrides, and validate it; `name` is the file name in
+/// messages.
 ///
 /// # Errors
-/// Every problem of the file at once, each with its place.
+/// All problems of the file at once, each with its location.
 ///
 /// ```
 /// let text = r#"
@@ -95,10 +96,10 @@ pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loa
     load_with(name, text, options, &[])
 }
 
-/// As [`load`], with the files that the model names (see [`side_files`]).
+/// [`load`] with the external data files that the model refers to (see [`side_files`]).
 ///
 /// # Errors
-/// As [`load`]; a file that is not there, or whose columns do not serve.
+/// As [`load`]; a missing data file or unsuitable columns in it.
 pub fn load_with(
     name: &str,
     text: impl AsRef<[u8]>,
@@ -114,7 +115,7 @@ pub fn load_with(
     Ok(Loaded { model, warnings, sources, text })
 }
 
-/// The ball bearings of a file, which is a whole machine or holds bearings alone.
+/// The ball bearings of a machine file or of a bearing-only file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedBearings {
     /// Name and title of the file's `[model]`.
@@ -123,22 +124,22 @@ pub struct LoadedBearings {
     /// Ball bearings with their names, in file order; never empty.
     pub bearings: Vec<(String, BallBearing)>,
     pub studies: Studies,
-    /// The machine, when the file is one.
+    /// The machine; `None` for a bearing-only file.
     pub model: Option<Model>,
     pub warnings: Vec<Diagnostic>,
-    /// The texts that the warnings point into: the file, then every `--set`.
+    /// Texts that the spans of the warnings refer to: the file, then every `--set`.
     pub sources: Vec<Source>,
     /// Text of the file.
     pub text: String,
 }
 
-/// Read, vary and check the ball bearings of a machine, or of a file of bearings alone.
+/// [`load`] for the ball bearings of a machine file or of a bearing-only file.
 ///
-/// A file of bearings alone has `[model]`, `[material.X]`, `[lubricant.X]`, `[bearing.X]` without station and
+/// A bearing-only file has `[model]`, `[material.X]`, `[lubricant.X]`, `[bearing.X]` without station and
 /// housing, and `[study.bearing]`; a file with `[shaft]`, `[rotor]` or `[station]` is read as a machine.
 ///
 /// # Errors
-/// Every problem of the file at once, each with its place; a file without ball bearings.
+/// All problems of the file at once, each with its location; a file without ball bearings.
 ///
 /// ```
 /// let text = r#"
@@ -160,7 +161,7 @@ pub fn load_bearings(
     load_bearings_with(name, text, options, &[])
 }
 
-/// As [`load_bearings`], with the files that a machine names.
+/// [`load_bearings`] with the external data files that a machine refers to.
 ///
 /// # Errors
 /// As [`load_bearings`] and [`load_with`].
@@ -191,9 +192,9 @@ pub fn load_bearings_with(
     if bearings.is_empty() && log.count() == 0 {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
         log.error(match radial {
-            true => problem.expected("a bearing of model = \"ball\"").hint(
-                "balls with coordinates of their own are part of a machine: study.static shows their loads",
-            ),
+            true => problem
+                .expected("a bearing of model = \"ball\"")
+                .hint("a radial_ball bearing needs a machine model: study.static gives its ball loads"),
             false => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
         });
     }
@@ -201,7 +202,7 @@ pub fn load_bearings_with(
     Ok(LoadedBearings { name, title, bearings, studies, model, warnings, sources, text })
 }
 
-/// A file as a tree, varied but not yet checked.
+/// Parsed file with its overrides applied, not yet validated.
 pub(super) struct Document {
     pub(super) root: Table,
     sources: Sources,
@@ -221,13 +222,13 @@ impl Document {
                 let problem = Problem::new(
                     Kind::Syntax,
                     &(at..at + '\u{fffd}'.len_utf8()),
-                    format!("not a text: byte {at} is not UTF-8"),
+                    format!("not valid UTF-8 at byte {at}"),
                 );
                 log.error(problem.hint("a model file is TOML, saved as UTF-8"));
                 return Err(failed(sources, log));
             }
         };
-        // editors on Windows put a byte order mark in front
+        // skip a UTF-8 byte order mark (BOM)
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         sources.push(name, text);
         if text.trim().is_empty() {
@@ -243,7 +244,7 @@ impl Document {
                 let problem = Problem::new(Kind::Syntax, &span, format!("not TOML: {message}"));
                 log.error(problem.hint(match message.as_str() {
                     "duplicate key" => {
-                        "a name can stand only once; to change it in a variant use [variant.NAME]"
+                        "a key can be defined only once; to change it in a variant use [variant.NAME]"
                     }
                     _ => "TOML is described at https://toml.io",
                 }));
@@ -261,7 +262,7 @@ impl Document {
     }
 }
 
-/// Sources and warnings of a file without errors.
+/// Sources and warnings of a file without errors, otherwise its errors.
 fn passed(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), ModelErrors> {
     if log.count() > 0 {
         return Err(failed(sources, log));
@@ -275,9 +276,9 @@ fn failed(sources: Sources, log: Log) -> ModelErrors {
     ModelErrors { sources: sources.into_vec(), diagnostics }
 }
 
-/// Paths of the files that a model takes numbers from, as written in it; none when it cannot be read.
+/// Paths of the external data files that a model refers to, as written in it; empty if it cannot be parsed.
 ///
-/// Whoever loads the model reads them, relative to the model file, and hands them to [`load_with`].
+/// The caller reads them, relative to the model file, and passes them to [`load_with`].
 pub fn side_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> {
     let Ok(document) = Document::read("", text.as_ref(), options) else { return Vec::new() };
     let speed = document.root.get("speed").map(|e| &e.node.value);
@@ -290,7 +291,7 @@ pub fn side_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> {
     }
 }
 
-/// Names of the variants of a model file, in file order; none when it is not TOML.
+/// Names of the variants of a model file, in file order; empty if it is not valid TOML.
 pub fn variants(text: &str) -> Vec<String> {
     let root = Table::parse(text, 0).unwrap_or_default();
     match root.get("variant").map(|e| &e.node.value) {

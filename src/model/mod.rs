@@ -1,4 +1,4 @@
-//! The model: one machine, immutable, in SI units, as read and checked from its file.
+//! The machine model: immutable, in SI units, read from its file and validated.
 
 pub mod check;
 pub mod file;
@@ -21,7 +21,7 @@ pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 use crate::bearing::Bearing;
 use crate::element::{Anchor, Belt, Bushing, Disc, Joint, Material, PointMass, RigidBody, ShaftElement};
 
-/// One rotating machine, in SI units; nothing in it changes after it was checked.
+/// One rotating machine in SI units; immutable after validation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub name: String,
@@ -33,8 +33,8 @@ pub struct Model {
     pub node_z: Vec<f64>,
     /// Element k joins shaft nodes k and k+1.
     pub shaft: Vec<ShaftElement>,
-    /// Rigid rotor in place of shaft elements: its inertia at the node of its centre of mass, with which all shaft
-    /// nodes move.
+    /// Rigid rotor in place of shaft elements: its inertia at the node of its centre of mass; all shaft nodes
+    /// are rigidly connected to it.
     pub rigid_rotor: Option<Disc>,
     pub stations: Vec<Station>,
     pub discs: Vec<Disc>,
@@ -60,7 +60,7 @@ impl Model {
         self.node_z.len() + self.bodies.len()
     }
 
-    /// Everything rigid that spins: discs, then the rigid rotor.
+    /// Rigid rotating inertias: discs, then the rigid rotor.
     pub fn spinning(&self) -> impl Iterator<Item = &Disc> {
         self.discs.iter().chain(&self.rigid_rotor)
     }
@@ -81,7 +81,7 @@ pub struct BearingSite {
     pub name: String,
     /// Shaft node.
     pub node: usize,
-    /// Housing side: the point of the body (or ground) that meets the bearing's centre.
+    /// Housing side: the point of the body (or ground) at the bearing's centre.
     pub housing: Anchor,
     pub bearing: Bearing,
 }
@@ -108,13 +108,13 @@ pub struct Load {
     pub history: Vec<[f64; 2]>,
 }
 
-/// Damping that belongs to no element.
+/// Global damping: proportional (Rayleigh) and modal damping, in addition to that of the elements.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Damping {
     /// C = α M + β K of the assembled structure: α \[1/s\], β \[s\].
     pub proportional: [f64; 2],
-    /// Modal damping as measured: (frequency \[Hz\], damping ratio ζ), piecewise linear in frequency, constant
-    /// beyond the ends; empty means none. Applied to the undamped modes at standstill.
+    /// Modal damping, e.g. measured: (frequency \[Hz\], damping ratio ζ), piecewise linear in frequency,
+    /// constant beyond the ends; empty means none. Applied to the undamped modes at standstill.
     pub modal: Vec<[f64; 2]>,
 }
 
@@ -124,12 +124,12 @@ pub enum Drive {
     /// The rotation of this node follows the speed profile exactly; with `None` the whole shaft spins at the
     /// profile's speed and its torsion is free.
     Prescribed { node: Option<usize> },
-    /// A torque at this node against the inertia: (speed \[rad/s\], torque \[N m\]) table, times the profile-free
-    /// equation of rotation; `drag` \[N m s/rad\] is viscous resistance to ground.
+    /// Drive torque at this node, a torque-speed characteristic: (speed \[rad/s\], torque \[N m\]) table. The
+    /// speed follows from the equation of rotation; `drag` \[N m s/rad\] is viscous resistance to ground.
     Torque { node: usize, table: Vec<[f64; 2]>, drag: f64 },
 }
 
-/// Quantity that a probe reads.
+/// Quantity measured by a probe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     Displacement,
@@ -137,7 +137,7 @@ pub enum Quantity {
     Acceleration,
 }
 
-/// A measuring point: one direction of one point.
+/// A probe (virtual sensor): one direction at one point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
     pub name: String,

@@ -1,11 +1,11 @@
-//! Numbers that a model file takes from other files; whoever loads a model reads them.
+//! External data files that a model file refers to, such as a tacho record; read by the caller of the loader.
 
-/// A file that a model file names, as it was read.
+/// External data file of a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SideFile {
-    /// Its path as the model file writes it.
+    /// Path as written in the model file.
     pub path: String,
-    /// Its columns, or why it could not be read.
+    /// Columns, or the reason why it could not be read.
     pub content: Result<Vec<SideColumn>, String>,
 }
 
@@ -13,7 +13,7 @@ pub struct SideFile {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SideColumn {
     pub name: String,
-    /// Unit of the values: SI, or rpm for speeds; empty when the file does not tell.
+    /// Unit of the values: SI, or rpm for speeds; empty if the file does not give one.
     pub unit: String,
     pub values: Vec<f64>,
 }

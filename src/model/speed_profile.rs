@@ -18,7 +18,7 @@ pub enum SpeedProfile {
         ramp: f64,
         hold: f64,
     },
-    /// Like `Ramp` with a smooth (C²) quintic in place of the line.
+    /// Like `Ramp` with a smooth (C²) quintic in place of the linear ramp.
     SCurve {
         from: f64,
         to: f64,
@@ -26,12 +26,14 @@ pub enum SpeedProfile {
         ramp: f64,
         hold: f64,
     },
-    /// Points (time, speed) of increasing time, joined by a monotone cubic; constant beyond the ends.
+    /// Points (time, speed) of increasing time, interpolated by a monotone cubic (PCHIP); constant beyond the
+    /// ends.
     Table {
         points: Vec<[f64; 2]>,
     },
-    /// Points (time, shaft angle) joined by a cubic spline: speed smooth, acceleration continuous; the run is the part
-    /// from 0 to `duration`. Angles count from a pulse, so that the keyphasor passes at whole turns.
+    /// Tacho pulses: points (time, shaft angle) interpolated by a cubic spline, with continuous acceleration;
+    /// the run is the part from 0 to `duration`. Angles count from a pulse, so the keyphasor is at whole
+    /// revolutions.
     Pulses {
         points: Vec<[f64; 2]>,
         duration: f64,
@@ -48,7 +50,7 @@ pub enum SpeedProfile {
 /// Shaft angle, speed and acceleration at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Spin {
-    /// θ \[rad\], zero at t = 0; of measured pulses zero at the first.
+    /// θ \[rad\], zero at t = 0; with measured pulses zero at the first pulse.
     pub angle: f64,
     /// Ω \[rad/s\].
     pub speed: f64,
@@ -56,7 +58,7 @@ pub struct Spin {
     pub acceleration: f64,
 }
 
-/// A speed profile made ready for evaluation.
+/// A speed profile with its interpolants, ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct SpeedCurve {
     profile: SpeedProfile,
@@ -78,7 +80,7 @@ impl SpeedProfile {
         }
     }
 
-    /// Highest |Ω| on the way \[rad/s\].
+    /// Maximum |Ω| of the profile \[rad/s\].
     pub fn top_speed(&self) -> f64 {
         match self {
             Self::Constant { speed, .. } => speed.abs(),
@@ -92,7 +94,7 @@ impl SpeedProfile {
         }
     }
 
-    /// The profile made ready for evaluation.
+    /// The profile with its interpolants, ready for evaluation.
     pub fn curve(&self) -> SpeedCurve {
         let columns =
             |points: &[[f64; 2]]| -> (Vec<f64>, Vec<f64>) { points.iter().map(|p| (p[0], p[1])).unzip() };
@@ -154,7 +156,7 @@ impl SpeedCurve {
                 let inside = t.clamp(first, last);
                 let [speed, slope, area] = table.at(inside);
                 Spin {
-                    // The first point's speed holds from t = 0 to the first time.
+                    // Constant first speed from t = 0 to the first time.
                     angle: area + speed * (t - inside) + points[0][1] * first.max(0.0),
                     speed,
                     acceleration: if t == inside { slope } else { 0.0 },
@@ -164,7 +166,7 @@ impl SpeedCurve {
     }
 }
 
-/// Settle, blend `from` → `to` with shape s (∫s, s, s′ on 0..1), hold.
+/// Dwell at `from`, transition `from` → `to` with shape s (∫s, s, s′ on 0..1), dwell at `to`.
 fn blend(from: f64, to: f64, settle: f64, ramp: f64, t: f64, shape: impl Fn(f64) -> [f64; 3]) -> Spin {
     if t < settle {
         return Spin { angle: from * t, speed: from, acceleration: 0.0 };

@@ -1,4 +1,4 @@
-//! What a file states at a path: the numbers that an update may change.
+//! Values of a model file by parameter path: the numbers that model updating may change.
 
 use super::file::diagnostic::nearest;
 use super::file::overlay::COLLECTIONS;
@@ -6,22 +6,22 @@ use super::file::tree::{Entry, Node, Table, Value};
 use super::load::{Document, Options};
 use crate::units::leading_number;
 
-/// A text or number of a file.
+/// A number or quantity string of a model file, with its parameter path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stated {
-    /// Such as "housing.B.k_x".
+    /// Dotted path such as "housing.B.k_x".
     pub path: String,
-    /// As it stands there, without quotes: "6e6 N/m".
+    /// Value as written, without quotes: "6e6 N/m".
     pub text: String,
-    /// Whether it is a text rather than a bare number.
+    /// Whether it is a string rather than a bare number.
     pub quoted: bool,
 }
 
-/// What a file states at a path, variant and settings laid over; `*` stands for every item of a table or list that
-/// has the rest of the path, `housing.*.k_x`, `damping.modal.ratio.*`.
+/// Values of a file at a parameter path, with variant and settings applied; the wildcard `*` matches every
+/// item of a table or list that has the rest of the path, `housing.*.k_x`, `damping.modal.ratio.*`.
 ///
 /// # Errors
-/// Nothing there, with the nearest name that is; something that is no number.
+/// Unknown path, with the nearest known name; a value that is not a number.
 pub fn stated(text: &[u8], options: &Options, path: &str) -> Result<Vec<Stated>, String> {
     let document = Document::read("model", text, options).map_err(|errors| errors.to_string())?;
     let parts: Vec<&str> = path.split('.').map(str::trim).collect();
@@ -29,7 +29,7 @@ pub fn stated(text: &[u8], options: &Options, path: &str) -> Result<Vec<Stated>,
     let root = Node { span: 0..0, value: Value::Table(document.root) };
     look(&root, &parts, 0, &mut Vec::new(), &mut found).map_err(|problem| format!("{path}: {problem}"))?;
     if found.is_empty() {
-        return Err(format!("{path}: no item has it"));
+        return Err(format!("{path}: no item has this path"));
     }
     Ok(found)
 }
@@ -49,18 +49,18 @@ fn look(
             Value::List(items) => {
                 let here = at.join(".");
                 return Err(format!(
-                    "it is a list; take one of its {} numbers, {here}.0, or all of them together, {here}.*",
+                    "it is a list; use one of its {} numbers, {here}.0, or all of them, {here}.*",
                     items.len()
                 ));
             }
             Value::Table(table) => {
                 let inner: Vec<&str> = table.keys().take(6).collect();
-                return Err(format!("it is a table; take one of its numbers, such as {}", inner.join(", ")));
+                return Err(format!("it is a table; use one of its values, such as {}", inner.join(", ")));
             }
-            other => return Err(format!("it is {}, no number", other.type_name())),
+            other => return Err(format!("it is {}, not a number", other.type_name())),
         };
         if quoted && leading_number(text.trim()).is_none() {
-            return Err(format!("\"{text}\" is no number"));
+            return Err(format!("\"{text}\" is not a number"));
         }
         found.push(Stated { path: at.join("."), text, quoted });
         return Ok(());
@@ -73,7 +73,7 @@ fn look(
     };
     match &node.value {
         Value::Table(table) if *part == "*" => {
-            // Items without that key are not meant.
+            // Skip items without that key.
             let has = |entry: &&Entry| holds(&entry.node, &parts[depth + 1..]);
             table.entries.iter().filter(has).try_for_each(|entry| into(&entry.key, &entry.node, found))
         }
@@ -89,7 +89,7 @@ fn look(
             Some(item) => into(part, item, found),
             None => Err(format!("`{part}` is not one of the {} items, counted from 0", items.len())),
         },
-        _ => Err(format!("`{}` is a value, with nothing below it", parts[depth - 1])),
+        _ => Err(format!("`{}` is a value without members", parts[depth - 1])),
     }
 }
 
@@ -108,9 +108,9 @@ fn missing(table: &Table, part: &str, parts: &[&str], depth: usize) -> String {
     let hint = match near {
         Some(near) => format!("did you mean `{near}`?"),
         None if depth > 1 => {
-            format!("the file does not state it; write it into {} first", parts[..depth].join("."))
+            format!("it is not in the file; add it to {} first", parts[..depth].join("."))
         }
-        None => format!("there are {}", known.iter().take(12).copied().collect::<Vec<_>>().join(", ")),
+        None => format!("available: {}", known.iter().take(12).copied().collect::<Vec<_>>().join(", ")),
     };
     let what = if depth == 1 && COLLECTIONS.contains(&parts[0]) { parts[0] } else { "path" };
     match what {
@@ -156,13 +156,13 @@ mod tests {
     fn refusals_say_what_is_near() {
         for (path, part) in [
             ("housing.B.k_xx", "did you mean `k_x`?"),
-            ("housing.C.k_x", "there is no housing `C`; there are A, B"),
+            ("housing.C.k_x", "there is no housing `C`; available: A, B"),
             ("hosing.B.k_x", "did you mean `housing`?"),
-            ("housing.B", "it is a table; take one of its numbers, such as k_x"),
-            ("housing.A.on", "\"body.block\" is no number"),
-            ("housing.A.stiff", "write it into housing.A first"),
-            ("gains", "take one of its 2 numbers, gains.0, or all of them together, gains.*"),
-            ("housing.*.q", "no item has it"),
+            ("housing.B", "it is a table; use one of its values, such as k_x"),
+            ("housing.A.on", "\"body.block\" is not a number"),
+            ("housing.A.stiff", "add it to housing.A first"),
+            ("gains", "use one of its 2 numbers, gains.0, or all of them, gains.*"),
+            ("housing.*.q", "no item has this path"),
         ] {
             let error = at(path).unwrap_err();
             assert!(error.contains(part), "{path}: {error}");

@@ -1,9 +1,10 @@
-//! Studies of steady speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
+//! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::Probe;
 use super::study::Integrator;
 
-/// What a Poincaré section is taken by: once per turn of the shaft or of a cage, or per ball passing a fixed place.
+/// Sampling event of a stroboscopic Poincaré section: once per revolution of the shaft or of a cage, or per
+/// ball passage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
     Shaft,
@@ -11,34 +12,34 @@ pub enum Clock {
     Cage {
         bearing: usize,
     },
-    /// Balls of this bearing of the model, Z to a turn of its cage.
+    /// Ball passages of this bearing of the model, Z per revolution of its cage.
     BallPass {
         bearing: usize,
         balls: usize,
     },
 }
 
-/// A run at constant speed until its motion has settled, and what is recorded then.
+/// A run at constant speed: transient discarded, then steady motion recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
     /// Speed Ω \[rad/s\], above zero.
     pub speed: f64,
     pub integrator: Integrator,
-    /// Largest time step \[s\]; the step taken divides the period of the clock.
+    /// Maximum time step \[s\]; the step used divides the section period.
     pub step: f64,
-    /// Modes of the linear parts are kept up to this frequency \[Hz\]; infinity keeps all.
+    /// Cut-off frequency of modal truncation of the linear parts \[Hz\]; infinity keeps all modes.
     pub cutoff: f64,
     pub clock: Clock,
-    /// Phase of the clock at which sections are taken \[rad\]: shaft or cage angle from +x towards +y, or for ball
+    /// Phase at which sections are taken \[rad\]: shaft or cage angle from +x towards +y, or for ball
     /// passages Z times the cage angle.
     pub phase: f64,
-    /// Periods of the clock before anything is recorded.
+    /// Transient section periods discarded before recording.
     pub settle: usize,
-    /// Periods recorded: as many points of a section.
+    /// Section periods recorded: number of points of a section.
     pub periods: usize,
 }
 
-/// A plane that an orbit and its section are seen in.
+/// Plane of an orbit plot and its Poincaré section: two probes, or a phase plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     pub name: String,
@@ -51,9 +52,9 @@ pub struct Plane {
 pub struct PoincareStudy {
     pub steady: Steady,
     pub planes: Vec<Plane>,
-    /// Change over a period that still counts as none, relative to the orbit's size.
+    /// Tolerance of period detection: difference of sections one period apart, relative to the orbit's size.
     pub tolerance: f64,
-    /// Longest period looked for, in periods of the clock.
+    /// Longest period tested (period-n motion), in section periods.
     pub longest_period: usize,
 }
 
@@ -61,29 +62,29 @@ pub struct PoincareStudy {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovStudy {
     pub steady: Steady,
-    /// Largest displacement in a bearing by the perturbation that is followed \[m\].
+    /// Size of the perturbation, to which it is renormalised: its largest displacement in a bearing \[m\].
     pub perturbation: f64,
 }
 
-/// Any value of the model file, and what it is set to one after the other.
+/// Bifurcation parameter: any value of the model file, with its successive settings.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Parameter {
-    /// Paths that are set to the value, as for `--set`: one, or several that change together.
+    /// Paths set to the value, as for `--set`: one, or several changed together.
     pub paths: Vec<String>,
     /// Unit of `values` as written in the file; empty for plain numbers.
     pub unit: String,
     pub values: Vec<f64>,
-    /// What is set: value and unit as text.
+    /// Settings: value and unit as text.
     pub texts: Vec<String>,
 }
 
 impl Parameter {
-    /// What is set to get the k-th model of the family.
+    /// Settings (path, value) of the k-th model.
     pub fn settings(&self, k: usize) -> Vec<(String, String)> {
         self.paths.iter().map(|path| (path.clone(), self.texts[k].clone())).collect()
     }
 
-    /// Name for people: "speed", "bearing.B.radial clearance", "radial clearance" of several.
+    /// Display name: "speed", "bearing.B.radial clearance", "radial clearance" of several.
     pub fn name(&self) -> String {
         let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
         let name = match &self.paths[..] {
@@ -95,7 +96,7 @@ impl Parameter {
     }
 }
 
-/// Which way a parameter is swept.
+/// Direction of a parameter sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sweep {
     Up,
@@ -103,17 +104,17 @@ pub enum Sweep {
     Both,
 }
 
-/// Where the run at a value starts from.
+/// Initial state of the run at a parameter value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Continuation {
-    /// Each from static equilibrium, whatever the others did.
+    /// Static equilibrium, independent of the other values.
     Equilibrium,
-    /// Each from where the one before ended, so that a sweep stays on its branch. The sweep is cut into chunks that run
-    /// side by side, each warming up on the last `overlap` values of the chunk before.
+    /// Final state of the previous value (continuation), so that a sweep stays on its branch. The sweep is
+    /// split into chunks run in parallel, each starting with the last `overlap` values of the previous chunk.
     Carried { chunks: usize, overlap: usize },
 }
 
-/// Bifurcation diagram: sections over a parameter.
+/// Bifurcation diagram: Poincaré sections over a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BifurcationStudy {
     pub steady: Steady,
@@ -123,6 +124,6 @@ pub struct BifurcationStudy {
     pub longest_period: usize,
     pub sweep: Sweep,
     pub continuation: Continuation,
-    /// Follow a perturbation of this size \[m\] too, for the largest Lyapunov exponent at every value.
+    /// Perturbation size \[m\] for the largest Lyapunov exponent at every value; `None`: not computed.
     pub perturbation: Option<f64>,
 }

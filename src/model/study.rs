@@ -1,11 +1,11 @@
-//! What a model file asks to be computed.
+//! Studies (analyses) requested by a model file, with their settings.
 
 pub use super::steady_study::*;
 use super::{Probe, Quantity};
 use crate::element::Anchor;
 pub use crate::signal::WindowKind;
 
-/// The studies a model file asks for, each with its settings; `None` means not asked for.
+/// Studies requested by a model file, each with its settings; `None` means not requested.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Studies {
     pub equilibrium: Option<EquilibriumStudy>,
@@ -28,7 +28,7 @@ pub struct Studies {
 pub struct EquilibriumStudy {
     /// Speed \[rad/s\].
     pub speed: f64,
-    /// Average bearing forces over one ball pitch of cage angles instead of the cage angle in the model.
+    /// Average bearing forces over one ball pitch of cage angles instead of using the model's cage angle.
     pub cage_average: bool,
 }
 
@@ -47,18 +47,19 @@ pub struct CampbellStudy {
     /// Speeds \[rad/s\], increasing.
     pub speeds: Vec<f64>,
     pub modes: usize,
-    /// Order lines to draw, and to intersect for critical speeds.
+    /// Order (excitation) lines drawn and intersected with the modes for critical speeds.
     pub orders: Vec<f64>,
-    /// Take ball bearings at every speed, with their film and ball inertia there, instead of at standstill.
+    /// Speed-dependent ball bearings: linearised at every speed, with film and ball inertia, instead of at
+    /// standstill.
     pub follow_bearings: bool,
 }
 
 /// Critical speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CriticalStudy {
-    /// Highest speed searched \[rad/s\].
+    /// Upper limit of the searched speed range \[rad/s\].
     pub max_speed: f64,
-    /// Orders whose crossings are listed; 1 is the synchronous one.
+    /// Orders whose crossings are listed; 1 is synchronous (unbalance) excitation.
     pub orders: Vec<f64>,
 }
 
@@ -75,7 +76,7 @@ pub struct FrfStudy {
     pub quantity: Quantity,
 }
 
-/// A unit blow: where, and along which combination of force and moment.
+/// Unit excitation of an FRF: point and direction of force and moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Excitation {
     pub name: String,
@@ -113,9 +114,9 @@ pub struct RunUpStudy {
     pub step: f64,
     /// Sampling rate of the stored channels \[Hz\].
     pub sample_rate: f64,
-    /// Modes of the linear parts are kept up to this frequency \[Hz\]; infinity keeps all.
+    /// Cut-off frequency of modal truncation of the linear parts \[Hz\]; infinity keeps all modes.
     pub cutoff: f64,
-    /// Start from static equilibrium (else at rest, undeformed).
+    /// Start from static equilibrium; otherwise at rest and undeformed.
     pub from_equilibrium: bool,
 }
 
@@ -129,9 +130,9 @@ pub struct SpectrogramStudy {
     pub length: f64,
     /// Overlap 0..1.
     pub overlap: f64,
-    /// Highest frequency drawn \[Hz\].
+    /// Maximum frequency shown \[Hz\].
     pub max_frequency: f64,
-    /// dB range drawn below the maximum.
+    /// Dynamic range shown below the maximum \[dB\].
     pub dynamic_range_db: f64,
     pub orders: Vec<f64>,
 }
@@ -145,33 +146,34 @@ pub struct OrderStudy {
     pub max_order: f64,
     pub overlap: f64,
     pub window: WindowKind,
-    /// Orders whose level is cut out against rpm.
+    /// Orders of the order cuts (order tracking): level over rpm.
     pub cuts: Vec<f64>,
 }
 
-/// Ball bearings each on its own: loads, contacts, stiffness, film and life, at an operating point and in sweeps.
+/// Single ball bearings, without the machine: loads, contacts, stiffness, film and life, at an operating
+/// point and in sweeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingStudy {
-    /// Names of the bearings; empty means every ball bearing of the file.
+    /// Names of the bearings; empty means all ball bearings of the file.
     pub bearings: Vec<String>,
-    /// Load of the shaft on the bearing F_x F_y F_z \[N\]; `None`: what it carries in the machine's equilibrium,
-    /// or a tenth of its dynamic load rating where the file is no machine.
+    /// Load of the shaft on the bearing F_x F_y F_z \[N\]; `None`: its load in the machine's equilibrium, or
+    /// a tenth of its dynamic load rating in a bearing-only file.
     pub force: Option<[f64; 3]>,
     /// M_x M_y \[N m\].
     pub moment: Option<[f64; 2]>,
-    /// Motions u_x u_y u_z θ_x θ_y held where the bearing is centred and aligned; `None`: with a given force the
-    /// tilts unless a moment is given, and u_z of a preloaded single row unless an axial force is given.
+    /// DOFs u_x u_y u_z θ_x θ_y constrained to zero (bearing centred and aligned); `None`: with a given force
+    /// the tilts unless a moment is given, and u_z of a preloaded single row unless an axial force is given.
     pub held: Option<[bool; 5]>,
     /// Speed of the operating point \[rad/s\]; `None`: the highest of the speed profile.
     pub speed: Option<f64>,
-    /// Average over one ball pitch of cage angles instead of the cage angle in the model.
+    /// Average over one ball pitch of cage angles instead of using the model's cage angle.
     pub cage_average: bool,
     /// Composite roughness of ball and race √(R_q1² + R_q2²) \[m\], for the film ratio λ.
     pub roughness: f64,
-    /// What the sweeps of load and of displacement go along.
+    /// Direction of the sweeps of load and of displacement.
     pub along: Along,
-    /// The sweeps; with none given those of load, of speed where it matters, and of cage angle, over ranges of their
-    /// own.
+    /// The sweeps; if none is given those of load, of speed if it has an effect, and of cage angle, over
+    /// default ranges.
     pub sweeps: Vec<BearingSweep>,
 }
 
@@ -184,7 +186,7 @@ impl Default for BearingStudy {
             held: None,
             speed: None,
             cage_average: false,
-            // ground races of a bearing of normal precision, balls far smoother
+            // ground races of a bearing of normal precision; the roughness of the balls is negligible
             roughness: 0.1e-6,
             along: Along::default(),
             sweeps: Vec::new(),
@@ -197,11 +199,11 @@ impl Default for BearingStudy {
 pub struct BearingSweep {
     pub of: Swept,
     /// Loads \[N, N m\], displacements \[m, rad\], speeds \[rad/s\] or cage angles \[rad\], increasing; empty means a
-    /// range that suits the bearing.
+    /// default range for the bearing.
     pub values: Vec<f64>,
 }
 
-/// What a sweep varies.
+/// Quantity varied in a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Swept {
     Load,
@@ -240,5 +242,5 @@ pub enum Along {
     Axis(usize),
 }
 
-/// Names of a bearing's five motions.
+/// Names of a bearing's five degrees of freedom.
 pub const MOTIONS: [&str; 5] = ["x", "y", "z", "theta_x", "theta_y"];

@@ -1,4 +1,4 @@
-//! A ball bearing on its own.
+//! Results of a study of single ball bearings.
 
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::bearing::life::LoadRating;
@@ -6,14 +6,14 @@ use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
 use crate::contact::ehl::Solution;
 use crate::model::study::Swept;
 
-/// One ball bearing on its own.
+/// Results of one ball bearing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingResult {
     pub name: String,
     pub bearing: BallBearing,
-    /// Where the operating load comes from, in words.
+    /// Description of the operating load's source.
     pub load_from: String,
-    /// Motions u_x u_y u_z θ_x θ_y that are held.
+    /// Motions u_x u_y u_z θ_x θ_y with prescribed displacement.
     pub held: [bool; 5],
     /// Preload of the centred bearing at the operating speed.
     pub preload: PreloadState,
@@ -24,12 +24,12 @@ pub struct BearingResult {
     /// The operating point.
     pub point: BearingPoint,
     pub sweeps: Vec<BearingSweepResult>,
-    /// Fields of the heaviest loaded contacts, where the bearing's law is the solved film.
+    /// EHL solutions of the most heavily loaded contacts, for a bearing with the EHL contact law.
     pub films: Vec<SolvedFilm>,
     pub warnings: Vec<String>,
 }
 
-/// The solved film of one contact.
+/// EHL (elastohydrodynamic) solution of one contact: pressure and film thickness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedFilm {
     /// "inner" or "outer".
@@ -48,20 +48,21 @@ pub type PickContact = fn(&BallState) -> &ContactState;
 pub struct BearingPoint {
     pub state: BearingEquilibrium,
     pub balls: Vec<BallState>,
-    /// Stiffness along the radial load and along the axis: what a force there meets while the motions that are not
-    /// held give way, and with all others held \[N/m\].
+    /// Stiffness along the radial load and along the axis \[N/m\]: with the other motions free unless
+    /// prescribed, and with all other motions constrained.
     pub radial_stiffness: [f64; 2],
     pub axial_stiffness: [f64; 2],
     /// Orders at the load-weighted mean contact angle.
     pub orders: CharacteristicOrders,
-    /// Axial force of the centred bearing at this speed \[N\], what its preload has become.
+    /// Axial force of the centred bearing at this speed \[N\], its operating preload.
     pub preload_force: f64,
     pub life: BearingLife,
     /// Smallest film over the composite roughness; 0 without film, infinite without load.
     pub film_ratio: f64,
 }
 
-/// Lives of a bearing \[10⁶ revolutions\], at 90 % reliability but for the modified one; NaN where the standard has none.
+/// Rating lives \[10⁶ revolutions\], at 90 % reliability except the modified life; NaN where the standard
+/// defines none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BearingLife {
     /// Dynamic equivalent load P \[N\] and basic rating life L₁₀ = (C/P)³ (ISO 281); none for opposed rows.
@@ -103,11 +104,11 @@ pub struct ContactState {
     pub least_film: f64,
 }
 
-/// A named value of something, with its SI unit.
+/// A named value of a record type, with its SI unit, for tables and files.
 pub type Column<T> = (&'static str, &'static str, fn(&T) -> f64);
 
 impl ContactState {
-    /// Every value, as files name it.
+    /// Every value with its name in files.
     pub const COLUMNS: [Column<Self>; 7] = [
         ("load", "N", |c| c.load),
         ("contact_angle", "rad", |c| c.angle),
@@ -120,7 +121,7 @@ impl ContactState {
 }
 
 impl BearingPoint {
-    /// Every single value, as files name it.
+    /// Every scalar with its name in files.
     pub const COLUMNS: [Column<Self>; 21] = [
         ("speed", "rad/s", |p| p.state.condition.speed),
         ("cage_angle", "rad", |p| p.state.condition.cage_angle),
@@ -155,7 +156,7 @@ impl BearingPoint {
         self.contacts().map(|c| c.pressure).fold(0.0, f64::max)
     }
 
-    /// Smallest film of a loaded contact \[m\]; 0 without film.
+    /// Smallest film thickness of a loaded contact \[m\]; 0 without film.
     pub fn least_film(&self) -> f64 {
         let films = self.contacts().filter(|c| c.load > 0.0).map(|c| c.least_film);
         films.reduce(f64::min).unwrap_or(0.0)
@@ -171,14 +172,14 @@ impl BearingPoint {
     }
 }
 
-/// One sweep: what is varied, and the bearing at every value.
+/// One sweep: the varied quantity, and the bearing at every value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingSweepResult {
     pub of: Swept,
-    /// What the values are, in words, such as "load along the operating load", and their SI unit.
+    /// Name of the varied quantity, such as "load along the operating load", and its SI unit.
     pub label: String,
     pub unit: &'static str,
-    /// As far as there is an equilibrium.
+    /// Values with an equilibrium.
     pub values: Vec<f64>,
     pub points: Vec<BearingPoint>,
 }

@@ -1,4 +1,4 @@
-//! A measured run and the model's own, channel by channel; of every pair the measured one stands first.
+//! Correlation of a measured and a computed run, channel by channel; arrays are \[measured, computed\].
 
 use super::{OrderLine, OrderResult, SpectrogramResult};
 
@@ -7,7 +7,7 @@ use super::{OrderLine, OrderResult, SpectrogramResult};
 pub struct ChannelPair {
     pub channel: String,
     pub unit: String,
-    /// RMS of what vibrates, over the whole run.
+    /// RMS of the vibration (mean removed) over the whole run.
     pub rms: [f64; 2],
     pub spectrograms: [SpectrogramResult; 2],
     pub orders: [OrderResult; 2],
@@ -18,24 +18,24 @@ pub struct ChannelPair {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutPair {
     pub line: OrderLine,
-    /// Where it is highest.
+    /// Maximum of each.
     pub peaks: [CutPeak; 2],
-    /// (Σ m c)² / (Σ m² Σ c²) of the levels over time: 1 where one is a multiple of the other.
+    /// Correlation (Σ m c)² / (Σ m² Σ c²) of the levels over time: 1 if one is a multiple of the other.
     pub likeness: f64,
 }
 
-/// Where an order is highest.
+/// Maximum of an order cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CutPeak {
     /// \[rpm\].
     pub rpm: f64,
     /// RMS in the band of the order.
     pub rms: f64,
-    /// At the lowest or highest speed of the run: where it is highest beyond is not known.
+    /// At the lowest or highest speed of the run: the true maximum may lie outside.
     pub at_end: bool,
 }
 
-/// Level of a computed value over a measured one \[dB\].
+/// Level of a computed value relative to a measured one \[dB\].
 pub fn level_over([measured, computed]: [f64; 2]) -> f64 {
     20.0 * (computed / measured).log10()
 }

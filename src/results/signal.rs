@@ -1,4 +1,4 @@
-//! What the analyses of one channel of a record give.
+//! Results of a signal analysis of one channel.
 
 use crate::bearing::CharacteristicOrders;
 use crate::signal::bearing_lines::{BearingLines, BearingPart};
@@ -14,20 +14,20 @@ use crate::signal::statistics::Statistics;
 use crate::signal::stft::Spectrogram;
 use crate::signal::synchronous::SynchronousAverage;
 
-/// One channel, and what was found in it; a part that was not asked for is empty.
+/// Results of one channel; analyses not requested are empty.
 #[derive(Clone, Debug)]
 pub struct SignalResult {
     pub channel: String,
-    /// SI unit; empty where it is not known.
+    /// SI unit; empty if unknown.
     pub unit: String,
     /// \[Hz\].
     pub sample_rate: f64,
     /// Time of the first sample \[s\].
     pub start: f64,
-    /// The samples that were analysed.
+    /// The analysed samples.
     pub samples: Vec<f64>,
     pub shaft: Option<ShaftSummary>,
-    /// Times \[s\] and speeds \[rpm\] at a few hundred places; empty where only the mean is known.
+    /// Times \[s\] and speeds \[rpm\] at some 200 instants; empty if only the mean is known.
     pub speed: [Vec<f64>; 2],
     pub bearing: Option<RatedBearing>,
     pub statistics: Statistics,
@@ -44,60 +44,60 @@ pub struct SignalResult {
     pub orders: Option<ShaftOrders>,
     pub average: Option<ShaftAverage>,
     pub cyclic: Option<CyclicResult>,
-    /// What the user should know, once each.
+    /// Warnings for the user, once each.
     pub warnings: Vec<String>,
 }
 
-/// How the shaft turned during a record.
+/// Shaft speed during a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShaftSummary {
-    /// Where the speed comes from, in words.
+    /// Description of the speed's source.
     pub source: String,
     /// Speeds \[rev/s\].
     pub mean: f64,
     pub least: f64,
     pub most: f64,
-    /// Whether rates are lines in Hz.
+    /// Whether the speed is constant within the tolerance: frequencies in Hz instead of orders.
     pub steady: bool,
 }
 
-/// A bearing with its rates per turn of the shaft.
+/// A bearing with its characteristic orders (per shaft revolution).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RatedBearing {
     pub name: String,
-    /// Where the rates come from, in words.
+    /// Description of the orders' source.
     pub source: String,
     pub orders: CharacteristicOrders,
     /// Number of balls Z.
     pub balls: usize,
-    /// Radii of the raceways, inner and outer, (D_pw ∓ D_w cos α)/2 \[m\]; `None` where only rates are known.
+    /// Radii of the raceways, inner and outer, (D_pw ∓ D_w cos α)/2 \[m\]; `None` if only orders are known.
     pub raceway_radii: Option<[f64; 2]>,
 }
 
-/// Amplitudes over time and frequency, with the speed at each time where it is known.
+/// Amplitudes over time and frequency, with the speed at each time if known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectrogramOverTime {
     pub map: Spectrogram,
-    /// \[rpm\]; empty where it is not known.
+    /// \[rpm\]; empty if unknown.
     pub rpm: Vec<f64>,
 }
 
-/// The envelope of a band, its spectrum, and the bearing's lines in it.
+/// Envelope (demodulated) spectrum of a band, and the bearing's lines in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvelopeResult {
     pub rule: BandRule,
     /// Band \[Hz\].
     pub band: (f64, f64),
-    /// Amplitude spectrum \[unit\], over Hz, or over orders if the speed changes.
+    /// Amplitude spectrum \[unit\], over Hz, or over orders at varying speed.
     pub spectrum: Spectrum,
     pub over_orders: bool,
-    /// Value of every band that was compared.
+    /// Score of every candidate band.
     pub compared: Option<Kurtogram>,
-    /// Lines and verdict where a bearing is known.
+    /// Lines and diagnosis if a bearing is known.
     pub lines: Option<BearingLines>,
 }
 
-/// Where in frequency the record is impulsive.
+/// Impulsiveness over frequency: kurtogram and spectral kurtosis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KurtogramResult {
     pub kurtogram: Kurtogram,
@@ -105,70 +105,70 @@ pub struct KurtogramResult {
     pub spectral: Spectrum,
 }
 
-/// Jerk, and what its jumps say about a race.
+/// Jerk, its jumps, and the race defects located from them.
 #[derive(Clone, Debug)]
 pub struct JerkResult {
     /// \[unit/s\].
     pub jerk: Vec<f64>,
-    /// Jumps in the record as it is.
+    /// Jumps in the unfolded record.
     pub jumps: Vec<JerkJump>,
-    /// The jumps of all balls' passages laid over each other, and the defects read from them.
+    /// The jerk folded over the ball passages, and the defects located from it.
     pub race: Option<RaceResult>,
 }
 
-/// Defects of a race as its jerk jumps show them.
+/// Defects of a race located from jerk jumps.
 #[derive(Clone, Debug)]
 pub struct RaceResult {
     /// "outer race" or "inner race".
     pub race: &'static str,
     /// Radius of the raceway \[m\].
     pub radius: Option<f64>,
-    /// Whether two directions were given, so that angles are known all round.
+    /// Whether two directions were given, so that angles are known over the full circumference.
     pub all_round: bool,
     pub fold: FoldedJerk,
     pub defects: Vec<RaceDefect>,
 }
 
-/// Orders of the shaft.
+/// Order tracking: map, mean order spectrum and cuts.
 #[derive(Clone, Debug)]
 pub struct ShaftOrders {
     pub map: OrderSpectrogram,
-    /// Mean in power over all speeds.
+    /// Power average over all speeds.
     pub average: Vec<f64>,
     pub cuts: Vec<(super::OrderLine, OrderCut)>,
 }
 
-/// What repeats with the shaft's turn.
+/// Time synchronous average (TSA) over shaft revolutions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShaftAverage {
     pub average: SynchronousAverage,
-    /// RMS of the record in angle, its mean taken away, of the average, and of what is left.
+    /// RMS (means removed) of the record resampled in angle, of the average, and of the residual.
     pub rms: [f64; 3],
 }
 
-/// Which carriers are modulated at which rates.
+/// Cyclic spectral coherence over carrier and modulation frequency.
 #[derive(Clone, Debug)]
 pub struct CyclicResult {
     pub coherence: CyclicCoherence,
-    /// Mean coherence over the carriers, against the rate of modulation.
+    /// Enhanced envelope spectrum: mean coherence over the carriers, over modulation frequency.
     pub enhanced: Spectrum,
     /// The bearing's first two harmonics in it; none without a bearing.
     pub lines: Vec<CyclicLine>,
-    /// Seconds of the record that were used.
+    /// Duration of the analysed part \[s\].
     pub duration: f64,
 }
 
-/// A rate of modulation near one that a bearing's part has.
+/// A peak of the enhanced envelope spectrum near a characteristic frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CyclicLine {
     pub part: BearingPart,
     pub harmonic: usize,
-    /// Rate by the catalogue, and of the highest coherence near it \[Hz\].
+    /// Nominal characteristic frequency, and frequency of the highest coherence near it \[Hz\].
     pub expected: f64,
     pub rate: f64,
-    /// Mean |γ| over the carriers there, and its median round about.
+    /// Mean |γ| over the carriers there, and its median in the neighbourhood.
     pub coherence: f64,
     pub background: f64,
-    /// Robust standard deviations of the background by which it stands out.
+    /// Excess over the background in robust standard deviations.
     pub deviations: f64,
 }

@@ -1,4 +1,5 @@
-//! Lines of a bearing in an envelope spectrum: level over background, significance, and what is damaged.
+//! Bearing defect frequencies (FTF, BPFO, BPFI, 2 BSF) in an envelope spectrum: level over background,
+//! significance, and the damaged part.
 
 use std::f64::consts::LN_2;
 
@@ -8,26 +9,26 @@ use super::jerk::median;
 use super::ridge::interpolate_peak;
 use super::spectrum::{Spectrum, decibel};
 
-/// Bins on either side of an expected place in which its peak is sought, and that belong to a line once found.
+/// Half-width of the peak search about an expected frequency in bins, and half the width of a line.
 const REACH: usize = 2;
-/// Turns of the shaft and of the cage by which a line of the strongest family may be displaced and still be its own.
+/// Highest side band orders (shaft, cage) of the strongest family that are not attributed to another part.
 const SHAFT_TURNS: i32 = 6;
 const CAGE_TURNS: i32 = 3;
-/// Highest multiple of the shaft's speed whose line is no bearing's.
+/// Highest shaft harmonic that is excluded from the bearing lines.
 const SHAFT_HARMONICS: usize = 100;
 
-/// Rates at which a bearing's parts meet, at one shaft speed \[Hz\].
+/// Bearing defect frequencies (characteristic frequencies) at one shaft speed \[Hz\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BearingRates {
     /// Shaft speed.
     pub shaft: f64,
-    /// FTF, the cage's turns.
+    /// FTF, fundamental train (cage) frequency.
     pub cage: f64,
-    /// BPFO, balls past a point of the outer race.
+    /// BPFO, ball pass frequency of the outer race.
     pub outer: f64,
-    /// BPFI, balls past a point of the inner race.
+    /// BPFI, ball pass frequency of the inner race.
     pub inner: f64,
-    /// BSF, turns of a ball; a place on it strikes a race twice a turn, so that lines are at 2 BSF.
+    /// BSF, ball spin frequency; a ball defect strikes both races once per revolution: lines at 2 BSF.
     pub ball: f64,
 }
 
@@ -54,7 +55,7 @@ impl BearingPart {
         }
     }
 
-    /// Name of its line: BPFO, BPFI, 2 BSF, FTF.
+    /// Name of its defect frequency: BPFO, BPFI, 2 BSF, FTF.
     pub fn line_name(self) -> &'static str {
         match self {
             BearingPart::OuterRace => "BPFO",
@@ -64,7 +65,7 @@ impl BearingPart {
         }
     }
 
-    /// Rate of its impulses \[Hz\].
+    /// Its defect frequency: repetition rate of the impulses \[Hz\].
     pub fn rate(self, rates: &BearingRates) -> f64 {
         match self {
             BearingPart::OuterRace => rates.outer,
@@ -75,59 +76,59 @@ impl BearingPart {
     }
 }
 
-/// What a line is displaced by from its harmonic.
+/// Side band: offset of a line from its harmonic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Modulation {
-    /// ± times the shaft speed: the load zone seen from the inner race, unbalance.
+    /// ± multiple of the shaft speed: load-zone modulation of an inner race defect, unbalance.
     Shaft(i32),
-    /// ± times the cage speed: the load zone seen from a ball.
+    /// ± multiple of the cage speed: load-zone modulation of a ball defect.
     Cage(i32),
 }
 
-/// A place at which a bearing line is expected, and what is there.
+/// An expected bearing line (harmonic or side band) and the peak measured there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingLine {
     pub part: BearingPart,
     pub harmonic: usize,
     /// Side band, `None` for the harmonic itself.
     pub modulation: Option<Modulation>,
-    /// Place by the rates given \[Hz\].
+    /// Nominal frequency from the given defect frequencies \[Hz\].
     pub expected: f64,
-    /// Place of the peak \[Hz\].
+    /// Frequency of the peak \[Hz\].
     pub frequency: f64,
     pub amplitude: f64,
-    /// Median amplitude round about.
+    /// Background: median amplitude of the surrounding bins.
     pub background: f64,
     /// Amplitude over background \[dB\].
     pub level_db: f64,
-    /// Chance that noise alone gives as high a peak anywhere in the range of search.
+    /// False-alarm probability: chance that noise alone gives as high a peak anywhere in the search range.
     pub probability: f64,
     pub significant: bool,
-    /// Whether the shaft or a stronger part of the bearing has a line at the same place, which then is not this part's.
+    /// Whether a shaft harmonic or a stronger family has a line at this frequency; it is not counted then.
     pub shared: bool,
 }
 
-/// One part's lines.
+/// Lines of one damaged part: harmonics of its defect frequency with side bands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineFamily {
     pub part: BearingPart,
-    /// Rate by the catalogue \[Hz\].
+    /// Nominal (catalogue) defect frequency \[Hz\].
     pub expected: f64,
-    /// Rate that fits the harmonics best \[Hz\].
+    /// Defect frequency that fits the harmonics best \[Hz\].
     pub frequency: f64,
     /// Harmonics and side bands.
     pub lines: Vec<BearingLine>,
-    /// Root of the sum of squares of the amplitudes of its significant harmonics that are its own.
+    /// Root sum of squares of its significant harmonics that are not shared.
     pub strength: f64,
-    /// Whether its first or second harmonic is its own and significant.
+    /// Whether its first or second harmonic is significant and not shared.
     pub found: bool,
 }
 
-/// All lines of a bearing, the strongest family first, and what they say.
+/// All lines of a bearing, the strongest family first, and the diagnosis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
-    /// The part of the strongest family that was found; `None`: no bearing line.
+    /// Diagnosed (damaged) part: that of the strongest detected family; `None`: no bearing line.
     pub verdict: Option<BearingPart>,
 }
 
@@ -142,7 +143,7 @@ impl BearingLines {
         self.families.iter().find(|f| f.part == part).expect("there is a family for each part")
     }
 
-    /// The highest of all harmonics that is its family's own; `None` when none stands out.
+    /// The highest significant harmonic that is not shared; `None` if there is none.
     pub fn strongest_line(&self) -> Option<&BearingLine> {
         let own = self.families.iter().flat_map(|f| &f.lines);
         own.filter(|l| l.modulation.is_none() && l.significant && !l.shared)
@@ -150,34 +151,35 @@ impl BearingLines {
     }
 }
 
-/// How bearing lines are sought.
+/// Settings of the search for bearing lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSettings {
-    /// Most that a rate may differ from the catalogue's, by slip and contact angle, relative.
+    /// Maximum relative deviation from the nominal defect frequency, due to slip and contact angle.
     pub slip: f64,
     /// Number of harmonics.
     pub harmonics: usize,
     /// Side bands on each side of a harmonic.
     pub side_bands: usize,
-    /// Probability of a false line below which a line counts as found.
+    /// False-alarm probability below which a line counts as significant.
     pub significance: f64,
 }
 
 impl Default for LineSettings {
-    /// 1.5 %, five harmonics, one side band on each side, one false line in a million.
+    /// 1.5 %, five harmonics, one side band on each side, false-alarm probability 1e-6.
     fn default() -> Self {
         LineSettings { slip: 0.015, harmonics: 5, side_bands: 1, significance: 1e-6 }
     }
 }
 
-/// Finds the lines of a bearing in an amplitude spectrum of an envelope and says which part they come from.
+/// Detects bearing defect frequencies in an envelope spectrum (amplitudes) and determines the damaged part.
 ///
-/// For each part the rate within ± slip that fits its harmonics best, Σ_h ln(1 + A²/m²) largest; then the peak at each
-/// harmonic h f and side band h f ± n f_s, h f ± n FTF. A line's level is over the median m of the amplitudes round about;
-/// noise has A² exponential with mean m²/ln 2, so that a peak A over n bins has the probability 1 − (1 − 2^{−A²/m²})ⁿ.
-/// The strongest family takes its harmonics with all side bands up to ± 6 f_s ± 3 FTF; a line that falls on those, or on a
-/// multiple of the shaft speed, does not count for another part. `spectrum` to the highest harmonic of BPFI, eight bins per
-/// FTF. Errors: NaN, rates that are not positive, a spectrum too short or too coarse, settings out of range.
+/// For each part: the frequency within ± slip that fits its harmonics best (largest Σ_h ln(1 + A²/m²)), then
+/// the peak at each harmonic h f and side band h f ± n f_s, h f ± n FTF. Levels are relative to the local
+/// median amplitude m; noise has A² exponential with mean m²/ln 2, so that a peak A over n bins has the
+/// false-alarm probability 1 − (1 − 2^{−A²/m²})ⁿ. A line that coincides with a shaft harmonic, or with a
+/// harmonic of a stronger family or its side bands up to ± 6 f_s or ± 3 FTF, does not count for another part.
+/// `spectrum`: up to the highest harmonic of BPFI, eight bins per FTF. Errors: NaN, frequencies that are not
+/// positive, a spectrum too short or too coarse, settings out of range.
 pub fn bearing_lines(
     spectrum: &Spectrum,
     rates: &BearingRates,
@@ -186,7 +188,7 @@ pub fn bearing_lines(
     let search = Search::new(spectrum, rates, settings)?;
     let mut open: Vec<LineFamily> = BearingPart::ALL.map(|part| search.family(part)).into();
     let mut families: Vec<LineFamily> = Vec::new();
-    // The strongest takes its lines, the next strongest of what is left its own, and so on.
+    // Greedy: the strongest family claims its lines, then the next strongest of those left, and so on.
     while !open.is_empty() {
         for family in &mut open {
             search.settle(family, families.iter().filter(|f| f.found));
@@ -197,17 +199,17 @@ pub fn bearing_lines(
                 let ((found_a, a), (found_b, b)) = (rank(&open[a]), rank(&open[b]));
                 found_a.cmp(&found_b).then(a.total_cmp(&b))
             })
-            .expect("a family is left");
+            .expect("at least one family remains");
         families.push(open.remove(strongest));
     }
     let verdict = families.first().filter(|f| f.found).map(|f| f.part);
     Ok(BearingLines { families, verdict })
 }
 
-/// Level of the best fitting part's harmonics over the background \[dB\]: the score of a band by the lines it shows.
+/// Score of a band by its bearing lines: level of the best fitting part over the background \[dB\].
 ///
-/// 10 log₁₀ of the mean over the first `harmonics` of A²/m², the highest of the four parts. Arguments and errors as
-/// [`bearing_lines`].
+/// 10 log₁₀ of the mean of A²/m² over the first `harmonics`, maximum of the four parts. Arguments and errors
+/// as [`bearing_lines`].
 pub fn line_score(
     spectrum: &Spectrum,
     rates: &BearingRates,
@@ -231,7 +233,7 @@ struct Search<'a> {
     settings: &'a LineSettings,
     /// Spacing of the bins \[Hz\].
     step: f64,
-    /// Median amplitude about each bin.
+    /// Running median of the amplitude at each bin.
     background: Vec<f64>,
 }
 
@@ -263,14 +265,14 @@ impl<'a> Search<'a> {
         check(step * 8.0 <= cage, "spacing of the spectrum's bins [Hz]", "an eighth of FTF or less", step)?;
         let highest = harmonics as f64 * inner.max(outer).max(2.0 * ball) * (1.0 + slip);
         let end = spectrum.frequencies[spectrum.frequencies.len() - 1];
-        check(highest < end, "end of the spectrum [Hz]", "above the highest harmonic asked for", end)?;
-        // Wide enough for a median that a few lines do not lift, narrow enough to follow the slope.
+        check(highest < end, "end of the spectrum [Hz]", "above the highest harmonic requested", end)?;
+        // Wide enough that a few lines do not raise the median, narrow enough for a sloping noise floor.
         let half_width = ((0.75 * shaft / step).round() as usize).max(24);
         let background = running_median(&spectrum.values, half_width);
         Ok(Search { spectrum, rates, settings, step, background })
     }
 
-    /// The rate within ± slip that fits a part's harmonics best.
+    /// The defect frequency within ± slip that fits a part's harmonics best.
     fn base(&self, part: BearingPart) -> f64 {
         let expected = part.rate(self.rates);
         let LineSettings { slip, harmonics, .. } = *self.settings;
@@ -291,19 +293,19 @@ impl<'a> Search<'a> {
         };
         let (_, best) = (-trials..=trials)
             .map(|trial| (fit(trial), trial))
-            // Of equal fits the one nearest to the catalogue.
+            // Ties: the one nearest to the nominal frequency.
             .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.abs().cmp(&a.1.abs())))
-            .expect("there is a trial at the catalogue's rate");
+            .expect("there is a trial at the nominal frequency");
         expected + best as f64 * trial_step
     }
 
-    /// Place, amplitude and background of the highest bin near a frequency.
+    /// Interpolated frequency, amplitude and background of the highest bin near a frequency.
     fn peak(&self, frequency: f64) -> (f64, f64, f64) {
         let values = &self.spectrum.values;
         let middle = (frequency / self.step).round() as usize;
         let first = middle.saturating_sub(REACH).max(1).min(values.len() - 1);
         let bins = first..(middle + REACH + 1).clamp(first + 1, values.len());
-        let bin = bins.max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("the range holds a bin");
+        let bin = bins.max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("the range contains a bin");
         let peak = interpolate_peak(&self.spectrum.frequencies, values, bin);
         (peak.position, peak.amplitude, self.background[bin])
     }
@@ -335,7 +337,7 @@ impl<'a> Search<'a> {
                 }
                 let (frequency, amplitude, background) = self.peak(place);
                 let ratio = amplitude / background;
-                // The range that the choice of the base has searched through at this harmonic.
+                // Bins searched at this harmonic by the fit of the defect frequency.
                 let range = 2.0 * self.settings.slip * harmonic as f64 * expected / self.step;
                 let bins = range + (2 * REACH + 1) as f64;
                 let probability = chance_of_peak(ratio, bins);
@@ -357,7 +359,7 @@ impl<'a> Search<'a> {
         LineFamily { part, expected, frequency: base, lines, strength: 0.0, found: false }
     }
 
-    /// Marks the lines that belong to the shaft or to a family already settled, and sums up the others.
+    /// Marks lines shared with shaft harmonics or with families already ranked; strength of the others.
     fn settle<'f>(&self, family: &mut LineFamily, settled: impl Iterator<Item = &'f LineFamily> + Clone) {
         for line in &mut family.lines {
             line.shared =
@@ -368,7 +370,7 @@ impl<'a> Search<'a> {
         family.found = own.clone().any(|l| l.harmonic <= 2);
     }
 
-    /// Whether a line is a multiple of the shaft speed, which may be stated 0.1 % wrong.
+    /// Whether a line is a multiple of the shaft speed, with a tolerance of 0.1 % on the stated speed.
     fn is_of_shaft(&self, frequency: f64) -> bool {
         let multiple = (frequency / self.rates.shaft).round();
         let tolerance = 1.5 * self.step + 1e-3 * frequency;
@@ -383,7 +385,7 @@ impl<'a> Search<'a> {
         let harmonics = 1..=2 * self.settings.harmonics as i32;
         harmonics.flat_map(|h| (-SHAFT_TURNS..=SHAFT_TURNS).map(move |m| (h, m))).any(|(h, m)| {
             (-CAGE_TURNS..=CAGE_TURNS).any(|c| {
-                // Side bands of both kinds at once are too weak to be taken for lines of another part.
+                // Combined shaft and cage side bands are too weak to be mistaken for lines of another part.
                 let place = f64::from(h) * family.frequency
                     + f64::from(m) * self.rates.shaft
                     + f64::from(c) * self.rates.cage;
@@ -393,19 +395,19 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Chance that the highest of `bins` of noise stands a `ratio` over the median or higher, 1 − (1 − 2^{−r²})ⁿ.
+/// False-alarm probability: the maximum of n noise bins is ≥ r times the median, 1 − (1 − 2^{−r²})ⁿ.
 fn chance_of_peak(ratio: f64, bins: f64) -> f64 {
     let one = (-LN_2 * ratio * ratio).exp();
     -(bins * (-one).ln_1p()).exp_m1()
 }
 
-/// Median over ± `half_width` bins about each bin, over as many as there are at the ends; the bin at 0 is left out.
+/// Running median over ± `half_width` bins, truncated at the ends; the bin at 0 Hz is excluded.
 ///
-/// A median of zero, in a spectrum that is mostly empty, counts as the rounding of the largest value.
+/// A median of zero (a mostly empty spectrum) is replaced by the rounding error of the largest value.
 fn running_median(values: &[f64], half_width: usize) -> Vec<f64> {
     let largest = values.iter().copied().fold(0.0, f64::max);
     let floor = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
-    // One median per eighth of a width serves the bins about its middle.
+    // One median per eighth of the half-width, shared by the bins around it.
     let stride = (half_width / 8).max(1);
     let at = |middle: usize| {
         let range = middle.saturating_sub(half_width).max(1)..(middle + half_width + 1).min(values.len());

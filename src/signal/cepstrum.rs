@@ -1,4 +1,4 @@
-//! Real and power cepstrum, and liftering: families of equally spaced lines as one peak, kept or removed.
+//! Real and power cepstrum, and liftering: a family of equally spaced lines (harmonics) is one peak.
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
@@ -15,14 +15,14 @@ pub struct Cepstrum {
     pub values: Vec<f64>,
 }
 
-/// What a lifter keeps of the cepstrum.
+/// Lifter: the part of the cepstrum that is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lifter {
     /// Quefrencies up to this \[s\]: the smooth spectrum, resonances.
     LowTime(f64),
     /// Quefrencies beyond this \[s\]: harmonics and side bands.
     HighTime(f64),
-    /// All but a half-width about every multiple of a quefrency \[s\]: takes away the harmonics of its inverse.
+    /// All but a half-width around every multiple of a quefrency \[s\]: removes the harmonics of its inverse.
     Comb { quefrency: f64, half_width: f64 },
 }
 
@@ -57,9 +57,9 @@ impl Lifter {
 
 /// Real cepstrum c = F⁻¹{ln |F{x}|}.
 ///
-/// `record` x (N), `sample_rate` \[Hz\]. A family of lines Δf apart gives peaks at multiples of 1/Δf, an echo after τ
-/// of strength a gives a/2 at τ. Bins without power count as the rounding of the largest bin. Errors: NaN, a record of
-/// zeros. Source: Randall, Mech. Syst. Signal Process. 97 (2017).
+/// `record` x (N), `sample_rate` \[Hz\]. A family of lines Δf apart gives peaks at multiples of 1/Δf, an echo
+/// after τ of strength a gives a/2 at τ. Bins without power are set to the rounding error of the largest bin.
+/// Errors: NaN, a record of zeros. Source: Randall, Mech. Syst. Signal Process. 97 (2017).
 pub fn real_cepstrum(record: &[f64], sample_rate: f64) -> Result<Cepstrum, SignalError> {
     let (_, cepstrum) = spectrum_and_cepstrum(record, sample_rate)?;
     Ok(one_sided(&cepstrum, sample_rate))
@@ -74,10 +74,10 @@ pub fn power_cepstrum(record: &[f64], sample_rate: f64) -> Result<Cepstrum, Sign
     Ok(cepstrum)
 }
 
-/// The record with its liftered log magnitude and its own phase: cepstral editing.
+/// Cepstral editing: the record with its liftered log magnitude and its original phase.
 ///
-/// With a comb at the shaft's period the shaft's harmonics go and the bearing's random part stays. The mean level
-/// (quefrency 0) is kept by every lifter. Errors as [`real_cepstrum`], quefrency not positive.
+/// A comb at the shaft period removes the shaft harmonics and leaves the random part of a bearing signal. The
+/// mean level (quefrency 0) is kept by every lifter. Errors as [`real_cepstrum`], quefrency not positive.
 /// Source: Randall and Sawalhi, Sound and Vibration 45 (2011).
 pub fn lifter(record: &[f64], sample_rate: f64, lifter: Lifter) -> Result<Vec<f64>, SignalError> {
     let (spectrum, log_magnitude) = liftered_log(record, sample_rate, lifter)?;
@@ -90,7 +90,7 @@ pub fn lifter(record: &[f64], sample_rate: f64, lifter: Lifter) -> Result<Vec<f6
     Ok(data.iter().map(|z| z.re / data.len() as f64).collect())
 }
 
-/// The liftered magnitude spectrum e^{F{lifter · c}}, not scaled by the length: with a low-time lifter the smooth one.
+/// The liftered magnitude spectrum e^{F{lifter · c}}, not scaled by the length; smooth for a low-time lifter.
 ///
 /// Errors as [`lifter`].
 pub fn liftered_spectrum(record: &[f64], sample_rate: f64, lifter: Lifter) -> Result<Spectrum, SignalError> {

@@ -1,4 +1,4 @@
-//! Cyclic spectral coherence: which carrier frequencies are modulated at which rates.
+//! Cyclic spectral coherence (cyclostationary analysis): carrier and modulation frequencies.
 
 use std::f64::consts::PI;
 
@@ -14,24 +14,25 @@ use super::spectrum::{Spectrum, Welch};
 /// Squared magnitude of the cyclic spectral coherence over cyclic frequency α and frequency f.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclicCoherence {
-    /// Cyclic frequencies α \[Hz\]: rates of modulation.
+    /// Cyclic frequencies α \[Hz\]: modulation frequencies.
     pub cyclic_frequencies: Vec<f64>,
     /// Carrier frequencies f \[Hz\].
     pub frequencies: Vec<f64>,
     /// |γ(α, f)|² in 0..1, row-major: a row for each α.
     pub squared: Vec<f64>,
-    /// Value that stationary noise passes with probability 1 % at one (α, f), from the number of segments.
+    /// Significance threshold: value exceeded by stationary noise with probability 1 % at one (α, f).
     pub one_percent: f64,
 }
 
 /// Cyclic spectral coherence by the averaged cyclic periodogram.
 ///
-/// S(α, f) = Σ_i Y_i(f) conj X_i(f), with Y, X the segments' transforms of x e^{−jπαt} and x e^{+jπαt}: the spectrum
-/// at f + α/2 against that at f − α/2; |γ|² = |S|²/(Σ|Y|² Σ|X|²). `record` (N), `sample_rate` \[Hz\],
-/// `cyclic_frequencies` α \[Hz\] in 0..f_s; `welch` with segments whose overlap is two thirds or more, so that the window does
-/// not make false lines at multiples of the segments' rate. α is resolved to f_s/N: space it no wider.
-/// Errors: NaN, record shorter than two segments, α out of range. Source: Antoni, Mech. Syst. Signal Process. 21 (2007),
-/// eq. 11-13.
+/// S(α, f) = Σ_i Y_i(f) conj X_i(f), with Y, X the segments' transforms of x e^{−jπαt} and x e^{+jπαt}: the
+/// correlation of the spectrum at f + α/2 with that at f − α/2; |γ|² = |S|²/(Σ|Y|² Σ|X|²). `record` (N),
+/// `sample_rate` \[Hz\], `cyclic_frequencies` α \[Hz\] in 0..f_s; `welch` with segments whose overlap is two
+/// thirds or more, so that the window does not cause spurious lines at multiples of the segment rate. The
+/// resolution in α is f_s/N: space α no wider.
+/// Errors: NaN, record shorter than two segments, α out of range.
+/// Source: Antoni, Mech. Syst. Signal Process. 21 (2007), eq. 11-13.
 pub fn cyclic_coherence(
     record: &[f64],
     sample_rate: f64,
@@ -74,7 +75,7 @@ pub fn cyclic_coherence(
             }
             fft.process_with_scratch(&mut upper, &mut scratch);
             fft.process_with_scratch(&mut lower, &mut scratch);
-            // The segment begins at its own time: e^{−jπα t₀} on one side, its conjugate on the other.
+            // Phase of the segment's start t₀: e^{−jπα t₀} on one side, its conjugate on the other.
             let turn = Complex::from_polar(1.0, -2.0 * PI * ((alpha * start as f64 / sample_rate) % 1.0));
             for k in 0..bins {
                 xx[k] += lower[k].norm_sqr();
@@ -97,7 +98,7 @@ pub fn cyclic_coherence(
     })
 }
 
-/// Number of segments without overlap that average noise as well: K / (1 + 2 Σ_q (1 − q/K) r_q²).
+/// Equivalent number of independent segments (without overlap): K / (1 + 2 Σ_q (1 − q/K) r_q²).
 ///
 /// r_q is the window's autocorrelation at q hops over Σw². Source: Welch (1967).
 fn independent_segments(window: &[f64], hop: usize, segments: usize) -> f64 {
@@ -120,11 +121,12 @@ impl CyclicCoherence {
 
     /// Enhanced envelope spectrum: the mean of |γ| over the carriers in a band \[Hz\], against α.
     ///
-    /// Errors: a band without a carrier. Source: Abboud, Antoni et al., Mech. Syst. Signal Process. 111 (2018).
+    /// Errors: a band without a carrier. Source: Abboud, Antoni et al., Mech. Syst. Signal Process. 111
+    /// (2018).
     pub fn enhanced_envelope_spectrum(&self, band: (f64, f64)) -> Result<Spectrum, SignalError> {
         let first = self.frequencies.partition_point(|f| *f < band.0);
         let end = self.frequencies.partition_point(|f| *f <= band.1);
-        check(first < end, "lower end of the band", "a band that holds a carrier frequency", band.0)?;
+        check(first < end, "lower end of the band", "a band that contains a carrier frequency", band.0)?;
         let mean = |row: &[f64]| row[first..end].iter().map(|g| g.sqrt()).sum::<f64>() / (end - first) as f64;
         Ok(Spectrum {
             frequencies: self.cyclic_frequencies.clone(),

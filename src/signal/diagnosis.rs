@@ -1,4 +1,4 @@
-//! From a record to a verdict: band, envelope spectrum, bearing lines.
+//! Bearing diagnosis of a record: band selection, envelope analysis, bearing defect frequencies.
 
 use rayon::prelude::*;
 
@@ -14,51 +14,52 @@ use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
 use super::window::WindowKind;
 
-/// Speed below which the shaft counts as standing \[rev/s\].
+/// Speed below which the shaft counts as at standstill \[rev/s\].
 const LEAST_SPEED: f64 = 0.1;
 
-/// Which band the envelope is taken of.
+/// Demodulation band: how the band of the envelope is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BandRule {
     /// From low to high \[Hz\].
     Given(f64, f64),
     /// The whole record.
     Whole,
-    /// The band of the highest kurtosis: where pulses stand out, of whatever source.
+    /// The band of highest kurtosis (fast kurtogram): the most impulsive one, whatever the source.
     Kurtosis,
-    /// The band whose envelope shows the bearing's lines highest over their background.
+    /// The band with the highest level of bearing lines over the background in its envelope spectrum.
     Lines,
 }
 
-/// How the shaft turned while the record was taken.
+/// Shaft rotation during the record.
 #[derive(Clone, Copy, Debug)]
 pub enum Turning<'a> {
-    /// At one speed: rates are in Hz.
+    /// Constant speed: defect frequencies are in Hz.
     Steady,
-    /// By a shaft angle sampled like the record \[rad\]: rates are in orders, that of the shaft is 1.
+    /// Shaft angle sampled like the record \[rad\]: defect frequencies are in orders (shaft 1).
     Angle(&'a [f64]),
 }
 
-/// A band, the envelope spectrum in it, and what it shows.
+/// Bearing diagnosis: the demodulation band, its envelope spectrum and the bearing lines in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// Band \[Hz\].
     pub band: (f64, f64),
-    /// Value of every band that was compared, kurtosis or line level \[dB\]; `None` for a given band.
+    /// Score of every band compared, kurtosis or line level \[dB\]; `None` for a given band.
     pub kurtogram: Option<Kurtogram>,
     /// Amplitude spectrum of the band's envelope \[unit\], over Hz or over orders.
     pub envelope: Spectrum,
     pub lines: BearingLines,
 }
 
-/// Chooses a band, takes its envelope's spectrum and reads the bearing's lines in it.
+/// Chooses a band, computes its envelope spectrum and detects the bearing lines in it (envelope analysis).
 ///
-/// With a shaft angle the envelope, not the record, is resampled in angle: resonances stay in their band and lines stand
-/// still; the longest stretch in which the shaft turns is used. `record` \[any unit\], `sample_rate` \[Hz\], `rates` as
-/// [`Turning`] says. Bands are those of the binary-ternary bank, wide enough for the highest rate 2.5 times over; a line
-/// found by choosing among B bands must be B times less probable.
-/// Errors: NaN; less than ten turns of the cage; a sampling rate below twice the highest harmonic asked for; a band that
-/// is not in 0..f_s/2; an angle of another length.
+/// With a shaft angle the envelope, not the record, is resampled in angle: resonances stay in their band and
+/// lines do not smear; the longest segment without standstill is used. `record` \[any unit\], `sample_rate`
+/// \[Hz\], `rates` in the unit given by [`Turning`]. Bands are those of the binary-ternary filter bank, at
+/// least 2.5 times the highest defect frequency wide; the significance level is divided by the number of
+/// bands compared (Bonferroni correction).
+/// Errors: NaN; less than ten revolutions of the cage; a sampling rate below twice the highest harmonic
+/// requested; a band outside 0..f_s/2; an angle of different length.
 pub fn diagnose(
     record: &[f64],
     sample_rate: f64,
@@ -74,11 +75,11 @@ pub fn diagnose(
     let clock = Clock::new(record.len(), sample_rate, turning, top)?;
     let fastest = clock.fastest();
     if sample_rate < 2.0 * top * fastest {
-        let (needed, purpose) = (2.0 * top * fastest, "the highest bearing line asked for");
+        let (needed, purpose) = (2.0 * top * fastest, "the highest bearing line requested");
         return Err(SignalError::RateTooLow { given: sample_rate, needed, purpose });
     }
     clock.check_cage_turns(record.len(), rates.cage)?;
-    // A band of width B shows modulation up to B.
+    // A band of width B contains modulation frequencies up to B.
     let by_width = (0.5 * sample_rate / (2.5 * highest * fastest)).log2().floor();
     let depth = (by_width.max(0.0) as usize).min(deepest(record.len()));
     let half = 0.5 * sample_rate;
@@ -87,7 +88,7 @@ pub fn diagnose(
         _ if depth == 0 => None,
         BandRule::Kurtosis => Some(fast_kurtogram(record, sample_rate, depth)?),
         BandRule::Lines => {
-            // The first two harmonics: as much as the narrowest band shows.
+            // The first two harmonics: as many as the narrowest band contains.
             let settings = LineSettings { harmonics: settings.harmonics.min(2), ..*settings };
             let score = |band: (f64, f64)| {
                 line_score(&clock.spectrum(&envelope(record, sample_rate, band)?)?, rates, &settings)
@@ -107,24 +108,24 @@ pub fn diagnose(
     Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines })
 }
 
-/// A band, how it was chosen, and its envelope's spectrum.
+/// Demodulation band, kurtogram it was chosen by, and envelope spectrum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BandEnvelope {
     /// Band \[Hz\].
     pub band: (f64, f64),
-    /// Kurtosis of every band that was compared; `None` for a given band.
+    /// Kurtosis of every band compared; `None` for a given band.
     pub kurtogram: Option<Kurtogram>,
     /// Amplitude spectrum of the band's envelope \[unit\], over Hz or over orders.
     pub envelope: Spectrum,
 }
 
-/// Levels compared where nothing tells how fast pulses come: bands of a 128th of the sampling rate and wider.
+/// Filter bank depth when the pulse rate is unknown: bands of a 128th of the sampling rate and wider.
 const PLAIN_DEPTH: usize = 6;
 
-/// Band by `rule` and its envelope's spectrum, where no bearing is known.
+/// Band by `rule` and its envelope spectrum, without bearing data.
 ///
-/// [`BandRule::Lines`] chooses as [`BandRule::Kurtosis`]. `top_order` is the highest order kept with a shaft angle. Other
-/// arguments and errors as [`diagnose`].
+/// [`BandRule::Lines`] falls back to [`BandRule::Kurtosis`]. `top_order` is the highest order kept with a
+/// shaft angle. Other arguments and errors as [`diagnose`].
 pub fn band_envelope(
     record: &[f64],
     sample_rate: f64,
@@ -149,7 +150,7 @@ pub fn band_envelope(
     Ok(BandEnvelope { band, kurtogram, envelope })
 }
 
-/// Magnitude of a band's analytic signal.
+/// Envelope: magnitude of a band's analytic signal.
 fn envelope(record: &[f64], sample_rate: f64, band: (f64, f64)) -> Result<Vec<f64>, SignalError> {
     let whole = band.0 <= 0.0 && band.1 >= 0.5 * sample_rate;
     let signal =
@@ -157,7 +158,7 @@ fn envelope(record: &[f64], sample_rate: f64, band: (f64, f64)) -> Result<Vec<f6
     Ok(signal.iter().map(|z| z.norm()).collect())
 }
 
-/// A value of each band of 1, 2, 3, 4, 6, 8 … 2^depth equal parts of 0..half.
+/// Score of each band of 1, 2, 3, 4, 6, 8 … 2^depth equal parts of 0..half.
 fn score_bank(
     depth: usize,
     half: f64,
@@ -176,7 +177,7 @@ fn score_bank(
     counts.map(level).collect()
 }
 
-/// What the envelope's spectrum is over: seconds, or turns of the shaft.
+/// Domain of the envelope spectrum: time (Hz) or shaft angle (orders).
 enum Clock {
     Time { rate: f64 },
     Shaft { resampler: AngleResampler, longest: usize, fastest: f64 },
@@ -189,14 +190,14 @@ impl Clock {
         let per_turn = (SAMPLES_PER_ORDER * top_order).ceil().clamp(16.0, 1e5) as usize;
         let resampler = AngleResampler::new(theta, rate, per_turn, LEAST_SPEED)?;
         let parts = resampler.parts();
-        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).expect("a part turns");
-        // Over whole turns, so that a jittering angle does not count as speed.
+        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).expect("at least one part");
+        // Averaged over whole revolutions, so that jitter of the angle does not raise the speed.
         let turns = parts[longest].times.windows(per_turn + 1).step_by(per_turn);
         let fastest = turns.map(|w| 1.0 / (w[per_turn] - w[0])).fold(0.0, f64::max);
         Ok(Clock::Shaft { resampler, longest, fastest })
     }
 
-    /// Hz per unit of the rates, at most.
+    /// Maximum Hz per unit of the defect frequencies: 1, or the highest shaft speed \[rev/s\].
     fn fastest(&self) -> f64 {
         match self {
             Clock::Time { .. } => 1.0,
@@ -204,20 +205,20 @@ impl Clock {
         }
     }
 
-    /// Refuses a record that does not part side bands of the cage.
+    /// Error for a record too short to resolve cage side bands.
     fn check_cage_turns(&self, samples: usize, cage: f64) -> Result<(), SignalError> {
         const TURNS: f64 = 10.0;
         match self {
             Clock::Time { rate } if cage > 0.0 => {
                 let needed = (TURNS * rate / cage).ceil() as usize;
-                check_length("record", samples, needed, "ten turns of the cage, to tell its lines apart")
+                check_length("record", samples, needed, "ten revolutions of the cage, to resolve its lines")
             }
             Clock::Shaft { resampler, longest, .. } => {
                 let given = resampler.parts()[*longest].times.len() as f64
                     / resampler.samples_per_revolution() as f64;
                 let needed = TURNS / cage;
                 if given < needed {
-                    let purpose = "ten turns of the cage, to tell its lines apart";
+                    let purpose = "ten revolutions of the cage, to resolve its lines";
                     return Err(SignalError::TooFewRevolutions { needed, given, purpose });
                 }
                 Ok(())
@@ -226,7 +227,7 @@ impl Clock {
         }
     }
 
-    /// Amplitude spectrum of an envelope less its mean (Hann, peak).
+    /// Amplitude spectrum of an envelope minus its mean (Hann, peak).
     fn spectrum(&self, envelope: &[f64]) -> Result<Spectrum, SignalError> {
         let (mut values, rate) = match self {
             Clock::Time { rate } => (envelope.to_vec(), *rate),

@@ -1,4 +1,4 @@
-//! Analytic signal, envelope and envelope spectrum, of a whole record or of one band of it.
+//! Analytic signal (Hilbert transform), envelope and envelope spectrum (demodulation) of a record or band.
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
@@ -9,19 +9,20 @@ use super::filter::{Band, butterworth};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
 use super::window::WindowKind;
 
-/// Analytic signal x + j H{x}, by doubling the positive frequencies and dropping the negative ones.
+/// Analytic signal x + j H{x} (H: Hilbert transform): positive frequencies doubled, negative ones zeroed.
 ///
-/// The record is taken as one period, so that a step between its ends rings into both. Errors: empty, NaN.
+/// The record is treated as periodic: a step between its ends causes ringing at both.
+/// Errors: empty, NaN.
 /// Source: Marple, IEEE Trans. Signal Process. 47 (1999).
 pub fn analytic_signal(record: &[f64]) -> Result<Vec<Complex<f64>>, SignalError> {
     check_record("record", record)?;
     Ok(analytic(record, |_| true))
 }
 
-/// Analytic signal of one band: the positive frequencies low ≤ f < high doubled, all others dropped.
+/// Analytic signal of one band: the positive frequencies low ≤ f < high doubled, all others set to zero.
 ///
-/// `record` \[unit\], `sample_rate` \[Hz\], `band` \[Hz\] in 0..f_s/2 (up to f_s/2 takes Nyquist in). Bands side by
-/// side add up to [`analytic_signal`] exactly. The record is taken as one period.
+/// `record` \[unit\], `sample_rate` \[Hz\], `band` \[Hz\] in 0..f_s/2 (an upper end of f_s/2 includes
+/// Nyquist). Adjacent bands add up to [`analytic_signal`] exactly. The record is treated as periodic.
 /// Errors: empty, NaN, band not in 0..f_s/2 or without a bin.
 pub fn band_analytic_signal(
     record: &[f64],
@@ -44,7 +45,7 @@ pub fn band_analytic_signal(
     let bin_at = |f: f64| (f / step * (1.0 - 1e-12)).ceil() as usize;
     let end = if high >= half * (1.0 - 1e-12) { record.len() / 2 + 1 } else { bin_at(high) };
     let bins = bin_at(low)..end;
-    check(!bins.is_empty(), "band width", "a bin of the record at least", high - low)?;
+    check(!bins.is_empty(), "band width", "at least one bin of the record", high - low)?;
     Ok(analytic(record, |k| bins.contains(&k)))
 }
 
@@ -73,10 +74,10 @@ pub fn envelope(record: &[f64]) -> Result<Vec<f64>, SignalError> {
     Ok(analytic_signal(record)?.iter().map(|z| z.norm()).collect())
 }
 
-/// Amplitude spectrum of the envelope, its mean taken away.
+/// Envelope spectrum: amplitude spectrum of the envelope minus its mean.
 ///
-/// `record` \[unit\], `sample_rate` \[Hz\], `band` \[Hz\] an optional pass band (Butterworth of order 4, zero phase).
-/// A tone modulated by 1 + m cos ωt shows m times its amplitude at ω.
+/// `record` \[unit\], `sample_rate` \[Hz\], `band` \[Hz\] an optional pass band (Butterworth of order 4, zero
+/// phase). A tone amplitude-modulated by 1 + m cos ωt gives m times its amplitude at ω.
 /// Errors: NaN, record too short for the filter, band not inside 0..f_s/2.
 pub fn envelope_spectrum(
     record: &[f64],
@@ -99,10 +100,11 @@ pub fn envelope_spectrum(
     amplitude_spectrum(&envelope, sample_rate, window, level)
 }
 
-/// Amplitude spectrum of the squared envelope |z|² of a band, its mean taken away \[unit²\].
+/// Squared envelope spectrum (SES): amplitude spectrum of |z|² of a band minus its mean \[unit²\].
 ///
-/// `band` \[Hz\], sharp as [`band_analytic_signal`]; `None` is the whole record. A tone of amplitude a modulated by
-/// 1 + m cos ωt shows 2 m a² at ω, m² a²/2 at 2ω and nothing else: no harmonics of the magnitude's kinks.
+/// `band` \[Hz\] with sharp edges as in [`band_analytic_signal`]; `None` is the whole record. A tone of
+/// amplitude a modulated by 1 + m cos ωt gives 2 m a² at ω, m² a²/2 at 2ω and no further harmonics (unlike
+/// the magnitude for m > 1).
 /// Errors as [`band_analytic_signal`]. Source: Randall and Antoni, Mech. Syst. Signal Process. 25 (2011).
 pub fn squared_envelope_spectrum(
     record: &[f64],

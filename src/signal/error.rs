@@ -1,6 +1,6 @@
-//! What can be wrong with a record or a setting, and the checks that find it.
+//! Errors of records and settings, and the validity checks that return them.
 
-/// A record or setting that a signal function cannot work with: what was expected, what was given.
+/// Invalid record or setting of a signal function: what was expected, what was given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SignalError {
     #[error("{name} is empty: at least one sample is needed")]
@@ -15,19 +15,19 @@ pub enum SignalError {
         "time is not uniform: the step after sample {index} is {given:.6e} s, the mean step is {expected:.6e} s"
     )]
     NonUniform { index: usize, expected: f64, given: f64 },
-    #[error("{name} = {given} is not possible: {expected} is expected")]
+    #[error("{name} = {given} is out of range: expected {expected}")]
     OutOfRange { name: &'static str, expected: &'static str, given: f64 },
     #[error("the sampling rate is {given} Hz: {purpose} needs at least {needed:.1} Hz")]
     RateTooLow { given: f64, needed: f64, purpose: &'static str },
     #[error(
-        "the shaft turns {given:.3} revolutions without standing still or turning back: {needed:.3} are needed for {purpose}"
+        "the shaft turns {given:.3} revolutions without stopping or reversing: {needed:.3} are needed for {purpose}"
     )]
     TooFewRevolutions { needed: f64, given: f64, purpose: &'static str },
     #[error("{purpose} needs {what}, which is not known")]
     Unknown { what: &'static str, purpose: &'static str },
 }
 
-/// Refuses an empty record and one that holds NaN or infinity.
+/// Error for an empty record or one with NaN or infinity.
 pub(crate) fn check_record(name: &'static str, record: &[f64]) -> Result<(), SignalError> {
     if record.is_empty() {
         return Err(SignalError::Empty { name });
@@ -38,7 +38,7 @@ pub(crate) fn check_record(name: &'static str, record: &[f64]) -> Result<(), Sig
     }
 }
 
-/// Refuses a sampling rate that is not a positive number.
+/// Error for a sampling rate that is not a positive number.
 pub(crate) fn check_rate(sample_rate: f64) -> Result<(), SignalError> {
     check(
         sample_rate > 0.0 && sample_rate.is_finite(),
@@ -48,7 +48,7 @@ pub(crate) fn check_rate(sample_rate: f64) -> Result<(), SignalError> {
     )
 }
 
-/// Refuses a record of another length than its companion's.
+/// Error if two records differ in length.
 pub(crate) fn check_same_length(
     name: &'static str,
     given: usize,
@@ -62,7 +62,7 @@ pub(crate) fn check_same_length(
     }
 }
 
-/// Refuses a setting that does not hold `condition`.
+/// Error for a setting that does not meet `condition`.
 pub(crate) fn check(
     condition: bool,
     name: &'static str,
@@ -72,7 +72,7 @@ pub(crate) fn check(
     if condition { Ok(()) } else { Err(SignalError::OutOfRange { name, expected, given }) }
 }
 
-/// Refuses a record with fewer samples than needed.
+/// Error for a record with fewer samples than needed.
 pub(crate) fn check_length(
     name: &'static str,
     given: usize,

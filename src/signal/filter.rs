@@ -1,4 +1,4 @@
-//! Butterworth filters as second-order sections, causal and zero-phase.
+//! Butterworth filters (IIR) as second-order sections (SOS), causal and zero-phase.
 
 use std::f64::consts::PI;
 
@@ -37,14 +37,14 @@ pub fn butterworth(order: usize, band: Band, sample_rate: f64) -> Result<Section
         )?;
         Ok((PI * f / sample_rate).tan())
     };
-    // Poles of the analogue filter: the upper half plane, and the real one as its own partner.
+    // Poles of the analogue prototype: the upper half plane and, for odd orders, the real pole.
     let prototype = (0..order.div_ceil(2)).map(|k| {
         let angle = PI * (order - 1 - 2 * k) as f64 / (2 * order) as f64;
         Complex::new(-angle.cos(), angle.sin())
     });
     let mut poles: Vec<(Complex<f64>, Complex<f64>)> = Vec::new();
     let mut single: Option<Complex<f64>> = None;
-    // The unit circle's point where the gain is 1.
+    // Point of the unit circle where the gain is 1.
     let unity: Complex<f64>;
     let zeros: [f64; 2];
     match band {
@@ -120,7 +120,7 @@ impl Sections {
             .product()
     }
 
-    /// Filters forward only, from rest; errors: empty record, NaN.
+    /// Causal (forward) filtering from zero initial state; errors: empty record, NaN.
     pub fn filter(&self, record: &[f64]) -> Result<Vec<f64>, SignalError> {
         check_record("record", record)?;
         let mut out = record.to_vec();
@@ -128,7 +128,7 @@ impl Sections {
         Ok(out)
     }
 
-    /// Filters forward and backward: no phase, gain |H|².
+    /// Zero-phase (forward-backward) filtering: no phase shift, gain |H|².
     ///
     /// The record is extended by odd reflection at both ends by three times the filter's taps, and each pass
     /// starts from the steady state of its first sample. Errors: NaN, record not longer than the extension.
@@ -137,7 +137,7 @@ impl Sections {
         check_record("record", record)?;
         let first_order = self.sections.iter().filter(|s| s[2] == 0.0 && s[4] == 0.0).count();
         let pad = 3 * (2 * self.sections.len() + 1 - first_order);
-        check_length("record", record.len(), pad + 1, "the filter's settling at both ends")?;
+        check_length("record", record.len(), pad + 1, "the filter's transients at both ends")?;
         let (start, end) = (record[0], record[record.len() - 1]);
         let mut work = Vec::with_capacity(record.len() + 2 * pad);
         work.extend(record[1..=pad].iter().rev().map(|x| 2.0 * start - x));
@@ -151,7 +151,7 @@ impl Sections {
         Ok(work[pad..pad + record.len()].to_vec())
     }
 
-    /// One pass in place (direct form II transposed), begun in the steady state of the constant input `before`.
+    /// One pass in place (direct form II transposed), from the steady state of the constant input `before`.
     fn pass(&self, data: &mut [f64], before: f64) {
         let mut level = before;
         for [b0, b1, b2, a1, a2] in &self.sections {

@@ -1,4 +1,4 @@
-//! The binary-ternary filter bank of the fast kurtogram: complex sub-bands in 1, 2, 3, 4, 6, 8, 12 … equal parts.
+//! Binary-ternary filter bank of the fast kurtogram: complex sub-bands in 1, 2, 3, 4, 6, 8, 12 … equal parts.
 
 use std::f64::consts::PI;
 
@@ -8,27 +8,27 @@ use rustfft::num_complex::Complex;
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
 
-/// Taps of the half-band and of the third-band low-pass, less one.
+/// Orders (taps − 1) of the half-band and of the third-band low-pass.
 const BINARY_ORDER: usize = 16;
 const TERNARY_ORDER: usize = 24;
-/// Cut-off of the half-band low-pass over Nyquist; each sub-band is as much wider than its share.
+/// Cut-off of the half-band low-pass over Nyquist; 0.25 would be the nominal band, so that filters overlap.
 const CUTOFF: f64 = 0.4;
-/// Outputs summed side by side, as many as stay in registers.
+/// Outputs computed together; their sums stay in registers.
 const BLOCK: usize = 8;
 
 /// One sub-band of a record.
 #[derive(Clone, Copy, Debug)]
 pub struct SubBand<'a> {
-    /// Its share of 0..f_s/2 \[Hz\]; the filters overlap by a third of it.
+    /// Nominal band in 0..f_s/2 \[Hz\]; each filter extends 30 % of its width beyond either end.
     pub low: f64,
     pub high: f64,
-    /// Complex envelope, the filter's transient left out.
+    /// Complex envelope without the filter's transient.
     pub signal: &'a [Complex<f64>],
     /// Its sampling rate \[Hz\], twice the band's width.
     pub rate: f64,
 }
 
-/// One level of the bank: a value for each of its equal bands, from low to high.
+/// One level of the filter bank: a value for each of its equal bands, from low to high.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BankLevel {
     /// log₂ of the number of bands: 0, 1, 1.58, 2, 2.58, 3 …
@@ -36,17 +36,18 @@ pub struct BankLevel {
     pub values: Vec<f64>,
 }
 
-/// Most halvings that leave each band 128 samples or more: ⌊log₂ N⌋ − 7.
+/// Maximum depth (number of halvings) with 128 samples or more per band: ⌊log₂ N⌋ − 7.
 pub fn deepest(samples: usize) -> usize {
     (samples.max(1).ilog2() as usize).saturating_sub(7)
 }
 
-/// Splits a record into sub-bands and gives each one's `value`; levels 1, 1.58, 2, 2.58 … `depth`.
+/// Splits a record into sub-bands and evaluates `value` for each; levels 1, 1.58, 2, 2.58 … `depth`.
 ///
-/// Each split filters with a Hamming-windowed sinc h (0.4 of the band, 17 taps, for halves; 0.267, 25 taps, for thirds)
-/// turned to the part's centre, h_i(n) = h(n) e^{jπ(2i+1)n/2D}, keeps every D-th sample, and turns odd parts by (−1)ᵐ so
-/// that frequency always rises. The mean is taken away first. `record` (N), `sample_rate` \[Hz\], `depth` at most
-/// ⌊log₂ N⌋ − 7. Errors: NaN, record too short for the depth. Source: Antoni, Mech. Syst. Signal Process. 21 (2007).
+/// Each split filters with a Hamming-windowed sinc h (0.4 of the band, 17 taps, for halves; 0.267, 25 taps,
+/// for thirds) shifted to the centre of the part, h_i(n) = h(n) e^{jπ(2i+1)n/2D}, decimates by D, and
+/// multiplies odd parts by (−1)ᵐ so that frequency always increases. The mean is removed first. `record` (N),
+/// `sample_rate` \[Hz\], `depth` at most ⌊log₂ N⌋ − 7. Errors: NaN, record too short for the depth.
+/// Source: Antoni, Mech. Syst. Signal Process. 21 (2007).
 pub fn filter_bank(
     record: &[f64],
     sample_rate: f64,
@@ -84,7 +85,7 @@ pub fn filter_bank(
     Ok(levels)
 }
 
-/// Symmetric low-pass of `order` + 1 taps, sin(πcm)/(πm) by a Hamming window, Σh = 1; `cutoff` c over Nyquist.
+/// FIR low-pass of `order` + 1 taps, sin(πcm)/(πm) times a Hamming window, Σh = 1; `cutoff` c over Nyquist.
 fn low_pass(order: usize, cutoff: f64) -> Vec<f64> {
     let tap = |n: usize| {
         let m = n as f64 - 0.5 * order as f64;
@@ -101,10 +102,11 @@ fn split_all(nodes: &[Vec<Complex<f64>>], taps: &[f64], parts: usize) -> Vec<Vec
     pairs.map(|i| split(&nodes[i / parts], taps, parts, i % parts)).collect()
 }
 
-/// One of `parts` = D equal bands of a complex signal, with every D-th sample.
+/// One of `parts` = D equal bands of a complex signal, decimated by D.
 ///
-/// z_m = (±1)ᵐ Σ_n h_n e^{jωn} x_{k−n} at k = Dm + D − 1 is e^{jωk} Σ_n h_n (x e^{−jω·})_{k−n}: the low-pass has real
-/// taps. The turned signal is laid out in D phases so that the sum over n runs along contiguous outputs.
+/// z_m = (±1)ᵐ Σ_n h_n e^{jωn} x_{k−n} at k = Dm + D − 1 is e^{jωk} Σ_n h_n (x e^{−jω·})_{k−n}: the low-pass
+/// has real taps. The demodulated signal is stored in D polyphase components so that the sum over n runs
+/// along contiguous outputs.
 fn split(signal: &[Complex<f64>], taps: &[f64], parts: usize, part: usize) -> Vec<Complex<f64>> {
     // ω = π (2i + 1) / 2D repeats after 4D samples.
     let period = 4 * parts;
@@ -112,7 +114,7 @@ fn split(signal: &[Complex<f64>], taps: &[f64], parts: usize, part: usize) -> Ve
         |k: usize| Complex::from_polar(1.0, PI * ((2 * part + 1) * k % period) as f64 / (2 * parts) as f64);
     let turns: Vec<Complex<f64>> = (0..period).map(turn).collect();
     let outputs = signal.len() / parts;
-    // Before its first sample the record is zero: that many outputs of zeros lead each phase. Whole blocks end it.
+    // Zero padding: `lead` zeros before each phase (record zero before its start), whole blocks at its end.
     let lead = taps.len() / parts + 1;
     let length = lead + outputs.next_multiple_of(BLOCK);
     let mut phases = vec![vec![Complex::ZERO; length]; parts];

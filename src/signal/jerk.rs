@@ -1,18 +1,18 @@
-//! Jerk: its jumps, where a ball enters and leaves a defect, and impulses counted by it.
+//! Jerk: its jumps, at which a ball enters and leaves a defect, and detection of impulses.
 
 use rustfft::num_complex::Complex;
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
 
-/// A jump lies within one bin of its middle; the bin this far off belongs to a side, and those beyond it, up to
-/// `REACH`, make the side's level.
+/// A jump spans one bin on either side of its middle; the bin at distance `FLANK` is its flank, and the bins
+/// beyond, up to `REACH`, give the baseline level of that side.
 const FLANK: isize = 2;
 const REACH: isize = 6;
-/// Most that the flanks of a jump may stray from their sides' levels, over the jump's mean.
+/// Maximum deviation of a jump's flanks from the baselines, relative to the jump's mean.
 const MOST_STRAY: f64 = 0.3;
 
-/// Jerk \[unit/s\] at the records' own times by central differences, one-sided at the ends.
+/// Jerk \[unit/s\] (derivative of acceleration) by central differences, one-sided at the ends.
 ///
 /// ȧ_n = (a_{n+1} − a_{n−1}) f_s / 2. Errors: NaN, fewer than two samples.
 pub fn jerk(acceleration: &[f64], sample_rate: f64) -> Result<Vec<f64>, SignalError> {
@@ -27,7 +27,7 @@ pub fn jerk(acceleration: &[f64], sample_rate: f64) -> Result<Vec<f64>, SignalEr
     Ok((0..=last).map(at).collect())
 }
 
-/// A jump of the jerk, that is a kink of the acceleration.
+/// A jump of the jerk: a kink of the acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JerkJump {
     /// Its time \[s\] from the first sample, between samples.
@@ -36,11 +36,13 @@ pub struct JerkJump {
     pub size: f64,
 }
 
-/// Finds the jumps of the jerk that stand `threshold` times out of the rest of the record.
+/// Detects jumps of the jerk above `threshold` robust standard deviations of the record.
 ///
-/// A kink of size J between samples n and n+1 gives second differences a_{n−1} − 2a_n + a_{n+1} that sum to J/f_s with
-/// their centroid at the kink; the curvature on either side is taken away, and what is broader than a kink is no jump. `acceleration` (N), `sample_rate` \[Hz\] high enough for 8 samples between two jumps;
-/// `threshold` in robust standard deviations, 8 to 12. Errors: NaN, fewer than 32 samples, threshold not positive.
+/// A kink of size J between samples n and n+1 gives second differences a_{n−1} − 2a_n + a_{n+1} that sum to
+/// J/f_s with their centroid at the kink; the curvature on either side is subtracted, and broader peaks are
+/// rejected. `acceleration` (N), `sample_rate` \[Hz\] high enough for 8 samples between two jumps;
+/// `threshold` in robust standard deviations (1.48 times the median), 8 to 12. Errors: NaN, fewer than 32
+/// samples, threshold not positive.
 pub fn jerk_jumps(
     acceleration: &[f64],
     sample_rate: f64,
@@ -63,13 +65,13 @@ pub(crate) fn second_differences(record: &[f64]) -> impl Iterator<Item = f64> {
 /// A spike in a profile of second differences.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Jump {
-    /// Place in bins, between them.
+    /// Fractional position in bins.
     pub place: f64,
-    /// Sum of the spike above the curvature about it; complex for two channels at once.
+    /// Sum of the spike above the surrounding curvature; complex for two channels.
     pub size: Complex<f64>,
 }
 
-/// Spikes of one to three bins that stand out of a profile, in order; `periodic` joins its ends.
+/// Detects spikes one to three bins wide in a profile, in order; `periodic` joins its ends.
 pub(crate) fn find_jumps(
     profile: &[Complex<f64>],
     threshold: f64,
@@ -81,13 +83,13 @@ pub(crate) fn find_jumps(
     let spikes: Vec<Spike> = (margin..n - margin).map(|k| Spike::at(profile, k)).collect();
     let spread = 1.4826 * median(spikes.iter().map(|s| s.size.norm()).collect());
     let largest = spikes.iter().map(|s| s.size.norm()).fold(0.0, f64::max);
-    // Rounding of the largest values is no jump.
+    // Exclude rounding errors of the largest values.
     let least = (threshold * spread).max(1e-9 * largest);
     let stands_out = |spike: &Spike| spike.size.norm() > least && spike.flanks < MOST_STRAY;
     let count = spikes.len() as isize;
     let place_of =
         |i: isize| if periodic { Some(i.rem_euclid(count)) } else { (0..count).contains(&i).then_some(i) };
-    // The largest of those within reach; of two equal ones the first.
+    // Local maximum within FLANK + 1 bins; of two equal ones the first.
     let is_jump = |i: &isize| {
         let own = spikes[*i as usize].size.norm();
         let beaten_by = |at: isize, earlier: bool| {
@@ -106,12 +108,12 @@ pub(crate) fn find_jumps(
     Ok((0..count).filter(is_jump).map(jump).collect())
 }
 
-/// What stands in the three bins about a place above the levels of the bins on either side.
+/// Content of the three bins around a position above the baselines of both sides.
 struct Spike {
     size: Complex<f64>,
-    /// Centroid along the spike's own direction, in bins from the middle.
+    /// Centroid along the spike's direction, in bins from the middle.
     shift: f64,
-    /// How far the next bins stray from their side's level, over the spike's mean: small for a spike, not for a hill.
+    /// Deviation of the flanks from the baselines over the spike's mean: small for a spike.
     flanks: f64,
 }
 
@@ -124,7 +126,7 @@ impl Spike {
             Complex::new(re, median(values.iter().map(|v| v.im).collect()))
         };
         let (left, right) = (level(-1), level(1));
-        // The level steps from one side's to the other's at the jump.
+        // The baseline steps from one side's level to the other's at the jump.
         let above = [bin(-1) - left, bin(0) - 0.5 * (left + right), bin(1) - right];
         let size: Complex<f64> = above.iter().sum();
         let power = size.norm_sqr();
@@ -137,11 +139,11 @@ impl Spike {
     }
 }
 
-/// Times of impulses \[s\]: maxima of |jerk| that stand over a threshold, each followed by a dead time.
+/// Times of impulses \[s\]: maxima of |jerk| above a threshold, each followed by a dead time.
 ///
-/// The size of the jerk of one or two perpendicular channels is smoothed by a Gaussian and compared with `fraction` of its
-/// 99.5th percentile. `accelerations` (1 or 2 records of N), `sample_rate` \[Hz\], `smoothing` standard deviation and
-/// `dead_time` \[s\]. Errors: NaN, unequal lengths, settings not positive.
+/// The magnitude of the jerk of one or two perpendicular channels is smoothed by a Gaussian and compared with
+/// `fraction` of its 99.5th percentile. `accelerations` (1 or 2 records of N), `sample_rate` \[Hz\],
+/// `smoothing` standard deviation and `dead_time` \[s\]. Errors: NaN, unequal lengths, settings not positive.
 pub fn impulses(
     accelerations: &[&[f64]],
     sample_rate: f64,
@@ -177,7 +179,7 @@ pub fn impulses(
     Ok(times)
 }
 
-/// Convolution with a Gaussian of standard deviation `sigma` samples out to four of them, weights summing to 1.
+/// Gaussian smoothing: standard deviation `sigma` samples, truncated at 4 sigma, weights summing to 1.
 fn gaussian_smoothed(values: &[f64], sigma: f64) -> Vec<f64> {
     let reach = (4.0 * sigma).ceil() as usize;
     let weights: Vec<f64> = (0..=reach).map(|k| (-0.5 * (k as f64 / sigma).powi(2)).exp()).collect();
@@ -190,7 +192,7 @@ fn gaussian_smoothed(values: &[f64], sigma: f64) -> Vec<f64> {
     (0..values.len()).map(at).collect()
 }
 
-/// Median; the list is not empty.
+/// Median of a non-empty list.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     let (count, middle) = (values.len(), values.len() / 2);
     let (below, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Spectral kurtosis and the fast kurtogram: where in frequency a record is impulsive.
+//! Spectral kurtosis and fast kurtogram: frequency bands in which a record is impulsive.
 
 use rustfft::num_complex::Complex;
 
@@ -8,7 +8,7 @@ use super::filter_bank::{BankLevel, SubBand, filter_bank};
 use super::segment::{SegmentTransform, bin_axis, has_mirror};
 use super::spectrum::{Spectrum, Welch};
 
-/// A value of every band of a binary-ternary filter bank, from the whole record to the narrowest bands.
+/// Kurtogram: a value for every band of a binary-ternary filter bank, starting with the whole record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kurtogram {
     /// Levels by their number of bands, 1, 2, 3, 4, 6, 8 …
@@ -40,7 +40,7 @@ impl Kurtogram {
         })
     }
 
-    /// Band of the highest value; of equal ones the widest.
+    /// Band of the highest value; among equal ones the widest.
     pub fn best(&self) -> BandChoice {
         let first = self.bands().next().expect("a kurtogram has the whole record as its first band");
         self.bands().fold(first, |best, band| if band.value > best.value { band } else { best })
@@ -49,9 +49,10 @@ impl Kurtogram {
 
 /// Fast kurtogram: kurtosis ⟨|z|⁴⟩/⟨|z|²⟩² − 2 of the complex envelope z in each band of [`filter_bank`].
 ///
-/// 0 for Gaussian noise, −1 for a tone, large where pulses are; the whole record (level 0) is real and has −3 in place
-/// of −2. A band without any signal has 0. `record` \[any unit\], `sample_rate` \[Hz\], `depth` halvings (see
-/// [`super::filter_bank::deepest`]); a band must stay wider than the rate of the pulses to see them.
+/// 0 for Gaussian noise, −1 for a tone, large for impulsive bands; the whole record (level 0) is real and has
+/// −3 in place of −2. A band without any signal has 0. `record` \[any unit\], `sample_rate` \[Hz\], `depth`
+/// halvings (see [`super::filter_bank::deepest`]); a band must be wider than the repetition rate of the
+/// pulses to resolve them.
 /// Errors: NaN, record too short for the depth. Source: Antoni, Mech. Syst. Signal Process. 21 (2007).
 pub fn fast_kurtogram(record: &[f64], sample_rate: f64, depth: usize) -> Result<Kurtogram, SignalError> {
     let bands = filter_bank(record, sample_rate, depth, |band| envelope_kurtosis(band.signal))?;
@@ -59,9 +60,10 @@ pub fn fast_kurtogram(record: &[f64], sample_rate: f64, depth: usize) -> Result<
     Ok(with_whole(envelope_kurtosis(&whole) - 1.0, bands, sample_rate))
 }
 
-/// The bank of [`fast_kurtogram`] with another value of each band, such as the level of the lines that it reveals.
+/// The filter bank of [`fast_kurtogram`] with another score, such as the level of bearing lines.
 ///
-/// `value` is also asked for the whole record's analytic signal, as the band 0..f_s/2. Errors as [`fast_kurtogram`].
+/// `value` is also evaluated for the whole record's analytic signal, as the band 0..f_s/2. Errors as
+/// [`fast_kurtogram`].
 pub fn scored_bands(
     record: &[f64],
     sample_rate: f64,
@@ -80,7 +82,7 @@ fn with_whole(value: f64, bands: Vec<BankLevel>, sample_rate: f64) -> Kurtogram 
     Kurtogram { levels, max_frequency: 0.5 * sample_rate }
 }
 
-/// ⟨|z|⁴⟩/⟨|z|²⟩² − 2 about the mean; 0 for nothing at all.
+/// ⟨|z|⁴⟩/⟨|z|²⟩² − 2 about the mean; 0 for a zero signal.
 fn envelope_kurtosis(signal: &[Complex<f64>]) -> f64 {
     let n = signal.len() as f64;
     let mean = signal.iter().sum::<Complex<f64>>() / n;
@@ -93,11 +95,12 @@ fn envelope_kurtosis(signal: &[Complex<f64>]) -> f64 {
     if square > 0.0 { n * fourth / (square * square) - 2.0 } else { 0.0 }
 }
 
-/// Spectral kurtosis by the short-time transform, K(f) = ⟨|X|⁴⟩/⟨|X|²⟩² − 2 over segments; −1 more at 0 and Nyquist.
+/// Spectral kurtosis by the short-time transform, K(f) = ⟨|X|⁴⟩/⟨|X|²⟩² − 2 over segments; −1 more at 0 and
+/// Nyquist.
 ///
-/// 0 for stationary Gaussian noise with standard deviation 2/√segments, −1 for a tone; 0 at a bin without power.
-/// Segments should be shorter than the time between pulses and longer than a pulse. Errors: NaN, fewer than two
-/// segments. Source: Antoni, Mech. Syst. Signal Process. 20 (2006), eq. 20.
+/// 0 for stationary Gaussian noise with standard deviation 2/√segments, −1 for a tone; 0 at a bin without
+/// power. Segments should be shorter than the time between pulses and longer than a pulse. Errors: NaN, fewer
+/// than two segments. Source: Antoni, Mech. Syst. Signal Process. 20 (2006), eq. 20.
 pub fn spectral_kurtosis(record: &[f64], sample_rate: f64, welch: &Welch) -> Result<Spectrum, SignalError> {
     check_record("record", record)?;
     welch.check(record.len(), sample_rate)?;
@@ -127,9 +130,9 @@ pub fn spectral_kurtosis(record: &[f64], sample_rate: f64, welch: &Welch) -> Res
     })
 }
 
-/// Whether a kurtogram's depth leaves bands at least `width` \[Hz\] wide; the greatest such depth, at least 1.
+/// Greatest kurtogram depth (≥ 1) with bands at least `width` \[Hz\] wide that the record's length allows.
 ///
-/// Errors: a width that not even half of 0..f_s/2 has, a record too short for any depth.
+/// Errors: a width above f_s/4, a record too short for any depth.
 pub fn depth_for_width(samples: usize, sample_rate: f64, width: f64) -> Result<usize, SignalError> {
     super::error::check_rate(sample_rate)?;
     check(

@@ -3,10 +3,10 @@
 use super::SignalError;
 use super::error::{check_length, check_record, check_same_length};
 
-/// Largest number of batches that the standard error is taken over.
+/// Maximum number of batches for the standard error.
 const BATCHES: usize = 20;
 
-/// An exponent with its uncertainty and how it settled.
+/// Largest Lyapunov exponent with its standard error and convergence history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exponent {
     /// λ \[1/s\].
@@ -15,16 +15,16 @@ pub struct Exponent {
     pub standard_error: f64,
     /// End of every interval since the start \[s\].
     pub times: Vec<f64>,
-    /// λ as it was known by then \[1/s\].
+    /// Running estimate of λ at those times \[1/s\].
     pub history: Vec<f64>,
 }
 
-/// λ = Σ ln(growth) / Σ Δt from the growth of a perturbation over successive intervals, each starting from the small
-/// size that the one before was scaled back to (Benettin).
+/// Largest Lyapunov exponent λ = Σ ln(growth) / Σ Δt from the growth of a perturbation that is rescaled to a
+/// small size after each interval (Benettin's method).
 ///
-/// `log_growth` (N): ln of the perturbation's growth over each interval; `intervals` (N) \[s\]. The standard error is
-/// that of the mean over up to 20 batches of successive intervals, so that what is correlated over less than a batch
-/// does not make it too small; with fewer than four intervals it is NaN.
+/// `log_growth` (N): ln of the perturbation's growth over each interval; `intervals` (N) \[s\]. The standard
+/// error is that of the mean over up to 20 batches of successive intervals (batch means), which allows for
+/// correlation over less than a batch; with fewer than four intervals it is NaN.
 /// Source: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980).
 /// Errors: NaN (a perturbation that vanished), unequal lengths, no interval.
 pub fn exponent(log_growth: &[f64], intervals: &[f64]) -> Result<Exponent, SignalError> {

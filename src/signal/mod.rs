@@ -1,37 +1,37 @@
-//! Signal processing on slices and a sample rate; knows no rotor.
+//! Signal processing of sampled records (slices with a sample rate), independent of the rotor model.
 //!
-//! | module | what it answers |
+//! | module | contents |
 //! |---|---|
 //! | [`window`] | rectangular, Hann, Hamming, Blackman, flat top; gain and noise bandwidth |
-//! | [`filter`] | Butterworth sections, causal or zero-phase |
+//! | [`filter`] | Butterworth filters (IIR, second-order sections), causal or zero-phase |
 //! | [`spectrum`] | amplitude spectrum, PSD and cross spectrum by Welch, coherence, dB |
-//! | [`stft`] | spectrogram over time and rpm |
-//! | [`resample`] | uniform in shaft angle, uniform in time |
-//! | [`order`] | order spectrogram, order cuts, averaged order spectrum |
-//! | [`waterfall`] | spectra at chosen speeds |
-//! | [`ridge`] | peaks between bins, the ridge near a line |
-//! | [`orbit`] | filtered orbit, whirl, full spectrum |
-//! | [`poincare`] | stroboscopic section by a phase, groups of its points |
-//! | [`period`] | period of a section; quasi-periodic or chaotic by the 0–1 test |
+//! | [`stft`] | short-time Fourier transform: spectrogram over time and rpm |
+//! | [`resample`] | resampling uniform in shaft angle (angular resampling) or in time |
+//! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
+//! | [`waterfall`] | waterfall (cascade) plot: spectra at chosen speeds |
+//! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
+//! | [`orbit`] | filtered orbit, forward and backward whirl, full spectrum |
+//! | [`poincare`] | Poincaré section (stroboscopic sampling) by a phase, clusters of its points |
+//! | [`period`] | classification of a motion: periodic, quasi-periodic or chaotic (0–1 test) |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
-//! | [`blow`] | hammer blows found in a record; double hits and overloads |
-//! | [`impact`] | H1, H2, Hv and coherence from blows or random excitation |
-//! | [`hammer`] | the FRFs of a hammer test from its time records |
-//! | [`envelope`] | analytic signal, envelope, envelope spectrum, squared envelope, of a band |
-//! | [`kurtogram`] | spectral kurtosis, fast kurtogram, bands scored by anything ([`filter_bank`]) |
-//! | [`bearing_lines`] | lines at FTF, BPFO, BPFI, 2 BSF with side bands over background; which part is damaged |
-//! | [`diagnosis`] | from a record to that verdict |
-//! | [`race_defects`] | dents and bumps of a race: angle, width, kind ([`jerk`]) |
+//! | [`blow`] | detection of hammer impacts (hits) in a force record; double hits and overloads |
+//! | [`impact`] | FRF estimators H1, H2, Hv and coherence from impact or random excitation |
+//! | [`hammer`] | FRFs of an impact test (hammer test) from its time records |
+//! | [`envelope`] | Hilbert transform: analytic signal, envelope, (squared) envelope spectrum of a band |
+//! | [`kurtogram`] | spectral kurtosis, fast kurtogram, band selection by any score ([`filter_bank`]) |
+//! | [`bearing_lines`] | bearing defect frequencies FTF, BPFO, BPFI, 2 BSF with side bands; damaged part |
+//! | [`diagnosis`] | bearing diagnosis of a record: band, envelope spectrum, defect frequencies |
+//! | [`race_defects`] | localised race defects (dents, bumps): angle, width, kind ([`jerk`]) |
 //! | [`cepstrum`] | real and power cepstrum, liftering |
-//! | [`cyclic`] | cyclic spectral coherence |
-//! | [`tacho`] | shaft angle from pulses |
-//! | [`speed_line`] | shaft angle from a line of the record itself |
-//! | [`synchronous`] | time-synchronous average |
-//! | [`record`] | records, FRFs, geometry and shapes as files hold them |
+//! | [`cyclic`] | cyclic spectral coherence (cyclostationarity) |
+//! | [`tacho`] | shaft angle from tachometer (keyphasor) pulses |
+//! | [`speed_line`] | tacholess speed estimation: shaft angle from an order line of the record |
+//! | [`synchronous`] | time-synchronous average (TSA) |
+//! | [`record`] | measured records, FRFs, test geometry and mode shapes as read from files |
 //!
-//! Sample n of a record is at t = n/f_s; every function refuses empty records, NaN and infinity with a
-//! [`SignalError`].
+//! Sample n of a record is at t = n/f_s; every function returns a [`SignalError`] for empty records, NaN and
+//! infinity.
 
 pub mod bearing_lines;
 pub mod blow;

@@ -1,4 +1,4 @@
-//! Orbits of two perpendicular channels: one order of the shaft, and the full spectrum.
+//! Shaft orbits of two perpendicular channels: filtered orbit (1X, 2X, … ) and full spectrum.
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
@@ -9,15 +9,15 @@ use super::window::WindowKind;
 
 const J: Complex<f64> = Complex::new(0.0, 1.0);
 
-/// One order's elliptic orbit, x = Re(X e^{jνθ}), y = Re(Y e^{jνθ}), x + jy = R_f e^{jνθ} + R_b e^{−jνθ}.
+/// Filtered (elliptic) orbit, x = Re(X e^{jνθ}), y = Re(Y e^{jνθ}), x + jy = R_f e^{jνθ} + R_b e^{−jνθ}.
 ///
-/// Forward is from x towards y, as the shaft spins with growing θ.
+/// Forward whirl is from x towards y, the direction of shaft rotation for increasing θ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilteredOrbit {
     pub order: f64,
     /// Mean position of the record.
     pub centre: [f64; 2],
-    /// Complex peak amplitude along x, phase against cos νθ.
+    /// Complex peak amplitude along x, phase relative to cos νθ.
     pub x: Complex<f64>,
     /// Complex peak amplitude along y.
     pub y: Complex<f64>,
@@ -26,9 +26,9 @@ pub struct FilteredOrbit {
 impl FilteredOrbit {
     /// Fits the order ν to two channels over the shaft angle by least squares on 1, cos νθ, sin νθ.
     ///
-    /// `x`, `y` (N) \[unit\], `theta` (N) \[rad\]. Exact for any stretch when nothing else is in the record; other
-    /// orders leave it untouched over whole revolutions common to both.
-    /// Errors: NaN, unequal lengths, less than one turn of ν times the shaft.
+    /// `x`, `y` (N) \[unit\], `theta` (N) \[rad\]. Exact for any length when the record contains no other
+    /// component; other orders do not leak into it over whole revolutions common to both.
+    /// Errors: NaN, unequal lengths, less than one revolution of νθ.
     pub fn fit(x: &[f64], y: &[f64], theta: &[f64], order: f64) -> Result<Self, SignalError> {
         for (name, record) in [("x", x), ("y", y), ("shaft angle", theta)] {
             check_record(name, record)?;
@@ -36,7 +36,7 @@ impl FilteredOrbit {
         }
         check(order > 0.0 && order.is_finite(), "order", "a positive number", order)?;
         let turned = (theta[theta.len() - 1] - theta[0]).abs() * order / std::f64::consts::TAU;
-        // A grid of whole turns holds its end points once: one sample short of a turn is a whole turn.
+        // A grid of whole revolutions contains its end point once: one sample short counts as a whole one.
         let needed = (theta.len() - 1) as f64 / theta.len() as f64;
         if turned < needed * (1.0 - 1e-9) || theta.len() < 3 {
             return Err(SignalError::TooFewRevolutions {
@@ -66,28 +66,28 @@ impl FilteredOrbit {
         })
     }
 
-    /// Forward vector R_f = (X + jY)/2, turning with e^{+jνθ}.
+    /// Forward whirl vector R_f = (X + jY)/2, rotating with e^{+jνθ}.
     pub fn forward(&self) -> Complex<f64> {
         (self.x + J * self.y) * 0.5
     }
 
-    /// Backward vector R_b = conj(X − jY)/2, turning with e^{−jνθ}.
+    /// Backward whirl vector R_b = conj(X − jY)/2, rotating with e^{−jνθ}.
     pub fn backward(&self) -> Complex<f64> {
         (self.x - J * self.y).conj() * 0.5
     }
 
-    /// Semi-major and semi-minor axes; the minor one is negative when the orbit is backward.
+    /// Semi-major and semi-minor axes; the minor one is negative for backward whirl.
     pub fn semi_axes(&self) -> (f64, f64) {
         let (f, b) = (self.forward().norm(), self.backward().norm());
         (f + b, f - b)
     }
 
-    /// Angle of the major axis from x \[rad\], (arg R_f + arg R_b)/2.
+    /// Inclination of the major axis from x \[rad\], (arg R_f + arg R_b)/2.
     pub fn inclination(&self) -> f64 {
         0.5 * (self.forward().arg() + self.backward().arg())
     }
 
-    /// `points` positions round the orbit, from θ = 0 where the keyphasor dot belongs.
+    /// `points` positions along the orbit, starting at θ = 0 (keyphasor mark).
     pub fn points(&self, points: usize) -> Vec<[f64; 2]> {
         let at = |k: usize| {
             let turn = Complex::from_polar(1.0, std::f64::consts::TAU * k as f64 / points as f64);
@@ -100,7 +100,7 @@ impl FilteredOrbit {
 /// Full spectrum of an orbit: amplitude of x + jy over frequencies from −f_s/2 to f_s/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullSpectrum {
-    /// Frequencies \[Hz\], increasing; negative is backward.
+    /// Frequencies \[Hz\], increasing; negative means backward whirl.
     pub frequencies: Vec<f64>,
     /// Radius of the circular motion at each frequency.
     pub amplitude: Vec<f64>,
@@ -108,7 +108,8 @@ pub struct FullSpectrum {
 
 /// Full spectrum, A_k = |Σ w_n (x_n + j y_n) e^{−2πjkn/N}| / Σw for k = −⌊N/2⌋ .. ⌈N/2⌉ − 1.
 ///
-/// `x`, `y` (N) \[unit\], `sample_rate` \[Hz\]. A forward circle of radius r shows r at +f. Errors: NaN, unequal lengths.
+/// `x`, `y` (N) \[unit\], `sample_rate` \[Hz\]. A forward circular orbit of radius r has amplitude r at +f.
+/// Errors: NaN, unequal lengths.
 /// Source: Goldman and Muszynska, Orbit 20 (1999).
 pub fn full_spectrum(
     x: &[f64],

@@ -11,23 +11,23 @@ use super::segment::{Level, SegmentTransform};
 use super::stft::sample_at;
 use super::window::WindowKind;
 
-/// How orders are resolved.
+/// Settings of order tracking.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrderSettings {
-    /// Spacing of the order bins; a window holds 1/resolution revolutions.
+    /// Spacing of the order bins; a window spans 1/resolution revolutions.
     pub resolution: f64,
     /// Highest order kept.
     pub max_order: f64,
-    /// Fraction 0..1 that neighbouring windows share.
+    /// Overlap of neighbouring windows, a fraction 0..1.
     pub overlap: f64,
     pub window: WindowKind,
     pub level: Level,
-    /// Speed \[rev/s\] below which the shaft counts as standing.
+    /// Speed \[rev/s\] below which the shaft counts as at standstill.
     pub least_speed: f64,
 }
 
 impl OrderSettings {
-    /// Hann windows with three quarters overlap, peak amplitudes, standing below 0.05 rev/s.
+    /// Hann windows with 75 % overlap, peak amplitudes, standstill below 0.05 rev/s.
     pub fn new(resolution: f64, max_order: f64) -> Self {
         OrderSettings {
             resolution,
@@ -40,12 +40,12 @@ impl OrderSettings {
     }
 }
 
-/// Amplitudes over speed and order.
+/// Order spectrogram: amplitudes over speed and order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderSpectrogram {
     /// Time at each window's centre in angle \[s\].
     pub times: Vec<f64>,
-    /// Speed there \[rpm\], over the revolution about it.
+    /// Speed there \[rpm\], averaged over the revolution around it.
     pub rpm: Vec<f64>,
     /// Order bins, 0 to the highest kept.
     pub orders: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct OrderSpectrogram {
     pub level: Level,
 }
 
-/// One order against speed.
+/// Order cut: the RMS level of one order against speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderCut {
     pub order: f64,
@@ -66,7 +66,7 @@ pub struct OrderCut {
     pub rms: Vec<f64>,
 }
 
-/// One order's complex peak amplitude against speed; its phase is against cos(order · θ).
+/// One order's complex peak amplitude (order vector) against speed; phase relative to cos(order · θ).
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderVector {
     pub order: f64,
@@ -81,7 +81,7 @@ pub struct OrderTracker {
     resampler: AngleResampler,
     transform: SegmentTransform,
     hop: usize,
-    /// Windows: part, first output in it.
+    /// Windows: index of the part, first sample in it.
     windows: Vec<(usize, usize)>,
     times: Vec<f64>,
     rpm: Vec<f64>,
@@ -90,9 +90,9 @@ pub struct OrderTracker {
 impl OrderTracker {
     /// Plans the tracking from a shaft angle sampled like the records.
     ///
-    /// `theta` (N) \[rad\], `sample_rate` \[Hz\]. Standstill is left out ([`Self::skipped`]).
-    /// Errors: NaN, settings out of range, no stretch of 1/resolution revolutions, a sampling rate below 2.56 times
-    /// the highest order at the highest speed.
+    /// `theta` (N) \[rad\], `sample_rate` \[Hz\]. Standstill is skipped ([`Self::skipped`]).
+    /// Errors: NaN, settings out of range, no segment of 1/resolution revolutions, a sampling rate below 2.56
+    /// times the highest order at the highest speed.
     pub fn new(theta: &[f64], sample_rate: f64, settings: OrderSettings) -> Result<Self, SignalError> {
         let OrderSettings { resolution, max_order, overlap, .. } = settings;
         check(
@@ -145,19 +145,19 @@ impl OrderTracker {
         Ok(OrderTracker { settings, resampler, transform, hop, windows, times, rpm })
     }
 
-    /// Stretches of the record that were left out because the shaft stood.
+    /// Segments of the record that were skipped because of standstill.
     pub fn skipped(&self) -> &[Skipped] {
         self.resampler.skipped()
     }
 
-    /// Revolutions from one window to the next.
+    /// Hop: revolutions from one window to the next.
     pub fn hop_revolutions(&self) -> f64 {
         self.hop as f64 / self.resampler.samples_per_revolution() as f64
     }
 
-    /// The channels in the angle domain, to be handed to [`Self::spectrogram`] and [`Self::vector`].
+    /// The channels in the angle domain, input of [`Self::spectrogram`] and [`Self::vector`].
     ///
-    /// Errors: NaN, a channel as long as the angle is not.
+    /// Errors: NaN, a channel and the angle of different length.
     pub fn resample(&self, channels: &[&[f64]]) -> Result<Vec<AngleRecord>, SignalError> {
         let mut records = vec![AngleRecord { parts: Vec::new() }; channels.len()];
         for part in self.resampler.resample(channels)? {
@@ -219,7 +219,7 @@ impl OrderTracker {
     }
 }
 
-/// A channel uniform in shaft angle, a record for each stretch in which the shaft turns.
+/// A channel resampled uniformly in shaft angle, a part for each segment in which the shaft rotates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleRecord {
     pub parts: Vec<Vec<f64>>,
@@ -234,13 +234,13 @@ impl OrderSpectrogram {
 
     /// RMS in the band `order` ± `half_band` against speed, √(Σ A_rms² / noise bandwidth).
     ///
-    /// A band holds a tone's level when it is at least the window's main lobe wide. Errors: band with no bin in it.
+    /// A tone's level needs a band as wide as the window's main lobe. Errors: no bin in the band.
     pub fn cut(&self, order: f64, half_band: f64) -> Result<OrderCut, SignalError> {
-        // Bins are multiples of the spacing up to rounding: a band edge on a bin includes it.
+        // Bins are multiples of the spacing up to rounding: a band edge on a bin includes that bin.
         let slack = 1e-9 * self.orders.last().copied().unwrap_or(0.0);
         let first = self.orders.partition_point(|o| *o < order - half_band - slack);
         let end = self.orders.partition_point(|o| *o <= order + half_band + slack);
-        check(first < end, "order band", "a band that holds an order bin", order)?;
+        check(first < end, "order band", "a band that contains an order bin", order)?;
         let to_rms = |k: usize| match self.level {
             Level::Peak if k > 0 => 1.0 / SQRT_2,
             _ => 1.0,
@@ -275,7 +275,7 @@ impl OrderSpectrogram {
     }
 }
 
-/// Least even number from `least` on with no prime factor above 5: quick to transform.
+/// Smallest even number ≥ `least` with no prime factor above 5 (a fast FFT length).
 fn smooth_at_least(least: usize) -> usize {
     let smooth = |n: usize| {
         let mut rest = n;

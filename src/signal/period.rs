@@ -1,29 +1,28 @@
-//! The kind of a steady motion from its Poincaré section: periodic and of what period, quasi-periodic, or chaotic.
+//! Classification of a steady motion from its Poincaré section: period k, quasi-periodic or chaotic.
 
 use std::f64::consts::PI;
 
 use super::SignalError;
 use super::error::{check, check_length, check_record, check_same_length};
 
-/// Frequencies tried by the 0–1 test, and how many of them count: those that the record answers to least.
+/// Frequencies c tried by the 0–1 test, and the number retained: those of the smallest mean displacement.
 const FREQUENCIES: usize = 100;
 const COUNTED: usize = 70;
-/// The 0–1 test calls a section chaotic from this K on.
+/// K of the 0–1 test from which a section is classified as chaotic.
 const CHAOTIC: f64 = 0.5;
-/// Share of the first half's error below which the second half's counts as a decay.
+/// Ratio of the second half's to the first half's recurrence error below which the motion counts as decaying.
 const DECAY: f64 = 0.3;
 
-/// What a steady motion is, seen once per period of its clock.
+/// Type of a steady motion sampled once per forcing period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Repeats after this many periods of the clock.
+    /// Repeats after this number of forcing periods.
     Periodic(usize),
-    /// Approaches a motion of this period, but had not settled on it: the run should be longer.
+    /// Transient towards a motion of this period: the run should be longer.
     Settling(usize),
-    /// Regular without a period that was found: two or more frequencies without a common multiple (or a period longer
-    /// than the longest tried).
+    /// Regular but not periodic: incommensurate frequencies (or a period longer than the longest tried).
     QuasiPeriodic,
-    /// Irregular.
+    /// Chaotic (irregular, by the 0–1 test).
     Chaotic,
 }
 
@@ -38,7 +37,7 @@ impl Motion {
         }
     }
 
-    /// Periods of the clock after which it repeats, where it does.
+    /// Period in forcing periods, if periodic.
     pub fn period(&self) -> Option<usize> {
         match self {
             Self::Periodic(k) => Some(*k),
@@ -47,26 +46,26 @@ impl Motion {
     }
 }
 
-/// A motion with the figures that decided on its kind.
+/// A classified motion with the criteria values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Classified {
     pub motion: Motion,
-    /// Largest change over one period of the motion, relative to the size of the orbit; of the best period tried when
-    /// none was good enough.
+    /// Recurrence error: largest change over one period of the motion, relative to the size of the orbit; of
+    /// the best period tried if none is within the tolerance.
     pub recurrence: f64,
-    /// K of the 0–1 test, near 0 for regular, near 1 for chaotic motion; NaN for a periodic motion, not tested.
+    /// K of the 0–1 test, near 0 for regular, near 1 for chaotic motion; NaN if not tested (periodic motion).
     pub chaos: f64,
 }
 
-/// Tells the kind of a motion from its section.
+/// Classifies a motion from its Poincaré section.
 ///
-/// `sections`: per channel its N section values; `sizes`: per channel the size of the whole orbit (peak to peak, not
-/// of the section: that of a motion of period 1 is a point); `tolerance` relative to the size; `longest` period tried,
-/// N/2 at most. The criterion, in this order:
+/// `sections`: per channel its N section values; `sizes`: per channel the size of the whole orbit (peak to
+/// peak, not of the section: that of a motion of period 1 is a point); `tolerance` relative to the size;
+/// `longest` period tried, N/2 at most. The criterion, in this order:
 ///
 /// 1. periodic(k): k is the smallest with |x_{n+k} − x_n| ≤ tolerance · size for every n and channel;
-/// 2. settling(k): k is the smallest whose error over the second half of the section is below a tenth of the size and
-///    below 0.3 of the error over the first half (a decay, not a wander);
+/// 2. settling(k): k is the smallest whose error over the second half of the section is below a tenth of the
+///    size and below 0.3 of the error over the first half (a decaying transient);
 /// 3. chaotic when the 0–1 test ([`zero_one`]) gives K ≥ 0.5 for any channel whose section is wider than the
 ///    tolerance, else quasi-periodic.
 ///
@@ -108,7 +107,7 @@ pub fn classify(
             best = (k, recurrence);
         }
     }
-    // A half must hold the period at least once.
+    // A half must contain the period at least once.
     let half = n / 2;
     let late = (1..=longest.min(half / 2)).map(|k| (k, change(k, half, n)));
     let mut decays = late.filter(|(k, error)| *error < 0.1 && *error < DECAY * change(*k, 0, half));
@@ -128,15 +127,16 @@ pub fn classify(
 
 /// The 0–1 test for chaos: K near 0 for regular, near 1 for chaotic motion.
 ///
-/// p(n) = Σ_{j≤n} (x_j − x̄) cos jc, q(n) likewise with sin jc; the mean square displacement M_c(n) of (p, q) over n
-/// steps is bounded for regular and grows linearly for chaotic motion. K_c is the correlation of M_c(n) with
-/// n = 1 .. N/3 for 100 values of c in (π/5, 4π/5), spread by the golden ratio; K is the median over the 70 of them
-/// with the least mean M_c. (Taking off the mean x̄ stands for the source's term in x̄².)
-/// The source takes n up to N/10. A line of the motion at ν makes (p, q) drift for as long as 1/|c − ν|, so that with a
-/// hundred points and ten steps most tori grow like chaos; longer n and leaving out the c that meet a line tell them
-/// apart: of 150 tori of one and two frequencies with harmonics none is above 0.5 at N = 100, and of 45 chaotic maps
-/// none is below (at N/10 and all c, half of the tori are above).
-/// Validity: samples once per period of the forcing (densely sampled records look regular), 100 or more of them.
+/// p(n) = Σ_{j≤n} (x_j − x̄) cos jc, q(n) likewise with sin jc; the mean square displacement M_c(n) of (p, q)
+/// over n steps is bounded for regular and grows linearly for chaotic motion. K_c is the correlation of
+/// M_c(n) with n = 1 .. N/3 for 100 values of c in (π/5, 4π/5), spread by the golden ratio; K is the median
+/// over the 70 of them with the smallest mean M_c. (Subtracting the mean x̄ replaces the source's term in
+/// x̄².) The source takes n up to N/10. A spectral line at ν makes (p, q) drift over 1/|c − ν| steps, so that
+/// with 100 points and 10 steps most tori look chaotic; a longer n and discarding the c near a line
+/// (resonances) separate them: of 150 tori of one and two frequencies with harmonics none is above 0.5 at N =
+/// 100, and of 45 chaotic maps none is below (with N/10 and all c, half of the tori are above).
+/// Validity: samples once per period of the forcing (densely sampled records look regular), 100 or more of
+/// them.
 /// Source: Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8 (2009), §2 and §3.
 /// Errors: NaN, fewer than eight samples.
 pub fn zero_one(record: &[f64]) -> Result<f64, SignalError> {
@@ -173,7 +173,7 @@ pub fn zero_one(record: &[f64]) -> Result<f64, SignalError> {
     Ok(0.5 * (counted[COUNTED / 2 - 1] + counted[COUNTED / 2]))
 }
 
-/// Correlation of values with 1, 2, 3, ...; 0 where the values are all equal.
+/// Correlation coefficient of values with 1, 2, 3, ...; 0 if all values are equal.
 fn correlation_with_index(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let middle = 0.5 * (n - 1.0);

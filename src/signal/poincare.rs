@@ -1,4 +1,4 @@
-//! Poincaré sections: a record looked at once per period of a phase, and the groups its points fall into.
+//! Poincaré sections: stroboscopic sampling of a record once per period of a phase, clusters of its points.
 
 use super::SignalError;
 use super::error::{check, check_length, check_record, check_same_length};
@@ -6,12 +6,12 @@ use super::error::{check, check_length, check_record, check_same_length};
 /// Points of the interpolating polynomial.
 const POINTS: usize = 6;
 
-/// The instants at which a phase passes `start`, `start + period`, `start + 2 period`, ...
+/// Stroboscopic sampling instants at which a phase passes `start`, `start + period`, `start + 2 period`, ...
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strobe {
-    /// Place of every instant, in samples from the record's beginning.
+    /// Fractional sample index of every instant.
     pub positions: Vec<f64>,
-    /// Which passage the first one is: the phase there is start + first · period.
+    /// Number of the first passage: the phase there is start + first · period.
     pub first: i64,
     length: usize,
 }
@@ -19,8 +19,8 @@ pub struct Strobe {
 impl Strobe {
     /// Finds the instants in a phase sampled evenly in time, increasing throughout.
     ///
-    /// `phase` (N) \[rad or any unit\], `start` and `period` in its unit. Instants within 1e-9 of a sample before the
-    /// record's beginning or behind its end count as in it.
+    /// `phase` (N) \[rad or any unit\], `start` and `period` in its unit. Instants up to 1e-9 of a sample
+    /// outside the record count as inside.
     /// Errors: NaN, fewer than six samples, a phase that does not increase, a period that is not positive.
     pub fn new(phase: &[f64], start: f64, period: f64) -> Result<Self, SignalError> {
         check_record("phase", phase)?;
@@ -54,7 +54,7 @@ impl Strobe {
             };
             let mut at =
                 interval as f64 + (target - phase[interval]) / (phase[interval + 1] - phase[interval]);
-            // The phase is all but linear over a few samples: two corrections reach round-off.
+            // The phase is nearly linear over a few samples: two Newton corrections reach round-off.
             for _ in 0..2 {
                 at += (target - interpolate(phase, at)) / linear(at);
             }
@@ -63,10 +63,10 @@ impl Strobe {
         Ok(Self { positions, first, length: phase.len() })
     }
 
-    /// The values of a record at the instants, by the polynomial of degree 5 through the six nearest samples.
+    /// Poincaré section: values of a record at the instants, by Lagrange interpolation of degree 5.
     ///
-    /// Error at most 0.005 (2π/n)⁶ of the amplitude of a sine with n samples a period: 5e-6 at n = 20; more within
-    /// three samples of the ends. Errors: NaN, a record of another length than the phase.
+    /// Error at most 0.005 (2π/n)⁶ of the amplitude of a sine with n samples a period: 5e-6 at n = 20; more
+    /// within three samples of the ends. Errors: NaN, record and phase of different length.
     pub fn section(&self, record: &[f64]) -> Result<Vec<f64>, SignalError> {
         check_record("record", record)?;
         check_same_length("record", record.len(), "the phase", self.length)?;
@@ -74,7 +74,7 @@ impl Strobe {
     }
 }
 
-/// Lagrange polynomial through the six samples about `at`; a sample itself where `at` is one.
+/// Lagrange interpolation through the six samples around `at`; exact at a sample.
 fn interpolate(record: &[f64], at: f64) -> f64 {
     let lowest = (at.floor() as isize - POINTS as isize / 2 + 1).clamp(0, (record.len() - POINTS) as isize);
     let samples = &record[lowest as usize..lowest as usize + POINTS];
@@ -94,23 +94,24 @@ fn interpolate(record: &[f64], at: f64) -> f64 {
     above / below
 }
 
-/// A group of section points.
+/// A cluster of section points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cluster {
     /// Mean of its points, one value per channel.
     pub centre: Vec<f64>,
-    /// Largest distance of a point from the centre in any channel.
+    /// Largest distance of a point from the centre in any channel (maximum norm).
     pub radius: f64,
-    /// How many points it has.
+    /// Number of points.
     pub points: usize,
 }
 
-/// Groups section points: two points are in one group when a chain of points leads from one to the other with no
-/// step longer than the reach (single linkage, largest difference over the channels).
+/// Single-linkage clustering of section points: two points are in one cluster when a chain of points connects
+/// them with no step longer than `reach` (maximum norm over the channels).
 ///
-/// `channels`: per channel its N section values; `reach` per channel, in its unit. Groups in order of their centres.
-/// A motion of period k makes k groups of its length; a closed curve or a chaotic attractor sampled densely makes few.
-/// Errors: NaN, unequal lengths, a reach for not every channel.
+/// `channels`: per channel its N section values; `reach` per channel, in its unit. Clusters in order of their
+/// centres. A period-k motion gives k clusters; a densely sampled closed curve or chaotic attractor gives
+/// few.
+/// Errors: NaN, unequal lengths, not one reach per channel.
 pub fn clusters(channels: &[&[f64]], reach: &[f64]) -> Result<Vec<Cluster>, SignalError> {
     check_same_length("reach", reach.len(), "the list of channels", channels.len())?;
     let Some(leading) = channels.first() else { return Ok(Vec::new()) };

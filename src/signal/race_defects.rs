@@ -1,4 +1,4 @@
-//! Dents and bumps of a race from the jumps of the jerk, folded over the passages of the balls.
+//! Localised race defects (dents and bumps) from jerk jumps, synchronously averaged over ball passages.
 
 use std::f64::consts::TAU;
 
@@ -8,59 +8,61 @@ use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
 use super::jerk::{Jump, find_jumps, second_differences};
 
-/// Robust standard deviations that a jump of the folded profile must stand out.
+/// Detection threshold for a jump of the folded profile, in robust standard deviations.
 const THRESHOLD: f64 = 10.0;
 
-/// How balls pass the places of a race.
+/// Kinematics of the ball passages over a race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallPassage {
-    /// Balls past a point of the race per second, BPFO or BPFI \[Hz\].
+    /// Ball pass frequency of the race, BPFO or BPFI \[Hz\].
     pub frequency: f64,
     /// Number of balls Z, 2π/Z apart.
     pub balls: usize,
-    /// Turning of the race in space \[rev/s\], + from x to y: 0 for the outer race, the shaft's speed for the inner one.
+    /// Rotational speed of the race \[rev/s\], + from x to y: 0 for a fixed outer race, else the shaft speed.
     pub race_speed: f64,
-    /// Time \[s\] from the first sample at which a ball stands at the race's angle 0 and that angle lies along x.
+    /// Reference time \[s\] from the first sample: a ball is at angle 0 of the race, which lies along x.
     pub datum: f64,
 }
 
-/// What a defect does to a ball.
+/// Kind of a localised race defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DefectKind {
-    /// Lets the ball in: contact force falls, then rises.
+    /// Depression (spall): the contact force drops, then rises.
     Dent,
-    /// Presses on the ball: contact force rises, then falls.
+    /// Elevation: the contact force rises, then drops.
     Bump,
 }
 
-/// A defect found on a race.
+/// A detected race defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RaceDefect {
-    /// Where it begins, in the sense of growing angle \[rad\]: 0..2π with two channels, 0..2π/Z with one.
+    /// Start angle, in the direction of increasing angle \[rad\]: 0..2π with two channels, 0..2π/Z with one.
     pub angle: f64,
-    /// Its width \[rad\]; times the raceway's radius it is a length (Atef eq. 2).
+    /// Angular width \[rad\]; times the raceway radius it is a length (Atef eq. 2).
     pub width: f64,
     pub kind: DefectKind,
     /// Size of the two jumps of the jerk \[unit/s\].
     pub jumps: [f64; 2],
 }
 
-/// Jerk jumps over one ball spacing of a race: the fold of all passages.
+/// Jerk changes over one ball spacing of a race, averaged over all ball passages (folded).
 #[derive(Clone, Debug)]
 pub struct FoldedJerk {
     /// Angle on the race of each bin \[rad\], 0..2π/Z.
     pub angles: Vec<f64>,
-    /// Change of the jerk from bin to bin \[unit/s\], in the race's own axes (x + jy).
+    /// Change of the jerk from bin to bin \[unit/s\], in race-fixed axes (x + jy).
     pub changes: Vec<Complex<f64>>,
-    /// The jumps that stand out: angle \[rad\] and size.
+    /// Detected jumps: angle \[rad\] and size.
     pub jumps: Vec<(f64, Complex<f64>)>,
 }
 
-/// Folds the second differences of the outer ring's acceleration over the passages of the balls and finds the jumps.
+/// Folds (synchronously averages) the second differences of the outer ring's acceleration over the ball
+/// passages and detects the jumps.
 ///
-/// A ball stands at φ = ± (2π/Z) f t from the datum (− on a race that turns faster than the cage); x + jy is turned with
-/// the race, e^{−jω t}. Noise falls by the root of the number of passages, and the fold is finer than a sample.
-/// `x`, `y` (N) \[m/s²\]; without `y` only x is used, as the radial direction of every defect.
+/// Ball angle φ = ± (2π/Z) f t from the datum (− on a race that rotates faster than the cage); x + jy is
+/// transformed to race-fixed axes by e^{−jω t}. Noise is reduced by the root of the number of passages;
+/// resolution is below a sample. `x`, `y` (N) \[m/s²\]; without `y` only x is used, as the radial direction
+/// of every defect.
 /// Errors: NaN, unequal lengths, a record shorter than three passages, fewer than 48 samples in a passage.
 pub fn fold_jerk(
     x: &[f64],
@@ -85,10 +87,10 @@ pub fn fold_jerk(
     }
     let per_passage = sample_rate / passage.frequency;
     if per_passage < 48.0 {
-        let (needed, purpose) = (48.0 * passage.frequency, "jumps of the jerk within a ball's passage");
+        let (needed, purpose) = (48.0 * passage.frequency, "jumps of the jerk within a ball passage");
         return Err(SignalError::RateTooLow { given: sample_rate, needed, purpose });
     }
-    check_length("x", x.len(), (3.0 * per_passage).ceil() as usize + 2, "three passages of balls")?;
+    check_length("x", x.len(), (3.0 * per_passage).ceil() as usize + 2, "three ball passages")?;
     let bins = per_passage.round() as usize;
     let (mut sums, mut weights) = (vec![Complex::<f64>::ZERO; bins], vec![0.0; bins]);
     let changes_y: Box<dyn Iterator<Item = f64>> = match y {
@@ -121,14 +123,16 @@ pub fn fold_jerk(
     })
 }
 
-/// Finds the dents and bumps of a race: where they begin, how wide they are, of which kind.
+/// Detects dents and bumps of a race: start angle, width and kind.
 ///
-/// A ball that enters a half-sine bump kinks the ring's acceleration outward, and again when it leaves it; a dent kinks
-/// it inward both times, and between the two the jerk runs back. Jumps of the fold ([`fold_jerk`]) that point the same
-/// way are paired so. With two channels the direction of the kinks, outward or inward, singles out the ball spacing in
-/// which the defect lies; an odd number of balls leaves no doubt, an even one takes the half of the race about x.
-/// `x`, `y` are the outer ring's acceleration \[m/s²\]; x alone must point outward at the defects, and angles are then
-/// known up to 2π/Z. Errors as [`fold_jerk`]. Source: Atef et al., Machines 10:1062 (2022), section 3 and eq. 20-22.
+/// A ball entering a half-sine bump causes an outward kink of the ring's acceleration, and another one on
+/// leaving; a dent causes inward kinks, and between the two the jerk returns. Jumps of the folded profile
+/// ([`fold_jerk`]) of the same direction are paired accordingly. With two channels the direction of the
+/// kinks, outward or inward, determines the ball spacing that contains the defect: uniquely for an odd number
+/// of balls, on the x half of the race for an even one.
+/// `x`, `y` are the outer ring's acceleration \[m/s²\]; x alone must point outward at the defects, and angles
+/// are then ambiguous by multiples of 2π/Z. Errors as [`fold_jerk`]. Source: Atef et al., Machines 10:1062
+/// (2022), section 3 and eq. 20-22.
 pub fn race_defects(
     x: &[f64],
     y: Option<&[f64]>,
@@ -165,13 +169,13 @@ fn kind_of(outward: f64) -> DefectKind {
     if outward > 0.0 { DefectKind::Bump } else { DefectKind::Dent }
 }
 
-/// The ball spacing k and the kind for which ± e^{j(φ + k 2π/Z)} points most nearly along the kinks.
+/// The ball spacing k and the kind for which ± e^{j(φ + k 2π/Z)} is best aligned with the kinks.
 fn place_and_kind(begin: f64, width: f64, kinks: Complex<f64>, balls: usize) -> (usize, DefectKind) {
     let direction = kinks / kinks.norm();
     let candidates = (0..balls).flat_map(|k| {
         let angle = begin + 0.5 * width + TAU * k as f64 / balls as f64;
         let outward = (Complex::from_polar(1.0, -angle) * direction).re;
-        // Of two that fit alike the one on the half of the race about x.
+        // Tie: the one on the half of the race around +x.
         let near_x = if angle.cos() > 0.0 { 1e-6 } else { 0.0 };
         [(outward + near_x, k, DefectKind::Bump), (near_x - outward, k, DefectKind::Dent)]
     });
@@ -179,16 +183,16 @@ fn place_and_kind(begin: f64, width: f64, kinks: Complex<f64>, balls: usize) -> 
     (k, kind)
 }
 
-/// Neighbouring jumps that point the same way, with the jerk running back between them: (entry, exit).
+/// Pairs neighbouring jumps of the same direction between which the jerk returns: (entry, exit).
 ///
-/// Of all ways to pair neighbours round the race the one that pairs most of the jumps' size: a defect's own pair has
-/// the jerk run back by about the sum of its jumps, two defects side by side of one kind have none.
+/// Greedy, in order of the returned fraction: between the jumps of one defect the jerk returns by about their
+/// sum, between two adjacent defects of one kind it does not.
 fn pairs(fold: &FoldedJerk) -> Vec<(usize, usize)> {
     let count = fold.jumps.len();
     if count < 2 {
         return Vec::new();
     }
-    // How much of two jumps the smooth part of the profile between them undoes, 0..1 or more.
+    // Fraction of two jumps that the smooth profile between them reverses, 0..1 or more.
     let undone = |i: usize| {
         let ((from, first), (to, second)) = (fold.jumps[i], fold.jumps[(i + 1) % count]);
         let total = first + second;
@@ -220,7 +224,8 @@ impl FoldedJerk {
         TAU.min(self.angles[1] * self.angles.len() as f64)
     }
 
-    /// Change of the jerk between two angles, the bins of the jumps at its ends left out and replaced by their neighbours.
+    /// Change of the jerk between two angles; bins of the jumps at its ends are set to the mean of the
+    /// others.
     fn smooth_between(&self, from: f64, to: f64) -> Complex<f64> {
         let bins = self.changes.len();
         let step = self.angles[1];

@@ -1,24 +1,24 @@
-//! Peaks between bins, and the ridge of a spectrogram near a line.
+//! Peak interpolation between bins, peak picking, and peaks of a spectrogram near a given frequency line.
 
 use super::SignalError;
 use super::error::{check, check_record, check_same_length};
 
-/// A local maximum between bins.
+/// A local maximum, interpolated between bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
     /// Bin of the highest sample.
     pub bin: usize,
-    /// Interpolated place on the axis (Hz or order).
+    /// Interpolated position on the axis (Hz or order).
     pub position: f64,
     /// Interpolated amplitude.
     pub amplitude: f64,
 }
 
-/// Top of the parabola through ln A at a local maximum and its neighbours.
+/// Peak interpolation: vertex of the parabola through ln A at a local maximum and its neighbours.
 ///
 /// δ = (a₋ − a₊) / (2 (a₋ − 2a₀ + a₊)) bins. `axis` is uniform. Exact for a Gaussian lobe; for a Hann
-/// window's lobe the place errs by up to 0.016 bins and the amplitude is up to 3.7 % high, half-way between bins.
-/// At an end or beside a zero the bin itself is returned.
+/// window's lobe the position error is up to 0.016 bins and the amplitude up to 3.7 % high, half-way between
+/// bins. At an end or next to a zero the bin itself is returned.
 /// Source: Smith and Serra, Proc. ICMC (1987).
 pub fn interpolate_peak(axis: &[f64], amplitude: &[f64], bin: usize) -> Peak {
     let plain = Peak { bin, position: axis[bin], amplitude: amplitude[bin] };
@@ -55,11 +55,11 @@ pub fn find_peaks(axis: &[f64], amplitude: &[f64], threshold: f64) -> Result<Vec
     Ok(bins.filter(is_peak).map(|k| interpolate_peak(axis, amplitude, k)).collect())
 }
 
-/// Highest point of each row of a spectrogram within ± `half_width` of a line; `None` where no bin lies there.
+/// Order tracing: peak of each row of a spectrogram within ± `half_width` of a line; `None` if there is none.
 ///
-/// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `line` (frames) in the axis' unit. A maximum at the
-/// edge of the search band is a slope, not a ridge, unless it is a local maximum of the row.
-/// Errors: NaN, sizes that do not fit.
+/// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `line` (frames) in the axis' unit. A maximum
+/// at the edge of the search band counts only if it is a local maximum of the row.
+/// Errors: NaN, sizes that do not match.
 pub fn follow_line(
     axis: &[f64],
     amplitude: &[f64],

@@ -7,14 +7,14 @@ use rustfft::num_complex::Complex;
 
 use super::window::{WindowKind, noise_bandwidth};
 
-/// How an amplitude is stated: a tone a cos ωt has peak a and RMS a/√2.
+/// Amplitude convention: a tone a cos ωt has peak a and RMS a/√2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     Peak,
     Rms,
 }
 
-/// Transforms segments of one length; nothing is allocated after construction.
+/// Windowed FFT of segments of one length; nothing is allocated after construction.
 pub struct SegmentTransform {
     window: Vec<f64>,
     fft: Arc<dyn RealToComplex<f64>>,
@@ -70,14 +70,14 @@ impl SegmentTransform {
         self.input[length..].fill(0.0);
         self.fft
             .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
-            .expect("the buffers were made by this plan");
+            .expect("the buffers were allocated by this plan");
         &self.output
     }
 
     /// Writes the one-sided amplitudes of a segment, A_k = s |X_k| / Σw.
     ///
-    /// s = 2 (peak) or √2 (RMS); s = 1 for either at zero frequency and at Nyquist of an even length, where
-    /// there is no mirror image.
+    /// s = 2 (peak) or √2 (RMS); s = 1 for either at zero frequency and at Nyquist of an even length, which
+    /// have no negative-frequency counterpart.
     pub fn amplitudes(&mut self, segment: &[f64], level: Level, out: &mut [f64]) {
         let sum: f64 = self.window.iter().sum();
         let both = match level {
@@ -92,7 +92,7 @@ impl SegmentTransform {
     }
 }
 
-/// Whether bin k of a transform of `length` points stands for a negative frequency too.
+/// Whether bin k of a one-sided transform of `length` points also represents a negative frequency.
 pub(crate) fn has_mirror(k: usize, length: usize) -> bool {
     k != 0 && 2 * k != length
 }

@@ -14,7 +14,7 @@ pub use super::segment::Level;
 pub struct Spectrum {
     pub frequencies: Vec<f64>,
     pub values: Vec<f64>,
-    /// Equivalent noise bandwidth \[Hz\]: an amplitude spectrum's RMS squared over it is a density.
+    /// Equivalent noise bandwidth (ENBW) \[Hz\]: squared RMS amplitude over it is a spectral density.
     pub noise_bandwidth_hz: f64,
 }
 
@@ -31,9 +31,9 @@ pub struct Welch {
     pub window: WindowKind,
     /// Samples of a segment.
     pub segment: usize,
-    /// Samples that neighbours share, less than a segment.
+    /// Overlap of neighbouring segments in samples, less than a segment.
     pub overlap: usize,
-    /// Take each segment's mean away first.
+    /// Whether to subtract each segment's mean.
     pub remove_mean: bool,
 }
 
@@ -53,8 +53,8 @@ impl Welch {
 
 /// One-sided amplitude spectrum of a whole record, A_k = s |Σ w_n x_n e^{−2πjkn/N}| / Σw.
 ///
-/// `record` x (N) \[any unit\], `sample_rate` \[Hz\]; a tone at a bin shows its peak (s = 2) or RMS (s = √2), zero
-/// frequency and Nyquist have s = 1. Errors: empty record, NaN, rate not positive.
+/// `record` x (N) \[any unit\], `sample_rate` \[Hz\]; a tone at a bin gives its peak (s = 2) or RMS (s = √2);
+/// zero frequency and Nyquist have s = 1. Errors: empty record, NaN, rate not positive.
 pub fn amplitude_spectrum(
     record: &[f64],
     sample_rate: f64,
@@ -75,8 +75,8 @@ pub fn amplitude_spectrum(
 
 /// One-sided power spectral density by Welch, S_k = s mean |X_k|² / (f_s Σw²), s = 2 (1 at 0 and Nyquist).
 ///
-/// `record` \[unit\], `sample_rate` \[Hz\]; returns unit²/Hz. The sum of S_k Δf is the mean square when the window is
-/// rectangular. Errors: NaN, record shorter than a segment, overlap not below the segment.
+/// `record` \[unit\], `sample_rate` \[Hz\]; returns unit²/Hz. The sum of S_k Δf is the mean square when the
+/// window is rectangular. Errors: NaN, record shorter than a segment, overlap not below the segment.
 /// Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967).
 pub fn power_spectral_density(
     record: &[f64],
@@ -91,9 +91,9 @@ pub fn power_spectral_density(
     })
 }
 
-/// One-sided cross spectral density, S_xy = s mean conj(X_k) Y_k / (f_s Σw²): the phase of y over x.
+/// One-sided cross spectral density, S_xy = s mean conj(X_k) Y_k / (f_s Σw²): the phase of y relative to x.
 ///
-/// Scaling and errors as [`power_spectral_density`]; records of unequal length are refused.
+/// Scaling and errors as [`power_spectral_density`]; also records of unequal length.
 pub fn cross_spectral_density(
     x: &[f64],
     y: &[f64],
@@ -106,7 +106,7 @@ pub fn cross_spectral_density(
 
 /// Magnitude-squared coherence, γ² = |S_xy|² / (S_xx S_yy), 0..1; it is 1 by definition with one segment.
 ///
-/// A bin where either record has no power at all shows 0. Errors as [`cross_spectral_density`].
+/// 0 at a bin where either record has no power. Errors as [`cross_spectral_density`].
 pub fn coherence(x: &[f64], y: &[f64], sample_rate: f64, welch: &Welch) -> Result<Spectrum, SignalError> {
     let d = densities(x, y, sample_rate, welch)?;
     let values = (0..d.xx.len()).map(|k| d.coherence(k)).collect();

@@ -1,4 +1,4 @@
-//! Shaft speed and angle from a record alone: the ridge of one order, sharpened by its phase.
+//! Tacholess speed estimation: shaft speed and angle from the ridge of one order line, refined by its phase.
 
 use std::f64::consts::TAU;
 
@@ -12,34 +12,35 @@ use super::segment::Level;
 use super::stft::{Stft, StftSettings, sample_at};
 use super::window::WindowKind;
 
-/// Which line of the record shows the speed.
+/// Settings of tacholess speed estimation: the order line that is tracked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSettings {
-    /// Its order: how often it repeats in a turn of the shaft.
+    /// Its order: cycles per shaft revolution.
     pub order: f64,
-    /// Frequencies between which it stays \[Hz\]; no stronger line may do so.
+    /// Frequency range of the line \[Hz\]; it must be the strongest line in this range.
     pub low: f64,
     pub high: f64,
-    /// Fastest change of its frequency \[Hz/s\].
+    /// Maximum rate of change of its frequency (sweep rate) \[Hz/s\].
     pub most_change: f64,
-    /// Samples of a frame of the spectrogram, a few tens of periods of the line.
+    /// Samples of an STFT frame, a few tens of periods of the line.
     pub frame: usize,
 }
 
-/// Speed and angle of the shaft, as a line of the record shows them.
+/// Shaft speed and angle estimated from an order line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineSpeed {
-    /// Shaft angle at each sample \[rad\], 0 at the first; true up to the line's phase.
+    /// Shaft angle at each sample \[rad\], 0 at the first sample (no absolute phase reference).
     pub theta: Vec<f64>,
     /// Shaft speed at each sample \[rpm\].
     pub rpm: Vec<f64>,
 }
 
-/// The path of largest Σ ln A through the rows of a spectrogram that moves at most `most_bins` from row to row.
+/// Ridge extraction: the path of largest Σ ln A through the rows of a spectrogram that moves at most
+/// `most_bins` from row to row.
 ///
-/// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `range` of values on the axis in which the path stays:
-/// dynamic programming (Viterbi), so that a gap or a stronger line that crosses does not lead it off. Errors: NaN, sizes
-/// that do not fit, a range without bins.
+/// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `range` of the axis in which the path stays.
+/// Dynamic programming (Viterbi), robust to gaps and to stronger crossing lines. Errors: NaN, sizes that do
+/// not match, a range without bins.
 pub fn follow_ridge(
     axis: &[f64],
     amplitude: &[f64],
@@ -52,7 +53,7 @@ pub fn follow_ridge(
     check_same_length("amplitude", amplitude.len() % bins, "whole rows of the axis", 0)?;
     let first = axis.partition_point(|f| *f < range.0);
     let end = axis.partition_point(|f| *f <= range.1);
-    check(first < end, "lower end of the range", "a range that holds a bin", range.0)?;
+    check(first < end, "lower end of the range", "a range that contains a bin", range.0)?;
     let width = end - first;
     let floor = f64::MIN_POSITIVE;
     let mut came_from: Vec<Vec<usize>> = Vec::new();
@@ -65,14 +66,14 @@ pub fn follow_ridge(
             let near = |i: &usize| i.abs_diff(k);
             let best = reach
                 .max_by(|a, b| score[*a].total_cmp(&score[*b]).then(near(b).cmp(&near(a))))
-                .expect("the reach holds the bin itself");
+                .expect("the range contains the bin itself");
             from[k] = best;
             next[k] = score[best] + row[first + k].max(floor).ln();
         }
         score = next;
         came_from.push(from);
     }
-    let mut k = (0..width).max_by(|&a, &b| score[a].total_cmp(&score[b])).expect("the range holds a bin");
+    let mut k = (0..width).max_by(|&a, &b| score[a].total_cmp(&score[b])).expect("the range contains a bin");
     let mut path = Vec::with_capacity(came_from.len());
     for (row, from) in amplitude.chunks_exact(bins).zip(&came_from).rev() {
         path.push(interpolate_peak(axis, row, first + k));
@@ -82,14 +83,15 @@ pub fn follow_ridge(
     Ok(path)
 }
 
-/// Shaft speed and angle from the line of one order.
+/// Shaft speed and angle from the line of one order (tacholess order tracking).
 ///
-/// The ridge of a spectrogram (Hann, seven eighths overlap) gives the line's frequency to a fraction of a bin and by its
-/// integral a phase φ₀; the record turned by e^{−jφ₀} and low-passed below 2 f_s/frame has the slowly varying phase that is
-/// left, and φ = φ₀ + arg. The low-pass is a Butterworth of order 2, there and back. At the ends of the record, half a
-/// frame, the frequency is held.
+/// The ridge of a spectrogram (Hann, 7/8 overlap) gives the line's frequency to a fraction of a bin and,
+/// integrated, a phase φ₀; the record demodulated by e^{−jφ₀} and low-passed below 2 f_s/frame has the slowly
+/// varying remaining phase, φ = φ₀ + arg. The low-pass is a zero-phase Butterworth of order 2. The frequency
+/// is extrapolated as constant over half a frame at either end of the record.
 /// `record` (N), `sample_rate` \[Hz\]. Errors: NaN, record shorter than a frame, settings out of range.
-/// Source: Bonnardot et al., Mech. Syst. Signal Process. 19 (2005); Leclère, André and Antoni, ibid. 81 (2016).
+/// Source: Bonnardot et al., Mech. Syst. Signal Process. 19 (2005); Leclère, André and Antoni, ibid. 81
+/// (2016).
 pub fn speed_from_line(
     record: &[f64],
     sample_rate: f64,
@@ -111,7 +113,7 @@ pub fn speed_from_line(
         "above the lower, up to half the sampling rate",
         high,
     )?;
-    check(most_change > 0.0, "fastest change of the line [Hz/s]", "a positive number", most_change)?;
+    check(most_change > 0.0, "maximum rate of change of the line [Hz/s]", "a positive number", most_change)?;
     check(frame >= 16, "samples of a frame", "16 or more", frame as f64)?;
     let hop = frame.div_ceil(8);
     let stft = StftSettings {
@@ -147,7 +149,7 @@ pub fn speed_from_line(
     let mut before = rest[0];
     let mut left = start;
     for (phi, z) in phase.iter_mut().zip(&rest) {
-        // The turn from sample to sample is far below half a revolution: it unwraps itself.
+        // The phase step between samples is far below π: no unwrapping is needed.
         let step = (z * before.conj()).arg();
         left += step;
         before = *z;

@@ -1,4 +1,4 @@
-//! Statistics of a record.
+//! Time-domain statistics of a record: RMS, peak, crest factor, skewness, kurtosis.
 
 use super::SignalError;
 use super::error::check_record;
@@ -27,11 +27,12 @@ pub struct Statistics {
     pub clearance_factor: Option<f64>,
     /// m₃ / m₂^{3/2}; `None` for a constant record.
     pub skewness: Option<f64>,
-    /// m₄ / m₂², Pearson's, without −3: 3 for a normal distribution, 1.5 for a sine; `None` for a constant record.
+    /// m₄ / m₂², Pearson's, without −3: 3 for a normal distribution, 1.5 for a sine; `None` for a constant
+    /// record.
     pub kurtosis: Option<f64>,
 }
 
-/// Statistics of a record; errors: empty, NaN.
+/// Computes the statistics of a record; errors: empty, NaN.
 pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
     check_record("record", record)?;
     let n = record.len() as f64;
@@ -54,7 +55,7 @@ pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
     (absolute, root) = (absolute / n, root / n);
     let rms = (square / n).sqrt();
     let peak = high.max(-low);
-    // A constant record's spread is what rounding of its mean leaves, not a shape.
+    // The spread of a constant record is rounding error of its mean: no skewness or kurtosis.
     let varies = m2.sqrt() > 4.0 * f64::EPSILON * peak;
     Ok(Statistics {
         mean,

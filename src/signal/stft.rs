@@ -1,11 +1,11 @@
-//! Short-time Fourier transform: a spectrogram over time, and over rpm with a speed signal.
+//! Short-time Fourier transform (STFT): spectrogram over time, and over rpm with a speed signal.
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
 use super::segment::{Level, SegmentTransform, bin_axis};
 use super::window::WindowKind;
 
-/// Frames of a short-time transform.
+/// Settings of a short-time Fourier transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StftSettings {
     pub window: WindowKind,
@@ -13,15 +13,15 @@ pub struct StftSettings {
     pub length: usize,
     /// Samples from one frame to the next.
     pub hop: usize,
-    /// Length of the transform; more than a frame pads with zeros, which interpolates between bins.
+    /// FFT length; if longer than a frame, zero padding interpolates between bins.
     pub fft_length: usize,
     pub level: Level,
 }
 
 impl StftSettings {
-    /// Frames of `length` samples that share the fraction `overlap` (0..1), no padding, peak amplitudes.
+    /// Frames of `length` samples with `overlap` (a fraction 0..1), no padding, peak amplitudes.
     ///
-    /// The hop is rounded to a whole sample of at least one.
+    /// The hop is rounded to whole samples, at least one.
     pub fn new(window: WindowKind, length: usize, overlap: f64) -> Result<Self, SignalError> {
         check((0.0..1.0).contains(&overlap), "overlap", "a fraction from 0 to below 1", overlap)?;
         let hop = ((length as f64 * (1.0 - overlap)).round() as usize).max(1);
@@ -52,7 +52,8 @@ impl Spectrogram {
 
     /// Speed at each frame's centre, by linear interpolation of a speed sampled like the record.
     ///
-    /// `speed` (any unit, e.g. rpm) has the record's `sample_rate` \[Hz\]. Errors: NaN, too short a speed signal.
+    /// `speed` (any unit, e.g. rpm) has the record's `sample_rate` \[Hz\]. Errors: NaN, too short a speed
+    /// signal.
     pub fn speed_at_frames(&self, speed: &[f64], sample_rate: f64) -> Result<Vec<f64>, SignalError> {
         check_record("speed", speed)?;
         check_rate(sample_rate)?;
@@ -62,7 +63,7 @@ impl Spectrogram {
     }
 }
 
-/// Linear interpolation at a fractional index, held at the ends; `values` is not empty.
+/// Linear interpolation at a fractional index, constant beyond the ends; `values` is not empty.
 pub(crate) fn sample_at(values: &[f64], position: f64) -> f64 {
     let position = position.clamp(0.0, (values.len() - 1) as f64);
     let low = position as usize;
@@ -70,7 +71,7 @@ pub(crate) fn sample_at(values: &[f64], position: f64) -> f64 {
     values[low] + (position - low as f64) * (values[high] - values[low])
 }
 
-/// A short-time transform whose plan serves any number of channels.
+/// A planned short-time Fourier transform, reusable for any number of channels.
 pub struct Stft {
     settings: StftSettings,
     sample_rate: f64,
@@ -78,7 +79,8 @@ pub struct Stft {
 }
 
 impl Stft {
-    /// Plans the transform; `sample_rate` \[Hz\]. Errors: no samples in a frame, no hop, padding below a frame.
+    /// Plans the transform; `sample_rate` \[Hz\]. Errors: no samples in a frame, no hop, padding below a
+    /// frame.
     pub fn new(settings: StftSettings, sample_rate: f64) -> Result<Self, SignalError> {
         check_rate(sample_rate)?;
         check(settings.length >= 2, "frame length", "two samples or more", settings.length as f64)?;
@@ -86,16 +88,17 @@ impl Stft {
         check(
             settings.fft_length >= settings.length,
             "transform length",
-            "a frame's samples or more",
+            "at least the frame length",
             settings.fft_length as f64,
         )?;
         let transform = SegmentTransform::new(settings.window, settings.length, settings.fft_length);
         Ok(Stft { settings, sample_rate, transform })
     }
 
-    /// The record's spectrogram, frames lying wholly inside it; a frame's time is its centre, L/2 samples in.
+    /// Spectrogram of a record; frames lie inside it, a frame's time is its centre, L/2 samples in.
     ///
-    /// Amplitudes are scaled like [`super::spectrum::amplitude_spectrum`]. Errors: NaN, record shorter than a frame.
+    /// Amplitudes are scaled like [`super::spectrum::amplitude_spectrum`]. Errors: NaN, record shorter than a
+    /// frame.
     pub fn spectrogram(&mut self, record: &[f64]) -> Result<Spectrogram, SignalError> {
         check_record("record", record)?;
         let StftSettings { length, hop, level, fft_length, .. } = self.settings;

@@ -1,4 +1,4 @@
-//! Time-synchronous average: what repeats with a period, and what is left.
+//! Time-synchronous average (TSA): periodic part of a record, and the residual.
 
 use super::SignalError;
 use super::error::{check, check_length, check_record};
@@ -6,7 +6,7 @@ use super::error::{check, check_length, check_record};
 /// Average over whole periods of a record that is uniform in angle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SynchronousAverage {
-    /// Mean at each place of the period.
+    /// Mean at each sample of the period.
     pub mean: Vec<f64>,
     /// Standard deviation there over the periods, divisor M.
     pub deviation: Vec<f64>,
@@ -16,8 +16,9 @@ pub struct SynchronousAverage {
 
 /// Averages the whole periods of a record, y_k = (1/M) Σ_r x_{k + rS}.
 ///
-/// `record` (N) uniform in shaft angle (see [`super::resample::AngleResampler`]) or in time at constant speed, beginning
-/// at the period's zero; `samples_per_period` S. What is not periodic falls by 1/√M. Errors: NaN, fewer than two periods.
+/// `record` (N) uniform in shaft angle (see [`super::resample::AngleResampler`]) or in time at constant
+/// speed, starting at phase zero; `samples_per_period` S. Non-periodic parts are reduced by 1/√M. Errors:
+/// NaN, fewer than two periods.
 /// Source: Braun, Acustica 32 (1975).
 pub fn synchronous_average(
     record: &[f64],
@@ -43,7 +44,7 @@ pub fn synchronous_average(
 }
 
 impl SynchronousAverage {
-    /// The record without its periodic part: bearing noise without shaft and gear lines; errors: NaN.
+    /// Residual signal: the record minus its periodic part (shaft and gear lines removed); errors: NaN.
     pub fn residual(&self, record: &[f64]) -> Result<Vec<f64>, SignalError> {
         check_record("record", record)?;
         Ok(record.iter().zip(self.mean.iter().cycle()).map(|(x, m)| x - m).collect())

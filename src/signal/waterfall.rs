@@ -1,4 +1,4 @@
-//! Waterfall: spectra at chosen speeds, ready to be drawn one behind the other.
+//! Waterfall (cascade) plot: spectra at chosen speeds.
 
 use super::SignalError;
 use super::error::{check, check_record, check_same_length};
@@ -6,19 +6,20 @@ use super::error::{check, check_record, check_same_length};
 /// Spectra over one axis (Hz or order) at increasing speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waterfall {
-    /// Speeds of the rows \[rpm\]: those asked for that the run reaches.
+    /// Speeds of the rows \[rpm\]: the requested ones that the run reaches.
     pub rpm: Vec<f64>,
     pub axis: Vec<f64>,
     /// Amplitudes, a row for each speed.
     pub amplitude: Vec<f64>,
-    /// Speeds asked for that no frame comes near.
+    /// Requested speeds \[rpm\] without any frame.
     pub missing: Vec<f64>,
 }
 
 /// Averages the power of all frames within ± `half_width` of each chosen speed.
 ///
-/// `axis` (bins), `amplitude` (frames × bins) row-major, `frame_rpm` (frames), `rpm_steps` and `half_width` \[rpm\].
-/// A run that passes a speed twice gives the mean of both passes. Errors: NaN, sizes that do not fit.
+/// `axis` (bins), `amplitude` (frames × bins) row-major, `frame_rpm` (frames), `rpm_steps` and `half_width`
+/// \[rpm\]. A run that passes a speed twice gives the mean of both passes. Errors: NaN, sizes that do not
+/// match.
 pub fn waterfall(
     axis: &[f64],
     amplitude: &[f64],

@@ -1,8 +1,8 @@
-//! Windows of a finite Fourier transform.
+//! Window functions of a finite Fourier transform.
 
 use std::f64::consts::TAU;
 
-/// Window of a short-time transform.
+/// Window function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WindowKind {
     Rectangular,
@@ -44,13 +44,13 @@ impl WindowKind {
         (0..length).map(value).collect()
     }
 
-    /// Half the width of the main lobe, in bins of 1/T: how near two tones may lie and still be told apart.
+    /// Half the width of the main lobe, in bins of 1/T: the smallest resolvable spacing of two tones.
     pub fn main_lobe_half_width(self) -> f64 {
         self.coefficients().len() as f64
     }
 }
 
-/// Mean of a window's samples, Σw/N: what it does to the amplitude of a tone.
+/// Coherent gain of a window, Σw/N: its factor on the amplitude of a tone.
 pub fn coherent_gain(window: &[f64]) -> f64 {
     window.iter().sum::<f64>() / window.len() as f64
 }

@@ -1,4 +1,4 @@
-//! Steady motions: where they start, what they look like in a Poincaré section, how fast neighbours part.
+//! Steady motions (attractors) at constant speed: initial states, Poincaré sections, Lyapunov exponent.
 
 use std::ops::ControlFlow;
 
@@ -22,26 +22,27 @@ use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::steady::{SteadyRun, run_steady};
 use crate::transient::system::{Channel, State};
 
-/// Periods of an orbit that are kept with its section.
+/// Number of periods of the orbit stored with its section.
 const ORBIT_PERIODS: usize = 32;
 
-/// A state of the machine that another model of it can start from: free DOFs and angles.
+/// Restart state: final free DOFs and angles of a run, from which a run of another model can start.
 #[derive(Clone, Debug)]
 pub struct CarriedState {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Shaft angle, and cage angles of the bearings \[rad\], as they were counted: a ball's spin repeats with neither.
+    /// Accumulated shaft angle and cage angles of the bearings \[rad\], not reduced to one turn: a ball's
+    /// spin repeats with neither.
     shaft: f64,
     cages: Vec<f64>,
-    /// Places and rates of balls with coordinates of their own \[m, m/s\].
+    /// Positions and velocities of balls with their own degrees of freedom \[m, m/s\].
     balls: [Vec<f64>; 2],
 }
 
-/// Told after every period of the clock what share is done; can stop the run.
+/// Callback after every period of the clock with the completed fraction; can stop the run.
 pub type Progress<'a> = &'a mut dyn FnMut(f64) -> ControlFlow<()>;
 
 impl Machine {
-    /// Orbits and Poincaré sections at steady speed, with the kind of the motion; `None` when `progress` stopped it.
+    /// Orbits and Poincaré sections at constant speed, with the motion classified; `None` when stopped.
     ///
     /// # Errors
     /// No equilibrium, or a run that fails.
@@ -93,7 +94,7 @@ impl Machine {
         }))
     }
 
-    /// Largest Lyapunov exponent at steady speed; `None` when `progress` stopped it.
+    /// Largest Lyapunov exponent at constant speed; `None` when stopped by `progress`.
     ///
     /// # Errors
     /// No equilibrium, or a run that fails.
@@ -114,8 +115,8 @@ impl Machine {
         Ok(Some(LyapunovResult { speed: steady.speed, clock, exponent }))
     }
 
-    /// The machine reduced at a steady speed, and the state to start from: static equilibrium, or carried over from a
-    /// run of a model with as many DOFs and bearings.
+    /// The machine reduced at a constant speed, and the initial state: static equilibrium, or the restart
+    /// state of a run of a model with the same numbers of DOFs and bearings.
     ///
     /// # Errors
     /// No equilibrium, or no modes.
@@ -143,7 +144,7 @@ impl Machine {
                 system.initial_state(x, v)
             }
             Some(carried) => {
-                // Vᵀ M q: the nearest motion in this model's basis.
+                // Vᵀ M q: projection on this model's basis.
                 let project = |q: &[f64], balls: &[f64]| {
                     let x = reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
                     let balls = balls.iter().zip(&system.ball_masses).map(|(y, mass)| mass.sqrt() * y);
@@ -181,7 +182,7 @@ impl Machine {
 }
 
 impl CarriedState {
-    /// The end of a run, for the next model to start from.
+    /// Restart state from the end of a run.
     pub fn new(reduction: &Reduction, state: &State) -> Self {
         let full = |x: &DVector<f64>| reduction.expand(x).as_slice().to_vec();
         let rows = reduction.system.rows();
@@ -195,8 +196,8 @@ impl CarriedState {
     }
 }
 
-/// Sections, extremes and kind of what a run recorded; the strobe has one instant more than the sections, the end of
-/// the last period.
+/// Poincaré sections, extremes and classification of a recorded run; the strobe has one instant more than the
+/// sections, the end of the last period.
 pub(super) fn sections(
     run: &SteadyRun,
     channels: &[SectionChannel],
@@ -205,7 +206,7 @@ pub(super) fn sections(
     longest: usize,
 ) -> Result<(Strobe, SteadyMotion), Error> {
     let mut strobe = Strobe::new(&run.phase, steady.phase, std::f64::consts::TAU)?;
-    // The margins hold no further instant, unless the clock runs very unevenly.
+    // The margins contain no further instant, unless the clock speed varies strongly.
     strobe.positions.truncate(steady.periods + 1);
     let whole = |channel: &Vec<f64>| -> Result<Vec<f64>, Error> {
         let mut points = strobe.section(channel)?;
@@ -229,8 +230,8 @@ pub(super) fn sections(
     Ok((strobe, SteadyMotion { sections: found, extremes, frequency, motion, exponent }))
 }
 
-/// Size of the orbit that a channel belongs to: the largest peak to peak of all channels in its unit. What hardly moves
-/// beside the others is not looked at through a glass.
+/// Reference size of a channel: the largest peak-to-peak value of all channels of the same unit, so that
+/// channels with little motion are not judged by their own small range.
 pub(super) fn sizes(extremes: &[[f64; 2]], channels: &[SectionChannel]) -> Vec<f64> {
     let alike = |c: &SectionChannel| {
         let same = extremes.iter().zip(channels).filter(|(_, other)| other.unit == c.unit);
@@ -244,7 +245,7 @@ pub(super) fn described(probe: &Probe) -> SectionChannel {
     SectionChannel { name: probe.name.clone(), unit }
 }
 
-/// Whether a plane shows x and y of one point, as seen along the shaft.
+/// Whether a plane shows x and y of one point, the shaft orbit.
 fn is_orbit(plane: &Plane) -> bool {
     let along =
         |probe: &Probe, axis: usize| (0..6).all(|k| probe.direction[k] == if k == axis { 1.0 } else { 0.0 });
@@ -252,7 +253,7 @@ fn is_orbit(plane: &Plane) -> bool {
     x.at == y.at && x.quantity == y.quantity && along(x, 0) && along(y, 1)
 }
 
-/// Direction and 1x part of an orbit; `None` where there is no orbit or less than a turn of it.
+/// Whirl direction and 1x component of an orbit; `None` without motion or with less than one turn.
 fn whirl([x, y]: &[Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
     let once = FilteredOrbit::fit(x, y, shaft_angle, 1.0).ok()?;
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
@@ -267,8 +268,8 @@ fn whirl([x, y]: &[Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
     (all > 0.0).then(|| Whirl { forwardness: net / all, once })
 }
 
-/// How far the ball bearing at a plane's point lets its shaft move from the middle, P_d/2; in a fixed housing only,
-/// where the orbit is that within the bearing.
+/// Radial clearance circle of the ball bearing at a plane's point, P_d/2; for a fixed housing only, where the
+/// orbit is relative to the outer ring.
 fn clearance(model: &Model, plane: &Plane) -> Option<f64> {
     let here = |site: &&BearingSite| plane.x.at == Anchor::node(site.node) && site.housing.node.is_none();
     let ball = model.bearings.iter().find(here)?.bearing.ball()?;
@@ -279,7 +280,7 @@ fn section_clock(model: &Model, steady: &Steady, frequency: f64) -> SectionClock
     SectionClock { name: clock_name(model, steady.clock), phase: steady.phase, frequency }
 }
 
-/// A clock in words.
+/// Name of a clock.
 pub(super) fn clock_name(model: &Model, clock: Clock) -> String {
     match clock {
         Clock::Shaft => "shaft turn".into(),

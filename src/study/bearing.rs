@@ -1,4 +1,4 @@
-//! Ball bearings each on its own: operating point, sweeps, contacts, film, frequencies.
+//! Single ball bearings: operating point, sweeps, contacts, film, rating life, characteristic frequencies.
 
 use super::{Machine, solved_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
@@ -13,15 +13,15 @@ use crate::error::Error;
 use crate::model::study::{Along, BearingStudy, MOTIONS, Swept};
 use crate::results::{BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState};
 
-/// Points of a sweep over a range of the program's choice.
+/// Points of a sweep over a default range.
 const POINTS: usize = 41;
-/// Pitch diameter times speed of a bearing whose speed is not told \[mm/min\]: half of what grease takes.
+/// Default speed parameter n·d_m (speed times pitch diameter) \[mm/min\]: half the limit for grease.
 const MEAN_SPEED: f64 = 2.5e5;
-/// Largest pressure of a ball that leaves a permanent dent of 1e-4 of its diameter \[Pa\] (ISO 76).
+/// Contact stress of the static load rating \[Pa\] (ISO 76): permanent dent of 1e-4 of the ball diameter.
 const STATIC_LIMIT: f64 = 4.2e9;
 
 impl Machine {
-    /// Every ball bearing asked for, under the load it carries in the machine unless another is given.
+    /// Every requested ball bearing, under its load in the machine or the given load.
     ///
     /// # Errors
     /// No equilibrium of the machine, or of a bearing at its operating point.
@@ -45,7 +45,7 @@ impl Machine {
             let state = found.bearings.iter().find(|b| b.name == *name);
             let load = state.map_or([0.0; 5], |b| std::array::from_fn(|k| -b.force[k]));
             let words = format!("static equilibrium of the machine at {:.0} rpm", speed * TO_RPM);
-            // In the machine the shaft keeps place and tilt whatever is swept.
+            // In the machine, axial position and tilt of the shaft are prescribed in all sweeps.
             let keeps = study.held.unwrap_or([false, false, true, true, true]);
             let place = state.map_or([0.0; 6], |b| b.displacement);
             let held = std::array::from_fn(|k| keeps[k].then_some(place[k]));
@@ -56,7 +56,7 @@ impl Machine {
     }
 }
 
-/// Every ball bearing asked for, by itself.
+/// Every requested ball bearing, without a machine.
 ///
 /// # Errors
 /// No equilibrium of a bearing at its operating point.
@@ -82,21 +82,21 @@ fn treatment(study: &BearingStudy) -> CageTreatment {
     if study.cage_average { CageTreatment::Averaged } else { CageTreatment::AsPlaced }
 }
 
-/// What a bearing carries at its operating point.
+/// Operating point: load and prescribed displacements.
 struct Operating {
     load: [f64; 5],
     held: [Option<f64>; 5],
-    /// Where that comes from.
+    /// Description of the load's source.
     words: String,
 }
 
-/// One bearing at work.
+/// Study of one bearing.
 struct Work<'a> {
     name: &'a str,
     bearing: &'a BallBearing,
     study: &'a BearingStudy,
     solver: BearingSolver,
-    /// Contacts with a film of the bearing's oil, even where its law is dry: what lies between the surfaces.
+    /// Contacts with a film of the bearing's lubricant, also for a dry contact law: for the film thickness.
     contacts: BallContacts,
     speed: f64,
 }
@@ -114,7 +114,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Load and held motions of a bearing by itself.
+    /// Load and prescribed displacements of a bearing without a machine.
     fn operating(&self) -> Operating {
         let g = &self.bearing.geometry;
         let single = self.bearing.duplex.is_none();
@@ -124,7 +124,7 @@ impl<'a> Work<'a> {
             None if self.study.moment.is_some() => ([0.0; 3], "as given".to_string()),
             None => {
                 let radial = 0.1 * self.rating().dynamic;
-                // Thrust that keeps half the balls of a single row under load.
+                // Thrust that keeps half the balls of a single row loaded.
                 let thrust = if single && !preloaded { 1.25 * radial * g.contact_angle.tan() } else { 0.0 };
                 let words = match thrust > 0.0 {
                     true => {
@@ -143,7 +143,7 @@ impl<'a> Work<'a> {
         Operating { load: [x, y, z, m_x, m_y], held, words }
     }
 
-    /// Rows that carry thrust the same way; `None` for opposed ones.
+    /// Number of rows that carry thrust in the same direction; `None` for opposed rows.
     fn alike_rows(&self) -> Option<usize> {
         match self.bearing.duplex.map(|pair| pair.arrangement) {
             None => Some(1),
@@ -164,7 +164,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Lives under the loads of the balls; the inner ring turns under the load.
+    /// Rating lives (ISO 281, ISO/TS 16281) under the ball loads; the load is stationary, the inner ring
+    /// rotates.
     fn life(&self, state: &BearingEquilibrium, balls: &[BallState]) -> BearingLife {
         let g = &self.bearing.geometry;
         let [x, y, z, ..] = state.load;
@@ -173,7 +174,7 @@ impl<'a> Work<'a> {
             self.alike_rows().map_or(f64::NAN, |rows| equivalent_load(g, rows, x.hypot(y), z));
         let rating = self.rating();
         let rows = balls.iter().map(|ball| ball.row + 1).max().unwrap_or(0);
-        // C of i rows is i^0.7 that of one.
+        // C of i rows is i^0.7 times that of one (ISO 281).
         let row_rating = rating.dynamic / (rows.max(1) as f64).powf(0.7);
         let of_row = |row: usize| {
             let loads = |pick: fn(&BallState) -> f64| -> Vec<f64> {
@@ -240,7 +241,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// One sweep about an operating point; `None` when it has nothing to vary.
+    /// One sweep about an operating point; `None` if there is nothing to vary.
     fn sweep(
         &self,
         of: Swept,
@@ -302,14 +303,14 @@ impl<'a> Work<'a> {
         Some(BearingSweepResult { of, label, unit, values, points })
     }
 
-    /// A range of values that suits the bearing about its operating point.
+    /// Default range of values about the operating point.
     fn range(&self, of: Swept, point: &BearingPoint) -> Vec<f64> {
         let state = &point.state;
         let load = &state.load;
         let up_to =
             |top: f64| -> Vec<f64> { (1..POINTS).map(|k| top * k as f64 / (POINTS - 1) as f64).collect() };
         let about = |value: f64, least: f64| up_to(2.0 * if value.abs() > 0.0 { value } else { least });
-        // Increasing, whichever way the operating point lies.
+        // Increasing for either sign of the operating point.
         let rising = |mut values: Vec<f64>| {
             values.sort_by(f64::total_cmp);
             values
@@ -347,7 +348,7 @@ impl<'a> Work<'a> {
         self.solver.element.preload_state(speed)
     }
 
-    /// All that follows from an equilibrium.
+    /// Contacts, stiffness, orders and life at an equilibrium.
     fn point(&self, state: BearingEquilibrium) -> BearingPoint {
         let g = &self.bearing.geometry;
         let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
@@ -401,7 +402,7 @@ impl<'a> Work<'a> {
         point
     }
 
-    /// What deserves doubt at the operating point.
+    /// Quality warnings at the operating point.
     fn doubts(&self, point: &BearingPoint) -> Vec<String> {
         let name = self.name;
         let mut found = Vec::new();
@@ -411,7 +412,7 @@ impl<'a> Work<'a> {
             let outside = loads().filter(|load| *load < low || *load > high).count();
             if outside > 0 {
                 found.push(format!(
-                    "bearing {name}: {outside} of {} loaded balls are outside the {low} to {high} N over which their power law was fitted",
+                    "bearing {name}: {outside} of {} loaded balls are outside the range {low} to {high} N of their fitted power law",
                     loads().count()
                 ));
             }
@@ -419,21 +420,21 @@ impl<'a> Work<'a> {
         let marks = &self.bearing.imperfections;
         if self.study.cage_average && !marks.is_empty() {
             found.push(format!(
-                "bearing {name} ({}) is averaged over the cage's position as if it were perfect; loads of its balls are those at the cage angle",
+                "bearing {name} ({}) is averaged over the cage angle as if it had no defects; ball loads are those at the cage angle of the model",
                 marks.condition()
             ));
         }
         let pressure = point.largest_pressure();
         if pressure > STATIC_LIMIT {
             found.push(format!(
-                "bearing {name}: {:.2} GPa on the races, above the 4.2 GPa of the static load rating",
+                "bearing {name}: contact pressure {:.2} GPa, above the 4.2 GPa of the static load rating (ISO 76)",
                 1e-9 * pressure
             ));
         }
         let turning = point.state.condition.speed > 0.0;
         if turning && self.bearing.lubricant().is_some() && point.film_ratio < 1.0 {
             found.push(format!(
-                "bearing {name}: film ratio {:.2} at {:.0} rpm, the surfaces touch (roughness {:.2} um)",
+                "bearing {name}: film ratio {:.2} at {:.0} rpm below 1: asperity contact (roughness {:.2} um)",
                 point.film_ratio,
                 point.state.condition.speed * TO_RPM,
                 1e6 * self.study.roughness
@@ -445,7 +446,7 @@ impl<'a> Work<'a> {
             && self.bearing.duplex.is_none()
             && point.balls.iter().filter(wrong).count() > 0
         {
-            found.push(format!("bearing {name}: the load presses balls onto the shoulder that is not there"));
+            found.push(format!("bearing {name}: the load presses balls onto the open side (no shoulder)"));
         }
         if point.loaded() == 0 {
             found.push(format!("bearing {name}: no ball carries load"));
@@ -454,13 +455,13 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Size of the force \[N\] that acts along the motions that are not held.
+/// Magnitude of the force \[N\] along the free motions.
 fn size(point: &BearingPoint) -> f64 {
     let Condition { load, held, .. } = &point.state.condition;
     (0..3).filter(|k| held[*k].is_none()).map(|k| load[k].powi(2)).sum::<f64>().sqrt()
 }
 
-/// The law of a bearing's films: that of its contacts, or of the oil it runs in.
+/// Contact law for the film thickness: the bearing's own, or with the film of its lubricant.
 fn filmed(bearing: &BallBearing) -> ContactLaw {
     match (&bearing.contact, bearing.lubricant()) {
         (ContactLaw::Hertz | ContactLaw::PowerLaw(_), Some(oil)) => {

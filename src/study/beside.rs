@@ -1,4 +1,4 @@
-//! A measured run beside the model's own: the model driven as the shaft turned, seen where the machine was seen.
+//! Test-analysis correlation of a run-up: the model driven by the measured shaft angle, read at the sensors.
 
 use super::Machine;
 use super::record::describe;
@@ -12,35 +12,35 @@ use crate::signal::SignalError;
 use crate::signal::order::OrderCut;
 use crate::signal::resample::SAMPLES_PER_ORDER;
 
-/// Points a second by which the shaft's measured angle drives the model; a spline joins them.
+/// Spline points per second of the measured shaft angle that drives the model.
 const POINTS_PER_SECOND: f64 = 100.0;
-/// Part of the speeds within which a maximum counts as at their end.
+/// Fraction of the speed range within which a maximum counts as at its end.
 const END: f64 = 5e-3;
-/// Orders that are cut where the model asks for none.
+/// Default orders of the cuts, if the model gives none.
 const USUAL_CUTS: [f64; 3] = [1.0, 2.0, 3.0];
 
-/// A measured run, put into the model.
+/// A measured run mapped to the model.
 #[derive(Clone, Debug)]
 pub struct MeasuredRun {
-    /// Channels while the shaft's angle is known, from time 0 on.
+    /// Channels over the time in which the shaft angle is known, starting at time 0.
     pub history: History,
-    /// What each channel measured, and where.
+    /// Location and quantity of each channel.
     pub probes: Vec<Probe>,
-    /// How the shaft turned.
+    /// Measured shaft rotation.
     pub profile: SpeedProfile,
 }
 
 impl MeasuredRun {
-    /// Channels of one length and rate at their places in the model, and the motion of the shaft at their samples.
+    /// From channels of equal length and rate with their probes, and the shaft angle at the samples.
     ///
     /// # Errors
-    /// A shaft whose angle is not known.
+    /// An unknown shaft angle.
     pub fn new(
         channels: Vec<(Probe, SignalChannel)>,
         motion: &ShaftMotion,
         model: &Model,
     ) -> Result<Self, Error> {
-        let purpose = "a run beside the model's";
+        let purpose = "a comparison with the model's run-up";
         let Some((_, first)) = channels.first().filter(|_| motion.angle.len() > 1) else {
             return Err(SignalError::Unknown { what: "the shaft's angle", purpose }.into());
         };
@@ -66,9 +66,9 @@ impl MeasuredRun {
         Ok(Self { history, probes, profile })
     }
 
-    /// The model driven as measured, with its sensors where the machine had them.
+    /// The model with the measured shaft rotation as speed profile and the measured channels as probes.
     ///
-    /// The computed channels are sampled as the measured ones, as far as the model's steps go.
+    /// Sampled at the rate of the measurement, limited by the model's time step.
     pub fn driven(&self, model: &Model) -> Model {
         let mut model = model.clone();
         model.profile = self.profile.clone();
@@ -80,14 +80,14 @@ impl MeasuredRun {
     }
 }
 
-/// Points of the angle, evenly in time, with the last.
+/// Speed profile through angles evenly spaced in time, including the last.
 fn profile_of(angle: &[f64], rate: f64) -> SpeedProfile {
     let last = angle.len() - 1;
     let stride = ((rate / POINTS_PER_SECOND).round() as usize).clamp(1, last.div_ceil(4).max(1));
-    // Two points nearer than half a stride would make the spline ring.
+    // Points closer than half a stride would make the spline oscillate.
     let mut places: Vec<usize> = (0..last).step_by(stride).filter(|k| 2 * (last - k) >= stride).collect();
     places.push(last);
-    // Which way it turned is a matter of the angle's sign, and the model turns forward.
+    // The direction of rotation is dropped: the model rotates forward.
     let points = places.iter().map(|&k| [k as f64 / rate, (angle[k] - angle[0]).abs()]).collect();
     SpeedProfile::Pulses { points, duration: last as f64 / rate }
 }
@@ -97,11 +97,11 @@ fn rms(values: &[f64]) -> f64 {
 }
 
 impl Machine {
-    /// Spectrograms, orders and order cuts of a measured run and the computed one of the same name, by the settings of
-    /// the model's studies as far as both sampling rates go.
+    /// Spectrograms, order spectra and order cuts of measured and computed channels of the same name, by the
+    /// settings of the model's studies within the range of both sampling rates.
     ///
     /// # Errors
-    /// A run too short for the window or for the order resolution, settings that make no sense.
+    /// A run too short for the window or for the order resolution, invalid settings.
     pub fn beside(&self, measured: &History, computed: &History) -> Result<Vec<ChannelPair>, Error> {
         let studies = &self.model.studies;
         let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
@@ -173,7 +173,7 @@ fn peak(cut: &OrderCut) -> CutPeak {
     CutPeak { rpm, rms, at_end }
 }
 
-/// Vertex of the parabola through the window k and its neighbours, where these are high enough for one.
+/// Vertex of the parabola through window k and its neighbours (peak interpolation), if these are high enough.
 fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
     const HIGH: f64 = 0.7;
     let (x, y) = (&cut.rpm[k - 1..=k + 1], &cut.rms[k - 1..=k + 1]);
@@ -188,7 +188,8 @@ fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
     (between && curvature < 0.0).then_some((step, height))
 }
 
-/// Likeness over the measured windows, the computed levels taken between theirs.
+/// Correlation (MAC-like, (Σ m c)² / (Σ m² Σ c²)) over the measured windows, computed levels interpolated
+/// linearly.
 fn likeness(measured: &OrderCut, computed: &OrderCut) -> f64 {
     let at = |t: f64| {
         let after = computed.times.partition_point(|own| *own < t);

@@ -1,4 +1,4 @@
-//! Bifurcation diagrams: one machine after the other along a parameter, on every core.
+//! Bifurcation diagrams: Poincaré sections over a parameter, with or without continuation, on all cores.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,27 +12,28 @@ use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};
 use crate::results::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
 
-/// Two runs are on the same branch when their sections and extremes differ by less than this share of the orbit.
+/// Largest difference of sections and extremes of runs on the same branch, as a fraction of the orbit.
 const SAME_BRANCH: f64 = 0.05;
 
-/// Said of a value that was not come to because the work was stopped.
+/// Reason for a value not computed because the study was stopped.
 const STOPPED: &str = "stopped";
 
-/// What one value gave, and where the run ended.
+/// Result of one parameter value, and the restart state of its run.
 type Outcome = (Result<SteadyMotion, String>, Option<CarriedState>);
 
-/// The motions of a family of machines, one model per value of the study's parameter.
+/// Bifurcation diagram of a family of machines, one model per value of the study's parameter.
 ///
-/// Every model carries its own copy of the study (the parameter may be one of its settings, such as its speed).
-/// From equilibrium all values are independent. With the state carried over, each sweep is cut into the study's number
-/// of chunks, whatever the number of threads; a chunk starts from equilibrium `overlap` values early. The value before
-/// a seam is then known from both sides: where the two runs are not on the same branch, the chunk is run again from
-/// where the one before it ended. The diagram is that of one uninterrupted sweep, and the same on any number of cores.
-/// `progress` is told the runs done and the runs to do (a chunk run again adds to those); when it breaks, what is done
-/// by then is returned.
+/// Every model has its own copy of the study (the parameter may be one of its settings, such as its speed).
+/// From equilibrium all values are independent. With continuation (restart from the previous value's final
+/// state) each sweep is divided into the study's number of chunks, independent of the number of threads; a
+/// chunk starts from equilibrium `overlap` values early. The value before a seam is then computed by both
+/// chunks: if these are not on the same branch, the chunk is rerun from the final state of the previous one.
+/// The diagram equals that of one uninterrupted sweep on any number of cores. `progress` gets the numbers of
+/// completed and planned runs (a rerun adds to the latter); when it breaks, the values completed by then are
+/// returned.
 ///
 /// # Errors
-/// No model, a model without the study, or not one value with a motion: the first one's reason.
+/// No model, a model without the study, or no value with a steady motion: the reason of the first value.
 pub fn bifurcation(
     models: &[Model],
     progress: &(dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
@@ -103,12 +104,12 @@ pub fn bifurcation(
     })
 }
 
-/// Which value a step of a sweep is at.
+/// Index of the parameter value at a step of a sweep.
 fn place(direction: &str, step: usize, n: usize) -> usize {
     if direction == "down" { n - 1 - step } else { step }
 }
 
-/// What all chunks share.
+/// Data shared by all chunks.
 struct Work<'a> {
     models: &'a [Model],
     progress: &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
@@ -117,7 +118,7 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Runs the values of one chunk one after the other, each from where the one before ended.
+    /// Runs the values of one chunk in sequence, each restarted from the final state of the previous one.
     fn chunk(
         &self,
         direction: &str,
@@ -130,7 +131,7 @@ impl Work<'_> {
         for step in from..to {
             let model = &self.models[place(direction, step, self.models.len())];
             let outcome = self.value(model, carried.as_ref());
-            // After a value without a motion the next one starts from equilibrium.
+            // After a failed value the next one starts from equilibrium.
             carried = outcome.1.clone().filter(|_| carry);
             outcomes.push(outcome);
         }
@@ -153,7 +154,7 @@ impl Work<'_> {
         outcome
     }
 
-    /// Puts the chunks of a sweep together, running again those that began on another branch than the one before them
+    /// Joins the chunks of a sweep, rerunning those that start on another branch than the previous chunk
     /// ended on.
     fn join(
         &self,
@@ -199,7 +200,8 @@ fn motion(
     Ok(Some((found, CarriedState::new(&reduction, &run.state))))
 }
 
-/// Whether two motions look the same: every section point of one has one of the other near it, and both reach as far.
+/// Whether two motions are on the same branch: every section point of one has a near point of the other, and
+/// the extremes agree.
 fn same_branch(a: &SteadyMotion, b: &SteadyMotion) -> bool {
     let sizes: Vec<f64> = a
         .extremes

@@ -1,4 +1,4 @@
-//! The studies: from a model to its results, one method each.
+//! The studies: each computes results from a model, one method of [`Machine`] each.
 
 mod attractor;
 mod bearing;
@@ -38,7 +38,7 @@ use crate::results::{
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, Sample, Settings, run};
 
-/// A model, assembled, with the equilibrium that linear studies are made about.
+/// An assembled model with the static equilibrium about which linear studies are linearised.
 pub struct Machine {
     pub model: Model,
     pub assembly: Assembly,
@@ -60,7 +60,7 @@ impl Machine {
         Ok(Self { model, assembly, base, bearings })
     }
 
-    /// Static equilibrium as asked.
+    /// Static equilibrium with the settings of the study.
     ///
     /// # Errors
     /// No equilibrium.
@@ -69,10 +69,11 @@ impl Machine {
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.base.q))
     }
 
-    /// Bearing tangents at a speed: with `follow` about the equilibrium at that speed, film and ball inertia
-    /// included; else ball bearings as at standstill and linear bearings by their tables.
+    /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)
+    /// about the equilibrium at that speed, including film and ball inertia; else ball bearings as at
+    /// standstill and linear bearings by their tables.
     ///
-    /// Where nothing changes with speed the equilibrium at standstill serves for all.
+    /// Without speed dependence the equilibrium at standstill is used for all speeds.
     ///
     /// # Errors
     /// No equilibrium at that speed.
@@ -89,8 +90,8 @@ impl Machine {
         Ok(self.bearings.iter().zip(self.base.tangents()).map(tangent).collect())
     }
 
-    /// Whether the ball bearings' tangents change with speed: by themselves, or because a linear bearing beside
-    /// them changes and shifts the load.
+    /// Whether the ball bearings' tangents depend on speed: directly, or because a speed-dependent linear
+    /// bearing redistributes the load.
     fn bearings_follow_speed(&self) -> bool {
         let sites = &self.model.bearings;
         let any_ball = sites.iter().any(|site| site.bearing.ball().is_some());
@@ -102,7 +103,7 @@ impl Machine {
             })
     }
 
-    /// The linear equations about the equilibrium at a speed.
+    /// The equations of motion linearised about the equilibrium at a speed.
     ///
     /// # Errors
     /// As [`LinearSystem::new`].
@@ -110,7 +111,7 @@ impl Machine {
         LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
-    /// Damped modes at every speed asked for.
+    /// Damped modes at every requested speed.
     ///
     /// # Errors
     /// An eigenvalue computation that fails.
@@ -146,7 +147,7 @@ impl Machine {
         let tangents = |speed| self.tangents(speed, true);
         let diagram: Campbell = campbell::campbell(&self.assembly, &speeds, MODES, &tangents)?;
         let mut speeds = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
-        // The crossing at standstill of a motion at 0 Hz is none.
+        // The crossing of a 0 Hz mode at standstill is no critical speed.
         speeds.retain(|c| c.speed > 0.0);
         Ok(CriticalResult { max_speed: study.max_speed, speeds })
     }
@@ -223,7 +224,7 @@ impl Machine {
         reduce(&self.model, &self.assembly, &start, study.cutoff)
     }
 
-    /// Largest relative difference of damped frequencies up to half the cutoff, reduced against full, at a speed.
+    /// Largest relative eigenvalue difference of reduced and full model up to half the cutoff, at a speed.
     ///
     /// # Errors
     /// An eigenvalue computation that fails.
@@ -250,7 +251,7 @@ impl Machine {
             .fold(0.0, f64::max))
     }
 
-    /// Runs the reduced model through the speed profile; `observe` sees every sample as it comes.
+    /// Runs the reduced model through the speed profile; `observe` is called with every sample.
     pub fn run_up(
         &self,
         study: &RunUpStudy,
@@ -270,7 +271,7 @@ impl Machine {
         run(&reduction.system, state, &settings, observe)
     }
 
-    /// Order lines with the names a user would give them: a multiple of a bearing's order by its name.
+    /// Order lines with labels: "2x", or for multiples of a bearing's characteristic orders "BPFO", "2 BPFI".
     pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
         let mut known: Vec<(String, f64)> = Vec::new();
         for site in &self.model.bearings {
@@ -287,7 +288,7 @@ impl Machine {
                     let n = (order / base).round();
                     (n >= 1.0 && (order / base - n).abs() < 1e-6 * n).then_some(n)
                 };
-                // Whole orders are the shaft's, whatever a bearing's ratio.
+                // Integer orders are always shaft orders.
                 let bearing = known.iter().find_map(|(name, base)| {
                     let n = multiple(*base).filter(|n| *n <= 5.0 && multiple(1.0).is_none())?;
                     Some(if n == 1.0 { name.clone() } else { format!("{n} {name}") })
@@ -302,7 +303,7 @@ impl Machine {
     }
 }
 
-/// A load that meets a free motion leaves no equilibrium: then the motion is what the user must hear of.
+/// Replaces a failed equilibrium by the rigid-body mode that causes it, if there is one.
 fn name_free_motion(error: Error, model: &Model, assembly: &Assembly) -> Error {
     let free = free_motion::free_motions_of_machine(model, assembly).unwrap_or_default();
     match free.into_iter().next() {

@@ -1,4 +1,4 @@
-//! Records a transient run: probes, bearing forces, cage angles, energies.
+//! Recorder of a transient run: probes, bearing forces, cage angles, energies.
 
 use crate::model::{Model, Probe, Quantity};
 use crate::results::{History, HistoryChannel, unit_of};
@@ -9,13 +9,13 @@ use crate::transient::system::System;
 pub struct Recorder {
     pub history: History,
     row: Vec<f64>,
-    /// Directions of u_x u_y u_z in which every bearing acts on the shaft.
+    /// Number of force components (of u_x u_y u_z) of every bearing.
     directions: Vec<usize>,
 }
 
 impl Recorder {
-    /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage angle;
-    /// energies of the account.
+    /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
+    /// angle; the terms of the energy balance.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
         let mut channels: Vec<HistoryChannel> = model.probes.iter().map(|p| describe(model, p)).collect();
         let plain =
@@ -44,7 +44,7 @@ impl Recorder {
         }
     }
 
-    /// Takes one sample; returns its values in the order of the channels.
+    /// Records one sample; returns its values in the order of the channels.
     pub fn take(&mut self, sample: &Sample) -> &[f64] {
         let state = sample.state;
         self.row.clear();
@@ -79,7 +79,7 @@ impl Recorder {
 const ENERGIES: [&str; 8] =
     ["kinetic", "strain", "contact", "work", "parametric", "damping_loss", "contact_loss", "residual"];
 
-/// Name, unit, place and direction of a probe.
+/// Channel with name, unit, station and direction of a probe, without values.
 pub(super) fn describe(model: &Model, probe: &Probe) -> HistoryChannel {
     let rotation = probe.direction[3..].iter().any(|d| *d != 0.0);
     let names = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];

@@ -1,15 +1,15 @@
-//! Fields of a bearing's heaviest loaded contacts, solved at its operating point.
+//! Elastohydrodynamic (EHL) pressure and film thickness of the most heavily loaded contacts of a bearing.
 
 use crate::bearing::BallBearing;
 use crate::contact::ContactLaw;
 use crate::contact::ehl::{self, Grid, Problem};
 use crate::results::{BearingPoint, PickContact, SolvedFilm};
 
-/// Fineness of the fields, see [`Grid::flooded`].
+/// Grid resolution, see [`Grid::flooded`].
 const POINTS: usize = 8;
 
-/// The film of the heaviest loaded ball at both races, for a bearing whose law is the solved film; what does not
-/// converge is a warning.
+/// EHL solution of the most heavily loaded ball at both races, for a bearing with the EHL contact law;
+/// failure to converge is a warning.
 pub(super) fn fields(
     name: &str,
     bearing: &BallBearing,

@@ -1,4 +1,4 @@
-//! Spectrograms and order analyses of a recorded run.
+//! Spectrograms and order tracking of a recorded run.
 
 use super::Machine;
 use crate::error::Error;
@@ -7,17 +7,17 @@ use crate::results::{History, HistoryChannel, OrderResult, SpectrogramResult};
 use crate::signal::order::{OrderSettings, OrderTracker};
 use crate::signal::stft::{Stft, StftSettings};
 
-/// Half width of an order cut's band in bins: three bins hold a Hann line's level to 0.2 dB wherever it lies
-/// between them, and at a resolution of 0.05 they part 7x from 2 BPFO = 7.14x.
+/// Half width of an order cut's band in bins: three bins contain the level of a Hann-windowed line to 0.2 dB,
+/// and at a resolution of 0.05 they separate 7x from 2 BPFO = 7.14x.
 const CUT_BINS: f64 = 1.0;
 
 impl Machine {
-    /// Spectrograms of the channels asked for, up to the frequency asked for, with the speed at every frame.
+    /// Spectrograms (STFT) of the requested channels up to a frequency, with the speed at every frame.
     ///
-    /// Channels are taken without their means: a static deflection is no vibration, and would outshine it.
+    /// The mean of each channel (static deflection) is removed.
     ///
     /// # Errors
-    /// A record too short for the window, or settings that make no sense.
+    /// A record too short for the window, or invalid settings.
     pub fn spectrograms(
         &self,
         study: &SpectrogramStudy,
@@ -44,7 +44,7 @@ impl Machine {
             .collect()
     }
 
-    /// Order spectrograms and cuts of the channels asked for, taken without their means.
+    /// Order spectrograms and order cuts of the requested channels, their means removed.
     ///
     /// # Errors
     /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order.
@@ -82,7 +82,7 @@ pub(super) fn without_mean(values: &[f64]) -> Vec<f64> {
     values.iter().map(|v| v - mean).collect()
 }
 
-/// The named channels; with no name given, everything that vibrates (no energies, no angles).
+/// The named channels; without names all displacements, velocities and accelerations.
 fn chosen<'a>(names: &'a [String], history: &'a History) -> impl Iterator<Item = &'a HistoryChannel> {
     history.channels.iter().filter(move |c| {
         if names.is_empty() {
@@ -93,7 +93,7 @@ fn chosen<'a>(names: &'a [String], history: &'a History) -> impl Iterator<Item =
     })
 }
 
-/// Drops the columns beyond a frequency.
+/// Removes the columns above a frequency.
 fn crop(amplitude: &mut Vec<f64>, frequencies: &mut Vec<f64>, limit: f64) {
     let bins = frequencies.len();
     let kept = frequencies.partition_point(|f| *f <= limit).max(1);

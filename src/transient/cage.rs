@@ -1,4 +1,4 @@
-//! The cage constraint: every cage rolls with the shaft, at varying speed too.
+//! Cage kinematics: every cage rolls with the shaft without slip, also at varying speed.
 
 use super::system::{State, System};
 use crate::bearing::Rotation;
@@ -7,8 +7,8 @@ use crate::model::Spin;
 /// Cage and shaft angles at the end of a step, written to `out`.
 ///
 /// ψ₁ = ψ₀ + r (θ₁ − θ₀), ψ̇ = r Ω with r = ½ (1 − D_w cos ᾱ / D_pw) at the load-weighted mean contact angle
-/// of the step's start: rolling without slip. cos ᾱ moves by parts in 1e4 over a ball passage, so that the
-/// lag of one step in r is far below every other error, while the shaft's own angle is exact.
+/// of the step's start: rolling without slip. cos ᾱ varies by about 1e-4 over a ball passage, so that the
+/// error of a lag of one step in r is negligible, while the shaft's own angle is exact.
 pub fn advance(system: &System, state: &State, spin: &Spin, out: &mut [Rotation]) {
     let turned = spin.angle - state.spin.angle;
     for (((interface, before), reaction), after) in

@@ -1,4 +1,4 @@
-//! A second run beside the first, from a slightly different state: how fast do they part?
+//! A perturbed trajectory alongside the reference run, for the largest Lyapunov exponent (Benettin).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,20 +8,19 @@ use crate::bearing::Rotation;
 use crate::error::PhysicsError;
 use crate::model::study::Integrator;
 
-/// A perturbed copy of a run that takes the same steps at the same shaft and cage angles.
+/// A perturbed trajectory: a copy of a run with the same steps and the same shaft and cage angles.
 ///
-/// The perturbation is one of displacements and velocities: shaft and cages turn as they do in the first run, as part
-/// of the drive. (Were a rolling cage perturbed too, every motion of a perfect bearing would have an exponent of zero,
-/// that of a shift in time.) Its size is measured by twice its energy, |δ|² = δẋᵀ δẋ + δxᵀ (K + Wᵀ K_b W + ε) δx with
-/// the bearings' stiffness K_b where the copy was made and ε = 1 s⁻² for motions that nothing holds: an undamped
-/// vibration keeps it.
+/// Displacements and velocities are perturbed; shaft and cages rotate as in the reference run, as part of the
+/// excitation. (A perturbed cage angle would give every motion of a perfect bearing a zero exponent, that of
+/// a time shift.) The norm is twice the energy, |δ|² = δẋᵀ δẋ + δxᵀ (K + Wᵀ K_b W + ε) δx, with the bearing
+/// stiffness K_b at the start and ε = 1 s⁻² for rigid-body modes: constant for an undamped vibration.
 pub struct Companion {
     state: State,
     stepper: Stepper,
     stiffness: DMatrix<f64>,
-    /// Size that the perturbation is scaled back to.
+    /// Norm to which the perturbation is renormalised.
     size: f64,
-    /// Where the first run's cages were before the step, and the mean cos α that drives them on.
+    /// Cage states of the reference run before the step, and the mean cos α that sets their speed.
     cages: Vec<(Rotation, f64)>,
     dx: DVector<f64>,
     dv: DVector<f64>,
@@ -39,7 +38,7 @@ impl Companion {
     ) -> Self {
         let n = system.size();
         let stiffness = elastic_stiffness(system, reference);
-        // Spread by the golden ratio: no mode is left out, and every run gets the same.
+        // Quasi-random (golden ratio): excites every mode, and is the same in every run.
         let golden = 0.5 * (5f64.sqrt() - 1.0);
         let spread = |k: usize| 2.0 * ((k + 1) as f64 * golden).fract() - 1.0;
         let dx = DVector::from_fn(n, |i, _| spread(2 * i) / stiffness[(i, i)].sqrt());
@@ -68,10 +67,10 @@ impl Companion {
         companion
     }
 
-    /// Takes the step that the first run has just taken; `reference` is that run's state now.
+    /// Repeats the last step of the reference run; `reference` is that run's state after it.
     ///
     /// # Errors
-    /// A step that does not converge here.
+    /// A step that does not converge.
     pub fn follow(&mut self, system: &System, reference: &State, step: f64) -> Result<(), PhysicsError> {
         let state = &mut self.state;
         for ((reaction, rotation), (cage, mean_cos)) in
@@ -84,7 +83,7 @@ impl Companion {
         Ok(())
     }
 
-    /// Takes over the first run's clock and cages.
+    /// Copies time, shaft rotation and cages of the reference run.
     pub fn sync(&mut self, reference: &State) {
         (self.state.time, self.state.spin) = (reference.time, reference.spin);
         self.cages.clear();
@@ -92,9 +91,9 @@ impl Companion {
         self.cages.extend(cages.map(|(rotation, reaction)| (*rotation, reaction.mean_cos)));
     }
 
-    /// ln of the perturbation's growth since the last time, and back to its first size.
+    /// Renormalises the perturbation to its initial norm; returns ln of its growth since the last call.
     ///
-    /// The difference is scaled as a whole, the algorithm's own acceleration included.
+    /// The whole difference is scaled, including the integrator's acceleration.
     pub fn renormalise(&mut self, system: &System, reference: &State) -> f64 {
         let state = &mut self.state;
         self.dx.copy_from(&state.x);
@@ -126,8 +125,8 @@ impl Companion {
     }
 }
 
-/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state; of balls with coordinates of their own every one by
-/// itself, with both contacts as at the speed's centrifugal force.
+/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state; for balls with their own degrees of
+/// freedom the diagonal entry, with both contacts at the preload by the centrifugal force.
 fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
     let (n, structure) = (system.size(), system.structure());
     let mut out = DMatrix::identity(n, n);

@@ -1,11 +1,11 @@
-//! Energy balance of a run.
+//! Energy balance of a run, step by step.
 
 use nalgebra::DVector;
 
 use super::system::{State, System};
 use crate::bearing::{Reaction, Rotation};
 
-/// Running energy account \[J\]: kinetic + strain + contact = start + work − losses, up to the integrator's error.
+/// Energy balance \[J\]: kinetic + strain + contact = start + work + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Energy {
     /// ½ ẋᵀ ẋ (mass-normalised coordinates).
@@ -16,31 +16,32 @@ pub struct Energy {
     pub contact: f64,
     /// Work of loads, unbalance, angular acceleration and circulatory terms since the start.
     pub work: f64,
-    /// Work of turning cages, passing waves and changing speed on the bearings since the start.
+    /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation) since
+    /// the start.
     pub parametric: f64,
-    /// Loss in linear damping since the start.
+    /// Energy dissipated by linear damping since the start.
     pub damping_loss: f64,
-    /// Loss in bearing contacts since the start.
+    /// Energy dissipated in bearing contacts since the start.
     pub contact_loss: f64,
     /// Stored energy at the start.
     pub start: f64,
 }
 
 impl Energy {
-    /// What the account leaves unexplained \[J\].
+    /// Residual of the energy balance \[J\].
     pub fn residual(&self) -> f64 {
         self.kinetic + self.strain + self.contact - self.start - self.work - self.parametric
             + self.damping_loss
             + self.contact_loss
     }
 
-    /// Size of the exchange that the residual is held against \[J\]: losses plus change of stored energy.
+    /// Reference for the residual \[J\]: losses plus change of stored energy.
     pub fn turnover(&self) -> f64 {
         self.damping_loss + self.contact_loss + (self.kinetic + self.strain + self.contact - self.start).abs()
     }
 }
 
-/// Keeps the account along a run, step by step; allocates nothing after the start.
+/// Updates the energy balance step by step; allocation-free after construction.
 pub struct EnergyLedger {
     pub energy: Energy,
     load: DVector<f64>,
@@ -79,7 +80,7 @@ impl EnergyLedger {
         ledger
     }
 
-    /// Books one step: work by the mean load over the step's path, powers by the trapezoidal rule.
+    /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
     pub fn book(&mut self, system: &System, state: &State) {
         let step = state.time - self.time;
         self.moved.copy_from(&state.x);
@@ -106,14 +107,14 @@ impl EnergyLedger {
         self.time = state.time;
     }
 
-    /// Goes on from a state whose coordinates were changed between steps (a torque drive's recentring).
+    /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
     pub fn start_from(&mut self, system: &System, state: &State) {
         effective_load(system, state, &mut self.scratch, &mut self.previous_load);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
     }
 
-    /// Brings the stored energies up to date, when somebody looks.
+    /// Updates the stored energies (kinetic, strain, contact); needed before reading [`Self::energy`] only.
     pub fn stored(&mut self, system: &System, state: &State) {
         let e = &mut self.energy;
         e.kinetic = 0.5 * state.v.norm_squared();
@@ -130,8 +131,8 @@ fn powers(state: &State) -> [f64; 2] {
     [sum(|r| r.parametric_power), sum(|r| r.dissipated_power)]
 }
 
-/// Energy that bearings took in by their speed's change alone since `before` \[J\]: film, balls' inertia, preload and
-/// clearance change with it. (Balls with coordinates of their own store nothing that knows of speed.)
+/// Change of the bearings' energy by the change of speed alone since `before` \[J\]: film, ball inertia,
+/// preload and clearance depend on speed. (The stored energy of balls with own degrees of freedom does not.)
 fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
     let mut sum = 0.0;
     for ((interface, reaction), (now, before)) in
@@ -150,7 +151,7 @@ fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
     sum
 }
 
-/// Loads plus the terms of the left side that are no spring and no damper: −(Ω̇ K_s + Ω K_c) x.
+/// Loads plus the left-hand terms that are neither elastic nor damping: −(Ω̇ K_s + Ω K_c) x.
 fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
     system.load(state.time, &state.spin, out);
     if !system.panels.has_effective {

@@ -1,4 +1,5 @@
-//! Nonlinear transients in time: through a speed profile, and at steady speed for its attractors.
+//! Nonlinear transient simulation (time integration): run-ups through a speed profile, and steady motions at
+//! constant speed.
 
 pub mod cage;
 pub mod companion;

@@ -1,8 +1,9 @@
-//! Component-mode reduction of the linear parts, with static correction.
+//! Modal reduction of the linear parts (component mode synthesis) with static correction modes.
 //!
-//! Basis: the undamped modes of the machine linearised at equilibrium, up to a cutoff, plus its static response
-//! to every interface force and load. Bearing forces then act on an exact static compliance, and the machine's
-//! own low modes are in the basis as they are; C, G and the rest are projected, not approximated further.
+//! Basis: the undamped modes of the machine linearised at equilibrium (bearings included, so no Craig-Bampton
+//! fixed-interface modes), up to a cutoff, plus static correction modes: its static response (residual
+//! flexibility) to every interface force and load. The static compliance at the bearings is therefore exact;
+//! C, G and the other matrices are projected.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -16,19 +17,19 @@ use crate::error::{Error, PhysicsError};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 use crate::model::{Drive, Model};
 
-/// What is added to K over M where K is not positive definite \[rad²/s²\]: 1 for a free motion, more for a shaft that
-/// balances on one ball.
+/// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
+/// shaft in unstable equilibrium on one ball.
 const SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
 
-/// A reduced machine with the way back to all DOFs.
+/// A reduced machine with the basis for expansion to all DOFs.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     pub system: System,
     /// Basis V (free DOFs × coordinates), Vᵀ M V = 1.
     pub basis: DMatrix<f64>,
-    /// Coordinates of the equilibrium the reduction was made at, balls included.
+    /// Coordinates of the equilibrium about which the model was reduced, balls included.
     pub equilibrium: DVector<f64>,
-    /// Vibration modes and static-correction vectors in the basis.
+    /// Number of vibration modes and of static correction modes in the basis.
     pub modes: usize,
     pub corrections: usize,
     /// Largest displacement error of the equilibrium in the basis, relative to the largest displacement.
@@ -41,7 +42,7 @@ impl Reduction {
         &self.basis * x.rows(0, self.basis.ncols())
     }
 
-    /// What reads a row over the free DOFs from coordinates: Vᵀ r, nothing of the balls.
+    /// A row over the free DOFs in terms of the coordinates: Vᵀ r, zero for the balls.
     pub fn row(&self, row: Vec<f64>) -> DVector<f64> {
         padded(self.basis.tr_mul(&DVector::from_vec(row)), self.system.size())
     }
@@ -85,7 +86,7 @@ pub fn reduce(
     let limit = (std::f64::consts::TAU * cutoff).powi(2);
     let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
 
-    // The belt resists deviation from equilibrium: its stiffness comes with the force −k q₀ at q₀.
+    // The belt resists deviation from equilibrium: its force is k (q₀ − q).
     let belt_rest = assembly.belt_stiffness.mul(&equilibrium.q);
     let mut steady: Vec<f64> = (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
     let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
@@ -170,7 +171,7 @@ pub fn reduce(
             })
         }
     };
-    // Without a drive station every inertia is turned by its own torque: spin-up leaves the twist alone.
+    // Without a drive station every inertia is accelerated by its own torque: spin-up causes no twist.
     let driven = !matches!(model.drive, Drive::Prescribed { node: None });
     let q0 = DVector::from_column_slice(&equilibrium.q);
     let structure = &momentum * &q0;
@@ -235,7 +236,8 @@ pub fn reduce(
     Ok(Reduction { system, equilibrium: x0, modes, corrections: basis.ncols() - modes, static_error, basis })
 }
 
-/// Modes, then static responses made M-orthonormal to what is there; what adds nothing new is dropped.
+/// Modes, then static correction modes M-orthonormalised against the basis (Gram-Schmidt); linearly dependent
+/// ones are dropped.
 fn basis(
     stiffness: &DMatrix<f64>,
     mass: &DMatrix<f64>,
@@ -244,7 +246,7 @@ fn basis(
     forces: &[Vec<f64>],
 ) -> Option<DMatrix<f64>> {
     let n = stiffness.nrows();
-    // A free rotation leaves K singular; a shift of (0.16 Hz)² changes no static response that matters.
+    // Rigid-body rotation makes K singular; a shift of (0.16 Hz)² hardly changes the static responses.
     let shifted = || SHIFTS.iter().find_map(|shift| nalgebra::Cholesky::new(stiffness + mass * *shift));
     let factor = nalgebra::Cholesky::new(stiffness.clone()).or_else(shifted)?;
     let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();

@@ -8,11 +8,11 @@ use super::system::{State, System};
 use crate::error::PhysicsError;
 use crate::model::study::Integrator;
 
-/// How a run is stepped and sampled.
+/// Integrator, step and sampling of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     pub integrator: Integrator,
-    /// Largest step \[s\]; the step taken divides the sampling interval.
+    /// Largest step \[s\]; the actual step divides the sampling interval.
     pub step: f64,
     /// Sampling rate \[Hz\].
     pub sample_rate: f64,
@@ -20,7 +20,7 @@ pub struct Settings {
     pub duration: f64,
 }
 
-/// What an observer sees at every sampling instant.
+/// Data passed to the observer at every sampling instant.
 pub struct Sample<'a> {
     pub index: usize,
     pub state: &'a State,
@@ -29,7 +29,7 @@ pub struct Sample<'a> {
     pub energy: &'a Energy,
 }
 
-/// How a run ended, with the work it took.
+/// Outcome and cost of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     pub samples: usize,
@@ -38,7 +38,7 @@ pub struct Report {
     pub iterations: u64,
     /// Effective matrices inverted by an implicit run.
     pub refactored: u64,
-    /// Steps that had to be halved (implicit) or were refused by error control (explicit).
+    /// Steps that were halved (implicit) or rejected by error control (explicit).
     pub halvings: u64,
     pub energy: Energy,
     pub end: End,
@@ -48,16 +48,16 @@ pub struct Report {
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     Complete,
-    /// The observer asked to stop (Ctrl-C).
+    /// Stopped by the observer (Ctrl-C).
     Stopped,
-    /// The physics failed; what was sampled before stands.
+    /// Failed; the samples before remain valid.
     Failed(PhysicsError),
 }
 
 /// Runs `system` from `state`, calling `observe` at t = 0 and every sampling instant.
 ///
-/// A step that does not converge is halved; a run that fails ends with [`End::Failed`], everything sampled
-/// before having been observed. The result depends on nothing but the arguments.
+/// A step that does not converge is halved; a run that fails ends with [`End::Failed`] after all earlier
+/// samples have been observed. Deterministic: the result depends only on the arguments.
 pub fn run(
     system: &System,
     mut state: State,
@@ -69,7 +69,7 @@ pub fn run(
     let step = interval / substeps as f64;
     let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
     let mut stepper = Stepper::new(system, settings.integrator, step);
-    // Error control finds its own steps from one sample to the next.
+    // Error control chooses the steps between two samples.
     let (calls, step) = if stepper.is_adaptive() { (1, interval) } else { (substeps, step) };
     let mut ledger = EnergyLedger::new(system, &state);
     let mut channels = vec![0.0; system.channels.len()];

@@ -1,4 +1,4 @@
-//! Explicit Runge-Kutta steps: the classical one of order 4 and Dormand-Prince 5(4).
+//! Explicit Runge-Kutta steps: the classical method of order 4 (RK4) and Dormand-Prince 5(4).
 
 use nalgebra::DVector;
 
@@ -14,7 +14,7 @@ struct Tableau {
     b: &'static [f64],
     /// b − b̂, for the embedded error estimate.
     error: &'static [f64],
-    /// Whether the last stage is the state at the step's end.
+    /// Whether the last stage is the state at the step's end (FSAL, first same as last).
     last_is_end: bool,
 }
 
@@ -51,7 +51,7 @@ const DORMAND_PRINCE: Tableau = Tableau {
     last_is_end: true,
 };
 
-/// Explicit integrator; owns its stages, so that a step allocates nothing.
+/// Explicit integrator; steps are allocation-free.
 pub struct RungeKutta {
     tableau: &'static Tableau,
     /// (ẋ, ẍ) of every stage.
@@ -66,7 +66,7 @@ pub struct RungeKutta {
     scratch: Vec<f64>,
     rotations: Vec<Rotation>,
     reactions: Vec<Reaction>,
-    /// Right-hand sides evaluated, for the run's report.
+    /// Evaluations of the right-hand side.
     pub evaluations: u64,
 }
 
@@ -99,7 +99,7 @@ impl RungeKutta {
         }
     }
 
-    /// Acceleration at (time, x, v) into `out`; leaves reactions, d and ḋ of that point in the buffers.
+    /// Rate (ẋ, ẍ) at (time, x, v), written to `stage`; reactions, d and ḋ of that point stay in the buffers.
     fn evaluate(&mut self, system: &System, state: &State, time: f64, spin: &Spin, stage: usize) {
         self.evaluations += 1;
         cage::advance(system, state, spin, &mut self.rotations);
@@ -113,7 +113,7 @@ impl RungeKutta {
         system.add_from_interface(&self.force, acceleration);
     }
 
-    /// x and v of the state with the stages' rates by their weights.
+    /// x and v of the state plus the weighted sum of the stage rates.
     fn combine(&mut self, state: &State, step: f64, weights: &[f64]) {
         let (x, v) = (self.x.as_mut_slice(), self.v.as_mut_slice());
         let [mut from_x, mut from_v] = [Some(state.x.as_slice()), Some(state.v.as_slice())];
@@ -136,7 +136,7 @@ impl RungeKutta {
         tolerance: Option<(f64, f64)>,
     ) -> f64 {
         let Tableau { c, a, b, error, last_is_end } = *self.tableau;
-        // The state's own acceleration is that of the first stage, but in a frame that has changed its acceleration.
+        // The first stage is the state's own rate, unless a torque drive has recentred the frame.
         let known = usize::from(system.drive.is_none());
         if known > 0 {
             self.stages[0].0.copy_from(&state.v);
@@ -156,7 +156,7 @@ impl RungeKutta {
                 self.x_error.axpy(step * weight, rate, 1.0);
                 self.v_error.axpy(step * weight, acceleration, 1.0);
             }
-            // Velocities are weighed on the step's own time scale, so that both parts are lengths.
+            // Velocities are scaled by the step, so that both parts are lengths.
             let size = state.x.amax() + step * state.v.amax();
             let worst = self.x_error.amax().max(step * self.v_error.amax());
             estimate = worst / (absolute + relative * size);
@@ -183,7 +183,7 @@ impl RungeKutta {
     }
 }
 
-/// y ← base + factor · rate, the base being y itself where none is given.
+/// y ← base + factor · rate; without `base`, y ← y + factor · rate.
 fn add(y: &mut [f64], base: Option<&[f64]>, factor: f64, rate: &[f64]) {
     match base {
         Some(base) => y.iter_mut().zip(base).zip(rate).for_each(|((y, b), r)| *y = b + factor * r),

@@ -1,4 +1,4 @@
-//! A run at steady speed: settles, then records every step over whole periods of a clock.
+//! A run at constant speed: decay of the transient, then recording over whole periods of a clock.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -9,12 +9,12 @@ use super::system::{Channel, State, System};
 use crate::error::PhysicsError;
 use crate::model::study::{Clock, Steady};
 
-/// Samples recorded before the first and after the last section, for the interpolation between samples.
+/// Samples recorded before the first and after the last Poincaré section, for interpolation between samples.
 const MARGIN: f64 = 3.5;
-/// Round-off of a phase, as a share of its period.
+/// Round-off of a phase, as a fraction of its period.
 const ROUND_OFF: f64 = 1e-9;
 
-/// What a steady run left.
+/// Result of a run at constant speed.
 #[derive(Clone, Debug)]
 pub struct SteadyRun {
     /// Time between samples \[s\]: the integrator's step.
@@ -23,19 +23,19 @@ pub struct SteadyRun {
     pub phase: Vec<f64>,
     /// Shaft angle at every sample \[rad\].
     pub shaft_angle: Vec<f64>,
-    /// Per channel its samples.
+    /// Samples of every channel.
     pub channels: Vec<Vec<f64>>,
-    /// ln of a perturbation's growth from section to section over the recorded periods, where one was followed, and
-    /// the time between them \[s\].
+    /// ln of a perturbation's growth from section to section over the recorded periods (for Lyapunov
+    /// exponents), if requested, and the time between sections \[s\].
     pub log_growth: Vec<f64>,
     pub intervals: Vec<f64>,
-    /// Where the run ended.
+    /// State at the end of the run.
     pub state: State,
     /// Integration steps.
     pub steps: u64,
 }
 
-/// Phase of a clock \[rad\]; a section is taken every 2π.
+/// Phase of a clock \[rad\]; a Poincaré section is taken every 2π.
 pub fn phase(clock: Clock, state: &State) -> f64 {
     match clock {
         Clock::Shaft => state.spin.angle,
@@ -52,14 +52,14 @@ fn phase_rate(clock: Clock, state: &State) -> f64 {
     }
 }
 
-/// Runs from `state` for the periods asked for; `progress` hears of every period and may stop the run (then `None`).
+/// Runs from `state` for the requested periods; `progress` may stop the run after any period (`None`).
 ///
-/// With a `perturbation` \[m\] a companion is followed from half of the settling on, so that it has turned into the
-/// direction that grows fastest when the recording begins, and scaled back at every section.
-/// The result depends on nothing but the arguments.
+/// With a `perturbation` \[m\] a perturbed trajectory is integrated from half of the settling on, so that it
+/// has aligned with the fastest growing direction when the recording begins, and renormalised at every
+/// section. Deterministic: the result depends only on the arguments.
 ///
 /// # Errors
-/// A clock that stands still, a step that does not converge, a run that diverges.
+/// A clock that does not advance, a step that does not converge, a run that diverges.
 pub fn run_steady(
     system: &System,
     mut state: State,
@@ -75,7 +75,7 @@ pub fn run_steady(
     }
     let per_period = (nominal / settings.step * (1.0 - 1e-12)).ceil().max(1.0);
     let step = nominal / per_period;
-    // Phase in turns of the clock past the section; a section is at every whole number.
+    // Phase in clock periods relative to the section; sections lie at integers.
     let turns = |state: &State| (phase(settings.clock, state) - settings.phase) / TAU;
     let start = (turns(&state) - ROUND_OFF).ceil();
     let first = start + settings.settle as f64;

@@ -1,8 +1,8 @@
-//! The reduced equations of motion of a machine with nonlinear bearings, ready for time integration.
+//! The reduced equations of motion of a machine with nonlinear bearings, for time integration.
 //!
 //! ẍ + (C + Ω G) ẋ + (K + Ω̇ K_s + Ω K_c) x = p(t) + Wᵀ f(d, ḋ, rotation), d = W x,
-//! in mass-normalised coordinates q = V x; f is the sum of the bearings' reactions on the shaft. Balls with a coordinate
-//! y of their own follow the structure's: √m y at the end of x, y at the end of d, and f what acts on y.
+//! in mass-normalised coordinates q = V x; f holds the bearing forces on the shaft. Balls with their own
+//! degree of freedom y are appended: √m y to x, y to d, and the force on y to f.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,16 +12,16 @@ use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::linalg::panel::Panel;
 use crate::model::{Quantity, SpeedCurve, Spin};
 
-/// A nonlinear bearing of the reduced system and the rows of W that are its relative displacement.
+/// A nonlinear bearing of the reduced system and the rows of W that give its relative displacement.
 #[derive(Clone, Debug)]
 pub struct Interface {
     pub name: String,
     pub element: BearingElement,
-    /// First row of W and number of rows: 6; 5 for ball bearings, θ_z being free; of a bearing in its plane the 2 of
-    /// the shaft relative to the housing and, where that moves, the 2 of the housing.
+    /// First row of W and number of rows: 6; 5 for ball bearings, θ_z being free; for a planar bearing the 2
+    /// of the shaft relative to the housing and, if that moves, the 2 of the housing.
     pub first_row: usize,
     pub rows: usize,
-    /// First and number of the balls with coordinates of their own.
+    /// Index of the first ball and number of balls with their own degree of freedom.
     pub first_ball: usize,
     pub balls: usize,
     /// Cage angle at the start \[rad\].
@@ -29,12 +29,12 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Its rows among all.
+    /// Its rows of W.
     pub fn row_range(&self) -> std::ops::Range<usize> {
         self.first_row..self.first_row + self.rows
     }
 
-    /// Its balls among all.
+    /// Its balls among those of all interfaces.
     pub fn ball_range(&self) -> std::ops::Range<usize> {
         self.first_ball..self.first_ball + self.balls
     }
@@ -45,7 +45,7 @@ impl Interface {
         self.element.reaction(&at, &rate, rotation)
     }
 
-    /// Rings of a bearing in its plane.
+    /// Ring motions of a planar bearing.
     pub fn rings(&self, d: &[f64], d_rate: &[f64]) -> Rings {
         Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
     }
@@ -67,7 +67,7 @@ pub struct LoadHistory {
     pub points: Vec<[f64; 2]>,
 }
 
-/// One measured channel: row · x (or ẋ, ẍ).
+/// One output channel (virtual sensor): row · x (or ẋ, ẍ).
 #[derive(Clone, Debug)]
 pub struct Channel {
     pub name: String,
@@ -98,30 +98,30 @@ pub struct System {
     pub static_load: DVector<f64>,
     /// Unbalance along cos θ and sin θ, per Ω².
     pub unbalance: [DVector<f64>; 2],
-    /// −Vᵀ M r: what a unit Ω̇ does to torsion.
+    /// −Vᵀ M r: inertial load on torsion per unit Ω̇.
     pub spin_inertia: DVector<f64>,
     pub histories: Vec<LoadHistory>,
     /// Interface map W, rows × coordinates of the structure.
     pub interface_map: DMatrix<f64>,
     pub interfaces: Vec<Interface>,
-    /// Mass of every ball with a coordinate of its own \[kg\].
+    /// Mass of every ball with its own degree of freedom \[kg\].
     pub ball_masses: Vec<f64>,
     pub channels: Vec<Channel>,
     pub curve: SpeedCurve,
-    /// Torque drive, when the shaft's speed follows from a torque balance instead of the profile.
+    /// Torque drive, if the shaft speed follows from a torque balance instead of the profile.
     pub drive: Option<TorqueDrive>,
     pub panels: Panels,
 }
 
-/// The system's matrices laid out for the products of a time step.
+/// The system's matrices stored for the matrix-vector products of a time step.
 #[derive(Clone, Debug)]
 pub struct Panels {
-    /// Those of \[C K G K_s K_c\] that are not zero.
+    /// The non-zero ones of \[C K G K_s K_c\].
     linear: Panel,
     is_there: [bool; 5],
     /// C alone.
     pub damping: Panel,
-    /// \[K_s K_c\]: the terms of the left side that are neither spring nor damper nor gyroscope.
+    /// \[K_s K_c\]: the left-hand terms that are neither elastic, damping nor gyroscopic.
     pub effective: Panel,
     pub has_effective: bool,
     /// W and Wᵀ.
@@ -130,13 +130,13 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// Lays out the matrices C, K, G, K_s, K_c and W.
+    /// Panels of the matrices C, K, G, K_s, K_c and W.
     pub fn new(
         [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
         interface_map: &DMatrix<f64>,
     ) -> Self {
         let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
-        // The stiffness tells the number of rows, be it zero.
+        // The stiffness is always kept: it defines the number of rows.
         let is_there: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
         let there: Vec<_> = all.iter().zip(is_there).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
         Self {
@@ -151,7 +151,7 @@ impl Panels {
     }
 }
 
-/// Everything that changes during a run.
+/// State of a run: time, shaft motion, coordinates and bearing states.
 #[derive(Clone, Debug)]
 pub struct State {
     pub time: f64,
@@ -159,19 +159,19 @@ pub struct State {
     pub x: DVector<f64>,
     pub v: DVector<f64>,
     pub a: DVector<f64>,
-    /// Per interface: where cage and shaft are.
+    /// Per interface: angle and speed of cage and shaft.
     pub rotations: Vec<Rotation>,
-    /// Per interface: the force and what goes with it at this state.
+    /// Per interface: force, tangents and energies at this state.
     pub reactions: Vec<Reaction>,
-    /// Relative displacements W x and velocities W ẋ, then places and rates of the balls.
+    /// Relative displacements W x and velocities W ẋ, then positions and velocities of the balls.
     pub d: Vec<f64>,
     pub d_rate: Vec<f64>,
-    /// Forces that belong to them.
+    /// The corresponding forces.
     pub force: Vec<f64>,
 }
 
 impl System {
-    /// Number of coordinates: of the structure, then of the balls.
+    /// Number of coordinates: structure and balls.
     pub fn size(&self) -> usize {
         self.structure() + self.ball_masses.len()
     }
@@ -186,13 +186,13 @@ impl System {
         self.interfaces.last().map_or(0, |i| i.first_row + i.rows)
     }
 
-    /// Number of interface displacements: the rows of W, then the balls.
+    /// Number of interface displacements: rows of W and balls.
     pub fn places(&self) -> usize {
         self.rows() + self.ball_masses.len()
     }
 
-    /// The shaft's motion `offset` after (time, spin): from the profile, or at constant acceleration under a
-    /// torque drive.
+    /// The shaft's rotation `offset` after (time, spin): from the profile, or at constant acceleration under
+    /// a torque drive.
     pub fn spin_ahead(&self, time: f64, spin: &Spin, offset: f64) -> Spin {
         match &self.drive {
             None => self.curve.at(time + offset),
@@ -204,7 +204,7 @@ impl System {
         }
     }
 
-    /// What an interface row is, in words.
+    /// Name of an interface row, for messages.
     pub fn name_of_row(&self, row: usize) -> String {
         const DIRECTIONS: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
         const IN_PLANE: [&str; 4] = ["u_x", "u_y", "u_x of its housing", "u_y of its housing"];
@@ -244,7 +244,7 @@ impl System {
         }
     }
 
-    /// Adds weight × ((C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x) to `out`; `scratch` is for reuse.
+    /// Adds weight × ((C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x) to `out`; `scratch`: reusable buffer.
     pub fn add_linear(
         &self,
         spin: &Spin,
@@ -268,7 +268,7 @@ impl System {
         self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
     }
 
-    /// W y for coordinates y, then the balls' places, written to `out`.
+    /// W y for coordinates y, then the ball positions, written to `out`.
     pub fn to_interface(&self, y: &DVector<f64>, out: &mut [f64]) {
         let (structure, balls) = y.as_slice().split_at(self.structure());
         let (rows, places) = out.split_at_mut(self.rows());
@@ -279,7 +279,7 @@ impl System {
         }
     }
 
-    /// Adds Wᵀ f to `out`, and to the balls' coordinates what acts on them.
+    /// Adds Wᵀ f to `out`, and the ball forces to the balls' coordinates.
     pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
         let (rows, on_balls) = force.split_at(self.rows());
         let (structure, balls) = out.as_mut_slice().split_at_mut(self.structure());
@@ -289,9 +289,9 @@ impl System {
         }
     }
 
-    /// Evaluates every bearing at displacements and velocities; `force` takes what belongs to them.
+    /// Bearing forces with tangent stiffness and damping at displacements and velocities.
     ///
-    /// Tangents come with bearings whose balls have no coordinates of their own.
+    /// No tangents for bearings whose balls have their own degrees of freedom.
     pub fn react(
         &self,
         d: &[f64],
@@ -303,7 +303,7 @@ impl System {
         self.evaluate([d, d_rate], rotations, reactions, force, true);
     }
 
-    /// The same without tangents, which are left as they happen to be: for explicit steps.
+    /// Bearing forces without tangents (those in `reactions` are stale): for explicit steps.
     pub fn push(
         &self,
         d: &[f64],
@@ -342,10 +342,11 @@ impl System {
         }
     }
 
-    /// The same at the end of an implicit step: the balls' equations are solved on the way.
+    /// Bearing forces with tangents at the end of an implicit step; solves the ball equations.
     ///
-    /// `d`, `d_rate`: displacements and velocities of the rows, and of the balls what they are without force; these are
-    /// left at the step's end. `force`: on the balls a guess, left solved. `follow`: −∂(force on every ball)/∂(rows).
+    /// `d`, `d_rate`: displacements and velocities of the rows, and the force-free prediction of the balls,
+    /// replaced by the values at the step's end. `force`: initial guess for the balls, replaced by the
+    /// solution. `follow`: −∂(force on every ball)/∂(rows).
     pub fn react_in_step(
         &self,
         [d, d_rate]: [&mut [f64]; 2],
@@ -373,7 +374,7 @@ impl System {
         }
     }
 
-    /// The state at t = 0 with given coordinates, at rest or moving, with consistent acceleration.
+    /// The state at t = 0 with given coordinates and velocities and consistent acceleration.
     pub fn initial_state(&self, x: DVector<f64>, v: DVector<f64>) -> State {
         let mut spin = self.curve.at(0.0);
         if self.drive.is_some() {
@@ -406,7 +407,7 @@ impl System {
         state
     }
 
-    /// The state at a time other than 0, its cages at given angles.
+    /// The state at a given time with given cage angles.
     pub fn state_at(&self, time: f64, cage_angles: &[f64], x: DVector<f64>, v: DVector<f64>) -> State {
         let mut state = self.initial_state(x, v);
         state.time = time;
@@ -419,7 +420,7 @@ impl System {
         state
     }
 
-    /// Brings reactions and acceleration of a state up to date with its x, v, time and rotations.
+    /// Recomputes reactions and acceleration of a state from its x, v, time and rotations.
     pub fn refresh(&self, state: &mut State) {
         let (x, v) = (state.x.clone(), state.v.clone());
         self.to_interface(&x, &mut state.d);

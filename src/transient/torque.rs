@@ -1,14 +1,14 @@
-//! Torque drive: the shaft's speed follows from the torque on it instead of a profile.
+//! Torque drive: the shaft speed follows from the torque balance instead of a speed profile.
 
 use nalgebra::DVector;
 
 use super::system::{State, piecewise};
 
-/// Driving torque T(Ω) at one node against the inertia of all that spins, with viscous drag.
+/// Driving torque T(Ω) at one node, accelerating the polar inertia of all rotating parts, with viscous drag.
 ///
-/// The equations are written in a frame that turns with θ(t). Under a torque drive the rigid rotation r is a
-/// free motion of the coordinates, so the frame's own motion is a matter of choice; after every step the
-/// rigid part of x, ẋ and ẍ is handed to θ, Ω and Ω̇ ([`TorqueDrive::recentre`]), exactly.
+/// The equations are written in a frame that rotates with θ(t). Under a torque drive the rigid rotation r is
+/// a rigid-body mode of the coordinates, so the motion of the frame is arbitrary; after every step the rigid
+/// part of x, ẋ and ẍ is transferred to θ, Ω and Ω̇ ([`TorqueDrive::recentre`]), exactly.
 #[derive(Clone, Debug)]
 pub struct TorqueDrive {
     /// (speed \[rad/s\], torque \[N m\]), speeds increasing; linear in between, constant outside.
@@ -17,7 +17,7 @@ pub struct TorqueDrive {
     pub drag: f64,
     /// Coordinates of a unit torque at the driven node.
     pub torque: DVector<f64>,
-    /// Coordinates of the unit rigid rotation, x_r = Vᵀ M r; x_rᵀ x_r = J, the inertia that spins.
+    /// Coordinates of the unit rigid rotation, x_r = Vᵀ M r; x_rᵀ x_r = J, the total polar inertia.
     pub rigid_rotation: DVector<f64>,
 }
 
@@ -31,7 +31,7 @@ impl TorqueDrive {
         piecewise(&self.table, clamped, 0.0) - self.drag * speed
     }
 
-    /// Hands the rigid rotation in the coordinates over to the frame.
+    /// Transfers the rigid rotation in the coordinates to the frame.
     pub fn recentre(&self, state: &mut State) {
         let r = &self.rigid_rotation;
         let inertia = r.norm_squared();

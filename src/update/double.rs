@@ -1,5 +1,5 @@
-//! Double eigenvalues: a rotor that is the same in all planes has, at rest, two modes of one frequency, and any two of
-//! their combinations are its modes as well. The ones that a test found are taken.
+//! Repeated (double) eigenvalues: an axisymmetric rotor at rest has two modes of one frequency, and any
+//! linear combinations of them are modes as well. They are aligned with the measured shapes.
 
 use super::pairing::{LEAST_MAC, likeness};
 use super::target::TargetMode;
@@ -8,7 +8,7 @@ use crate::assembly::Assembly;
 use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
-/// Turns every pair of equal eigenvalues to the measured shapes that lie in its plane of shapes; without such, it stays.
+/// Aligns every pair of modes of a repeated eigenvalue with the measured shapes in their subspace, if any.
 pub(super) fn align(
     assembly: &Assembly,
     modes: &mut [Mode],
@@ -30,13 +30,13 @@ pub(super) fn align(
     }
 }
 
-/// Two unitary combinations of two shapes: those nearest to the two measured shapes that the plane of both holds best.
+/// Two orthonormal combinations of two shapes, closest to the two measured shapes best in their subspace.
 fn turn(shapes: [&[Complex64]; 2], hz: f64, measured: &[TargetMode]) -> Option<[[Complex64; 2]; 2]> {
-    // Gram matrix of what the sensors see, G = [[a, b], [b*, c]].
+    // Gram matrix of the shapes at the sensors, G = [[a, b], [b*, c]].
     let (a, c) = (dot(shapes[0], shapes[0]).re, dot(shapes[1], shapes[1]).re);
     let b = dot(shapes[0], shapes[1]);
     let determinant = a * c - b.norm_sqr();
-    // Sensors in one plane do not see how a pair is turned.
+    // Sensors in one plane cannot resolve the orientation of the pair.
     if determinant <= 1e-6 * a * c {
         return None;
     }
@@ -44,7 +44,7 @@ fn turn(shapes: [&[Complex64]; 2], hz: f64, measured: &[TargetMode]) -> Option<[
     for mode in measured {
         let size = dot(&mode.shape, &mode.shape).re;
         let [p, q] = shapes.map(|s| dot(s, &mode.shape));
-        // Coordinates in the plane, G⁻¹ Sᴴ m, and the share of m that lies in it.
+        // Coordinates in the subspace, G⁻¹ Sᴴ m, and the fraction of m in it.
         let own = [(p * c - q * b) / determinant, (q * a - p * b.conj()) / determinant];
         let share = (p.conj() * own[0] + q.conj() * own[1]).re / size;
         let score = likeness(share, hz, mode.frequency_hz);
@@ -57,11 +57,11 @@ fn turn(shapes: [&[Complex64]; 2], hz: f64, measured: &[TargetMode]) -> Option<[
     let first = found.first()?.1;
     let across = [-first[1].conj(), first[0].conj()];
     let Some(second) = found.get(1).map(|f| f.1) else { return Some([first, across]) };
-    // The unitary matrix nearest to both, C (CᴴC)^-½ with CᴴC = [[1, h], [h*, 1]].
+    // Nearest unitary matrix (Löwdin orthogonalisation), C (CᴴC)^-½ with CᴴC = [[1, h], [h*, 1]].
     let h = first[0].conj() * second[0] + first[1].conj() * second[1];
     let size = h.norm();
     if size > 0.9 {
-        // Twice the same shape.
+        // Nearly the same shape twice.
         return Some([first, across]);
     }
     let phase = if size > 0.0 { h / size } else { Complex64::default() };
@@ -91,7 +91,7 @@ mod tests {
     fn finds_the_planes_of_the_test() {
         let [x, y] = [[1.0, 0.5, 0.0, 0.0], [0.0, 0.0, 1.0, 0.5]].map(|s| s.map(Complex64::from));
         let (sin, cos) = 0.7_f64.sin_cos();
-        // The second is 0.1 rad off, and the pair is turned half of it: 0.75 rad.
+        // The second is 0.1 rad off, and the pair is rotated by half of it: 0.75 rad.
         let (s, c) = 0.8_f64.sin_cos();
         let measured = [mode([cos, 0.5 * cos, sin, 0.5 * sin]), mode([-s, -0.5 * s, c, 0.5 * c])];
         let [u, v] = turn([&x, &y], 50.0, &measured).unwrap();

@@ -1,4 +1,4 @@
-//! Measured FRFs as data: which lines are fitted, and what each is worth.
+//! FRF residuals of a model update: selection of lines and their weights.
 
 use rayon::prelude::*;
 
@@ -9,18 +9,19 @@ use crate::analysis::sensitivity::{FrfSensitivity, SystemDerivative, frf_sensiti
 use crate::error::Error;
 use crate::linalg::{Complex64, SparseRow};
 
-/// How FRFs are fitted.
+/// Settings of the FRF fit.
 ///
-/// A line gives ln|H_computed/H_measured|, and with `complex` their difference in phase \[rad\] beside it; for small errors
-/// the two are the complex difference over |H|. Logarithms let resonances and antiresonances count alike and grow
-/// evenly as they part, so that a fit finds its way from housings twice too stiff. Both |H| have 2 % of the largest
-/// response to the same force added in squares, a: sensors answer across and blows are askew, and no test knows an
-/// antiresonance or a plane that the force hardly moves any better.
+/// Residual of a line: ln|H_computed/H_measured|, and with `complex` also the phase difference \[rad\]; for
+/// small errors the two are the complex difference over |H|. Logarithmic residuals weight resonances and
+/// antiresonances equally and grow steadily with their distance, so that the fit converges from e.g. housings
+/// twice too stiff. A floor a of 2 % of the largest response to the same force is added to both |H| in
+/// squares: cross-axis sensitivity and misaligned hits limit the accuracy of measured antiresonances and of
+/// the plane perpendicular to the force.
 ///
-/// A line's variance is n σ² + (1 − γ²)/(2 γ²). The first part is what a good model leaves: it is shared by neighbouring
-/// lines and by all FRFs, which meet the same resonance, so that the n numbers within a fifth of a frequency are worth
-/// one, however fine the lines. The second is the scatter of one average by the coherence γ²; how many were taken no
-/// file tells, so that this is the most it can be.
+/// A line's variance is n σ² + (1 − γ²)/(2 γ²). The first term is the model error: it is correlated over
+/// neighbouring lines and all FRFs at the same resonance, so that the n numbers within a fifth of a frequency
+/// count as one, however fine the lines. The second is the random error of a single average by the coherence
+/// γ²: an upper bound, as the number of averages is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrfFitting {
     pub complex: bool,
@@ -30,26 +31,26 @@ pub struct FrfFitting {
     pub band: [f64; 2],
 }
 
-/// σ where the user states none, about 1 dB: what a damping that is known to a tenth leaves at a resonance.
+/// Default σ, about 1 dB: the error at a resonance from a damping known to 10 %.
 pub const DEFAULT_DEVIATION: f64 = 0.1;
 
 impl FrfFitting {
-    /// FRFs of a band as they are.
+    /// Settings for a band with the default σ.
     pub fn new(complex: bool, band: [f64; 2]) -> Self {
         Self { complex, deviation: DEFAULT_DEVIATION, band }
     }
 }
 
-/// Lines below this coherence tell more of the noise than of the machine: its floor would be taken for the FRF.
+/// Minimum coherence of a fitted line; below it the noise floor dominates the FRF.
 const LEAST_COHERENCE: f64 = 0.5;
-/// Part of the largest response that shows in every other.
+/// Cross-axis floor of all responses, relative to the largest one.
 const ACROSS: f64 = 0.02;
-/// Part of a frequency over which lines share the model's error.
+/// Relative bandwidth over which the model error is correlated.
 const SHARED: f64 = 0.2;
-/// Lines that are fitted at most.
+/// Maximum number of fitted lines.
 const MOST_LINES: usize = 300;
 
-/// Rows of the FRFs, with their derivatives.
+/// FRF residuals with their derivatives.
 ///
 /// # Errors
 /// A singular dynamic stiffness.
@@ -85,7 +86,7 @@ pub(super) fn frf_rows(
     Ok(())
 }
 
-/// Computed h and measured m at a line, as a test sees them that adds a of what other directions do.
+/// Computed h and measured m at a line, with the cross-axis floor a.
 struct Seen {
     h: Complex64,
     /// √(|h|² + a²).
@@ -114,7 +115,7 @@ impl Seen {
         (self.h.conj() * slope).re / self.size.powi(2)
     }
 
-    /// h/√(|h|² + a²) − m/√(|m|² + a²), turned to m: 2 sin Δφ/2 across where both stand out of a.
+    /// Phase residual h/√(|h|² + a²) − m/√(|m|² + a²), relative to arg m; 2 sin Δφ/2 if both exceed a.
     fn apart(&self) -> Complex64 {
         (self.h / self.size - self.measured) * self.turn()
     }
@@ -128,14 +129,14 @@ impl Seen {
     }
 }
 
-/// Numbers that the FRFs give to a fit.
+/// Number of FRF data in the fit.
 pub(super) fn count(measured: &TargetFrfs, fitting: &FrfFitting) -> usize {
     let lines = lines(measured, fitting.band);
     let of = |k: &usize| pairs(measured).filter(|&(r, e)| tells(measured, r, e, *k)).count();
     lines.iter().map(of).sum::<usize>() * if fitting.complex { 2 } else { 1 }
 }
 
-/// RMS of 20 log(|H_computed|/|H_measured|) \[dB\] over the lines that are fitted; `computed` is over all lines.
+/// RMS of 20 log(|H_computed|/|H_measured|) \[dB\] over the fitted lines; `computed` contains all lines.
 pub fn decibels_apart(measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], fitting: &FrfFitting) -> f64 {
     let lines = lines(measured, fitting.band);
     let (mut sum, mut count) = (0.0, 0);
@@ -183,13 +184,13 @@ fn computed(
     })
 }
 
-/// Whether a line of an FRF is there and stands out of its noise.
+/// Whether a line of an FRF is usable: nonzero and of sufficient coherence.
 fn tells(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> bool {
     let clear = measured.coherence.as_ref().is_none_or(|c| c[r][e][line] >= LEAST_COHERENCE);
     clear && measured.values[r][e][line].norm_sqr() > 0.0
 }
 
-/// Largest |H| at a line by the same force, of responses of the same kind.
+/// Largest |H| at a line for the same reference, over responses of the same kind.
 fn largest(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     let turns = |r: usize| measured.responses[r].direction[3..].iter().any(|d| *d != 0.0);
     let kind = |r: usize| (measured.quantities[r], turns(r));
@@ -197,7 +198,7 @@ fn largest(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     alike.map(|other| measured.values[other][e][line].norm()).fold(0.0, f64::max)
 }
 
-/// Variance of ln|H| and of the phase by the coherence of one average; 0 where it was not measured.
+/// Random error variance of ln|H| and of the phase by the coherence, for one average; 0 without coherence.
 fn scatter(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     measured.coherence.as_ref().map_or(0.0, |c| {
         let coherence = c[r][e][line].clamp(LEAST_COHERENCE, 1.0);
@@ -205,7 +206,7 @@ fn scatter(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     })
 }
 
-/// Numbers within a fifth of every line's frequency.
+/// Number of data within a fifth of every line's frequency (correlated model error).
 fn shared(measured: &TargetFrfs, lines: &[usize], complex: bool) -> Vec<f64> {
     let at = |line: usize| {
         pairs(measured).filter(|&(r, e)| tells(measured, r, e, line)).count() as f64
@@ -222,8 +223,8 @@ fn shared(measured: &TargetFrfs, lines: &[usize], complex: bool) -> Vec<f64> {
         .collect()
 }
 
-/// Lines within the band: all, or where there are many, half of them evenly and half where magnitudes change most, which
-/// is about resonances and antiresonances.
+/// Lines within the band: all, or if too many, half of them uniformly and half where magnitudes change most,
+/// near resonances and antiresonances.
 fn lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
     let all: Vec<usize> = (0..measured.frequencies.len())
         .filter(|&k| (from..=to).contains(&measured.frequencies[k]) && measured.frequencies[k] > 0.0)
@@ -296,7 +297,7 @@ mod tests {
         let within = |low: f64, high: f64| {
             chosen.iter().filter(|&&k| (low..=high).contains(&measured.frequencies[k])).count()
         };
-        // The upper half of the peak takes a sixth of all that ln|H| rises and falls by; 1 Hz elsewhere one half line.
+        // The upper half of the peak has a sixth of the total variation of ln|H|; 1 Hz elsewhere half a line.
         assert!(within(49.5, 50.5) >= 10 && within(200.0, 210.0) >= 5, "{chosen:?}");
         let few = TargetFrfs { frequencies: measured.frequencies[..200].to_vec(), ..measured.clone() };
         assert_eq!(lines(&few, [5.0, 300.0]).len(), 150);

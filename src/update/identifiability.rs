@@ -1,38 +1,38 @@
-//! What the data tell of the parameters, and what they leave to the prior.
+//! Identifiability of the parameters: standard errors, correlation, and the share of prior knowledge.
 
 use nalgebra::DMatrix;
 
 use super::least_squares::{Evaluation, Prior};
 
-/// A parameter is found when the data leave at most this share of its prior variance ...
+/// Maximum ratio of posterior to prior variance of an identifiable parameter.
 pub const LARGEST_PRIOR_SHARE: f64 = 0.1;
-/// ... and its standard error is at most this part of its value (additive parameters: of the prior's deviation).
+/// Maximum relative standard error of an identifiable parameter (additive: over the prior's deviation).
 pub const LARGEST_ERROR: f64 = 0.1;
-/// Where they leave more than this share, the prior tells it rather than the data.
+/// Ratio of posterior to prior variance above which a parameter is not identifiable (dominated by the prior).
 pub const MOSTLY_PRIOR: f64 = 0.5;
 
-/// Errors and their correlation, from the curvature at the solution.
+/// Standard errors and their correlation, from the Gauss-Newton Hessian at the solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// Singular values of the weighted sensitivities, each parameter over its prior's deviation, largest first: a
-    /// direction with σ < 1 is known better from the prior than from the data.
+    /// Singular values of the weighted sensitivity matrix, parameters scaled by their prior deviation,
+    /// largest first: a direction with σ < 1 is determined by the prior more than by the data.
     pub singular_values: Vec<f64>,
-    /// Directions to them: `directions[k][parameter]`, unit vectors.
+    /// Right singular vectors `directions[k][parameter]`, of unit length.
     pub directions: Vec<Vec<f64>>,
-    /// Standard error of every coordinate, prior included, times √(χ²/ν) where the fit is worse than its weights say.
+    /// Posterior standard error of every coordinate, times √(χ²/ν) if the fit is worse than its weights.
     pub errors: Vec<f64>,
-    /// Posterior over prior variance, 0 (the data tell all) to 1 (the data tell nothing).
+    /// Ratio of posterior to prior variance, 0 (determined by the data) to 1 (determined by the prior).
     pub prior_share: Vec<f64>,
     /// Correlation of the errors.
     pub correlation: Vec<Vec<f64>>,
-    /// χ² = |r|² of the data, and the degrees of freedom ν, data less the parameters that they tell.
+    /// χ² = |r|² of the data, and the degrees of freedom ν: data minus the effective number of parameters.
     pub chi_squared: f64,
     pub degrees: f64,
-    /// √(χ²/ν), at least 1: what errors were multiplied by.
+    /// Scale factor of the standard errors, √(χ²/ν), at least 1.
     pub inflation: f64,
 }
 
-/// Cov = (JᵀJ + P)⁻¹, in coordinates over their prior deviations: (Σ σ_k² v_k v_kᵀ + 1)⁻¹.
+/// Posterior covariance (JᵀJ + P)⁻¹, in coordinates over their prior deviations: (Σ σ_k² v_k v_kᵀ + 1)⁻¹.
 pub fn identifiability(at: &Evaluation, prior: &Prior) -> Identifiability {
     let n = prior.deviation.len();
     let scaled = DMatrix::from_fn(at.jacobian.nrows(), n, |i, j| at.jacobian[(i, j)] * prior.deviation[j]);
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn a_sum_is_told_and_a_difference_is_not() {
-        // One datum knows x + y to 0.01; nothing knows x − y.
+        // One datum determines x + y to 0.01; none determines x − y.
         let at = Evaluation {
             residual: DVector::from_vec(vec![0.0]),
             jacobian: DMatrix::from_row_slice(1, 2, &[100.0, 100.0]),

@@ -1,4 +1,4 @@
-//! Least squares with bounds and priors by Levenberg-Marquardt.
+//! Nonlinear least squares with bounds and normal priors (maximum a posteriori) by Levenberg-Marquardt.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,22 +19,22 @@ pub struct Evaluation {
     pub residual: DVector<f64>,
     /// ∂r_i/∂x_j.
     pub jacobian: DMatrix<f64>,
-    /// Number of data that the residuals are worth: a shape's are spread over many points and count as one; so do the lines
-    /// of all FRFs near one frequency where the model's error exceeds the noise.
+    /// Effective number of data: a shape counts as one whatever its points; so do the lines of all FRFs near
+    /// one frequency if the model error exceeds the noise.
     pub data: f64,
 }
 
-/// Where the search stands after an iteration.
+/// State after an iteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Iteration {
     pub x: Vec<f64>,
     /// ½ |r|² + ½ Σ ((x − mean)/deviation)².
     pub cost: f64,
-    /// Largest step over its prior's deviation.
+    /// Largest step relative to the prior's deviation.
     pub step: f64,
 }
 
-/// What was found.
+/// Result of the minimisation.
 #[derive(Clone, Debug)]
 pub struct Solution {
     pub x: Vec<f64>,
@@ -44,16 +44,17 @@ pub struct Solution {
     pub converged: bool,
 }
 
-/// A step below this share of a parameter's standard error, the others held, is the end.
+/// Convergence: largest step over the conditional standard error of a parameter (others fixed).
 const LAST_STEP: f64 = 1e-8;
-/// So is a relative fall of the cost below this.
+/// Convergence: relative reduction of the cost.
 const LAST_FALL: f64 = 1e-10;
 const MAX_REJECTED: usize = 12;
 
 /// Minimises ½ |r(x)|² + ½ Σ ((x − mean)/deviation)² within the bounds, from `start`.
 ///
-/// A trial point at which `evaluate` finds no answer is refused like one that is worse, and a shorter step tried.
-/// A parameter at its bound stays there while the cost falls outwards. Source of the damping: Nielsen, IMM-REP-1999-05.
+/// A trial point at which `evaluate` fails is rejected like one of higher cost, and a shorter step is tried.
+/// A parameter at its bound stays there while the cost decreases outwards (active set). Source of the
+/// damping: Nielsen, IMM-REP-1999-05.
 ///
 /// # Errors
 /// Those of `evaluate` at the start.
@@ -107,12 +108,12 @@ pub fn minimise(
             }
         }
     }
-    // No shorter step falls any further: round-off is reached.
+    // No shorter step reduces the cost: round-off is reached.
     let converged = converged || rejected == MAX_REJECTED;
     Ok(Solution { x, at, iterations, converged })
 }
 
-/// Half the gradient's side of the normal equations, Jᵀ r + P (x − mean), and their matrix Jᵀ J + P.
+/// Gradient Jᵀ r + P (x − mean) and Gauss-Newton matrix Jᵀ J + P of the cost.
 fn normal_equations(x: &[f64], at: &Evaluation, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
     let mut gradient = at.jacobian.tr_mul(&at.residual);
     let mut matrix = at.jacobian.tr_mul(&at.jacobian);
@@ -124,7 +125,7 @@ fn normal_equations(x: &[f64], at: &Evaluation, prior: &Prior) -> (DVector<f64>,
     (gradient, matrix)
 }
 
-/// Step of (JᵀJ + P + μ diag) dx = −gradient over the parameters that may move.
+/// Levenberg-Marquardt step of (JᵀJ + P + μ diag) dx = −gradient over the parameters not at a bound.
 fn damped_step(x: &[f64], at: &Evaluation, prior: &Prior, damping: f64) -> Option<Vec<f64>> {
     let (gradient, matrix) = normal_equations(x, at, prior);
     let free: Vec<usize> = (0..x.len())
@@ -147,7 +148,7 @@ fn damped_step(x: &[f64], at: &Evaluation, prior: &Prior, damping: f64) -> Optio
     Some(step)
 }
 
-/// Fall of the cost that the linear model promises between two points.
+/// Cost reduction between two points predicted by the linear model.
 fn predicted_fall(x: &[f64], trial: &[f64], at: &Evaluation, prior: &Prior) -> f64 {
     let (gradient, matrix) = normal_equations(x, at, prior);
     let step = DVector::from_iterator(x.len(), trial.iter().zip(x).map(|(t, x)| t - x));

@@ -1,16 +1,16 @@
-//! A model held against what was measured, and changed until it agrees.
+//! Model updating: comparison of a model with measurements (validation) and fit of its parameters.
 //!
-//! | module | what it does |
+//! | module | contents |
 //! |---|---|
-//! | [`target`] | measured points and modes put into the model |
+//! | [`target`] | measured points and modes mapped to the model |
 //! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
-//! | `double` | modes of one frequency turned to the measured shapes |
+//! | `double` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
 //! | [`state`] | the model's modes at the measured points, paired |
-//! | [`parameter`] | numbers of the file that may change, alone or in groups |
-//! | [`residual`] | frequencies, damping and shapes as data, with their exact derivatives |
-//! | [`frf`] | FRFs alike: lines, what they are worth |
+//! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
+//! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
+//! | [`frf`] | residuals of FRFs: selected lines and their weights |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
-//! | [`identifiability`] | what the data tell of each parameter |
+//! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 
 mod double;
 pub mod frf;
@@ -34,7 +34,7 @@ use residual::{Fitting, evaluation};
 use state::State;
 use target::Target;
 
-/// Why a model cannot be held against a measurement: what is wrong, and what to do.
+/// Error of a comparison or update with measurements: what is wrong, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{problem}; {advice}")]
 pub struct UpdateError {
@@ -48,10 +48,10 @@ impl UpdateError {
     }
 }
 
-/// The model with paths and values laid over it.
+/// Builds the model with parameter values (path, value) overridden.
 pub type Load<'a> = dyn Fn(&[(String, String)]) -> Result<Model, Error> + Sync + 'a;
 
-/// What is asked of an update.
+/// Input of a model update.
 pub struct Job<'a> {
     pub parameters: &'a [FreeParameter],
     pub target: &'a Target,
@@ -60,21 +60,21 @@ pub struct Job<'a> {
     pub max_iterations: usize,
 }
 
-/// What a parameter may be called.
+/// Identifiability class of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The data tell it: at most a tenth of its prior variance is left, and its standard error is 10 % at most.
+    /// Identifiable: at most 10 % of its prior variance is left, and its standard error is at most 10 %.
     Found,
-    /// The data tell something: at most half of its prior variance is left. It is changed with the others.
+    /// Poorly identifiable: at most half of its prior variance is left. It is fitted with the others.
     Poor,
-    /// More than half of its prior variance is left: it stays at its start, and the others are fitted beside it.
+    /// Not identifiable: more than half of its prior variance is left. It is reset to its start.
     NotTold,
-    /// It ended at a bound.
+    /// The fit ended at a bound.
     AtBound,
 }
 
 impl Verdict {
-    /// In words.
+    /// Label.
     pub fn words(self) -> &'static str {
         match self {
             Verdict::Found => "found",
@@ -89,17 +89,17 @@ impl Verdict {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     pub verdict: Verdict,
-    /// Coordinate that the model is left at: the fitted one, or the prior's mean where the data do not tell it.
+    /// Final coordinate: the fitted one, or the prior's mean if not identifiable.
     pub x: f64,
-    /// Coordinate that the fit of all parameters gave.
+    /// Coordinate from the fit of all parameters.
     pub fitted: f64,
     /// Standard error of the coordinate.
     pub error: f64,
-    /// Posterior over prior variance.
+    /// Ratio of posterior to prior variance.
     pub prior_share: f64,
 }
 
-/// What came out of an update.
+/// Result of a model update.
 #[derive(Clone, Debug)]
 pub struct Update {
     pub outcomes: Vec<Outcome>,
@@ -108,16 +108,16 @@ pub struct Update {
     pub converged: bool,
     pub before: State,
     pub after: State,
-    /// Measured modes that were fitted.
+    /// Fitted measured modes.
     pub kept: Vec<usize>,
     /// Number of data.
     pub data: usize,
 }
 
-/// Fits the free parameters; those that the data do not tell go back to their start, and the others are fitted again.
+/// Fits the free parameters; those not identifiable are reset to their start, the others fitted again.
 ///
 /// # Errors
-/// No pair to fit, more free parameters than data, parameters without influence, no equilibrium at the start.
+/// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
 pub fn update(job: &Job) -> Result<Update, Error> {
     let prior = parameter::prior(job.parameters);
     let start: Vec<f64> = prior.mean.clone();
@@ -126,21 +126,21 @@ pub fn update(job: &Job) -> Result<Update, Error> {
     let frfs = job.fitting.frf.is_some() && job.target.frfs.is_some();
     if kept.is_empty() && !frfs {
         return Err(UpdateError::new(
-            "no measured mode has a partner in the model",
-            "look at the MAC and the mapping with `rotordyn validate`, or start from a nearer model",
+            "no measured mode is paired with a computed mode",
+            "check the MAC and the mapping with `rotordyn validate`, or start from a closer model",
         )
         .into());
     }
     let data = data_count(job, &kept);
     if job.parameters.len() > data {
         return Err(UpdateError::new(
-            format!("{} parameters are free, and there are {data} data", job.parameters.len()),
-            "free fewer, let some move together (\"housing.*.k_x\"), or measure more modes and points",
+            format!("there are {} free parameters, but only {data} data", job.parameters.len()),
+            "free fewer, group some (\"housing.*.k_x\"), or measure more modes and points",
         )
         .into());
     }
     let mut fit = fit(job, &prior, &start, &kept)?;
-    // With the model nearer, measured modes may have found partners that they had not.
+    // With the improved model more measured modes may be paired.
     let mut state = job.state(&fit.x)?;
     let now: Vec<usize> = state.pairing.pairs.iter().map(|p| p.measured).collect();
     if now.len() > kept.len() {
@@ -189,7 +189,7 @@ impl Job<'_> {
         State::new((self.load)(&settings(self.parameters, x))?, self.target, None)
     }
 
-    /// dM, dD and dS by every coordinate at x.
+    /// Derivatives dM, dD and dS by every coordinate at x.
     fn derivatives(&self, x: &[f64], state: &State) -> Result<Vec<SystemDerivative>, Error> {
         let all = settings(self.parameters, x);
         let one = |parameter: &FreeParameter, x: f64| {
@@ -219,10 +219,10 @@ fn fit(job: &Job, prior: &Prior, start: &[f64], kept: &[usize]) -> Result<least_
     minimise(start, prior, job.max_iterations, &mut evaluate)
 }
 
-/// A parameter whose prior's whole width moves no datum by this part of its deviation has no influence.
+/// Minimum influence: change of the weighted residuals per prior standard deviation of a parameter.
 const NO_INFLUENCE: f64 = 1e-4;
 
-/// One without influence among others stays at its start; where none has any there is nothing to fit.
+/// Error if no parameter influences the data; single ones without influence stay at their start.
 fn check_influence(job: &Job, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
     let without: Vec<&str> = (0..job.parameters.len())
         .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < NO_INFLUENCE)
@@ -231,14 +231,14 @@ fn check_influence(job: &Job, at: &Evaluation, prior: &Prior) -> Result<(), Upda
     if without.len() < job.parameters.len() {
         return Ok(());
     }
-    let (verb, it) = if without.len() == 1 { ("changes", "it changes") } else { ("change", "they change") };
+    let (verb, it) = if without.len() == 1 { ("has", "it affects") } else { ("have", "they affect") };
     Err(UpdateError::new(
-        format!("{} {verb} nothing that was measured", without.join(" and ")),
-        format!("free something else, or fit something that {it} (--fit damping, --fit frf)"),
+        format!("{} {verb} no influence on the fitted data", without.join(" and ")),
+        format!("free other parameters, or fit data that {it} (--fit damping, --fit frf)"),
     ))
 }
 
-/// Data that are independent: frequencies, damping ratios, shapes but for their size, FRF lines.
+/// Number of independent data: frequencies, damping ratios, shapes except for their scale, FRF lines.
 fn data_count(job: &Job, kept: &[usize]) -> usize {
     let fitting = job.fitting;
     let mut count = 0;
@@ -257,7 +257,7 @@ fn data_count(job: &Job, kept: &[usize]) -> usize {
 
 fn verdict(job: &Job, x: &[f64], told: &Identifiability, j: usize) -> Verdict {
     let parameter = &job.parameters[j];
-    // An additive parameter has no value to be relative to: its prior's width serves.
+    // Additive parameters: relative to the prior's deviation.
     let relative = if parameter.logarithmic { told.errors[j] } else { told.errors[j] / parameter.deviation };
     let near = 1e-9 * parameter.deviation;
     if x[j] <= parameter.lower + near || x[j] >= parameter.upper - near {

@@ -1,14 +1,14 @@
-//! Which measured mode is which computed mode.
+//! Mode pairing: assignment of measured to computed modes by MAC and frequency.
 
 use crate::identify::mac::mac_matrix;
 use crate::linalg::Complex64;
 
-/// Below this MAC two modes are no pair.
+/// Minimum MAC of a mode pair.
 pub const LEAST_MAC: f64 = 0.3;
-/// ln(f_computed/f_measured) that counts against a pair like a MAC of 0.6 for 1.
+/// Standard deviation of ln(f_computed/f_measured) in the pair score.
 const FREQUENCY_SPREAD: f64 = 0.25;
 
-/// A measured and a computed mode, by their places in their lists.
+/// A pair of a measured and a computed mode, by index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     pub measured: usize,
@@ -16,10 +16,10 @@ pub struct Pair {
     pub mac: f64,
 }
 
-/// Pairs, what is left over, and the MAC of everything with everything.
+/// Mode pairs, unpaired modes and the MAC matrix.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pairing {
-    /// By measured mode.
+    /// In order of the measured mode.
     pub pairs: Vec<Pair>,
     pub unpaired_measured: Vec<usize>,
     pub unpaired_computed: Vec<usize>,
@@ -27,21 +27,21 @@ pub struct Pairing {
     pub mac: Vec<Vec<f64>>,
 }
 
-/// A mode as pairing sees it: frequency \[Hz\] and shape over the measured points.
+/// A mode to be paired: frequency \[Hz\] and shape over the measured points.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'a> {
     pub frequency_hz: f64,
     pub shape: &'a [Complex64],
 }
 
-/// MAC · exp(−½ (ln(f_c/f_m)/0.25)²) of two modes; 0 for a MAC < 0.3 or a factor of two and more between frequencies.
+/// Pair score MAC · exp(−½ (ln(f_c/f_m)/0.25)²); 0 for a MAC < 0.3 or frequencies a factor ≥ 2 apart.
 pub fn likeness(mac: f64, computed_hz: f64, measured_hz: f64) -> f64 {
     let apart = (computed_hz / measured_hz).ln();
     let near = apart.abs() < std::f64::consts::LN_2;
     if near && mac >= LEAST_MAC { mac * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp() } else { 0.0 }
 }
 
-/// The assignment with the largest sum of [`likeness`]; where that is 0 there is no pair.
+/// Optimal pairing: the assignment with the largest sum of [`likeness`]; modes of zero score are not paired.
 pub fn pair(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
     let measured_shapes: Vec<&[Complex64]> = measured.iter().map(|c| c.shape).collect();
     let computed_shapes: Vec<&[Complex64]> = computed.iter().map(|c| c.shape).collect();
@@ -68,7 +68,7 @@ pub fn pair(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
     }
 }
 
-/// The column for every row, each at most once, with the largest sum of scores (Kuhn-Munkres, shortest paths).
+/// Optimal assignment of rows to columns with the largest sum of scores (Hungarian algorithm, Kuhn-Munkres).
 ///
 /// Rows beyond the number of columns get none. Cost O(rows² · columns).
 pub fn assign(score: &[Vec<f64>]) -> Vec<Option<usize>> {
@@ -87,7 +87,7 @@ pub fn assign(score: &[Vec<f64>]) -> Vec<Option<usize>> {
         }
         return out;
     }
-    // Row and column 0 stand for none; potentials u, v keep reduced costs from being negative.
+    // Row and column 0 mean unassigned; potentials u, v keep reduced costs non-negative.
     let (mut u, mut v) = (vec![0.0; rows + 1], vec![0.0; columns + 1]);
     let mut row_of = vec![0; columns + 1];
     for row in 1..=rows {
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_assignment_is_the_best_of_all() {
-        // Against every permutation, on numbers without pattern.
+        // Compared with every permutation, on pseudo-random numbers.
         let mut seed = 12345_u64;
         let mut number = || {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -1,34 +1,34 @@
-//! Numbers of a model file that an update may change.
+//! Free parameters of a model update: numbers of the model file.
 
 use super::least_squares::Prior;
 use crate::units::leading_number;
 
-/// One number of the file.
+/// One number of the model file, with its path and unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Such as "housing.B.k_x".
+    /// Path, such as "housing.B.k_x".
     pub path: String,
-    /// In the unit as the file has it.
+    /// In the unit of the file.
     pub value: f64,
-    /// What stands behind the number, such as "N/m"; empty for a pure number.
+    /// Unit after the number, such as "N/m"; empty if dimensionless.
     pub unit: String,
-    /// Whether the file has it as a text, not as a bare number.
+    /// Whether it is a string in the file, not a bare number.
     pub quoted: bool,
 }
 
 impl Place {
-    /// Reads the text or number that stands at a path; `None` where it is not one number with its unit.
+    /// Parses the text or number at a path; `None` if it is not one number with a unit.
     pub fn read(path: &str, text: &str, quoted: bool) -> Option<Self> {
         let text = text.trim();
         let (value, length) = leading_number(text)?;
         let unit = text[length..].trim();
-        // Two numbers, or a word, are no number.
+        // Reject two numbers, or a word.
         let more = unit.starts_with([',', '+', '-', '.']) || unit.starts_with(|c: char| c.is_ascii_digit());
         let one = !more || unit.starts_with("1/");
         (value.is_finite() && one).then(|| Self { path: path.into(), value, unit: unit.into(), quoted })
     }
 
-    /// What to write there for another value.
+    /// TOML text of another value.
     pub fn text(&self, value: f64) -> String {
         match (self.quoted, self.unit.as_str()) {
             (true, "") => format!("\"{value:e}\""),
@@ -39,31 +39,32 @@ impl Place {
     }
 }
 
-/// A free parameter: one number of the file, or several that move together.
+/// A free parameter: one number of the file, or several changed together (grouped).
 ///
-/// Its coordinate x is 0 at the start: the values are start · e^x where they are positive and may not change sign, else
-/// start + x.
+/// Its coordinate x is 0 at the start: logarithmic, value = start · e^x (positive values that keep their
+/// sign), or additive, value = start + x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeParameter {
-    /// As the user wrote it, such as "housing.*.k_x".
+    /// As given by the user, such as "housing.*.k_x".
     pub name: String,
-    /// At least one; several keep their ratios (or, additive, their differences).
+    /// At least one; several keep their ratios (additive: their differences).
     pub places: Vec<Place>,
     pub logarithmic: bool,
-    /// Of x.
+    /// Prior mean and standard deviation of x.
     pub mean: f64,
     pub deviation: f64,
+    /// Bounds of x.
     pub lower: f64,
     pub upper: f64,
 }
 
-/// Deviation of ln(value) where the user states none: a factor of two either way.
+/// Default prior standard deviation of ln(value): a factor of two either way.
 pub const DEFAULT_DEVIATION: f64 = std::f64::consts::LN_2;
 
 impl FreeParameter {
-    /// A parameter with the default prior: a factor of two either way, or as much as its value.
+    /// A parameter with the default prior: a factor of two either way; additive: ± its value.
     ///
-    /// `None` where the value is 0 (it has no size of its own) and no deviation is given.
+    /// `None` if the value is 0 (no scale) and no deviation is given.
     pub fn new(name: &str, places: Vec<Place>, logarithmic: bool, deviation: Option<f64>) -> Option<Self> {
         let first = places.first()?.value;
         let deviation = match deviation {
@@ -83,28 +84,28 @@ impl FreeParameter {
         })
     }
 
-    /// Value of the first place at x, in the file's unit.
+    /// Value of the first entry at x, in the file's unit.
     pub fn value(&self, x: f64) -> f64 {
         self.value_of(&self.places[0], x)
     }
 
-    /// Value of one of its places at x.
+    /// Value of one of its entries at x.
     pub fn value_of(&self, place: &Place, x: f64) -> f64 {
         if self.logarithmic { place.value * x.exp() } else { place.value + x }
     }
 
-    /// x at which the first place has this value.
+    /// Coordinate x of a value of the first entry.
     pub fn coordinate(&self, value: f64) -> f64 {
         if self.logarithmic { (value / self.places[0].value).ln() } else { value - self.places[0].value }
     }
 
-    /// dvalue/dx of the first place.
+    /// Derivative dvalue/dx of the first entry.
     pub fn slope(&self, x: f64) -> f64 {
         if self.logarithmic { self.value(x) } else { 1.0 }
     }
 
-    /// Step of x for differences, and dx of one unit of what is stepped: values move evenly, so that what is linear in
-    /// them is differenced exactly.
+    /// Settings on either side of x for central differences, and their distance in x: values are stepped
+    /// evenly, so that quantities linear in them are differenced exactly.
     pub fn neighbours(&self, x: f64) -> ([Vec<(String, String)>; 2], f64) {
         const STEP: f64 = 1e-4;
         let step = if self.logarithmic { STEP } else { STEP * self.deviation };
@@ -119,12 +120,12 @@ impl FreeParameter {
         ([at(-1.0), at(1.0)], 2.0 * step)
     }
 
-    /// Paths and values at x, as `--set` takes them.
+    /// Paths and values at x, in the format of `--set`.
     pub fn settings(&self, x: f64) -> Vec<(String, String)> {
         self.places.iter().map(|p| (p.path.clone(), p.text(self.value_of(p, x)))).collect()
     }
 
-    /// Unit of the first place.
+    /// Unit of the first entry.
     pub fn unit(&self) -> &str {
         &self.places[0].unit
     }

@@ -1,4 +1,4 @@
-//! What is to be made small, with its derivatives.
+//! Residuals (weighted differences of model and measurement) with their derivatives.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,20 +12,20 @@ use crate::error::{Error, PhysicsError};
 use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
-/// What is fitted, each with the standard deviation that it is taken to have at least; `None` is left out.
+/// Fitted quantities, each with its minimum standard deviation; `None` is not fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitting {
-    /// Of ln f: what a good model leaves, 1e-3.
+    /// Of ln f: model error, 1e-3.
     pub frequency: Option<f64>,
     /// Of ln ζ.
     pub damping: Option<f64>,
-    /// √(1 − MAC).
+    /// Of √(1 − MAC).
     pub shape: Option<f64>,
     pub frf: Option<FrfFitting>,
 }
 
 impl Fitting {
-    /// Whether any of it is of single modes, which then need partners.
+    /// Whether modal data are fitted, which require paired modes.
     pub fn modes(&self) -> bool {
         self.frequency.is_some() || self.damping.is_some() || self.shape.is_some()
     }
@@ -37,11 +37,11 @@ impl Default for Fitting {
     }
 }
 
-/// Rows under construction: residuals and their slopes by every parameter.
+/// Residual rows and their derivatives by every parameter, under construction.
 pub(super) struct Rows {
     residual: Vec<f64>,
     slopes: Vec<Vec<f64>>,
-    /// What the rows are worth together.
+    /// Effective number of data.
     pub data: f64,
 }
 
@@ -52,12 +52,13 @@ impl Rows {
     }
 }
 
-/// Residuals over their deviations and their derivatives, of the measured modes `kept` and of the FRFs.
+/// Weighted residuals and their derivatives, of the measured modes `kept` and of the FRFs.
 ///
-/// Shapes give r = (m − α s)/σ with |m| = 1 and the best α: |r|²σ² is 1 − MAC, but r is smooth where the MAC is flat.
+/// Shapes give r = (m − α s)/σ with |m| = 1 and the optimal modal scale factor α: |r|²σ² is 1 − MAC, but r
+/// has a nonzero derivative at MAC = 1.
 ///
 /// # Errors
-/// A kept mode without partner, or without derivative.
+/// A mode of `kept` that is not paired, or without derivative.
 pub fn evaluation(
     state: &State,
     target: &Target,
@@ -71,7 +72,7 @@ pub fn evaluation(
         let measured = &target.modes[k];
         let found = state.pairing.pairs.iter().find(|p| p.measured == k);
         let Some(place) = found.map(|p| p.computed) else {
-            let reason = format!("the measured mode at {:.3} Hz has lost its partner", measured.frequency_hz);
+            let reason = format!("the measured mode at {:.3} Hz is no longer paired", measured.frequency_hz);
             return Err(PhysicsError::NoDerivative { reason }.into());
         };
         mode_rows(state, &state.modes[place], place, measured, fitting, &by, &mut rows)?;
@@ -123,7 +124,7 @@ fn mode_rows(
     if let Some(least) = fitting.shape
         && measured.shape.len() > 1
     {
-        // All points together are one datum, √(1 − MAC)/σ, however many there are.
+        // All points together count as one datum, √(1 − MAC)/σ.
         let changes = sensitivity.shapes(by)?;
         shape_rows(&state.rows, &state.shapes[place], &measured.shape, &changes, least, rows);
         rows.data += 1.0;

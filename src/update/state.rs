@@ -1,4 +1,4 @@
-//! A model beside what was measured: its modes at the measured points, paired.
+//! Correlation of a model with measurements: its modes at the measured points, paired with the measured ones.
 
 use rayon::prelude::*;
 
@@ -11,34 +11,34 @@ use crate::error::Error;
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::Model;
 
-/// The model's modes as the sensors see them.
+/// Linearised model with its modes at the sensors, paired with the measured modes.
 #[derive(Clone, Debug)]
 pub struct State {
     pub linear: Linearised,
     pub modes: Vec<Mode>,
     /// `shapes[mode][sensor]`.
     pub shapes: Vec<Vec<Complex64>>,
-    /// The other mode of a double eigenvalue, turned with it to the measured shapes.
+    /// The other mode of a repeated (double) eigenvalue, aligned together with it to the measured shapes.
     pub doubles: Vec<Option<usize>>,
-    /// Sensors as rows over the free DOFs.
+    /// Output matrix: sensors as rows over the free DOFs.
     pub rows: Vec<SparseRow>,
     pub pairing: Pairing,
 }
 
-/// Modes computed beyond twice those measured.
+/// Number of modes computed in addition to twice the measured ones.
 const SPARE: usize = 8;
 
 impl State {
-    /// Linearises the model at the speed of the measurement, computes its modes and pairs them; the equilibrium is
-    /// sought from `start` or from rest.
+    /// Linearises the model at the speed of the measurement, computes its modes and pairs them; the
+    /// equilibrium iteration starts from `start` or from zero.
     ///
     /// # Errors
-    /// No equilibrium, or an eigenvalue computation that fails.
+    /// No equilibrium, or failure of the eigenvalue computation.
     pub fn new(model: Model, target: &Target, start: Option<&[f64]>) -> Result<Self, Error> {
         let linear = Linearised::new(model, target.speed, start)?;
         let count = 2 * target.modes.len() + SPARE;
         let mut modes = modal::modes(&linear.assembly, &linear.system, count)?;
-        // What lies far above the last measured mode can be nobody's partner.
+        // Modes far above the last measured one cannot be paired.
         let top = target.modes.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
         modes.retain(|m| m.frequency_hz() < 2.0 * top);
         let rows: Vec<SparseRow> = target.sensors.iter().map(|s| s.row(&linear.assembly)).collect();
@@ -60,7 +60,7 @@ impl State {
         Ok(Self { linear, modes, shapes, doubles, rows, pairing })
     }
 
-    /// The computed mode paired with a measured one, and their MAC.
+    /// The computed mode paired with a measured mode, and their MAC.
     pub fn partner(&self, measured: usize) -> Option<(&Mode, f64)> {
         let pair = self.pairing.pairs.iter().find(|p| p.measured == measured)?;
         Some((&self.modes[pair.computed], pair.mac))

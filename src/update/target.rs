@@ -1,4 +1,4 @@
-//! What was measured, put where it is in the model.
+//! Measured modes and FRFs, mapped to points of the model.
 
 use std::f64::consts::TAU;
 
@@ -9,10 +9,10 @@ use crate::linalg::{Complex64, SparseRow};
 use crate::model::{Model, Quantity};
 use crate::signal::record::{Analysis, Dof, Geometry, Measured, Shape};
 
-/// A measured point in the model.
+/// A measured DOF (sensor or excitation) in the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
-    /// Point and direction as measured: node k of the model is point k + 1.
+    /// Measured point and direction: node k of the model is point k + 1.
     pub dof: Dof,
     pub at: Anchor,
     /// Weights on u_x u_y u_z θ_x θ_y θ_z.
@@ -20,7 +20,7 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The point's motion as a row over the free DOFs.
+    /// Output row: the point's motion over the free DOFs.
     pub fn row(&self, assembly: &Assembly) -> SparseRow {
         assembly.direction_row(&self.at, &self.direction)
     }
@@ -51,16 +51,16 @@ impl Sensor {
 pub struct TargetMode {
     /// Damped frequency Im λ / 2π \[Hz\].
     pub frequency_hz: f64,
-    /// ζ; `None` where the file tells none.
+    /// Damping ratio ζ; `None` if the file gives none.
     pub damping_ratio: Option<f64>,
-    /// Standard errors \[Hz\] and of ζ; 0 where unknown.
+    /// Standard errors \[Hz\] and of ζ; 0 if unknown.
     pub frequency_error: f64,
     pub damping_error: f64,
-    /// Over the sensors.
+    /// Mode shape over the sensors.
     pub shape: Vec<Complex64>,
 }
 
-/// Measured FRFs in the model's points.
+/// Measured FRFs at points of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TargetFrfs {
     /// \[Hz\].
@@ -71,36 +71,37 @@ pub struct TargetFrfs {
     pub quantities: Vec<Quantity>,
     /// `values[response][reference][line]`, SI.
     pub values: Vec<Vec<Vec<Complex64>>>,
-    /// γ² alike, where measured.
+    /// Coherence γ² with the same indices, if measured.
     pub coherence: Option<Vec<Vec<Vec<f64>>>>,
 }
 
 impl TargetFrfs {
-    /// Whether a force moved a response at all; what it cannot reach is like nothing.
+    /// Whether an FRF is nonzero; zero FRFs (uncoupled directions) cannot be compared.
     pub fn moves(&self, response: usize, reference: usize) -> bool {
         self.values[response][reference].iter().any(|h| h.norm_sqr() > 0.0)
     }
 }
 
-/// Everything that a model is held against.
+/// Measured data that a model is compared with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
-    /// Speed Ω at which it was measured \[rad/s\].
+    /// Speed Ω of the measurement \[rad/s\].
     pub speed: f64,
     /// Points of the shapes.
     pub sensors: Vec<Sensor>,
-    /// By frequency.
+    /// In order of frequency.
     pub modes: Vec<TargetMode>,
     pub frfs: Option<TargetFrfs>,
 }
 
-/// Puts measured points into the model: point k + 1 is node k unless the file's own geometry has it elsewhere; a point
-/// with coordinates rides rigidly on the shaft node nearest along z, as one on a disc's rim does.
+/// Maps measured points to the model: point k + 1 is node k unless the file's geometry places it elsewhere; a
+/// point with coordinates is attached rigidly to the shaft node nearest along z, such as one on a disc's rim.
 ///
-/// Rotations count with the radius of the largest disc, so that they weigh like the motion of its rim.
+/// Rotations are weighted by the radius of the largest disc (motion of its rim).
 ///
 /// # Errors
-/// Points that are neither in the model nor have coordinates, and records without point or direction, all at once.
+/// Points that are neither in the model nor have coordinates, and records without point or direction, all at
+/// once.
 pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<Sensor>, UpdateError> {
     let nodes = model.node_count();
     let mut lost: Vec<String> = Vec::new();
@@ -140,8 +141,8 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
     }
     if aimless {
         return Err(UpdateError::new(
-            "the measured file does not tell point and direction of all its records",
-            "say with --mapping which channel is which station and direction",
+            "the measured file does not state point and direction of all its records",
+            "give the station and direction of each channel with --mapping",
         ));
     }
     if !lost.is_empty() {
@@ -150,10 +151,10 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
         return Err(UpdateError::new(
             {
                 let (are, points) =
-                    if lost.len() == 1 { ("is no point", "point") } else { ("are no points", "points") };
+                    if lost.len() == 1 { ("is not a point", "point") } else { ("are not points", "points") };
                 format!("the measured {points} {}{more} {are} of the model", lost.join(", "))
             },
-            "say with --mapping which point is which station",
+            "give the station of each point with --mapping",
         ));
     }
     Ok(out)
@@ -166,14 +167,14 @@ pub fn rotation_radius(model: &Model) -> f64 {
     if largest > 0.0 { largest } else { 0.1 * length }
 }
 
-/// Points given with the digits of a universal file lie within this of the model's \[m\].
+/// Tolerance for coordinates with the digits of a universal file \[m\].
 const NEAR: f64 = 1e-5;
 
 fn is_at(model: &Model, node: usize, position: [f64; 3]) -> bool {
     is_near(place_of(model, node), position)
 }
 
-/// A place of the model itself: of a probe, or of an end of its FRFs.
+/// A point defined in the model at this position: a probe, or a response or excitation of its FRF study.
 fn known(model: &Model, position: [f64; 3]) -> Option<Anchor> {
     let frf = model.studies.frf.iter();
     let ends = frf.flat_map(|f| f.responses.iter().map(|p| p.at).chain(f.excitations.iter().map(|e| e.at)));
@@ -187,7 +188,7 @@ fn known(model: &Model, position: [f64; 3]) -> Option<Anchor> {
     })
 }
 
-/// Where a node lies, of the shaft or of a body.
+/// Position of a node of the shaft or of a body.
 pub fn place_of(model: &Model, node: usize) -> [f64; 3] {
     match node.checked_sub(model.node_z.len()) {
         None => [0.0, 0.0, model.node_z[node]],
@@ -208,10 +209,10 @@ fn near_shaft(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
     on_shaft.then(|| Anchor { node: Some(node), offset: [x, y, z - model.node_z[node]] })
 }
 
-/// Modes that a file holds as shapes, with their DOFs; `None` where it holds none.
+/// Modes of a measured file (shapes) with their DOFs; `None` if there are none.
 ///
-/// Directions in which nothing moves are left out. Of several speeds, told by names such as "1200 rpm 1st bending",
-/// the one nearest to `rpm` is taken, else the first, and returned.
+/// Directions with zero motion are omitted. Of several speeds, given by names such as "1200 rpm 1st bending",
+/// the one nearest to `rpm`, else the first, is taken and returned.
 pub fn modes_of(measured: &Measured, rpm: Option<f64>) -> Option<(Vec<Dof>, Vec<TargetMode>, Option<f64>)> {
     let speed = |s: &Shape| s.name.split_once(" rpm").and_then(|(n, _)| n.trim().parse::<f64>().ok());
     let is_mode =
@@ -251,7 +252,7 @@ pub fn modes_of(measured: &Measured, rpm: Option<f64>) -> Option<(Vec<Dof>, Vec<
         };
         (frequency_hz > 0.0).then(|| TargetMode {
             frequency_hz,
-            // Programs without an estimate write zero.
+            // Programs without a damping estimate write zero.
             damping_ratio: damping.filter(|zeta| *zeta != 0.0),
             frequency_error: 0.0,
             damping_error: 0.0,

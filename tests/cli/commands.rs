@@ -79,7 +79,7 @@ fn studies_print_tables_and_write_files() {
             &["--max-frequency", "60 Hz", "--quantity", "mobility"],
             "mobility at 0 rpm, 237 frequencies",
         ),
-        ("unbalance", &["--max-speed", "2000 rpm"], "Unbalance response over 200 speeds"),
+        ("unbalance", &["--max-speed", "2000 rpm"], "Unbalance response (1x) over 200 speeds"),
     ] {
         let text = output_of(rotordyn().args([command, JEFFCOTT, "--out"]).arg(folder.path()).args(flags));
         assert!(text.contains(part), "{part} is not in\n{text}");
@@ -126,7 +126,7 @@ fn a_study_that_the_file_does_not_ask_for_says_what_it_does() {
         assert!(text.contains(&format!("the file has no [study.{command}]")), "{text}");
     }
     let run = rotordyn().arg("run").arg(&model).assert().code(2);
-    assert!(String::from_utf8_lossy(&run.get_output().stderr).contains("asks for no study"));
+    assert!(String::from_utf8_lossy(&run.get_output().stderr).contains("contains no study"));
 }
 
 #[test]

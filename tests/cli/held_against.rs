@@ -129,9 +129,9 @@ fn updates_that_do_not_explain_the_data_say_so() {
     };
     // Both housings and both planes differ, and one number is free.
     let said = warnings(&[]);
-    assert!(said.contains("does not explain the data"), "{said}");
+    assert!(said.contains("does not fit the data"), "{said}");
     let said = warnings(&["--prior", "housing.B.k_x=+- 0.1 %"]);
-    assert!(said.contains("standard deviations of its prior away from the start"), "{said}");
+    assert!(said.contains("prior standard deviations away from the prior mean"), "{said}");
     // With all that differs free there is nothing to say.
     let mut command = rotordyn();
     command.args(["update", RIG, "--free", "housing.*.k_x,housing.*.k_y", "--no-figures", "--band"]);
@@ -348,7 +348,7 @@ fn hammer_tests_of_two_forces_show_the_shift() {
     // The small blow meets the linear machine; the large one works the clearance.
     let largest = shifts.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a });
     assert!(largest.abs() > 2e-3, "{shifts:?}");
-    assert!(text.contains("Shift of the measured modes from the first file"), "{text}");
+    assert!(text.contains("Frequency shift of the measured modes relative to the first file"), "{text}");
     keep_pictures(&folder.path().join("levels"), "levels");
 }
 

@@ -132,7 +132,7 @@ fn ctrl_c_ends_a_run_cleanly() {
     drop(store);
     let flags = ["--no-figures", "--length", "0.5 s", "--channels", "disc_y"];
     let assert = rotordyn().arg("spectrogram").arg(&file).args(flags).assert().success();
-    assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("did not end by itself: stopped"));
+    assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("is incomplete: stopped"));
 }
 
 /// Every byte of the file, with one thread, with two, and again.

@@ -294,7 +294,7 @@ fn a_stored_run() {
         "B_ax",
     ]);
     let text = output_of(&mut command);
-    for part in ["channel `theta`", "Statistics", "Orders of B_ax", "Average of B_ax", "no verdict"] {
+    for part in ["channel `theta`", "Statistics", "Orders of B_ax", "Time synchronous average of B_ax", "no bearing diagnosis"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     assert!(text.lines().all(|line| line.chars().count() <= 140), "{text}");
@@ -302,7 +302,7 @@ fn a_stored_run() {
     // A bearing of the stored model, by its name; half a second holds too few turns of its cage.
     let assert = rotordyn().arg("signal").arg(out).args(["--bearing", "A", "--no-figures"]).assert().code(2);
     let text = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
-    assert!(text.contains("ten turns of the cage"), "{text}");
+    assert!(text.contains("ten revolutions of the cage"), "{text}");
 }
 
 /// Rates given by hand say what the catalogue's bearing says; what is left out follows from the others.

@@ -73,7 +73,7 @@ fn the_report_tells_what_was_fitted() {
         "found",
         "degrees of freedom",
         "FRAC",
-        "dB apart after the update",
+        "dB after the update",
     ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }

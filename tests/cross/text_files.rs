@@ -69,9 +69,9 @@ fn vtk_series_and_refusals() {
 
     let field = |values| [Field { name: "f".into(), values }];
     let error = to_vtu(&grid(), &field(Values::Scalars(vec![0.0, f64::NAN, 0.0, 0.0]))).unwrap_err();
-    assert_eq!(error, "f holds a number that is not finite");
+    assert_eq!(error, "f contains a number that is not finite");
     let error = to_vtu(&grid(), &field(Values::Scalars(vec![0.0]))).unwrap_err();
-    assert_eq!(error, "field f has not one value for each of 4 points");
+    assert_eq!(error, "field f does not have one value for each of 4 points");
     let bad = Grid { lines: vec![[0, 9]], ..grid() };
     assert_eq!(to_vtu(&bad, &[]).unwrap_err(), "a line ends at point 9 of 4");
     let nowhere = folder.path().join("missing").join("x.vtu");

@@ -83,8 +83,16 @@ fn errors_name_the_operation_the_file_and_the_object() {
         (Store::open(folder.path().join("none.h5")).map(drop), "open", "none.h5"),
         (store.write("/x", &[2, 2], &[1.0], &[]), "write", "/x: the shape [2, 2] does not fit 1 values"),
         (store.read("/missing").map(drop), "read", "/missing"),
-        (store.attach_scale("/level", 1, "/f", "frequency"), "write", "/f of shape [3] is no axis 1"),
-        (store.attach_scale("/level", 2, "/f", "frequency"), "write", "/f of shape [3] is no axis 2"),
+        (
+            store.attach_scale("/level", 1, "/f", "frequency"),
+            "write",
+            "/f of shape [3] does not fit dimension 1",
+        ),
+        (
+            store.attach_scale("/level", 2, "/f", "frequency"),
+            "write",
+            "/f of shape [3] does not fit dimension 2",
+        ),
         (store.set_attribute("/meta", "model", "a\0b"), "write", "/meta"),
     ];
     for (result, operation, detail) in failures {

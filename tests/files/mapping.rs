@@ -146,7 +146,7 @@ fn all_that_is_wrong_is_told_at_once() {
         "axes = [\"x\", \"x\", \"z\"] are not x, y, z in some order",
         "there is no channel `housing_B_ay`, but `housing_B_ax`",
         "there is no record at point 77",
-        "`A_fy` is in N by its file, not in \"mm\"",
+        "`A_fy` is in N according to its file, not in \"mm\"",
         "direction \"up\" is none of x, y, z",
         "the model has no station, bearing or body `C`",
         "correct the mapping",
@@ -154,7 +154,7 @@ fn all_that_is_wrong_is_told_at_once() {
         assert!(error.contains(part), "{part} is not in\n{error}");
     }
     let mirrored = apply("axes = [\"x\", \"z\", \"y\"]", &time_records()).unwrap_err();
-    assert!(mirrored.contains("are left-handed: turn the sign of one"), "{mirrored}");
+    assert!(mirrored.contains("are left-handed: change the sign of one"), "{mirrored}");
     let scalar = "[channel.lines]\nstation = \"A\"";
     assert!(apply(scalar, &frequency_records()).unwrap_err().contains("`lines` has no direction"));
     let unknown = mapping("[channel.a]\nplace = \"B\"").unwrap_err().to_string();

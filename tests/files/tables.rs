@@ -67,9 +67,9 @@ fn printed_times_give_the_rate_they_mean() {
     let mut lines: Vec<&str> = rows.lines().collect();
     lines.remove(2000);
     let back = read(&("time_s,a\n".to_owned() + &lines.join("\n")));
-    assert_eq!(back.notes, ["the steps of `time` are uneven"]);
+    assert_eq!(back.notes, ["`time` is not uniformly spaced"]);
     let text = back.records[0].sample_rate().unwrap_err().to_string();
-    assert!(text.contains("`a` is not sampled at even steps: after value 1999 the step is 1.67"), "{text}");
+    assert!(text.contains("`a` is not sampled uniformly: the step after value 1999 is 1.67"), "{text}");
     assert!(text.contains("resample it"), "{text}");
 }
 
@@ -116,7 +116,7 @@ fn columns_of_other_lengths_and_missing_values() {
     assert_eq!(real(&back, "b"), [5.0, 6.0]);
     let a = real(&back, "a");
     assert!(a[1].is_nan() && a[3].is_nan() && a[2] == 3.0);
-    assert_eq!(back.notes, ["`a` holds 2 values of 4 that are no finite numbers, the first at value 1"]);
+    assert_eq!(back.notes, ["`a` has 2 values of 4 that are not finite, the first at index 1"]);
     // Names that are there twice.
     let twice = read("time_s,a,a\n0,1,2\n1,1,2\n");
     assert_eq!(real(&twice, "a (2)"), [2.0, 2.0]);
@@ -133,13 +133,11 @@ fn what_is_wrong_is_told_with_its_place() {
     let cut = message("time_s,a\n0,1\n1,2\n2");
     assert_eq!(
         cut,
-        "line 4 has 1 cells where the first has 2; the file is cut off or damaged: copy or export it again"
+        "line 4 has 1 cells, the first data line has 2; the file is cut off or damaged: copy or export it again"
     );
-    assert!(message("time_s,a\n0,1\n1,x\n").starts_with("`x` in line 3, column `a`, is no number"));
-    assert!(
-        message("time_s,a\n0,1\n0,2\n").starts_with("`time` does not increase from its value 1 to the next")
-    );
-    assert!(message("time_s,a\n0,1\n,2\n").starts_with("`time` does not increase from its value 1"));
-    assert!(message("a,b\n").contains("the file holds no line of numbers; write one line of names"));
+    assert!(message("time_s,a\n0,1\n1,x\n").starts_with("`x` in line 3, column `a`, is not a number"));
+    assert!(message("time_s,a\n0,1\n0,2\n").starts_with("`time` does not increase after its value 1"));
+    assert!(message("time_s,a\n0,1\n,2\n").starts_with("`time` does not increase after its value 1"));
+    assert!(message("a,b\n").contains("the file contains no line of numbers; write one line of names"));
     assert!(message("").contains("the file is empty"));
 }

@@ -172,7 +172,7 @@ fn wrong_byte_counts_and_stray_line_ends_are_forgiven() {
     let short = [&bytes[..end - 16], &bytes[end..]].concat();
     let back = read(&short);
     assert_eq!(values(&back), &good[..23]);
-    assert_eq!(back.notes, ["`housing_B_ax` has 23 values where its header says 25"]);
+    assert_eq!(back.notes, ["`housing_B_ax` has 23 values, its header states 25"]);
     // Cut off in the middle.
     let text = message(&bytes[..start + 57]);
     assert!(text.contains("the binary data is cut off: 25 values need 200 bytes, 57 are left"), "{text}");
@@ -214,7 +214,7 @@ fn short_padded_and_touching_values_are_read() {
     assert_eq!(back.records[0].sample_rate(), Ok(1000.0));
     let padded = read(ascii(&even(3), ACCELERATION, touching).as_bytes());
     assert_eq!(values(&padded), [1.0, -2.0, -3.0]);
-    assert_eq!(padded.notes, ["`ch` has 4 values where its header says 3"]);
+    assert_eq!(padded.notes, ["`ch` has 4 values, its header states 3"]);
     let short = read(ascii(&even(9), ACCELERATION, touching).as_bytes());
     assert_eq!(values(&short).len(), 4);
     assert_eq!(short.notes.len(), 1);
@@ -277,7 +277,7 @@ fn units_become_si_by_label_or_by_set_164() {
     check(&unknown, 2.0, "");
     assert_eq!(unknown.stated_unit, "EU");
     let text = unknown.si_unit().unwrap_err().to_string();
-    assert_eq!(text, "the unit of `ch` is unknown (the file says \"EU\"); state it, such as \"m/s^2\"");
+    assert_eq!(text, "the unit of `ch` is unknown (the file gives \"EU\"); state it, such as \"m/s^2\"");
     let zero = "    -1\n   164\n         5mm\n  0.0D+00  1.0D+03  1.0D+00\n  2.7315D+02\n    -1\n";
     assert!(message(zero.as_bytes()).contains("set 164 are not positive"));
     assert_eq!(unknown.axis.quantity, AxisQuantity::Time);
@@ -289,7 +289,7 @@ fn what_cannot_be_written_is_refused() {
     let mut one = Measured { records: time_records()[..1].to_vec(), ..Measured::default() };
     one.records[0].values = Values::Real(vec![1.0, f64::NAN]);
     let text = uff::to_bytes(&one, Options::default()).unwrap_err().to_string();
-    assert!(text.contains("`housing_B_ax` holds no finite number at value 1"), "{text}");
+    assert!(text.contains("`housing_B_ax` is NaN or infinite at value 1"), "{text}");
     one.records[0].axis.points = Points::Unknown;
     let text = uff::to_bytes(&one, Options::default()).unwrap_err().to_string();
     assert!(text.contains("does not state its sampling rate; give it"), "{text}");

@@ -64,7 +64,7 @@ fn geometry_of_a_test_program() {
     assert_eq!(
         file.notes,
         [
-            "directions at 36 nodes are in coordinate systems of their own, which are not applied",
+            "directions at 36 nodes are in local coordinate systems, which are not applied",
             "not read: data sets 18"
         ]
     );
@@ -81,7 +81,7 @@ fn a_finite_element_model_in_millimetres() {
     let shape = &file.shapes[0];
     assert_eq!((shape.name.as_str(), shape.analysis, shape.components), ("Temperature", Analysis::Static, 1));
     assert_eq!((shape.nodes.len(), shape.values[6].re), (10, 24.9976));
-    assert_eq!(file.notes, ["converted to SI by set 164: lengths over 1000, forces over 1000"]);
+    assert_eq!(file.notes, ["converted to SI by set 164: lengths divided by 1000, forces by 1000"]);
 }
 
 #[test]

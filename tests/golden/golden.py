@@ -39,7 +39,7 @@ EXTRA = {
     "poincare/upadhyay_2009": ["poincare", "models/upadhyay_2009.toml"],
     "lyapunov/varying_compliance": ["lyapunov", "models/varying_compliance.toml"],
     "bifurcation/varying_compliance": [
-        "bifurcation", "models/varying_compliance.toml", "--parameter", "bearing.B.radial_clearance",
+        "bifurcation", "models/varying_compliance.toml", "--parameter", "bearing.C.radial_clearance",
         "--from", "2 um", "--to", "12 um", "--count", "4",
     ],
     "bearing/zhang_2016": ["bearing", "models/zhang_2016.toml"],

@@ -37,7 +37,7 @@ fn each_says_what_to_do() {
             ["0 lines of the 5.000 .. 85.000 Hz", "choose a wider band"],
         ),
         (said(|_, s| s.max_order = Some(3)), ["highest order", "8 or more"]),
-        (said(|made, _| made.frequencies[9] += 0.1), ["even steps", "interpolate"]),
+        (said(|made, _| made.frequencies[9] += 0.1), ["uniformly spaced", "interpolate"]),
         (
             // Noise alone, of a fixed sequence.
             said(|made, _| {
@@ -50,7 +50,7 @@ fn each_says_what_to_do() {
                     *h = Complex64::new(next(), next());
                 });
             }),
-            ["no mode was found in 5.000 .. 85.000 Hz", "look at the coherence"],
+            ["no mode was found in 5.000 .. 85.000 Hz", "check the coherence"],
         ),
         (
             said(|made, _| {

@@ -316,7 +316,7 @@ fn verdict_of_a_run_up_by_shaft_angle() {
         diagnose(&x[..9000], RATE, Turning::Angle(&theta[..9000]), &orders, BandRule::Whole, &settings)
             .unwrap_err()
             .to_string();
-    assert!(text.contains("25.10") && text.contains("ten turns of the cage"), "{text}");
+    assert!(text.contains("25.10") && text.contains("ten revolutions of the cage"), "{text}");
 }
 
 /// A record too short, a record sampled too slowly, a band that is none: said, not guessed.
@@ -329,21 +329,21 @@ fn refusals_of_a_diagnosis() {
     };
     assert_eq!(
         message(RATE, BandRule::Whole),
-        "record has 4000 samples: at least 10060 are needed for ten turns of the cage, to tell its lines apart"
+        "record has 4000 samples: at least 10060 are needed for ten revolutions of the cage, to resolve its lines"
     );
     let text = message(1500.0, BandRule::Whole);
     assert!(
-        text.starts_with("the sampling rate is 1500 Hz: the highest bearing line asked for needs"),
+        text.starts_with("the sampling rate is 1500 Hz: the highest bearing line requested needs"),
         "{text}"
     );
     let x = noise(1, 12_000);
     let text = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Given(500.0, 7000.0), &settings)
         .unwrap_err()
         .to_string();
-    assert!(text.starts_with("upper end of the band = 7000 is not possible"), "{text}");
+    assert!(text.starts_with("upper end of the band = 7000 is out of range"), "{text}");
     let bad = BearingRates { inner: f64::NAN, ..rates() };
     let text = diagnose(&x, RATE, Turning::Steady, &bad, BandRule::Whole, &settings).unwrap_err().to_string();
-    assert!(text.starts_with("BPFI = NaN is not possible"), "{text}");
+    assert!(text.starts_with("BPFI = NaN is out of range"), "{text}");
 }
 
 /// White noise modulated at 1/64 of the rate: coherence at that α and nowhere else.

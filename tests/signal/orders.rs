@@ -126,7 +126,7 @@ fn too_few_revolutions_are_refused() {
     let error = OrderTracker::new(&theta, RATE, OrderSettings::new(0.05, 10.0)).err().unwrap();
     assert_eq!(
         error.to_string(),
-        "the shaft turns 10.000 revolutions without standing still or turning back: 20.000 are needed for one \
+        "the shaft turns 10.000 revolutions without stopping or reversing: 20.000 are needed for one \
          window of this order resolution"
     );
 }

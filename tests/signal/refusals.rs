@@ -150,7 +150,7 @@ fn messages_say_what_was_expected_and_what_was_given() {
     );
     assert_eq!(
         message(butterworth(2, Band::LowPass(600.0), 1000.0).unwrap_err()),
-        "corner frequency = 600 is not possible: between 0 and half the sampling rate is expected"
+        "corner frequency = 600 is out of range: expected between 0 and half the sampling rate"
     );
     assert_eq!(
         message(statistics(&[1.0, f64::NAN]).unwrap_err()),
@@ -162,7 +162,7 @@ fn messages_say_what_was_expected_and_what_was_given() {
     );
     assert_eq!(
         message(StftSettings::new(WindowKind::Hann, 16, 1.0).unwrap_err()),
-        "overlap = 1 is not possible: a fraction from 0 to below 1 is expected"
+        "overlap = 1 is out of range: expected a fraction from 0 to below 1"
     );
 }
 

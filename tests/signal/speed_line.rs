@@ -94,7 +94,7 @@ fn ridge_by_dynamic_programming() {
 fn refusals() {
     let x = record();
     let message = |settings: LineSettings| speed_from_line(&x, RATE, &settings).unwrap_err().to_string();
-    assert!(message(LineSettings { order: 0.0, ..LINE }).starts_with("order = 0 is not possible"));
+    assert!(message(LineSettings { order: 0.0, ..LINE }).starts_with("order = 0 is out of range"));
     assert!(message(LineSettings { high: 20.0, ..LINE }).starts_with("upper end of the line [Hz] = 20"));
     assert!(message(LineSettings { low: f64::NAN, ..LINE }).starts_with("lower end of the line [Hz] = NaN"));
     assert!(message(LineSettings { frame: 50_000, ..LINE }).starts_with("record has 32000 samples"));

@@ -1,8 +1,8 @@
-//! One ball between its races: where it is, how far the contacts are pressed in, what they carry.
+//! One ball between its races: position, contact deformation, contact forces.
 
 use super::RadialElement;
 
-/// What a ball sees of rings and cage, in its own directions (radial, tangential).
+/// Motion of rings and cage in a ball's local frame (radial, tangential).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     pub cos: f64,
@@ -21,7 +21,7 @@ pub(super) struct Seen {
     pub deviation_rate: [f64; 2],
 }
 
-/// One contact, pressed in or not.
+/// State of one contact, deformed or open.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pressed {
     /// F \[N\], ∂F/∂δ \[N/m\], ∂F/∂δ̇ \[N s/m\].
@@ -33,17 +33,17 @@ pub(super) struct Pressed {
     pub energy: f64,
 }
 
-/// A ball at a place.
+/// Kinematics and forces of a ball at one position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Acting {
-    /// Direction n from the centre of the inner race, and distance χ \[m\].
+    /// Unit vector n and distance χ from the centre of the inner race \[m\].
     pub n: [f64; 2],
     pub distance: f64,
-    /// Velocity of the ball seen from the inner race's centre, in directions that stand still \[m/s\].
+    /// Velocity of the ball relative to the inner race's centre, in non-rotating directions \[m/s\].
     pub drift: [f64; 2],
     /// ρ̇ \[m/s\].
     pub radial_rate: f64,
-    /// Depths δ_i, δ_o \[m\] and their rates \[m/s\].
+    /// Deformations δ_i, δ_o \[m\] and their rates \[m/s\].
     pub depth: [f64; 2],
     pub closing: [f64; 2],
     /// Inner and outer contact.
@@ -53,7 +53,7 @@ pub(super) struct Acting {
 }
 
 impl Acting {
-    /// Forces on d_r d_t h_r h_t.
+    /// Generalised forces on d_r d_t h_r h_t \[N\].
     pub fn on_rings(&self, seen: &Seen, mass: f64) -> [f64; 4] {
         let [inner, outer] = [self.contacts[0].force, self.contacts[1].force];
         [
@@ -66,7 +66,7 @@ impl Acting {
 }
 
 impl RadialElement {
-    /// The ball at y, moving at ẏ.
+    /// State of the ball at position y and velocity ẏ.
     #[inline(always)]
     pub(super) fn ball(&self, seen: &Seen, place: f64, rate: f64) -> Acting {
         let turning = seen.turning;
@@ -77,7 +77,7 @@ impl RadialElement {
         let distance = (arm[0] * arm[0] + arm[1] * arm[1]).sqrt();
         let n = [arm[0] / distance, arm[1] / distance];
         let drift = [radial_rate - seen.shift_rate[0], radius * turning - seen.shift_rate[1]];
-        // ρ_i − χ without the loss of digits of two radii: χ − a_r = a_t²/(χ + a_r).
+        // ρ_i − χ without cancellation: χ − a_r = a_t²/(χ + a_r).
         let bend = arm[1] * arm[1] / (distance + arm[0]);
         let gap = self.outer_reach - self.inner_reach;
         let depth = [seen.shift[0] - lift - gap - bend + seen.deviation[0], lift + seen.deviation[1]];
@@ -91,9 +91,10 @@ impl RadialElement {
         Acting { n, distance, drift, radial_rate, depth, closing, contacts, force }
     }
 
-    /// F = K δ^{3/2} + (3/2) C K δ^{1/2} δ̇ while δ > 0 (Upadhyay 2009 eq. A.4, A.5, B.3, B.5 with p = 1).
+    /// Contact law F = K δ^{3/2} + (3/2) C K δ^{1/2} δ̇ for δ > 0 (Upadhyay 2009 eq. A.4, A.5, B.3, B.5 with
+    /// p = 1).
     ///
-    /// Limits: none at δ ≤ 0; the slope with δ grows without bound as δ → 0 while δ̇ ≠ 0.
+    /// Limits: zero at δ ≤ 0; ∂F/∂δ is unbounded as δ → 0 with δ̇ ≠ 0.
     #[inline(always)]
     fn press(&self, contact: usize, depth: f64, rate: f64) -> Pressed {
         if depth <= 0.0 {

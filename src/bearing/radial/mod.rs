@@ -1,20 +1,21 @@
-//! Ball bearing in its plane with one radial coordinate per ball (Upadhyay, Harsha & Jain 2009).
+//! Plane ball bearing with one radial degree of freedom per ball (Upadhyay, Harsha & Jain 2009).
 //!
-//! Ball j is carried round by the cage at ψ_j and free to move along e_r(ψ_j) between the races. Its coordinate y_j is
-//! its radial place in the frame of the ground: with the housing displaced by h and the inner ring by h + d, its centre
-//! is at h + ρ e_r with ρ = ρ₀ + y − h·e_r, ρ₀ the radius at which it just touches the outer race. So taken, every
-//! ball has a constant mass, and T = ½ m Σ [(ẏ − ψ̇ h·e_t)² + (ḣ·e_t + ψ̇ ρ)²] leaves the housing the constant mass
-//! Z m/2 of balls that the cage carries along with it; the rest are forces. χ = |ρ e_r − d| is the exact distance from
-//! the centre of the inner race, n the unit vector along it, and the contacts are pressed in by
-//! δ_i = ρ_i − χ + w_i and δ_o = y − h·e_r + w_o. The forces that belong to d, h and y are
+//! Ball j is guided by the cage at ψ_j and free to move along e_r(ψ_j) between the races. Its coordinate y_j
+//! is its radial position in the inertial frame: with the housing displaced by h and the inner ring by h + d,
+//! its centre is at h + ρ e_r with ρ = ρ₀ + y − h·e_r, ρ₀ the radius at which it just touches the outer race.
+//! With this choice every ball has a constant mass, and T = ½ m Σ [(ẏ − ψ̇ h·e_t)² + (ḣ·e_t + ψ̇ ρ)²] gives
+//! the housing the constant added mass Z m/2 of the balls; all other terms are forces. χ = |ρ e_r − d| is the
+//! exact distance from the centre of the inner race, n the unit vector along it, and the contact deformations
+//! are δ_i = ρ_i − χ + w_i and δ_o = y − h·e_r + w_o. The generalised forces of d, h and y are
 //!
 //! Q_d = −Σ F_i n, Q_h = Σ (F_o − F_i n_r) e_r − 2 m ψ̇ ρ̇ e_t,
 //! Q_y = F_i n_r − F_o + m (ψ̇² (ρ − h·e_r) + 2 ψ̇ ḣ·e_t + g·e_r).
 //!
-//! The cage rides on the housing, which takes its tangential forces; its angular acceleration is left out (m h ψ̈).
+//! The cage is guided by the housing, which takes its tangential forces; the term with its angular
+//! acceleration, m h ψ̈, is neglected.
 //!
-//! Source: Upadhyay 2009 eq. 6-8 and Appendices A and B, with the sign of ρ θ̇² set right and the two terms d(k)/dρ,
-//! which count the contact force twice, left out; the paper's housing stands still.
+//! Source: Upadhyay 2009 eq. 6-8 and Appendices A and B, with the sign of ρ θ̇² corrected and without the two
+//! terms d(k)/dρ, which count the contact force twice; the paper's housing is fixed.
 
 mod ball;
 mod settled;
@@ -29,17 +30,17 @@ pub use tangent::RadialTangent;
 
 use super::{BallBearing, Cage, Deviation, Profile, Reaction, Rotation};
 
-/// Ball bearing in its plane, every ball a mass with a radial coordinate of its own.
+/// Plane ball bearing: every ball a mass with its own radial degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadialBallBearing {
-    /// Geometry, materials, dry contacts, cage and races; what else it says is not used.
+    /// Geometry, materials, dry contacts, cage and imperfections; other fields are ignored.
     pub ball: BallBearing,
-    /// Damping in proportion to stiffness, C in F = K δ^{3/2} + (3/2) C K δ^{1/2} δ̇, at both races \[s\].
+    /// Stiffness-proportional damping C of F = K δ^{3/2} + (3/2) C K δ^{1/2} δ̇, at both races \[s\].
     ///
     /// Source: Upadhyay 2009 eq. B.1-B.5 with p = 1.
     pub stiffness_damping: [f64; 2],
-    /// Whether a contact that springs apart may pull while its bodies are still pressed in, as the paper's law does;
-    /// else it lets go.
+    /// Whether the damped contact force may become tensile during separation while δ > 0, as in the paper;
+    /// else it is cut off at zero.
     pub pulls: bool,
     /// Gravity in the bearing's plane \[m/s²\].
     pub gravity: [f64; 2],
@@ -51,13 +52,14 @@ impl RadialBallBearing {
         self.ball.ball_material.density * PI / 6.0 * self.ball.geometry.ball_diameter.powi(3)
     }
 
-    /// Mass Z m/2 of the balls that moves with the housing across the line of every ball \[kg\].
+    /// Added mass of the balls on the housing, Z m/2 (motion tangential to each ball's line) \[kg\].
     pub fn carried_mass(&self) -> f64 {
         0.5 * self.ball.geometry.balls as f64 * self.ball_mass()
     }
 }
 
-/// Where the rings are: d of the inner one from the outer one, h of the outer one (the housing) from its place.
+/// Displacements of the rings: d of the inner relative to the outer one, h of the outer one (housing),
+/// absolute.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rings {
     /// d and h along x and y \[m\]; ḋ and ḣ \[m/s\].
@@ -68,7 +70,7 @@ pub struct Rings {
 }
 
 impl Rings {
-    /// From interface rows d_x d_y and, where the housing moves, h_x h_y.
+    /// From interface rows d_x d_y and, for a flexible housing, h_x h_y.
     pub fn from_rows(d: &[f64], rate: &[f64]) -> Self {
         let pair = |rows: &[f64], k: usize| match rows.get(k..k + 2) {
             Some(&[x, y]) => [x, y],
@@ -78,7 +80,7 @@ impl Rings {
     }
 }
 
-/// The bearing made ready for evaluation.
+/// The bearing prepared for evaluation.
 #[derive(Clone, Debug)]
 pub struct RadialElement {
     stiffness: [f64; 2],
@@ -86,8 +88,8 @@ pub struct RadialElement {
     pulls: bool,
     mass: f64,
     gravity: [f64; 2],
-    /// Radius ρ₀ of a ball's centre that just touches the outer race, and its distance ρ_i from the centre of an inner
-    /// race that it just touches \[m\].
+    /// Radius ρ₀ of the ball centre in zero-load contact with the outer race, and ρ_i with the inner race
+    /// \[m\].
     outer_reach: f64,
     inner_reach: f64,
     cage: Cage,
@@ -141,8 +143,8 @@ impl RadialElement {
         }
     }
 
-    /// Forces at places y \[m\] and rates ẏ \[m/s\] of the balls: on d and h in the reaction (rows d_x d_y h_x h_y),
-    /// on y in `force`; no tangents.
+    /// Forces at ball positions y \[m\] and velocities ẏ \[m/s\]: on d and h in the reaction (rows
+    /// d_x d_y h_x h_y), on y in `force`; no tangents.
     pub fn act(
         &self,
         rings: &Rings,
@@ -159,7 +161,7 @@ impl RadialElement {
         sum.reaction()
     }
 
-    /// Calls `visit` with every ball's number and what it sees.
+    /// Calls `visit` with every ball's number and its local ring and cage motion.
     #[inline(always)]
     fn each(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(usize, Seen)) {
         let passing = self.profile.as_ref().map(|profile| profile.at(rotation));
@@ -187,7 +189,7 @@ impl RadialElement {
     }
 }
 
-/// What all balls do to the rings.
+/// Sum of ball forces on the rings, with energy and powers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     /// On d_x d_y h_x h_y.
@@ -198,7 +200,7 @@ struct Sum {
 }
 
 impl Sum {
-    /// Adds a ball that moves at ẏ.
+    /// Adds a ball with velocity ẏ.
     fn add(&mut self, seen: &Seen, acting: &Acting, rate: f64, mass: f64) {
         let [dr, dt, hr, ht] = acting.on_rings(seen, mass);
         let (c, s) = (seen.cos, seen.sin);
@@ -213,7 +215,7 @@ impl Sum {
         let work = dr * v[0] + dt * v[1] + hr * h[0] + ht * h[1] + acting.force * rate;
         self.energy += inner.energy + outer.energy;
         self.dissipated += closing - inner.elastic * acting.closing[0] - outer.elastic * acting.closing[1];
-        // Of the power that rings and balls take from here, what the contacts do not give comes from the cage, the
+        // Input power: power delivered to rings and balls beyond that of the contacts comes from the cage,
         // passing waves and gravity on the balls.
         self.power += work + closing;
     }

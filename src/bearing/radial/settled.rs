@@ -1,26 +1,28 @@
-//! Statics and small motions: every ball settled between the races, its coordinate condensed.
+//! Statics and small motions: every ball in static equilibrium between the races, its coordinate condensed.
 
 use super::ball::{Acting, Pressed};
 use super::tangent::Y;
 use super::{RadialElement, Rings, Seen};
 use crate::bearing::{BallLoad, Reaction, Rotation, root};
 
-/// Displacement over pitch radius up to which statics know the races' shape.
+/// Displacement over pitch radius up to which statics use the exact geometry; beyond, linear extrapolation.
 const FAR: f64 = 0.02;
 
 impl RadialElement {
-    /// Force on the shaft with condensed tangents, every ball where contacts, centrifugal force and gravity balance.
+    /// Force on the shaft with condensed tangents, every ball in equilibrium of contact, centrifugal force
+    /// and weight.
     ///
-    /// Stiffness K_dd − K_dy K_yy⁻¹ K_yd; damping of slow motions, in which the balls follow as they would at rest,
-    /// y = S d with S = −K_yy⁻¹ K_yd: C_dd + C_dy S + Sᵀ C_yd + Sᵀ C_yy S. The housing carries the balls' weight and
-    /// centrifugal force beside −f ([`Reaction::carried`]). A ball between both contacts takes no part.
+    /// Stiffness by static condensation, K_dd − K_dy K_yy⁻¹ K_yd; damping of slow motions, with the balls
+    /// following quasi-statically, y = S d, S = −K_yy⁻¹ K_yd: C_dd + C_dy S + Sᵀ C_yd + Sᵀ C_yy S. The
+    /// housing also carries the balls' weight and centrifugal force ([`Reaction::carried`]). A ball without
+    /// contact does not contribute.
     ///
-    /// `d`, `v`: displacement and velocity of the shaft relative to the housing, of which x and y count.
-    /// Left out of the stiffness is −F/χ along the race, 1e-5 of it: a ring that balances on one ball would roll off, but
-    /// is to be found as an equilibrium.
+    /// `d`, `v`: displacement and velocity of the shaft relative to the housing; only x and y are used.
+    /// The stiffness omits the geometric term −F/χ along the race, a relative 1e-5: it would make a ring
+    /// balanced on one ball unstable, which is to be found as an equilibrium.
     ///
-    /// Beyond a fiftieth of the pitch radius, where a search for equilibrium may look but no shaft goes, the force grows
-    /// in a straight line.
+    /// Beyond a fiftieth of the pitch radius, reached only by iterates of an equilibrium search, the force is
+    /// extrapolated linearly.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
         let (size, most) = (d[0].hypot(d[1]), FAR * self.outer_reach);
         if size <= most {
@@ -47,7 +49,7 @@ impl RadialElement {
             out.carried[0] += hr * c;
             out.carried[1] += hr * s;
             out.elastic_energy += acting.contacts[0].energy + acting.contacts[1].energy;
-            // Without load the line of contact does not soften the ring beside it.
+            // With zero force: no geometric softening −F/χ across the contact line.
             let [inner, outer] = acting.contacts;
             let unloaded = Acting { contacts: [Pressed { force: 0.0, ..inner }, outer], ..*acting };
             let tangent = unloaded.tangent(seen, self.mass);
@@ -79,7 +81,7 @@ impl RadialElement {
         out
     }
 
-    /// The same averaged over one ball pitch of cage angles (`angles` of them), imperfections left out.
+    /// The same averaged over one ball pitch of cage angles (`angles` samples), without imperfections.
     pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         let pitch = std::f64::consts::TAU / self.balls() as f64;
         let perfect = Self { profile: None, ..self.clone() };
@@ -94,7 +96,7 @@ impl RadialElement {
         out
     }
 
-    /// Loads of every ball, settled.
+    /// Loads of every ball in static equilibrium.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
         let rings = Rings { shift: [d[0], d[1]], ..Rings::default() };
         let mut out = Vec::with_capacity(self.balls());
@@ -113,7 +115,7 @@ impl RadialElement {
         out
     }
 
-    /// Places y of the balls \[m\], settled, with the rings where they are.
+    /// Static equilibrium positions y of the balls \[m\] for given ring displacements.
     pub fn settled_places(&self, rings: &Rings, rotation: &Rotation) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.balls());
         self.each_settled(rings, rotation, |_, place, _| out.push(place));
@@ -128,7 +130,7 @@ impl RadialElement {
         1.5 * (self.stiffness[1] * self.stiffness[1] * load).cbrt()
     }
 
-    /// Speed of the cage, or where none is given (statics) what it is at the shaft's speed \[rad/s\].
+    /// Cage speed, or if it is zero (statics) the one from the shaft speed and the cage ratio \[rad/s\].
     fn turning(&self, rotation: &Rotation) -> f64 {
         if rotation.cage_speed != 0.0 {
             rotation.cage_speed
@@ -137,9 +139,9 @@ impl RadialElement {
         }
     }
 
-    /// Calls `visit` for every ball at rest in the turning cage: contacts, centrifugal force and weight in balance.
+    /// Calls `visit` for every ball in static equilibrium of contact forces, centrifugal force and weight.
     fn each_settled(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(&Seen, f64, &Acting)) {
-        // In a cage at rest the contacts do not move; what turning leaves is the centrifugal force.
+        // Cage speed zero, so that contacts have no rates; the centrifugal force is added below.
         let still = Rings { shift_rate: [0.0; 2], frame_rate: [0.0; 2], ..*rings };
         let standing = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..*rotation };
         let turning = self.turning(rotation);

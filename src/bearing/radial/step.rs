@@ -1,35 +1,39 @@
-//! One implicit time step: the balls' equations solved one by one inside it.
+//! Implicit time step: each ball's scalar equation solved inside the step (nested Newton, ball by ball).
 
 use super::ball::{Acting, Seen};
 use super::tangent::Y;
 use super::{RadialElement, Rings, Sum};
 use crate::bearing::{Reaction, Rotation};
 
-/// A ball's equation counts as solved when it is left with this force \[N\], or its place with this error \[m\].
+/// Convergence of a ball's equation: force residual \[N\], or position increment \[m\].
 const FORCE: f64 = 1e-12;
 const PLACE: f64 = 1e-19;
 const MAX_ITERATIONS: usize = 200;
 
-/// How a step's end follows from the forces at it: places x̄ + `place` a, rates v̄ + `rate` a with accelerations a.
+/// Newmark coefficients of a step: positions x̄ + `place` a and velocities v̄ + `rate` a with accelerations a
+/// at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepGain {
     /// β h² \[s²\] and γ h \[s\].
     pub place: f64,
     pub rate: f64,
-    /// Acceleration per force of a ball \[1/kg\].
+    /// Inverse effective mass of a ball, 1/m′ \[1/kg\].
     pub ball: f64,
 }
 
 impl RadialElement {
-    /// Solves every ball's equation of a step for the force Q_y on it, with the rings where they are.
+    /// Solves every ball's equation of a step for the force Q_y on it, at fixed ring displacements.
     ///
-    /// y = ȳ + β h² Q/m′, ẏ = ẏ̄ + γ h Q/m′ with Q = Q_y(y, ẏ): a contact makes Q fall with y, so that Q − Q_y rises
-    /// and has one zero, which Newton kept in a bracket finds however sharply the contact begins. (A contact that pulls
-    /// lets it fall where it opens, over less than 1e-10 m; the bracket holds one zero then too.)
+    /// y = ȳ + β h² Q/m′, ẏ = ẏ̄ + γ h Q/m′ with Q = Q_y(y, ẏ): contact forces decrease with y, so that
+    /// Q − Q_y increases and has one root, found by bracketed Newton however stiff the contact. (With tensile
+    /// contact force Q − Q_y may decrease over less than 1e-10 m at opening; the bracket still contains one
+    /// root.)
     ///
-    /// `at`: places ȳ and rates ẏ̄ without Q, left at the step's end. `force`: Q, from a guess to the solution.
-    /// `follow`: −∂Q/∂(d_x d_y h_x h_y) on the way to the step's end, rates moving by γ/(β h) of the places.
-    /// The reaction's stiffness is that of rings and balls together on that way; its damping is in it.
+    /// `places`, `rates`: in ȳ and ẏ̄ (predictor, without Q), out the values at the end of the step. `force`:
+    /// Q, in the initial guess, out the solution.
+    /// `follow`: −∂Q/∂(d_x d_y h_x h_y) with velocity increments γ/(β h) times the position increments.
+    /// The reaction's stiffness is the effective (dynamic) stiffness of rings with condensed balls, damping
+    /// included.
     pub fn step(
         &self,
         rings: &Rings,
@@ -77,7 +81,7 @@ impl RadialElement {
         out
     }
 
-    /// Q and the ball under it.
+    /// Solution Q and the ball's state under it.
     #[inline(always)]
     fn solve(&self, seen: &Seen, [place, rate]: [f64; 2], gain: &StepGain, guess: f64) -> (f64, Acting) {
         let [by_place, by_rate] = [gain.place * gain.ball, gain.rate * gain.ball];
@@ -103,7 +107,7 @@ impl RadialElement {
             if !(next > low && next < high) {
                 next = match low.is_finite() && high.is_finite() {
                     true => 0.5 * (low + high),
-                    // On the same side as Newton's step wherever the force falls with y.
+                    // Fixed-point step, in the same direction as Newton's where the force decreases with y.
                     false => acting.force,
                 };
             }

@@ -1,4 +1,5 @@
-//! Tangents of one ball over the motions d_r d_t h_r h_t y in its own directions, and of the whole bearing.
+//! Tangent stiffness and damping of one ball over its local coordinates d_r d_t h_r h_t y, and of the
+//! bearing.
 
 use super::ball::{Acting, Seen};
 use super::{RadialElement, Rings};
@@ -11,7 +12,7 @@ pub(super) struct BallTangent {
     pub damping: [[f64; 5]; 5],
 }
 
-/// The place of y among the five.
+/// Index of y among the five coordinates.
 pub(super) const Y: usize = 4;
 
 /// Tangents of a whole bearing over d_x d_y h_x h_y and the balls.
@@ -23,11 +24,12 @@ pub struct RadialTangent {
 }
 
 impl Acting {
-    /// Tangents at this place.
+    /// Tangents at this state.
     ///
-    /// With a = ρ e_r − d, n = a/χ and the drift ȧ, the inner contact sees δ_i through b = (n_r, n_t, n_r, 0, −n_r) and
-    /// δ̇_i through b q̇ + g q, g = −(w·∂a/∂q + n·∂ȧ/∂q), w = (ȧ − n (n·ȧ))/χ; its force acts along −b, whose
-    /// direction turns with n: ∂n/∂q = (1 − n nᵀ)/χ ∂a/∂q. The outer one sees b = (0, 0, −1, 0, 1).
+    /// With a = ρ e_r − d, n = a/χ and the relative velocity ȧ, the inner contact has dδ_i = b dq,
+    /// b = (n_r, n_t, n_r, 0, −n_r), and dδ̇_i = b dq̇ + g dq, g = −(w·∂a/∂q + n·∂ȧ/∂q), w = (ȧ − n (n·ȧ))/χ;
+    /// its force acts along −b, which rotates with n: ∂n/∂q = (1 − n nᵀ)/χ ∂a/∂q. Outer contact:
+    /// b = (0, 0, −1, 0, 1).
     pub(super) fn tangent(&self, seen: &Seen, mass: f64) -> BallTangent {
         let [inner, outer] = &self.contacts;
         let (n, turning) = (self.n, seen.turning);
@@ -72,7 +74,7 @@ impl Acting {
 }
 
 impl RadialElement {
-    /// Tangents over rings and balls at places y and rates ẏ.
+    /// Tangents over rings and balls at ball positions y and velocities ẏ.
     pub fn tangent(&self, rings: &Rings, [places, rates]: [&[f64]; 2], rotation: &Rotation) -> RadialTangent {
         let size = 4 + self.balls();
         let mut out =

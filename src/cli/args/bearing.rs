@@ -4,15 +4,15 @@ use clap::Args;
 
 use super::StudyArgs;
 
-/// Which bearings, under what.
+/// Bearings, operating point and sweeps.
 #[derive(Args, Clone, Debug)]
 pub struct BearingArgs {
     #[command(flatten)]
     pub study: StudyArgs,
-    /// Names of bearings, separated by commas [default: every ball bearing]
+    /// Bearing names, separated by commas [default: all ball bearings]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub bearing: Vec<String>,
-    /// Load of the shaft on the bearing F_x, F_y, F_z, such as "0, -500, 100 N"
+    /// Load F_x, F_y, F_z of the shaft on the bearing, such as "0, -500, 100 N"
     #[arg(long, value_name = "FORCES", allow_hyphen_values = true)]
     pub load: Option<String>,
     /// Moments M_x, M_y, such as "0, 4 N m"
@@ -21,17 +21,18 @@ pub struct BearingArgs {
     /// Shaft speed, such as "3000 rpm" [default: the highest of the speed profile]
     #[arg(long, value_name = "SPEED")]
     pub speed: Option<String>,
-    /// Motions held at the centred place, such as z,theta_x,theta_y
+    /// DOFs constrained at the centred position, such as z,theta_x,theta_y
     #[arg(long, value_name = "MOTIONS", value_delimiter = ',')]
     pub hold: Vec<String>,
-    /// What to vary: load, displacement, speed or cage_angle, with its range or one of its own, such as
-    /// load="0 N .. 2 kN" or speed; can be repeated
+    /// Quantity to sweep: load, displacement, speed or cage_angle, with a range or with its default range,
+    /// such as load="0 N .. 2 kN" or speed; can be repeated
     #[arg(long, value_name = "NAME[=RANGE]")]
     pub sweep: Vec<String>,
-    /// What loads and displacements go along: load (all components in proportion), x, y, z, theta_x, theta_y
+    /// Direction of load and displacement sweeps: load (all components in proportion), x, y, z, theta_x,
+    /// theta_y
     #[arg(long, value_name = "MOTION")]
     pub along: Option<String>,
-    /// Average over the cage's position instead of the cage angle of the model
+    /// Average over the cage angle instead of using the cage angle of the model
     #[arg(long)]
     pub averaged: bool,
 }

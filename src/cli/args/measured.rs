@@ -1,42 +1,43 @@
-//! Arguments of what has to do with measured FRFs.
+//! Arguments of `identify`, of noisy FRFs and of the shaft speed of a record.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-/// A test with noise.
+/// Simulated measurement noise of `frf --noise`.
 #[derive(Args, Clone, Debug)]
 pub struct NoiseArgs {
-    /// Signal to noise of force and responses, such as "40 dB": writes frf_noisy.uff, as a test would measure it
+    /// Signal-to-noise ratio of force and responses, such as "40 dB": writes frf_noisy.uff, as an impact test
+    /// would measure it
     #[arg(long, value_name = "LEVEL", allow_hyphen_values = true)]
     pub noise: Option<String>,
-    /// Blows averaged
+    /// Number of averages (hits)
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub averages: usize,
-    /// Seed of the noise
+    /// Random seed of the noise
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
 }
 
-/// How the shaft turned during a record.
+/// Shaft angle and speed of a record: tachometer or tracked order line.
 #[derive(Args, Clone, Debug)]
 pub struct ShaftArgs {
-    /// Shaft angle from the pulses of a tacho: a channel, or a file of one channel or of pulse times
+    /// Shaft angle from tachometer pulses: a channel, or a file with one channel or with pulse times
     #[arg(long, value_name = "CHANNEL|FILE", help_heading = "Shaft", conflicts_with = "track")]
     pub tacho: Option<String>,
-    /// Pulses of the tacho in a turn
+    /// Tachometer pulses per revolution
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
     pub pulses_per_turn: usize,
-    /// Take the jitter of the tacho's pulses away (validate always does)
+    /// Remove the jitter of the tachometer pulses (always on in validate)
     #[arg(long, help_heading = "Shaft")]
     pub smooth_tacho: bool,
-    /// Shaft angle from a line of the record itself: its order and the frequencies between which it stays, such as
-    /// 1="5 Hz .. 50 Hz"
+    /// Shaft angle from an order line of the record (tacholess order tracking): its order and frequency
+    /// range, such as 1="5 Hz .. 50 Hz"
     #[arg(long, value_name = "ORDER=RANGE", help_heading = "Shaft")]
     pub track: Option<String>,
 }
 
-/// An estimate of FRFs from blows.
+/// FRF estimator for impact tests.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EstimatorName {
     H1,
@@ -44,41 +45,42 @@ pub enum EstimatorName {
     Hv,
 }
 
-/// Which FRFs, and how.
+/// Arguments of `identify`.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {
-    /// Files with FRFs, or with the time records of a hammer test; results.h5 too
+    /// Files with FRFs or time records of an impact (hammer) test; also results.h5
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Mapping file (TOML): which channel is which station and direction, units and rates that files do not tell
+    /// Mapping file (TOML): station and direction of every channel; units and rates missing in the files
     #[arg(long, value_name = "FILE")]
     pub mapping: Option<PathBuf>,
-    /// Model whose stations the mapping names
+    /// Model file that defines the stations of the mapping
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// Frequencies, such as "10 .. 200 Hz" [default: all]
+    /// Frequency band, such as "10 .. 200 Hz" [default: all]
     #[arg(long, value_name = "BAND")]
     pub band: Option<String>,
-    /// Highest order of the model [default: 60, or what the lines allow]
+    /// Highest model order of the stabilisation diagram [default: 60, or fewer if there are few spectral
+    /// lines]
     #[arg(long, value_name = "N")]
     pub max_order: Option<usize>,
-    /// receptance, mobility or accelerance, where the unit does not tell
+    /// receptance, mobility or accelerance, for FRFs without a unit
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
-    /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records, and its share
-    /// taken from every damping
+    /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records; its
+    /// added damping is subtracted from every mode
     #[arg(long, value_name = "TIME")]
     pub window: Option<String>,
     /// Channel of the force in time records [default: the one in N]
     #[arg(long, value_name = "NAME")]
     pub force: Option<String>,
-    /// Length of a blow's block in time records, such as "2 s" [default: up to the next blow]
+    /// Block length after each hit in time records, such as "2 s" [default: up to the next hit]
     #[arg(long, value_name = "TIME")]
     pub block: Option<String>,
-    /// How blows are averaged: h1 bears noise of the responses, h2 noise of the force, hv noise of both
+    /// FRF estimator: h1 assumes noise on the responses, h2 on the force, hv on both
     #[arg(long, value_name = "NAME", default_value = "h1")]
     pub estimator: EstimatorName,
-    /// Sampling rate of time records whose file does not tell, such as "12 kHz"
+    /// Sampling rate of time records whose file does not state it, such as "12 kHz"
     #[arg(long, value_name = "RATE")]
     pub rate: Option<String>,
     /// Folder for the results [default: out/identify_NAME]

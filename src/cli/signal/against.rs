@@ -1,4 +1,4 @@
-//! Another record, whose envelope spectrum is laid under the first's.
+//! Second record of `--against`, whose envelope spectrum is compared with the first.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use super::input::{Choice, File, Findings, channels};
 use super::look;
 use super::shaft::{Shaft, told};
 
-/// The other record's envelope and what its file is called; `None` where there is none.
+/// Envelope analysis of the second record and its name; `None` without `--against`.
 pub fn find(
     args: &SignalArgs,
     first: &SignalResult,

@@ -17,47 +17,49 @@ Examples:
   rotordyn signal pump.wav --track 1=\"20 Hz .. 60 Hz\" --rates BPFO=3.585,BPFI=5.415
   rotordyn signal out/dents --bearing A --analyses jerk --beside A_ay";
 
-/// Which record, and what to look for in it.
+/// Arguments of `signal`.
 #[derive(Args, Clone, Debug)]
 pub struct SignalArgs {
     /// The record: .mat, .csv, .wav, .uff, .npz, .h5, or a folder with the results.h5 of a run
     pub file: PathBuf,
-    /// Channels, separated by commas, or "all" [default: the first that vibrates]
+    /// Channels, separated by commas, or "all" [default: the first vibration channel]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub channel: Vec<String>,
-    /// Sampling rate, such as "12 kHz", where the file does not state it
+    /// Sampling rate, such as "12 kHz", if the file does not state it
     #[arg(long, value_name = "FREQUENCY")]
     pub rate: Option<String>,
-    /// Unit of the channels, such as g or "mm/s", where the file does not state it
+    /// Unit of the channels, such as g or "mm/s", if the file does not state it
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<String>,
-    /// Part of the record, such as "0.5 s .. 4 s" or "0.5 s .." [default: all of it]
+    /// Time range, such as "0.5 s .. 4 s" or "0.5 s .." [default: all]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub time: Option<String>,
-    /// What to do, separated by commas, or "all" [default: spectrum, psd, envelope, kurtogram, cepstrum; with the shaft's
-    /// angle also orders and average, and spectrogram where the speed changes]
+    /// Analyses, separated by commas, or "all" [default: spectrum, psd, envelope, kurtogram, cepstrum; with
+    /// the shaft angle also orders and average (time synchronous averaging), and spectrogram if the speed
+    /// varies]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub analyses: Vec<String>,
 
-    /// Shaft speed, such as "1797 rpm" [default: as the file states it]
+    /// Shaft speed, such as "1797 rpm" [default: as stated in the file]
     #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
     pub speed: Option<String>,
     #[command(flatten)]
     pub shaft: ShaftArgs,
-    /// Spacing of the orders
+    /// Order resolution
     #[arg(long, value_name = "NUMBER", default_value_t = 0.05, help_heading = "Shaft")]
     pub order_resolution: f64,
-    /// Highest order [default: 2.2 BPFI, at least 20, as far as the sampling rate allows]
+    /// Highest order [default: 2.2 BPFI, at least 20, limited by the sampling rate]
     #[arg(long, value_name = "NUMBER", help_heading = "Shaft")]
     pub max_order: Option<f64>,
 
-    /// Bearing: a designation of the catalogue, or a ball bearing of the model
+    /// Bearing: a catalogue designation, or a ball bearing of the model
     #[arg(long, value_name = "NAME", help_heading = "Bearing")]
     pub bearing: Option<String>,
-    /// Model file that the bearing is in [default: the model that a stored run was made from]
+    /// Model file with the bearing [default: the model of a stored run]
     #[arg(long, value_name = "FILE", help_heading = "Bearing", requires = "bearing")]
     pub model: Option<PathBuf>,
-    /// The bearing's rates per turn instead, such as FTF=0.398,BPFO=3.585,BPFI=5.415,BSF=2.357
+    /// Bearing defect frequencies per revolution (orders) instead of --bearing, such as
+    /// FTF=0.398,BPFO=3.585,BPFI=5.415,BSF=2.357
     #[arg(
         long,
         value_name = "RATES",
@@ -66,23 +68,23 @@ pub struct SignalArgs {
         conflicts_with = "bearing"
     )]
     pub rates: Vec<String>,
-    /// Band of the envelope: lines (where the bearing's lines stand out most), kurtosis, whole, or
-    /// "500 Hz .. 5.5 kHz" [default: lines, without a bearing kurtosis]
+    /// Demodulation band of the envelope: lines (highest bearing lines above the background), kurtosis (from
+    /// the kurtogram), whole, or "500 Hz .. 5.5 kHz" [default: lines; without a bearing, kurtosis]
     #[arg(long, value_name = "BAND", help_heading = "Bearing")]
     pub band: Option<String>,
-    /// Harmonics of each line that are sought
+    /// Number of harmonics of each defect frequency to search
     #[arg(long, value_name = "N", default_value_t = 5, help_heading = "Bearing")]
     pub harmonics: usize,
-    /// Most that a line may be off by slip and contact angle, such as "1.5 %"
+    /// Search tolerance of the lines for slip and contact angle, such as "1.5 %"
     #[arg(long, value_name = "SHARE", default_value = "1.5 %", help_heading = "Bearing")]
     pub slip: String,
-    /// Race that jumps of the jerk are read for: outer or inner
+    /// Race to which the jumps of the jerk are assigned: outer or inner
     #[arg(long, value_name = "RACE", default_value = "outer", help_heading = "Bearing")]
     pub race: String,
-    /// Channel a quarter turn on from the first, from x to y, for the angles of defects all round
+    /// Channel 90 deg from the first, from x to y, to locate defects over the full circumference
     #[arg(long, value_name = "CHANNEL", help_heading = "Bearing")]
     pub beside: Option<String>,
-    /// Time in the record at which a ball stands at angle 0 of the race and that angle lies along x
+    /// Reference time at which a ball is at angle 0 of the race and that angle points along x
     #[arg(
         long,
         value_name = "TIME",
@@ -92,31 +94,46 @@ pub struct SignalArgs {
     )]
     pub datum: String,
 
-    /// Spacing of the density's lines, such as "1 Hz" [default: about fifteen segments]
+    /// Frequency resolution of the PSD, such as "1 Hz" [default: about fifteen segments]
     #[arg(long, value_name = "FREQUENCY", help_heading = "Figures and files")]
     pub resolution: Option<String>,
     /// Highest frequency of spectrum and spectrogram, such as "1 kHz"
     #[arg(long, value_name = "FREQUENCY", help_heading = "Figures and files")]
     pub max_frequency: Option<String>,
-    /// Another record, whose envelope spectrum is laid under the first's: measured and simulated
-    #[arg(long, value_name = "FILE", help_heading = "Another record")]
+    /// Second record whose envelope spectrum is compared with the first, such as measured and simulated
+    #[arg(long, value_name = "FILE", help_heading = "Comparison with a second record")]
     pub against: Option<PathBuf>,
-    /// Its channel [default: the first that vibrates]
-    #[arg(long, value_name = "NAME", help_heading = "Another record", requires = "against")]
+    /// Channel of the second record [default: the first vibration channel]
+    #[arg(long, value_name = "NAME", help_heading = "Comparison with a second record", requires = "against")]
     pub against_channel: Option<String>,
-    /// Its sampling rate, where the file does not state it
-    #[arg(long, value_name = "FREQUENCY", help_heading = "Another record", requires = "against")]
+    /// Sampling rate of the second record, if its file does not state it
+    #[arg(
+        long,
+        value_name = "FREQUENCY",
+        help_heading = "Comparison with a second record",
+        requires = "against"
+    )]
     pub against_rate: Option<String>,
-    /// Its unit, where the file does not state it
-    #[arg(long, value_name = "UNIT", help_heading = "Another record", requires = "against")]
+    /// Unit of the second record, if its file does not state it
+    #[arg(long, value_name = "UNIT", help_heading = "Comparison with a second record", requires = "against")]
     pub against_unit: Option<String>,
-    /// Its shaft speed [default: as its file states it, else that of the first]
-    #[arg(long, value_name = "SPEED", help_heading = "Another record", requires = "against")]
+    /// Shaft speed of the second record [default: as stated in its file, else that of the first]
+    #[arg(
+        long,
+        value_name = "SPEED",
+        help_heading = "Comparison with a second record",
+        requires = "against"
+    )]
     pub against_speed: Option<String>,
-    /// Part of it, such as "0.5 s .."
-    #[arg(long, value_name = "RANGE", help_heading = "Another record", requires = "against")]
+    /// Time range of the second record, such as "0.5 s .."
+    #[arg(
+        long,
+        value_name = "RANGE",
+        help_heading = "Comparison with a second record",
+        requires = "against"
+    )]
     pub against_time: Option<String>,
-    /// Folder for the results [default: out/NAME, or the folder of the stored run]
+    /// Results folder [default: out/NAME, or the folder of the stored run]
     #[arg(long, value_name = "DIR", help_heading = "Figures and files")]
     pub out: Option<PathBuf>,
     /// Draw no figures

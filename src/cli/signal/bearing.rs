@@ -1,4 +1,4 @@
-//! The bearing whose lines are sought: of the catalogue, of a model, or by its rates.
+//! Bearing of the diagnosis: from the catalogue, from a model, or by its defect frequencies (orders).
 
 use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
 use rotordyn::edge::hdf5::Store;
@@ -13,7 +13,7 @@ use super::super::store::stored_origin;
 use super::args::SignalArgs;
 use super::input::{File, Findings, alike};
 
-/// The bearing of the flags.
+/// The bearing given by the flags.
 pub fn find(
     args: &SignalArgs,
     file: &File,
@@ -46,7 +46,7 @@ pub fn find(
     let known = of_model.iter().map(|(name, _)| name.as_str()).chain(designations);
     let hint = match alike(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`rotordyn catalogue` lists all; --rates takes any other".into(),
+        None => "`rotordyn catalogue` lists all; use --rates for any other".into(),
     };
     let places = if of_model.is_empty() { "in the catalogue" } else { "in the model or the catalogue" };
     findings.problem(format!("there is no bearing `{name}` {places}; {hint}"));
@@ -63,13 +63,13 @@ fn of_geometry(name: &str, source: String, g: &BallGeometry) -> RatedBearing {
     }
 }
 
-/// (D_pw ∓ D_w cos α)/2.
+/// Raceway radii (D_pw ∓ D_w cos α)/2 of inner and outer race.
 fn radii(pitch: f64, ball: f64, angle: f64) -> [f64; 2] {
     [-1.0, 1.0].map(|side| 0.5 * (pitch + side * ball * angle.cos()))
 }
 
-/// `FTF=..., BPFO=..., BPFI=..., BSF=...`; the balls are Z = BPFO + BPFI, and what is left out follows for a contact
-/// angle of zero.
+/// Parses `FTF=..., BPFO=..., BPFI=..., BSF=...`; the number of balls is Z = BPFO + BPFI, missing FTF and BSF
+/// are computed for a contact angle of zero.
 fn of_rates(rates: &[String], findings: &mut Findings) -> Option<RatedBearing> {
     const NAMES: [&str; 4] = ["FTF", "BPFO", "BPFI", "BSF"];
     let mut found: [Option<f64>; 4] = [None; 4];
@@ -82,19 +82,19 @@ fn of_rates(rates: &[String], findings: &mut Findings) -> Option<RatedBearing> {
                 found[place] = Some(value)
             }
             _ => findings.problem(format!(
-                "--rates {text}: expected one of {} with its rate per turn, such as BPFO=3.585",
+                "--rates {text}: expected one of {} with its order (per revolution), such as BPFO=3.585",
                 NAMES.join(", ")
             )),
         }
     }
     let (Some(bpfo), Some(bpfi)) = (found[1], found[2]) else {
-        findings.problem("--rates: BPFO and BPFI are needed, such as --rates BPFO=3.585,BPFI=5.415");
+        findings.problem("--rates: both BPFO and BPFI are required, such as --rates BPFO=3.585,BPFI=5.415");
         return None;
     };
     let z = (bpfo + bpfi).round();
     if z < 3.0 || (bpfo + bpfi - z).abs() > 0.02 || bpfo >= bpfi {
         findings.problem(format!(
-            "--rates: BPFO + BPFI = {:.3} should be the number of balls, BPFO the smaller",
+            "--rates: BPFO + BPFI = {:.3} must be the number of balls, with BPFO < BPFI",
             bpfo + bpfi
         ));
         return None;

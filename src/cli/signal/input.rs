@@ -1,4 +1,4 @@
-//! From a record's file and the flags to channels: chosen, at a rate, in a unit, in a stretch of time.
+//! Reads the channels of a record: selection, sampling rate, unit and time range.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
 use super::super::failure::Failure;
 use super::super::store;
 
-/// What is wrong with the flags and the file, all of it; and what the user should know.
+/// All errors of the flags and the file, and warnings.
 #[derive(Default)]
 pub struct Findings {
     pub problems: Vec<String>,
@@ -23,18 +23,18 @@ impl Findings {
         self.problems.push(text.into());
     }
 
-    /// The value, or its problem noted.
+    /// The value; an error is added to the problems.
     pub fn keep<T, E: std::fmt::Display>(&mut self, what: &str, found: Result<T, E>) -> Option<T> {
         found.map_err(|error| self.problem(format!("{what}{error}"))).ok()
     }
 
-    /// A quantity of a flag.
+    /// Parses a quantity of a flag.
     pub fn quantity(&mut self, flag: &str, text: &str, dimension: Dimension) -> Option<f64> {
         let found = units::parse(text, dimension);
         self.keep("", found.map_err(|error| format!("{flag}: {error}; such as \"{}\"", dimension.example)))
     }
 
-    /// A positive quantity of a flag.
+    /// Parses a positive quantity of a flag.
     pub fn positive(&mut self, flag: &str, text: &str, dimension: Dimension) -> Option<f64> {
         let value = self.quantity(flag, text, dimension)?;
         if value > 0.0 && value.is_finite() {
@@ -44,7 +44,7 @@ impl Findings {
         None
     }
 
-    /// A range "a .. b" of a flag; an end left out is that of `whole`.
+    /// Parses a range "a .. b" of a flag; a missing end is that of `whole`.
     pub fn range(
         &mut self,
         flag: &str,
@@ -68,11 +68,11 @@ impl Findings {
         if a < b {
             return Some([a, b]);
         }
-        self.problem(format!("{flag} {text}: the range ends before it begins"));
+        self.problem(format!("{flag} {text}: the lower end must be below the upper end"));
         None
     }
 
-    /// Ends the command when anything is wrong.
+    /// Returns all problems as one error.
     pub fn settle(&self) -> Result<(), Failure> {
         match self.problems.as_slice() {
             [] => Ok(()),
@@ -82,13 +82,13 @@ impl Findings {
     }
 }
 
-/// A file of records.
+/// A file with records.
 pub struct File {
     pub path: PathBuf,
-    /// Its name without folder and extension; that of the folder for a stored run.
+    /// File name without folder and extension; the folder name for a stored run.
     pub stem: String,
     pub measured: Measured,
-    /// Whether it is a run of ours, whose results go beside it.
+    /// Whether it is a stored run of rotordyn; results then go to its folder.
     pub stored_run: bool,
 }
 
@@ -103,12 +103,12 @@ impl File {
         Ok(File { path, stem, measured, stored_run })
     }
 
-    /// Records over time, or of which the file does not tell.
+    /// Time records, or records without a stated abscissa.
     pub fn time_records(&self) -> impl Iterator<Item = &Record> {
         self.measured.records.iter().filter(|r| r.time_samples().is_ok())
     }
 
-    /// The record of a name, or what is alike.
+    /// The record with a name, or an error with the most similar name.
     pub fn record(&self, name: &str) -> Result<&Record, String> {
         let found = self.measured.record(name);
         found.map_err(|error| {
@@ -120,7 +120,7 @@ impl File {
         })
     }
 
-    /// The first record that vibrates: by unit, accelerations before velocities before displacements.
+    /// The first vibration record: by unit, accelerations before velocities before displacements.
     fn usual(&self, without: &[&str]) -> Option<&Record> {
         let rank = |r: &Record| match r.unit.as_str() {
             "m/s^2" => 0,
@@ -134,10 +134,10 @@ impl File {
     }
 }
 
-/// Which channels, and how they are to be taken.
+/// Selection of channels, and overrides of rate, unit and time range.
 pub struct Choice<'a> {
     pub names: &'a [String],
-    /// Channels that serve for something else.
+    /// Channels used otherwise (tacho, quadrature channel).
     pub without: &'a [&'a str],
     pub beside: Option<&'a str>,
     pub rate: Option<&'a str>,
@@ -147,7 +147,7 @@ pub struct Choice<'a> {
     pub flag: &'a str,
 }
 
-/// The channels asked for.
+/// The selected channels.
 pub fn channels(file: &File, choice: &Choice, findings: &mut Findings) -> Vec<SignalChannel> {
     let chosen: Vec<&Record> = match choice.names {
         [] => {
@@ -155,7 +155,7 @@ pub fn channels(file: &File, choice: &Choice, findings: &mut Findings) -> Vec<Si
             if usual.is_none() {
                 let kinds: Vec<&str> = file.measured.records.iter().map(|r| r.kind.word()).take(6).collect();
                 findings.problem(format!(
-                    "{} holds no channel of samples over time ({})",
+                    "{} contains no time record ({})",
                     file.path.display(),
                     kinds.join(", ")
                 ));
@@ -191,7 +191,11 @@ fn channel(
         None => 0..samples.len(),
     };
     if range.len() < 2 {
-        findings.problem(format!("`{}` has {} samples in that time; two at least", record.name, range.len()));
+        findings.problem(format!(
+            "`{}` has {} samples in that range; at least 2 needed",
+            record.name,
+            range.len()
+        ));
         return None;
     }
     let mut values = samples[range.clone()].to_vec();
@@ -204,9 +208,9 @@ fn channel(
     if let Some(label) = choice.unit {
         match unit::si(label) {
             None => findings
-                .problem(format!("--unit {label}: the unit is not known; such as g, \"m/s^2\", \"mm/s\"")),
+                .problem(format!("--unit {label}: unknown unit; expected such as g, \"m/s^2\", \"mm/s\"")),
             Some(_) if !unit_name.is_empty() => findings.warnings.push(format!(
-                "`{}` is in {}, as its file states: --unit {label} is not taken",
+                "the file states the unit {1} for `{0}`: --unit {label} is ignored",
                 record.name, record.stated_unit
             )),
             Some(si) => {
@@ -238,7 +242,7 @@ fn channel(
     })
 }
 
-/// Leaves the part of a channel that a range of times names.
+/// Cuts a channel to a time range.
 pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings: &mut Findings) {
     let (rate, start, samples) = (channel.sample_rate, channel.start, channel.samples.len());
     let whole = [start, start + samples as f64 / rate];
@@ -246,7 +250,7 @@ pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings
     let range = stretch(ends, start, rate, samples);
     if range.len() < 2 {
         findings.problem(format!(
-            "`{}` has {} samples in that time; two at least",
+            "`{}` has {} samples in that range; at least 2 needed",
             channel.name,
             range.len()
         ));
@@ -256,15 +260,15 @@ pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings
     channel.samples = channel.samples[range].to_vec();
 }
 
-/// Samples between two times.
+/// Sample range between two times.
 fn stretch([from, to]: [f64; 2], start: f64, rate: f64, samples: usize) -> std::ops::Range<usize> {
-    // A time on a sample belongs to it up to rounding.
+    // A time on a sample, within rounding, includes that sample.
     let at = |t: f64| ((t - start) * rate - 1e-6).ceil().clamp(0.0, samples as f64) as usize;
     let (a, b) = (at(from), at(to));
     a..b.max(a)
 }
 
-/// The sampling rate \[Hz\]: the file's, unless a flag says otherwise.
+/// Sampling rate \[Hz\]: from the flag, else from the file.
 fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64> {
     let flag = format!("{}rate", choice.flag);
     let given = match choice.rate {
@@ -276,7 +280,7 @@ fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64
         (Ok(stated), Some(given)) => {
             if (given / stated - 1.0).abs() > 1e-6 {
                 findings.warnings.push(format!(
-                    "the file states {stated} Hz for `{}`: {given} Hz is taken, as told",
+                    "the file states {stated} Hz for `{}`: {given} Hz of {flag} is used",
                     record.name
                 ));
             }
@@ -284,9 +288,7 @@ fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64
         }
         (Err(RecordError::NoRate { .. }), Some(given)) => Some(given),
         (Err(RecordError::NoRate { channel }), None) => {
-            findings.problem(format!(
-                "`{channel}` does not state its sampling rate; give it, such as {flag} \"12 kHz\""
-            ));
+            findings.problem(format!("`{channel}` has no sampling rate; give it, such as {flag} \"12 kHz\""));
             None
         }
         (Err(error), _) => {
@@ -296,7 +298,7 @@ fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64
     }
 }
 
-/// The known name that is most like a word, if it may be meant.
+/// The known name most similar to a word (edit distance), if similar enough to suggest.
 pub fn alike<'n>(word: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let word = plain(word);

@@ -1,4 +1,4 @@
-//! Tables of a bearing's lines in an envelope, and the verdict.
+//! Tables of bearing lines (BPFO, BPFI, BSF, FTF) in the envelope spectrum, and the diagnosis.
 
 use rotordyn::results::{EnvelopeResult, SignalResult};
 use rotordyn::signal::bearing_lines::{BearingLine, BearingLines, Modulation};
@@ -8,13 +8,13 @@ use rotordyn::signal::ridge::find_peaks;
 use super::super::terminal::{Terminal, number};
 use super::tables::{MOST, band, level};
 
-/// The envelope's band, the bearing's lines in it, and the verdict.
+/// Demodulation band, bearing lines in the envelope spectrum, and diagnosis.
 pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
     let why = match envelope.rule {
         BandRule::Given(..) => "as given",
-        BandRule::Whole => "all of it",
-        BandRule::Kurtosis => "the most impulsive",
-        BandRule::Lines => "where bearing lines stand out most",
+        BandRule::Whole => "full band",
+        BandRule::Kurtosis => "maximum of the kurtogram",
+        BandRule::Lines => "highest bearing lines above the background",
     };
     let place = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
     let Some(found) = &envelope.lines else {
@@ -25,7 +25,7 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         let rows: Vec<Vec<String>> =
             highest.iter().take(MOST).map(|p| vec![number(p.position, 5), number(p.amplitude, 4)]).collect();
         terminal.table(&format!("Highest lines, {place}"), &[unit, &level("peak", result)], &rows);
-        terminal.say("  no verdict: --bearing names the bearing whose lines are sought");
+        terminal.say("  no bearing diagnosis: give the bearing with --bearing, or its orders with --rates");
         return;
     };
     let unit = if envelope.over_orders { "order" } else { "Hz" };
@@ -34,14 +34,14 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         .iter()
         .flat_map(|family| {
             let harmonic = |n: usize| family.lines.iter().find(|l| l.harmonic == n && l.modulation.is_none());
-            // The first harmonic of all, more of what was found.
+            // The first harmonic of every part, three of detected parts.
             (1..=if family.found { 3 } else { 1 }).filter_map(harmonic)
         })
         .map(row)
         .collect();
-    let [expected, at] = ["expected", "found at"].map(|name| format!("{name} {unit}"));
+    let [expected, at] = ["expected", "measured"].map(|name| format!("{name} {unit}"));
     let amplitude = level("peak", result);
-    let header = ["line", &expected, &at, "off %", &amplitude, "over background dB", ""];
+    let header = ["line", &expected, &at, "deviation %", &amplitude, "above background dB", ""];
     terminal.table(&format!("Bearing lines, {place}"), &header, &rows);
     let bands: Vec<Vec<String>> = found
         .verdict
@@ -52,18 +52,18 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         .map(row)
         .collect();
     if !bands.is_empty() {
-        terminal.table("Side bands found", &header, &bands);
+        terminal.table("Sidebands", &header, &bands);
     }
     verdict(terminal, result, found);
 }
 
 fn row(line: &BearingLine) -> Vec<String> {
     let word = match (line.significant, line.shared) {
-        (true, false) => "found",
-        (true, true) => "belongs to the shaft or a stronger line",
-        (false, _) => "not above noise",
+        (true, false) => "detected",
+        (true, true) => "coincides with a shaft order or a stronger line",
+        (false, _) => "not above background",
     };
-    // The highest bin of noise is no place of a line.
+    // Without a significant line the highest bin is only noise.
     let (at, off) = match line.significant {
         true => {
             (number(line.frequency, 6), format!("{:+.2}", 100.0 * (line.frequency / line.expected - 1.0)))
@@ -86,13 +86,13 @@ fn verdict(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
     terminal.heading(&match found.strongest_line() {
         Some(line) if found.verdict.is_some() => {
             format!(
-                "Verdict on {}: {name} ({:.1} dB over the background at {})",
+                "Bearing diagnosis of {}: {name} ({:.1} dB above background at {})",
                 result.channel,
                 line.level_db,
                 modulation(line)
             )
         }
-        _ => format!("Verdict on {}: {name}", result.channel),
+        _ => format!("Bearing diagnosis of {}: {name}", result.channel),
     });
 }
 

@@ -1,4 +1,4 @@
-//! `signal`: a record of any origin, measured or simulated, and what it says about a machine and its bearing.
+//! `signal`: signal analysis of a measured or simulated record and bearing diagnosis.
 
 mod against;
 pub mod args;
@@ -31,7 +31,7 @@ use args::SignalArgs;
 use input::{Choice, File, Findings};
 use shaft::Shaft;
 
-/// Name of the file of results.
+/// Name of the results file.
 const RESULTS: &str = "signal.h5";
 
 pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
@@ -59,8 +59,8 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let settings = settings::of(args, rated.is_some(), &mut findings);
     if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {
         findings.problem(
-            "a bearing's lines are multiples of the shaft's speed, which the file does not state; give it, such as \
-             --speed \"1797 rpm\", or --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\"",
+            "bearing defect frequencies need the shaft speed, which the file does not state; give --speed \"1797 rpm\", \
+             --tacho CHANNEL or --track 1=\"5 Hz .. 50 Hz\"",
         );
     }
     findings.settle()?;
@@ -82,7 +82,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     tables::statistics(terminal, &results);
     results.iter().for_each(|result| tables::channel(terminal, result));
     if let Some((other, title)) = &other {
-        terminal.heading(&format!("Against {title}"));
+        terminal.heading(&format!("Second record: {title}"));
         tables::known(terminal, other);
         tables::channel(terminal, other);
     }
@@ -92,10 +92,10 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let seconds = start.elapsed().as_secs_f64();
     written(terminal, &folder, &files);
     if files.len() > 1 {
-        terminal.say("  (every figure is there as SVG and as PNG)");
+        terminal.say("  (figures are written as SVG and PNG)");
     }
     let mut warnings = file.measured.notes.clone();
-    // What was told by a flag is no longer missing.
+    // A rate given by a flag is no longer missing.
     warnings.retain(|note| args.rate.is_none() || !note.starts_with("no sampling rate"));
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
@@ -120,16 +120,14 @@ fn look(
     let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
     let motion = shaft.motion(channel).map_err(named)?;
     if motion.is_none() && bearing.is_some() {
-        return Err(named(
-            "the shaft does not turn, and a bearing's lines are multiples of its speed".into(),
-        ));
+        return Err(named("the shaft speed is zero; bearing defect frequencies are multiples of it".into()));
     }
     analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
         Error::Signal(SignalError::Unknown { what, purpose }) => {
             let advice = if what.contains("angle") {
                 "give --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\""
             } else {
-                "give --speed \"1797 rpm\", or a steady part with --time"
+                "give --speed \"1797 rpm\", or a range of constant speed with --time"
             };
             named(format!("{purpose} needs {what}, which is not known; {advice}"))
         }
@@ -138,7 +136,7 @@ fn look(
     })
 }
 
-/// Beside a stored run, else `out/NAME`, unless told otherwise.
+/// Results folder; default: folder of the stored run, else `out/NAME`.
 fn folder(args: &SignalArgs, file: &File) -> PathBuf {
     match (&args.out, file.stored_run) {
         (Some(out), _) => out.clone(),
@@ -147,7 +145,7 @@ fn folder(args: &SignalArgs, file: &File) -> PathBuf {
     }
 }
 
-/// Results and figures on disk; their paths.
+/// Writes results and figures; returns their paths.
 fn write(
     args: &SignalArgs,
     file: &File,

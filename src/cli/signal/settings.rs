@@ -1,4 +1,4 @@
-//! What is looked for, by the flags.
+//! Settings of the signal analyses from the flags.
 
 use rotordyn::signal::bearing_lines::LineSettings;
 use rotordyn::signal::diagnosis::BandRule;
@@ -8,7 +8,7 @@ use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
 use super::args::SignalArgs;
 use super::input::{Findings, alike};
 
-/// The settings of the flags; `bearing` tells whether one is known.
+/// Settings from the flags; `bearing` is whether a bearing is known.
 pub fn of(args: &SignalArgs, bearing: bool, findings: &mut Findings) -> SignalSettings {
     let usual = SignalSettings::default();
     let frequency = |findings: &mut Findings, flag: &str, text: &Option<String>| {
@@ -63,7 +63,9 @@ fn analyses(words: &[String], findings: &mut Findings) -> Wanted {
 fn band(text: &str, bearing: bool, findings: &mut Findings) -> Option<BandRule> {
     match text.trim() {
         "lines" if !bearing => {
-            findings.problem("--band lines: a --bearing is needed, whose lines score the bands");
+            findings.problem(
+                "--band lines: needs --bearing or --rates to score the bands by their bearing lines",
+            );
             None
         }
         "lines" => Some(BandRule::Lines),

@@ -1,4 +1,4 @@
-//! How the shaft turned: by flags, by a tacho, by the record itself, or as the file tells.
+//! Shaft angle and speed of a record: from flags, a tachometer, an order line of the record, or the file.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -11,10 +11,10 @@ use rotordyn::units::FREQUENCY;
 use super::super::args::ShaftArgs;
 use super::input::{File, Findings};
 
-/// Fraction of a tacho's span by which it must fall before the next pulse counts.
+/// Trigger hysteresis as a fraction of the tacho signal's range.
 const HYSTERESIS: f64 = 0.2;
 
-/// What tells of the shaft; times are those of the record's file.
+/// Source of the shaft angle; times are those of the record's file.
 pub enum Shaft {
     Unknown,
     /// rev/s.
@@ -40,7 +40,7 @@ pub enum Shaft {
 }
 
 impl Shaft {
-    /// By the flags, else as the file tells; `rate` is that of records that state none.
+    /// Source from the flags, else from the file; `rate` is used for records without a stated rate.
     pub fn of(args: &ShaftArgs, rate: Option<&str>, file: &File, findings: &mut Findings) -> Shaft {
         let known = if let Some(name) = &args.tacho {
             tacho(args, name, rate, file, findings)
@@ -52,12 +52,12 @@ impl Shaft {
         known.unwrap_or(Shaft::Unknown)
     }
 
-    /// Whether anything is known of the shaft.
+    /// Whether the shaft speed is known.
     pub fn is_known(&self) -> bool {
         !matches!(self, Shaft::Unknown)
     }
 
-    /// The motion at a channel's samples.
+    /// Shaft motion at the samples of a channel.
     pub fn motion(&self, channel: &SignalChannel) -> Result<Option<ShaftMotion>, String> {
         let (rate, samples) = (channel.sample_rate, &channel.samples);
         let said = |error: rotordyn::signal::SignalError| error.to_string();
@@ -76,7 +76,8 @@ impl Shaft {
                 if values.len() < 2 {
                     return Ok(None);
                 }
-                // The shaft's channel has the record's clock, or is taken between its samples.
+                // The shaft channel is interpolated linearly unless its samples coincide with those of the
+                // record.
                 let last = (values.len() - 1) as f64;
                 let at = |n: usize| {
                     let place = (channel.start + n as f64 / rate - start) * own;
@@ -101,7 +102,7 @@ impl Shaft {
     }
 }
 
-/// A line of the record, `ORDER=LOW .. HIGH`.
+/// Order line to track in the record, `ORDER=LOW .. HIGH`.
 fn line(text: &str, findings: &mut Findings) -> Option<Shaft> {
     let parts =
         text.split_once('=').and_then(|(order, range)| Some((order.trim().parse::<f64>().ok()?, range)));
@@ -111,11 +112,11 @@ fn line(text: &str, findings: &mut Findings) -> Option<Shaft> {
         return None;
     };
     let [low, high] = findings.range("--track", range, FREQUENCY, [0.0, f64::INFINITY])?;
-    let source = format!("the record's line of order {order} between {low} and {high} Hz");
+    let source = format!("order {order} tracked between {low} and {high} Hz");
     Some(Shaft::Line { order, range: (low, high), source })
 }
 
-/// A channel of the file, or a file of its own.
+/// Tacho pulses from a channel of the record or from a separate file.
 fn tacho(
     args: &ShaftArgs,
     name: &str,
@@ -139,7 +140,7 @@ fn tacho(
                 [record] => (record, format!("pulses in {name}")),
                 records => {
                     findings.problem(format!(
-                        "--tacho {name}: one channel is expected, it holds {}",
+                        "--tacho {name}: expected a file with one channel, it has {}",
                         records.len()
                     ));
                     return None;
@@ -155,7 +156,7 @@ fn tacho(
     let times = pulse_times(record, rate, findings)?;
     if times.len() < 3 {
         findings.problem(format!(
-            "--tacho: `{}` has {} pulses, three at least are needed for a speed; is it the tacho?",
+            "--tacho: `{}` has {} pulses, at least 3 are needed for a speed; check that it is the tacho channel",
             record.name,
             times.len()
         ));
@@ -164,17 +165,17 @@ fn tacho(
     let train = findings.keep("--tacho: ", PulseTrain::new(&times, args.pulses_per_turn))?;
     if train.missing + train.dropped > 0 {
         findings.warnings.push(format!(
-            "tacho: {} missing pulses were added and {} false ones dropped, of {}",
+            "tacho: {} missing pulses added and {} false pulses removed, of {}",
             train.missing,
             train.dropped,
             times.len()
         ));
     }
-    let source = format!("{source}, {} a turn", args.pulses_per_turn);
+    let source = format!("{source}, {} per revolution", args.pulses_per_turn);
     Some(Shaft::Pulses { train, smooth: args.smooth_tacho, source })
 }
 
-/// Pulse times \[s\]: values that are times, or the rising edges of a channel.
+/// Pulse times \[s\]: given as values, or the rising edges of a channel.
 fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut Findings) -> Option<Vec<f64>> {
     let values = findings.keep("--tacho: ", record.time_samples())?;
     let rising = values.windows(2).all(|w| w[1] > w[0]);
@@ -196,16 +197,16 @@ fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut Findings) -> 
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if low == high {
-        findings.problem(format!("--tacho: `{}` is {low} all along: there are no pulses in it", record.name));
+        findings.problem(format!("--tacho: `{}` is constant ({low}): it contains no pulses", record.name));
         return None;
     }
     let edges = findings.keep("--tacho: ", rising_edges(values, rate, None, HYSTERESIS))?;
     Some(edges.into_iter().map(|t| t + start).collect())
 }
 
-/// What the file tells: angle, speed over time, speed.
+/// Shaft angle, speed over time or constant speed stated in the file.
 pub fn told(file: &File) -> Option<Shaft> {
-    // "X105_DE_time" of files with CWRU's names is "de".
+    // Variable names as in the CWRU files: "X105_DE_time" becomes "de".
     let plain = |name: &str| {
         let name = name.to_lowercase();
         let bare = match name.split_once('_') {

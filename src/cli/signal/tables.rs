@@ -1,4 +1,4 @@
-//! Tables of what was found in records.
+//! Tables of the signal analyses.
 
 use rotordyn::edge::measured::run_up::is_clock;
 use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
@@ -11,12 +11,12 @@ use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
 
-/// Rows of a list that can be long.
+/// Largest number of rows of a list of lines.
 pub const MOST: usize = 8;
-/// Rows of the channels of a file.
+/// Largest number of rows of the channel list.
 const CHANNELS: usize = 24;
 
-/// What there is in a file.
+/// Channels of a file.
 pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
     let records = &file.measured.records;
     let rows: Vec<Vec<String>> = records
@@ -45,29 +45,29 @@ pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
         n => format!(" (and {n} more)"),
     };
     let title = format!("{}: {} channels{more}", file.path.display(), records.len());
-    terminal.table(&title, &["channel", "holds", "samples", "rate Hz", "unit", ""], &rows);
+    terminal.table(&title, &["channel", "content", "samples", "rate Hz", "unit", "use"], &rows);
 }
 
-/// Speed and bearing.
+/// Shaft speed and bearing defect frequencies.
 pub fn known(terminal: &Terminal, result: &SignalResult) {
     if let Some(s) = &result.shaft {
         let rpm = |rev: f64| number(60.0 * rev, 6);
         let speed = match s.steady {
             true => format!("{} rpm ({} Hz)", rpm(s.mean), number(s.mean, 6)),
-            false => format!("{} to {} rpm, {} in the mean", rpm(s.least), rpm(s.most), rpm(s.mean)),
+            false => format!("{} to {} rpm, mean {}", rpm(s.least), rpm(s.most), rpm(s.mean)),
         };
         terminal.say(&format!("\nShaft: {speed}, {}", s.source));
     }
     if let Some(b) = &result.bearing {
         let o = &b.orders;
         terminal.say(&format!(
-            "Bearing {} ({}): FTF {:.4}, BPFO {:.4}, BPFI {:.4}, BSF {:.4} a turn",
+            "Bearing {} ({}): FTF {:.4}, BPFO {:.4}, BPFI {:.4}, BSF {:.4} per revolution",
             b.name, b.source, o.ftf, o.bpfo, o.bpfi, o.bsf
         ));
     }
 }
 
-/// Statistics, one row a channel.
+/// Time-domain statistics, one row per channel.
 pub fn statistics(terminal: &Terminal, results: &[SignalResult]) {
     let optional = |v: Option<f64>| v.map_or("-".into(), |v| format!("{v:.4}"));
     let rows: Vec<Vec<String>> = results
@@ -90,7 +90,7 @@ pub fn statistics(terminal: &Terminal, results: &[SignalResult]) {
     terminal.table("Statistics (kurtosis 3 for a normal distribution)", &header, &rows);
 }
 
-/// Everything else of one channel.
+/// Tables of all analyses of one channel.
 pub fn channel(terminal: &Terminal, result: &SignalResult) {
     if let Some(spectrum) = &result.spectrum {
         peaks(terminal, result, spectrum);
@@ -98,13 +98,13 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
     if let Some(k) = &result.kurtogram {
         let BandChoice { low, high, value, .. } = k.kurtogram.best();
         let top = |s: &Spectrum| {
-            // Zero frequency and Nyquist have another kurtosis of their own.
+            // Skip 0 Hz and Nyquist: real-valued bins have a different kurtosis.
             let best = (1..s.values.len() - 1).max_by(|&a, &b| s.values[a].total_cmp(&s.values[b]));
             best.map_or((0.0, 0.0), |k| (s.frequencies[k], s.values[k]))
         };
         let (at, most) = top(&k.spectral);
         terminal.say(&format!(
-            "\nKurtogram of {}: highest {value:.2} in {}; spectral kurtosis highest {most:.2} at {} Hz",
+            "\nKurtogram of {}: maximum {value:.2} in {}; maximum spectral kurtosis {most:.2} at {} Hz",
             result.channel,
             band((low, high)),
             number(at, 5)
@@ -170,7 +170,7 @@ fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {
             ])
         })
         .collect();
-    let header = ["line", "order", &level("RMS", result), "highest", "at rpm"];
+    let header = ["line", "order", &level("RMS", result), "peak RMS", "at rpm"];
     terminal.table(
         &format!("Orders of {}, {} windows", result.channel, orders.map.rpm.len()),
         &header,
@@ -182,7 +182,8 @@ fn turn(terminal: &Terminal, result: &SignalResult, found: &ShaftAverage) {
     let [all, periodic, rest] = found.rms;
     let share = if all > 0.0 { 100.0 * (periodic / all).powi(2) } else { 0.0 };
     terminal.say(&format!(
-        "\nAverage of {} over {} turns: RMS {} of {} ({share:.1} % of the power repeats with the shaft), {} left",
+        "\nTime synchronous average of {} over {} revolutions: RMS {} of {} ({share:.1} % of the power is synchronous), \
+         residual {}",
         result.channel,
         found.average.periods,
         number(periodic, 4),
@@ -216,11 +217,13 @@ fn defects(terminal: &Terminal, race: &RaceResult) {
             ]
         })
         .collect();
-    let title = format!("Defects of the {} read from jumps of the jerk", race.race);
-    let header = ["kind", "begins at deg", "width deg", "width um", "jump in", "jump out"];
+    let title = format!("Defects of the {} from jumps of the jerk", race.race);
+    let header = ["kind", "start deg", "width deg", "width um", "entry jump", "exit jump"];
     terminal.table(&title, &header, &rows);
     if !race.all_round {
-        terminal.say("  angles within one ball spacing; --beside names the channel a quarter turn on");
+        terminal.say(
+            "  angles are modulo one ball spacing; --beside gives the channel at 90 deg that resolves them",
+        );
     }
 }
 
@@ -243,10 +246,10 @@ fn cyclic(terminal: &Terminal, result: &SignalResult, found: &CyclicResult) {
         })
         .collect();
     let title = format!(
-        "Cyclic coherence of {} over {} s, mean over all carriers",
+        "Cyclic spectral coherence of {} over {} s, mean over all carrier frequencies",
         result.channel,
         number(found.duration, 3)
     );
-    let header = ["line", "expected Hz", "found at Hz", "coherence", "background", "deviations over it"];
+    let header = ["line", "expected Hz", "measured Hz", "coherence", "background", "sigmas above it"];
     terminal.table(&title, &header, &rows);
 }

@@ -1,14 +1,14 @@
-//! Contact law of a film at one speed, interpolated over the load.
+//! EHL contact law at one speed, interpolated over the load.
 
 use crate::contact::Loaded;
 use crate::linalg::pchip::Pchip;
 
 /// Load and approach of a lubricated contact at one speed: δ = D − s(Q), Q = K D^{3/2}.
 ///
-/// s = δ_dry − δ, the film's shift, is a monotone cubic of ln Q in its logarithm, so that δ rises with Q wherever s
-/// falls. Outside the loads it was computed at it goes over to s ~ Q^−0.067 within a decade (Hamrock and Dowson's
-/// film). Below [`Curve::THRESHOLD`] it goes on along its tangent in D, so that the contact lets go at a finite film: no
-/// load for δ ≤ −s(0). Q, dQ/dδ and ∫Q dδ are continuous.
+/// s = δ_dry − δ is the film shift; ln s is a monotone cubic (PCHIP) of ln Q, so that δ increases with Q
+/// wherever s decreases. Outside the computed loads it blends into s ~ Q^−0.067 within a decade (Hamrock and
+/// Dowson's film). Below [`Curve::THRESHOLD`] it continues along its tangent in D, so that the film is finite
+/// at zero load: no load for δ ≤ −s(0). Q, dQ/dδ and ∫Q dδ are continuous.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     stiffness: f64,
@@ -23,14 +23,14 @@ struct Film {
     /// ln Q of the knots and ∫ Q ds up to them, from the first.
     knots: Vec<f64>,
     work: Vec<f64>,
-    /// Where the tangent takes over: D, s, ds/dD, ∫ Q ds there.
+    /// Start of the tangent continuation: D, s, ds/dD, ∫ Q ds there.
     threshold: [f64; 4],
 }
 
-/// Power of the load in Hamrock and Dowson's central film.
+/// Exponent of the load in Hamrock and Dowson's central film.
 const LOAD_POWER: f64 = -0.067;
 
-/// Nodes and weights of Gauss and Legendre on \[−1, 1\].
+/// Gauss-Legendre nodes and weights on \[−1, 1\].
 const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
@@ -40,17 +40,17 @@ const GAUSS: [(f64, f64); 5] = [
 ];
 
 impl Curve {
-    /// Load below which the film follows its tangent \[N\]: far below any that matters.
+    /// Load below which the film follows its tangent \[N\]: far below relevant loads.
     pub const THRESHOLD: f64 = 1e-3;
 
-    /// Law without a film.
+    /// Dry law, without a film.
     pub(super) fn dry(stiffness: f64) -> Self {
         Self { stiffness, film: None }
     }
 
     /// Law from the logarithms of shift and central film at increasing loads.
     pub(super) fn new(stiffness: f64, loads: &[f64], shift: &[f64], central: &[f64]) -> Self {
-        // Two more knots on either side that lie on the power law: a cubic joins it smoothly, and ends on it.
+        // Two extra knots on either side on the power law, for a smooth transition to it.
         let step = 0.5 * std::f64::consts::LN_10;
         let inside: Vec<f64> = loads.iter().map(|q| q.ln()).collect();
         let extend = |values: &[f64], power: f64| -> Vec<f64> {
@@ -76,9 +76,10 @@ impl Curve {
         Self { stiffness, film: Some(film) }
     }
 
-    /// Law of this contact and another under the same load: both deformations and both films add up.
+    /// Law of two contacts in series under the same load: deformations and films add up.
     ///
-    /// K⁻²ᐟ³ = Σ Kᵢ⁻²ᐟ³, s = Σ sᵢ, taken at this contact's loads; exact there when both come from the same loads.
+    /// K⁻²ᐟ³ = Σ Kᵢ⁻²ᐟ³, s = Σ sᵢ, at this contact's loads; exact there if both were computed at the same
+    /// loads.
     pub fn in_series(&self, other: &Self) -> Self {
         let compliance = self.stiffness.powf(-2.0 / 3.0) + other.stiffness.powf(-2.0 / 3.0);
         let stiffness = compliance.powf(-1.5);
@@ -87,7 +88,7 @@ impl Curve {
             (Some(film), None) | (None, Some(film)) => (film, None),
             (None, None) => return Self::dry(stiffness),
         };
-        // The two outermost knots on either side are the power law's, and come back with it.
+        // The two outermost knots on either side belong to the power law and are added again by `new`.
         let knots = &first.knots[2..first.knots.len() - 2];
         let sum = |of: fn(&Film) -> &Pchip| -> Vec<f64> {
             let value = |film: &Film, knot: f64| of(film).at(knot)[0].exp();
@@ -112,7 +113,7 @@ impl Curve {
         self.film.as_ref().map_or(0.0, |film| film.central.at(load.max(Self::THRESHOLD).ln())[0].exp())
     }
 
-    /// Film −δ \[m\] at which the contact lets go.
+    /// Film thickness s(0) at zero load \[m\]: no load for δ ≤ −s(0).
     pub fn reach(&self) -> f64 {
         self.shift(0.0)[0]
     }
@@ -125,7 +126,7 @@ impl Curve {
         if approach <= -reach {
             return Loaded::default();
         }
-        // δ(0) = −s(0) < δ, and s never exceeds s(0) where it falls with the load.
+        // δ(0) = −s(0) < δ, and s ≤ s(0) where s decreases with load.
         let (mut low, mut high) = (0.0, approach + reach);
         let mut deformation = high.min((approach + self.shift(approach.max(0.0))[0]).max(0.5 * high));
         let [mut shift, mut slope] = self.shift(deformation);
@@ -141,7 +142,7 @@ impl Curve {
             let moved = (next - deformation).abs();
             deformation = next;
             [shift, slope] = self.shift(deformation);
-            // Rounding of the logarithms leaves a few units in the last place of D + s.
+            // Round-off of the logarithms: a few units in the last place of D + s.
             if moved <= 2e-15 * (deformation + shift) {
                 break;
             }
@@ -185,7 +186,7 @@ impl Film {
         [value.exp(), slope]
     }
 
-    /// ∫ Q ds over ln Q between two of one interval.
+    /// ∫ Q ds over ln Q between two points of one interval, by Gauss-Legendre quadrature.
     fn gauss(&self, from: f64, to: f64) -> f64 {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let term = |(node, weight): (f64, f64)| {

@@ -1,8 +1,8 @@
-//! Elastic deflection of the half-spaces by discrete convolution.
+//! Elastic deflection of the half-spaces by discrete (FFT) convolution.
 //!
-//! Pressure is constant over rectangles centred on the nodes (Love 1929). Along rolling the convolution is
-//! done by FFT; across, where the half domain folds the kernel on itself, by the plain sum at each frequency,
-//! which needs no padding and for the few rows of a contact is as fast as a second FFT.
+//! Pressure is constant over rectangles centred on the nodes (Love 1929). The convolution along rolling is
+//! computed by FFT; across, where symmetry folds the kernel, by direct summation at each frequency,
+//! which needs no padding and is as fast as a second FFT for the few rows of a contact.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub(super) struct Deflection {
     ny: usize,
     /// Real spectra, \[frequency\]\[source row\]\[row\].
     spectra: Vec<f64>,
-    /// Kernel in space for column distances up to [`NEAR`], \[distance\]\[row\]\[source row\].
+    /// Spatial kernel for column distances up to [`NEAR`], \[distance\]\[row\]\[source row\].
     near: Vec<f64>,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -53,7 +53,7 @@ impl Deflection {
         let mut scratch = vec![Complex::default(); scratch_length];
         for row in 0..ny {
             for source in 0..ny {
-                // Even in the distance, so the spectrum is real. 1/N of the inverse transform is taken here.
+                // Even in the distance, so the spectrum is real. Includes 1/N of the inverse transform.
                 line.fill(0.0);
                 for (d, kernel) in kernels.iter().enumerate() {
                     let value = kernel[row * ny + source] / padded as f64;
@@ -71,7 +71,7 @@ impl Deflection {
         Self { nx, ny, spectra, near, forward, inverse, work }
     }
 
-    /// Deflection in row `row` by unit pressures in the rows of the column at a distance `d` ≤ [`NEAR`].
+    /// Deflection in row `row` by unit pressure in each row of the column at distance `d` ≤ [`NEAR`].
     pub(super) fn near(&self, d: usize, row: usize) -> &[f64] {
         &self.near[(d * self.ny + row) * self.ny..][..self.ny]
     }
@@ -114,13 +114,13 @@ impl Deflection {
     }
 }
 
-/// The library refuses only buffers of the wrong length, or a mean or Nyquist value that is not real; the
+/// `realfft` fails only for buffers of the wrong length, or a mean or Nyquist value that is not real; the
 /// buffers are its own, and those values come from a real transform times real factors.
 fn transform(result: Result<(), realfft::FftError>) {
     debug_assert!(result.is_ok());
 }
 
-/// Kernel between rows of the half domain at one column distance: a row and its mirror image together.
+/// Kernel between rows of the half domain at one column distance: sum of a row and its mirror image.
 fn folded(influence: &[f64], ny: usize) -> Vec<f64> {
     let mut kernel = vec![0.0; ny * ny];
     for row in 0..ny {
@@ -145,7 +145,7 @@ fn smooth_length(n: usize) -> usize {
     (n.max(2)..).find(|&n| n.is_multiple_of(2) && smooth(n)).unwrap_or(n)
 }
 
-/// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y) of a rectangle: differences of it give the rectangle.
+/// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y); differences over the corners give a rectangle.
 ///
 /// G(x, y) = x asinh(y/|x|) + y asinh(x/|y|); x, y ≠ 0. Source: Love 1929; Johnson, Contact Mechanics, eq. 3.25.
 pub(super) fn corner(x: f64, y: f64) -> f64 {

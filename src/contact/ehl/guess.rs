@@ -1,12 +1,12 @@
-//! Film and pressure to start the iterations from.
+//! Initial guess of film and pressure.
 
 use super::Problem;
 use super::newton::Start;
 use super::scaled::Scaled;
 use crate::contact::FilmFormula;
 
-/// Half-ellipsoid of pressure as wide as the dry contact, or as the film's wedge if that is wider, and the separation at
-/// which the least film is about Hamrock and Dowson's.
+/// Semi-ellipsoidal pressure over the dry contact, or over the film's wedge if wider, and the separation at
+/// which the minimum film is about Hamrock and Dowson's.
 pub(super) fn ellipse(problem: &Problem, s: &Scaled) -> Start {
     let film = FilmFormula::new(&problem.contact, &problem.lubricant).central(problem.speed, problem.load);
     let wedge = |radius: f64, axis: f64| ((2.0 * film * radius).sqrt() / axis).max(1.0);

@@ -1,22 +1,22 @@
-//! The solved film as the contact law of a ball.
+//! EHL film as the contact law of a ball.
 
 use super::{Curve, Table, TableSpec, geometric};
 use crate::contact::{EllipticContact, FilmFormula, HertzPair, Loaded, Lubricant, Race};
 use std::sync::Arc;
 
-/// A ball's contacts under the numerically solved film: what to solve, and the tables once that is done.
+/// EHL contact law of a ball: specification of the film tables, and the tables once computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EhlLaw {
     pub lubricant: Lubricant,
     /// Factor on the entrainment speed.
     pub speed_factor: f64,
-    /// Loads that the tables reach over \[N\].
+    /// Load range of the tables \[N\].
     pub loads: [f64; 2],
-    /// Entrainment speeds that they reach over \[m/s\], the factor included.
+    /// Entrainment speed range of the tables \[m/s\], the factor included.
     pub speeds: [f64; 2],
     /// Number of loads and of speeds.
     pub counts: [usize; 2],
-    /// Fineness of the grids, see [`super::Grid::flooded`].
+    /// Grid resolution, see [`super::Grid::flooded`].
     pub points: usize,
     /// Inner and outer contact; `None` until they are computed.
     pub tables: Option<Arc<[Table; 2]>>,
@@ -28,12 +28,12 @@ pub struct EhlPair {
     pub(in crate::contact) series: Curve,
     inner: Curve,
     outer: Curve,
-    /// h_min/h_c of Hamrock and Dowson, inner and outer, at Q = 1 N: goes with Q^−0.006.
+    /// h_min/h_c of Hamrock and Dowson, inner and outer, at Q = 1 N: proportional to Q^−0.006.
     least: [f64; 2],
 }
 
 impl EhlLaw {
-    /// What the tables of inner and outer contact are computed from.
+    /// Specifications of the tables of inner and outer contact.
     pub fn specs(&self, hertz: &HertzPair) -> [TableSpec; 2] {
         let [loads, speeds] = [(self.loads, self.counts[0]), (self.speeds, self.counts[1])]
             .map(|([first, last], count)| geometric(first, last, count));
@@ -78,7 +78,7 @@ impl EhlPair {
         self.of(race).0.central_film(load)
     }
 
-    /// The solved central film times the formula's ratio of minimum to central.
+    /// Computed central film times the Hamrock-Dowson ratio of minimum to central film.
     pub(in crate::contact) fn minimum_film(&self, race: Race, load: f64) -> f64 {
         let (curve, least) = self.of(race);
         let load = load.max(Curve::THRESHOLD);

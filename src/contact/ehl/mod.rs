@@ -1,15 +1,15 @@
-//! Isothermal elastohydrodynamic film of an elliptic point contact, solved numerically.
+//! Numerical solution of the isothermal elastohydrodynamic lubrication (EHL) of an elliptic point contact.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
-//! | `scaled` | the contact in the scales of its dry patch, nodes of half the domain |
+//! | `scaled` | non-dimensional contact (scales of the dry Hertzian ellipse), nodes of half the domain |
 //! | `deflection` | elastic deflection by discrete convolution |
-//! | `reynolds` | Reynolds equation, its residual and derivatives |
-//! | `guess` | film and pressure to start from |
-//! | `newton` | film, rupture and load balance on one grid |
-//! | `solution` | fields and figures in SI |
-//! | `table`, `curve` | film over load and speed, and the contact law at one speed |
-//! | `law` | the contacts of a ball under it |
+//! | `reynolds` | Reynolds equation, residual and derivatives |
+//! | `guess` | initial film and pressure |
+//! | `newton` | Newton solver: film, cavitation and load balance on one grid |
+//! | `solution` | fields and scalar results in SI |
+//! | `table`, `curve` | film tables over load and speed, and the contact law at one speed |
+//! | `law` | EHL contact law of a ball |
 //!
 //! x lies along rolling (fluid flows towards +x), y across, p = 0 on the edges of the domain.
 
@@ -31,19 +31,19 @@ pub use table::{Table, TableSpec, geometric};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use scaled::Scaled;
 
-/// A lubricated contact under load, and the grid to solve it on.
+/// A lubricated contact under load, and its grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     pub contact: EllipticContact,
     pub lubricant: Lubricant,
-    /// Entrainment speed u, the mean of both surfaces' \[m/s\].
+    /// Entrainment speed u, mean of both surface speeds \[m/s\].
     pub speed: f64,
     /// Load Q \[N\].
     pub load: f64,
     pub grid: Grid,
 }
 
-/// Regular grid over a domain; the half on one side of the line of symmetry is what is solved.
+/// Regular grid over a domain; only the half on one side of the line of symmetry is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// Nodes along rolling.
@@ -64,51 +64,52 @@ pub struct Domain {
     pub side: f64,
 }
 
-/// Why there is no film.
+/// Errors of the EHL solver.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum Failure {
     #[error("{quantity} of a lubricated contact must be {range}, not {value}")]
     Input { quantity: &'static str, range: &'static str, value: f64 },
     #[error(
         "the film of a contact under {load:.4} N at an entrainment speed of {speed:.4} m/s did not converge: \
-         residual {residual:.3e} after {iterations} iterations, least film {least_film:.2e} m"
+         residual {residual:.3e} after {iterations} iterations, minimum film {least_film:.2e} m"
     )]
     NoConvergence {
         load: f64,
         speed: f64,
         residual: f64,
         iterations: usize,
-        /// Least film of the last iterate \[m\]; below zero the grid is too coarse for the edges of the ellipse.
+        /// Minimum film of the last iterate \[m\]; if negative, the grid is too coarse at the edges of the
+        /// ellipse.
         least_film: f64,
-        /// The last fields, to be looked at.
+        /// Fields of the last iterate, for inspection.
         last: Box<Solution>,
     },
 }
 
-/// Coarsest grid of a nest: nodes along, and rows of the half domain.
+/// Coarsest nested grid: nodes along rolling, and rows of the half domain.
 const COARSEST: [usize; 2] = [25, 7];
 
-/// Least length in semi-axes that [`Grid::flooded`] resolves, so that no film asks for an endless grid.
+/// Smallest length in semi-axes that [`Grid::flooded`] resolves, to limit the grid size.
 const THINNEST: f64 = 0.08;
 
-/// Solves the film, on nested grids from coarse to fine.
+/// Solves the EHL film on nested grids from coarse to fine.
 ///
 /// Unknowns: pressure p ≥ 0 and rigid separation h₀ in
 /// ∂/∂x(ρ h³/(12 η) ∂p/∂x) + ∂/∂y(ρ h³/(12 η) ∂p/∂y) = u ∂(ρ h)/∂x, h = h₀ + x²/(2 R_x) + y²/(2 R_y) + w,
-/// w = (1/(π E*)) ∫∫ p dA/r, ∫∫ p dA = Q; ruptured film by complementarity (Reynolds' condition).
+/// w = (1/(π E*)) ∫∫ p dA/r, ∫∫ p dA = Q; cavitation by complementarity (Reynolds boundary condition).
 ///
-/// `start`: a solution nearby (another load, speed or grid of the contact) to start from instead of a coarse grid.
+/// `start`: initial guess from a nearby solution (other load, speed or grid), instead of a coarse grid.
 ///
 /// # Errors
-/// [`Failure::Input`] for figures that make no problem; [`Failure::NoConvergence`] with the last fields.
+/// [`Failure::Input`] for invalid input values; [`Failure::NoConvergence`] with the last fields.
 ///
-/// Validity: flooded inlet, Newtonian fluid, no heat, half-spaces. Source: Venner & Lubrecht 2000.
+/// Validity: fully flooded inlet, Newtonian fluid, isothermal, half-spaces. Source: Venner & Lubrecht 2000.
 pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
     let found = nested(problem, start)?;
     if found.minimum_film > 0.0 { Ok(found) } else { Err(Failure::new(problem, found)) }
 }
 
-/// As [`solve`], but the film may be below zero at the edges of the ellipse, as it is on grids too coarse for it.
+/// As [`solve`], but accepts a negative film at the edges of the ellipse, as occurs on too coarse grids.
 fn nested(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
     problem.check()?;
     if let Some(found) = start.and_then(|near| attempt(problem, &problem.grid, Some(near)).ok()) {
@@ -127,7 +128,7 @@ fn nested(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failu
     attempt(problem, &problem.grid, near.as_ref())
 }
 
-/// Figures of a contact extrapolated to zero mesh width, and the fields on its grid.
+/// Scalar results extrapolated to zero mesh width (Richardson), and the fields on the fine grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrapolated {
     /// Central film h_c \[m\].
@@ -141,21 +142,22 @@ pub struct Extrapolated {
 }
 
 impl Extrapolated {
-    /// By how much the film lessens the approach, δ_dry − δ \[m\].
+    /// Reduction of the approach by the film, δ_dry − δ \[m\].
     pub fn film_shift(&self) -> f64 {
         self.fine.dry_approach - self.approach
     }
 }
 
-/// Solves on the problem's grid and on one of half as many intervals, and extrapolates: f + (f − c)/3 at second order.
+/// Solves on the problem's grid and on one of half as many intervals; Richardson extrapolation f + (f − c)/3
+/// (second order).
 ///
-/// A film that the coarser grid has no solution for is not extrapolated.
+/// Not extrapolated if the coarser grid has no solution.
 ///
-/// What is extrapolated belongs to the whole contact or its centre, so the grids may be too coarse for the edges of a
-/// thin film: its least film is then below zero, which [`solve`] would refuse.
+/// The extrapolated quantities belong to the whole contact or its centre, so the grids may be too coarse for
+/// the edges of a thin film: its minimum film is then negative, which [`solve`] rejects.
 ///
 /// # Errors
-/// As [`solve`], save that the film at the centre alone must be above zero.
+/// As [`solve`], except that only the central film must be positive.
 pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, Failure> {
     let coarse = nested(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
     let fine = nested(problem, coarse.as_ref().or(start))?;
@@ -203,22 +205,23 @@ impl Failure {
 }
 
 impl Grid {
-    /// Rows that are solved: half the domain and the line of symmetry.
+    /// Number of solved rows: half the domain including the line of symmetry.
     fn rows(&self) -> usize {
         self.ny.div_ceil(2)
     }
 
-    /// Half as many intervals either way over the same domain.
+    /// Grid with half as many intervals in both directions over the same domain.
     fn coarser(&self) -> Self {
         Self { nx: (self.nx - 1) / 2 + 1, ny: 2 * (self.rows().saturating_sub(1) / 2) + 1, ..*self }
     }
 
-    /// Grid for a flooded contact with `points` intervals to the length over which the film builds up.
+    /// Grid for a flooded contact with `points` intervals over the inlet length in which the film builds up.
     ///
-    /// With H = h R_x/b_x² and h the Hamrock-Dowson film that length is about b_x H^{2/3}, the distance from the
-    /// edge of the dry ellipse at which the dry gap is h, or √(2 R_x h) where the film is thicker than the ellipse is
-    /// flat. Across, √(b_y² + 2 R_y h) gets twice `points`. The domain reaches to undeformed gaps of 30 h
-    /// upstream and 5 h to the sides beyond the ellipse: a wider one changes δ_dry − δ by less than 1 %.
+    /// With H = h R_x/b_x² and the Hamrock-Dowson film h that length is about b_x H^{2/3}, the distance from
+    /// the edge of the dry ellipse at which the dry gap is h, or √(2 R_x h) for a film thick compared with
+    /// the ellipse's depth. Across, √(b_y² + 2 R_y h) gets twice `points`. The domain extends to undeformed
+    /// gaps of 30 h upstream and 5 h to the sides beyond the ellipse: a wider domain changes δ_dry − δ by
+    /// less than 1 %.
     pub fn flooded(
         contact: &EllipticContact,
         lubricant: &Lubricant,
@@ -237,7 +240,7 @@ impl Grid {
         let intervals =
             |length: f64, unit: f64, points: usize| (length / unit * points as f64).ceil() as usize;
         let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(THINNEST);
-        // Even numbers, so that the coarser grid has half of each.
+        // Even numbers of intervals, halved on the coarser grid.
         let nx = intervals(domain.inlet + domain.outlet, inlet, points).next_multiple_of(2) + 1;
         let rows = intervals(domain.side, across(1.0).hypot(1.0), 2 * points).next_multiple_of(2).max(8);
         Self { nx, ny: 2 * rows + 1, domain }

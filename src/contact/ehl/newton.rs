@@ -1,8 +1,8 @@
-//! Semismooth Newton method for film, rupture and load balance on one grid.
+//! Semismooth Newton method for film, cavitation and load balance on one grid.
 //!
 //! Complementarity min(P, R/d) = 0 at every node, with R linearised where R/d < P and P = 0 elsewhere, and the
-//! rigid separation H₀ closing Σ w P = 1. The linear systems are dense through the deflection: GMRES, with a
-//! banded preconditioner that cuts the deflection off after [`NEAR`] columns.
+//! rigid separation H₀ closing Σ w P = 1. The linear systems are dense because of the deflection: GMRES, with
+//! a banded preconditioner that truncates the deflection after [`NEAR`] columns.
 
 use super::deflection::{Deflection, NEAR};
 use super::reynolds::{self, POINTS, Row, neighbour};
@@ -10,35 +10,35 @@ use super::scaled::Scaled;
 use crate::contact::Lubricant;
 use crate::linalg::{BandMatrix, gmres};
 
-/// Root mean square of min(P, R/d) at which the field has converged.
+/// Convergence tolerance on the RMS of min(P, R/d).
 const TOLERANCE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 60;
 const KRYLOV_TOLERANCE: f64 = 1e-2;
 const KRYLOV_SPACE: usize = 200;
 const HALVINGS: usize = 8;
 
-/// Pressure, film and separation on a grid, with how good they are.
+/// Pressure, film and separation on a grid, with residual and convergence.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub pressure: Vec<f64>,
     pub film: Vec<f64>,
-    /// H₀, the film at the centre less the deflection there.
+    /// H₀, film minus deflection at the centre.
     pub separation: f64,
-    /// Root mean square of min(P, R/d).
+    /// RMS of min(P, R/d).
     pub residual: f64,
     pub iterations: usize,
     pub converged: bool,
 }
 
-/// Where the iterations begin.
+/// Initial guess of the iteration.
 pub(super) struct Start {
     pub pressure: Vec<f64>,
-    /// H₀, raised if the film would be thinner than `least_film` anywhere.
+    /// H₀, raised if the film were thinner than `least_film` anywhere.
     pub separation: f64,
     pub least_film: f64,
 }
 
-/// Iterates until converged or stuck.
+/// Iterates until convergence or stagnation.
 pub(super) fn solve(s: &Scaled, lubricant: &Lubricant, start: Start) -> Field {
     let mut newton = Newton::new(s, lubricant);
     let touching = newton.film(&start.pressure, 0.0).into_iter().fold(f64::INFINITY, f64::min);
@@ -74,7 +74,7 @@ struct Newton<'a> {
     rows: Vec<Row>,
     /// Divisor d of each row, so that R/d is a pressure.
     scale: Vec<f64>,
-    /// Nodes in the full film; the others hold P = 0.
+    /// Nodes in the full film; the others (cavitated) have P = 0.
     full: Vec<bool>,
     band: BandMatrix,
 }
@@ -102,7 +102,7 @@ impl<'a> Newton<'a> {
         film
     }
 
-    /// d from the diagonal of the linearised equations.
+    /// Row scaling d from the diagonal of the linearised equations.
     fn rescale(&mut self) {
         for (node, (row, scale)) in self.rows.iter().zip(&mut self.scale).enumerate() {
             let j = node % self.s.ny;
@@ -111,7 +111,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Splits the nodes into full film and rupture.
+    /// Active set: divides the nodes into full film and cavitation.
     fn divide(&mut self, pressure: &[f64]) {
         for (node, full) in self.full.iter_mut().enumerate() {
             *full = self.s.is_inner(node) && self.rows[node].residual / self.scale[node] < pressure[node];
@@ -176,7 +176,7 @@ impl<'a> Newton<'a> {
         found.solution.iter().all(|v| v.is_finite()).then_some(found.solution)
     }
 
-    /// Linearised equations with the deflection cut off after [`NEAR`] columns.
+    /// Linearised equations with the deflection truncated after [`NEAR`] columns.
     fn fill_band(&mut self) {
         let Self { s, deflection, rows, scale, full, band, .. } = self;
         let (nx, ny) = (s.nx, s.ny);
@@ -207,7 +207,7 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// The first step length of 1, 1/2, 1/4 … that brings the residual down, else the best of them.
+    /// Line search: first step length of 1, 1/2, 1/4 … that decreases the residual, else the best of them.
     fn search(&mut self, field: &Field, step: &[f64]) -> Option<Field> {
         let n = field.pressure.len();
         let (by_pressure, by_separation) = (&step[..n], step[n]);

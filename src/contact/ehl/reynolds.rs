@@ -1,16 +1,16 @@
-//! Steady Reynolds equation of a compressible piezoviscous film, by finite volumes of second order.
+//! Steady Reynolds equation of a compressible piezoviscous film, by second-order finite volumes.
 //!
 //! R = ∂(ρ̄ H)/∂X − ∂/∂X(ε ∂P/∂X) − (b_x/b_y)² ∂/∂Y(ε ∂P/∂Y), ε = ρ̄ H³ / (η̄ λ).
-//! R = 0 in the full film; where the film ruptures, P = 0 and R ≥ 0 (the flow diverges).
+//! R = 0 in the full film; where the film cavitates, P = 0 and R ≥ 0 (diverging flow).
 //!
-//! Pressure flow between neighbours takes the mean of their ε. The entrained flow through a face is extrapolated
-//! from upstream, (3 q_i − q_{i−1})/2, q = ρ̄ H: conservative, second order, and it lets the film in the Hertz
-//! zone, where ε vanishes, follow from the inlet (Venner & Lubrecht 2000, ch. 5).
+//! Poiseuille flow between neighbours uses the mean of their ε. The entrained (Couette) flow through a face
+//! is extrapolated from upstream, (3 q_i − q_{i−1})/2, q = ρ̄ H: conservative, second order, and in the
+//! Hertzian zone, where ε vanishes, the film is determined by the inlet (Venner & Lubrecht 2000, ch. 5).
 
 use super::scaled::Scaled;
 use crate::contact::Lubricant;
 
-/// Neighbours of a node in its row of the equations: itself, west, east, south, north, west of west.
+/// Stencil of a node's equation: itself, west, east, south, north, west of west.
 pub(super) const POINTS: usize = 6;
 
 /// Equation of one node: R and its derivatives by P and by H at the [`POINTS`].
@@ -21,13 +21,13 @@ pub(super) struct Row {
     pub by_film: [f64; POINTS],
 }
 
-/// What the fluid does at one node.
+/// Fluid properties at one node.
 #[derive(Clone, Copy)]
 struct Fluid {
     density: f64,
     /// ∂ρ̄/∂P.
     compressibility: f64,
-    /// ε and its derivatives by P and H.
+    /// Flow coefficient ε and its derivatives by P and H.
     mobility: [f64; 3],
 }
 
@@ -43,7 +43,7 @@ pub(super) fn neighbour(node: usize, point: usize, ny: usize) -> usize {
     }
 }
 
-/// Equations of all nodes; those on the edge of the domain have none and stay zero.
+/// Equations of all nodes; zero for nodes on the edge of the domain.
 pub(super) fn rows(s: &Scaled, lubricant: &Lubricant, p: &[f64], h: &[f64], out: &mut Vec<Row>) {
     let fluid: Vec<Fluid> = p.iter().zip(h).map(|(&p, &h)| Fluid::new(s, lubricant, p, h)).collect();
     out.clear();
@@ -58,7 +58,8 @@ impl Fluid {
         let pressure = p.max(0.0) * s.pressure;
         let density = lubricant.density_ratio(pressure);
         let compressibility = lubricant.density_slope(pressure) * s.pressure;
-        // Iterates, and edges of the ellipse on coarse grids, may overlap: no pressure flow there, but entrainment.
+        // Negative gap (in iterates, or at the ellipse's edge on coarse grids): no Poiseuille flow, only
+        // entrainment.
         let gap = h.max(0.0);
         let per_gap = density * gap.powi(2) / (lubricant.viscosity_ratio(pressure) * s.lambda);
         let mobility = per_gap * gap;
@@ -86,7 +87,7 @@ fn row(s: &Scaled, fluid: &[Fluid], p: &[f64], h: &[f64], node: usize) -> Row {
         row.by_film[point] -= factor * 0.5 * fluid[other].mobility[2] * drop;
         row.by_film[0] -= factor * 0.5 * fluid[node].mobility[2] * drop;
     }
-    // Beside the inlet edge there is nothing two columns upstream.
+    // First-order upwind next to the inlet edge (no node two columns upstream).
     let upstream: &[(usize, f64)] =
         if node < 2 * s.ny { &[(0, 1.0), (1, -1.0)] } else { &[(0, 1.5), (1, -2.0), (5, 0.5)] };
     for &(point, weight) in upstream {

@@ -1,4 +1,4 @@
-//! The contact in the scales of its dry patch, on one grid of half the domain.
+//! Non-dimensional contact (scales of the dry Hertzian ellipse), on one grid of half the domain.
 
 use super::deflection::corner;
 use super::{Grid, Problem};
@@ -70,11 +70,12 @@ impl Scaled {
         }
     }
 
-    /// Deflection by a unit pressure on one cell, at a distance of d columns and 0 to 2 ny − 2 rows.
+    /// Influence coefficients: deflection by unit pressure on one cell, at d columns and 0 to 2 ny − 2 rows
+    /// distance.
     pub(super) fn influence(&self, d: usize) -> Vec<f64> {
         let [width, height] = [self.dx * self.axes[0], self.dy * self.axes[1]];
         let edges = [(d as f64 - 0.5) * width, (d as f64 + 0.5) * width];
-        // Column of corners between rows, then the difference of neighbours.
+        // Corner values between rows, then differences of neighbours.
         let strip: Vec<f64> = (0..2 * self.ny)
             .map(|row| {
                 let y = (row as f64 - 0.5) * height;
@@ -84,7 +85,7 @@ impl Scaled {
         strip.windows(2).map(|pair| self.compliance * (pair[1] - pair[0])).collect()
     }
 
-    /// Whether the node carries an unknown: neither on the edge of the domain nor outside it.
+    /// Whether the node carries an unknown: inside the domain, not on its edge.
     pub(super) fn is_inner(&self, node: usize) -> bool {
         let (i, j) = (node / self.ny, node % self.ny);
         i > 0 && i + 1 < self.nx && j + 1 < self.ny

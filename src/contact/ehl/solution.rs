@@ -1,10 +1,10 @@
-//! Fields and figures of a solved contact, in SI.
+//! Fields and scalar results of a solved EHL contact, in SI.
 
 use super::Problem;
 use super::newton::{Field, Start};
 use super::scaled::Scaled;
 
-/// Film of a contact: fields over the whole domain, index i·ny + j at (xᵢ, yⱼ), and what is read off them.
+/// EHL solution: fields over the whole domain, index i·ny + j at (xᵢ, yⱼ), and scalar results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// Along rolling, upstream first \[m\].
@@ -17,11 +17,11 @@ pub struct Solution {
     pub film: Vec<f64>,
     /// Film at the centre of the dry ellipse h_c \[m\].
     pub central_film: f64,
-    /// Least film of all nodes \[m\].
+    /// Minimum film of all nodes \[m\].
     pub minimum_film: f64,
-    /// Mutual approach δ = w − h at the centre = −h₀ \[m\]; negative where the film outgrows the deflection.
+    /// Mutual approach δ = w − h at the centre = −h₀ \[m\]; negative where the film exceeds the deflection.
     ///
-    /// The film takes δ_dry − δ off the dry approach. Source: Zhang 2016 eq. 1.
+    /// The film reduces the dry approach by δ_dry − δ. Source: Zhang 2016 eq. 1.
     pub approach: f64,
     /// Approach of the dry contact under the same load δ_dry \[m\].
     pub dry_approach: f64,
@@ -29,7 +29,7 @@ pub struct Solution {
     pub rolling_force: f64,
     /// Newton iterations on the grid of the fields.
     pub iterations: usize,
-    /// Root mean square of what film equation and rupture leave over, as a share of the dry maximum pressure.
+    /// RMS residual of film equation and cavitation condition, relative to the dry maximum pressure.
     pub residual: f64,
     /// Dry semi-axes along and across \[m\], dry maximum pressure \[Pa\].
     scales: [f64; 3],
@@ -66,19 +66,19 @@ impl Solution {
         }
     }
 
-    /// By how much the film lessens the approach, δ_dry − δ \[m\].
+    /// Reduction of the approach by the film, δ_dry − δ \[m\].
     pub fn film_shift(&self) -> f64 {
         self.dry_approach - self.approach
     }
 
-    /// This solution as a start at the nodes of another grid, load or speed.
+    /// This solution interpolated as initial guess for another grid, load or speed.
     pub(super) fn on_grid(&self, problem: &Problem, s: &Scaled) -> Start {
         let ny = self.y.len();
         let half = &self.y[ny / 2..];
         let interval = |nodes: &[f64], at: f64| {
             let k = nodes.partition_point(|&n| n <= at).clamp(1, nodes.len() - 1);
             let t = (at - nodes[k - 1]) / (nodes[k] - nodes[k - 1]);
-            // Outside there is no pressure.
+            // Zero pressure outside the domain.
             (0.0..=1.0 + 1e-9).contains(&t).then_some((k - 1, t))
         };
         let columns: Vec<_> = s.x.iter().map(|x| interval(&self.x, x * self.scales[0])).collect();

@@ -1,4 +1,4 @@
-//! Film of one contact over load and speed, as a contact law.
+//! Film table of one EHL contact over load and speed.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,7 +10,7 @@ use super::{Failure, Grid, Problem, Solution, extrapolate};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::linalg::pchip::Pchip;
 
-/// What a [`Table`] is computed from.
+/// Input of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableSpec {
     pub contact: EllipticContact,
@@ -19,14 +19,14 @@ pub struct TableSpec {
     pub loads: Vec<f64>,
     /// Entrainment speeds u, increasing \[m/s\].
     pub speeds: Vec<f64>,
-    /// Fineness of the grids as in [`Grid::flooded`]; with 6 the film is good to about 1 %.
+    /// Grid resolution as in [`Grid::flooded`]; 6 gives the film to about 1 %.
     pub points: usize,
 }
 
 /// Film shift δ_dry − δ and central film at every load and speed of a [`TableSpec`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Table {
-    /// All inputs as text: equal keys, equal tables.
+    /// All inputs as text (cache key): equal keys, equal tables.
     pub key: String,
     /// Dry stiffness K in Q = K δ^{3/2} \[N/m^1.5\].
     pub stiffness: f64,
@@ -34,16 +34,16 @@ pub struct Table {
     pub speeds: Vec<f64>,
     /// δ_dry − δ \[m\], one row of loads for each speed.
     pub shift: Vec<Vec<f64>>,
-    /// Central film h_c \[m\], likewise.
+    /// Central film h_c \[m\], one row of loads for each speed.
     pub central_film: Vec<Vec<f64>>,
 }
 
-/// Least h R_x/b_x² of a table (Hamrock and Dowson's h) that is solved: a thinner film is taken from the speed at which
-/// it would be as thick as this, by their power of the speed. It changes the approach by 5 % or less, and is
+/// Smallest h R_x/b_x² (Hamrock and Dowson's h) that is solved: a thinner film is scaled from the speed at
+/// which it has this thickness, by their speed exponent. Such a film changes the approach by 5 % or less,
 /// known to a tenth of that.
 const THINNEST_FILM: f64 = 0.05;
 
-/// Power of the speed in Hamrock and Dowson's central film.
+/// Exponent of the speed in Hamrock and Dowson's central film.
 const SPEED_POWER: f64 = 0.67;
 
 /// `count` ≥ 2 values in geometric progression from `first` to `last`.
@@ -53,7 +53,7 @@ pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
 }
 
 impl TableSpec {
-    /// Text of all inputs, the same on every machine: what a table is stored under.
+    /// Cache key: text of all inputs, the same on every machine.
     pub fn key(&self) -> String {
         let Self { contact, lubricant, loads, speeds, points } = self;
         format!(
@@ -68,12 +68,12 @@ impl TableSpec {
 
     /// Solves the contact at every load and speed, on two grids each, extrapolated to zero mesh width.
     ///
-    /// Speeds in parallel, each from the heaviest load down; the result does not depend on the number of threads.
-    /// `progress(done, total)` is called after every contact, from any thread.
+    /// Speeds in parallel, each in order of decreasing load; the result does not depend on the number of
+    /// threads. `progress(done, total)` is called after every contact, from any thread.
     ///
     /// # Errors
-    /// [`Failure::Input`] for loads or speeds that do not increase from above zero; the first contact in the table's order that
-    /// does not converge.
+    /// [`Failure::Input`] for loads or speeds that are not positive and increasing; else the first contact in
+    /// table order that does not converge.
     pub fn compute(&self, progress: impl Fn(usize, usize) + Sync) -> Result<Table, Failure> {
         for (quantity, values) in [("first load", &self.loads), ("first entrainment speed", &self.speeds)] {
             let increasing = values.windows(2).all(|pair| pair[0] < pair[1]);
@@ -81,7 +81,7 @@ impl TableSpec {
             if !(increasing && value > 0.0) {
                 return Err(Failure::Input {
                     quantity,
-                    range: "positive and the least of increasing ones",
+                    range: "positive, with increasing values after it",
                     value,
                 });
             }
@@ -103,7 +103,7 @@ impl TableSpec {
         })
     }
 
-    /// Shift and central film at all loads and one speed, each started from the next heavier load.
+    /// Film shift and central film at all loads and one speed, each started from the next higher load.
     fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<[f64; 2]>, Failure> {
         let Self { contact, lubricant, points, .. } = self;
         let formula = FilmFormula::new(contact, lubricant);
@@ -111,7 +111,7 @@ impl TableSpec {
         let mut row = Vec::with_capacity(self.loads.len());
         for &load in self.loads.iter().rev() {
             let depth = contact.semi_axes(load)[0].powi(2) / contact.rolling_radius;
-            // Share of the thinnest film to be solved; h ~ u^SPEED_POWER below it.
+            // Ratio to the thinnest film solved; h ~ u^SPEED_POWER below it.
             let share = (formula.central(speed, load) / (THINNEST_FILM * depth)).min(1.0);
             let speed = speed * share.powf(-1.0 / SPEED_POWER);
             let grid = Grid::flooded(contact, lubricant, speed, load, *points);
@@ -129,8 +129,9 @@ impl TableSpec {
 impl Table {
     /// The contact law at an entrainment speed u \[m/s\]: dry for u ≤ 0.
     ///
-    /// Between the speeds film and shift are monotone cubics of ln u in their logarithms; below the slowest and beyond the
-    /// fastest powers of u (with a single speed u^0.67, Hamrock and Dowson's), so that both go to 0 with u.
+    /// Between the speeds ln h_c and ln s are monotone cubics (PCHIP) of ln u; below the lowest and above the
+    /// highest speed powers of u (with a single speed u^0.67, Hamrock and Dowson's), so that both vanish with
+    /// u.
     pub fn at_speed(&self, speed: f64) -> Curve {
         if speed <= 0.0 {
             return Curve::dry(self.stiffness);

@@ -1,9 +1,9 @@
-//! Tables of numbers as text, ours and those of other programs, to records.
+//! Reads CSV and other text tables, of this and other programs, as records.
 //!
-//! Separators are commas, semicolons, tabs or blanks, whichever make the first line of numbers one; beside
-//! semicolons and tabs a comma is a decimal sign. Lines that begin with `#`, `%` or `//` are comments. Names may
-//! carry units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, or a line of units follows them. Columns `x_re`, `x_im`
-//! are one complex record; cells may be complex, `(1.0-2.0j)`.
+//! The separator (comma, semicolon, tab or blanks) is the one that splits the first data line into numbers; a
+//! decimal comma is accepted with the other three. Lines that begin with `#`, `%` or `//` are comments. Names
+//! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, or a line of units follows them. Columns `x_re`,
+//! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`.
 
 use std::path::Path;
 
@@ -13,14 +13,14 @@ use crate::error::Error;
 use crate::signal::Complex;
 use crate::signal::record::{Axis, AxisQuantity, Kind, Measured, Points, Record, Values};
 
-/// A value, complex ones too; `None` for an empty cell.
+/// A real or complex value; `None` for an empty cell.
 type Cell = Option<Complex<f64>>;
 
 /// Reads a table.
 ///
 /// # Errors
-/// The file cannot be read, holds no numbers, a line has another number of cells, a cell is no number, an axis
-/// does not increase.
+/// The file cannot be read, contains no numbers, a line has another number of cells, a cell is not a number,
+/// an axis does not increase.
 pub fn read(path: &Path) -> Result<Measured, Error> {
     let bytes = std::fs::read(path).map_err(|source| Error::Environment {
         operation: "read",
@@ -29,7 +29,7 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
     })?;
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
-        // Latin-1, for the sake of degree signs.
+        // Not UTF-8: Latin-1, which has degree signs.
         Err(error) => error.as_bytes().iter().map(|&b| char::from(b)).collect(),
     };
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -40,15 +40,15 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
     })
 }
 
-/// What is wrong, and what to do.
+/// Error message and hint.
 type Fault = (String, &'static str);
 
 const SEPARATE: &str = "write one line of names and then numbers, separated by commas";
 
-/// How cells are told apart.
+/// Separator and decimal sign of a table.
 #[derive(Clone, Copy)]
 struct Style {
-    /// A blank stands for any number of blanks.
+    /// A blank means any number of blanks.
     separator: char,
     decimal_comma: bool,
 }
@@ -61,7 +61,7 @@ impl Style {
         styles.into_iter().map(|(separator, decimal_comma)| Style { separator, decimal_comma }).find(
             |style| {
                 let cells = style.split(line);
-                // One cell alone has no separator.
+                // A single cell has no separator.
                 let told = cells.len() > 1 || style.separator == ' ' || !line.contains([',', ';', '\t']);
                 told && cells.iter().any(|c| !c.is_empty()) && cells.iter().all(|c| style.value(c).is_some())
             },
@@ -76,7 +76,7 @@ impl Style {
         }
     }
 
-    /// The cell's value: `Some(None)` for an empty one, `None` if it is no number.
+    /// The cell's value: `Some(None)` for an empty one, `None` if it is not a number.
     fn value(&self, cell: &str) -> Option<Cell> {
         if cell.is_empty() {
             return Some(None);
@@ -128,8 +128,8 @@ fn parse(text: &str, stem: &str) -> Result<Measured, Fault> {
         let style = Style::of(line).filter(|_| !is_comment(line))?;
         Some((at, style))
     });
-    let (first, mut style) = found.ok_or(("the file holds no line of numbers".to_owned(), SEPARATE))?;
-    // Numbers with a decimal comma in one column look like two columns: the names tell.
+    let (first, mut style) = found.ok_or(("the file contains no line of numbers".to_owned(), SEPARATE))?;
+    // Numbers with a decimal comma in one column look like two columns: the header line decides.
     let heads: Vec<&str> = lines[..first].iter().map(|(_, line)| *line).filter(|l| !is_comment(l)).collect();
     if let Some(head) = heads.last()
         && style.separator == ','
@@ -143,12 +143,12 @@ fn parse(text: &str, stem: &str) -> Result<Measured, Fault> {
     for (number, line) in lines[first..].iter().filter(|(_, line)| !is_comment(line)) {
         let cells = style.split(line);
         if cells.len() != width {
-            let problem = format!("line {number} has {} cells where the first has {width}", cells.len());
+            let problem = format!("line {number} has {} cells, the first data line has {width}", cells.len());
             return Err((problem, "the file is cut off or damaged: copy or export it again"));
         }
         for (column, cell) in columns.iter_mut().zip(cells) {
             let value = style.value(cell).ok_or_else(|| {
-                (format!("`{cell}` in line {number}, column `{}`, is no number", column.name), SEPARATE)
+                (format!("`{cell}` in line {number}, column `{}`, is not a number", column.name), SEPARATE)
             })?;
             column.cells.push(value);
         }
@@ -162,7 +162,7 @@ fn parse(text: &str, stem: &str) -> Result<Measured, Fault> {
 fn header(heads: &[&str], all: Vec<&str>, style: Style, width: usize, stem: &str) -> Vec<Column> {
     let cells = |line: &str| -> Option<Vec<String>> {
         let cells: Vec<String> = match style.separator {
-            // Names may hold blanks; then they are separated otherwise.
+            // Names may contain blanks; then commas separate them.
             ' ' if line.contains(',') => line.split(',').map(|c| c.trim().to_owned()).collect(),
             _ => style.split(line).into_iter().map(str::to_owned).collect(),
         };
@@ -200,7 +200,7 @@ fn unit_cell(cell: &str) -> &str {
     cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')'])
 }
 
-/// A column from its name, with the unit in brackets or behind it.
+/// A column from its name, with the unit in brackets or as a suffix.
 fn column(name: &str) -> Column {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some(at) = name.find(open).filter(|_| name.ends_with(close)) {
@@ -226,7 +226,7 @@ fn column(name: &str) -> Column {
     }
 }
 
-/// What a column is the axis of, by its name and unit.
+/// Axis quantity of a column, by its name and unit; `None` if it is not an axis.
 fn axis_of(column: &Column) -> Option<AxisQuantity> {
     let name = column.name.to_lowercase();
     let unit = column.si.as_ref().map(|si| si.name.as_str());
@@ -255,11 +255,11 @@ fn records(mut columns: Vec<Column>) -> Result<Measured, Fault> {
             .windows(2)
             .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
         {
-            let problem = format!("`{}` does not increase from its value {} to the next", column.name, k + 1);
-            return Err((problem, "sort the lines, and leave out those that are there twice or empty"));
+            let problem = format!("`{}` does not increase after its value {}", column.name, k + 1);
+            return Err((problem, "sort the lines, and remove duplicate and empty ones"));
         }
         if let Axis { points: Points::Listed(_), .. } = Axis::through(quantity, points.clone()) {
-            out.notes.push(format!("the steps of `{}` are uneven", column.name));
+            out.notes.push(format!("`{}` is not uniformly spaced", column.name));
         }
         axis = Some((quantity, points));
     }

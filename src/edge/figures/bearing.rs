@@ -1,4 +1,5 @@
-//! Ball bearings on their own: ball loads, contact angles, and everything over load, speed and cage angle.
+//! Figures of a bearing analysis: ball loads, contact angles, and sweeps over load, displacement, speed, cage
+//! angle.
 
 use super::display::unit;
 use super::{Named, TO_RPM};
@@ -6,11 +7,11 @@ use crate::edge::plot::{BallLoads, BallRow, Curve, Figure, FilmMap, Grid, GridPa
 use crate::model::study::Swept;
 use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState, SolvedFilm};
 
-/// Couplings below this share of √(k_ii k_jj) everywhere are not drawn.
+/// Cross-coupling stiffnesses below this fraction of √(k_ii k_jj) at all points are not drawn.
 const COUPLED: f64 = 1e-6;
 const AXES: [&str; 5] = ["x", "y", "z", "θx", "θy"];
 
-/// Every figure of a bearing; `title` is that of its file.
+/// All figures of a bearing; `title` is that of the model file.
 pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
     let name = |what: &str| format!("bearing_{}_{what}", found.name);
     let state = &found.point.state;
@@ -50,9 +51,9 @@ fn film_map(found: &BearingResult, film: &SolvedFilm) -> FilmMap {
     let fields = &film.solution;
     let scaled = |values: &[f64], factor: f64| values.iter().map(|v| factor * v).collect();
     FilmMap {
-        title: format!("Film of the heaviest loaded ball of bearing {}, {} race", found.name, film.race),
+        title: format!("EHL film at the most loaded ball of bearing {}, {} race", found.name, film.race),
         note: format!(
-            "{:.0} N, entrainment {:.2} m/s: central film {:.3} µm, least {:.3} µm, solved in {} steps",
+            "{:.0} N, entrainment speed {:.2} m/s: central film {:.3} µm, minimum film {:.3} µm, {} iterations",
             film.load,
             film.speed,
             1e6 * fields.central_film,
@@ -73,7 +74,7 @@ struct Side<'a> {
     balls: Vec<(&'a BallState, &'a ContactState)>,
 }
 
-/// The races of every row that there is.
+/// Inner and outer race of every row.
 fn sides(found: &BearingResult) -> Vec<Side<'_>> {
     let balls = &found.point.balls;
     let rows = balls.iter().map(|b| b.row + 1).max().unwrap_or(0);
@@ -88,20 +89,20 @@ fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
     let row = |side: Side| {
         let most = side.balls.iter().map(|(_, c)| c.pressure).fold(0.0, f64::max);
         BallRow {
-            note: format!("largest pressure {:.2} GPa", 1e-9 * most),
+            note: format!("maximum contact pressure {:.2} GPa", 1e-9 * most),
             angle_deg: side.balls.iter().map(|(b, _)| b.position.to_degrees()).collect(),
             load: side.balls.iter().map(|(_, c)| c.load).collect(),
             title: side.name,
         }
     };
     BallLoads {
-        title: format!("Ball loads of bearing {}", found.name),
+        title: format!("Load distribution of bearing {}", found.name),
         note: note.into(),
         rows: sides(found).into_iter().map(row).collect(),
     }
 }
 
-/// Loaded balls by their position.
+/// Contact angles of the loaded balls over their position.
 fn contact_angles(found: &BearingResult, note: &str) -> Lines {
     let curve = |side: Side| {
         let loaded = || side.balls.iter().filter(|(_, c)| c.load > 0.0);
@@ -113,7 +114,7 @@ fn contact_angles(found: &BearingResult, note: &str) -> Lines {
         }
     };
     let mut curves: Vec<Curve> = sides(found).into_iter().map(curve).collect();
-    // Massless balls have one angle.
+    // Without ball inertia both contact angles of a ball are equal.
     if curves.chunks(2).all(|pair| pair[0].y == pair[pair.len() - 1].y) {
         curves = curves.into_iter().step_by(2).collect();
         curves.iter_mut().for_each(|c| c.label = c.label.replace("inner race", "both races"));
@@ -121,7 +122,7 @@ fn contact_angles(found: &BearingResult, note: &str) -> Lines {
     Lines {
         title: format!("Contact angles of the loaded balls of bearing {}", found.name),
         note: note.into(),
-        x_name: "ball position from x towards y".into(),
+        x_name: "ball position angle from x to y".into(),
         x_unit: "°".into(),
         y_name: "contact angle".into(),
         y_unit: "°".into(),
@@ -138,7 +139,7 @@ fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid 
     let operating = match sweep.of {
         Swept::Speed => Some(at.condition.speed),
         Swept::CageAngle => Some(at.condition.cage_angle),
-        // The sweep's values grow with the load from nothing: where it passes the operating one.
+        // The load sweep starts at zero: mark the operating load.
         Swept::Load => crossing(sweep, found.point.largest_load()),
         Swept::Displacement => None,
     };
@@ -152,7 +153,7 @@ fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid 
     }
 }
 
-/// The value at which the largest ball load of a sweep is that of the operating point.
+/// Sweep value at which the maximum ball load equals that of the operating point.
 fn crossing(sweep: &BearingSweepResult, load: f64) -> Option<f64> {
     let loads: Vec<f64> = sweep.points.iter().map(BearingPoint::largest_load).collect();
     let k = loads.windows(2).position(|w| w[0] < load && load <= w[1])?;
@@ -160,7 +161,7 @@ fn crossing(sweep: &BearingSweepResult, load: f64) -> Option<f64> {
     Some(sweep.values[k] + part * (sweep.values[k + 1] - sweep.values[k]))
 }
 
-/// Name, unit and factor from SI of what a sweep varies.
+/// Name, unit and factor from SI of the swept quantity.
 fn abscissa(sweep: &BearingSweepResult) -> (String, &'static str, f64) {
     match (sweep.of, sweep.unit) {
         (Swept::Speed, _) => ("shaft speed".into(), "rpm", TO_RPM),
@@ -183,7 +184,7 @@ fn panel(name: &str, unit: &str, from_zero: bool, curves: Vec<Curve>) -> GridPan
     GridPanel { name: name.into(), unit: unit.into(), curves, from_zero, log_y: false }
 }
 
-/// The five diagonal entries and the couplings that there are.
+/// The five diagonal stiffnesses and the non-zero cross-coupling stiffnesses.
 fn stiffness(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
     // Unit and factor from SI.
     let shown = |a: usize, b: usize| match usize::from(a > 2) + usize::from(b > 2) {
@@ -224,7 +225,7 @@ fn displacement(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
     let most = |value: &dyn Fn(&BearingPoint) -> f64| {
         sweep.points.iter().map(|p| value(p).abs()).fold(0.0, f64::max)
     };
-    // What symmetry keeps at nothing but for round-off has no panel.
+    // Quantities that are zero by symmetry, except for round-off, get no panel.
     let moves = |k: usize| most(&|p| p.state.displacement[k]) * if k > 2 { arm } else { 1.0 } > 1e-13;
     let push = |k: usize| most(&|p| p.state.load[k]) / if k > 2 { arm } else { 1.0 };
     let largest = (0..5).map(push).fold(0.0, f64::max);
@@ -241,7 +242,7 @@ fn displacement(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
     Grid { panels, ..over(found, sweep, "Displacement") }
 }
 
-/// Rating lives in 10⁶ revolutions.
+/// Rating lives (ISO 281, ISO/TS 16281) in 10⁶ revolutions.
 fn life(found: &BearingResult, sweep: &BearingSweepResult, note: &str) -> Lines {
     let of =
         |label: &str, value: fn(&BearingPoint) -> f64| Curve { label: label.into(), ..curve(sweep, value) };
@@ -268,7 +269,7 @@ fn life(found: &BearingResult, sweep: &BearingSweepResult, note: &str) -> Lines 
 fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
     type Pick = fn(&BallState) -> &ContactState;
     let races: [Pick; 2] = [|b| &b.inner, |b| &b.outer];
-    // The value of both races in the ball that carries most.
+    // Value at both races of the most loaded ball.
     let most = |value: fn(&ContactState) -> f64| -> Vec<Curve> {
         let of = |pick: Pick| {
             curve(sweep, move |p| {
@@ -279,16 +280,16 @@ fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
         races.iter().map(|pick| of(*pick)).collect()
     };
     let mut panels = vec![
-        panel("largest ball load", "N", true, most(|c| c.load)),
-        panel("its contact angle", "°", false, most(|c| c.angle.to_degrees())),
-        panel("its pressure", "GPa", true, most(|c| 1e-9 * c.pressure)),
+        panel("max ball load", "N", true, most(|c| c.load)),
+        panel("contact angle", "°", false, most(|c| c.angle.to_degrees())),
+        panel("contact pressure", "GPa", true, most(|c| 1e-9 * c.pressure)),
         panel("loaded balls", "–", true, vec![curve(sweep, |p| p.loaded() as f64)]),
     ];
     if sweep.points.iter().any(|p| p.least_film() > 0.0) {
-        panels.push(panel("its central film", "µm", true, most(|c| 1e6 * c.film)));
-        panels.push(panel("its minimum film", "µm", true, most(|c| 1e6 * c.least_film)));
+        panels.push(panel("central film", "µm", true, most(|c| 1e6 * c.film)));
+        panels.push(panel("minimum film", "µm", true, most(|c| 1e6 * c.least_film)));
         panels.push(panel("film ratio λ", "–", true, vec![curve(sweep, |p| p.film_ratio)]));
     }
     let legend = vec!["inner race".to_string(), "outer race".to_string()];
-    Grid { panels, legend, ..over(found, sweep, "Contacts") }
+    Grid { panels, legend, ..over(found, sweep, "Contacts of the most loaded ball") }
 }

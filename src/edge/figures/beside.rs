@@ -1,4 +1,5 @@
-//! A measured run and the model's own: maps and waterfalls side by side, order levels on common axes.
+//! Measured and computed run-up: spectrogram maps and waterfalls next to each other, order cuts on common
+//! axes.
 
 use super::Named;
 use super::display::{quantity, unit};
@@ -15,7 +16,7 @@ pub fn figures(
 ) -> Vec<Named> {
     let of_one = |pair: &ChannelPair| {
         let [measured, computed] = &pair.spectrograms;
-        let title = format!("Run-up seen in {}, measured and computed", pair.channel);
+        let title = format!("Run-up, {}: measured and computed", pair.channel);
         let maps = spectrograms(&[("measured", measured), ("computed", computed)], &title, campbell, machine);
         let cuts = ("order_cuts", Figure::Grid(cuts(pair, machine)));
         let named = |(kind, figure)| (format!("{prefix}_{kind}_{}", pair.channel), figure);
@@ -24,7 +25,7 @@ pub fn figures(
     pairs.iter().flat_map(of_one).collect()
 }
 
-/// Levels of every order over speed, a panel each.
+/// Order cuts (RMS over speed), one panel per order.
 fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
     let shown = unit(&pair.unit);
     let curve = |of: &OrderResult, k: usize| Curve {
@@ -41,7 +42,7 @@ fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
         log_y: false,
     };
     Grid {
-        title: format!("Orders of the {} in {}", quantity(&pair.unit), pair.channel),
+        title: format!("Order cuts of the {}, {}", quantity(&pair.unit), pair.channel),
         note: machine.model.title.clone(),
         x_name: "shaft speed".into(),
         x_unit: "rpm".into(),

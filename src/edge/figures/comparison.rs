@@ -1,4 +1,4 @@
-//! Variants of a model on common axes.
+//! FRFs and Campbell diagrams of model variants on common axes.
 
 use super::display::pretty;
 use super::response::frf_curve;
@@ -13,7 +13,7 @@ pub fn figures(variants: &[(String, &Results)]) -> Vec<Named> {
     figures
 }
 
-/// One figure for every excitation and response that two variants or more have.
+/// One figure for every excitation and response present in at least two variants.
 fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
     let with: Vec<(&str, &FrfResult)> =
         variants.iter().filter_map(|(name, r)| Some((name.as_str(), r.frf.as_ref()?))).collect();
@@ -42,8 +42,8 @@ fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
         }
         if curves.len() > 1 {
             let figure = Frf {
-                title: format!("{response} under a force at {excitation}"),
-                note: "by model".into(),
+                title: format!("FRF: response {response}, force at {excitation}"),
+                note: "by variant".into(),
                 quantity: name.into(),
                 unit: pretty(unit),
                 curves,
@@ -54,7 +54,7 @@ fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
     figures
 }
 
-/// The branches of every variant in the style of the variant.
+/// Mode branches of all variants, one line style per variant.
 fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
     let found = || variants.iter().filter_map(|(name, results)| Some((name, results.campbell.as_ref()?)));
     let top = found().map(|(_, c)| speed::top(&speed::branches(c), c)).fold(0.0, f64::max);
@@ -67,7 +67,7 @@ fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
                 let hz = mode.as_ref().map(Mode::frequency_hz).filter(|hz| *hz <= top);
                 curve.y.push(hz.unwrap_or(f64::NAN));
             }
-            // A gap between branches.
+            // NaN separates the branches.
             curve.x.push(f64::NAN);
             curve.y.push(f64::NAN);
         }
@@ -75,7 +75,7 @@ fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
     }
     let figure = Lines {
         title: "Campbell diagrams".into(),
-        note: "by model".into(),
+        note: "by variant".into(),
         x_name: "shaft speed".into(),
         x_unit: "rpm".into(),
         y_name: "natural frequency".into(),

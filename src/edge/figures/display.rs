@@ -1,13 +1,13 @@
-//! Units as figures show them.
+//! Display units of figures.
 
-/// A unit to draw in: factor from SI and its name.
+/// Display unit: factor from SI and name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Display {
     pub factor: f64,
     pub name: &'static str,
 }
 
-/// The unit in which a quantity stored in `si` is drawn; decibels are relative to one of it.
+/// Display unit of a quantity stored in the unit `si`; also the reference of dB levels.
 pub fn unit(si: &str) -> Display {
     let (factor, name) = match si {
         "m" => (1e6, "µm"),
@@ -23,7 +23,7 @@ pub fn unit(si: &str) -> Display {
     Display { factor, name }
 }
 
-/// What a unit measures.
+/// Name of the quantity with a unit.
 pub fn quantity(si: &str) -> &'static str {
     match si {
         "m" => "displacement",
@@ -38,12 +38,12 @@ pub fn quantity(si: &str) -> &'static str {
     }
 }
 
-/// Levels in dB re one unit of `display`.
+/// Levels in dB re 1 unit of `display`.
 pub fn decibels(amplitude: &[f64], display: Display) -> Vec<f64> {
     amplitude.iter().map(|a| 20.0 * (a * display.factor).log10()).collect()
 }
 
-/// `m/s^2` as `m/s²`.
+/// Typographic unit: `m/s^2` becomes `m/s²`.
 pub fn pretty(si: &str) -> String {
     si.replace("^2", "²").replace("N m", "N·m")
 }

@@ -1,4 +1,4 @@
-//! What was identified in FRFs, to be seen: stabilisation, fit, likeness of the shapes, the shapes.
+//! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::linalg::Complex64;
 use crate::model::Quantity;
 use crate::signal::record::{Dof, FrfMatrix, Geometry};
 
-/// FRFs drawn, those that fit best, worst and between.
+/// Number of FRFs drawn, evenly spread from the best to the worst fit.
 const DRAWN: usize = 6;
 
 /// Draws the figures of an identification; returns the SVG files.
@@ -48,7 +48,7 @@ fn stabilisation(found: &Identified, title: &str) -> Named {
     let figure = Stabilisation {
         title: "Stabilisation diagram".into(),
         note: format!(
-            "settled: within 1 % in frequency, 5 % in damping, MAC 0.95 of the order before; {title}"
+            "stable: within 1 % in frequency, 5 % in damping, MAC 0.95 of the previous order; {title}"
         ),
         poles: found.diagram.iter().map(|p| (hz(p.value), p.order, state(p.stability))).collect(),
         hz: found.frequencies.clone(),
@@ -58,7 +58,8 @@ fn stabilisation(found: &Identified, title: &str) -> Named {
     ("stabilisation".into(), Figure::Stabilisation(figure))
 }
 
-/// Complex mode indicator: singular values of the FRF matrix at every line, each FRF over its RMS.
+/// Complex mode indicator function (CMIF): singular values of the FRF matrix at every frequency line, each
+/// response row divided by its RMS.
 fn indicator(found: &Identified) -> Vec<Vec<f64>> {
     let (responses, references) = (found.responses.len(), found.references.len());
     let values = responses.min(references).min(3);
@@ -71,7 +72,7 @@ fn indicator(found: &Identified) -> Vec<Vec<f64>> {
         .collect();
     for k in 0..found.frequencies.len() {
         let h = DMatrix::from_fn(responses, references, |r, e| found.measured[r][e][k] / sizes[r]);
-        // Of the smaller side's square; its eigenvalues are the squares.
+        // Gram matrix of the smaller dimension: its eigenvalues are the squared singular values.
         let square = if responses > references { h.adjoint() * &h } else { &h * h.adjoint() };
         let mut sizes: Vec<f64> = square.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
         sizes.sort_by(|a, b| b.total_cmp(a));
@@ -84,7 +85,7 @@ fn auto_mac(found: &Identified, title: &str) -> Named {
     let names: Vec<String> = found.modes.iter().map(|m| format!("{:.2} Hz", m.frequency_hz())).collect();
     let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
     let figure = Matrix {
-        title: "AutoMAC of the identified shapes".into(),
+        title: "Auto-MAC of the identified mode shapes".into(),
         note: format!("{title}; over the {} {side}", found.deflection(&found.modes[0]).0.len()),
         rows: names.clone(),
         columns: names,
@@ -120,11 +121,11 @@ fn fits(found: &Identified, frfs: &FrfMatrix, title: &str) -> Vec<Named> {
             let (response, reference) = (found.responses[r], found.references[e]);
             let error = 100.0 * found.errors[r][e];
             let figure = Frf {
-                title: format!("Response {response} to reference {reference}, measured and synthesised"),
+                title: format!("FRF: response {response}, reference {reference}, measured and synthesised"),
                 note: format!("{title}; fit error {error:.2} % of this FRF"),
                 quantity: name(found.quantity).into(),
                 unit: match frfs.units[r][e].as_str() {
-                    "" => "unit not known".into(),
+                    "" => "unknown unit".into(),
                     unit => pretty(unit),
                 },
                 curves: vec![
@@ -146,7 +147,7 @@ fn name(quantity: Quantity) -> &'static str {
     }
 }
 
-/// Shapes where every point that moved has a place.
+/// Mode shapes on the wireframe, if the geometry contains all measured points.
 fn shapes(found: &Identified, geometry: &Geometry, title: &str) -> Option<Named> {
     let first = found.modes.first()?;
     let (dofs, _) = found.deflection(first);
@@ -156,10 +157,10 @@ fn shapes(found: &Identified, geometry: &Geometry, title: &str) -> Option<Named>
     }
     let shape = |(k, mode): (usize, &Mode)| {
         let (dofs, values) = found.deflection(mode);
-        // Turned to where the real part is largest.
+        // Rotate the phase to maximise the real part.
         let square: Complex64 = values.iter().map(|v| v * v).sum();
         let turn = Complex64::from_polar(1.0, -0.5 * square.arg());
-        // Points that were not measured are left out of the deflected lines.
+        // Unmeasured points stay NaN and are omitted from the deflected lines.
         let mut motion = vec![[f64::NAN; 3]; geometry.nodes.len()];
         dofs.iter().filter_map(|d| index(d.node)).for_each(|at| motion[at] = [0.0; 3]);
         for (dof, value) in dofs.iter().zip(values).filter(|(d, _)| !d.is_rotation()) {
@@ -175,8 +176,8 @@ fn shapes(found: &Identified, geometry: &Geometry, title: &str) -> Option<Named>
     };
     let stroke = |stroke: &Vec<i64>| stroke.iter().filter_map(|n| index(*n)).collect::<Vec<_>>();
     let figure = Wireframe {
-        title: "Identified shapes".into(),
-        note: format!("{title}; at the phase of the largest deflection"),
+        title: "Identified mode shapes".into(),
+        note: format!("{title}; real part at the phase of the largest deflection"),
         points: geometry.nodes.iter().map(|n| n.position).collect(),
         strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
         shapes: found.modes.iter().enumerate().map(shape).collect(),

@@ -1,4 +1,4 @@
-//! The machine itself, its equilibrium and its modes.
+//! Figures of the machine layout, the static equilibrium and the mode shapes.
 
 use super::{Named, TO_RPM};
 use crate::analysis::Mode;
@@ -14,7 +14,7 @@ use crate::model::Model;
 use crate::results::ModalResult;
 use crate::study::Machine;
 
-/// Width and height over the shaft drawn for a bearing without dimensions, over the shaft's diameter.
+/// Drawn width and radial height of a bearing without dimensions, in shaft diameters.
 const PLAIN_BEARING: [f64; 2] = [0.5, 0.35];
 
 pub fn rig(machine: &Machine) -> Named {
@@ -49,7 +49,7 @@ pub fn rig(machine: &Machine) -> Named {
         let (a, b) = (place(model, &bushing.a), place(model, &bushing.b));
         let grounded = bushing.a.node.is_none() || bushing.b.node.is_none();
         let [from, to] = if bushing.a.node.is_none() { [b, a] } else { [a, b] };
-        // A spring of no length is drawn from the body's lower edge down to the ground.
+        // A zero-length spring is drawn from the lower edge of the body to the ground.
         let below = bushing.a.node.or(bushing.b.node).map_or(0.0, |node| lower_edge(model, node));
         let drop = 0.35 * below.abs().max(0.02);
         match (from[1] - to[1]).hypot(from[0] - to[0]) < 1e-6 {
@@ -113,7 +113,7 @@ fn plain_support(label: String, z: f64, shaft: f64) -> RigSupport {
     RigSupport { label, z, width, bore: shaft, outside: shaft + height }
 }
 
-/// \[z, y\] of a point.
+/// \[z, y\] of an anchor point.
 fn place(model: &Model, at: &Anchor) -> [f64; 2] {
     let nodes = model.node_z.len();
     let [y, z] = match at.node {
@@ -124,7 +124,7 @@ fn place(model: &Model, at: &Anchor) -> [f64; 2] {
     [z + at.offset[2], y + at.offset[1]]
 }
 
-/// Height of the lower edge of a body, or of the shaft \[m\].
+/// y of the lower edge of a body or of the shaft \[m\].
 fn lower_edge(model: &Model, node: usize) -> f64 {
     match node.checked_sub(model.node_z.len()) {
         Some(body) => {
@@ -142,7 +142,7 @@ pub fn equilibrium(found: &Equilibrium, machine: &Machine) -> Vec<Named> {
     let column = |d: usize| (0..nodes).map(|k| q[6 * k + d]).collect();
     let note = format!("{}, static equilibrium at {:.0} rpm", model.title, found.speed * TO_RPM);
     let deflection = Deflection {
-        title: "Static deflection".into(),
+        title: "Static deflection of the shaft".into(),
         note: note.clone(),
         z: model.node_z.clone(),
         u_x: column(0),
@@ -150,7 +150,7 @@ pub fn equilibrium(found: &Equilibrium, machine: &Machine) -> Vec<Named> {
         stations: model.stations.iter().map(|s| Mark { label: s.name.clone(), z: s.z }).collect(),
     };
     let row = |bearing: &BearingState| {
-        // Rounded first, plus zero: no "-0".
+        // Rounded first, plus zero: avoids "-0".
         let [x, y, z, ..] = bearing.force.map(|f| f.round());
         BallRow {
             title: format!("bearing {}", bearing.name),
@@ -162,7 +162,7 @@ pub fn equilibrium(found: &Equilibrium, machine: &Machine) -> Vec<Named> {
     let rows: Vec<BallRow> = found.bearings.iter().filter(|b| !b.balls.is_empty()).map(row).collect();
     let mut figures = vec![("static_deflection".into(), Figure::Deflection(deflection))];
     if !rows.is_empty() {
-        let loads = BallLoads { title: "Ball loads".into(), note, rows };
+        let loads = BallLoads { title: "Load distribution of the ball bearings".into(), note, rows };
         figures.push(("ball_loads".into(), Figure::BallLoads(loads)));
     }
     figures
@@ -210,7 +210,7 @@ fn shape(mode: &Mode, model: &Model) -> ModeShape {
     }
 }
 
-/// The kind as figures colour it.
+/// Colour class of a mode kind.
 pub fn whirl(kind: ModeKind) -> Whirl {
     match kind {
         ModeKind::Forward => Whirl::Forward,

@@ -1,23 +1,23 @@
-//! Every figure of a machine's results, by name.
+//! All figures of the results, by file name.
 //!
-//! | name | shows |
+//! | name | content |
 //! |---|---|
-//! | `rig` | the machine as understood, from the side |
-//! | `static_deflection`, `ball_loads` | equilibrium |
-//! | `modes_<speed>rpm`, `campbell` | modes |
-//! | `frf_<excitation>` | frequency responses, rotations apart (`_rotation`) |
-//! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | steady unbalance response |
-//! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | the run-up over time |
-//! | `spectrogram_<channel>`, `waterfall_<channel>` | frequency over speed, linear Campbell lines laid over |
-//! | `orders_<channel>`, `order_cuts_<channel>` | orders over speed |
-//! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion |
-//! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | a bearing on its own at its operating point |
-//! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | over load, displacement, speed, cage angle |
-//! | `signal_<what>_<channel>` | a record on its own: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
-//! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | modes identified from FRFs |
-//! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | a model beside measurements; `update_...` before and after |
-//! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | a run-up measured and computed, side by side |
-//! | `comparison_frf_...`, `comparison_campbell` | variants of a model on one page |
+//! | `rig` | layout of the machine, side view |
+//! | `static_deflection`, `ball_loads` | static equilibrium |
+//! | `modes_<speed>rpm`, `campbell` | mode shapes, Campbell diagram |
+//! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
+//! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
+//! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
+//! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
+//! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts |
+//! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
+//! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
+//! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
+//! | `signal_<what>_<channel>` | signal analysis of a record: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
+//! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | experimental modal analysis of FRFs |
+//! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
+//! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
+//! | `comparison_frf_...`, `comparison_campbell` | model variants on common axes |
 
 mod bearing;
 mod beside;
@@ -45,13 +45,13 @@ use crate::results::{BearingResult, CampbellResult, ChannelPair, Results, Signal
 use crate::study::Machine;
 use crate::update::target::Target;
 
-/// Frequency in Hz or speed in rpm of an angular one.
+/// rpm per rad/s.
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
-/// A figure with the name of its files.
+/// A figure with its file name (without extension).
 type Named = (String, Figure);
 
-/// Draws every figure of the filled parts as `<name>.svg` and `<name>.png`; returns the SVG files.
+/// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -75,7 +75,7 @@ pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<P
     write_all(&figures, folder)
 }
 
-/// Draws every figure of ball bearings on their own; returns the SVG files.
+/// Draws all figures of ball bearing analyses; returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -83,7 +83,7 @@ pub fn draw_bearings(found: &[BearingResult], title: &str, folder: &Path) -> Res
     write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
 }
 
-/// Draws every figure of records on their own; `title` names their file. Returns the SVG files.
+/// Draws all figures of analysed records; `title` is the name of their file. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -91,7 +91,7 @@ pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result
     write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), folder)
 }
 
-/// Draws the envelope spectra of two records, each with the title of its file, one under the other.
+/// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -111,7 +111,8 @@ pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result
     write_all(&comparison::figures(variants), folder)
 }
 
-/// Draws a measurement beside stages of a model, names beginning with `prefix`; returns the SVG files.
+/// Draws the comparison of a measurement with stages of a model; file names start with `prefix`. Returns the
+/// SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -125,7 +126,7 @@ pub fn draw_validation(
     write_all(&validation::figures(prefix, title, target, stages), folder)
 }
 
-/// Draws a measured run and the computed one, names beginning with `prefix`; returns the SVG files.
+/// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -153,7 +154,7 @@ fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(stems.iter().map(|stem| folder.join(format!("{stem}.svg"))).collect())
 }
 
-/// A name that every file system takes: what is neither letter, digit, dot nor dash becomes `_`.
+/// Portable file name: characters other than letters, digits, dot, underscore and dash become `_`.
 pub fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()
 }

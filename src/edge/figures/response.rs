@@ -1,4 +1,4 @@
-//! Frequency responses and the steady unbalance response.
+//! Frequency response functions and the synchronous unbalance response.
 
 use super::display::{pretty, quantity, unit};
 use super::{Named, TO_RPM};
@@ -11,7 +11,7 @@ use crate::results::{
 };
 use crate::study::Machine;
 
-/// Points of an orbit.
+/// Points of a drawn orbit.
 const ORBIT_POINTS: usize = 181;
 
 pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
@@ -28,7 +28,7 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
                 continue;
             }
             let figure = Frf {
-                title: format!("Response to a force at {excitation}"),
+                title: format!("FRFs for a force at {excitation}"),
                 note: format!("{}, {:.0} rpm", machine.model.title, found.speed * TO_RPM),
                 quantity: found.name().into(),
                 unit: pretty(unit),
@@ -53,7 +53,7 @@ pub fn frf_curve(found: &FrfResult, response: usize, excitation: usize, label: &
     }
 }
 
-/// Synchronous critical speeds, from the list up to a speed or else from the diagram.
+/// Synchronous (1x) critical speeds, from the critical speed study, else from the Campbell diagram.
 pub fn criticals(results: &Results) -> Vec<Critical> {
     let list = match (&results.critical, &results.campbell) {
         (Some(found), _) => &found.speeds[..],
@@ -92,7 +92,7 @@ pub fn unbalance(found: &UnbalanceResult, criticals: &[Critical], machine: &Mach
                 amplitude: c.amplitude.iter().map(|[re, im]| shown.factor * re.hypot(*im)).collect(),
                 phase_deg: c.amplitude.iter().map(|[re, im]| im.atan2(*re).to_degrees()).collect(),
             })
-            // What an unbalance does not move has no phase.
+            // Channels not excited by the unbalance have no phase.
             .filter(|c| c.amplitude.iter().any(|a| *a > 0.0))
             .collect();
         if curves.is_empty() {
@@ -107,7 +107,7 @@ pub fn unbalance(found: &UnbalanceResult, criticals: &[Critical], machine: &Mach
         let name = quantity(of).replace(' ', "_");
         let peak = |c: &BodeCurve| c.amplitude.iter().copied().fold(0.0, f64::max);
         let largest = curves.iter().map(peak).fold(0.0, f64::max);
-        // On the linear scale of a polar plot anything smaller is a dot.
+        // Smaller curves would be dots on the linear scale of a polar plot.
         let polars = curves.iter().filter(|c| peak(c) > 0.05 * largest);
         let polar_figure = Polar {
             title: format!("Unbalance response, {}", quantity(of)),
@@ -135,7 +135,7 @@ pub fn unbalance(found: &UnbalanceResult, criticals: &[Critical], machine: &Mach
     figures
 }
 
-/// A disc's orbit where it is largest and at top speed.
+/// Orbits of a disc at its largest amplitude and at the highest speed.
 fn disc_orbits(orbit: &DiscOrbit, rpm: &[f64]) -> Vec<Orbit> {
     let ellipse = |k: usize| {
         let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);

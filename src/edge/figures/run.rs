@@ -1,4 +1,4 @@
-//! The run-up over time, its spectra over speed.
+//! Figures of a run-up: time histories, spectrograms, waterfalls, order maps and order cuts.
 
 use super::display::{Display, decibels, quantity, unit};
 use super::speed::{branches, order_lines};
@@ -11,9 +11,9 @@ use crate::results::{self, CampbellResult, HistoryChannel, OrderResult, Spectrog
 use crate::signal::waterfall::waterfall;
 use crate::study::Machine;
 
-/// Levels shown below the highest where the model file says nothing \[dB\].
+/// Default dynamic range of level maps \[dB\].
 const SPAN_DB: f64 = 70.0;
-/// Spectra of a waterfall.
+/// Number of spectra of a waterfall.
 const STEPS: usize = 40;
 
 pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
@@ -60,12 +60,12 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
     let energies: Vec<Channel> =
         energies.map(|c| channel(c, c.name.replace("energy_", "").replace('_', " "))).collect();
     if !energies.is_empty() {
-        figures.push(figure("run_up_energy".into(), "Run-up, energy account".into(), energies));
+        figures.push(figure("run_up_energy".into(), "Run-up, energy balance".into(), energies));
     }
     figures
 }
 
-/// Spectra of one run over its speed.
+/// Spectra of one run over speed.
 pub(super) struct OverSpeed<'a> {
     pub name: &'a str,
     /// Speed of every frame \[rpm\].
@@ -75,7 +75,7 @@ pub(super) struct OverSpeed<'a> {
     pub amplitude: &'a [f64],
 }
 
-/// Waterfalls of runs at common speeds, amplitudes times `factor`; none where no speed changes.
+/// Waterfalls of runs at common speeds, amplitudes times `factor`; none if the speed is constant.
 pub(super) fn waterfall_panels(runs: &[OverSpeed], factor: f64) -> Vec<WaterfallPanel> {
     let every = || runs.iter().flat_map(|r| r.rpm.iter());
     let (lo, hi) = every().fold((f64::INFINITY, 0.0f64), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
@@ -85,7 +85,7 @@ pub(super) fn waterfall_panels(runs: &[OverSpeed], factor: f64) -> Vec<Waterfall
     }
     let steps: Vec<f64> = (0..=STEPS).map(|k| lo + step * k as f64).collect();
     let panel = |run: &OverSpeed| {
-        // Its refusals (NaN, sizes that do not fit) cannot come from a spectrogram.
+        // Its errors (NaN, size mismatch) cannot occur with a spectrogram.
         let rows = waterfall(run.hz, run.amplitude, run.rpm, &steps, 0.5 * step).ok()?;
         Some(WaterfallPanel {
             name: run.name.into(),
@@ -102,13 +102,14 @@ pub fn spectrogram(
     campbell: Option<&CampbellResult>,
     machine: &Machine,
 ) -> Vec<Named> {
-    spectrograms(&[("", found)], &format!("Run-up seen in {}", found.channel), campbell, machine)
+    spectrograms(&[("", found)], &format!("Spectra of the run-up, {}", found.channel), campbell, machine)
         .into_iter()
         .map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure))
         .collect()
 }
 
-/// Map and waterfall of one channel in runs side by side, each with its name; as "spectrogram" and "waterfall".
+/// Spectrogram map and waterfall of one channel, one panel per named run; kinds "spectrogram" and
+/// "waterfall".
 pub(super) fn spectrograms(
     runs: &[(&str, &SpectrogramResult)],
     title: &str,
@@ -168,7 +169,7 @@ pub fn orders(found: &OrderResult, machine: &Machine) -> Vec<Named> {
     let lines: Vec<results::OrderLine> = found.cuts.iter().map(|(line, _)| line.clone()).collect();
     let span_db = machine.model.studies.spectrogram.as_ref().map_or(SPAN_DB, |study| study.dynamic_range_db);
     let map = OrderMap {
-        title: format!("Orders of the run-up, {}", found.channel),
+        title: format!("Order map of the run-up, {}", found.channel),
         note: note.clone(),
         rpm: s.rpm.clone(),
         order: s.orders.clone(),

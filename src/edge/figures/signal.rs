@@ -1,4 +1,4 @@
-//! Records looked at with the tools of signal processing.
+//! Figures of a signal analysis: record, spectra, envelope, kurtogram, cepstrum.
 
 use super::Named;
 use super::display::{Display, decibels, quantity, unit};
@@ -11,19 +11,19 @@ use crate::signal::diagnosis::BandRule;
 use crate::signal::kurtogram::Kurtogram;
 use crate::signal::spectrum::Spectrum;
 
-/// Groups of cursors: the shaft, then the bearing's parts.
+/// Groups of cursors: the shaft, then the bearing parts.
 pub const GROUPS: [&str; 5] = ["shaft", "BPFO", "BPFI", "2 BSF", "FTF"];
-/// Multiples of BPFI that an envelope's axis shows.
+/// Upper end of the axis of an envelope spectrum, in multiples of BPFI.
 const SHOWN: f64 = 3.3;
-/// Highest order shown of an envelope without a bearing.
+/// Highest order shown of an envelope spectrum without a bearing.
 const SHOWN_ORDER: f64 = 20.0;
 
-/// Group of a part's cursors.
+/// Cursor group of a bearing part.
 pub fn group(part: BearingPart) -> usize {
     1 + BearingPart::ALL.iter().position(|p| *p == part).unwrap_or(0)
 }
 
-/// Every figure of one channel; `title` is that of its file.
+/// All figures of one channel; `title` is that of its file.
 pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
     let name = |what: &str| format!("signal_{what}_{}", r.channel);
     let note = note(r, title);
@@ -38,8 +38,8 @@ pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
         out.push((name("envelope"), Figure::CursorLines(envelope(&[(r, found, title)], &note))));
         if let Some(compared) = found.compared.as_ref().filter(|_| found.rule == BandRule::Lines) {
             let map = HeatMap {
-                title: format!("Bands of {} by the bearing lines they show", r.channel),
-                quantity: "lines over background".into(),
+                title: format!("Demodulation bands of {} by the level of bearing lines", r.channel),
+                quantity: "bearing lines above background".into(),
                 unit: "dB".into(),
                 ..bands(compared, &note)
             };
@@ -49,7 +49,7 @@ pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
     if let Some(found) = &r.kurtogram {
         let map = HeatMap {
             title: format!("Kurtogram of {}", r.channel),
-            quantity: "kurtosis of the envelope".into(),
+            quantity: "envelope kurtosis".into(),
             ..bands(&found.kurtogram, &note)
         };
         out.push((name("kurtogram"), Figure::HeatMap(map)));
@@ -62,7 +62,7 @@ pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
     out
 }
 
-/// The envelope spectra of two records, where both have one.
+/// Envelope spectra of two records, if both have one.
 pub fn against(of: [(&SignalResult, &str); 2]) -> Option<Named> {
     let [first, second] = of.map(|(r, title)| Some((r, r.envelope.as_ref()?, title)));
     let pair = [first?, second?];
@@ -70,12 +70,12 @@ pub fn against(of: [(&SignalResult, &str); 2]) -> Option<Named> {
         r.shaft.as_ref().map_or("unknown speed".into(), |s| format!("{:.0} rpm", 60.0 * s.mean))
     };
     let bearing = of[0].0.bearing.as_ref().map_or(String::new(), |b| format!(", bearing {}", b.name));
-    let note = format!("{} above, {} below{bearing}", speed(of[0].0), speed(of[1].0));
+    let note = format!("top {}, bottom {}{bearing}", speed(of[0].0), speed(of[1].0));
     let name = format!("signal_envelope_{}_against_{}", of[0].0.channel, of[1].0.channel);
     Some((name, Figure::CursorLines(envelope(&pair, &note))))
 }
 
-/// Rate, speed, bearing, file.
+/// Note line: file, speed, bearing, number of samples, sampling rate.
 fn note(r: &SignalResult, title: &str) -> String {
     let mut parts = vec![title.to_string()];
     if let Some(s) = &r.shaft {
@@ -92,12 +92,12 @@ fn note(r: &SignalResult, title: &str) -> String {
     parts.join(", ")
 }
 
-/// The unit that a channel is drawn in; none where it is not known.
+/// Display unit of a channel; empty if unknown.
 pub fn shown(r: &SignalResult) -> Display {
     if r.unit.is_empty() { Display { factor: 1.0, name: "" } } else { unit(&r.unit) }
 }
 
-/// What a channel measures.
+/// Name of the quantity of a channel.
 pub fn measured(r: &SignalResult) -> &'static str {
     if r.unit.is_empty() { "amplitude" } else { quantity(&r.unit) }
 }
@@ -121,7 +121,7 @@ fn record(r: &SignalResult, note: &str) -> History {
     let (label, quantity, unit) = ("shaft speed".into(), "speed".into(), "rpm".into());
     let speed = (!time.is_empty()).then_some(Channel { label, quantity, unit, time, value });
     History {
-        title: format!("Record {}", r.channel),
+        title: format!("Time record {}", r.channel),
         note: note.into(),
         channels: speed.into_iter().chain([channel]).collect(),
     }
@@ -129,7 +129,7 @@ fn record(r: &SignalResult, note: &str) -> History {
 
 fn spectrum(r: &SignalResult, found: &Spectrum, note: &str) -> CursorLines {
     let d = shown(r);
-    // The mean at 0 is no line.
+    // Skip the mean at 0 Hz.
     let curve = Curve {
         x: found.frequencies[1..].to_vec(),
         y: scaled(&found.values[1..], d.factor),
@@ -156,7 +156,7 @@ fn spectrum(r: &SignalResult, found: &Spectrum, note: &str) -> CursorLines {
 fn density(r: &SignalResult, found: &Spectrum, note: &str) -> Lines {
     let d = shown(r);
     let unit = if d.name.is_empty() { "1/Hz".into() } else { format!("({})²/Hz", d.name) };
-    // Zero frequency holds what the removed means leave.
+    // Skip 0 Hz: only the remainder of the removed means.
     let curve = Curve {
         x: found.frequencies[1..].to_vec(),
         y: scaled(&found.values[1..], d.factor * d.factor),
@@ -175,8 +175,8 @@ fn density(r: &SignalResult, found: &Spectrum, note: &str) -> Lines {
     }
 }
 
-/// Envelope spectra of one record or of several, one under the other; with a shaft's speed in all, over orders if they
-/// are several.
+/// Envelope spectra of one or several records, one panel each; several records with known speeds are drawn
+/// over orders.
 pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> CursorLines {
     let (r, found, _) = of[0];
     let several = of.len() > 1;
@@ -220,7 +220,7 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
     }
 }
 
-/// Which record a panel is of, and what it says.
+/// Label of a panel: record, band and bearing diagnosis.
 fn panel_label(r: &SignalResult, found: &EnvelopeResult, title: &str) -> String {
     let verdict = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.verdict_name()));
     let (low, high) = found.band;
@@ -253,14 +253,14 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
     for family in &lines.families {
         let harmonics = if lines.verdict == Some(family.part) { 3 } else { 1 };
         for n in 1..=harmonics {
-            // The rate as found where it was, else as expected.
+            // Measured frequency if detected, else the expected one.
             let base = if family.found { family.frequency } else { family.expected } / divisor;
             let at = f64::from(n) * base;
             let name = family.part.line_name();
             let text = if n == 1 { name.to_string() } else { format!("{n}×{name}") };
             panel.cursors.push(Cursor { at, label: text, group: group(family.part) });
         }
-        // Side bands of the verdict's family alone: others have few of their own.
+        // Sidebands only for the diagnosed family.
         let is_verdict = lines.verdict == Some(family.part);
         let own = family.lines.iter().filter(|l| l.significant && !l.shared && family.found);
         for line in own.filter(|l| is_verdict || l.modulation.is_none()) {
@@ -278,7 +278,7 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
     panel
 }
 
-/// Side bands look like the line they are spaced by.
+/// Sidebands get the style of the modulating frequency.
 fn side_group(modulation: Option<Modulation>, part: BearingPart) -> usize {
     match modulation {
         Some(Modulation::Shaft(_)) => 0,
@@ -287,10 +287,10 @@ fn side_group(modulation: Option<Modulation>, part: BearingPart) -> usize {
     }
 }
 
-/// A value of every band over frequency, wide bands below, the best framed.
+/// Map of a value per band over frequency, wide bands at the bottom, the best band framed.
 fn bands(kurtogram: &Kurtogram, note: &str) -> HeatMap {
     let finest = kurtogram.levels.iter().map(|l| l.values.len()).max().unwrap_or(1);
-    // Columns that divide every level's bands.
+    // Number of columns divisible by the band count of every level.
     let columns = 3 * finest;
     let width = kurtogram.max_frequency / columns as f64;
     let rows = kurtogram.levels.len();
@@ -304,7 +304,7 @@ fn bands(kurtogram: &Kurtogram, note: &str) -> HeatMap {
         note: note.into(),
         x_name: "frequency".into(),
         x_unit: "Hz".into(),
-        y_name: "bands".into(),
+        y_name: "number of bands".into(),
         x: (0..columns).map(|c| (c as f64 + 0.5) * width).collect(),
         y: (0..rows).map(|k| k as f64).collect(),
         value: value.collect(),
@@ -328,7 +328,7 @@ fn spectral_kurtosis(r: &SignalResult, found: &KurtogramResult, note: &str) -> L
         note: format!("{note}; segments of {} samples", 2 * (s.values.len() - 1)),
         x_name: "frequency".into(),
         x_unit: "Hz".into(),
-        y_name: "kurtosis, 0 for noise".into(),
+        y_name: "spectral kurtosis (0 for Gaussian noise)".into(),
         curves: vec![Curve {
             x: s.frequencies[inner.clone()].to_vec(),
             y: s.values[inner].to_vec(),
@@ -340,10 +340,10 @@ fn spectral_kurtosis(r: &SignalResult, found: &KurtogramResult, note: &str) -> L
 
 fn cepstrum(r: &SignalResult, found: &crate::signal::cepstrum::Cepstrum, note: &str) -> CursorLines {
     let steady = r.shaft.as_ref().filter(|s| s.steady);
-    // Three turns of the shaft, or a twentieth of a second.
+    // Three shaft revolutions, or 50 ms.
     let end = steady.map_or(0.05, |s| 3.2 / s.mean);
     let count = found.quefrencies.partition_point(|q| *q <= end);
-    // What is near 0 is the smooth spectrum.
+    // Skip low quefrencies: the spectral envelope.
     let first = found.quefrencies.partition_point(|q| *q < 0.02 * end);
     let mut cursors = Vec::new();
     if let Some(s) = steady {
@@ -384,7 +384,7 @@ fn cepstrum(r: &SignalResult, found: &crate::signal::cepstrum::Cepstrum, note: &
     }
 }
 
-/// Every part's rate per turn.
+/// Defect frequencies of the bearing parts as orders (per revolution).
 pub fn rates(b: &RatedBearing) -> Vec<(BearingPart, f64)> {
     let o = &b.orders;
     vec![
@@ -395,7 +395,7 @@ pub fn rates(b: &RatedBearing) -> Vec<(BearingPart, f64)> {
     ]
 }
 
-/// Levels of a map \[dB\] and what they are relative to.
+/// Levels of a map \[dB\] and their reference.
 pub fn levels(r: &SignalResult, amplitude: &[f64]) -> (Vec<f64>, String) {
     let d = shown(r);
     let unit = if d.name.is_empty() { "dB".into() } else { format!("dB re 1 {}", d.name) };

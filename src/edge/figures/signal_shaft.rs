@@ -1,4 +1,5 @@
-//! Records over the shaft's turns and over rates of modulation; jerk.
+//! Figures over speed, order and shaft angle (order tracking, synchronous average), cyclic coherence, and
+//! jerk.
 
 use super::Named;
 use super::run::{OverSpeed, waterfall_panels};
@@ -12,7 +13,7 @@ use crate::results::{
 };
 use crate::signal::race_defects::DefectKind;
 
-/// Levels shown below the highest \[dB\].
+/// Dynamic range of level maps \[dB\].
 const SPAN_DB: f64 = 60.0;
 
 pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
@@ -24,7 +25,7 @@ pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
     }
     if let Some(found) = &r.orders {
         out.push((name("order_spectrum"), Figure::CursorLines(order_spectrum(r, found, note))));
-        // At one speed a map over speed is a line.
+        // A map over speed needs a varying speed.
         if r.shaft.as_ref().is_some_and(|s| !s.steady) && found.map.rpm.len() > 1 {
             out.push((name("orders"), Figure::OrderMap(orders(r, found, note))));
             out.push((name("order_cuts"), Figure::Lines(order_cuts(r, found, note))));
@@ -71,20 +72,20 @@ fn over_time(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> HeatM
         quantity: format!("{} level", measured(r)),
         unit,
         span: Some(SPAN_DB),
-        // Times do not begin at zero in a part of a record.
+        // The time range of a cut record does not start at zero.
         x_range: found.map.times.first().copied().zip(found.map.times.last().copied()).map(|(a, b)| [a, b]),
         ..HeatMap::default()
     }
 }
 
-/// Spectra over speed, where it changes.
+/// Spectra over speed, if the speed varies.
 fn over_speed(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> Vec<(&'static str, Figure)> {
     if found.rpm.is_empty() || r.shaft.as_ref().is_none_or(|s| s.steady) {
         return Vec::new();
     }
     let (level_db, unit) = levels(r, &found.map.amplitude);
     let map = Spectrogram {
-        title: format!("{} over speed", r.channel),
+        title: format!("Spectrogram of {} over speed", r.channel),
         note: note.into(),
         panels: vec![SpectrogramPanel {
             name: String::new(),
@@ -105,7 +106,7 @@ fn over_speed(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> Vec<
     let panels = waterfall_panels(&[spectra], d.factor);
     if !panels.is_empty() {
         let figure = Waterfall {
-            title: format!("{} over speed", r.channel),
+            title: format!("Waterfall of {} over speed", r.channel),
             note: note.into(),
             panels,
             unit: d.name.into(),
@@ -119,7 +120,7 @@ fn over_speed(r: &SignalResult, found: &SpectrogramOverTime, note: &str) -> Vec<
 fn orders(r: &SignalResult, found: &ShaftOrders, note: &str) -> OrderMap {
     let (level_db, unit) = levels(r, &found.map.amplitude);
     OrderMap {
-        title: format!("Orders of {}", r.channel),
+        title: format!("Order map of {}", r.channel),
         note: note.into(),
         rpm: found.map.rpm.clone(),
         order: found.map.orders.clone(),
@@ -160,7 +161,7 @@ fn order_spectrum(r: &SignalResult, found: &ShaftOrders, note: &str) -> CursorLi
     }
 }
 
-/// Names of the cursors' groups that there are.
+/// Names of the cursor groups; empty if unused.
 fn groups(r: &SignalResult) -> Vec<String> {
     let known = r.bearing.is_some();
     GROUPS
@@ -170,7 +171,7 @@ fn groups(r: &SignalResult) -> Vec<String> {
         .collect()
 }
 
-/// First harmonics of the bearing's parts in multiples of `unit`.
+/// Fundamental defect frequencies of the bearing parts, in multiples of `unit`.
 fn bearing_cursors(r: &SignalResult, unit: f64) -> Vec<Cursor> {
     let rates = r.bearing.as_ref().map_or_else(Vec::new, rates);
     let cursor = |(part, order): (crate::signal::bearing_lines::BearingPart, f64)| Cursor {
@@ -206,7 +207,7 @@ fn average(r: &SignalResult, found: &ShaftAverage, note: &str) -> Lines {
     let d = shown(r);
     let a = &found.average;
     let count = a.mean.len();
-    // Round to the first place again.
+    // Close the curve at the first point.
     let places: Vec<usize> = (0..=count).collect();
     let curve = |label: &str, sign: f64| Curve {
         label: label.into(),
@@ -215,7 +216,7 @@ fn average(r: &SignalResult, found: &ShaftAverage, note: &str) -> Lines {
         points: false,
     };
     Lines {
-        title: format!("Average of {} over {} turns", r.channel, a.periods),
+        title: format!("Time synchronous average of {} over {} revolutions", r.channel, a.periods),
         note: note.into(),
         x_name: "shaft angle".into(),
         x_unit: "°".into(),
@@ -223,21 +224,21 @@ fn average(r: &SignalResult, found: &ShaftAverage, note: &str) -> Lines {
         y_unit: d.name.into(),
         curves: vec![
             curve("average", 0.0),
-            curve("one standard deviation over", 1.0),
-            curve("one standard deviation under", -1.0),
+            curve("plus one standard deviation", 1.0),
+            curve("minus one standard deviation", -1.0),
         ],
         x_range: Some([0.0, 360.0]),
         ..Lines::default()
     }
 }
 
-/// The record and its jerk over a dozen passages of balls at most.
+/// The record and its jerk over at most twelve ball passages.
 fn jerk(r: &SignalResult, found: &JerkResult, note: &str) -> History {
     let d = shown(r);
     let passage =
         r.bearing.as_ref().zip(r.shaft.as_ref()).map(|(b, s)| r.sample_rate / (b.orders.bpfo * s.mean));
     let count = passage.map_or(4000, |p| (12.0 * p) as usize).clamp(2, r.samples.len());
-    // From the middle: the start of a run is not steady.
+    // From the middle: the start of a run contains a transient.
     let first = (r.samples.len() - count) / 2;
     let range = first..first + count;
     let time: Vec<f64> = range.clone().map(|n| r.start + n as f64 / r.sample_rate).collect();
@@ -286,7 +287,7 @@ fn folded(r: &SignalResult, race: &RaceResult, note: &str) -> CursorLines {
         cursors.push(Cursor { at: end.to_degrees(), label: String::new(), group });
     }
     let panel = CursorPanel {
-        y_name: "change of jerk".into(),
+        y_name: "jump of the jerk".into(),
         y_unit: if d.name.is_empty() {
             String::new()
         } else {
@@ -297,7 +298,7 @@ fn folded(r: &SignalResult, race: &RaceResult, note: &str) -> CursorLines {
         ..CursorPanel::default()
     };
     CursorLines {
-        title: format!("Jumps of the jerk over one ball spacing of the {}, {}", race.race, r.channel),
+        title: format!("Jumps of the jerk folded over one ball spacing of the {}, {}", race.race, r.channel),
         note: note.into(),
         x_name: "angle on the race".into(),
         x_unit: "°".into(),
@@ -309,19 +310,19 @@ fn folded(r: &SignalResult, race: &RaceResult, note: &str) -> CursorLines {
 
 fn cyclic(r: &SignalResult, found: &CyclicResult, note: &str) -> HeatMap {
     let c = &found.coherence;
-    // At a rate of zero everything is coherent with itself.
+    // Skip cyclic frequency 0, where the coherence is 1.
     let bins = c.frequencies.len();
     HeatMap {
-        title: format!("Cyclic coherence of {}", r.channel),
+        title: format!("Cyclic spectral coherence of {}", r.channel),
         note: note.into(),
-        x_name: "rate of modulation".into(),
+        x_name: "cyclic (modulation) frequency".into(),
         x_unit: "Hz".into(),
-        y_name: "carrier".into(),
+        y_name: "carrier frequency".into(),
         y_unit: "Hz".into(),
         x: c.cyclic_frequencies[1..].to_vec(),
         y: c.frequencies.clone(),
         value: c.squared[bins..].to_vec(),
-        quantity: format!("squared coherence (noise: 1 % above {:.3})", c.one_percent),
+        quantity: format!("squared coherence (1 % level of noise: {:.3})", c.one_percent),
         y_range: Some([0.0, 0.5 * r.sample_rate]),
         ..HeatMap::default()
     }
@@ -334,7 +335,7 @@ fn enhanced(r: &SignalResult, found: &CyclicResult, note: &str) -> CursorLines {
         cursors.extend((1..=2).map(|n| Cursor { at: f64::from(n) * unit, label: format!("{n}x"), group: 0 }));
     }
     let panel = CursorPanel {
-        y_name: "mean coherence".into(),
+        y_name: "mean squared coherence".into(),
         curves: vec![Curve {
             x: found.enhanced.frequencies[1..].to_vec(),
             y: found.enhanced.values[1..].to_vec(),
@@ -344,9 +345,9 @@ fn enhanced(r: &SignalResult, found: &CyclicResult, note: &str) -> CursorLines {
         ..CursorPanel::default()
     };
     CursorLines {
-        title: format!("Rates of modulation in {}", r.channel),
+        title: format!("Enhanced envelope spectrum of {}", r.channel),
         note: note.into(),
-        x_name: "rate of modulation".into(),
+        x_name: "cyclic (modulation) frequency".into(),
         x_unit: "Hz".into(),
         groups: groups(r),
         panels: vec![panel],

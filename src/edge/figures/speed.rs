@@ -1,4 +1,4 @@
-//! The linear Campbell diagram, and its lines for other figures.
+//! Campbell diagram of the linearised machine, and its branches and order lines for other figures.
 
 use super::machine::whirl;
 use super::{Named, TO_RPM};
@@ -7,9 +7,9 @@ use crate::edge::plot::{Branch, Campbell, Critical, Figure, OrderLine};
 use crate::results::{self, CampbellResult};
 use crate::study::Machine;
 
-/// A log decrement below this is what rounding leaves of an undamped mode's.
+/// Log decrement below which a mode is undamped except for round-off.
 const ROUND_OFF: f64 = 1e-6;
-/// Branches that a diagram shows at least.
+/// Smallest number of branches shown.
 const LEAST: usize = 4;
 
 pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
@@ -36,7 +36,7 @@ pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
     ("campbell".into(), Figure::Campbell(figure))
 }
 
-/// The branches of a diagram as curves; a machine without damping has no decrements.
+/// Branches as curves; without log decrements if the machine is undamped.
 pub fn branches(found: &CampbellResult) -> Vec<Branch> {
     let rpm: Vec<f64> = found.diagram.speeds.iter().map(|s| s * TO_RPM).collect();
     let curve = |branch: &crate::analysis::campbell::Branch| {
@@ -65,7 +65,8 @@ pub fn order_lines(orders: &[results::OrderLine]) -> Vec<OrderLine> {
     orders.iter().map(line).collect()
 }
 
-/// Upper end of the frequency axis \[Hz\]: the lowest branches, and all that an order line meets or nearly meets.
+/// Upper end of the frequency axis \[Hz\]: includes the lowest branches and all that an order line crosses or
+/// nearly crosses.
 pub fn top(branches: &[Branch], found: &CampbellResult) -> f64 {
     let highest = |b: &Branch| b.hz.iter().copied().filter(|hz| hz.is_finite()).fold(0.0, f64::max);
     let mut ends: Vec<f64> = branches.iter().map(highest).collect();

@@ -1,4 +1,5 @@
-//! Steady motions: orbits with their Poincaré points, sections, bifurcation diagrams, how an exponent settled.
+//! Steady motion: orbits with Poincaré points, Poincaré sections, bifurcation diagrams, Lyapunov exponent
+//! convergence.
 
 use super::display::{Display, quantity, unit};
 use super::{Named, TO_RPM};
@@ -10,7 +11,7 @@ use crate::results::{
 use crate::signal::period::Motion;
 use crate::study::Machine;
 
-/// Points of a 1x orbit.
+/// Points of a 1x-filtered orbit.
 const ROUND: usize = 181;
 
 pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
@@ -25,7 +26,7 @@ pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
         let data = PhasePlanes { title: title.into(), note: note.clone(), planes };
         (name.to_string(), Figure::PhasePlanes(data))
     };
-    // With the shaft as clock at angle zero the section points are the keyphasor's.
+    // A section per shaft revolution at angle zero coincides with the keyphasor marks.
     let same = found.clock.name == "shaft turn" && found.clock.phase == 0.0;
     let keyphasor = if same { Vec::new() } else { passages(&found.shaft_angle) };
     let orbits = found.planes.iter().map(|p| PhasePlane { keyphasor: keyphasor.clone(), ..plane(p, true) });
@@ -36,7 +37,7 @@ pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
     ]
 }
 
-/// Samples at which the shaft passes its keyphasor.
+/// Samples at which the keyphasor passes.
 fn passages(shaft_angle: &[f64]) -> Vec<usize> {
     let turn = |angle: f64| (angle / std::f64::consts::TAU).floor();
     (1..shaft_angle.len()).filter(|&k| turn(shaft_angle[k]) > turn(shaft_angle[k - 1])).collect()
@@ -80,14 +81,14 @@ pub fn lyapunov(found: &LyapunovResult, machine: &Machine) -> Named {
         Curve { label: label.into(), y: vec![e.value + offset; x.len()], x, points: false }
     };
     let history =
-        Curve { label: "mean growth so far".into(), x: e.times.clone(), y: e.history.clone(), points: false };
+        Curve { label: "running mean".into(), x: e.times.clone(), y: e.history.clone(), points: false };
     let mut curves = vec![history];
     if e.standard_error.is_finite() {
-        curves.push(level(2.0 * e.standard_error, "two standard errors above"));
-        curves.push(level(-2.0 * e.standard_error, "two standard errors below"));
+        curves.push(level(2.0 * e.standard_error, "plus two standard errors"));
+        curves.push(level(-2.0 * e.standard_error, "minus two standard errors"));
     }
     let figure = Lines {
-        title: "Largest Lyapunov exponent, as it settled".into(),
+        title: "Convergence of the largest Lyapunov exponent".into(),
         note: format!(
             "{}, {:.1} rpm: {:.4} ± {:.2} 1/s over {} periods, one per {}",
             machine.model.title,
@@ -99,7 +100,7 @@ pub fn lyapunov(found: &LyapunovResult, machine: &Machine) -> Named {
         ),
         x_name: "time".into(),
         x_unit: "s".into(),
-        y_name: "exponent".into(),
+        y_name: "Lyapunov exponent".into(),
         y_unit: "1/s".into(),
         curves,
         ..Lines::default()
@@ -127,8 +128,8 @@ pub fn bifurcation(found: &BifurcationResult, machine: &Machine) -> Vec<Named> {
 
 fn points(sweep: &BifurcationSweep, channel: usize, factor: f64) -> SweepPoints {
     let label = match sweep.name {
-        "up" => "swept up",
-        "down" => "swept down",
+        "up" => "sweep up",
+        "down" => "sweep down",
         _ => "",
     };
     let mut out = SweepPoints { label: label.into(), ..SweepPoints::default() };

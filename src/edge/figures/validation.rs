@@ -1,4 +1,4 @@
-//! A model beside measurements: MAC, frequencies, FRFs overlaid, FRAC and FDAC.
+//! Correlation of a model with measurements: MAC, frequency errors, FRF overlays, FRAC and FDAC.
 
 use super::Named;
 use super::display::pretty;
@@ -9,20 +9,20 @@ use crate::model::Quantity;
 use crate::update::state::State;
 use crate::update::target::{Sensor, Target, TargetFrfs, rotation_radius};
 
-/// A state of the model with a name ("computed", "before", "after") and its FRFs at the measured points.
+/// A state of the model, named "computed", "before" or "after", with its FRFs at the measured points.
 pub struct Stage<'a> {
     pub name: &'a str,
     pub state: &'a State,
-    /// `[response][reference][line]`, where FRFs were measured.
+    /// `[response][reference][line]`, if FRFs were measured.
     pub frfs: Option<&'a [Vec<Vec<Complex64>>]>,
 }
 
-/// Most FRFs drawn, each as a figure of its own.
+/// Largest number of FRFs drawn, one figure each.
 const MOST_FRFS: usize = 12;
-/// Lines of an FDAC along each axis.
+/// Largest number of frequency lines along each FDAC axis.
 const FDAC_LINES: usize = 200;
 
-/// All figures of one measurement against the stages of a model, names beginning with `prefix`.
+/// All figures of one measurement and the stages of a model; file names start with `prefix`.
 pub fn figures(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Vec<Named> {
     let mut out = vec![frequencies(prefix, title, target, stages)];
     for stage in stages {
@@ -46,7 +46,7 @@ fn note(title: &str, stage: &Stage) -> String {
     if stage.name == "computed" { title.to_string() } else { format!("{title}, {}", stage.name) }
 }
 
-/// Error of every paired frequency, per cent.
+/// Frequency error of every mode pair in per cent.
 fn frequencies(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Named {
     let curves = stages.iter().map(|stage| {
         let pairs = &stage.state.pairing.pairs;
@@ -62,11 +62,11 @@ fn frequencies(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> 
         }
     });
     let figure = Lines {
-        title: "Computed against measured frequencies".into(),
+        title: "Error of computed natural frequencies".into(),
         note: title.into(),
         x_name: "measured frequency".into(),
         x_unit: "Hz".into(),
-        y_name: "error of the model".into(),
+        y_name: "frequency error".into(),
         y_unit: "%".into(),
         x_range: Some([0.0, 1.05 * target.modes.iter().map(|m| m.frequency_hz).fold(1.0, f64::max)]),
         curves: curves.collect(),
@@ -80,7 +80,7 @@ fn mac_matrix(title: &str, target: &Target, stage: &Stage) -> Figure {
     let label = |m: &crate::analysis::Mode| format!("{} {:.1} Hz", m.label, m.frequency_hz());
     Figure::Matrix(Matrix {
         title: "MAC of measured and computed modes".into(),
-        note: format!("{}; frames are pairs", note(title, stage)),
+        note: format!("{}; mode pairs are framed", note(title, stage)),
         row_name: "measured".into(),
         column_name: "computed".into(),
         rows: target.modes.iter().map(|m| format!("{:.1} Hz", m.frequency_hz)).collect(),
@@ -127,7 +127,7 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
         let unit = format!("({moved})/{}", turns(reference.dof.is_rotation(), "N", "(N m)"));
         let (from, to) = (reference.name(model), response.name(model));
         let figure = Frf {
-            title: format!("{to} under a force at {from}"),
+            title: format!("FRF: response {to}, force at {from}"),
             note: "measured and computed".into(),
             quantity: quantity.into(),
             unit: pretty(&unit),
@@ -146,7 +146,7 @@ fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], st
     };
     let columns = measured.references.len();
     Figure::Matrix(Matrix {
-        title: "FRAC: likeness of every FRF over the band".into(),
+        title: "FRAC: frequency response assurance criterion of every FRF".into(),
         note: note(title, stage),
         row_name: "response".into(),
         column_name: "force".into(),
@@ -160,7 +160,7 @@ fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], st
 
 fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let every = measured.frequencies.len().div_ceil(FDAC_LINES).max(1);
-    // Rotations and moments weigh as at a radius.
+    // Rotations and moments are weighted with a reference radius.
     let radius = rotation_radius(&stage.state.linear.model);
     let weight = |of: &Sensor| if of.dof.is_rotation() { radius } else { 1.0 };
     let ends = || {
@@ -177,13 +177,13 @@ fn fdac_map(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>]
     let lines: Vec<f64> = measured.frequencies.iter().step_by(every).copied().collect();
     let range = lines.first().copied().zip(lines.last().copied()).map(|(a, b)| [a, b]);
     Figure::HeatMap(HeatMap {
-        title: "FDAC: a ridge off the diagonal is a shift of frequency".into(),
-        note: note(title, stage),
-        x_name: "computed at".into(),
+        title: "FDAC: frequency domain assurance criterion".into(),
+        note: format!("{}; an off-diagonal ridge is a frequency shift", note(title, stage)),
+        x_name: "computed, frequency".into(),
         x_unit: "Hz".into(),
-        y_name: "measured at".into(),
+        y_name: "measured, frequency".into(),
         y_unit: "Hz".into(),
-        // Rows of the map are computed lines.
+        // First index of the map: computed frequency line.
         value: fdac(&b, &a).concat(),
         x: lines.clone(),
         y: lines,

@@ -66,7 +66,7 @@ pub(super) fn set(object: &Location, name: &str, value: &Attribute) -> hdf5::Res
     }
 }
 
-/// Reads an attribute; `None` if there is none of this name.
+/// Reads an attribute; `None` if missing.
 pub(super) fn get(object: &Location, name: &str) -> hdf5::Result<Option<Attribute>> {
     if !has(object, name)? {
         return Ok(None);
@@ -103,7 +103,7 @@ pub(super) fn list<T: H5Type>(object: &Location, name: &str, values: &[T]) -> hd
     object.new_attr::<T>().shape(values.len()).create(name)?.write_raw(values)
 }
 
-/// A string as HDF5 stores it; a NUL inside has no place there.
+/// A variable-length UTF-8 string; a NUL character in it is an error.
 pub(super) fn unicode(text: &str) -> hdf5::Result<VarLenUnicode> {
     text.parse().map_err(|e| hdf5::Error::Internal(format!("text {text:?}: {e}")))
 }

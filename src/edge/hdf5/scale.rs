@@ -5,12 +5,12 @@ use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenArray, VarLenU
 use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 use std::path::Path;
 
-/// A file whose one attribute CLASS has the type that the specification asks for, a null-terminated string of 16
-/// bytes; the hdf5 crate can take it from a file but not describe it. Made by h5py:
+/// A file whose only attribute CLASS has the type required by the specification, a null-terminated string of
+/// 16 bytes; the hdf5 crate can read this type from a file but not create it. Written with h5py:
 /// `t = h5t.C_S1.copy(); t.set_size(16); h5a.create(f.id, b"CLASS", t, h5s.create(h5s.SCALAR))`.
 const SCALE_CLASS: &[u8] = include_bytes!("scale_class.h5");
 
-/// Which data set a scale belongs to, an element of the scale's attribute REFERENCE_LIST.
+/// Data set and dimension that a scale is attached to, an element of the scale's attribute REFERENCE_LIST.
 #[derive(Clone, Copy, H5Type)]
 #[repr(C)]
 struct BackReference {
@@ -18,7 +18,7 @@ struct BackReference {
     dimension: u32,
 }
 
-/// Attaches `scale` to one dimension of `dataset`; both must exist in `file`, which lies at `path`.
+/// Attaches `scale` to one dimension of `dataset`; both must exist in `file` of the path `path`.
 pub(super) fn attach(
     file: &File,
     path: &Path,
@@ -31,7 +31,7 @@ pub(super) fn attach(
     let shape = data.shape();
     if axis.ndim() != 1 || shape.get(dimension) != axis.shape().first() {
         let message =
-            format!("{scale} of shape {:?} is no axis {dimension} of shape {shape:?}", axis.shape());
+            format!("{scale} of shape {:?} does not fit dimension {dimension} of {shape:?}", axis.shape());
         return Err(hdf5::Error::Internal(message));
     }
     mark_as_scale(&axis, path, label)?;
@@ -79,7 +79,7 @@ fn mark_as_scale(axis: &Dataset, path: &Path, label: &str) -> hdf5::Result<()> {
     name.write_scalar(&label.parse::<FixedUnicode<64>>().map_err(internal)?)
 }
 
-/// Reads the type of CLASS from a small file that lies beside `path` for a moment.
+/// Reads the type of CLASS from a temporary file next to `path`.
 fn scale_class(path: &Path) -> hdf5::Result<Datatype> {
     let mut small = path.as_os_str().to_owned();
     small.push(".scale_class");

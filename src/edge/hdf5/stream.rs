@@ -1,15 +1,15 @@
-//! Channels of a run, written while it goes on and read back afterwards.
+//! Channels of a run: streamed to disk during the run, read back afterwards.
 
 use super::{Attribute, DEFLATE, Store, attribute, failure};
 use crate::error::Error;
 use hdf5::Dataset;
 
-/// Samples in a chunk; also what a killed run can lose.
+/// Samples per chunk; also the most that a killed run loses.
 const BLOCK: usize = 4096;
-/// The attribute of `<at>/time` that says how the run ended.
+/// Attribute of `<at>/time`: state of the run.
 const RUN_STATE: &str = "run_state";
 
-/// What a channel holds.
+/// Description of a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// Name, also of its data set; without `/`.
@@ -18,17 +18,18 @@ pub struct Channel {
     pub unit: String,
     /// Quantity, "acceleration".
     pub quantity: String,
-    /// Where: a station or body.
+    /// Station or body of the sensor.
     pub station: String,
     /// Direction, "x", "theta_y" or a vector.
     pub direction: String,
 }
 
-/// Writes samples of a run as they come.
+/// Streams the samples of a run to disk.
 ///
-/// `<at>/time/{t, theta, speed}` and `<at>/channels/<name>` (in the order of the attribute `names`) grow together in blocks, each followed by a flush,
-/// and no block is written twice: after a kill the file opens and holds all whole blocks. The attribute
-/// `run_state` of `<at>/time` is "running", then "complete" or "stopped: reason".
+/// `<at>/time/{t, theta, speed}` and `<at>/channels/<name>` (in the order of the attribute `names`) grow
+/// together in blocks, each followed by a flush, and no block is written twice: after a kill the file can be
+/// opened and contains all complete blocks. The attribute `run_state` of `<at>/time` is "running", then
+/// "complete" or "stopped: reason".
 #[derive(Debug)]
 pub struct ChannelStream {
     store: Store,
@@ -42,7 +43,7 @@ pub struct ChannelStream {
 impl ChannelStream {
     /// Starts a run under the group `at` ("" for the root) of a store open for writing.
     ///
-    /// `sample_rate` \[Hz\] and `start` \[s\] are the even sampling's f_s and t_0.
+    /// `sample_rate` \[Hz\] and `start` \[s\] are f_s and t_0 of the uniform sampling.
     pub fn create(
         store: &Store,
         at: &str,
@@ -99,7 +100,7 @@ impl ChannelStream {
         if self.columns[0].len() == BLOCK { self.write_block() } else { Ok(()) }
     }
 
-    /// Writes what is left and the final state, "complete" or "stopped: reason".
+    /// Writes the remaining samples and the final state, "complete" or "stopped: reason".
     pub fn finish(mut self, state: &str) -> Result<(), Error> {
         self.end(state)
     }
@@ -125,10 +126,10 @@ impl ChannelStream {
 }
 
 impl Drop for ChannelStream {
-    /// A run that ended by an error keeps its samples.
+    /// Keeps the samples of a run that ended with an error.
     fn drop(&mut self) {
         if !self.finished {
-            // Nobody is left to tell of an error; the file then says "running".
+            // `drop` cannot report an error; `run_state` then stays "running".
             let _ = self.end("stopped: not finished");
         }
     }
@@ -159,7 +160,7 @@ pub struct Recording {
     pub sample_rate: f64,
     /// Time of the first sample \[s\].
     pub start: f64,
-    /// What each channel holds and its samples, in alphabetical order of the names.
+    /// Description and samples of every channel, in alphabetical order of the names.
     pub channels: Vec<(Channel, Vec<f64>)>,
     /// "running", "complete" or "stopped: reason".
     pub state: String,

@@ -1,23 +1,23 @@
-//! Analyses of records as JSON: the document "rotordyn-signal-1".
+//! Signal analyses of records as JSON: the document "rotordyn-signal-1".
 //!
-//! Frequencies and rates in Hz, times in s, angles in rad, amplitudes in the channel's unit; maps and spectra are in the
-//! HDF5 file. Per channel in `channels`, and for that of another record in `against`:
+//! Frequencies and rates in Hz, times in s, angles in rad, amplitudes in the channel's unit; maps and spectra
+//! are in the HDF5 file. Per channel in `channels`, and for the channel of the compared record in `against`:
 //!
-//! | key | holds |
+//! | key | contents |
 //! |---|---|
 //! | `channel`, `unit`, `sample_rate_hz`, `start_s`, `samples` | what was analysed |
 //! | `shaft` | `source`, `mean_rpm`, `least_rpm`, `most_rpm`, `steady` |
-//! | `speed` | `time_s`, `rpm`, where the shaft's angle is known |
+//! | `speed` | `time_s`, `rpm`, if the shaft's angle is known |
 //! | `bearing` | `name`, `source`, `balls`, `orders` {ftf, bpfo, bpfi, bsf} |
 //! | `statistics` | mean, rms, peak, crest_factor, kurtosis, skewness, ... |
 //! | `spectrum`, `density` | `peaks` \[{frequency_hz, amplitude}\], highest first; `resolution_hz` |
-//! | `envelope` | `band_hz`, `rule`, `axis` "Hz" or "order", `verdict`, `strongest`, `families` \[{part, line, expected, found, lines}\] |
+//! | `envelope` | `band_hz`, `rule`, `axis` "Hz" or "order", `verdict`, `peaks`, `strongest`, `families` \[{part, line, expected, found, lines}\] |
 //! | `kurtogram` | `best` {low_hz, high_hz, kurtosis}, `spectral_kurtosis` {frequency_hz, value} at its highest |
 //! | `cepstrum` | `peaks` \[{quefrency_s, value}\] |
 //! | `jerk` | `jumps`: their number, `race`, `defects` \[{kind, angle, width, width_m}\] |
 //! | `orders` | `cuts` \[{label, order, rpm, rms}\] |
-//! | `average` | `turns`, `rms` {record, average, rest} |
-//! | `cyclic` | `lines` \[{line, expected_hz, found_hz, coherence, background, deviations}\] |
+//! | `average` | time-synchronous average: `turns`, `rms` {record, average, rest} |
+//! | `cyclic` | cyclic spectral coherence: `duration_s`, `lines` \[{line, harmonic, expected_hz, found_hz, coherence, background, deviations}\] |
 
 use serde_json::{Map, Value, json};
 
@@ -27,10 +27,10 @@ use crate::signal::diagnosis::BandRule;
 use crate::signal::race_defects::DefectKind;
 use crate::signal::ridge::find_peaks;
 
-/// Lines of a spectrum that are listed.
+/// Number of spectral peaks listed.
 const PEAKS: usize = 20;
 
-/// The results of every channel as one document; `against` is a channel of another record.
+/// The results of every channel as one document; `against`: the channel of the compared record.
 pub fn signal_to_json(results: &[SignalResult], against: Option<&SignalResult>) -> Value {
     let mut out = json!({
         "schema": "rotordyn-signal-1",

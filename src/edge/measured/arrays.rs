@@ -1,13 +1,14 @@
-//! Named arrays, as .mat and .npz files hold them, to records and back.
+//! Conversion between records and the named arrays of .mat, .npz and HDF5 files.
 //!
-//! What we write beside the array `name` of a record: `fs` \[Hz\] and `t0` \[s\], or `freq_hz`, for all records
-//! of one axis; else `name_fs`, `name_t0`, `name_t`, `name_freq_hz`. Then `name_unit`, `name_kind`, `name_dof`
-//! (response node and direction, reference node and direction), `name_rpm` and, where `name` had to be changed
-//! to suit the format, `name_is`.
+//! Arrays written with the array `name` of a record: `fs` \[Hz\] and `t0` \[s\], or `freq_hz`, for all
+//! records of one axis; else `name_fs`, `name_t0`, `name_t`, `name_freq_hz`. Then `name_unit`, `name_kind`,
+//! `name_dof` (response node and direction, reference node and direction), `name_rpm` and, if the record's
+//! name is not valid in the format, that name as `name_is`.
 //!
-//! What others write is told from names: `fs`, `dt`, `time`, `frequency`; complex values over frequency are
-//! FRFs; names that begin with `coh` hold coherence; a scalar that ends in `RPM` is the speed of the records
-//! whose names begin like it. H\[i, j, line\] becomes one record for each response i + 1 and reference j + 1.
+//! Arrays of other programs are interpreted by name: `fs`, `dt`, `time`, `frequency`; complex values over
+//! frequency are FRFs; names that begin with `coh` are coherence; a scalar that ends in `RPM` is the speed of
+//! the records with the same prefix. H\[i, j, line\] becomes one record for each response i + 1 and reference
+//! j + 1.
 
 use super::signal_calc;
 use super::unit;
@@ -92,10 +93,10 @@ const TIMES: [&str; 5] = ["t", "time", "time_s", "t_s", "times"];
 const FREQUENCIES: [&str; 8] =
     ["freq_hz", "frequency", "frequencies", "freq", "freqs", "f", "f_hz", "frequency_hz"];
 
-/// Suffixes of arrays that tell of another.
+/// Suffixes of arrays that describe another array.
 const ATTRIBUTES: [&str; 9] = ["fs", "t0", "t", "freq_hz", "unit", "kind", "dof", "rpm", "is"];
 
-/// Records from arrays, by the names described above.
+/// Records from arrays, by the naming rules above.
 pub fn to_records(arrays: Vec<Array>) -> Measured {
     if arrays.iter().any(|a| a.name == signal_calc::MARK) {
         return signal_calc::to_records(&arrays);
@@ -130,9 +131,9 @@ struct File<'a> {
     arrays: &'a [Array],
 }
 
-/// Axes for all records of a file.
+/// Common axes of all records of a file.
 struct Axes<'a> {
-    /// Even time axis: start and step.
+    /// Uniform time axis: start and step.
     rate: Option<Points>,
     time: Option<&'a [f64]>,
     frequency: Option<&'a [f64]>,
@@ -143,7 +144,7 @@ impl<'a> File<'a> {
         self.arrays.iter().find(|a| a.name == name)
     }
 
-    /// An array by any of some names, whatever their case.
+    /// Array with one of the names, case-insensitive.
     fn any(&self, names: &[&str]) -> Option<&'a Array> {
         self.arrays.iter().find(|a| names.iter().any(|n| a.name.eq_ignore_ascii_case(n)))
     }
@@ -152,7 +153,7 @@ impl<'a> File<'a> {
         self.get(name).and_then(Array::as_scalar)
     }
 
-    /// An increasing list by any of some names.
+    /// Increasing list with one of the names.
     fn listed(&self, names: &[&str]) -> Option<&'a [f64]> {
         self.any(names)?.as_list().filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]))
     }
@@ -164,7 +165,7 @@ impl<'a> File<'a> {
         step.filter(|step| *step > 0.0 && step.is_finite()).map(|step| Points::Even { start, step })
     }
 
-    /// Whether a name is another array's with a suffix that tells of it.
+    /// Whether a name is that of another array with a suffix for its properties.
     fn is_attribute(&self, name: &str) -> bool {
         ATTRIBUTES.iter().any(|suffix| {
             let of = name.strip_suffix(suffix).and_then(|base| base.strip_suffix('_'));
@@ -218,7 +219,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// The one-dimensional parts of an array along its axis.
+    /// One-dimensional slices of an array along its axis.
     fn columns(&self, array: &Array, shape: &[usize], axes: &Axes) -> Vec<Column> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let own_list = |suffix: &str| own(suffix).and_then(Array::as_list);
@@ -245,7 +246,7 @@ impl<'a> File<'a> {
                 Axis::UNKNOWN
             }
         };
-        // The axis of a matrix is the dimension that a known axis fits, else the longest.
+        // The axis of a matrix is the dimension of the length of a known axis, else the longest.
         let has_axis =
             |count: usize| [frequency, axes.time].into_iter().flatten().any(|list| list.len() == count);
         let along = (0..shape.len())
@@ -275,7 +276,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// Two columns of which the first is an even axis, where the file tells no other.
+/// Record from a two-column array whose first column is a uniform axis, if the file has no other axis.
 fn over_first_column(array: &Array, axes: &Axes) -> Option<Record> {
     let Data::Real(values) = &array.data else { return None };
     let told = axes.rate.is_some() || axes.time.is_some() || axes.frequency.is_some();
@@ -288,7 +289,7 @@ fn over_first_column(array: &Array, axes: &Axes) -> Option<Record> {
     even.then(|| Record::new(&array.name, Kind::Time, axis, Values::Real(column(1)), ""))
 }
 
-/// One part of an array along its axis, with its place in the other dimensions.
+/// One slice of an array along its axis, with its index in the other dimensions.
 struct Column {
     index: Vec<usize>,
     values: Values,
@@ -313,7 +314,7 @@ fn axis_is_frequency(record: &Record) -> bool {
     record.axis.quantity == AxisQuantity::Frequency
 }
 
-/// The kind that a name, complex values and the axis suggest.
+/// Kind of a record, guessed from its name, value type and axis.
 pub(crate) fn guess(name: &str, values: &Values, axis: AxisQuantity) -> Kind {
     let name = name.to_lowercase();
     let begins = |heads: &[&str]| heads.iter().any(|head| name.starts_with(head));
@@ -327,7 +328,7 @@ pub(crate) fn guess(name: &str, values: &Values, axis: AxisQuantity) -> Kind {
     }
 }
 
-/// A speed `<begin>RPM` goes to the time records whose names begin alike, a lone one to all.
+/// Assigns a speed `<prefix>RPM` to the time records with that prefix, a single speed to all.
 fn give_speeds(out: &mut Measured) {
     let ends = |name: &str| name.to_lowercase().ends_with("rpm");
     let speeds: Vec<_> = out.scalars.iter().filter(|(name, _)| ends(name)).collect();
@@ -342,10 +343,10 @@ fn give_speeds(out: &mut Measured) {
     }
 }
 
-/// The arrays that hold records, with names that begin with a letter and have letters, digits and underscores,
-/// at most `name_length` of them.
+/// Arrays of the records; names start with a letter and have at most `name_length` letters, digits and
+/// underscores.
 ///
-/// Geometry and shapes have no place here.
+/// Geometry and shapes are not stored.
 pub fn of_records(measured: &Measured, name_length: usize) -> Vec<Array> {
     let mut out: Vec<Array> = Vec::new();
     if !measured.title.is_empty() {
@@ -392,7 +393,7 @@ pub fn of_records(measured: &Measured, name_length: usize) -> Vec<Array> {
         if !unit.is_empty() {
             beside.push(Array::text(&own("unit"), unit));
         }
-        // A time record may happen to be as long as the list of frequencies.
+        // A time record may by chance be as long as the list of frequencies.
         if record.kind != Kind::Time || frequency.is_some() {
             beside.push(Array::text(&own("kind"), record.kind.word()));
         }

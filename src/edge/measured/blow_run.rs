@@ -1,4 +1,4 @@
-//! A simulated hammer test: the stored run of a machine at rest under one load over time, as FRFs.
+//! Simulated impact (hammer) test: FRFs from the stored run of a machine at rest under one load over time.
 
 use std::f64::consts::TAU;
 
@@ -9,21 +9,22 @@ use crate::model::{self, Load, Model, Options, Quantity};
 use crate::signal::impact::{Blow, ImpactWindows, frf_from_blows};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
 
-/// Name of the number that tells the largest force of the blow \[N\].
+/// Name of the scalar with the peak force of the impact \[N\].
 pub const PEAK_FORCE: &str = "peak_force";
 
-/// FRFs from the load to every probe; `None` where the file holds no run under exactly one load over time.
+/// FRFs from the load to every probe; `None` if the file contains no run under exactly one load over time.
 ///
-/// The force is that of the model stored in the file. Frequencies go up to the inverse of the blow's duration, where
-/// a half-sine or a triangle still has half its force; what moves before the blow is taken as rest.
+/// The force is that of the model stored in the file. Frequencies go up to the inverse of the impact
+/// duration, where the force spectrum of a half-sine is 0.33, of a triangle 0.41 of its value at 0 Hz. The
+/// first value of a response is taken as its position at rest.
 ///
 /// # Errors
-/// The file cannot be read, or the run is too short to tell anything.
+/// The file cannot be read, or the run is too short for an FRF.
 pub fn frfs(store: &Store) -> Result<Option<Measured>, Error> {
     frfs_windowed(store, ImpactWindows::default())
 }
 
-/// As [`frfs`], with windows over force and responses.
+/// As [`frfs`], with force window and exponential response window.
 ///
 /// # Errors
 /// As [`frfs`].
@@ -68,14 +69,14 @@ pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Mea
             ..Record::new(&probe.name, Kind::Frf, axis, values, unit)
         });
     }
-    // Rotations and points beside a node have no number of their own in the model.
+    // Only translations at nodes have a point number in the model, not rotations or points at an offset.
     out.records.retain(|r| r.response.node != 0 && (1..=3).contains(&r.response.direction.abs()));
     let peak = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
     out.scalars.push((PEAK_FORCE.into(), peak));
     Ok((!out.records.is_empty() && peak > 0.0).then_some(out))
 }
 
-/// Size of a force and its direction, 0 where it is along no single axis.
+/// Magnitude and direction number of a force; direction 0 if it is not along a single axis.
 fn along(force: &[f64; 6]) -> (f64, i8) {
     let mut parts = force.iter().enumerate().filter(|(_, f)| **f != 0.0);
     match (parts.next(), parts.next()) {
@@ -84,7 +85,7 @@ fn along(force: &[f64; 6]) -> (f64, i8) {
     }
 }
 
-/// The history's factor at a time: linear between its rows, zero outside.
+/// Load factor of the history at a time: linear interpolation, zero outside.
 fn factor(history: &[[f64; 2]], t: f64) -> f64 {
     let after = history.partition_point(|row| row[0] <= t);
     match (after.checked_sub(1).map(|k| history[k]), history.get(after)) {
@@ -93,7 +94,7 @@ fn factor(history: &[[f64; 2]], t: f64) -> f64 {
     }
 }
 
-/// The model that the run was made with.
+/// The model with which the run was computed.
 fn stored_model(store: &Store) -> Result<Option<Model>, Error> {
     let text = |name: &str| -> Result<Option<String>, Error> {
         Ok(match store.attribute("/meta", name)? {

@@ -1,4 +1,4 @@
-//! Records in HDF5: of our own results files, and of any file with numeric data sets.
+//! Records from HDF5: results files of this program, and any file with numeric data sets.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::edge::hdf5::{Attribute, Item, Store, read_recording};
 use crate::error::Error;
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
 
-/// Attributes of data sets by which other programs tell unit, rate and start.
+/// Attributes of data sets for unit, sampling rate, step and start in files of other programs.
 const UNITS: [&str; 3] = ["unit", "units", "Unit"];
 const RATES: [&str; 4] = ["fs", "sample_rate", "sampling_rate", "SamplingRate"];
 const STEPS: [&str; 3] = ["dt", "wf_increment", "step"];
@@ -34,7 +34,7 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
     Ok(out)
 }
 
-/// Writes records so that [`read`] and h5py read them: one data set an array, as in .npz files.
+/// Writes records for [`read`] and h5py: one data set per array, as in .npz files.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -52,7 +52,7 @@ pub fn write(path: &Path, measured: &Measured) -> Result<(), Error> {
     store.flush()
 }
 
-/// Every data set below a group as an array, with what its attributes tell.
+/// Every data set below a group as an array, with unit, rate and start from its attributes.
 fn walk(store: &Store, group: &str, found: &mut Vec<Array>, left_out: &mut Vec<String>) -> Result<(), Error> {
     let members = store.members(if group.is_empty() { "/" } else { group })?;
     // MATLAB keeps the contents of cells in #refs#.
@@ -122,7 +122,7 @@ fn results(store: &Store) -> Result<Measured, Error> {
         out.records.push(record("theta", "rad", run.angle));
         out.records.push(record("speed", "rad/s", run.speed));
         if run.state != "complete" {
-            out.notes.push(format!("the run did not end by itself: {}", run.state));
+            out.notes.push(format!("the run is incomplete: {}", run.state));
         }
     }
     if store.contains("/frf/response") {

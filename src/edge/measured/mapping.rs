@@ -1,22 +1,23 @@
-//! The file that says which measured channel is which station and direction of a model.
+//! Mapping file: assigns measured channels to stations and directions of a model.
 //!
 //! ```toml
-//! rate = "12 kHz"             # of time records whose file does not tell
-//! frequency_step = "0.5 Hz"   # of spectra whose file does not tell
+//! rate = "12 kHz"             # sampling rate of time records, if their file has none
+//! frequency_step = "0.5 Hz"   # of spectra, if their file has none
 //! axes = ["z", "x", "y"]      # the file's x, y, z in the model's axes
 //!
 //! [channel.X105_DE_time]      # by the channel's name
 //! station = "B"
 //! direction = "-y"
-//! unit = "g"                  # where the file does not tell
+//! unit = "g"                  # if the file has none
 //!
 //! [point.12]                  # by the point's number, for every record there
 //! station = "disc"
-//! direction = "x"             # where the file tells none
+//! direction = "x"             # if the file has none
 //! ```
 //!
-//! The shaft's speed or angle and a tacho have no station: `[channel.n] unit = "rpm"`. A channel's `reference = { station = "disc", direction = "-x" }` is where the force of an FRF acts. Beside a station,
-//! fixed to it: `offset = "150, 0, 0 mm"`.
+//! The shaft's speed or angle and a tacho have no station: `[channel.n] unit = "rpm"`. A channel's
+//! `reference = { station = "disc", direction = "-x" }` is the excitation DOF of an FRF. A sensor at an
+//! offset from a station, rigidly attached to it: `offset = "150, 0, 0 mm"`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,7 +29,7 @@ use crate::error::Error;
 use crate::signal::record::{Dof, Geometry, Kind, Measured, Mount, Record};
 use crate::units;
 
-/// Rates, axes and places, as the file gives them.
+/// Content of a mapping file: rates, axes, channels and points.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Mapping {
@@ -44,7 +45,7 @@ pub struct Mapping {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Place {
-    /// None for the shaft's speed, its angle or a tacho, which only want a unit.
+    /// None for the shaft's speed, its angle or a tacho, which need only a unit.
     station: Option<String>,
     offset: Option<String>,
     direction: Option<String>,
@@ -63,7 +64,7 @@ struct Reference {
 /// Reads a mapping file.
 ///
 /// # Errors
-/// The file cannot be read, or is not as described above; says the line.
+/// The file cannot be read, or does not have the format above; the message has the line.
 pub fn read(path: &Path) -> Result<Mapping, Error> {
     let text = std::fs::read_to_string(path).map_err(|source| Error::Environment {
         operation: "read",
@@ -77,7 +78,8 @@ pub fn read(path: &Path) -> Result<Mapping, Error> {
     })
 }
 
-/// Number of a direction: x y z are 1 2 3, theta_x or Rx and so on 4 5 6, with their sign; `None` for another word.
+/// Number of a direction: x y z are 1 2 3, theta_x or Rx and so on 4 5 6, with their sign; `None` for any
+/// other text.
 pub fn direction(word: &str) -> Option<i8> {
     let (sign, name) = match word.trim().split_at_checked(1) {
         Some(("-", name)) => (-1, name),
@@ -90,13 +92,13 @@ pub fn direction(word: &str) -> Option<i8> {
 }
 
 impl Mapping {
-    /// Sampling rate of records whose file tells none \[Hz\], where it is stated soundly.
+    /// Sampling rate \[Hz\] of records whose file has none; `None` if missing or invalid.
     pub fn rate(&self) -> Option<f64> {
         let rate = units::parse(self.rate.as_ref()?, units::FREQUENCY).ok()?;
         (rate > 0.0).then_some(rate)
     }
 
-    /// Gives records the units of the mapping where their file tells none, whatever becomes of them.
+    /// Sets the units of the mapping on all records whose file has none.
     pub fn give_units(&self, measured: &mut Measured) {
         for record in &mut measured.records {
             let label = self.channel.get(&record.name).and_then(|own| own.unit.as_deref());
@@ -108,15 +110,16 @@ impl Mapping {
         }
     }
 
-    /// Puts records where the mapping says, in the numbers of the model's points, and leaves out those it does not
-    /// name; returns what deserves a warning. Of the geometry only points beside stations are left: points have the
-    /// model's numbers now, whatever the file calls by them. A mapping that names none (but a rate, or axes) keeps all.
+    /// Assigns records to the model's point numbers and directions, and leaves out those that the mapping
+    /// does not name; returns warnings. Of the geometry only points at an offset from stations remain, since
+    /// points now have the model's numbers. A mapping without channels and points (only rates, axes) keeps
+    /// all records.
     ///
-    /// `place` is the number of a station, bearing or body, `path` the mapping's file, for messages.
+    /// `place` gives the number of a station, bearing or body; `path` is the mapping file, for messages.
     ///
     /// # Errors
-    /// All at once: channels and points the records do not have, stations the model does not have, directions,
-    /// units and rates that are not understood, units that contradict the file's.
+    /// All problems at once: channels and points missing in the records, stations missing in the model,
+    /// invalid directions, units and rates, units that contradict the file's.
     pub fn apply(
         &self,
         measured: &mut Measured,
@@ -139,7 +142,7 @@ impl Mapping {
         let axes = self.axes(&mut problems);
 
         let known: Vec<&str> = measured.records.iter().map(|r| r.name.as_str()).collect();
-        // What has no station is the shaft's, and has been taken out.
+        // Channels without a station belong to the shaft and have been removed before.
         let placed = self.channel.iter().filter(|(_, own)| own.station.is_some()).map(|(name, _)| name);
         for name in placed.filter(|name| !known.contains(&name.as_str())) {
             problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
@@ -151,7 +154,9 @@ impl Mapping {
                 let more = if points.len() > 12 { ", ..." } else { "" };
                 points.truncate(12);
                 problems.push(match points[..] {
-                    [] => format!("there is no record at point {number}: the file's records tell no points"),
+                    [] => format!(
+                        "there is no record at point {number}: the file's records have no point numbers"
+                    ),
                     _ => format!("there is no record at point {number}, but at {}{more}", points.join(", ")),
                 });
             }
@@ -161,7 +166,7 @@ impl Mapping {
         let mut left_out = Vec::new();
         let mut mounts = std::mem::take(&mut measured.geometry.mounts);
         for mut record in std::mem::take(&mut measured.records) {
-            // A coherence is where its FRF is, whose problems have been told.
+            // A coherence is placed like its FRF, whose problems have already been reported.
             let own = self.channel.get(&record.name);
             let of_frf = record.name.strip_prefix("coherence ").filter(|_| record.kind == Kind::Coherence);
             let entry = own.or_else(|| self.channel.get(of_frf?));
@@ -211,7 +216,8 @@ impl Mapping {
         Ok(warnings)
     }
 
-    /// Puts shapes at the stations of the mapping's points, in the model's axes; points it does not name are left out.
+    /// Assigns shapes to the stations of the mapping's points, in the model's axes; points it does not name
+    /// are left out.
     ///
     /// # Errors
     /// As [`Mapping::apply`], and a mapping that names no point.
@@ -279,10 +285,10 @@ impl Mapping {
         sizes.sort_unstable();
         match found[..] {
             [x, y, z] if sizes == [1, 2, 3] => {
-                // An even permutation steps through the axes in order.
+                // An even permutation keeps the cyclic order of the axes.
                 let in_order = (y.abs() - x.abs()).rem_euclid(3) == 1;
                 if in_order != (x.signum() * y.signum() * z.signum() == 1) {
-                    problems.push(format!("axes = {words:?} are left-handed: turn the sign of one"));
+                    problems.push(format!("axes = {words:?} are left-handed: change the sign of one"));
                 }
                 [x, y, z]
             }
@@ -294,7 +300,7 @@ impl Mapping {
     }
 }
 
-/// Numbers of the points at which something was measured or pushed.
+/// Point numbers of all responses and references.
 fn points_of(measured: &Measured) -> Vec<i64> {
     let mut points: Vec<i64> = measured
         .records
@@ -307,7 +313,7 @@ fn points_of(measured: &Measured) -> Vec<i64> {
     points
 }
 
-/// Values that were stored in a unit that their file does not tell.
+/// Converts values from a unit that their file does not state.
 fn convert(record: &mut Record, label: &str, known: unit::SiUnit) {
     record.values.scale(known.numerator, known.divisor);
     record.unit = known.name;
@@ -319,7 +325,7 @@ fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     None
 }
 
-/// "; did you mean `...`?" or the names there are.
+/// ", but `...`" with the nearest known name, else the known names.
 fn alike(name: &str, known: &[&str]) -> String {
     let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(k, name), k)).min();
     match nearest {
@@ -331,7 +337,7 @@ fn alike(name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Places records in the model.
+/// Assigns records to points and directions of the model.
 struct Target<'a> {
     place: &'a dyn Fn(&str) -> Option<i64>,
     axes: [i8; 3],
@@ -339,11 +345,11 @@ struct Target<'a> {
     mounts: &'a mut Vec<Mount>,
 }
 
-/// Numbers of points beside stations begin after this.
+/// Numbers of points at an offset from stations start after this.
 const MOUNTS: i64 = 1_000_000;
 
 impl Target<'_> {
-    /// Number of a station, or of a point beside it.
+    /// Number of a station, or of a point at an offset from it.
     fn point_at(&mut self, name: &str, station: Option<&str>, offset: Option<&str>) -> i64 {
         let Some(station) = station else {
             self.problems.push(format!("`{name}` has no station"));
@@ -398,7 +404,7 @@ impl Target<'_> {
         }
     }
 
-    /// Places a channel by its own entry.
+    /// Places a channel by its entry in the mapping.
     fn channel(&mut self, record: &mut Record, own: &Place) -> bool {
         self.unit(record, own.unit.as_deref());
         let way = match &own.direction {
@@ -420,14 +426,14 @@ impl Target<'_> {
         true
     }
 
-    /// Keeps a record where its file puts it, in the model's axes.
+    /// Keeps a record at the point stated by its file, in the model's axes.
     fn kept(&self, record: &mut Record) -> bool {
         record.response.direction = self.turned(record.response.direction);
         record.reference.direction = self.turned(record.reference.direction);
         true
     }
 
-    /// Places a record by the points of its ends; false if one of them is not in the mapping.
+    /// Places a record by its response and reference points; false if one of them is not in the mapping.
     fn points(&mut self, record: &mut Record, points: &BTreeMap<String, Place>) -> bool {
         let of = |dof: Dof| points.get(&dof.node.to_string());
         let (response, reference) = (record.response, record.reference);
@@ -454,7 +460,7 @@ impl Target<'_> {
         Dof::new(self.point_at(name, at.station.as_deref(), at.offset.as_deref()), way)
     }
 
-    /// Converts values whose unit the file does not tell.
+    /// Converts values whose unit the file does not state.
     fn unit(&mut self, record: &mut Record, label: Option<&str>) {
         let Some(label) = label.filter(|_| record.kind != Kind::Coherence) else { return };
         let Some(known) = unit::si(label) else {
@@ -467,7 +473,7 @@ impl Target<'_> {
         if !record.unit.is_empty() {
             if record.unit != known.name {
                 let (name, own) = (&record.name, &record.unit);
-                self.problems.push(format!("`{name}` is in {own} by its file, not in \"{label}\""));
+                self.problems.push(format!("`{name}` is in {own} according to its file, not in \"{label}\""));
             }
             return;
         }

@@ -1,6 +1,6 @@
-//! Measured files of any known format: read by what they hold, written by their extension.
+//! Measured files: format detected by content when reading, chosen by the extension when writing.
 //!
-//! | format | read | written | holds |
+//! | format | read | written | contents |
 //! |---|---|---|---|
 //! | universal file | .uff .unv .uf | .uff (ASCII), .unv | all |
 //! | MATLAB v5 | .mat | .mat | records |
@@ -36,11 +36,11 @@ pub enum Format {
     Hdf5,
 }
 
-/// Bytes from the start that tell a format; a user block of 512 bytes may stand before HDF5.
+/// Bytes from the start for detecting a format; HDF5 may follow a user block of 512 bytes.
 const HEAD: usize = 520;
 
 impl Format {
-    /// The format of a file by its first bytes; text that is no universal file is a table.
+    /// The format of a file by its first bytes; text that is not a universal file is a table.
     pub fn of_content(head: &[u8]) -> Option<Format> {
         let hdf5 = b"\x89HDF\r\n\x1a\n";
         let first_line = head.split(|&b| b == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
@@ -52,13 +52,13 @@ impl Format {
             _ if npy::is_npy(head) || npy::is_npz(head) => Some(Format::Numpy),
             _ if wav::is_wav(head) => Some(Format::Wav),
             _ if first_line == Some(b"-1") => Some(Format::Universal),
-            // Control characters other than tabs and line ends stand in no text.
+            // Text has no control characters other than tabs and line ends.
             _ if head.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r')) => Some(Format::Table),
             _ => None,
         }
     }
 
-    /// The format that an extension names.
+    /// The format of a file extension.
     pub fn of_extension(path: &Path) -> Option<Format> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         Some(match extension.as_str() {
@@ -73,12 +73,12 @@ impl Format {
     }
 }
 
-/// Reads every channel of a file, whatever its format.
+/// Reads every channel of a file of any supported format.
 ///
-/// Records have names of their own afterwards, and values that are no numbers are pointed out in the notes.
+/// Names of records are made unique, and non-finite values are reported in the notes.
 ///
 /// # Errors
-/// The file cannot be read, is of no known format, damaged or cut off; each says what to do.
+/// The file cannot be read, is of an unknown format, damaged or cut off; each message has a hint.
 pub fn read(path: &Path) -> Result<Measured, Error> {
     let mut head = Vec::new();
     let file = std::fs::File::open(path);
@@ -96,7 +96,7 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
     let of_arrays = |(arrays, left_out): (Vec<arrays::Array>, Vec<String>)| {
         let mut out = arrays::to_records(arrays);
         if !left_out.is_empty() {
-            out.notes.push(format!("not read, since they are no plain arrays: {}", left_out.join(", ")));
+            out.notes.push(format!("not read, since they are not plain arrays: {}", left_out.join(", ")));
         }
         out
     };
@@ -108,7 +108,7 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
         Some(Format::Hdf5) => datasets::read(path)?,
         Some(Format::Table) => csv::read(path)?,
         None if Format::of_extension(path) == Some(Format::Mat) => {
-            return Err(content("it is no MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
+            return Err(content("it is not a MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
         }
         None => {
             let advice = "use a universal file, MATLAB, NumPy, WAV, CSV or HDF5 file";
@@ -116,16 +116,16 @@ pub fn read(path: &Path) -> Result<Measured, Error> {
         }
     };
     if out.records.is_empty() && out.shapes.is_empty() && out.geometry.nodes.is_empty() {
-        return Err(content("the file holds no channel", "export the records themselves"));
+        return Err(content("the file contains no channel", "export the records themselves"));
     }
     finish(&mut out);
     Ok(out)
 }
 
-/// How the note on channels without an axis begins.
+/// Start of the note on channels without an axis.
 pub const UNTOLD: &str = "no sampling rate or frequency step is stated for";
 
-/// Makes names unique and points out values that are no numbers.
+/// Makes names unique and reports non-finite values.
 fn finish(out: &mut Measured) {
     for k in 1..out.records.len() {
         let (before, here) = out.records.split_at_mut(k);
@@ -141,7 +141,7 @@ fn finish(out: &mut Measured) {
         if let Some((count, first)) = record.values.not_finite() {
             let (name, length) = (&record.name, record.values.len());
             out.notes.push(format!(
-                "`{name}` holds {count} values of {length} that are no finite numbers, the first at value {first}"
+                "`{name}` has {count} values of {length} that are not finite, the first at index {first}"
             ));
         }
     }
@@ -154,10 +154,10 @@ fn finish(out: &mut Measured) {
     }
 }
 
-/// Writes a file in the format that its extension names.
+/// Writes a file in the format of its extension.
 ///
 /// # Errors
-/// An extension that names no format, records that the format cannot hold, or a file that cannot be written.
+/// An unknown extension, records that the format cannot store, or a file that cannot be written.
 pub fn write(path: &Path, measured: &Measured) -> Result<(), Error> {
     let all: Vec<&Record> = measured.records.iter().collect();
     match Format::of_extension(path) {
@@ -173,7 +173,7 @@ pub fn write(path: &Path, measured: &Measured) -> Result<(), Error> {
         Some(Format::Hdf5) => datasets::write(path, measured),
         None => Err(Error::Content {
             path: path.into(),
-            problem: "its extension names no format".into(),
+            problem: "its extension is not that of a supported format".into(),
             advice: "use .uff, .unv, .mat, .npz, .wav, .csv or .h5".into(),
         }),
     }

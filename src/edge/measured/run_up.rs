@@ -1,4 +1,4 @@
-//! Channels of a measured run-up, each at its place in a model.
+//! Channels of a measured run-up, assigned to sensor positions in a model.
 
 use crate::error::Error;
 use crate::model::{Model, Probe, Quantity};
@@ -7,24 +7,25 @@ use crate::study::signal::SignalChannel;
 use crate::update::UpdateError;
 use crate::update::target::sensors;
 
-/// Names listed in a message at most.
+/// Most names listed in a message.
 const MOST_NAMES: usize = 6;
 
-/// What of a file can be held against a model, and what deserves a warning.
+/// Channels of a file that can be compared with a model, and warnings.
 pub type Placed = (Vec<(Probe, SignalChannel)>, Vec<String>);
 
-/// Whether a record is of the shaft's turning rather than of vibration.
+/// Whether a record is a shaft rotation signal (tacho, keyphasor, angle, speed) rather than vibration.
 pub fn is_clock(record: &Record) -> bool {
     let name = record.name.to_lowercase();
     let named = ["tacho", "keyphasor", "trigger", "pulse", "theta", "angle", "speed", "rpm"];
     matches!(record.unit.as_str(), "rpm" | "rad/s" | "s") || named.iter().any(|word| name.contains(word))
 }
 
-/// Displacements, velocities and accelerations over time, at the point and in the direction that their records state;
-/// a channel named like a probe of the model is where that probe is. All are sampled like the first.
+/// Displacements, velocities and accelerations over time, at the point and in the direction stated by their
+/// records; a channel named like a probe of the model is at that probe. Only channels sampled like the first
+/// are returned.
 ///
 /// # Errors
-/// No such channel, none with a place, a sampling rate that is not known, NaN.
+/// No such channel, none with a known position, an unknown sampling rate, NaN.
 pub fn channels(measured: &Measured, model: &Model) -> Result<Placed, Error> {
     let mut warnings = Vec::new();
     let vibrates = |r: &&Record| r.time_samples().is_ok() && !is_clock(r) && quantity(&r.unit).is_some();
@@ -35,7 +36,7 @@ pub fn channels(measured: &Measured, model: &Model) -> Result<Placed, Error> {
     if all.is_empty() {
         let (problem, advice) = match &unknown[..] {
             [] => (
-                "it holds no displacement, velocity or acceleration over time".into(),
+                "it contains no displacement, velocity or acceleration over time".into(),
                 "give the file with the sensors' channels",
             ),
             names => (format!("the unit of {} is not known", listed(names)), unit_advice),
@@ -53,7 +54,7 @@ pub fn channels(measured: &Measured, model: &Model) -> Result<Placed, Error> {
         }
     }
     let advice =
-        "say it with --mapping, such as [channel.NAME] station = \"B\", direction = \"y\"".to_string();
+        "give it with --mapping, such as [channel.NAME] station = \"B\", direction = \"y\"".to_string();
     let Some((_, first)) = placed.first() else {
         let verb = if lost.len() == 1 { "was" } else { "were" };
         let problem = format!("where {} {verb} measured is not known", listed(&lost));
@@ -74,13 +75,13 @@ pub fn channels(measured: &Measured, model: &Model) -> Result<Placed, Error> {
     if !others.is_empty() {
         let (names, own) = (listed(&others), &first.name);
         warnings
-            .push(format!("left out, not sampled like `{own}`: {names}; give them in a file of their own"));
+            .push(format!("left out, not sampled like `{own}`: {names}; give them in a separate file"));
     }
     let mut out = Vec::new();
     for (probe, record) in placed.iter().filter(|(_, r)| r.axis == axis && r.values.len() == count) {
         let samples = record.time_samples()?.to_vec();
         if let Some(index) = samples.iter().position(|v| !v.is_finite()) {
-            let problem = format!("`{}` is no number at sample {index}", record.name);
+            let problem = format!("`{}` is not finite at sample {index}", record.name);
             return Err(UpdateError::new(problem, "cut the record before or after it").into());
         }
         let start = match record.axis.points {
@@ -101,7 +102,7 @@ fn listed(names: &[&str]) -> String {
     format!("{}{more}", names[..names.len().min(MOST_NAMES)].join(", "))
 }
 
-/// What a unit measures, of a translation or a rotation.
+/// Quantity of a unit, translational or rotational.
 fn quantity(unit: &str) -> Option<Quantity> {
     match unit {
         "m" | "rad" => Some(Quantity::Displacement),
@@ -111,7 +112,7 @@ fn quantity(unit: &str) -> Option<Quantity> {
     }
 }
 
-/// Where a record was measured.
+/// Sensor position and direction (probe) of a record in the model.
 fn place(record: &Record, measured: &Measured, model: &Model) -> Option<Probe> {
     let quantity = quantity(&record.unit)?;
     let turns = record.unit.starts_with("rad");

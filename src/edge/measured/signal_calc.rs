@@ -1,16 +1,17 @@
-//! Files of the analyser SignalCalc: arrays X1, H1_2, C1_2 of two columns, axis and value.
+//! MATLAB files of the analyser SignalCalc (Data Physics): arrays X1, H1_2, C1_2 of two columns, axis and
+//! value.
 
 use super::arrays::{Array, Data};
 use super::unit;
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
 
-/// The array that tells such a file: rows of "Signal H1_2", "Real/Imag g / N", place.
+/// Name of the array that identifies such a file: rows of "Signal H1_2", "Real/Imag g / N", position.
 pub const MARK: &str = "DP_Info";
 
 /// Records of the signals that the file lists.
 ///
-/// The first number of a name is the reference's channel, the second the response's; of a single one, it is the
-/// channel itself.
+/// The first number of a name is the reference's channel, the second the response's; of a single one, it is
+/// the channel itself.
 pub fn to_records(arrays: &[Array]) -> Measured {
     let mut out = Measured::default();
     let rows = arrays.iter().find(|a| a.name == MARK);

@@ -1,4 +1,5 @@
-//! What a model is held against, from a measured file: identified modes, FRFs, or a simulated hammer test.
+//! Test data for model validation and updating, from a file: identified modes, FRFs, or a simulated impact
+//! test.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -16,32 +17,32 @@ use crate::signal::record::{Analysis, Dof, FrfMatrix, Kind, Measured, Shape};
 use crate::update::UpdateError;
 use crate::update::target::{Sensor, Target, TargetFrfs, TargetMode, modes_of, sensors};
 
-/// How to read a measured file.
+/// Settings for reading a measured file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Reading<'a> {
     pub mapping: Option<&'a Path>,
-    /// Frequencies \[Hz\] to look at; all if `None`.
+    /// Frequency band \[Hz\]; all if `None`.
     pub band: Option<[f64; 2]>,
-    /// Speed Ω \[rad/s\] at which it was measured, where the file does not tell.
+    /// Speed Ω \[rad/s\] of the measurement, if the file does not state it.
     pub speed: Option<f64>,
 }
 
-/// A file made ready, and what deserves a warning.
+/// Test data of a file, and warnings.
 #[derive(Clone, Debug)]
 pub struct ReadTarget {
     pub target: Target,
     pub warnings: Vec<String>,
     /// "9 modes identified from 12 FRFs", "9 modes of the file".
     pub source: String,
-    /// Largest force of a simulated blow \[N\].
+    /// Peak force of a simulated impact \[N\].
     pub force: Option<f64>,
 }
 
-/// Reads a file and puts what it holds into the model.
+/// Reads a file and assigns its modes or FRFs to points of the model.
 ///
-/// Modes of a universal file (55, 2414) or of a results file come as they are; FRFs are identified on the way; the run
-/// of a hammer test, stored by `run-up` with a load over time, gives its FRFs first. `None` where it holds neither modes
-/// nor FRFs.
+/// Modes of a universal file (55, 2414) or of a results file are taken as they are; modes of FRFs are
+/// identified; the run of an impact test, stored by `run-up` with a load over time, is first converted to
+/// FRFs. `None` if it contains neither modes nor FRFs.
 ///
 /// # Errors
 /// A file that cannot be read, a mapping or points that do not fit the model, no mode in the band.
@@ -78,18 +79,18 @@ pub fn read(path: &Path, reading: &Reading, model: &Model) -> Result<Option<Read
     if out.target.sensors.len() < 3 {
         let n = out.target.sensors.len();
         out.warnings.push(format!(
-            "{n} measured point{} cannot tell shapes apart: modes are paired by frequency",
+            "{n} measured point{} cannot distinguish mode shapes: modes are paired by frequency",
             if n == 1 { "" } else { "s" }
         ));
     }
     Ok(Some(out))
 }
 
-/// That a file holds nothing to hold a model against.
+/// Error for a file without modes and FRFs.
 pub fn nothing(path: &Path) -> Error {
     Error::Content {
         path: path.into(),
-        problem: "it holds neither modes nor FRFs".into(),
+        problem: "it contains neither modes nor FRFs".into(),
         advice: "give FRFs (universal file 58), modes (55, 2414), or the results of `rotordyn modal`".into(),
     }
 }
@@ -98,7 +99,7 @@ fn is_mode(shape: &Shape) -> bool {
     matches!(shape.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. })
 }
 
-/// Lays a mapping over records and shapes.
+/// Applies a mapping to records and shapes.
 fn place(
     mapping: &Mapping,
     measured: &mut Measured,
@@ -120,7 +121,7 @@ fn of_shapes(measured: &Measured, reading: &Reading, model: &Model) -> Result<Re
     let found = modes_of(measured, reading.speed.map(|s| s * 60.0 / TAU));
     let Some((dofs, modes, rpm)) = found.filter(|(_, modes, _)| !modes.is_empty()) else {
         return Err(UpdateError::new(
-            "the file's shapes are no oscillations",
+            "the file's shapes are not oscillatory modes",
             "export complex or normal modes",
         )
         .into());
@@ -146,7 +147,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
     }
     let responses = sensors(&matrix.responses, &measured.geometry, model)?;
-    // A blow that no single point and direction describes has shapes all the same, and no FRF to compare.
+    // An impact without a single point and direction still gives mode shapes, but no FRF to compare.
     let at = |dof: &Dof| sensors(std::slice::from_ref(dof), &measured.geometry, model).ok()?.pop();
     let references: Vec<Option<Sensor>> = matrix.references.iter().map(at).collect();
     let placed: Vec<usize> = (0..references.len()).filter(|&e| references[e].is_some()).collect();
@@ -181,7 +182,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     Ok(ReadTarget { target, warnings, source, force })
 }
 
-/// Leaves out responses that no force moves; says which.
+/// Removes responses whose FRFs are all zero; returns a warning for each.
 fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
     let silent = |row: &[Vec<Complex64>]| row.iter().all(|frf| frf.iter().all(|h| h.norm_sqr() == 0.0));
     let gone: Vec<usize> = (0..matrix.responses.len()).filter(|&r| silent(&matrix.values[r])).collect();
@@ -195,14 +196,14 @@ fn drop_silent(matrix: &mut FrfMatrix) -> Vec<String> {
             coherence.remove(r);
         }
     }
-    let name = |&r: &usize| format!("response {} is left out: no force moves it", matrix.responses[r]);
+    let name = |&r: &usize| format!("response {} is left out: all its FRFs are zero", matrix.responses[r]);
     let said = gone.iter().map(name).collect();
     let mut place = 0..;
     matrix.responses.retain(|_| place.next().is_none_or(|r| !gone.contains(&r)));
     said
 }
 
-/// Measured rotations at the radius at which the sensors see those of the model.
+/// Measured rotations scaled by the radius that the sensors have for the model's rotations.
 fn weighed(mut modes: Vec<TargetMode>, sensors: &[Sensor]) -> Vec<TargetMode> {
     let weight = |s: &Sensor| s.direction.iter().map(|d| d.abs()).fold(0.0, f64::max);
     for mode in &mut modes {
@@ -211,7 +212,7 @@ fn weighed(mut modes: Vec<TargetMode>, sensors: &[Sensor]) -> Vec<TargetMode> {
     modes
 }
 
-/// FRFs of rotations are in rad, not at a radius.
+/// Sensors with unit weights: FRFs of rotations are in rad, not scaled by a radius.
 fn plain(sensors: &[Sensor]) -> Vec<Sensor> {
     let one = |s: &Sensor| Sensor {
         direction: s.direction.map(|d| if d == 0.0 { 0.0 } else { d.signum() }),
@@ -237,7 +238,7 @@ fn modes_of_identified(found: &Identified) -> (Vec<Dof>, Vec<TargetMode>) {
     (dofs, modes)
 }
 
-/// Modes of one of our results files as shapes, at every speed; `None` for any other file.
+/// Modes of a results file of this program as shapes, at every speed; `None` for any other file.
 fn own_results(path: &Path) -> Result<Option<Measured>, Error> {
     let is_hdf5 = matches!(measured::Format::of_extension(path), Some(measured::Format::Hdf5));
     if !is_hdf5 || !path.exists() {

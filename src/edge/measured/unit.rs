@@ -1,7 +1,7 @@
-//! Units as measured files label them, "g", "mm/s2", "(m/s^2)/N", "gn²/Hz", to SI.
+//! Unit labels of measured files, "g", "mm/s2", "(m/s^2)/N", "gn²/Hz", converted to SI.
 //!
 //! `g` is the standard acceleration of free fall, never a gram; rpm stays rpm. Products by a space, `*`, `.`
-//! or touching brackets, quotients by `/`, powers as `^2`, `**2`, `²`, or digits behind the name.
+//! or touching brackets, quotients by `/`, powers as `^2`, `**2`, `²`, or digits after the name.
 
 use crate::units;
 
@@ -18,7 +18,7 @@ type Powers = [i32; 6];
 
 const NONE: Powers = [0; 6];
 
-/// Names of what is measured, by powers.
+/// Names of SI units by their powers of the base units.
 #[rustfmt::skip]
 const NAMES: &[(&str, Powers)] = &[
     ("1", NONE), ("m", [1, 0, 0, 0, 0, 0]), ("m/s", [1, 0, -1, 0, 0, 0]), ("m/s^2", [1, 0, -2, 0, 0, 0]),
@@ -38,7 +38,7 @@ const NAMES: &[(&str, Powers)] = &[
     ("N (m/s^2)", [2, 1, -4, 0, 0, 0]), ("(m/s^2)/V", [1, 0, -2, 0, -1, 0]),
 ];
 
-/// Units of measured signals beyond those of model files, and names that others use: size, divisor, powers.
+/// Units of measured signals beyond those of model files, and other spellings: numerator, divisor, powers.
 #[rustfmt::skip]
 const EXTRA: &[(&str, f64, f64, Powers)] = &[
     ("g", 9.80665, 1.0, [1, 0, -2, 0, 0, 0]), ("G", 9.80665, 1.0, [1, 0, -2, 0, 0, 0]),
@@ -56,7 +56,7 @@ const EXTRA: &[(&str, f64, f64, Powers)] = &[
     ("-", 1.0, 1.0, NONE), ("none", 1.0, 1.0, NONE),
 ];
 
-/// The SI unit of a label; `None` where the label is empty or not understood.
+/// The SI unit of a label; `None` if the label is empty or unknown.
 pub fn si(label: &str) -> Option<SiUnit> {
     let label = label.trim();
     if label.eq_ignore_ascii_case("rpm") || label == "rev/min" || label == "1/min" {
@@ -74,9 +74,9 @@ pub fn si(label: &str) -> Option<SiUnit> {
     Some(SiUnit { name, numerator: product.numerator, divisor: product.divisor })
 }
 
-/// The SI unit behind a column's name, such as `B_ax_m_s2` to `B_ax` and m/s²; `None` where there is none.
+/// Splits the unit suffix off a column's name, `B_ax_m_s2` to `B_ax` and m/s²; `None` if there is none.
 ///
-/// Later parts of a unit divide, as written by [`crate::edge::csv::Column::header`]; `N_m` is a moment.
+/// Parts after the first are divisors, as written by [`crate::edge::csv::Column::header`]; `N_m` is a moment.
 pub fn behind(name: &str) -> Option<(&str, SiUnit)> {
     const IN_NAMES: [&str; 24] = [
         "m", "mm", "um", "nm", "s", "ms", "us", "N", "mN", "kN", "g", "V", "mV", "Pa", "kPa", "MPa", "rad",
@@ -97,7 +97,7 @@ pub fn behind(name: &str) -> Option<(&str, SiUnit)> {
             joined = match *part {
                 part if known(part) && k == 0 => part.to_owned(),
                 part if known(part) => format!("{joined}/{part}"),
-                // "(m/s^2)^2" was written so.
+                // Written for "(m/s^2)^2".
                 "2" | "3" if k > 0 => format!("({joined})^{part}"),
                 _ => return None,
             };
@@ -115,7 +115,7 @@ struct Product {
     powers: Powers,
 }
 
-/// Reads a unit from the left; `rest` is what is left.
+/// Parser of a unit label; `rest` is the unread text.
 struct Reader<'a> {
     rest: &'a str,
 }
@@ -157,7 +157,7 @@ impl Reader<'_> {
             self.rest = self.rest.strip_prefix([')', ']'])?;
             return Some(product);
         }
-        // A lone "1" or "-" is no dimension.
+        // A single "1" or "-" is dimensionless.
         for one in ["1", "-"] {
             if let Some(after) = self.rest.strip_prefix(one) {
                 self.rest = after;
@@ -200,7 +200,7 @@ fn named(name: &str) -> Option<(f64, f64, Powers)> {
     Some((numerator, divisor, [m, kg, s, rad, 0, kelvin]))
 }
 
-/// "m^2 kg s^-1" of powers that have no name.
+/// "m^2 kg s^-1" for powers without a unit name.
 fn spelled(powers: Powers) -> String {
     let factor = |(name, power): (&str, i32)| match power {
         0 => None,

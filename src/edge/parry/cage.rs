@@ -139,7 +139,7 @@ impl Shape for CageShape {
         std::f64::consts::FRAC_PI_2
     }
 
-    /// Not convex in truth: the answer sends parry's ball queries to the point projection above.
+    /// Not convex in fact: `true` makes parry's ball queries use the point projection above.
     fn is_convex(&self) -> bool {
         true
     }

@@ -1,8 +1,8 @@
 //! Balls, rings and cage of a bearing as parry shapes: masses, overlaps, ball-to-race distances.
 //!
 //! The bearing's axes: z along the shaft, origin on the axis in the plane of the inner groove centres, where
-//! the force element takes its tilts. The outer ring is at rest in them. A ring's groove is exact (a torus
-//! segment, not a mesh), so that a ball's gap to a race is right to rounding.
+//! the force element defines its tilts. The outer ring is at rest in them. A ring's groove is exact (a torus
+//! segment, not a mesh), so that a ball's gap to a race is exact to rounding.
 
 mod cage;
 pub mod overlap;
@@ -19,9 +19,9 @@ use parry3d_f64::math::{Pose, Rotation, Vector};
 
 use crate::bearing::BallGeometry;
 
-/// Shoulder height over ball diameter at α₀ = 0; catalogues give 0.17 to 0.25 and the model file nothing.
+/// Shoulder height over ball diameter at α₀ = 0; 0.17 to 0.25 in catalogues, not given in the model file.
 const SHOULDER_HEIGHT: f64 = 0.2;
-/// Half the cage's wall thickness over the ball diameter, chosen to pass between the shoulders.
+/// Half the cage's wall thickness over the ball diameter, chosen to fit between the shoulders.
 const CAGE_HALF_WALL: f64 = 0.12;
 /// Cage width over pocket diameter; never more than 0.9 of the bearing's width.
 const CAGE_WIDTH: f64 = 1.35;
@@ -40,7 +40,7 @@ pub struct BearingShapes {
     pub ball_centre: [f64; 2],
 }
 
-/// Where a bearing's parts are, in its own axes.
+/// Poses of a bearing's parts, in its own axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// Pose of the inner ring; identity when centred.
@@ -73,7 +73,7 @@ impl BearingShapes {
     /// R_i = D_pw/2 + (r_i − D_w/2) cos α₀ − P_d/4 at z = 0,
     /// R_o = D_pw/2 − (r_o − D_w/2) cos α₀ + P_d/4 at z = −A sin α₀, A = r_i + r_o − D_w.
     /// Shoulder heights and cage section are not in the geometry: 0.2 D_w (more at large α₀), and a cage wall
-    /// of 0.24 D_w centred on the pitch circle; both shoulders of a ring are alike.
+    /// of 0.24 D_w centred on the pitch circle; both shoulders of a ring are of equal height.
     pub fn new(g: &BallGeometry, pocket_diameter: f64) -> Self {
         let (sin, cos) = g.contact_angle.sin_cos();
         let ball_radius = 0.5 * g.ball_diameter;
@@ -134,7 +134,8 @@ impl BearingShapes {
         }
     }
 
-    /// Gap between a ball and a race's ring \[m\], negative when they overlap; NaN only from non-finite input.
+    /// Gap between a ball and a race's ring \[m\], negative when they overlap; NaN only from non-finite
+    /// input.
     ///
     /// `ring`: pose of that ring; `ball`: the ball's centre \[m\].
     pub fn race_gap(&self, race: Race, ring: &Isometry3<f64>, ball: &Point3<f64>) -> f64 {

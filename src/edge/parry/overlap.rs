@@ -1,4 +1,4 @@
-//! Which parts of a bearing overlap, and how deep.
+//! Overlaps (geometric interference) of bearing parts and their depth.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -13,7 +13,7 @@ use super::{BearingShapes, Placement, Race, Ring, pose, ring, vector};
 /// A part of a bearing, or a surface that cuts one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Ball by number, from 0 in the file, printed from 1.
+    /// Ball by number, from 0, printed from 1.
     Ball(usize),
     /// Cage pocket by number.
     Pocket(usize),
@@ -49,7 +49,7 @@ impl fmt::Display for Part {
 pub struct Overlap {
     pub first: Part,
     pub second: Part,
-    /// How deep one is in the other \[m\], greater than 0.
+    /// Penetration depth \[m\], greater than 0.
     pub depth: f64,
 }
 
@@ -60,13 +60,13 @@ impl fmt::Display for Overlap {
 }
 
 impl BearingShapes {
-    /// Overlaps of the parts at a placement; empty when all is well.
+    /// Overlaps of the parts at a placement; empty if there are none.
     ///
-    /// `race_allowance` \[m\]: elastic penetration of a ball into a race that is no fault (interference fits
-    /// and loads squeeze balls by micrometres). Geometry that contradicts itself (groove through the bore or
-    /// a side face, pockets that run into each other) counts as overlap of these surfaces.
-    /// Rings and cage against each other are compared as coaxial cylinders with radial play less eccentricity
-    /// and less half width times tilt, a bound that errs to the safe side by R θ²/2.
+    /// `race_allowance` \[m\]: permitted elastic penetration of a ball into a race (interference fits and
+    /// loads compress balls by micrometres). Inconsistent geometry (groove through the bore or a side face,
+    /// intersecting pockets) counts as overlap of these surfaces. Rings and cage are compared with each other
+    /// as coaxial cylinders with radial play less eccentricity and less half width times tilt, a bound that
+    /// is conservative by R θ²/2.
     pub fn overlaps(&self, at: &Placement, race_allowance: f64) -> Vec<Overlap> {
         let mut found = Found::default();
         self.rings_in_themselves(&mut found);
@@ -139,12 +139,12 @@ impl BearingShapes {
     }
 }
 
-/// How far a groove reaches through its ring's seat \[m\]; negative is the wall that is left.
+/// Depth of a groove beyond its ring's seat surface \[m\]; negative: the remaining wall.
 fn ring_excess(ring: &Ring) -> f64 {
     ring.sense() * (ring.groove_bottom() - ring.back_radius)
 }
 
-/// Radial play that a body of this pose and width uses up at its worst end \[m\].
+/// Radial play used by a body of this pose and width at its worse end \[m\].
 fn play_used(pose: &Isometry3<f64>, width: f64) -> f64 {
     let axis = pose.rotation * Vector3::z();
     pose.translation.vector.xy().norm() + 0.5 * width * axis.xy().norm()

@@ -14,7 +14,7 @@ use super::solid::{Solid, revolved_rectangle, revolved_segment};
 pub struct Ring {
     /// Radius of the seat: half the bore (inner ring) or half the outside diameter (outer ring).
     pub back_radius: f64,
-    /// Radius of the shoulders beside the groove.
+    /// Radius of the shoulders next to the groove.
     pub shoulder_radius: f64,
     /// Radius of the circle of groove centres R_c and its axial position z_c.
     pub centre_radius: f64,
@@ -99,7 +99,7 @@ impl Ring {
         let depth = self.sense() * from_centre.x;
         let mut best = None;
         let mut shortest = f64::INFINITY;
-        // On the arc the distance is ||p − c| − r|, without forming the point: no digits lost.
+        // On the arc the distance is ||p − c| − r|, computed without the nearest point: no cancellation.
         if distance > 0.0 && depth >= self.chord() * (distance / self.groove_radius) {
             shortest = (distance - self.groove_radius).abs();
             best = Some(self.centre() + from_centre * (self.groove_radius / distance));
@@ -192,7 +192,7 @@ impl Shape for Ring {
         std::f64::consts::FRAC_PI_2
     }
 
-    /// Not convex in truth: the answer sends parry's ball queries to the exact point projection above.
+    /// Not convex in fact: `true` makes parry's ball queries use the exact point projection above.
     fn is_convex(&self) -> bool {
         true
     }
@@ -225,7 +225,7 @@ pub(super) fn march(shape: &impl PointQuery, ray: &Ray, max: Real, solid: bool) 
 
 /// Signed gap between a shape and a ball by parry's contact query: negative when they overlap.
 pub(super) fn gap(shape: &dyn Shape, pose: &Pose, centre: Vector, radius: f64) -> f64 {
-    // Without bound on the gap: every ball of a bearing is nearer than that.
+    // Unlimited prediction distance: the contact is found for any gap.
     let prediction = f64::MAX;
     match query::contact(pose, shape, &Pose::from_translation(centre), &Ball::new(radius), prediction) {
         Ok(Some(contact)) => contact.dist,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
 
-/// Rigid body symmetric about z: what a bearing part weighs and how it resists turning.
+/// Mass properties of a rigid body symmetric about z, such as a bearing part.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Solid {
     /// Mass m \[kg\].

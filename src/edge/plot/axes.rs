@@ -1,4 +1,4 @@
-//! A panel: frame, grid, ticks, axis labels, and curves clipped to it.
+//! Plot panel: frame, grid, ticks, axis labels, and clipped curves.
 
 use super::scale::{Range, Scale, Tick};
 use super::style::*;
@@ -55,7 +55,7 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Linear axes with the usual tick spacing.
+    /// Linear axes with default tick spacing.
     pub fn linear(frame: Frame, x: Range, y: Range) -> Self {
         let spacing = (0.25 * frame.h).clamp(24.0, 48.0);
         Axes { frame, x: Scale::linear(x, frame.across(), 80.0), y: Scale::linear(y, frame.up(), spacing) }
@@ -66,7 +66,7 @@ impl Axes {
         Axes { frame, x: Scale::linear(x, frame.across(), 80.0), y: Scale::log(y, frame.up(), 26.0) }
     }
 
-    /// Linear axes with one scale for both, centred in the frame.
+    /// Linear axes with equal scale (aspect ratio 1), centred in the frame.
     pub fn equal(frame: Frame, x: Range, y: Range) -> Self {
         let per_px = ((x.hi - x.lo) / frame.w).max((y.hi - y.lo) / frame.h);
         let around = |r: Range, px: f64| {
@@ -77,7 +77,7 @@ impl Axes {
         Axes { frame, x: Scale::linear(x, frame.across(), 44.0), y: Scale::linear(y, frame.up(), 44.0) }
     }
 
-    /// Place of a value pair on the page; NaN coordinates where there is none.
+    /// Page coordinates of a value pair; NaN if undefined.
     pub fn at(&self, x: f64, y: f64) -> Point {
         [self.x.px(x), self.y.px(y)]
     }
@@ -106,17 +106,17 @@ impl Axes {
         for y in self.y.minor.iter().map(|v| self.y.px(*v)) {
             svg.line([f.x - 2.0, y], [f.x, y], FRAME);
         }
-        // Beside a low panel the label must not run into its neighbours'.
+        // At a low panel the label must not overlap the labels of adjacent panels.
         let room = f.h + GAP;
         let size = if font::width(y_label, LABEL) <= room { LABEL } else { SMALL };
         let label = font::fit(y_label, size, room.max(100.0));
-        // Clear of the tick labels, within the margin.
+        // Outside the tick labels, inside the margin.
         let ticks = self.y.ticks.iter().map(|t| font::width(&t.label, TICK)).fold(0.0, f64::max);
         let place = f.x - (ticks + 15.0).clamp(53.0, 66.0);
         svg.text([place, f.center()[1]], &label, Text::new(size, INK).middle().upright());
     }
 
-    /// Frame and x axis; y is told by the panel beside.
+    /// Frame and x axis; the y axis is labelled at the adjacent panel.
     pub fn bare_border(&self, svg: &mut Svg, x_label: &str) {
         let f = self.frame;
         svg.rect(f.x, f.y, f.w, f.h, FRAME);
@@ -174,7 +174,7 @@ impl Axes {
     }
 }
 
-/// Marker shapes, told apart without colour.
+/// Marker shapes, distinguishable without colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
     None,

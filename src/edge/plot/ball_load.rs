@@ -1,4 +1,4 @@
-//! Loads of the balls around each bearing.
+//! Load distribution: ball loads around each bearing.
 
 use super::axes::Frame;
 use super::labels::{head, readable};
@@ -7,7 +7,7 @@ use super::style::*;
 use super::svg::{Color, Point, Style, Svg, Text};
 use super::{color_map, font};
 
-/// Most rows of balls in one figure, and balls in a row.
+/// Largest number of ball rows in one figure, and of balls in a row.
 const MOST: usize = 9;
 const BALLS: usize = 400;
 
@@ -16,15 +16,15 @@ const BALLS: usize = 400;
 pub struct BallRow {
     /// E.g. "bearing A".
     pub title: String,
-    /// Line under it, e.g. the bearing force.
+    /// Line below the title, e.g. the bearing force.
     pub note: String,
-    /// Angular positions from x towards y \[deg\].
+    /// Angular positions from x to y \[deg\].
     pub angle_deg: Vec<f64>,
     /// Contact loads \[N\].
     pub load: Vec<f64>,
 }
 
-/// Data of a figure of ball loads.
+/// Data of a load distribution figure.
 #[derive(Clone, Debug, Default)]
 pub struct BallLoads {
     pub title: String,
@@ -91,7 +91,7 @@ fn panel(svg: &mut Svg, row: &BallRow, frame: Frame, largest: f64) {
     svg.text([frame.right() - 4.0, frame.bottom() - 6.0], "load [N]", Text::new(SMALL, MUTED).end());
 }
 
-/// Colour of a ball by its share of the largest load; white without load.
+/// Colour of a ball by its fraction of the maximum load; white if unloaded.
 fn fill(part: f64) -> Color {
     if part == 0.0 { WHITE } else { bar(part) }
 }
@@ -101,7 +101,7 @@ fn bar(part: f64) -> Color {
     table[((0.2 + 0.6 * part) * (table.len() - 1) as f64) as usize]
 }
 
-/// Directions of x and y in the middle of the bearing.
+/// Arrows of the x and y directions at the bearing centre.
 fn compass(svg: &mut Svg, at: Point) {
     for (name, way) in [("x", [1.0, 0.0]), ("y", [0.0, -1.0])] {
         svg.arrow(at, [at[0] + 20.0 * way[0], at[1] + 20.0 * way[1]], 5.0, MUTED, 0.9);

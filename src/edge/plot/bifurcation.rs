@@ -1,4 +1,4 @@
-//! Bifurcation diagram: section points over a parameter, swept up and down, with what else is known of each motion.
+//! Bifurcation diagram: Poincaré section values over a parameter, with period, class and Lyapunov exponent.
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{Entry, head};
@@ -7,9 +7,10 @@ use super::scale::{Range, Scale};
 use super::style::*;
 use super::svg::{Color, Style, Svg};
 
-/// The sweep drawn first: larger and lighter, so that what only it has stays to be seen, in grey too.
+/// Colour of the sweep drawn first: lighter, with larger dots, so that it stays visible under the other, also
+/// in grey.
 const UNDER: Color = Color(240, 150, 96);
-/// The sweep drawn over it.
+/// Colour of the sweep drawn on top.
 const OVER: Color = Color(16, 60, 130);
 
 /// One sweep; points in any order.
@@ -19,9 +20,9 @@ pub struct SweepPoints {
     /// Parameter and section value of every point.
     pub x: Vec<f64>,
     pub y: Vec<f64>,
-    /// Parameter and period of every motion that repeats, as a power of the axis: 1, 2, 3, ...
+    /// Parameter and period number (1, 2, 3, ...) of every periodic motion.
     pub period: Vec<[f64; 2]>,
-    /// Parameters with quasi-periodic, and with chaotic motion.
+    /// Parameters with quasi-periodic and with chaotic motion.
     pub quasi_periodic: Vec<f64>,
     pub chaotic: Vec<f64>,
     /// Parameter, largest Lyapunov exponent and its standard error; may be empty.
@@ -37,19 +38,19 @@ pub struct Bifurcation {
     pub x_unit: String,
     pub y_name: String,
     pub y_unit: String,
-    /// One sweep, or two that are to be told apart.
+    /// One or two sweeps.
     pub sweeps: Vec<SweepPoints>,
 }
 
-/// Highest period with a line of its own in the panel of kinds.
+/// Highest period number resolved in the panel of motion classes.
 const HIGHEST: f64 = 8.0;
-/// Heights of motions without a period.
+/// Ordinates of quasi-periodic and chaotic motion in that panel.
 const REGULAR: f64 = HIGHEST + 1.7;
 const WILD: f64 = HIGHEST + 3.4;
 
 pub fn draw(data: &Bifurcation) -> Svg {
     let sweeps = &data.sweeps[..data.sweeps.len().min(2)];
-    // The last of two is drawn under the first.
+    // The second sweep is drawn under the first.
     let over = if sweeps.len() > 1 { 0.9 } else { 1.2 };
     let look = |k: usize| if k == 0 { (OVER, over) } else { (UNDER, 2.0) };
     let marker = |k: usize| {
@@ -95,7 +96,7 @@ pub fn draw(data: &Bifurcation) -> Svg {
     svg
 }
 
-/// What kind of motion each value has: its period, or above them all quasi-periodic and chaotic.
+/// Panel of motion classes: period number, quasi-periodic or chaotic.
 fn kinds(
     svg: &mut Svg,
     sweeps: &[SweepPoints],
@@ -112,7 +113,7 @@ fn kinds(
     }
     axes.grid(svg);
     for (k, sweep) in sweeps.iter().enumerate().rev() {
-        // Beside each other, so that both are seen where they agree.
+        // Shifted so that both sweeps are visible where they agree.
         let shift = if sweeps.len() < 2 { 0.0 } else { [-0.22, 0.22][k] };
         let periods = sweep.period.iter().map(|[x, p]| [*x, p.min(HIGHEST)]);
         let regular = sweep.quasi_periodic.iter().map(|x| [*x, REGULAR]);
@@ -140,7 +141,7 @@ fn exponents(
         let mut points = sweep.exponent.clone();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         for [x, value, error] in &points {
-            // Two standard errors either way.
+            // Error bars of two standard errors.
             axes.segment(
                 svg,
                 [*x, value - 2.0 * error],

@@ -1,4 +1,4 @@
-//! Bode plot over shaft speed: amplitude and phase of the unbalance response or of 1x in a run-up.
+//! Bode plot over shaft speed: amplitude and phase of the synchronous (1x) response.
 
 use super::axes::Axes;
 use super::campbell::Critical;
@@ -16,7 +16,7 @@ pub struct BodeCurve {
     pub rpm: Vec<f64>,
     /// Amplitudes in the unit of the figure.
     pub amplitude: Vec<f64>,
-    /// Phase angles \[deg\], any winding.
+    /// Phase angles \[deg\], wrapped or unwrapped.
     pub phase_deg: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Linear Campbell diagram: natural frequencies over speed, with order lines and log decrement.
+//! Campbell diagram (linear): natural frequencies over speed, with order lines and log decrement.
 
 use super::axes::{Axes, Frame, Marker, clip};
 use super::font;
@@ -7,14 +7,14 @@ use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
 
-/// Kind of a mode, by orbit and energy.
+/// Kind of a mode, by whirl direction and energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whirl {
     Forward,
     Backward,
     Torsion,
     Axial,
-    /// Of no single kind; also planar modes at standstill.
+    /// Mixed kind; also planar modes at standstill.
     Mixed,
 }
 
@@ -56,7 +56,7 @@ impl Whirl {
         Style::stroke(self.color(), 1.5)
     }
 
-    /// Marker of a damped mode filled, of an unstable one hollow.
+    /// Filled marker for a stable mode, hollow for an unstable one.
     fn marker_style(self, stable: bool) -> Style {
         Style::stroke(self.color(), 1.0).filled(if stable { self.color() } else { WHITE })
     }
@@ -65,7 +65,7 @@ impl Whirl {
 /// One mode tracked over speed.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    /// Written at the end of the branch, e.g. "1st bending".
+    /// Label at the end of the branch, e.g. "1st bending".
     pub label: String,
     pub whirl: Whirl,
     /// Shaft speeds \[rpm\].
@@ -79,7 +79,7 @@ pub struct Branch {
 /// A line f = order × rpm / 60.
 #[derive(Clone, Debug)]
 pub struct OrderLine {
-    /// Written at the end of the line, e.g. "2x" or "BPFO".
+    /// Label at the end of the line, e.g. "2x" or "BPFO".
     pub label: String,
     pub order: f64,
     /// A bearing order (BPFO, BPFI, ...), drawn in another colour and dash than the shaft's harmonics.
@@ -105,7 +105,7 @@ impl OrderLine {
 pub struct Critical {
     pub rpm: f64,
     pub hz: f64,
-    /// Written beside the mark; may be empty.
+    /// Label next to the marker; may be empty.
     pub label: String,
 }
 
@@ -113,7 +113,7 @@ pub struct Critical {
 #[derive(Clone, Debug, Default)]
 pub struct Campbell {
     pub title: String,
-    /// Line under the title, e.g. the model and bearing.
+    /// Line below the title, e.g. the model and bearing.
     pub note: String,
     pub branches: Vec<Branch>,
     pub orders: Vec<OrderLine>,
@@ -223,8 +223,8 @@ pub(super) fn branch_ends(axes: &Axes, branches: &[Branch]) -> Vec<EndLabel> {
     labels
 }
 
-/// Marks and labels of critical speeds; each label goes where it covers no mark or label
-/// and the least of the branches.
+/// Markers and labels of critical speeds; each label is placed where it covers no marker or label
+/// and as little of the branches as possible.
 fn criticals(svg: &mut Svg, axes: &Axes, list: &[Critical], branches: &[Branch]) {
     let marks: Vec<_> =
         list.iter().map(|c| (axes.at(c.rpm, c.hz), &c.label)).filter(|m| axes.holds(m.0)).collect();
@@ -248,7 +248,7 @@ fn criticals(svg: &mut Svg, axes: &Axes, list: &[Critical], branches: &[Branch])
             l > axes.frame.x && r < axes.frame.right() && t > axes.frame.y && b < axes.frame.bottom()
         };
         let places = places.map(|d| [at[0] + d[0], at[1] + d[1]]);
-        // Never over another mark or label: rather no label.
+        // Never over another marker or label: it is omitted instead.
         let places = places.filter(inside).filter(|p| covered(&taken, p) == 0);
         if let Some(place) = places.min_by_key(|p| covered(&lines, p)) {
             svg.text(place, &label, Text::new(SMALL, INK).halo());
@@ -292,8 +292,8 @@ fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_labe
     }
 }
 
-/// Largest and smallest log decrements to scale the panel by, and the labels of the branches left above it:
-/// an overdamped mode has no bound and would flatten all others.
+/// Log decrements that set the scale of the panel, and the labels of the branches above it: an overdamped
+/// mode has an unbounded decrement and would compress all others.
 fn decrement_scale(branches: &[Branch]) -> (Vec<f64>, Vec<&str>) {
     let ends =
         branches.iter().filter_map(|b| Some((extremes(b.log_decrement.iter().copied())?, b.label.as_str())));

@@ -1,10 +1,10 @@
-//! A perceptual colour map for levels: white paper for nothing, through yellow, red and violet to near black.
+//! Perceptually uniform colour map for levels: white, yellow, red, violet, near black.
 
 use std::sync::LazyLock;
 
 use super::svg::Color;
 
-/// Colours in the table.
+/// Number of colours.
 pub const COUNT: usize = 200;
 
 static TABLE: LazyLock<[Color; COUNT]> =
@@ -15,7 +15,7 @@ pub fn table() -> &'static [Color; COUNT] {
     &TABLE
 }
 
-/// Table index of a level between the bounds; levels outside go to the ends. None for a non-finite level.
+/// Table index of a level between the bounds; levels outside are clamped. None for a non-finite level.
 pub fn index(level: f64, lo: f64, hi: f64) -> Option<u8> {
     if !level.is_finite() {
         return None;
@@ -24,8 +24,8 @@ pub fn index(level: f64, lo: f64, hi: f64) -> Option<u8> {
     Some((part * (COUNT - 1) as f64).round() as u8)
 }
 
-/// Colour at 0 to 1: OKLab lightness falls linearly, so that it also reads in grey; the hue turns from yellow
-/// over red to violet; the chroma is what the sRGB gamut allows, at most a smooth hump.
+/// Colour at 0 to 1: OKLab lightness decreases linearly, so that it is also readable in grey; the hue goes
+/// from yellow over red to violet; the chroma follows a smooth curve limited by the sRGB gamut.
 fn shade(t: f64) -> Color {
     let lightness = 0.995 - 0.83 * t;
     let hue = (100.0 - 175.0 * t).to_radians();

@@ -1,4 +1,4 @@
-//! Spectra with cursors: vertical lines at named places, and marks on the peaks found there.
+//! Spectra with cursors: labelled vertical lines, and markers on detected peaks.
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{EndLabel, Entry, end_labels, head};
@@ -8,17 +8,17 @@ use super::scale::{Range, Scale};
 use super::style::*;
 use super::svg::{Color, Dash, Style, Svg, Text};
 
-/// A vertical line at a place of the x axis.
+/// A vertical line at a value of the x axis.
 #[derive(Clone, Debug, Default)]
 pub struct Cursor {
     pub at: f64,
-    /// Written above the panel; empty for side bands and the like, which are drawn thin.
+    /// Label above the panel; empty for sidebands, which are drawn thin.
     pub label: String,
-    /// Cursors of one group look alike.
+    /// Cursors of one group have the same style.
     pub group: usize,
 }
 
-/// A point on the curve that belongs to a group of cursors.
+/// A detected peak that belongs to a group of cursors.
 #[derive(Clone, Debug, Default)]
 pub struct CursorMark {
     pub x: f64,
@@ -29,7 +29,7 @@ pub struct CursorMark {
 /// One spectrum with its cursors.
 #[derive(Clone, Debug, Default)]
 pub struct CursorPanel {
-    /// Written into the panel; empty where there is only one.
+    /// Label inside the panel; empty for a single panel.
     pub label: String,
     /// Name and unit of the y axis.
     pub y_name: String,
@@ -39,7 +39,7 @@ pub struct CursorPanel {
     pub found: Vec<CursorMark>,
 }
 
-/// Data of spectra with cursors, one under the other over one axis.
+/// Data of stacked spectra with cursors and a common x axis.
 #[derive(Clone, Debug, Default)]
 pub struct CursorLines {
     pub title: String,
@@ -47,7 +47,7 @@ pub struct CursorLines {
     /// Name and unit of the x axis.
     pub x_name: String,
     pub x_unit: String,
-    /// Names of the cursors' groups, for the legend; an empty name has no entry.
+    /// Legend names of the cursor groups; an empty name has no entry.
     pub groups: Vec<String>,
     pub panels: Vec<CursorPanel>,
     pub log_y: bool,
@@ -55,7 +55,7 @@ pub struct CursorLines {
     pub x_range: Option<[f64; 2]>,
 }
 
-/// Colour and dash of a group, apart in grey too.
+/// Colour and dash of a group, distinguishable in grey too.
 fn group_style(group: usize) -> Style {
     const COLORS: [Color; 5] = [MUTED, RED, ORANGE, GREEN, PURPLE];
     const DASHES: [Dash; 5] = [Dash::Short, Dash::Solid, Dash::DashDot, Dash::Long, Dash::Dotted];
@@ -118,7 +118,7 @@ fn panel(
     let shown = |c: &Curve| -> Vec<f64> {
         c.x.iter().zip(&c.y).filter(|(at, _)| x.contains(**at)).map(|(_, y)| *y).collect()
     };
-    // A peak between bins stands above the curve.
+    // An interpolated peak between bins lies above the curve.
     let marks = || of.found.iter().filter(|f| x.contains(f.x)).map(|f| f.y);
     let ys = || of.curves.iter().flat_map(shown).chain(marks());
     let y = if data.log_y {

@@ -7,7 +7,7 @@ use super::scale::Range;
 use super::style::*;
 use super::svg::{Dash, Style, Svg};
 
-/// A station named along the shaft.
+/// A labelled station of the shaft.
 #[derive(Clone, Debug, Default)]
 pub struct Mark {
     pub label: String,
@@ -46,7 +46,7 @@ pub fn draw(data: &Deflection) -> Svg {
     let row = |axes: &Axes| {
         NameRow::new(data.stations.iter().map(|s| (axes.x.px(1e3 * s.z), s.label.clone())), WIDTH)
     };
-    // The row of names decides where the panel begins; places along x do not depend on it.
+    // The height of the name row shifts the panel down; x positions do not depend on it.
     let frame = Frame { y: top + 10.0 + row(&Axes::linear(frame, x, y)).height, ..frame };
     let axes = Axes::linear(frame, x, y);
     axes.grid(&mut svg);

@@ -1,4 +1,4 @@
-//! Pressure and film of a lubricated contact as maps, with both along its line of symmetry.
+//! Maps of pressure and film thickness of an EHL contact, and both on its centreline.
 
 use super::axes::Axes;
 use super::heat::{BAR_ROOM, Heat, color_bar};
@@ -7,27 +7,27 @@ use super::scale::Range;
 use super::style::*;
 use super::svg::{Style, Svg};
 
-/// Fields of a contact, index i·ny + j at (x_i, y_j).
+/// Fields of an EHL contact, index i·ny + j at (x_i, y_j).
 #[derive(Clone, Debug, Default)]
 pub struct FilmMap {
     pub title: String,
     pub note: String,
-    /// Along rolling, upstream first, and across \[mm\].
+    /// Coordinates along rolling (inlet first) and across \[mm\].
     pub x: Vec<f64>,
     pub y: Vec<f64>,
     /// Pressure \[GPa\].
     pub pressure: Vec<f64>,
-    /// Film \[um\].
+    /// Film thickness \[um\].
     pub film: Vec<f64>,
-    /// Central film \[um\]; the map shows films up to twice as thick.
+    /// Central film thickness \[um\]; the map shows up to twice this value.
     pub central_film: f64,
 }
 
 pub fn draw(data: &FilmMap) -> Svg {
     let line = [Style::stroke(BLUE, 1.5), Style::stroke(RED, 1.5)];
     let entries = [
-        Entry::line("pressure, share of the largest", line[0]),
-        Entry::line("film, share of twice the central", line[1]),
+        Entry::line("pressure / maximum pressure", line[0]),
+        Entry::line("film thickness / (2 × central film)", line[1]),
     ];
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frames = super::panels::stack(top + 6.0, WIDTH - LEFT - BAR_ROOM - 24.0, &[170.0, 170.0, 130.0]);
@@ -35,7 +35,7 @@ pub fn draw(data: &FilmMap) -> Svg {
     let y = Range::of(data.y.iter().copied());
     let most = data.pressure.iter().copied().fold(0.0, f64::max);
     let thick = 2.0 * data.central_film;
-    // Where the film is thicker the map stays white.
+    // Thicker films are drawn white.
     let film: Vec<f64> = data.film.iter().map(|&h| if h > thick { f64::NAN } else { h }).collect();
     for (frame, level, top, label) in [
         (frames[0], &data.pressure, most, "pressure [GPa]"),
@@ -44,7 +44,7 @@ pub fn draw(data: &FilmMap) -> Svg {
         let axes = Axes::linear(frame, x, y);
         let bounds = Range::new(0.0, top);
         Heat { x: &data.x, y: &data.y, level }.draw(&mut svg, &axes, bounds);
-        axes.border(&mut svg, None, &axes.y.label("across", "mm"));
+        axes.border(&mut svg, None, &axes.y.label("transverse y", "mm"));
         color_bar(&mut svg, frame, WIDTH - BAR_ROOM, bounds, label);
     }
     let axes = Axes::linear(frames[2], x, Range::new(0.0, 1.05));
@@ -53,13 +53,13 @@ pub fn draw(data: &FilmMap) -> Svg {
         let along: Vec<f64> = (0..data.x.len()).map(|i| field[i * ny + middle] / top).collect();
         axes.curve(&mut svg, &data.x, &along, style);
     }
-    axes.border(&mut svg, Some(&axes.x.label("along rolling", "mm")), "on the line y = 0");
+    axes.border(&mut svg, Some(&axes.x.label("rolling direction x", "mm")), "centreline y = 0");
     svg.height = frames[2].bottom() + BOTTOM;
     svg
 }
 
-/// The part of x in which the line of symmetry carries more than a hundredth of the largest pressure, and half as much
-/// to either side.
+/// Range of x in which the centreline pressure exceeds 1 % of the maximum, widened by a quarter of its length
+/// on each side.
 fn near_the_load(data: &FilmMap) -> Range {
     let (ny, middle) = (data.y.len(), data.y.len() / 2);
     let along = |i: usize| data.pressure.get(i * ny + middle).copied().unwrap_or(0.0);

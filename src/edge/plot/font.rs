@@ -1,4 +1,4 @@
-//! The embedded font (DejaVu Sans): for the renderer, and to know how wide a label is.
+//! Embedded font (DejaVu Sans): for the renderer and for text width.
 
 use std::sync::{Arc, LazyLock};
 
@@ -24,7 +24,7 @@ pub fn database() -> Arc<fontdb::Database> {
 
 /// Width of a text \[px\] at a font size \[px\].
 pub fn width(text: &str, size: f64) -> f64 {
-    // Wide enough for every letter; only met if the embedded font could not be read.
+    // Upper estimate, used only if the embedded font cannot be read.
     const GUESS: f64 = 0.65;
     let Some(font) = FONT.as_ref() else { return GUESS * size * text.chars().count() as f64 };
     let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
@@ -36,7 +36,7 @@ pub fn width(text: &str, size: f64) -> f64 {
         .sum()
 }
 
-/// The text cut to a number of characters, with an ellipsis where it was cut.
+/// Text truncated to a number of characters, with an ellipsis.
 pub fn shorten(text: &str, longest: usize) -> String {
     if text.chars().count() <= longest {
         return text.to_string();
@@ -44,7 +44,7 @@ pub fn shorten(text: &str, longest: usize) -> String {
     text.chars().take(longest.saturating_sub(1)).chain(['…']).collect()
 }
 
-/// The text cut to a width \[px\], with an ellipsis where it was cut.
+/// Text truncated to a width \[px\], with an ellipsis.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     let text = shorten(text, 160);
     if width(&text, size) <= room {

@@ -1,4 +1,4 @@
-//! Frequency response functions: magnitude, phase, and coherence where measured.
+//! Frequency response functions (Bode plot over frequency): magnitude, phase, and coherence if measured.
 
 use super::axes::Axes;
 use super::labels::{Entry, head};

@@ -1,4 +1,4 @@
-//! Small multiples: several quantities over one abscissa, each in a panel of its own.
+//! Panel grid (small multiples): several quantities over one abscissa, one panel each.
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{Entry, head};
@@ -13,14 +13,14 @@ pub struct GridPanel {
     /// Name and unit of its y axis.
     pub name: String,
     pub unit: String,
-    /// One curve for each entry of the figure's legend, in its order; an empty curve is left out.
+    /// One curve per legend entry of the figure, in its order; an empty curve is not drawn.
     pub curves: Vec<Curve>,
-    /// The y axis shows its zero.
+    /// The y axis includes zero.
     pub from_zero: bool,
     pub log_y: bool,
 }
 
-/// Data of a figure of small multiples.
+/// Data of a panel grid.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     pub title: String,
@@ -30,13 +30,13 @@ pub struct Grid {
     /// Names of the curves; none when every panel has one.
     pub legend: Vec<String>,
     pub panels: Vec<GridPanel>,
-    /// Panels side by side.
+    /// Number of panels per row.
     pub columns: usize,
-    /// A value of x that is marked in every panel, such as the operating point.
+    /// Value of x marked in every panel, such as the operating point.
     pub mark: Option<f64>,
 }
 
-/// Most panels of one figure.
+/// Largest number of panels in one figure.
 const MOST: usize = 24;
 
 pub fn draw(data: &Grid) -> Svg {
@@ -58,7 +58,7 @@ pub fn draw(data: &Grid) -> Svg {
             w: CELL[0],
             h: CELL[1],
         };
-        // Panels above another share its abscissa.
+        // Only the lowest panel of a column has an x label.
         let lowest = k + columns >= panels.len();
         let ys = panel.curves.iter().flat_map(|c| c.y.iter().copied());
         let y = if panel.log_y {
@@ -93,7 +93,7 @@ pub fn draw(data: &Grid) -> Svg {
     svg
 }
 
-/// At least a thousandth of the values, so that round-off about a constant does not fill the panel.
+/// Range of at least ±0.1 % of its mean, so that round-off of a constant does not fill the panel.
 fn steady(range: Range) -> Range {
     let middle = 0.5 * (range.lo + range.hi);
     let half = (0.5 * (range.hi - range.lo)).max(1e-3 * middle.abs());

@@ -1,4 +1,4 @@
-//! Heat maps: levels over two axes as an embedded indexed PNG, and their colour bar.
+//! Heat maps: levels over two axes as an embedded indexed PNG, and the colour bar.
 
 use super::axes::{Axes, Frame};
 use super::color_map;
@@ -6,7 +6,7 @@ use super::scale::{Range, Scale, extremes};
 use super::style::*;
 use super::svg::{Svg, Text};
 
-/// Image pixels per page px; with 200 colours a noisy map stays under a megabyte.
+/// Image pixels per page px; with 200 colours a noisy map stays below a megabyte.
 const DENSITY: f64 = 1.5;
 
 /// Levels on a grid: `level[i * y.len() + j]` at `x[i]`, `y[j]`; any order, any spacing.
@@ -17,7 +17,7 @@ pub struct Heat<'a> {
     pub level: &'a [f64],
 }
 
-/// Level bounds for the colours: the highest level down by `span`, to steps of five.
+/// Level bounds of the colour map: highest level rounded up to a multiple of five, minus `span`.
 pub fn bounds(levels: impl Iterator<Item = f64>, span: f64) -> Range {
     let (lo, hi) = extremes(levels).unwrap_or((-1.0, 0.0));
     let top = 5.0 * (hi / 5.0).ceil();
@@ -26,8 +26,8 @@ pub fn bounds(levels: impl Iterator<Item = f64>, span: f64) -> Range {
 }
 
 impl Heat<'_> {
-    /// Draws the map into the axes: each pixel shows the highest level of the cells it covers, so that no
-    /// narrow ridge is lost; non-finite levels and places outside the grid stay white.
+    /// Draws the map into the axes: each pixel shows the highest level of the cells it covers, so that narrow
+    /// ridges are kept; non-finite levels and points outside the grid stay white.
     pub fn draw(&self, svg: &mut Svg, axes: &Axes, bounds: Range) {
         let f = axes.frame;
         let (w, h) = ((f.w * DENSITY).round().max(1.0) as usize, (f.h * DENSITY).round().max(1.0) as usize);
@@ -44,7 +44,7 @@ impl Heat<'_> {
                     highest = levels.copied().filter(|v| v.is_finite()).fold(highest, f64::max);
                 }
                 if let Some(index) = color_map::index(highest, bounds.lo, bounds.hi) {
-                    // Image rows run downwards.
+                    // Image rows go downwards.
                     pixels[(h - 1 - py) * w + px] = index;
                 }
             }
@@ -57,13 +57,13 @@ impl Heat<'_> {
 
 /// The cells of a grid along one axis.
 struct Cells {
-    /// Grid indices by ascending value; non-finite values left out.
+    /// Grid indices by ascending value, without non-finite values.
     order: Vec<usize>,
     /// For each pixel the cells it covers, as a range of `order`.
     of_pixel: Vec<std::ops::Range<usize>>,
 }
 
-/// Cells reach half-way to their neighbours.
+/// Cell edges are midway between grid values.
 fn cells(grid: &[f64], scale: &Scale, pixels: usize) -> Cells {
     let mut order: Vec<usize> = (0..grid.len()).filter(|&k| grid[k].is_finite()).collect();
     order.sort_by(|&a, &b| grid[a].total_cmp(&grid[b]));
@@ -90,7 +90,7 @@ fn cells(grid: &[f64], scale: &Scale, pixels: usize) -> Cells {
     Cells { of_pixel: (0..pixels).map(covered).collect(), order }
 }
 
-/// Evenly spaced cells as a picture of at most so many pixels; what is not a number is left transparent.
+/// Evenly spaced cells as an image of at most `most` pixels; NaN is transparent.
 ///
 /// `value[row * columns + column]`, coloured from 0 to 1.
 pub fn cells_png(value: &[f64], [rows, columns]: [usize; 2], most: [usize; 2]) -> Option<Vec<u8>> {
@@ -122,10 +122,10 @@ fn indexed_png(width: usize, height: usize, pixels: &[u8]) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-/// Room that the colour bar with its labels needs \[px\].
+/// Width of the colour bar with its labels \[px\].
 pub const BAR_ROOM: f64 = 74.0;
 
-/// The colour bar of a map, as high as its panel, with its left edge at `x`.
+/// Draws the colour bar of a map, with the height of its panel and its left edge at `x`.
 pub fn color_bar(svg: &mut Svg, panel: Frame, x: f64, bounds: Range, label: &str) {
     let bar = Frame { x, w: 14.0, ..panel };
     let pixels: Vec<u8> = (0..color_map::COUNT as u8).rev().collect();

@@ -1,4 +1,5 @@
-//! General heat map: spectrogram over time, kurtogram, cyclic coherence, with a marked field.
+//! General heat map: spectrogram over time, kurtogram, cyclic coherence, FDAC, with an optional marked
+//! rectangle.
 
 use super::axes::{Axes, Frame};
 use super::heat::{self, BAR_ROOM, Heat, color_bar};
@@ -7,7 +8,7 @@ use super::scale::{Range, Scale, extremes, nice_step};
 use super::style::*;
 use super::svg::{Dash, Style, Svg, Text};
 
-/// A field of the map that is pointed out.
+/// A marked rectangle of the map.
 #[derive(Clone, Debug, Default)]
 pub struct Field {
     pub x: [f64; 2],
@@ -29,18 +30,18 @@ pub struct HeatMap {
     pub y: Vec<f64>,
     /// Values, `value[i * y.len() + j]` at `x[i]`, `y[j]`.
     pub value: Vec<f64>,
-    /// What the values are and their unit, e.g. "level" and "dB re 1 m/s²".
+    /// Quantity and unit of the values, e.g. "level" and "dB re 1 m/s²".
     pub quantity: String,
     pub unit: String,
-    /// Values shown under the highest; `None` shows all, in steps that are round.
+    /// Range of values shown below the highest; `None` shows all, between round bounds.
     pub span: Option<f64>,
     /// Bounds of the axes; by default those of the data.
     pub x_range: Option<[f64; 2]>,
     pub y_range: Option<[f64; 2]>,
-    /// Places and names of the ticks of y, in place of numbers.
+    /// Named ticks of y instead of numbers.
     pub y_ticks: Vec<(f64, String)>,
     pub marked: Option<Field>,
-    /// A line where x and y are equal.
+    /// Draw the line x = y.
     pub diagonal: bool,
 }
 
@@ -96,7 +97,7 @@ pub fn draw(data: &HeatMap) -> Svg {
     svg
 }
 
-/// All values, out to round ones.
+/// Bounds of all values, rounded outwards.
 fn round_bounds(values: &[f64]) -> Range {
     let Some((lo, hi)) = extremes(values.iter().copied()) else { return Range::new(0.0, 1.0) };
     let step = nice_step(hi - lo, 5.0);

@@ -7,7 +7,7 @@ use super::scale::Range;
 use super::style::*;
 use super::svg::{Style, Svg, Text};
 
-/// Most channels in one figure.
+/// Largest number of channels in one figure.
 const MOST: usize = 12;
 
 /// One recorded quantity.

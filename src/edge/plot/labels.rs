@@ -1,12 +1,12 @@
-//! Labels that keep out of each other's way: at the ends of lines and in the legend above a figure.
+//! Label placement without overlap: line end labels, name rows, legend and page heading.
 
 use super::axes::{Axes, Marker};
 use super::style::*;
 use super::svg::{Color, Point, Style, Svg, Text};
 use super::{font, scale};
 
-/// Places intervals of given sizes so that they do not overlap, as near to the wanted centres as can be
-/// (least squares), inside `lo..hi`; those last in the list are left out if there is no room.
+/// Places intervals of given sizes without overlap, as near as possible to the wanted centres (least
+/// squares), inside `lo..hi`; the last of the list are omitted if there is no room.
 pub fn spread(wanted: &[f64], sizes: &[f64], lo: f64, hi: f64) -> Vec<Option<f64>> {
     let mut room = hi - lo;
     let mut kept: Vec<usize> = (0..wanted.len().min(sizes.len()))
@@ -17,7 +17,7 @@ pub fn spread(wanted: &[f64], sizes: &[f64], lo: f64, hi: f64) -> Vec<Option<f64
         })
         .collect();
     kept.sort_by(|&a, &b| wanted[a].total_cmp(&wanted[b]));
-    // Centre k is offset[k] + t[k] with t not falling: an isotonic regression (pool adjacent violators).
+    // Centre k is offset[k] + t[k] with non-decreasing t: isotonic regression (pool adjacent violators).
     let mut offsets = Vec::with_capacity(kept.len());
     let mut edge = 0.0;
     for &k in &kept {
@@ -42,7 +42,7 @@ pub fn spread(wanted: &[f64], sizes: &[f64], lo: f64, hi: f64) -> Vec<Option<f64
     placed
 }
 
-/// A label at the end of a line, on the right or upper edge of a panel.
+/// A label at the end of a line, at the right or upper edge of a panel.
 #[derive(Clone, Debug)]
 pub struct EndLabel {
     pub at: Point,
@@ -50,13 +50,13 @@ pub struct EndLabel {
     pub color: Color,
 }
 
-/// Room that end labels need on the right of a panel \[px\].
+/// Width needed by end labels to the right of a panel \[px\].
 pub fn end_room(texts: impl IntoIterator<Item = String>) -> f64 {
     texts.into_iter().map(|t| font::width(&font::shorten(&t, 40), SMALL)).fold(0.0, f64::max).min(170.0)
         + 26.0
 }
 
-/// Writes labels beside the right edge and above the upper edge; a label moved from its line gets a leader.
+/// Writes labels to the right of the right edge and above the upper edge; a shifted label gets a leader line.
 pub fn end_labels(svg: &mut Svg, axes: &Axes, labels: &[EndLabel]) {
     let f = axes.frame;
     let text = |l: &EndLabel| font::fit(&font::shorten(&l.text, 40), SMALL, 170.0);
@@ -88,7 +88,7 @@ pub fn end_labels(svg: &mut Svg, axes: &Axes, labels: &[EndLabel]) {
     }
 }
 
-/// A row of names at places along a horizontal axis; set upright if they are too many to lie side by side.
+/// A row of names at positions along a horizontal axis; rotated upright if too many to fit horizontally.
 #[derive(Clone, Debug)]
 pub struct NameRow {
     names: Vec<(f64, String)>,
@@ -98,7 +98,7 @@ pub struct NameRow {
 }
 
 impl NameRow {
-    /// A row of (place \[px\], name) on a page of the given width.
+    /// A row of (position \[px\], name) on a page of the given width.
     pub fn new(names: impl IntoIterator<Item = (f64, String)>, page: f64) -> Self {
         let names: Vec<(f64, String)> =
             names.into_iter().map(|(x, n)| (x, font::fit(&n, SMALL, 120.0))).collect();
@@ -108,7 +108,7 @@ impl NameRow {
         NameRow { names, upright, height }
     }
 
-    /// Writes the row above (`up`) or below the page height `y`, with leaders from the places at `y`.
+    /// Writes the row above (`up`) or below the page height `y`, with leader lines from the positions at `y`.
     pub fn draw(&self, svg: &mut Svg, y: f64, up: bool, color: Color) {
         let side = if up { -1.0 } else { 1.0 };
         let size = |name: &str| if self.upright { 1.15 * SMALL } else { font::width(name, SMALL) + 8.0 };
@@ -161,7 +161,7 @@ impl Entry {
 
 const ROW: f64 = 18.0;
 
-/// Writes a legend in rows starting at the page height `y`; returns the height under it.
+/// Writes a legend in rows starting at the page height `y`; returns the height below it.
 pub fn legend(svg: &mut Svg, entries: &[Entry], x: f64, y: f64, room: f64) -> f64 {
     let (mut at, mut row) = (x, y);
     if entries.is_empty() {
@@ -187,7 +187,7 @@ pub fn legend(svg: &mut Svg, entries: &[Entry], x: f64, y: f64, room: f64) -> f6
     row + ROW
 }
 
-/// Starts a page: title, note in grey, legend; returns the page and the height where panels may begin.
+/// Starts a page with title, note in grey and legend; returns the page and the height at which panels start.
 pub fn head(width: f64, x: f64, title: &str, note: &str, entries: &[Entry]) -> (Svg, f64) {
     let mut svg = Svg::new(width, 0.0);
     let mut y = 12.0;
@@ -203,7 +203,7 @@ pub fn head(width: f64, x: f64, title: &str, note: &str, entries: &[Entry]) -> (
     (svg, y + 8.0)
 }
 
-/// A number for people: four significant digits at most, powers of ten beyond everyday magnitudes.
+/// Formats a number with three significant digits (all integer digits below 10⁶), else with a power of ten.
 pub fn readable(value: f64) -> String {
     if !value.is_finite() {
         return "–".to_string();

@@ -1,4 +1,4 @@
-//! General line figure: order cuts, stiffness against load, and whatever else is y over x.
+//! General line figure: y over x, such as order cuts.
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{Entry, head};
@@ -31,7 +31,7 @@ pub struct Lines {
     pub log_y: bool,
     /// The y axis starts at zero (amplitudes, RMS).
     pub from_zero: bool,
-    /// Ends of a linear x axis; those of the data unless given.
+    /// Ends of a linear x axis; by default those of the data.
     pub x_range: Option<[f64; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! A matrix of values from 0 to 1 as shaded cells: MAC, FRAC, FDAC.
+//! Matrix of values from 0 to 1 as shaded cells: MAC, auto-MAC, FRAC.
 
 use super::axes::Frame;
 use super::heat::{BAR_ROOM, cells_png, color_bar};
@@ -13,22 +13,22 @@ use super::{color_map, font};
 pub struct Matrix {
     pub title: String,
     pub note: String,
-    /// What the rows and columns are.
+    /// Axis names of rows and columns.
     pub row_name: String,
     pub column_name: String,
     pub rows: Vec<String>,
     pub columns: Vec<String>,
     /// `value[row * columns.len() + column]`, 0..1.
     pub value: Vec<f64>,
-    /// What the values are.
+    /// Quantity of the values.
     pub quantity: String,
-    /// Cells that are pointed out, (row, column).
+    /// Framed cells, (row, column).
     pub marked: Vec<(usize, usize)>,
 }
 
-/// Most cells a side that are drawn one by one.
+/// Largest number of cells per side drawn individually.
 const MOST: usize = 120;
-/// Room of a label on its axis \[px\].
+/// Line height of a label \[px\].
 const LINE: f64 = 1.3 * SMALL;
 
 pub fn draw(data: &Matrix) -> Svg {
@@ -40,12 +40,12 @@ pub fn draw(data: &Matrix) -> Svg {
     let widest = |names: &[String]| names.iter().map(|n| font::width(n, SMALL)).fold(0.0, f64::max);
     let left = 34.0 + widest(&row_names);
     let cell = [((WIDTH - left - BAR_ROOM - 30.0) / columns).min(62.0), (440.0 / rows).min(30.0)];
-    // No wider than a small matrix and its title need.
+    // Page width limited to that of the matrix and its title.
     let text = font::width(&data.title, TITLE).max(font::width(&data.note, TICK)) + 12.0;
     let page = (left + text.max(cell[0] * columns + BAR_ROOM + 26.0)).min(WIDTH);
     let (mut svg, top) = head(page, left, &data.title, &data.note, &[]);
     let frame = Frame { x: left, y: top, w: cell[0] * columns, h: cell[1] * rows };
-    // Cells finer than a few pixels are a picture.
+    // Very fine cells are drawn as one image.
     let picture = data.rows.len().max(data.columns.len()) > MOST;
     if picture && let Some(png) = cells_png(&data.value, [data.rows.len(), data.columns.len()], [440, 600]) {
         svg.image(frame.x, frame.y, frame.w, frame.h, &png);
@@ -67,14 +67,14 @@ pub fn draw(data: &Matrix) -> Svg {
         svg.rect(at[0] + 1.0, at[1] + 1.0, cell[0] - 2.0, cell[1] - 2.0, Style::stroke(BLUE, 2.0));
     }
     svg.rect(frame.x, frame.y, frame.w, frame.h, FRAME);
-    // As many names as have room.
+    // Only every n-th name if there is no room for all.
     let every = |size: f64| (LINE / size).ceil().max(1.0) as usize;
     for (i, name) in row_names.iter().enumerate().step_by(every(cell[1])) {
         let y = frame.y + cell[1] * (i as f64 + 0.5);
         svg.line([frame.x - 4.0, y], [frame.x, y], FRAME);
         svg.text([frame.x - 7.0, y + 0.36 * SMALL], name, Text::new(SMALL, INK).end());
     }
-    // Upright names begin below their column.
+    // Rotated names below their columns.
     let names = widest(&column_names);
     for (j, name) in column_names.iter().enumerate().step_by(every(cell[0])) {
         let x = frame.x + cell[0] * (j as f64 + 0.5);

@@ -1,4 +1,4 @@
-//! Figures as SVG and PNG, each from plain data: a struct of numbers and names in, a picture out.
+//! Plots as SVG and PNG, each drawn from a plain data struct of numbers and names.
 //!
 //! | layer | files |
 //! |---|---|
@@ -6,8 +6,8 @@
 //! | axes | [`scale`], [`axes`], [`labels`], `row`, `thin`, `heat` |
 //! | figures | one file each, one variant of [`Figure`] each |
 //!
-//! A new figure is one file, one variant and its arm. Non-finite data are left out with a gap; no data gives
-//! empty axes. Equal data give equal bytes.
+//! A new figure is one file, one variant and its match arm. Non-finite data give a gap; no data give empty
+//! axes. Output is deterministic: equal data give equal bytes.
 
 pub mod axes;
 mod color_map;
@@ -78,7 +78,7 @@ pub use wireframe::{WireShape, Wireframe};
 /// Pixels of the PNG per px of the SVG.
 pub const PNG_SCALE: f32 = 2.0;
 
-/// Any figure of the program, with its data.
+/// Any figure, with its data.
 #[derive(Clone, Debug)]
 pub enum Figure {
     Campbell(Campbell),
@@ -145,7 +145,7 @@ impl Figure {
 pub fn write(figure: &Figure, stem: &Path) -> Result<(), Error> {
     let svg = figure.svg();
     let name = |extension: &str| {
-        // Not `with_extension`: a stem such as "mode_27.1_hz" has a dot of its own.
+        // Not `with_extension`: a stem such as "mode_27.1_hz" contains a dot.
         let mut name = stem.as_os_str().to_owned();
         name.push(extension);
         std::path::PathBuf::from(name)

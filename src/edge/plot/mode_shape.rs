@@ -1,4 +1,4 @@
-//! Mode shapes: deflected centreline in axonometric projection with whirl orbits.
+//! Mode shapes of the rotor: deflected centreline in axonometric projection with whirl orbits.
 
 use std::f64::consts::TAU;
 
@@ -10,12 +10,12 @@ use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Dash, Point, Style, Svg, Text};
 
-/// Most modes in one figure.
+/// Largest number of modes in one figure.
 const MOST: usize = 24;
-/// Most orbits in one panel.
+/// Largest number of orbits in one panel.
 const ORBITS: usize = 14;
 
-/// The machine as the panels hint at it.
+/// Simplified machine drawn in the panels.
 #[derive(Clone, Debug, Default)]
 pub struct Rotor {
     /// Axial positions of the shaft nodes \[m\], ascending.
@@ -24,21 +24,21 @@ pub struct Rotor {
     pub discs: Vec<[f64; 2]>,
     /// Axial positions of the bearings \[m\].
     pub bearings: Vec<f64>,
-    /// Nodes whose orbits are drawn; empty for an even choice.
+    /// Nodes whose orbits are drawn; empty for an even selection.
     pub orbit_nodes: Vec<usize>,
 }
 
-/// Motion of a point of another body (a housing) in a mode.
+/// Motion of another body (a housing) in a mode.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyMotion {
     /// Axial position \[m\].
     pub z: f64,
-    /// Complex displacement \[re, im\] in x and y, in the scale of the mode.
+    /// Complex displacement \[re, im\] in x and y, with the scale of the mode.
     pub u_x: [f64; 2],
     pub u_y: [f64; 2],
 }
 
-/// One mode; complex amplitudes \[re, im\] at every node, motion Re(u e^{iωt}), any common scale.
+/// One mode; complex amplitudes \[re, im\] at every node, motion Re(u e^{iωt}), arbitrary common scale.
 #[derive(Clone, Debug)]
 pub struct ModeShape {
     /// E.g. "27.1 Hz, 1st bending, forward".
@@ -80,14 +80,14 @@ pub fn draw(data: &ModeShapes) -> Svg {
     svg
 }
 
-const HOW_TO_READ: &str = "Line: shaft at one instant. Orbits start at the dot and end at the gap.";
+const HOW_TO_READ: &str = "Line: shaft at phase 0. Orbits run from the dot to the gap (whirl direction).";
 
 /// Axonometric view of one machine in a panel.
 struct View {
     origin: Point,
     /// px per m along the shaft.
     along: f64,
-    /// Middle of the shaft \[m\].
+    /// Mid-length of the shaft \[m\].
     middle: f64,
 }
 
@@ -99,8 +99,8 @@ impl View {
         View { origin: [frame.center()[0], frame.center()[1] + 8.0], along, middle: 0.5 * (z.lo + z.hi) }
     }
 
-    /// Page point of the axial position z \[m\] moved by x, y, s \[px\] across and along the shaft: seen from 30
-    /// degrees aside and 25 degrees above; z runs to the right, y up, x to the back.
+    /// Page point of the axial position z \[m\] displaced by x, y, s \[px\] across and along the shaft:
+    /// azimuth 30°, elevation 25°; z to the right, y up, x to the back.
     fn at(&self, z: f64, x: f64, y: f64, s: f64) -> Point {
         let z = (z - self.middle) * self.along + s;
         [self.origin[0] + 0.97 * z + 0.5 * x, self.origin[1] - 0.906 * y + 0.17 * z - 0.366 * x]
@@ -133,7 +133,7 @@ fn panel(svg: &mut Svg, rotor: &Rotor, mode: &ModeShape, frame: Frame, first: bo
             .get(k)
             .map_or([f64::NAN; 2], |&z| view.at(z, part(&mode.u_x), part(&mode.u_y), part(&mode.u_z)))
     };
-    // Of a motion along the shaft an orbit would only be a second line on it.
+    // No orbit for purely axial motion: it would coincide with the shaft line.
     let lateral = |k: usize| {
         let size = |u: &[[f64; 2]]| u.get(k).map_or(0.0, |u| scale * u[0].hypot(u[1]));
         size(&mode.u_x).max(size(&mode.u_y)) > 2.0
@@ -163,7 +163,7 @@ fn at_phase([re, im]: [f64; 2], phase: f64) -> f64 {
     re * phase.cos() - im * phase.sin()
 }
 
-/// Radius at which a twist is compared with a deflection \[m\]: the largest disc, or a tenth of the shaft.
+/// Radius that converts twist to displacement \[m\]: the largest disc radius, or a tenth of the shaft length.
 fn arm(rotor: &Rotor) -> f64 {
     let z = Range::of(rotor.z.iter().copied());
     extremes(rotor.discs.iter().map(|d| d[1]))
@@ -172,7 +172,8 @@ fn arm(rotor: &Rotor) -> f64 {
         .unwrap_or(0.1 * (z.hi - z.lo))
 }
 
-/// Common scale of all motions of the mode, so that no small one is blown up. None without any motion.
+/// Common scale of all displacements of the mode, so that small ones are not exaggerated. None without
+/// motion.
 fn pixels_per_amplitude(mode: &ModeShape, arm: f64, height: f64) -> Option<f64> {
     let size = |u: &[f64; 2]| u[0].hypot(u[1]);
     let lateral = mode.u_x.iter().chain(&mode.u_y).chain(&mode.u_z).map(size);
@@ -190,7 +191,7 @@ fn orbit_nodes(rotor: &Rotor) -> Vec<usize> {
     (0..n).step_by(n.div_ceil(ORBITS).max(1)).collect()
 }
 
-/// An orbit from its start to a gap that shows the sense of rotation.
+/// Draws an orbit from its start to a gap that shows the whirl direction.
 fn orbit(svg: &mut Svg, place: impl Fn(f64) -> Point, style: Style) {
     const STEPS: usize = 40;
     let points: Vec<Point> = (0..=STEPS).map(|k| place(0.9 * TAU * k as f64 / STEPS as f64)).collect();
@@ -223,10 +224,10 @@ fn undeformed(svg: &mut Svg, view: &View, rotor: &Rotor, frame: Frame) {
     }
 }
 
-/// Twist as pointers turned by θ_z, joined by a line; upright pointers are an untwisted shaft.
+/// Torsion as pointers rotated by θ_z and joined by a line; vertical pointers mean no twist.
 fn twist(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, px_per_rad: f64, length: f64) {
     let largest = extremes(mode.theta_z.iter().map(|t| t[0].hypot(t[1]))).map_or(0.0, |e| e.1);
-    // A twist too small to see beside the deflection only adds ink.
+    // A twist too small compared with the deflection is not drawn.
     if px_per_rad * largest < 0.25 * length {
         return;
     }
@@ -234,7 +235,7 @@ fn twist(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, px_per_rad
     let turn = px_per_rad / length * 0.8;
     let tip = |k: usize, phase: f64| {
         let angle = mode.theta_z.get(k).map_or(f64::NAN, |t| turn * at_phase(*t, phase));
-        // Turned about +z: from y towards -x.
+        // Rotation about +z: from y towards -x.
         view.at(rotor.z[k], -length * angle.sin(), length * angle.cos(), 0.0)
     };
     let base: Vec<Point> = rotor.z.iter().map(|&z| view.at(z, 0.0, length, 0.0)).collect();
@@ -246,7 +247,7 @@ fn twist(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, px_per_rad
     svg.polyline(&tips, Style::stroke(color, 1.5));
 }
 
-/// An arrow over the shaft's middle for a motion along it.
+/// An arrow above mid-shaft for axial motion.
 fn axial_arrow(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, scale: f64) {
     let middle = rotor.z.len() / 2;
     let (Some(&z), Some(u)) = (rotor.z.get(middle), mode.u_z.get(middle)) else { return };

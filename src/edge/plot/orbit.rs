@@ -1,4 +1,4 @@
-//! Shaft orbits: equal axes, keyphasor dots, whirl direction, clearance circle.
+//! Shaft orbits: equal axes, keyphasor dots, direction of whirl, clearance circle.
 
 use super::axes::{Axes, Frame};
 use super::labels::{Entry, head};
@@ -7,7 +7,7 @@ use super::style::*;
 use super::svg::{Dash, Point, Style, Svg, Text};
 use super::{font, thin};
 
-/// Most orbits in one figure.
+/// Largest number of orbits in one figure.
 const MOST: usize = 12;
 const TO_MICRO: f64 = 1e6;
 
@@ -19,7 +19,7 @@ pub struct Orbit {
     /// Displacements as simulated or measured \[m\].
     pub x: Vec<f64>,
     pub y: Vec<f64>,
-    /// Displacements of the 1x part \[m\], in order of time; may be empty.
+    /// Displacements of the 1x-filtered orbit \[m\], in order of time; may be empty.
     pub filtered_x: Vec<f64>,
     pub filtered_y: Vec<f64>,
     /// Samples at which the keyphasor passes.
@@ -45,7 +45,7 @@ pub fn draw(data: &Orbits) -> Svg {
     let orbits = &data.orbits[..data.orbits.len().min(MOST)];
     let columns = if orbits.len() > 1 { 2 } else { 1 };
     let mut entries = Vec::new();
-    // Without a filtered orbit there is nothing to tell the only one from.
+    // A single unfiltered orbit needs no legend.
     if orbits.iter().any(|o| !o.filtered_x.is_empty()) {
         entries.extend([Entry::line("raw", RAW.thick(1.4)), Entry::line("1x filtered", FILTERED)]);
     }
@@ -75,7 +75,7 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
     let (x, y) = (micro(&orbit.x), micro(&orbit.y));
     let (fx, fy) = (micro(&orbit.filtered_x), micro(&orbit.filtered_y));
     let clearance = orbit.clearance.filter(|c| c.is_finite() && *c > 0.0).map(|c| c * TO_MICRO);
-    // A clearance much larger than the orbit would hide it: then it is left outside.
+    // A clearance circle much larger than the orbit is not drawn.
     let seen = extremes(x.iter().chain(&y).chain(&fx).chain(&fy).map(|v| v.abs())).map_or(0.0, |e| e.1);
     let ring = clearance.filter(|c| *c < 6.0 * seen || seen == 0.0);
     let edge = ring.map_or([0.0, 0.0], |c| [-c, c]);
@@ -110,7 +110,7 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
     svg.text([frame.x, frame.y - 7.0], &title, Text::new(LABEL, INK));
 }
 
-/// Arrow head on the orbit that shows which way it is run through.
+/// Arrow head on the orbit that shows its direction.
 pub(super) fn direction(svg: &mut Svg, points: &[Point], color: super::svg::Color) {
     let k = points.len() / 4;
     let Some(&tail) = points.get(k) else { return };

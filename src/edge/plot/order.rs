@@ -1,4 +1,4 @@
-//! Order map: level over shaft speed and order.
+//! Order map (order tracking): level over shaft speed and order.
 
 use super::axes::{Axes, Frame};
 use super::campbell::OrderLine;
@@ -19,12 +19,12 @@ pub struct OrderMap {
     pub order: Vec<f64>,
     /// Levels \[dB\], `level_db[i * order.len() + j]` at `rpm[i]`, `order[j]`.
     pub level_db: Vec<f64>,
-    /// What the decibels are, e.g. "acceleration level" and "dB re 1 m/s²".
+    /// Quantity and unit of the levels, e.g. "acceleration level" and "dB re 1 m/s²".
     pub quantity: String,
     pub unit: String,
-    /// Levels shown under the highest \[dB\].
+    /// Dynamic range \[dB\].
     pub span_db: f64,
-    /// Cursors.
+    /// Order line cursors.
     pub orders: Vec<OrderLine>,
     /// Upper end of the order axis; by default the highest order.
     pub max_order: Option<f64>,

@@ -1,4 +1,4 @@
-//! Amplitude above, phase below: the panels that FRFs and Bode plots share.
+//! Stacked panels and phase panel, shared by FRF and Bode plots.
 
 use super::axes::{Axes, Frame};
 use super::scale::{Range, Scale};
@@ -6,7 +6,7 @@ use super::style::*;
 use super::svg::{Point, Style, Svg};
 use super::thin;
 
-/// Phase panel from -180° to 180° with ticks at right angles.
+/// Phase panel from -180° to 180° with ticks every 90°.
 pub fn phase_axes(frame: Frame, x: Range) -> Axes {
     let axes = Axes::linear(frame, x, Range::new(-180.0, 180.0));
     let y = Scale::at_ticks(axes.y, &[-180.0, -90.0, 0.0, 90.0, 180.0]);
@@ -18,7 +18,7 @@ pub fn degrees(re: f64, im: f64) -> f64 {
     im.atan2(re).to_degrees()
 }
 
-/// A phase curve \[deg\], any winding, wrapped to -180..180 and broken where it jumps round.
+/// A phase curve \[deg\], wrapped to -180..180 and broken at wrap-around jumps.
 pub fn phase_curve(svg: &mut Svg, axes: &Axes, x: &[f64], phase: &[f64], style: Style) {
     let mut points: Vec<Point> = Vec::with_capacity(x.len());
     let mut last = f64::NAN;
@@ -33,7 +33,7 @@ pub fn phase_curve(svg: &mut Svg, axes: &Axes, x: &[f64], phase: &[f64], style: 
     axes.clipped(svg, &thin::columns(points.into_iter()), style);
 }
 
-/// Panels of the given heights under each other, sharing x.
+/// Vertically stacked panels of the given heights with a common x axis.
 pub fn stack(top: f64, w: f64, heights: &[f64]) -> Vec<Frame> {
     let mut y = top;
     heights

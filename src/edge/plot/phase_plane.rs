@@ -1,4 +1,5 @@
-//! Orbits with their Poincaré points: shaft orbits on equal axes, displacements over their rates on their own.
+//! Orbits and phase planes with Poincaré points: shaft orbits on equal axes, displacement and velocity on
+//! separate scales.
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{Entry, head};
@@ -8,9 +9,9 @@ use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
 use super::{font, thin};
 
-/// Most planes in one figure.
+/// Largest number of planes in one figure.
 const MOST: usize = 12;
-/// A clearance circle beyond this many times the orbit would hide it: then it is left out.
+/// A clearance circle larger than this multiple of the orbit is not drawn.
 const LARGE: f64 = 6.0;
 
 /// One plane of a motion; all values in the units of its axes.
@@ -22,17 +23,17 @@ pub struct PhasePlane {
     pub x_unit: String,
     pub y_name: String,
     pub y_unit: String,
-    /// One scale for both axes: an orbit as seen along the shaft.
+    /// Equal scale of both axes: a shaft orbit.
     pub equal: bool,
     /// The orbit, in order of time; may be empty.
     pub x: Vec<f64>,
     pub y: Vec<f64>,
-    /// Its 1x part, in order of time; may be empty.
+    /// Its 1x-filtered part, in order of time; may be empty.
     pub filtered_x: Vec<f64>,
     pub filtered_y: Vec<f64>,
-    /// Where the keyphasor passes, as samples of the orbit.
+    /// Samples of the orbit at which the keyphasor passes.
     pub keyphasor: Vec<usize>,
-    /// Section points.
+    /// Poincaré section points.
     pub section_x: Vec<f64>,
     pub section_y: Vec<f64>,
     /// Radius of the clearance circle about the origin.
@@ -63,12 +64,12 @@ pub fn draw(data: &PhasePlanes) -> Svg {
         entries.push(Entry::line("orbit", RAW.thick(1.6)));
     }
     if any(|p| !p.filtered_x.is_empty()) {
-        entries.push(Entry::line("1x part", FILTERED));
+        entries.push(Entry::line("1x filtered", FILTERED));
     }
     if any(|p| !p.keyphasor.is_empty()) {
         entries.push(Entry::marker("keyphasor", Marker::Square, KEYPHASOR));
     }
-    entries.push(Entry::marker("section", Marker::Circle, Style::fill(SECTION)));
+    entries.push(Entry::marker("Poincaré points", Marker::Circle, Style::fill(SECTION)));
     if any(|p| ring(p).is_some()) {
         entries.push(Entry::line("clearance", CLEARANCE));
     }
@@ -86,7 +87,7 @@ pub fn draw(data: &PhasePlanes) -> Svg {
     svg
 }
 
-/// The clearance circle, where it is not far outside what moves.
+/// Radius of the clearance circle, unless far larger than the orbit.
 fn ring(plane: &PhasePlane) -> Option<f64> {
     let all = plane.x.iter().chain(&plane.y).chain(&plane.section_x).chain(&plane.section_y);
     let seen = extremes(all.map(|v| v.abs())).map_or(0.0, |e| e.1);
@@ -113,7 +114,7 @@ fn panel(svg: &mut Svg, plane: &PhasePlane, frame: Frame) {
     axes.clipped(svg, &filtered, FILTERED);
     let dots: Vec<Point> =
         plane.section_x.iter().zip(&plane.section_y).map(|(&x, &y)| axes.at(x, y)).collect();
-    // Many points are an attractor, whose fine structure large dots would hide.
+    // Smaller dots for many points, to show the fine structure of the section.
     let radius = if dots.len() > 400 { 1.1 } else { 1.9 };
     svg.dots(dots.into_iter().filter(|p| axes.holds(*p)), radius, SECTION);
     for (&x, &y) in plane.keyphasor.iter().take(400).filter_map(|&k| plane.x.get(k).zip(plane.y.get(k))) {

@@ -93,7 +93,7 @@ fn rose(svg: &mut Svg, frame: Frame, rings: i32) {
     }
 }
 
-/// Speed written where the curve has moved far enough since the last label.
+/// Speed labels at a minimum distance along the curve.
 fn speeds(svg: &mut Svg, axes: &Axes, c: &PolarCurve, taken: &mut Vec<[f64; 4]>) {
     let [x, y] = axes.frame.center();
     let mut last: Option<Point> = None;
@@ -107,7 +107,7 @@ fn speeds(svg: &mut Svg, axes: &Axes, c: &PolarCurve, taken: &mut Vec<[f64; 4]>)
         let label = format!("{rpm:.0}");
         let (ux, uy) = ((point[0] - x) / from_centre, (point[1] - y) / from_centre);
         let out = 8.0 + 0.5 * font::width(&label, SMALL) * ux.abs();
-        // Inside the curve where the angles' labels are near.
+        // Inside the curve where the angle labels are near.
         let out = if from_centre + 2.0 * out > 0.5 * axes.frame.w { -out } else { out };
         let place = [point[0] + out * ux, point[1] + out * uy + 0.36 * SMALL];
         let half = 0.5 * font::width(&label, SMALL);

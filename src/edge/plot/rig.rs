@@ -1,4 +1,4 @@
-//! Side view of the machine to scale, so that the user sees what the program understood.
+//! Side view of the machine layout to scale, to check the model.
 
 use super::axes::{Axes, Frame};
 use super::font;
@@ -7,7 +7,7 @@ use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
 
-/// A length of shaft, possibly tapered or hollow.
+/// A shaft section, possibly tapered or hollow.
 #[derive(Clone, Copy, Debug)]
 pub struct RigSection {
     /// Axial positions of the ends \[m\].
@@ -17,14 +17,14 @@ pub struct RigSection {
     pub inner: [f64; 2],
 }
 
-/// A disc, body or mass as a rectangle in the plane of z and y.
+/// A disc or body as a rectangle in the z-y plane.
 #[derive(Clone, Debug)]
 pub struct RigBlock {
     pub label: String,
     /// Axial and vertical extent \[m\].
     pub z: [f64; 2],
     pub y: [f64; 2],
-    /// Part of the rotor (dark) or standing (light).
+    /// Part of the rotor (dark) or stationary (light).
     pub rotating: bool,
 }
 
@@ -46,11 +46,11 @@ pub struct RigSpring {
     /// \[z, y\] of the ends \[m\].
     pub from: [f64; 2],
     pub to: [f64; 2],
-    /// The second end stands on the ground.
+    /// The second end is connected to ground.
     pub grounded: bool,
 }
 
-/// A belt's pull on the shaft.
+/// Belt pull on the shaft.
 #[derive(Clone, Debug)]
 pub struct RigBelt {
     pub label: String,
@@ -61,7 +61,7 @@ pub struct RigBelt {
     pub pull: [f64; 2],
 }
 
-/// Data of a rig sketch.
+/// Data of a machine layout figure.
 #[derive(Clone, Debug, Default)]
 pub struct Rig {
     pub title: String,
@@ -123,7 +123,7 @@ pub fn draw(data: &Rig) -> Svg {
     svg
 }
 
-/// The shaft: outline and shoulders dark, joints between equal sections pale.
+/// The shaft: outline and shoulders dark, boundaries between equal sections pale.
 fn shaft(svg: &mut Svg, axes: &Axes, sections: &[RigSection]) {
     let corner = |z: f64, y: f64| axes.at(1e3 * z, 1e3 * y);
     let dark = Style::stroke(INK, 0.9);
@@ -150,7 +150,7 @@ fn shaft(svg: &mut Svg, axes: &Axes, sections: &[RigSection]) {
     }
 }
 
-/// Extent of everything \[mm\], a little padded.
+/// Padded extent of all parts \[mm\].
 fn extent(data: &Rig) -> (Range, Range) {
     let zs = (data.sections.iter().flat_map(|s| s.z))
         .chain(data.blocks.iter().flat_map(|b| b.z))
@@ -181,7 +181,7 @@ fn bearing(svg: &mut Svg, axes: &Axes, s: &RigSupport) {
     }
 }
 
-/// A spring as a zigzag, with hatching where it stands on the ground.
+/// A spring as a zigzag, with ground hatching if grounded.
 fn zigzag(svg: &mut Svg, a: Point, b: Point, grounded: bool) {
     let d = [b[0] - a[0], b[1] - a[1]];
     let length = d[0].hypot(d[1]);
@@ -217,7 +217,7 @@ fn zigzag(svg: &mut Svg, a: Point, b: Point, grounded: bool) {
     }
 }
 
-/// The belt's pull: an arrow up or down, or the tail (into the page) or head of one that lies across.
+/// Belt pull: an arrow up or down, or the symbol of an arrow into (cross) or out of the page (dot).
 fn belt(svg: &mut Svg, axes: &Axes, b: &RigBelt) {
     let side = if b.pull[1] >= 0.0 { 1.0 } else { -1.0 };
     let [x, y] = axes.at(1e3 * b.z, side * 1e3 * b.radius);
@@ -243,7 +243,7 @@ fn belt(svg: &mut Svg, axes: &Axes, b: &RigBelt) {
     );
 }
 
-/// Stations: dotted lines down from the axis to their names under the drawing; returns the height under these.
+/// Stations: dotted lines from the axis to their names below the drawing; returns the height below the names.
 fn stations(svg: &mut Svg, axes: &Axes, list: &[(String, f64)]) -> f64 {
     let (axis, bottom) = (axes.at(0.0, 0.0)[1], axes.frame.bottom() + 4.0);
     let row = NameRow::new(list.iter().map(|s| (axes.x.px(1e3 * s.1), s.0.clone())), WIDTH);
@@ -254,7 +254,7 @@ fn stations(svg: &mut Svg, axes: &Axes, list: &[(String, f64)]) -> f64 {
     bottom + 11.0 + row.height
 }
 
-/// Names of blocks and bearings in a row above the drawing, with leaders.
+/// Names of blocks and bearings in a row above the drawing, with leader lines.
 fn names(svg: &mut Svg, axes: &Axes, data: &Rig) {
     let blocks = data.blocks.iter().map(|b| (&b.label, 0.5 * (b.z[0] + b.z[1]), b.y[0].max(b.y[1])));
     let supports = data.supports.iter().map(|s| (&s.label, s.z, s.outside));
@@ -271,7 +271,7 @@ fn names(svg: &mut Svg, axes: &Axes, data: &Rig) {
     }
 }
 
-/// The axial scale under the station names.
+/// Axial scale below the station names.
 fn ruler(svg: &mut Svg, axes: &Axes, y: f64) {
     let ends = extremes(axes.x.ticks.iter().map(|t| axes.x.px(t.value)))
         .unwrap_or((axes.frame.x, axes.frame.right()));

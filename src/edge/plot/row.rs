@@ -1,15 +1,15 @@
-//! Panels side by side on the same scales: one run beside another.
+//! Panels in a row on common scales, to compare runs.
 
 use super::axes::{Axes, Frame};
 use super::style::*;
 use super::svg::{Svg, Text};
 
-/// Width of each of several panels \[px\].
+/// Panel width with several panels \[px\].
 const BESIDE: f64 = 400.0;
-/// Between them: the last number of one axis must keep off the first of the next \[px\].
+/// Gap between panels, so that tick labels of adjacent axes do not overlap \[px\].
 const BETWEEN: f64 = 34.0;
 
-/// A row of panels, the first with the scale of y.
+/// A row of panels; only the first has a labelled y axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     count: usize,
@@ -17,12 +17,12 @@ pub struct Row {
 }
 
 impl Row {
-    /// One panel is as wide as `alone`.
+    /// `alone` is the width of a single panel.
     pub fn new(count: usize, alone: f64) -> Self {
         Row { count: count.max(1), panel: if count > 1 { BESIDE } else { alone } }
     }
 
-    /// Of all panels with the gaps between them \[px\].
+    /// Total width of the panels and gaps \[px\].
     pub fn width(self) -> f64 {
         self.panel * self.count as f64 + BETWEEN * (self.count - 1) as f64
     }
@@ -41,7 +41,7 @@ impl Row {
         }
     }
 
-    /// The panel's name in its corner, where there are several.
+    /// Writes the panel name into its corner, if there are several panels.
     pub fn name(self, svg: &mut Svg, frame: Frame, name: &str) {
         if self.count > 1 {
             svg.text([frame.x + 8.0, frame.y + 17.0], name, Text::new(LABEL, INK).halo());

@@ -1,8 +1,8 @@
-//! Ranges, ticks and the map from values to the page.
+//! Axis ranges, ticks and the map from values to page coordinates.
 
-/// Largest magnitude an axis handles.
+/// Largest magnitude of an axis.
 const HUGE: f64 = 1e150;
-/// Decades that a logarithmic axis shows at most.
+/// Largest number of decades of a logarithmic axis.
 const DECADES: i32 = 9;
 
 /// A range of values, `lo < hi`, both finite.
@@ -59,7 +59,7 @@ impl Range {
         Range { lo: self.lo - by, hi: self.hi + by }
     }
 
-    /// Down to zero if the range begins close above it, so that the axis shows its zero.
+    /// Extended to zero if the range starts slightly above it.
     pub fn near_zero(self) -> Self {
         Range { lo: if self.lo > 0.0 && self.lo < 0.06 * self.hi { 0.0 } else { self.lo }, hi: self.hi }
     }
@@ -69,7 +69,7 @@ impl Range {
         Range { lo: self.lo, hi: self.hi + fraction * (self.hi - self.lo) }
     }
 
-    /// A range on a logarithmic axis with a little room on both sides.
+    /// A logarithmic range with a margin on both sides.
     pub fn log_padded(self, fraction: f64) -> Self {
         let by = (self.hi / self.lo).powf(fraction);
         Range { lo: self.lo / by, hi: self.hi * by }
@@ -151,19 +151,19 @@ pub enum Kind {
     Log,
 }
 
-/// A labelled place on an axis.
+/// A labelled tick of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     pub value: f64,
     pub label: String,
 }
 
-/// The map from values to the page along one axis, with its ticks.
+/// Map from values to page coordinates along one axis, with ticks.
 #[derive(Clone, Debug)]
 pub struct Scale {
     pub kind: Kind,
     pub range: Range,
-    /// Page coordinates of the range's ends \[px\]; swap them to turn the axis round.
+    /// Page coordinates of the ends of the range \[px\]; swap them to reverse the axis.
     pub page: [f64; 2],
     pub ticks: Vec<Tick>,
     pub minor: Vec<f64>,
@@ -172,7 +172,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// A linear axis with a tick about every `spacing` px.
+    /// Linear axis with a tick about every `spacing` px.
     pub fn linear(range: Range, page: [f64; 2], spacing: f64) -> Self {
         let (values, step) = linear_ticks(range, ((page[1] - page[0]).abs() / spacing).max(2.0));
         let exponent = exponent(range.lo.abs().max(range.hi.abs()));
@@ -185,7 +185,7 @@ impl Scale {
         Scale { kind: Kind::Linear, range, page, ticks, minor: Vec::new(), exponent }
     }
 
-    /// A logarithmic axis of a positive range; less than a decade gets linear ticks.
+    /// Logarithmic axis of a positive range; linear ticks below one decade.
     pub fn log(range: Range, page: [f64; 2], spacing: f64) -> Self {
         let count = ((page[1] - page[0]).abs() / spacing).max(2.0);
         let (major, minor) = log_ticks(range, count);
@@ -210,7 +210,7 @@ impl Scale {
         Scale { ticks, minor: Vec::new(), exponent: 0, ..self }
     }
 
-    /// Page coordinate of a value \[px\]; NaN where the axis has no place for it.
+    /// Page coordinate of a value \[px\]; NaN if it has none (a non-positive value on a logarithmic axis).
     pub fn px(&self, value: f64) -> f64 {
         let Range { lo, hi } = self.range;
         let part = match self.kind {
@@ -232,7 +232,7 @@ impl Scale {
     }
 }
 
-/// Power of ten (a multiple of three) taken out of tick labels; 0 for everyday magnitudes.
+/// Power of ten (a multiple of three) factored out of tick labels; 0 from 0.01 to 10⁵.
 fn exponent(largest: f64) -> i32 {
     if largest == 0.0 || (1e-2..1e5).contains(&largest) {
         return 0;

@@ -1,4 +1,5 @@
-//! Spectrogram over speed (the Campbell diagram as measured), with the linear lines laid over it.
+//! Spectrogram over shaft speed (Campbell diagram from the signal), with order lines and linear natural
+//! frequencies.
 
 use super::axes::Axes;
 use super::campbell::{Branch, OrderLine, branch_ends, order_lines};
@@ -9,10 +10,10 @@ use super::scale::Range;
 use super::style::*;
 use super::svg::{Style, Svg};
 
-/// One run as a map.
+/// Spectrogram of one run.
 #[derive(Clone, Debug, Default)]
 pub struct SpectrogramPanel {
-    /// Written into the panel where there are several: "measured".
+    /// Panel name, shown if there are several, e.g. "measured".
     pub name: String,
     /// Shaft speed of each spectrum \[rpm\].
     pub rpm: Vec<f64>,
@@ -22,16 +23,16 @@ pub struct SpectrogramPanel {
     pub level_db: Vec<f64>,
 }
 
-/// Data of a spectrogram over speed; several panels stand side by side on the same scales.
+/// Data of a spectrogram over speed; several panels are drawn in a row on common scales.
 #[derive(Clone, Debug, Default)]
 pub struct Spectrogram {
     pub title: String,
     pub note: String,
     pub panels: Vec<SpectrogramPanel>,
-    /// What the decibels are, e.g. "acceleration level" and "dB re 1 m/s²".
+    /// Quantity and unit of the levels, e.g. "acceleration level" and "dB re 1 m/s²".
     pub quantity: String,
     pub unit: String,
-    /// Levels shown under the highest \[dB\].
+    /// Dynamic range \[dB\].
     pub span_db: f64,
     pub orders: Vec<OrderLine>,
     pub branches: Vec<Branch>,
@@ -64,21 +65,21 @@ pub fn draw(data: &Spectrogram) -> Svg {
         if let Some(panel) = data.panels.get(k) {
             Heat { x: &panel.rpm, y: &panel.hz, level: &panel.level_db }.draw(&mut svg, &axes, bounds);
         }
-        // A pale edge lets dashes be seen on dark levels.
+        // A pale edge keeps the dashes visible on dark levels.
         for order in &data.orders {
             let at = |rpm: f64| [rpm, order.order * rpm / 60.0];
             axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
         }
         let mut labels = order_lines(&mut svg, &axes, &data.orders);
         for branch in &data.branches {
-            // A white edge keeps the thin line apart from the ridge under it.
+            // A white edge separates the thin line from the ridge below.
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(branch.whirl.color(), 1.1));
         }
         labels.extend(branch_ends(&axes, &data.branches));
         row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));
         row.name(&mut svg, axes.frame, data.panels.get(k).map_or("", |p| &p.name));
-        // The panels have the same lines: those of the last are named.
+        // The panels have the same lines: only those of the last are labelled.
         if k + 1 == count {
             end_labels(&mut svg, &axes, &labels);
             let label = format!("{} [{}]", data.quantity, data.unit);

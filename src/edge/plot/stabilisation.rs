@@ -1,4 +1,5 @@
-//! Stabilisation diagram: poles of every order over the FRFs' mode indicator.
+//! Stabilisation diagram (stability diagram): poles of every model order with the mode indicator function
+//! (CMIF).
 
 use super::axes::{Axes, Frame, Marker};
 use super::labels::{EndLabel, Entry, end_labels, head};
@@ -6,7 +7,7 @@ use super::scale::Range;
 use super::style::*;
 use super::svg::{Color, Dash, Style, Svg};
 
-/// How far a pole has settled.
+/// Stability class of a pole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Settled {
     New,
@@ -21,21 +22,21 @@ pub enum Settled {
 pub struct Stabilisation {
     pub title: String,
     pub note: String,
-    /// Frequency \[Hz\], order and state of every pole.
+    /// Frequency \[Hz\], model order and stability class of every pole.
     pub poles: Vec<(f64, usize, Settled)>,
-    /// Frequencies \[Hz\] of the curves behind the poles, and the curves (any unit), the largest first.
+    /// Frequencies \[Hz\] and values of the mode indicator curves (any unit), the largest first.
     pub hz: Vec<f64>,
     pub curves: Vec<Vec<f64>>,
-    /// Frequencies \[Hz\] of the chosen modes.
+    /// Frequencies \[Hz\] of the selected modes.
     pub chosen: Vec<f64>,
 }
 
 const STATES: [(Settled, &str, Marker, Color); 5] = [
-    (Settled::New, "new", Marker::Circle, PALE),
-    (Settled::Frequency, "frequency", Marker::Circle, ORANGE),
-    (Settled::Damping, "and damping", Marker::Down, PURPLE),
-    (Settled::Shape, "and shape", Marker::Up, GREEN),
-    (Settled::Stable, "all three", Marker::Square, BLUE),
+    (Settled::New, "new pole", Marker::Circle, PALE),
+    (Settled::Frequency, "stable frequency", Marker::Circle, ORANGE),
+    (Settled::Damping, "frequency and damping", Marker::Down, PURPLE),
+    (Settled::Shape, "frequency and shape", Marker::Up, GREEN),
+    (Settled::Stable, "stable", Marker::Square, BLUE),
 ];
 
 pub fn draw(data: &Stabilisation) -> Svg {
@@ -50,7 +51,7 @@ pub fn draw(data: &Stabilisation) -> Svg {
         })
         .collect();
     entries.push(Entry::line("mode indicator", Style::stroke(PALE, 1.2)));
-    entries.push(Entry::line("chosen", Style::stroke(RED, 0.9).dashed(Dash::Short)));
+    entries.push(Entry::line("selected mode", Style::stroke(RED, 0.9).dashed(Dash::Short)));
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frame = Frame { x: LEFT, y: top + 30.0, w: WIDTH - LEFT - RIGHT, h: 400.0 };
     let x = match (data.hz.first(), data.hz.last()) {
@@ -84,7 +85,7 @@ pub fn draw(data: &Stabilisation) -> Svg {
         }
     }
     end_labels(&mut svg, &axes, &labels);
-    axes.border(&mut svg, Some(&axes.x.label("frequency", "Hz")), "order of the model");
+    axes.border(&mut svg, Some(&axes.x.label("frequency", "Hz")), "model order");
     svg.height = frame.bottom() + BOTTOM;
     svg
 }

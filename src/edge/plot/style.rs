@@ -1,4 +1,4 @@
-//! The one look of all figures: sizes, colours, line styles.
+//! Common style of all figures: sizes, colours, line styles.
 
 use super::svg::{Color, Dash, Style};
 
@@ -8,9 +8,9 @@ pub const WIDTH: f64 = 760.0;
 pub const LEFT: f64 = 74.0;
 /// Right margin of a panel without end labels \[px\].
 pub const RIGHT: f64 = 24.0;
-/// Room under a panel for tick labels and the axis label \[px\].
+/// Margin below a panel for tick labels and the axis label \[px\].
 pub const BOTTOM: f64 = 48.0;
-/// Gap between stacked panels that share x \[px\].
+/// Gap between stacked panels with a common x axis \[px\].
 pub const GAP: f64 = 16.0;
 
 pub const TITLE: f64 = 14.0;
@@ -33,7 +33,7 @@ pub const ORANGE: Color = Color(201, 104, 12);
 /// Frame of a panel.
 pub const FRAME: Style = Style::stroke(Color(70, 70, 76), 0.9);
 
-/// Line style of curve number k: colour, dash and lightness all change, so that it also reads in grey.
+/// Line style of curve number k: colour, dash and lightness differ, so that it is also readable in grey.
 pub fn curve(k: usize) -> Style {
     const COLORS: [Color; 6] = [BLUE, RED, INK, GREEN, PURPLE, ORANGE];
     const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::DashDot, Dash::Dotted];

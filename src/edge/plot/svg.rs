@@ -1,4 +1,4 @@
-//! A small SVG writer: shapes, text, embedded PNG; fixed number format, so equal input gives equal bytes.
+//! SVG writer: shapes, text, embedded PNG; deterministic (fixed number format).
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use super::font;
 /// A point on the page \[px\], y downwards.
 pub type Point = [f64; 2];
 
-/// Largest coordinate written \[px\]; beyond it f32 renderers lose the picture.
+/// Largest coordinate written \[px\]; f32 renderers fail beyond it.
 const FAR: f64 = 1e5;
 /// Longest label written \[characters\].
 const LONGEST: usize = 160;
@@ -96,9 +96,9 @@ pub struct Text {
     pub size: f64,
     pub color: Color,
     pub anchor: Anchor,
-    /// Turned a quarter to the left, for y axes.
+    /// Rotated by 90° anticlockwise, for y axes.
     pub upright: bool,
-    /// White edge that keeps it readable on lines.
+    /// White outline, readable over lines.
     pub halo: bool,
 }
 
@@ -124,7 +124,7 @@ impl Text {
     }
 }
 
-/// An SVG page being written; shapes with a non-finite coordinate are left out.
+/// An SVG page being written; shapes with a non-finite coordinate are omitted.
 #[derive(Clone, Debug)]
 pub struct Svg {
     pub width: f64,
@@ -197,7 +197,7 @@ impl Svg {
         }
     }
 
-    /// Round dots of one size as one path; dots nearer than 0.1 px to one already there are left out.
+    /// Round dots of one size as one path; dots in the same 0.1 px cell are drawn once.
     pub fn dots(&mut self, centers: impl Iterator<Item = Point>, radius: f64, color: Color) {
         let mut seen = std::collections::BTreeSet::new();
         let mut d = String::new();
@@ -207,7 +207,7 @@ impl Svg {
                 push_number(&mut d, p[0]);
                 d.push(' ');
                 push_number(&mut d, p[1]);
-                // Of a length, because a renderer may leave out a line that has none.
+                // Short non-zero length: renderers may skip zero-length lines.
                 d.push_str("h.01");
             }
         }
@@ -273,7 +273,7 @@ impl Svg {
         );
     }
 
-    /// What follows until `unclip` is shown only inside the rectangle.
+    /// Clips everything until `unclip` to the rectangle.
     pub fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
         let id = self.clips;
         self.clips += 1;

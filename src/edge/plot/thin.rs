@@ -1,11 +1,12 @@
-//! Thinning of long curves to what the page can show, so that a million samples stay a small SVG.
+//! Decimation of long curves to the page resolution, to keep the SVG small.
 
 use super::svg::Point;
 
-/// Points that a free curve (an orbit) keeps at most.
+/// Largest number of points of a free curve (an orbit).
 const FREE: usize = 20_000;
 
-/// Keeps the first, lowest, highest and last of the consecutive points that fall in one px column of the page.
+/// Keeps the first, lowest, highest and last of the consecutive points that fall in one px column of the
+/// page.
 pub fn columns(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut out = Vec::new();
     let mut group: Vec<Point> = Vec::new();
@@ -16,7 +17,7 @@ pub fn columns(points: impl Iterator<Item = Point>) -> Vec<Point> {
             flush(&mut group, &mut out);
             column = here;
         }
-        // Of a gap one point is enough; of a column the four that matter.
+        // Keep one point of a gap.
         if here == i64::MAX && !group.is_empty() {
             continue;
         }
@@ -54,7 +55,7 @@ fn reduce(group: &mut Vec<Point>) {
     *group = kept;
 }
 
-/// Keeps the uppermost of the consecutive points that fall in one px column of the page: a spectrum's peaks.
+/// Keeps the uppermost of the consecutive points that fall in one px column of the page: peaks of a spectrum.
 pub fn peaks(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut out: Vec<Point> = Vec::new();
     for p in points {
@@ -70,7 +71,8 @@ pub fn peaks(points: impl Iterator<Item = Point>) -> Vec<Point> {
     out
 }
 
-/// Leaves out points of a free curve that hardly move on the page, then every n-th if still too many.
+/// Drops points of a free curve closer than 0.25 px to the previous one, then keeps every n-th if still too
+/// many.
 pub fn free(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut out: Vec<Point> = Vec::new();
     for p in points {

@@ -1,4 +1,4 @@
-//! Waterfall: spectra offset over speed, each hiding what is behind it.
+//! Waterfall (cascade) plot: spectra offset over speed, with hidden lines.
 
 use super::axes::{Axes, Frame};
 use super::campbell::OrderLine;
@@ -9,15 +9,15 @@ use super::style::*;
 use super::svg::{Point, Style, Svg, Text};
 use super::thin;
 
-/// Most spectra drawn; more lie on each other.
+/// Largest number of spectra drawn.
 const MOST: usize = 70;
 /// Height of the highest peak \[fraction of the panel\].
 const PEAK: f64 = 0.22;
 
-/// One run as spectra.
+/// Spectra of one run.
 #[derive(Clone, Debug, Default)]
 pub struct WaterfallPanel {
-    /// Written into the panel where there are several: "measured".
+    /// Panel name, shown if there are several, e.g. "measured".
     pub name: String,
     /// Shaft speed of each spectrum \[rpm\].
     pub rpm: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct WaterfallPanel {
     pub amplitude: Vec<f64>,
 }
 
-/// Data of a waterfall; several panels stand side by side on the same scales.
+/// Data of a waterfall; several panels are drawn in a row on common scales.
 #[derive(Clone, Debug, Default)]
 pub struct Waterfall {
     pub title: String,
@@ -52,7 +52,7 @@ pub fn draw(data: &Waterfall) -> Svg {
     let count = data.panels.len().max(1);
     for k in 0..count {
         let frame = row.frame(k, top + 16.0, HEIGHT);
-        // The uppermost spectrum needs room for its peaks.
+        // Margin for the peaks of the uppermost spectrum.
         let mut axes = Axes::linear(frame, x, speeds.raised(PEAK / (1.0 - PEAK)));
         axes.y.ticks.retain(|t| t.value <= speeds.hi);
         if let Some(panel) = data.panels.get(k) {
@@ -61,7 +61,7 @@ pub fn draw(data: &Waterfall) -> Svg {
         let labels = cursors(&mut svg, &axes, &data.orders);
         row.border(&mut svg, &axes, k, ("frequency", "Hz"), ("shaft speed", "rpm"));
         row.name(&mut svg, frame, data.panels.get(k).map_or("", |p| &p.name));
-        // The panels have the same lines: those of the last are named.
+        // The panels have the same lines: only those of the last are labelled.
         if k + 1 == count {
             end_labels(&mut svg, &axes, &labels);
             if px_per_unit > 0.0 {
@@ -83,7 +83,7 @@ fn spectra(svg: &mut Svg, axes: &Axes, panel: &WaterfallPanel, px_per_unit: f64)
     let mut ascending: Vec<usize> = (0..n).filter(|&j| panel.hz[j].is_finite()).collect();
     ascending.sort_by(|&a, &b| panel.hz[a].total_cmp(&panel.hz[b]));
     let stride = panel.rpm.len().div_ceil(MOST).max(1);
-    // The white fill hides what is behind.
+    // The white fill hides the spectra behind.
     let line = Style::stroke(INK, 0.8).filled(WHITE);
     for (i, &rpm) in panel.rpm.iter().enumerate().step_by(stride).collect::<Vec<_>>().into_iter().rev() {
         let base = axes.y.px(rpm);
@@ -119,7 +119,7 @@ fn cursors(svg: &mut Svg, axes: &Axes, orders: &[OrderLine]) -> Vec<EndLabel> {
     labels
 }
 
-/// A bar beside the panel that says how high an amplitude is.
+/// Amplitude scale bar at the right of the panel.
 fn scale_bar(svg: &mut Svg, frame: Frame, highest: f64, px_per_unit: f64, unit: &str) {
     let value = nice_step(highest, 2.0);
     let h = value * px_per_unit;

@@ -1,4 +1,4 @@
-//! Shapes of a measured structure: its points and lines in rest and deflected.
+//! Mode shapes of a measured structure as wireframes: undeformed and deformed.
 
 use super::font;
 use super::labels::{Entry, head};
@@ -9,35 +9,35 @@ use super::svg::{Point, Style, Svg, Text};
 /// One shape.
 #[derive(Clone, Debug, Default)]
 pub struct WireShape {
-    /// Written above, e.g. "1: 18.84 Hz, 0.34 %".
+    /// Title of the panel, e.g. "1: 18.84 Hz, 0.34 %".
     pub title: String,
-    /// Deflection of every point, at the phase where it is largest, any unit; NaN where it is not known.
+    /// Deflection of every point at the phase of the largest deflection, any unit; NaN if unknown.
     pub motion: Vec<[f64; 3]>,
 }
 
-/// Data of a figure of shapes.
+/// Data of a wireframe figure.
 #[derive(Clone, Debug, Default)]
 pub struct Wireframe {
     pub title: String,
     pub note: String,
     /// Points \[m\].
     pub points: Vec<[f64; 3]>,
-    /// Strokes through points, by index.
+    /// Lines through points, by index.
     pub strokes: Vec<Vec<usize>>,
     pub shapes: Vec<WireShape>,
 }
 
-/// Size of a panel \[px\], panels side by side, and the most of them.
+/// Size of a panel \[px\], number of columns, largest number of panels.
 const PANEL: [f64; 2] = [236.0, 190.0];
 const COLUMNS: usize = 3;
 const MOST: usize = 24;
-/// Largest deflection over the size of the structure.
+/// Drawn largest deflection as a fraction of the size of the structure.
 const DEFLECTION: f64 = 0.16;
 
 pub fn draw(data: &Wireframe) -> Svg {
     let entries = [
-        Entry::line("at rest", Style::stroke(PALE, 1.0)),
-        Entry::line("deflected", Style::stroke(BLUE, 1.4)),
+        Entry::line("undeformed", Style::stroke(PALE, 1.0)),
+        Entry::line("deformed", Style::stroke(BLUE, 1.4)),
     ];
     let (mut svg, top) = head(WIDTH, LEFT, &data.title, &data.note, &entries);
     let shapes = &data.shapes[..data.shapes.len().min(MOST)];
@@ -45,7 +45,7 @@ pub fn draw(data: &Wireframe) -> Svg {
         .filter_map(|a| extremes(data.points.iter().map(|p| p[a])))
         .map(|(lo, hi)| hi - lo)
         .fold(0.0, f64::max);
-    // Seen from above, the x axis to the right: z up, y away.
+    // Oblique view from above: x to the right, y to the back, z up.
     let flat = |p: &[f64; 3]| [0.94 * p[0] + 0.42 * p[1], -(0.34 * p[1] - 0.15 * p[0]) - 0.9 * p[2]];
     let seen: Vec<Point> = data.points.iter().map(flat).collect();
     let Some(((x0, x1), (y0, y1))) =

@@ -1,4 +1,4 @@
-//! Ball bearings on their own as data sets.
+//! Stand-alone ball bearings as data sets.
 
 use super::Place;
 use crate::edge::hdf5::Store;
@@ -55,7 +55,7 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Arrays over \[point, ...\]; without an axis there is one point and no such dimension.
+/// Arrays over \[point, ...\]; without an axis there is one point and no point dimension.
 fn points(place: &Place, points: &[BearingPoint], axis: Option<&str>) -> Result<(), Error> {
     let array = |name: &str, rest: &[usize], unit: &str, data: Vec<f64>| {
         let shape: Vec<usize> = axis.map(|_| points.len()).into_iter().chain(rest.iter().copied()).collect();

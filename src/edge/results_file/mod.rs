@@ -1,9 +1,9 @@
 //! The results of a machine as one HDF5 file, `results.h5`.
 //!
-//! | group | holds |
+//! | group | contents |
 //! |---|---|
 //! | `/meta` | attributes: program, version, git, model (its text), title, variant, settings, seed, units |
-//! | `/meta/files` | columns of the files that the model names |
+//! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
 //! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls |
 //! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
@@ -12,15 +12,15 @@
 //! | `/frf` | response \[response, excitation, frequency\] (complex) |
 //! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit |
 //! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
-//! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; `exponent` over `time` as it settled |
+//! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |
-//! | `/bearings/<bearing>` | a ball bearing on its own: `operating` point and `over_<sweep>` with its axis as dimension scale |
-//! | `/time`, `/channels` | the run-up, streamed while it goes on |
-//! | `/run_up` | attributes: size and errors of the reduced model, steps, energy account |
+//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `over_<sweep>` with its axis as dimension scale |
+//! | `/time`, `/channels` | the run-up, streamed during the run |
+//! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
 //!
-//! Every data set has an attribute `unit`. What does not exist (a mode that was lost, one fewer at a speed) is
-//! NaN, or an empty text. Writing a study again replaces what was there of it.
+//! Every data set has an attribute `unit`. Missing values (a lost mode, fewer modes at a speed) are NaN, or
+//! an empty text. Writing a study again replaces its earlier results.
 
 mod bearing;
 mod linear;
@@ -40,19 +40,19 @@ use crate::linalg::Complex64;
 use crate::results::{ChannelPair, History, HistoryChannel, Results};
 use crate::study::Machine;
 
-/// Where results come from.
+/// Provenance of results.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Meta<'a> {
     /// Text of the model file.
     pub model: &'a str,
     pub title: &'a str,
-    /// Empty for the model as it is.
+    /// Empty for the base model.
     pub variant: &'a str,
-    /// Every "path = value" laid over the file.
+    /// Every override "path = value" of the file.
     pub settings: &'a [String],
 }
 
-/// Writes `/meta`, replacing what was there.
+/// Writes `/meta`, replacing an earlier one.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -65,11 +65,11 @@ pub fn write_meta(store: &Store, meta: &Meta) -> Result<(), Error> {
     place.note("title", meta.title)?;
     place.note("variant", meta.variant)?;
     place.note("settings", meta.settings.join("\n"))?;
-    place.note("seed", "none of its own: what is random in the model has its seed there")?;
+    place.note("seed", "none for the program: random parts of the model have their seeds in its text")?;
     place.note("units", "SI: m, kg, s, N, rad; speeds in rad/s unless named rpm, frequencies in Hz")
 }
 
-/// Writes every filled part of the results, each replacing what was there of it; the run itself is streamed.
+/// Writes every available result, replacing earlier ones; the run itself is streamed.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -108,7 +108,7 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     store.flush()
 }
 
-/// Writes ball bearings on their own, where there is no machine; replaces what was there of them.
+/// Writes stand-alone ball bearings (no machine), replacing earlier ones.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -131,7 +131,7 @@ pub fn write_pairs(
     run::pairs(store, pairs, [measured, computed])
 }
 
-/// Says in `/meta` that the run's speed is not that of the model's text.
+/// Records in `/meta` that the run's speed is a measured one, not that of the model's text.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -146,7 +146,7 @@ fn write_warnings(store: &Store, warnings: &[String]) -> Result<(), Error> {
     Place::new(store, "/warnings")?.texts("text", &[warnings.len()], warnings)
 }
 
-/// The channels of a history as a stream writes them.
+/// The channels of a history in the form of a stream.
 pub fn channels_of(history: &History) -> Vec<Channel> {
     let plain = |c: &HistoryChannel| Channel {
         name: c.name.clone(),
@@ -158,7 +158,7 @@ pub fn channels_of(history: &History) -> Vec<Channel> {
     history.channels.iter().map(plain).collect()
 }
 
-/// Removes a stored run, so that another can be streamed into the file, with what was made of it.
+/// Removes a stored run with its summary and spectra, so that another can be streamed into the file.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -169,7 +169,7 @@ pub fn remove_run(store: &Store) -> Result<(), Error> {
 /// Reads the stored run, complete or not, its channels in the order they were recorded.
 ///
 /// # Errors
-/// The file cannot be read or holds no run.
+/// The file cannot be read or contains no run.
 pub fn read_history(store: &Store) -> Result<History, Error> {
     let stored = read_recording(store, "")?;
     let plain = |(c, values): (Channel, Vec<f64>)| HistoryChannel {
@@ -193,7 +193,7 @@ pub fn read_history(store: &Store) -> Result<History, Error> {
     })
 }
 
-/// Names and places that the arrays of the other groups are over.
+/// Names and positions of nodes, DOFs and bearings, the indices of the arrays in other groups.
 fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     let place = Place::new(store, "/labels")?;
     let (model, dofs) = (&machine.model, &machine.assembly.dofs);
@@ -229,14 +229,14 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     Ok(())
 }
 
-/// A group that is being filled.
+/// Writer of one group.
 struct Place<'a> {
     store: &'a Store,
     group: String,
 }
 
 impl<'a> Place<'a> {
-    /// The group, emptied.
+    /// The group, created anew without its earlier members.
     fn new(store: &'a Store, group: &str) -> Result<Self, Error> {
         store.remove(group)?;
         store.create_group(group)?;
@@ -267,7 +267,7 @@ impl<'a> Place<'a> {
         self.store.write_text_array(&self.path(name), shape, texts, &[])
     }
 
-    /// Makes the array `scale` the axis of a dimension of the array `name`.
+    /// Attaches the array `scale` as dimension scale to a dimension of the array `name`.
     fn axis(&self, name: &str, dimension: usize, scale: &str) -> Result<(), Error> {
         let label = scale.rsplit('/').next().unwrap_or(scale);
         self.store.attach_scale(&self.path(name), dimension, &self.path(scale), label)

@@ -1,4 +1,4 @@
-//! What a run-up was, and its spectra, as data sets.
+//! Summary and spectra of a run-up as data sets.
 
 use super::Place;
 use crate::edge::hdf5::Store;

@@ -1,4 +1,4 @@
-//! The files that a model names, kept with its text: a stored run can be looked at without them.
+//! External data files of a model, stored with its text: a stored run can be evaluated without them.
 
 use super::Place;
 use crate::edge::hdf5::{Attribute, Store};
@@ -7,7 +7,7 @@ use crate::model::{SideColumn, SideFile};
 
 const GROUP: &str = "/meta/files";
 
-/// Writes what was read of the files, below `/meta` (so after it).
+/// Writes the columns of the files below `/meta`; call after `write_meta`, which empties that group.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -29,7 +29,7 @@ pub fn write_side_files(store: &Store, files: &[SideFile]) -> Result<(), Error> 
     Ok(())
 }
 
-/// Reads them back; none where the model names none.
+/// Reads them back; empty if the model has none.
 ///
 /// # Errors
 /// The file cannot be read.

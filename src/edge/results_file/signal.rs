@@ -1,16 +1,16 @@
-//! Analyses of records as one HDF5 file, `signal.h5`.
+//! Signal analyses of records as one HDF5 file, `signal.h5`.
 //!
-//! | group | holds |
+//! | group | contents |
 //! |---|---|
 //! | `/meta` | attributes: program, version, git, file, command |
-//! | `/against/<channel>` | the other record's channel |
+//! | `/against/<channel>` | the channel of the compared record |
 //! | `/<channel>` | attributes: unit, sample_rate, start, statistics, speed, bearing and its orders, verdict |
 //! | `.../record`, `.../speed` | the samples analysed; the shaft's speed over time |
 //! | `.../spectrum`, `.../density`, `.../envelope`, `.../spectral_kurtosis` | values over their axis |
 //! | `.../kurtogram`, `.../band_scores` | low, high, level, value of every band |
-//! | `.../spectrogram`, `.../orders`, `.../cyclic` | maps with their axes as dimension scales |
-//! | `.../cepstrum`, `.../jerk`, `.../folded_jerk`, `.../average` | curves |
-//! | `.../lines` | one row for every bearing line sought |
+//! | `.../spectrogram`, `.../orders`, `.../cyclic` | spectrogram, order map, cyclic spectral coherence, with their axes as dimension scales |
+//! | `.../cepstrum`, `.../jerk`, `.../folded_jerk`, `.../average` | curves; jerk folded over the ball passages, time-synchronous average |
+//! | `.../lines` | one row for every bearing defect line searched |
 
 use super::Place;
 use crate::edge::hdf5::Store;
@@ -22,7 +22,7 @@ use crate::signal::kurtogram::Kurtogram;
 use crate::signal::race_defects::DefectKind;
 use crate::signal::spectrum::Spectrum;
 
-/// Where results come from.
+/// Provenance of results.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalMeta<'a> {
     pub file: &'a str,
@@ -30,7 +30,7 @@ pub struct SignalMeta<'a> {
     pub command: &'a str,
 }
 
-/// Writes the results of every channel, and of another record's that they are laid against.
+/// Writes the results of every channel, and of the channel of another record for comparison.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -48,7 +48,7 @@ pub fn write_signal(
     place.note("command", meta.command)?;
     place.note(
         "units",
-        "SI where the record's unit is known; frequencies in Hz, orders per turn of the shaft",
+        "SI where the record's unit is known; frequencies in Hz, orders per revolution of the shaft",
     )?;
     results.iter().try_for_each(|result| channel(store, "", result))?;
     against.map_or(Ok(()), |other| channel(store, "/against", other))?;

@@ -48,7 +48,8 @@ pub fn lyapunov(store: &Store, found: &LyapunovResult) -> Result<(), Error> {
     place.axis("exponent", 0, "time")
 }
 
-/// Per sweep everything over the parameter's values, in the order of the sweep; NaN where a value has no motion.
+/// Per sweep all quantities over the parameter's values, in the order of the sweep; NaN where no steady
+/// motion was found.
 pub fn bifurcation(store: &Store, found: &BifurcationResult) -> Result<(), Error> {
     let place = Place::new(store, "/bifurcation")?;
     place.note("parameter", found.parameter.paths.clone())?;
@@ -115,7 +116,7 @@ pub fn bifurcation(store: &Store, found: &BifurcationResult) -> Result<(), Error
     Ok(())
 }
 
-/// Most section points of any value.
+/// Largest number of section points at any value.
 fn longest(sweep: &BifurcationSweep) -> usize {
     let points = |p: &crate::results::BifurcationPoint| match &p.found {
         Ok(motion) => motion.sections.iter().map(Vec::len).max().unwrap_or(0),

@@ -1,4 +1,4 @@
-//! A model beside measurements as data sets.
+//! Comparison of a model with measurements as data sets.
 
 use super::Place;
 use crate::edge::hdf5::Store;
@@ -11,7 +11,8 @@ use crate::update::target::Target;
 
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
-/// Writes `group`: measured and computed modes, pairs (−1 for none), MAC, and the FRFs at the measured points.
+/// Writes `group`: measured and computed modes, pairs (−1 for none), MAC, and the FRFs at the measured
+/// points.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -58,7 +59,8 @@ pub fn write(
     Ok(())
 }
 
-/// Writes `/parameters`: start, value, standard error, share of the prior, and what the data tell together.
+/// Writes `/parameters`: start, value, standard error, share of the prior, and identifiability (SVD,
+/// correlation).
 ///
 /// # Errors
 /// The file cannot be written.

@@ -1,15 +1,15 @@
-//! The binary data of set 58b: where it ends, and what its bytes mean.
+//! Binary data of set 58b: extent and byte format.
 
 use super::Fault;
 use super::block::{Block, CUT, is_mark};
 use super::function::Layout;
 
-/// What the first line of a 58b says.
+/// First line of a 58b.
 pub(super) struct Form {
     little_endian: bool,
     /// Lines of text before the data.
     pub header_lines: usize,
-    /// Bytes of data as stated; programs err here.
+    /// Stated byte count of the data; wrong in the files of some programs.
     stated: usize,
 }
 
@@ -20,13 +20,13 @@ pub(super) struct Binary<'a> {
 }
 
 impl Form {
-    /// Reads byte order, float format, header lines and byte count, `(I6,I6,I12,I12)`, behind `58b`.
+    /// Reads byte order, float format, header lines and byte count, `(I6,I6,I12,I12)`, after `58b`.
     pub fn of_header(fields: &str, line: usize) -> Result<Form, Fault> {
         let values: Vec<usize> = fields.split_whitespace().map_while(|word| word.parse().ok()).collect();
         let fault = |problem: String, advice| Fault { line, problem, advice };
         let [order, format, header_lines, stated, ..] = values[..] else {
             let problem = format!("the header of binary set 58b is `{}`", fields.trim());
-            return Err(fault(problem, "export the file again, as ASCII if need be"));
+            return Err(fault(problem, "export the file again, as ASCII if necessary"));
         };
         if format != 2 {
             let problem = format!("binary floats of format {format} (1 is DEC, 3 is IBM) are not read");
@@ -34,16 +34,16 @@ impl Form {
         }
         if !matches!(order, 1 | 2) {
             let problem = format!("byte order {order} is neither 1 (little endian) nor 2 (big endian)");
-            return Err(fault(problem, "export the file again, as ASCII if need be"));
+            return Err(fault(problem, "export the file again, as ASCII if necessary"));
         }
         Ok(Form { little_endian: order == 1, header_lines, stated })
     }
 
-    /// The data at the start of `rest`, the bytes used up to the line behind the closing -1, and whether it was
-    /// there.
+    /// The data at the start of `rest`, the bytes up to the line after the closing -1, and whether that -1
+    /// was found.
     ///
-    /// The stated byte count and the one that follows from the number of values are tried: right is the one
-    /// behind which the block ends. Programs add line ends, pad with zeros or count wrongly.
+    /// Tries the stated byte count and the one computed from the number of values, and takes the one after
+    /// which the block ends. Programs add line ends, pad with zeros or count wrongly.
     pub fn extent<'a>(&self, block: &Block, rest: &'a [u8]) -> Result<(&'a [u8], usize, bool), Fault> {
         let layout = Layout::of(block)?;
         let sizes = layout.binary_sizes();
@@ -52,13 +52,13 @@ impl Form {
                 return Ok((&rest[..size], size + end, true));
             }
         }
-        // A file may end right behind the data.
+        // A file may end directly after the data.
         for size in sizes {
             if rest.len() >= size && rest[size..].iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
                 return Ok((&rest[..size], rest.len(), false));
             }
         }
-        // Padded, or fewer values than promised: up to the next end mark.
+        // Padded, or fewer values than stated: up to the next end mark.
         let from = rest.windows(6).position(|w| w == b"    -1");
         let marks = from
             .into_iter()
@@ -81,7 +81,7 @@ impl Form {
     }
 }
 
-/// Where the line behind a closing -1 begins, if that -1 is next but for line ends and zeros.
+/// Start of the line after a closing -1, if only line ends and zeros precede that -1.
 fn closing(rest: &[u8]) -> Option<usize> {
     let start = rest.iter().position(|&b| !(b == b'\r' || b == b'\n' || b == 0))?;
     let end = rest[start..].iter().position(|&b| b == b'\n').map_or(rest.len(), |at| start + at + 1);
@@ -89,9 +89,9 @@ fn closing(rest: &[u8]) -> Option<usize> {
 }
 
 impl Binary<'_> {
-    /// The numbers of the block, abscissae among them.
+    /// The numbers of the block, including abscissae.
     ///
-    /// Beside double-precision values the abscissa has 4 bytes by the format, 8 in what some programs write.
+    /// With double-precision values the abscissa has 4 bytes by the format, 8 in files of some programs.
     pub fn numbers(&self, layout: &Layout) -> Vec<f64> {
         let ordinate = if layout.double { 8 } else { 4 };
         let abscissa = match (layout.even, layout.double) {

@@ -11,33 +11,33 @@ pub(super) struct Block<'a> {
     pub set: u32,
     /// Line of the set's number, from 1.
     pub line: usize,
-    /// Lines behind the set's number; the header lines alone if there is binary data.
+    /// Lines after the set's number; the header lines alone if there is binary data.
     pub lines: Vec<Cow<'a, str>>,
     pub binary: Option<Binary<'a>>,
-    /// Whether a line of -1 ended it.
+    /// Whether it is terminated by a line of -1.
     pub closed: bool,
 }
 
 impl Block<'_> {
-    /// Line k behind the set's number, without the blanks around it.
+    /// Line k after the set's number, trimmed.
     pub fn text(&self, k: usize) -> Option<&str> {
         self.lines.get(k).map(|line| line.trim())
     }
 
-    /// Line k, which must be there.
+    /// Line k, which must exist.
     pub fn record(&self, k: usize) -> Result<&str, Fault> {
         self.lines.get(k).map(|line| line.as_ref()).ok_or_else(|| {
             self.fault(k, format!("data set {} ends after {} lines", self.set, self.lines.len()), CUT)
         })
     }
 
-    /// Whole numbers of line k.
+    /// Integers of line k.
     pub fn integers(&self, k: usize) -> Result<Vec<i64>, Fault> {
         let line = self.record(k)?;
         line.split_whitespace()
             .map(|word| word.parse().ok())
             .collect::<Option<Vec<i64>>>()
-            .ok_or_else(|| self.fault(k, format!("whole numbers are expected in `{}`", line.trim()), DAMAGED))
+            .ok_or_else(|| self.fault(k, format!("integers are expected in `{}`", line.trim()), DAMAGED))
     }
 
     /// Numbers of line k.
@@ -47,7 +47,7 @@ impl Block<'_> {
             .map_err(|word| self.fault(k, format!("`{word}` is expected to be a number"), DAMAGED))
     }
 
-    /// Something wrong in line k.
+    /// Error at line k.
     pub fn fault(&self, k: usize, problem: String, advice: &'static str) -> Fault {
         Fault { line: self.line + 1 + k.min(self.lines.len()), problem, advice }
     }
@@ -56,7 +56,7 @@ impl Block<'_> {
 pub(super) const CUT: &str = "the file is cut off: copy or export it again";
 pub(super) const DAMAGED: &str = "the file is damaged: copy or export it again";
 
-/// Walks through the blocks of a file.
+/// Iterates over the blocks of a file.
 pub(super) struct Blocks<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -70,7 +70,7 @@ impl<'a> Blocks<'a> {
 
     /// The next block; `None` at the end of the file.
     pub fn next(&mut self) -> Result<Option<Block<'a>>, Fault> {
-        // What stands between two blocks is no data.
+        // Text between two blocks is ignored.
         loop {
             match self.next_line() {
                 None => return Ok(None),

@@ -1,14 +1,15 @@
-//! Fields of fixed-column lines: read with tolerance, written to the column.
+//! Fixed-column (Fortran) fields: tolerant reading, exact writing.
 
-/// Splits a line into columns of the given widths; what a short line lacks is empty.
+/// Splits a line into columns of the given widths; missing columns of a short line are empty.
 pub(super) fn columns<const N: usize>(line: &str, widths: [usize; N]) -> [String; N] {
     let mut letters = line.chars();
     widths.map(|width| letters.by_ref().take(width).collect::<String>().trim().to_owned())
 }
 
-/// Numbers of a line, touching (`1.0E+00-2.0E+00`), with Fortran exponents (`1.0D-3`, `1.0-100`) or apart.
+/// Numbers of a line, also without separating blanks (`1.0E+00-2.0E+00`), with Fortran exponents (`1.0D-3`,
+/// `1.0-100`).
 ///
-/// Stars, the mark of a number too long for its field, are NaN. Errors: the word that is no number.
+/// Asterisks, the Fortran sign of field overflow, are NaN. Error: the word that is not a number.
 pub(super) fn numbers(line: &str) -> Result<Vec<f64>, String> {
     let mut found = Vec::new();
     let mut rest = line.trim_start();
@@ -34,7 +35,7 @@ pub(super) fn numbers(line: &str) -> Result<Vec<f64>, String> {
     Ok(found)
 }
 
-/// Bytes of the number at the start of a text; 0 if there is none.
+/// Length \[bytes\] of the number at the start of a text; 0 if there is none.
 fn number_length(text: &[u8]) -> usize {
     let digits = |from: usize| text[from.min(text.len())..].iter().take_while(|b| b.is_ascii_digit()).count();
     let sign = |at: usize| usize::from(matches!(text.get(at), Some(b'+' | b'-')));
@@ -52,7 +53,7 @@ fn number_length(text: &[u8]) -> usize {
             let exponent = digits(end + 1 + sign(end + 1));
             if exponent > 0 { end + 1 + sign(end + 1) + exponent } else { end }
         }
-        // A three-digit exponent pushes its letter out: 1.00000-100. Another number has a point of its own.
+        // A three-digit exponent drops its letter: 1.00000-100. A following number has its own decimal point.
         Some(b'+' | b'-') if point && digits(end + 1) == 3 && text.get(end + 4) != Some(&b'.') => end + 4,
         _ => end,
     }
@@ -86,7 +87,7 @@ pub(super) fn text(content: &str, width: usize) -> String {
     format!("{clean:<width$}")
 }
 
-/// Text in ASCII, for fields that readers cut out by bytes.
+/// Text in ASCII, for fields that readers locate by byte offset.
 pub(super) fn ascii(content: &str) -> String {
     content
         .chars()
@@ -100,7 +101,7 @@ pub(super) fn ascii(content: &str) -> String {
         .collect()
 }
 
-/// `NONE` instead of nothing: ID lines may not be blank.
+/// `NONE` for an empty text: ID lines must not be blank.
 pub(super) fn or_none(content: &str) -> &str {
     if content.trim().is_empty() { "NONE" } else { content }
 }

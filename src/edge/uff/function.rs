@@ -1,4 +1,4 @@
-//! Set 58: a function at a point.
+//! Set 58: function at a nodal DOF (time record, spectrum, FRF, coherence).
 
 use super::block::{Block, CUT, DAMAGED};
 use super::ordinate::{Characteristics, ratio};
@@ -26,7 +26,7 @@ pub(super) const HEADER_LINES: usize = 11;
 const RECORD_6: usize = 5;
 const RECORD_7: usize = 6;
 
-/// Record 7: how the values stand in the file.
+/// Record 7, data form: type, number and spacing of the values.
 pub(super) struct Layout {
     pub complex: bool,
     pub double: bool,
@@ -46,7 +46,7 @@ impl Layout {
         let words: Vec<f64> = field::numbers(line)
             .map_err(|word| fault(format!("`{word}` is expected to be a number"), DAMAGED))?;
         let [kind, count, even, start, step, ..] = words[..] else {
-            return Err(fault(format!("`{}` does not hold the form of the data", line.trim()), DAMAGED));
+            return Err(fault(format!("`{}` is not a data form (record 7)", line.trim()), DAMAGED));
         };
         let (complex, double) = match kind as i64 {
             2 => (false, false),
@@ -59,7 +59,7 @@ impl Layout {
             }
         };
         if !(1.0..1e12).contains(&count) {
-            return Err(fault(format!("the function has {count} values"), "leave the empty function out"));
+            return Err(fault(format!("the function has {count} values"), "remove the empty function"));
         }
         let even = even as i64 == 1;
         if even && !(step.is_finite() && step > 0.0 && start.is_finite()) && count > 1.0 {
@@ -75,7 +75,7 @@ impl Layout {
         usize::from(!self.even) + 1 + usize::from(self.complex)
     }
 
-    /// Bytes of the binary data, with abscissae as wide as the values and with abscissae of 4 bytes.
+    /// Bytes of the binary data, with abscissae of the size of the values, and of 4 bytes.
     pub fn binary_sizes(&self) -> [usize; 2] {
         let value = if self.double { 8 } else { 4 };
         let alike = self.count * self.width() * value;
@@ -84,9 +84,9 @@ impl Layout {
     }
 }
 
-/// The step whose inverse is a whole number, if it is the only such step that prints as `step` does.
+/// The step with an integer inverse (sampling rate), if it is the only such step that prints like `step`.
 ///
-/// Record 7 has six digits: 1/65536 s stands there as 1.52588E-05.
+/// Record 7 has six digits: 1/65536 s is written as 1.52588E-05.
 fn snapped(step: f64) -> f64 {
     let print = |x: f64| format!("{x:.5e}");
     let whole = (1.0 / step).round();
@@ -96,7 +96,7 @@ fn snapped(step: f64) -> f64 {
     if exact && !ambiguous && print(1.0 / whole) == printed { 1.0 / whole } else { step }
 }
 
-/// Record 6: which function of what.
+/// Record 6, DOF identification: function type, response and reference DOF.
 struct Identity {
     kind: Kind,
     response: Dof,
@@ -127,7 +127,7 @@ impl Identity {
         })
     }
 
-    /// Entity name; the whole ID line 1 if the entity is its cut-off beginning; else the DOFs; else ID line 1.
+    /// Entity name; all of ID line 1 if the entity is its truncated beginning; else the DOFs; else ID line 1.
     fn name(&self, id: &str) -> String {
         let folded: String = field::ascii(id).chars().take(10).collect();
         if !self.entity.is_empty() {
@@ -142,7 +142,7 @@ impl Identity {
     }
 }
 
-/// Reads a function, in ASCII or binary, and what has to be said about it.
+/// Reads a function, ASCII or binary; remarks go to the notes.
 pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured) -> Result<(), Fault> {
     let identity = Identity::of(block, &mut out.notes)?;
     let layout = Layout::of(block)?;
@@ -166,7 +166,7 @@ pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured
     }
     if numbers.len() != layout.count * width {
         let found = numbers.len() / width;
-        out.notes.push(format!("`{name}` has {found} values where its header says {}", layout.count));
+        out.notes.push(format!("`{name}` has {found} values, its header states {}", layout.count));
     }
     let last = width - 1 - usize::from(layout.complex);
     let rows = numbers.chunks_exact(width).take(count);
@@ -195,7 +195,7 @@ pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured
     let needs_bottom = under.kind != 0 || !under.unit_label.is_empty();
     let plain = identity.kind == Kind::Coherence && top.is_none();
     if system.is_none() && over.unit_label.is_empty() && top.is_some() {
-        let note = "neither labels nor a set 164 tell the units: SI is taken";
+        let note = "neither unit labels nor a set 164 give the units: SI is assumed";
         if !out.notes.iter().any(|n| n == note) {
             out.notes.push(note.into());
         }
@@ -229,7 +229,7 @@ pub(super) fn read(block: &Block, system: Option<UnitSystem>, out: &mut Measured
     Ok(())
 }
 
-/// What the abscissa is over: by its type, its unit, or the kind of function.
+/// Quantity of the abscissa: by its type, its unit, or the kind of function.
 fn quantity(abscissa: &Characteristics, unit: Option<String>, kind: Kind) -> AxisQuantity {
     match (abscissa.kind, unit.as_deref(), kind) {
         (17, _, _) | (_, Some("s"), _) => AxisQuantity::Time,

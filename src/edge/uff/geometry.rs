@@ -4,7 +4,7 @@ use super::block::{Block, CUT, DAMAGED};
 use super::{Fault, UnitSystem};
 use crate::signal::record::{Element, Geometry, Node, Polyline};
 
-/// Elements whose record has a line of its own for orientation and sections.
+/// Descriptors of beam elements, whose record has an additional line for orientation and sections.
 pub(super) const BEAMS: [i64; 5] = [11, 21, 22, 23, 24];
 
 /// Reads nodes: set 15 `(4I10,1P3E13.5)`, set 2411 `(4I10)` and `(1P3D25.16)`.
@@ -33,7 +33,7 @@ pub(super) fn nodes(block: &Block, units: UnitSystem, out: &mut Geometry) -> Res
     Ok(())
 }
 
-/// Reads lines through nodes, set 82; a node 0 lifts the pen.
+/// Reads lines through nodes, set 82; a node 0 ends a polyline (pen up).
 pub(super) fn lines(block: &Block, out: &mut Geometry) -> Result<(), Fault> {
     let head = block.integers(0)?;
     let name = block.text(1).filter(|name| *name != "NONE").unwrap_or_default().to_owned();

@@ -1,9 +1,10 @@
-//! Universal files: functions (58, 58b), header (151), units (164), nodes (15, 2411), lines and elements
-//! (82, 2412), shapes (55, 2414).
+//! Universal files (UFF, UNV): functions (58, 58b), header (151), units (164), nodes (15, 2411), lines and
+//! elements (82, 2412), shapes (55, 2414).
 //!
-//! Reading is by blocks between lines of `-1` and forgives what other programs do: short and padded blocks,
-//! numbers that touch, byte counts that are wrong, line ends after binary data, Latin-1 text. What was forgiven
-//! stands in [`Measured::notes`]. Values become SI by their unit's label, else by the divisors of set 164.
+//! Blocks between lines of `-1` are read with tolerance for deviations of other programs: short and padded
+//! blocks, numbers without separating blanks, wrong byte counts, line ends after binary data, Latin-1 text.
+//! Remarks go to [`Measured::notes`]. Values are converted to SI by the unit label, else by the unit factors
+//! of set 164.
 //!
 //! Formats: Universal File Datasets, Structural Dynamics Research Laboratory, University of Cincinnati.
 
@@ -24,7 +25,7 @@ use crate::error::Error;
 use crate::signal::record::Measured;
 use block::{Block, Blocks};
 
-/// What is wrong in a file, and what to do about it.
+/// Error in a file, with a hint how to correct it.
 #[derive(Debug)]
 struct Fault {
     /// Line, from 1.
@@ -33,7 +34,7 @@ struct Fault {
     advice: &'static str,
 }
 
-/// Divisors of set 164: a value in the file's units over them is SI.
+/// Unit factors of set 164: a value in the file's units divided by them is in SI.
 #[derive(Clone, Copy, Debug)]
 struct UnitSystem {
     length: f64,
@@ -45,7 +46,7 @@ const SI: UnitSystem = UnitSystem { length: 1.0, force: 1.0 };
 /// Reads a universal file.
 ///
 /// # Errors
-/// The file cannot be read, a block is cut off or is not what its set's number says.
+/// The file cannot be read, or a block is cut off or does not have the format of its data set number.
 pub fn read(path: &Path) -> Result<Measured, Error> {
     let bytes = std::fs::read(path).map_err(|source| Error::Environment {
         operation: "read",
@@ -82,7 +83,7 @@ fn parse(bytes: &[u8]) -> Result<Measured, Fault> {
     let local = measured.geometry.nodes.iter().filter(|n| n.local_system != 0).count();
     if local > 0 {
         measured.notes.push(format!(
-            "directions at {local} nodes are in coordinate systems of their own, which are not applied"
+            "directions at {local} nodes are in local coordinate systems, which are not applied"
         ));
     }
     if !skipped.is_empty() {
@@ -105,13 +106,15 @@ fn unit_system(block: &Block, notes: &mut Vec<String>) -> Result<UnitSystem, Fau
     match factors[..] {
         [length, force, ..] if [length, force].iter().all(|f| *f > 0.0 && f.is_finite()) => {
             if length != 1.0 || force != 1.0 {
-                notes.push(format!("converted to SI by set 164: lengths over {length}, forces over {force}"));
+                notes.push(format!(
+                    "converted to SI by set 164: lengths divided by {length}, forces by {force}"
+                ));
             }
             Ok(UnitSystem { length, force })
         }
         _ => Err(block.fault(
             1,
-            "the divisors for length and force of set 164 are not positive numbers".into(),
+            "the unit factors for length and force of set 164 are not positive numbers".into(),
             EXPORT,
         )),
     }

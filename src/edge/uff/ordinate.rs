@@ -1,16 +1,16 @@
-//! What an axis of set 58 is over: its specific data type, unit exponents and labels, to SI and back.
+//! Axis data characteristics of set 58: specific data type, unit exponents and labels, to SI and back.
 
 use super::block::Block;
 use super::{Fault, UnitSystem, field};
 use crate::edge::measured::unit::{self, SiUnit};
 
-/// Record 8 to 11 of set 58: one axis.
+/// Record 8 to 11 of set 58: data characteristics of one axis.
 pub(super) struct Characteristics {
     /// 8 displacement, 11 velocity, 12 acceleration, 13 force, 17 time, 18 frequency, 19 rpm, ...
     pub kind: i64,
     /// Exponents of length and force.
     exponents: [i64; 2],
-    /// As the file has it, empty for NONE.
+    /// Unit label as in the file, empty for NONE.
     pub unit_label: String,
 }
 
@@ -37,14 +37,14 @@ impl Characteristics {
         Ok(Characteristics { kind: whole(&kind), exponents: [whole(&length), whole(&force)], unit_label })
     }
 
-    /// The unit in SI and how to get there: by the label, else by the type and the file's unit system.
+    /// The SI unit with its conversion factors: by the label, else by the type and the file's unit system.
     ///
-    /// `None` if neither tells. A known type without label and unit system is taken as SI.
+    /// `None` if neither determines it. A known type without label and unit system is taken as SI.
     pub fn si(&self, rotation: bool, system: Option<UnitSystem>) -> Option<SiUnit> {
         if let Some(known) = unit::si(&self.unit_label) {
             return Some(known);
         }
-        // A label that is not understood leaves the type in doubt too.
+        // With an unknown label, the data type is not trusted either.
         if !self.unit_label.is_empty() && system.is_none() {
             return None;
         }
@@ -75,7 +75,7 @@ impl Characteristics {
     }
 }
 
-/// Specific data type of an SI unit; 0 where there is none.
+/// Specific data type of an SI unit; 0 if there is none.
 pub(super) fn type_of(unit: &str) -> i64 {
     match unit {
         "m" | "rad" => 8,
@@ -92,7 +92,7 @@ pub(super) fn type_of(unit: &str) -> i64 {
     }
 }
 
-/// Axis label that goes with a specific data type.
+/// Axis label of a specific data type.
 pub(super) fn axis_label(kind: i64) -> &'static str {
     match kind {
         5 => "Temperature",

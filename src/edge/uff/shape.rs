@@ -17,7 +17,7 @@ struct Form {
 impl Form {
     fn of(block: &Block, k: usize) -> Result<Self, Fault> {
         let [_, analysis, _, quantity, data, components] = block.integers(k)?[..] else {
-            return Err(block.fault(k, "six whole numbers are expected".into(), DAMAGED));
+            return Err(block.fault(k, "six integers are expected".into(), DAMAGED));
         };
         if !(1..=9).contains(&components) {
             return Err(block.fault(k, format!("{components} values per node"), DAMAGED));
@@ -25,7 +25,7 @@ impl Form {
         Ok(Form { analysis, quantity, complex: matches!(data, 5 | 6), components: components as usize })
     }
 
-    /// SI unit of the values, and what to divide them by; temperatures stay as they are.
+    /// SI unit of the values and their divisor; temperatures are not converted.
     fn unit(&self, units: UnitSystem) -> (&'static str, f64) {
         match self.quantity {
             8 => ("m", units.length),
@@ -41,7 +41,7 @@ impl Form {
 pub(super) fn read_55(block: &Block, units: UnitSystem, out: &mut Measured) -> Result<(), Fault> {
     let form = Form::of(block, 5)?;
     let whole = block.integers(6)?;
-    // The first two count the whole and the real parameters.
+    // The first two are the numbers of integer and of real parameters.
     let number = whole.get(3).copied().unwrap_or(0);
     let mut real = Vec::new();
     let count = whole.get(1).copied().unwrap_or(0).clamp(0, 60) as usize;

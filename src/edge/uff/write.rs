@@ -1,4 +1,4 @@
-//! Writes universal files in SI units, so that other programs read them.
+//! Writes universal files in SI units.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::signal::record::{
     Analysis, AxisQuantity, Geometry, Kind, Measured, Points, Record, RecordError, Shape, Values,
 };
 
-/// How to write.
+/// Format options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Functions as 58b, little endian, instead of ASCII.
@@ -22,20 +22,20 @@ pub struct Options {
     pub geometry: Geometries,
 }
 
-/// Which sets hold geometry and shapes.
+/// Data sets used for geometry and shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Geometries {
-    /// 15, 82 and 55: what modal programs read; coordinates have 6 digits.
+    /// 15, 82 and 55, read by modal analysis programs; coordinates have 6 digits.
     #[default]
     Classic,
-    /// 2411, 2412 and 2414: what finite-element programs read; lines become rods.
+    /// 2411, 2412 and 2414, read by finite-element programs; lines become rods.
     Modern,
 }
 
 /// Writes a universal file.
 ///
 /// # Errors
-/// A record without a rate, with NaN, or a file that cannot be written.
+/// A record without a sampling rate or with NaN, or a file that cannot be written.
 pub fn write(path: &Path, measured: &Measured, options: Options) -> Result<(), Error> {
     let bytes = to_bytes(measured, options)?;
     std::fs::write(path, bytes).map_err(|source| Error::Environment {
@@ -48,7 +48,7 @@ pub fn write(path: &Path, measured: &Measured, options: Options) -> Result<(), E
 /// The bytes of a universal file; the same input gives the same bytes, dates are those of the records.
 ///
 /// # Errors
-/// A record without a rate or with NaN.
+/// A record without a sampling rate or with NaN.
 pub fn to_bytes(measured: &Measured, options: Options) -> Result<Vec<u8>, RecordError> {
     let mut out = Writer { bytes: Vec::new() };
     out.header(&measured.title);
@@ -85,7 +85,7 @@ impl Writer {
         self.line("    -1");
     }
 
-    /// Numbers of one line each `per_line`.
+    /// Numbers, `per_line` on each line.
     fn numbers(&mut self, values: &[f64], per_line: usize, width: usize, digits: usize) {
         for row in values.chunks(per_line) {
             let row: String = row.iter().map(|&v| scientific(v, width, digits)).collect();
@@ -236,7 +236,7 @@ impl Writer {
         };
         let size = if options.single { 4 } else { 8 };
         let count = record.values.len();
-        // The abscissa is of single precision whatever the values are.
+        // The abscissa is always of single precision.
         let value_bytes = size * (1 + usize::from(complex));
         let bytes = count * (value_bytes + if listed.is_some() { 4 } else { 0 });
         self.line("    -1");
@@ -292,7 +292,7 @@ fn characteristics(record: &Record) -> [String; 4] {
         AxisQuantity::Order => 20,
         AxisQuantity::Unknown => 0,
     };
-    // A unit that is not known stays as the file it came from stated it.
+    // An unknown unit is written as stated by its source file.
     let unit = if record.unit.is_empty() { &record.stated_unit } else { &record.unit };
     let unit = if unit == "1" { "" } else { unit.as_str() };
     let (over, under) = match record.kind {

@@ -1,4 +1,4 @@
-//! Bearings: linear ones, and ball bearings from the catalogue or by their geometry.
+//! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
 
 use super::catalogue::{self, CatalogueEntry};
 use super::contact;
@@ -49,7 +49,7 @@ pub(super) fn read(
     top.items("bearing").into_iter().map(read).collect()
 }
 
-/// Bearings of a file that has no shaft: neither station nor housing.
+/// Bearings of a bearing-only file, without station and housing.
 pub(super) fn read_alone(
     top: &Reader,
     materials: &[Material],
@@ -64,7 +64,7 @@ pub(super) fn read_alone(
     top.items("bearing").into_iter().map(read).collect()
 }
 
-/// Words of the key `model`.
+/// Keywords of the key `model`.
 #[derive(Clone, Copy)]
 enum Kinds {
     Linear,
@@ -104,7 +104,7 @@ fn linear(r: &Reader) -> LinearBearing {
     }
 }
 
-/// Bearing steel, where the file names no material.
+/// Default material: bearing steel.
 fn bearing_steel() -> Material {
     let (young, poisson) = (207e9, 0.3);
     Material {
@@ -126,10 +126,13 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::law(r, lubricants, &bearing.hertz());
     if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
-        let message = format!("{} cannot part the two contacts of a fitted law", r.name("ball_inertia"));
+        let message = format!(
+            "{} needs separate inner and outer contacts, which a fitted power law does not have",
+            r.name("ball_inertia")
+        );
         let problem = Problem::new(Kind::Conflict, &r.span_of("ball_inertia"), message);
-        r.log.error(problem.expected("contact = \"hertz\" or \"film\", which know each contact alone").hint(
-            "a power law holds both contacts, and the centrifugal force of the speed it was fitted at",
+        r.log.error(problem.expected("contact = \"hertz\" or \"film\", with separate inner and outer contacts").hint(
+            "a power law covers both contacts in series and includes the centrifugal force at the speed of the fit",
         ));
     }
     imperfections::consistent(r, &bearing);
@@ -144,9 +147,10 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     bearing
 }
 
-/// What every bearing with balls has: geometry, materials, dry contacts, cage, imperfections; the rest by default.
+/// Properties common to all ball bearing models: geometry, materials, dry contacts, cage, imperfections; the
+/// rest are defaults.
 ///
-/// `osculation`: of both grooves where neither file nor catalogue tells; `None` when they must.
+/// `osculation`: default of both grooves if neither file nor catalogue gives it; `None` if it is required.
 pub(super) fn parts(
     r: &Reader,
     materials: &[Material],
@@ -196,9 +200,9 @@ pub(super) fn designation(r: &Reader) -> Option<CatalogueEntry> {
     found
 }
 
-/// Geometry by the catalogue, each field of which the file may state itself.
+/// Geometry from the catalogue; the file may override each field.
 fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Option<f64>) -> BallGeometry {
-    // an unknown designation was reported; its fields are not asked for again
+    // an unknown designation was already reported; do not report its fields as missing
     let reported = r.has("designation") && entry.is_none();
     let field = |key: &str, from: fn(&CatalogueEntry) -> f64| match (r.get(key, positive(LENGTH)), entry) {
         (Some(given), _) => given,
@@ -251,27 +255,29 @@ fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Option<f64>) ->
     }
 }
 
-/// Direction of thrust: needed with a contact angle or a preload, save in a pair that takes thrust both ways.
+/// Thrust direction: required with a contact angle or a preload, except for a pair that carries thrust both
+/// ways.
 fn thrust(r: &Reader, contact_angle: f64) -> f64 {
     let both_ways = matches!(r.text("arrangement"), Some("back_to_back" | "face_to_face"));
     let thrust = r.choice("thrust", &[("+z", 1.0), ("-z", -1.0)]);
     if both_ways && thrust.is_some() {
-        let message = format!("{} says nothing of a pair that takes thrust both ways", r.name("thrust"));
+        let message =
+            format!("{} does not apply to a pair that carries thrust in both directions", r.name("thrust"));
         r.error(Kind::Conflict, "thrust", message);
     }
-    // a misspelt arrangement was reported; whether it needs a direction is not known
+    // a misspelt arrangement was already reported; whether it needs a direction is unknown
     let one_way = !r.has("arrangement") || r.text("arrangement") == Some("tandem");
     if one_way && (contact_angle > 0.0 || r.has("preload")) && !r.has("thrust") {
         r.missing(
             "thrust",
-            "\"+z\" (the way in which the inner ring can push the shaft's thrust into the housing)",
+            "\"+z\" (direction of the shaft's axial load that the bearing transmits to the housing)",
         );
     }
     thrust.unwrap_or(1.0)
 }
 
-/// Diametral clearance: as given, or the middle of the class (CN when nothing is said); an angular contact bearing
-/// has none of its own.
+/// Diametral (radial internal) clearance: as given, or the mean of the clearance class (default CN); an
+/// angular contact bearing has none by default.
 fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
     let class = match r.one_of(&["radial_clearance", "clearance"]) {
         Some("radial_clearance") => return r.get("radial_clearance", any(LENGTH)).unwrap_or(0.0),
@@ -295,7 +301,8 @@ fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
     }
 }
 
-/// Geometry that can be built: balls part from each other, grooves wider than balls, rings outside them.
+/// Geometric feasibility check: balls do not overlap, groove radii exceed ball radii, rings enclose the
+/// balls.
 pub(super) fn buildable(r: &Reader, bearing: &BallBearing) {
     let g = &bearing.geometry;
     let balls = g.balls as f64;
@@ -312,7 +319,7 @@ pub(super) fn buildable(r: &Reader, bearing: &BallBearing) {
             mm(g.ball_diameter),
             mm(g.pitch_diameter)
         );
-        // least integer above the real root of D_pw sin(π/Z) = D_w leaves a gap
+        // largest integer Z below the real root of D_pw sin(π/Z) = D_w
         let most = (PI / (g.ball_diameter / g.pitch_diameter).min(1.0).asin()).ceil() - 1.0;
         let room = format!("at most {most} balls of this size, or balls below {:.3} mm", mm(spacing));
         r.log.error(problem(key, message).expected(room));
@@ -347,13 +354,16 @@ pub(super) fn buildable(r: &Reader, bearing: &BallBearing) {
         r.log.error(problem("bore", message).expected(format!("a bore below {:.3} mm", mm(inside))));
     }
     if g.outside_diameter <= outside {
-        let message =
-            format!("the balls of {} stand out of its ring of {:.3} mm", r.path, mm(g.outside_diameter));
+        let message = format!(
+            "the balls of {} extend beyond its outside diameter of {:.3} mm",
+            r.path,
+            mm(g.outside_diameter)
+        );
         let least = format!("an outside diameter above {:.3} mm", mm(outside));
         r.log.error(problem("outside_diameter", message).expected(least));
     }
     if g.radial_clearance.abs() > 0.1 * g.ball_diameter {
-        let message = format!("{} is more than a tenth of a ball", r.name("radial_clearance"));
+        let message = format!("{} is more than a tenth of the ball diameter", r.name("radial_clearance"));
         r.log.error(
             problem("radial_clearance", message).expected("a clearance of some micrometres, diametral"),
         );

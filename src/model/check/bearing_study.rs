@@ -1,4 +1,4 @@
-//! `[study.bearing]`: ball bearings on their own.
+//! `[study.bearing]`: analysis of single ball bearings, without the machine.
 
 use super::loading::increasing;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -6,7 +6,7 @@ use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::study::{Along, BearingStudy, BearingSweep, MOTIONS, Swept};
 use crate::units::{ANGLE, FORCE, LENGTH, MOMENT, SPEED};
 
-/// Reads the study; `bearings` are the ball bearings of the file.
+/// Read the study; `bearings` are the names of the file's ball bearings.
 pub(super) fn read(r: &Reader, bearings: &[String]) -> BearingStudy {
     let known = || bearings.iter().map(String::as_str);
     let mut chosen = Vec::new();
@@ -70,7 +70,7 @@ pub(super) fn read(r: &Reader, bearings: &[String]) -> BearingStudy {
 fn exactly<const N: usize>(r: &Reader, key: &str, components: &str, values: &[f64]) -> Option<[f64; N]> {
     let found = values.try_into().ok();
     if found.is_none() {
-        r.error(Kind::WrongType, key, format!("{} is {N} values: {components}", r.name(key)));
+        r.error(Kind::WrongType, key, format!("{} must have {N} values: {components}", r.name(key)));
     }
     found
 }

@@ -1,6 +1,6 @@
 //! Catalogue of common ball bearings: `assets/bearings.csv`, and clearance classes of ISO 5753-1.
 
-/// What the catalogue knows of one designation; lengths in m.
+/// Catalogue data of one designation; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CatalogueEntry {
     pub designation: &'static str,
@@ -15,9 +15,10 @@ pub struct CatalogueEntry {
     pub osculation: [f64; 2],
     /// Nominal contact angle \[rad\].
     pub contact_angle: f64,
-    /// Basic static load rating that makers quote \[N\], where it served to check the internal geometry.
+    /// Basic static load rating C_0r quoted by manufacturers \[N\], if it was used to check the internal
+    /// geometry.
     pub static_rating: Option<f64>,
-    /// Where the internal geometry comes from.
+    /// Source of the internal geometry.
     pub origin: &'static str,
 }
 
@@ -25,7 +26,7 @@ const TEXT: &str = include_str!("../../../assets/bearings.csv");
 
 /// Every bearing of the catalogue.
 pub fn entries() -> impl Iterator<Item = CatalogueEntry> {
-    // rows that do not parse are left out; a test counts that none are
+    // rows that do not parse are skipped; a test verifies that there are none
     TEXT.lines().filter(|line| !line.starts_with('#') && !line.starts_with("designation,")).filter_map(row)
 }
 
@@ -52,7 +53,7 @@ fn row(line: &'static str) -> Option<CatalogueEntry> {
     })
 }
 
-/// Entry of a designation; small and large letters are the same.
+/// Entry of a designation, case-insensitive.
 pub fn find(designation: &str) -> Option<CatalogueEntry> {
     entries().find(|e| e.designation.eq_ignore_ascii_case(designation.trim()))
 }
@@ -60,8 +61,8 @@ pub fn find(designation: &str) -> Option<CatalogueEntry> {
 /// Names of the clearance classes.
 pub const CLASSES: [&str; 5] = ["C2", "CN", "C3", "C4", "C5"];
 
-/// Radial internal clearance of ISO 5753-1, deep groove ball bearings: bore over .. up to \[mm\], then least and
-/// greatest \[µm\] of C2, CN, C3, C4, C5.
+/// Radial internal clearance of ISO 5753-1, deep groove ball bearings: bore up to \[mm\], then minimum and
+/// maximum \[µm\] of C2, CN, C3, C4, C5.
 #[rustfmt::skip]
 const CLEARANCE: [(f64, [[f64; 2]; 5]); 11] = [
     (10.0, [[0.0, 7.0], [2.0, 13.0], [8.0, 23.0], [14.0, 29.0], [20.0, 37.0]]),
@@ -77,7 +78,8 @@ const CLEARANCE: [(f64, [[f64; 2]; 5]); 11] = [
     (140.0, [[2.0, 23.0], [18.0, 48.0], [41.0, 81.0], [71.0, 114.0], [105.0, 160.0]]),
 ];
 
-/// Least and greatest diametral radial clearance \[m\] of a class at a bore \[m\]; none outside the table.
+/// Minimum and maximum radial internal clearance (diametral) \[m\] of a class at a bore \[m\]; `None` outside
+/// the table.
 pub fn clearance(class: &str, bore: f64) -> Option<[f64; 2]> {
     let class = CLASSES.iter().position(|c| c.eq_ignore_ascii_case(class.trim()))?;
     // the bore in mm is rounded, so that 10 mm stays in the row that ends at 10

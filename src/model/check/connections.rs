@@ -26,7 +26,7 @@ const CYLINDRICAL: [bool; 6] = [true, true, false, true, true, false];
 const REVOLUTE: [bool; 6] = [true, true, true, true, true, false];
 const FIXED: [bool; 6] = [true; 6];
 
-/// Joints by kind, or by the motions that they hold.
+/// Joints by kind, or by their constrained DOFs.
 pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     let read = |(name, r): (&str, Reader)| {
         let [a, b] = places.between(&r);
@@ -40,7 +40,7 @@ pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     top.items("joint").into_iter().map(read).collect()
 }
 
-/// `kind`; `axial = "free"` or `"held"` overrides what it says about motion along z.
+/// Constrained DOFs of a `kind`; `axial = "free"` or `"held"` overrides its constraint along z.
 fn locked_by_kind(r: &Reader) -> [bool; 6] {
     let kinds =
         [("spherical", SPHERICAL), ("cylindrical", CYLINDRICAL), ("revolute", REVOLUTE), ("fixed", FIXED)];
@@ -54,7 +54,7 @@ fn locked_by_kind(r: &Reader) -> [bool; 6] {
     locked
 }
 
-/// `hold = ["z", "tx", "ty"]`: a body that keeps its plane.
+/// Constrained DOFs as listed, e.g. `hold = ["z", "tx", "ty"]` for planar motion.
 fn held(r: &Reader) -> [bool; 6] {
     let mut locked = [false; 6];
     for (motion, span) in r.texts("hold").unwrap_or_default() {
@@ -65,14 +65,14 @@ fn held(r: &Reader) -> [bool; 6] {
             }
             Some(k) => locked[k] = true,
             None => {
-                let message = format!("`{motion}` is not a motion");
+                let message = format!("`{motion}` is not a degree of freedom");
                 let problem = Problem::new(Kind::UnknownName, &span, message);
                 r.log.error(problem.expected("x, y, z (translations), tx, ty or tz (rotations)"));
             }
         }
     }
     if r.sound() && locked == [false; 6] {
-        r.error(Kind::OutOfRange, "hold", format!("{} holds nothing", r.name("hold")));
+        r.error(Kind::OutOfRange, "hold", format!("{} constrains no degree of freedom", r.name("hold")));
     }
     locked
 }

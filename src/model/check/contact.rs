@@ -1,4 +1,4 @@
-//! Lubricants, and how a bearing's contacts carry load and dissipate.
+//! Lubricants, contact laws (Hertz, film, power law, EHL) and contact damping of a bearing.
 
 use crate::bearing::Service;
 use crate::contact::ehl::EhlLaw;
@@ -11,9 +11,9 @@ use crate::units::{
     VISCOSITY,
 };
 
-/// Density of a mineral oil where the file gives none \[kg/m³\].
+/// Default density: mineral oil \[kg/m³\].
 const OIL_DENSITY: f64 = 870.0;
-/// Roelands' viscosity η_p \[Pa s\], to which all oils tend; an oil is more viscous.
+/// Limit viscosity η_p of the Roelands equation \[Pa s\]; the viscosity of an oil must be greater.
 const ROELANDS_VISCOSITY: f64 = 6.315e-5;
 
 /// `[lubricant.x]`: oils at their operating temperature.
@@ -46,7 +46,7 @@ pub(super) fn lubricants(top: &Reader) -> Vec<Lubricant> {
             },
         };
         if oil.viscosity <= ROELANDS_VISCOSITY && r.sound() {
-            let message = format!("{} is too thin for an oil", r.name("viscosity"));
+            let message = format!("{} is too low for an oil", r.name("viscosity"));
             let problem = Problem::new(Kind::OutOfRange, &r.span_of("viscosity"), message);
             r.log.error(problem.expected(format!("above {ROELANDS_VISCOSITY:e} Pa s (Roelands' limit)")));
         }
@@ -61,7 +61,8 @@ fn grade(r: &Reader) -> Option<Lubricant> {
     let temperature = r.need("temperature", positive(TEMPERATURE));
     let [coldest, hottest] = Lubricant::GRADE_TEMPERATURES;
     if r.sound() && !(coldest..=hottest).contains(&temperature) {
-        let message = format!("{} is outside what is known of the grades", r.name("temperature"));
+        let message =
+            format!("{} is outside the temperature range of the viscosity grades", r.name("temperature"));
         let problem = Problem::new(Kind::OutOfRange, &r.span_of("temperature"), message);
         let celsius = |kelvin: f64| kelvin - 273.15;
         r.log.error(problem.expected(format!("{:.0} to {:.0} degC", celsius(coldest), celsius(hottest))));
@@ -75,12 +76,12 @@ fn grade(r: &Reader) -> Option<Lubricant> {
     Lubricant::grade(name, temperature)
 }
 
-/// Whether the contact law is asked to be one with a film.
+/// Whether the requested contact law has a lubricant film.
 fn has_film(r: &Reader) -> bool {
     matches!(r.entry("contact").map(|e| &e.node.value), Some(Value::Text(word)) if word == "film" || word == "ehl")
 }
 
-/// Ratings, oil and cleanliness for the rating life; the oil of a bearing with a film is the film's.
+/// Load ratings, oil and contamination factor for the rating life; with a film its oil is used.
 pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
     let default = Service::default();
     let rating = |key: &str| r.get(key, positive(FORCE));
@@ -103,7 +104,7 @@ pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
     }
 }
 
-/// The oil that the key `lubricant` names; without the key, the only oil of the file.
+/// Oil named by the key `lubricant`; without the key, the only oil of the file.
 fn lubricant(r: &Reader, lubricants: &[Lubricant]) -> Option<Lubricant> {
     match r.text("lubricant") {
         Some(name) => {
@@ -156,7 +157,7 @@ pub(super) fn stiffness(r: &Reader) -> ContactStiffness {
     }
 }
 
-/// Words of the key `contact`.
+/// Keywords of the key `contact`.
 #[derive(Clone, Copy, PartialEq)]
 enum Law {
     Hertz,
@@ -165,7 +166,7 @@ enum Law {
     Solved,
 }
 
-/// The contact law; [`ContactLaw::Hertz`] stands in after an error.
+/// The contact law; [`ContactLaw::Hertz`] as placeholder after an error.
 pub(super) fn law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLaw {
     let words =
         [("hertz", Law::Hertz), ("film", Law::Film), ("power_law", Law::Fitted), ("ehl", Law::Solved)];
@@ -177,7 +178,7 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> Co
     }
     let without = |key: &str, needed: &str| {
         if r.has(key) {
-            let message = format!("{} says nothing without contact = \"{needed}\"", r.name(key));
+            let message = format!("{} applies only with contact = \"{needed}\"", r.name(key));
             r.error(Kind::Conflict, key, message);
         }
     };
@@ -202,12 +203,13 @@ pub(super) fn law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> Co
     }
 }
 
-/// `ehl = { loads = "5, 5000 N", speeds = "0.1, 16 m/s", points = 6 }`, all of it optional: the range of the tables.
+/// EHL law: `ehl = { loads = "5, 5000 N", speeds = "0.1, 16 m/s", points = 6 }`, all optional: range of the
+/// tables.
 fn solved(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLaw {
     let speed_factor = r.or("speed_factor", positive(NUMBER), 1.0);
     let pressure = hertz.inner.patch(1.0).maximum_pressure;
     let mut loads = [0.4e9, 4.2e9].map(|p: f64| (p / pressure).powi(3));
-    // From creeping to n D_pw = 600 000 rpm mm, where greased and most oiled bearings end.
+    // Default speeds up to about n D_pw = 600 000 rpm mm, the limit of grease and most oil lubrication.
     let mut speeds = [0.1, 16.0].map(|u| u * speed_factor);
     let (mut counts, mut points) = ([8, 5], 6);
     if let Some(table) = r.table("ehl") {
@@ -219,7 +221,7 @@ fn solved(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLaw
                     if table.sound() {
                         let message = format!("{} is not a range", table.name(key));
                         let problem = Problem::new(Kind::OutOfRange, &table.span_of(key), message);
-                        table.log.error(problem.expected("the least and the greatest value"));
+                        table.log.error(problem.expected("the minimum and the maximum value"));
                     }
                     default
                 }
@@ -263,21 +265,22 @@ fn power_law(r: &Reader) -> ContactLaw {
                 let message = format!("{} is not a range of loads", law.name("range"));
                 let problem = Problem::new(Kind::OutOfRange, &law.span_of("range"), message);
                 law.log
-                    .error(problem.expected("the least and the greatest load of the fit, \"600, 2000 N\""));
+                    .error(problem.expected("the minimum and the maximum load of the fit, \"600, 2000 N\""));
             }
             [0.0, 1.0]
         }
     };
     if offset >= range[0] && law.sound() {
-        let message = format!("{} leaves nothing to the deflection", law.name("offset"));
+        let message =
+            format!("{} is too large: the law needs no deflection for its minimum load", law.name("offset"));
         let problem = Problem::new(Kind::OutOfRange, &law.span_of("offset"), message);
-        law.log.error(problem.expected(format!("less than the least load of the fit, {} N", range[0])));
+        law.log.error(problem.expected(format!("less than the minimum load of the fit, {} N", range[0])));
     }
     law.finish();
     ContactLaw::PowerLaw(PowerLaw { stiffness, exponent, offset, range })
 }
 
-/// K in N/mⁿ, whose unit must show the exponent: "8.562e9 N/m^1.475".
+/// K in N/mⁿ; its unit must contain the exponent: "8.562e9 N/m^1.475".
 pub(super) fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
     let unit = format!("N/m^{exponent}");
     let Some(entry) = r.entry(key) else {
@@ -299,7 +302,7 @@ pub(super) fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
     });
     match value {
         Some((_, power)) if (power - exponent).abs() > 1e-12 => {
-            let message = format!("{name} has the unit of exponent {power}, not of {exponent}");
+            let message = format!("{name} has a unit with exponent {power}, not {exponent}");
             r.log.error(problem(Kind::WrongDimension, message));
             1.0
         }
@@ -315,13 +318,13 @@ pub(super) fn power_stiffness(r: &Reader, key: &str, exponent: f64) -> f64 {
     }
 }
 
-/// Constant damping unless another kind is asked for.
+/// Contact damping: constant (default), Hunt-Crossley or film damping.
 pub(super) fn damping(r: &Reader) -> ContactDamping {
     let key = r.one_of(&["contact_damping", "hunt_crossley", "film_damping"]);
     if let Some(other @ ("hunt_crossley" | "film_damping")) = key
         && r.has("damping_ramp")
     {
-        let message = format!("{} says nothing beside {other}", r.name("damping_ramp"));
+        let message = format!("{} has no effect with {other}", r.name("damping_ramp"));
         r.error(Kind::Conflict, "damping_ramp", message);
     }
     match key {
@@ -330,7 +333,7 @@ pub(super) fn damping(r: &Reader) -> ContactDamping {
         }
         Some("film_damping") => {
             if !has_film(r) {
-                let message = format!("{} says nothing without a film", r.name("film_damping"));
+                let message = format!("{} applies only to a contact with a film", r.name("film_damping"));
                 r.error(Kind::Conflict, "film_damping", message);
             }
             ContactDamping::Film { factor: r.need("film_damping", positive(NUMBER)) }

@@ -1,4 +1,4 @@
-//! Local defects of a ball bearing, `[[bearing.x.defect]]`.
+//! Local defects (dents, bumps, spalls) of a ball bearing, `[[bearing.x.defect]]`.
 
 use crate::bearing::{BallGeometry, Defect, DefectForm, Shape, Surface};
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -6,7 +6,7 @@ use crate::model::file::reader::{Reader, any, not_negative};
 use crate::units::{ANGLE, LENGTH};
 use std::f64::consts::{PI, TAU};
 
-/// Words of the key `kind`.
+/// Keywords of the key `kind`.
 #[derive(Clone, Copy)]
 enum Word {
     Dent,
@@ -14,7 +14,7 @@ enum Word {
     Spall,
 }
 
-/// Words of the key `on`.
+/// Keywords of the key `on`.
 #[derive(Clone, Copy)]
 enum Place {
     Inner,
@@ -39,16 +39,15 @@ pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<Defect> {
     r.tables("defect").into_iter().filter_map(one).collect()
 }
 
-/// Row of a matched pair that something is in.
+/// Row index in a matched pair.
 pub(super) fn row(r: &Reader, pair: bool) -> Option<usize> {
     if !r.has("row") {
         return None;
     }
     if !pair {
-        let message = format!("{} says nothing of a bearing with one row", r.name("row"));
+        let message = format!("{} does not apply to a bearing with one row", r.name("row"));
         let problem = Problem::new(Kind::Conflict, &r.span_of("row"), message);
-        r.log
-            .error(problem.hint("take it out, or make a pair of the bearing by arrangement and row_spacing"));
+        r.log.error(problem.hint("remove it, or define a pair with arrangement and row_spacing"));
     }
     Some(r.count("row", 0, 0..=1))
 }
@@ -82,7 +81,7 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
             Surface::Ball(0)
         }
         (Some(_), Some(_)) => {
-            let message = format!("{} says nothing of a defect on a race", d.name("ball"));
+            let message = format!("{} does not apply to a defect on a race", d.name("ball"));
             d.log.error(Problem::new(Kind::Conflict, &d.span_of("ball"), message).expected("on = \"ball\""));
             Surface::Outer
         }
@@ -94,7 +93,7 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
     }
     let given = angle.and_then(|key| d.get(key, any(ANGLE))).unwrap_or(0.0);
     let Some(kind) = kind else {
-        // what else may be said depends on the kind
+        // the other valid keys depend on the kind
         d.entries();
         return None;
     };
@@ -102,7 +101,7 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
         || d.choice("shape", &[("half_sine", Shape::HalfSine), ("cap", Shape::Cap)]).unwrap_or_default();
     let without = |keys: &[&str], expected: &str| {
         for key in keys.iter().copied().filter(|key| d.has(key)) {
-            let message = format!("{} says nothing of {expected}", d.name(key));
+            let message = format!("{} does not apply to {expected}", d.name(key));
             d.error(Kind::Conflict, key, message);
         }
     };
@@ -131,14 +130,14 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
     Some(out)
 }
 
-/// Whether a defect can be on its surface, and what of it the balls will not see.
+/// Geometric feasibility check of a defect, with warnings about parts that the balls do not reach.
 fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
     let problem = |kind, key: &str, message: String| Problem::new(kind, &d.span_of(key), message);
     let (radius, angle) = (defect.on.radius(g), defect.angle(g));
     let mm = |x: f64| x * 1e3;
     let um = |x: f64| x * 1e6;
     if angle >= TAU {
-        let message = format!("{} goes all the way round", d.name("width"));
+        let message = format!("{} covers the whole circumference", d.name("width"));
         let room = format!("less than the circumference of {:.3} mm", mm(TAU * radius));
         d.log.error(problem(Kind::Geometry, "width", message).expected(room));
         return;
@@ -151,23 +150,27 @@ fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
             return;
         }
         DefectForm::Bump { height, shape: Shape::Cap } if height > 0.0 && height >= 0.5 * defect.width => {
-            let message = format!("{} is no cap of a sphere", d.name("height"));
+            let message = format!("{} is not possible for a spherical cap", d.name("height"));
             let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
             d.log.error(problem(Kind::Geometry, "height", message).expected(most));
             return;
         }
         DefectForm::Dent { depth: None, .. } if defect.width >= g.ball_diameter => {
-            let message = format!("{} swallows a ball of {:.3} mm", d.name("width"), mm(g.ball_diameter));
+            let message = format!(
+                "{} is not smaller than the ball diameter of {:.3} mm",
+                d.name("width"),
+                mm(g.ball_diameter)
+            );
             d.log.error(
                 problem(Kind::Geometry, "width", message)
-                    .expected("a depth beside it, as no ball reaches across"),
+                    .expected("a depth as well, since no ball spans this width"),
             );
             return;
         }
         DefectForm::Dent { shape: Shape::Cap, .. }
             if -defect.height(g) >= 0.5 * defect.width && defect.width > 0.0 =>
         {
-            let message = format!("{} is no cap of a sphere", d.name("depth"));
+            let message = format!("{} is not possible for a spherical cap", d.name("depth"));
             let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
             d.log.error(problem(Kind::Geometry, "depth", message).expected(most));
             return;
@@ -179,24 +182,24 @@ fn possible(d: &Reader, g: &BallGeometry, defect: &Defect) {
         Surface::Inner | Surface::Outer => (TAU / g.balls as f64, "two balls at once"),
     };
     if angle > room {
-        let message = format!("{} is under {what}", d.name("width"));
+        let message = format!("{} extends under {what}", d.name("width"));
         let spacing = format!("below {:.3} mm, one contact at a time", mm(room * radius));
         d.log.warn(
             problem(Kind::Geometry, "width", message)
                 .expected(spacing)
-                .hint("this is computed as it stands, each contact following its own path"),
+                .hint("the analysis continues; each contact follows its own path"),
         );
     }
     if let DefectForm::Dent { depth: Some(depth), .. } | DefectForm::Spall { depth, .. } = defect.form
         && defect.width > 0.0
         && depth > defect.reach(g)
     {
-        let message = format!("{} is deeper than a ball reaches", d.name("depth"));
+        let message = format!("{} is deeper than a ball can reach", d.name("depth"));
         let reach = format!("{:.4} um at most in an opening of this width", um(defect.reach(g)));
         d.log.warn(
             problem(Kind::Geometry, "depth", message)
                 .expected(reach)
-                .hint("computed as it stands: the ball rests on the edges and never sees the bottom"),
+                .hint("the analysis continues: the ball rests on the edges and does not touch the bottom"),
         );
     }
 }

@@ -1,4 +1,5 @@
-//! Races and balls that are not perfect: waviness, eccentric races, balls of another size; defects are read apart.
+//! Geometric imperfections of races and balls: waviness, eccentric races, off-size balls; defects are in
+//! `defects`.
 
 use super::{contact, defects};
 use crate::bearing::{
@@ -15,7 +16,7 @@ use std::f64::consts::TAU;
 /// Highest order of waviness.
 const MOST: usize = 10_000;
 
-/// Words of the key `defect_law`.
+/// Keywords of the key `defect_law`.
 #[derive(Clone, Copy, PartialEq)]
 enum Law {
     Displacement,
@@ -24,7 +25,7 @@ enum Law {
     ForceOnLoaded,
 }
 
-/// Everything about the shapes of races and balls; `pair`: whether the bearing has two rows.
+/// All geometric imperfections of races and balls; `pair`: whether the bearing has two rows.
 pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Imperfections {
     let mut inner_waviness = waviness(r, "inner_waviness");
     let mut outer_waviness = waviness(r, "outer_waviness");
@@ -46,7 +47,8 @@ pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Imperfections {
     }
 }
 
-/// A list of waves, `[{ order = 2, amplitude = "1 um" }]`, or a law, `{ amplitude = "2 um", from = 2, to = 15 }`.
+/// Waviness: a list of harmonics, `[{ order = 2, amplitude = "1 um" }]`, or a spectrum,
+/// `{ amplitude = "2 um", from = 2, to = 15 }`.
 fn waviness(r: &Reader, key: &str) -> Vec<Wave> {
     if let Some(spectrum) = Spectrum::read(r, key) {
         let mut seed = spectrum.seed;
@@ -60,8 +62,8 @@ fn waviness(r: &Reader, key: &str) -> Vec<Wave> {
     waves_of(r, key).into_iter().map(read).collect()
 }
 
-/// The same of balls: with `ball` in a wave only that ball has it, a law gives every ball phases of its own but with
-/// `same_phase = true`.
+/// Waviness of balls: a harmonic with `ball` applies to that ball only; a spectrum gives every ball different
+/// phases unless `same_phase = true`.
 fn ball_waviness(r: &Reader, balls: usize) -> Vec<BallWave> {
     const KEY: &str = "ball_waviness";
     if let Some(spectrum) = Spectrum::read(r, KEY) {
@@ -100,8 +102,8 @@ fn one_wave(wave: &Reader) -> Wave {
     Wave { order: order as u32, amplitude, phase: wave.or("phase", any(ANGLE), 0.0) }
 }
 
-/// Waves by a law over the order n: amplitude/n, `law = "constant"` for one amplitude, `roughness_exponent = s` for
-/// amplitude/nˢ; phases from a seed.
+/// Waviness spectrum over the order n: amplitude/n (default), `law = "constant"`, or `roughness_exponent = s`
+/// for amplitude/nˢ; pseudo-random phases from a seed.
 struct Spectrum {
     amplitudes: Vec<(u32, f64)>,
     seed: u64,
@@ -109,7 +111,7 @@ struct Spectrum {
 }
 
 impl Spectrum {
-    /// `None` when the key is absent or a list.
+    /// `None` if the key is absent or a list.
     fn read(r: &Reader, key: &str) -> Option<Self> {
         if !is_table(r, key) {
             return None;
@@ -137,7 +139,7 @@ impl Spectrum {
     }
 }
 
-/// Next uniform number in [0, 1) of splitmix64, the same on every machine.
+/// Next uniform pseudo-random number in [0, 1) of SplitMix64, reproducible on every platform.
 fn uniform(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mut z = *state;
@@ -146,7 +148,7 @@ fn uniform(state: &mut u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// `{ amount = "2 um", angle = "30 deg" }`: how far and which way the race's centre is off.
+/// Eccentricity of a race: `{ amount = "2 um", angle = "30 deg" }`, magnitude and direction.
 fn eccentricity(r: &Reader, key: &str) -> Option<[f64; 2]> {
     let table = r.table(key)?;
     let out = [table.need("amount", not_negative(LENGTH)), table.or("angle", any(ANGLE), 0.0)];
@@ -154,33 +156,34 @@ fn eccentricity(r: &Reader, key: &str) -> Option<[f64; 2]> {
     Some(out)
 }
 
-/// `[{ ball = 0, by = "0.2 um" }]`.
+/// Deviations of ball diameters: `[{ ball = 0, by = "0.2 um" }]`.
 fn off_size(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<OffSize> {
     let most = 0.01 * g.ball_diameter;
-    let read = |size: Reader| {
-        if !size.has("ball") {
-            size.missing("ball", "0");
-        }
-        let out = OffSize {
-            ball: size.count("ball", 0, 0..=g.balls - 1),
-            by: size.need("by", any(LENGTH)),
-            row: defects::row(&size, pair),
+    let read =
+        |size: Reader| {
+            if !size.has("ball") {
+                size.missing("ball", "0");
+            }
+            let out = OffSize {
+                ball: size.count("ball", 0, 0..=g.balls - 1),
+                by: size.need("by", any(LENGTH)),
+                row: defects::row(&size, pair),
+            };
+            if size.sound() && out.by.abs() > most {
+                let message = format!("{} is more than a hundredth of the ball diameter", size.name("by"));
+                let problem = Problem::new(Kind::OutOfRange, &size.span_of("by"), message);
+                size.log.error(problem.expected(format!(
+                    "a diameter deviation within {:.1} um, such as \"0.2 um\"",
+                    most * 1e6
+                )));
+            }
+            size.finish();
+            out
         };
-        if size.sound() && out.by.abs() > most {
-            let message = format!("{} is more than a hundredth of a ball", size.name("by"));
-            let problem = Problem::new(Kind::OutOfRange, &size.span_of("by"), message);
-            size.log.error(problem.expected(format!(
-                "a difference of diameters within {:.1} um, such as \"0.2 um\"",
-                most * 1e6
-            )));
-        }
-        size.finish();
-        out
-    };
     r.tables("off_size").into_iter().map(read).collect()
 }
 
-/// `defect_law`, with `defect_stiffness` where it is a force.
+/// `defect_law`, with `defect_stiffness` if it is a force law.
 fn law(r: &Reader) -> DefectLaw {
     let words = [
         ("displacement", Law::Displacement),
@@ -193,9 +196,9 @@ fn law(r: &Reader) -> DefectLaw {
     let force = matches!(law, Law::Force | Law::ForceOnLoaded);
     let given = r.has("defect_stiffness");
     if given && !force {
-        // a misspelt law was reported
+        // a misspelt law was already reported
         if word.is_some() || !r.has("defect_law") {
-            let message = format!("{} says nothing of a law without a force", r.name("defect_stiffness"));
+            let message = format!("{} applies only to a force law", r.name("defect_stiffness"));
             let problem = Problem::new(Kind::Conflict, &r.span_of("defect_stiffness"), message);
             r.log.error(problem.expected("defect_law = \"force\" or \"force_on_loaded\""));
         }
@@ -209,35 +212,35 @@ fn law(r: &Reader) -> DefectLaw {
     }
 }
 
-/// What the force law of defects cannot go with.
+/// Report options that are incompatible with the force law of defects.
 pub(super) fn consistent(r: &Reader, bearing: &BallBearing) {
     let DefectLaw::Force { stiffness, .. } = bearing.imperfections.law else { return };
     let conflict = |key: &str, message: String, expected: &str| {
         let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
         r.log.error(problem.expected(expected).hint(
-            "defect_law = \"displacement\" goes with every bearing; the force is a law of the literature",
+            "defect_law = \"displacement\" works with every bearing; the force law is from the literature",
         ));
     };
     let law = r.name("defect_law");
     if bearing.inertia != BallInertia::None {
         conflict(
             "ball_inertia",
-            format!("{law} does not say which contact of a ball with inertia it pushes"),
+            format!("{law} does not define on which contact of a ball with inertia the force acts"),
             "ball_inertia = \"none\"",
         );
     }
     if matches!(bearing.preload, Preload::Spring { .. }) {
         conflict(
             "preload",
-            format!("{law} has no energy, which a ring on a spring is placed by"),
+            format!("{law} has no potential energy, which the equilibrium of a spring preload needs"),
             "a rigid preload",
         );
     }
     if stiffness.is_none() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
         conflict(
             "defect_law",
-            format!("{law} finds no stiffness in a fitted law of both contacts"),
-            "defect_stiffness beside it, such as \"1.58e10 N/m^1.5\"",
+            format!("{law} needs a Hertz stiffness, which a fitted power law does not have"),
+            "defect_stiffness as well, such as \"1.58e10 N/m^1.5\"",
         );
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn discs(top: &Reader, materials: &[Material], places: &mut Places) -
     discs
 }
 
-/// By mass and moments of inertia, or by dimensions: m = ρ π/4 (D² − d²) h, I_p = m (D² + d²)/8,
+/// Disc by mass and moments of inertia, or by dimensions: m = ρ π/4 (D² − d²) h, I_p = m (D² + d²)/8,
 /// I_d = I_p/2 + m h²/12.
 fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
     let by_mass = ["mass", "polar_inertia", "diametral_inertia"].iter().any(|k| r.has(k));
@@ -40,7 +40,7 @@ fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
             r.error(
                 Kind::Conflict,
                 "material",
-                format!("{} says nothing beside a given mass", r.name("material")),
+                format!("{} has no effect with a given mass", r.name("material")),
             );
         }
         let mass = r.need("mass", positive(MASS));
@@ -54,8 +54,10 @@ fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
     };
     // I_p = I_xx' + I_yy' of any mass distribution with I_d = I_xx' + m z² is at most 2 I_d
     if polar > 2.0 * diametral * (1.0 + 1e-9) && r.sound() {
-        let message =
-            format!("{} is more than twice the diametral one, which no body has", r.name("polar_inertia"));
+        let message = format!(
+            "{} is more than twice the diametral inertia, which is impossible",
+            r.name("polar_inertia")
+        );
         r.error(Kind::OutOfRange, "polar_inertia", message);
     }
     Disc {
@@ -69,7 +71,7 @@ fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
     }
 }
 
-/// Bodies and the springs that housings stand on.
+/// Rigid bodies and the support springs of housings.
 pub(super) struct Bodies {
     pub bodies: Vec<RigidBody>,
     pub bushings: Vec<Bushing>,
@@ -179,7 +181,7 @@ pub(super) fn masses(top: &Reader, places: &Places) -> Vec<PointMass> {
         let mass =
             PointMass { name: name.into(), at: places.anchor(&r), mass: r.need("mass", positive(MASS)) };
         if mass.at.node.is_none() && r.sound() {
-            r.error(Kind::Conflict, "at", format!("{} rests on ground, where it does nothing", r.path));
+            r.error(Kind::Conflict, "at", format!("{} is on ground, where it has no effect", r.path));
         }
         r.finish();
         mass

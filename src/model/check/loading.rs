@@ -10,7 +10,8 @@ use crate::units::{
     ANGLE, FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NUMBER, RATE, SPEED, TILT_DAMPING, TIME, UNBALANCE,
 };
 
-/// By magnitude, by a mass at a radius, or by a balance grade of ISO 21940-11: U = m G/Ω, where G = e_per Ω.
+/// Unbalance by magnitude, by a mass at a radius, or by a balance quality grade of ISO 21940-11: U = m G/Ω, G
+/// = e_per Ω.
 pub(super) fn unbalances(top: &Reader, places: &Places, rotor_mass: f64) -> Vec<Unbalance> {
     let read = |(name, r): (&str, Reader)| {
         let (node, _) = places.station(&r, "station");
@@ -34,7 +35,7 @@ pub(super) fn unbalances(top: &Reader, places: &Places, rotor_mass: f64) -> Vec<
     top.items("unbalance").into_iter().map(read).collect()
 }
 
-/// Balance grade, "G6.3" \[m/s\].
+/// Balance quality grade, "G6.3" \[m/s\].
 fn grade(r: &Reader) -> f64 {
     let number = |text: &str| text.trim().strip_prefix(['G', 'g'])?.trim().parse::<f64>().ok();
     match r.text("grade").and_then(number) {
@@ -43,7 +44,7 @@ fn grade(r: &Reader) -> f64 {
             let problem = Problem::new(
                 Kind::BadQuantity,
                 &r.span_of("grade"),
-                format!("{} is not a balance grade", r.name("grade")),
+                format!("{} is not a balance quality grade", r.name("grade")),
             );
             r.log.error(problem.expected("a grade of ISO 21940-11 such as \"G6.3\""));
             1.0
@@ -55,7 +56,7 @@ pub(super) fn loads(top: &Reader, places: &Places) -> Vec<Load> {
     let read = |(name, r): (&str, Reader)| {
         let at = places.anchor(&r);
         if at.node.is_none() && r.sound() {
-            r.error(Kind::Conflict, "at", format!("{} acts on ground, where it does nothing", r.path));
+            r.error(Kind::Conflict, "at", format!("{} acts on ground, where it has no effect", r.path));
         }
         let force = r.vector("force", FORCE);
         let moment = r.vector("moment", MOMENT);
@@ -74,13 +75,13 @@ pub(super) fn loads(top: &Reader, places: &Places) -> Vec<Load> {
     top.items("load").into_iter().map(read).collect()
 }
 
-/// Pairs of two lists of one length, the first of them increasing.
+/// Pairs from two lists of equal length, the first increasing.
 fn table(r: &Reader, x_key: &str, x: &[f64], y_key: &str, y: &[f64]) -> Vec<[f64; 2]> {
     if !r.sound() {
         return Vec::new();
     }
     if x.len() != y.len() {
-        let message = format!("{} has {} values and `{x_key}` has {}", r.name(y_key), y.len(), x.len());
+        let message = format!("{} has {} values, but `{x_key}` has {}", r.name(y_key), y.len(), x.len());
         r.error(Kind::Conflict, y_key, message);
     }
     increasing(r, x_key, x);
@@ -100,8 +101,11 @@ pub(super) fn damping(top: &Reader) -> Damping {
         let frequency = m.need_list("frequency", not_negative(FREQUENCY));
         let ratio = m.need_list("ratio", not_negative(NUMBER));
         if ratio.iter().any(|&z| z >= 1.0) && m.sound() {
-            let problem =
-                Problem::new(Kind::OutOfRange, &m.span_of("ratio"), format!("{} reaches 1", m.name("ratio")));
+            let problem = Problem::new(
+                Kind::OutOfRange,
+                &m.span_of("ratio"),
+                format!("{} is 1 or more", m.name("ratio")),
+            );
             m.log.error(problem.expected("damping ratios below 1, such as 0.005 or \"0.5 %\""));
         }
         let modal = table(&m, "frequency", &frequency, "ratio", &ratio);
@@ -210,7 +214,8 @@ pub(super) const QUANTITIES: [(&str, Quantity); 3] = [
 pub(super) fn probes(top: &Reader, places: &Places) -> Vec<Probe> {
     let read = |(name, r): (&str, Reader)| {
         if name.contains(['/', '"']) || name.is_empty() {
-            let problem = Problem::new(Kind::OutOfRange, &r.span, format!("`{name}` cannot name a channel"));
+            let problem =
+                Problem::new(Kind::OutOfRange, &r.span, format!("`{name}` is not a valid channel name"));
             r.log.error(problem.expected("a name without / and quotes"));
         }
         let probe = Probe {
@@ -225,8 +230,8 @@ pub(super) fn probes(top: &Reader, places: &Places) -> Vec<Probe> {
     top.items("probe").into_iter().map(read).collect()
 }
 
-/// Direction by name ("x", "-y", "tz" for a rotation) or as components (3 or 6); the translation has length 1,
-/// or the rotation if there is no translation.
+/// Direction by name ("x", "-y", "tz" for a rotation) or as components (3 or 6); normalised to unit
+/// translation, or to unit rotation if there is no translation.
 pub(super) fn direction(r: &Reader) -> [f64; 6] {
     use crate::model::file::tree::Value;
     let mut direction = [0.0; 6];
@@ -240,7 +245,9 @@ pub(super) fn direction(r: &Reader) -> [f64; 6] {
                     let message = format!("`{text}` is not a direction");
                     let problem = Problem::new(Kind::UnknownName, &r.span_of("direction"), message);
                     r.log.error(
-                        problem.expected("x, y, z, tx, ty or tz, with - for the other way, or [1, 1, 0]"),
+                        problem.expected(
+                            "x, y, z, tx, ty or tz, with - for the opposite direction, or [1, 1, 0]",
+                        ),
                     );
                 }
             }
@@ -269,7 +276,7 @@ pub(super) fn direction(r: &Reader) -> [f64; 6] {
     direction
 }
 
-/// Anchor and direction, as of a blow.
+/// Anchor and direction of an excitation, such as a hammer impact.
 pub(super) fn aim(r: &Reader, places: &Places) -> (Anchor, [f64; 6]) {
     (places.anchor(r), direction(r))
 }

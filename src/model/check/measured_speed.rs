@@ -1,4 +1,4 @@
-//! `[speed] profile = "measured"`: from the pulses of a tacho, or from a speed over time.
+//! `[speed] profile = "measured"`: measured speed from tacho pulses, or from a speed signal over time.
 
 use super::loading::increasing;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -7,12 +7,13 @@ use crate::model::{SideColumn, SideFile, SpeedProfile};
 use crate::signal::tacho::PulseTrain;
 use crate::units::TIME;
 
-/// Fewest pulses that make a profile: what a cubic spline needs.
+/// Minimum number of pulses: required by the cubic spline.
 const FEWEST: usize = 4;
-/// Most pulses averaged on either side.
+/// Maximum number of pulses averaged on either side.
 const WIDEST: usize = 100;
 
-/// Pulses in the file (`pulses = [...]`), or a column of another file: pulse times, or speeds beside a column of times.
+/// Pulses in the model file (`pulses = [...]`), or a column of a data file: pulse times, or speeds with a
+/// time column.
 pub(super) fn read(r: &Reader, files: &[SideFile]) -> Option<SpeedProfile> {
     let per_turn = r.count("pulses_per_revolution", 1, 1..=10_000);
     let smoothing = r.count("smoothing", 0, 0..=WIDEST);
@@ -20,7 +21,7 @@ pub(super) fn read(r: &Reader, files: &[SideFile]) -> Option<SpeedProfile> {
     let source = r.one_of(&["pulses", "file"]);
     if let Some("pulses") = source {
         for key in ["column", "unit"].iter().filter(|key| r.has(key)) {
-            r.error(Kind::Conflict, key, format!("{} belongs to a file", r.name(key)));
+            r.error(Kind::Conflict, key, format!("{} applies only to a data file", r.name(key)));
         }
         let pulses = r.need_list("pulses", not_negative(TIME));
         increasing(r, "pulses", &pulses);
@@ -69,24 +70,25 @@ pub(super) fn read(r: &Reader, files: &[SideFile]) -> Option<SpeedProfile> {
 fn columns<'f>(r: &Reader, path: &str, files: &'f [SideFile]) -> Option<&'f [SideColumn]> {
     let problem = |message: String| Problem::new(Kind::UnknownName, &r.span_of("file"), message);
     let Some(file) = files.iter().find(|file| file.path == path) else {
-        r.log
-            .error(problem(format!("`{path}` was not read")).hint("load the model with its files beside it"));
+        r.log.error(
+            problem(format!("`{path}` was not read")).hint("pass the file to the loader (model::load_with)"),
+        );
         return None;
     };
     match &file.content {
         Ok(columns) if columns.is_empty() => {
-            r.log.error(problem(format!("`{path}` holds no column of numbers")));
+            r.log.error(problem(format!("`{path}` contains no numeric column")));
             None
         }
         Ok(columns) => Some(columns),
         Err(why) => {
-            r.log.error(problem(why.clone()).hint("the path counts from the model file's folder"));
+            r.log.error(problem(why.clone()).hint("the path is relative to the model file's folder"));
             None
         }
     }
 }
 
-/// The column asked for; without a name the only one, or the only one beside the time.
+/// The requested column; without a name the only column, or the only one other than time.
 fn choose<'f>(r: &Reader, columns: &'f [SideColumn], wanted: Option<&str>) -> Option<&'f SideColumn> {
     let names = || columns.iter().map(|c| c.name.as_str());
     if let Some(name) = wanted {
@@ -119,10 +121,10 @@ fn choose<'f>(r: &Reader, columns: &'f [SideColumn], wanted: Option<&str>) -> Op
 
 const TIME_COLUMN: &str = "time";
 
-/// Names the first value that is no number.
+/// Report the first value that is not finite.
 fn finite(r: &Reader, column: &SideColumn) -> Option<()> {
     let Some(k) = column.values.iter().position(|v| !v.is_finite()) else { return Some(()) };
-    let message = format!("column `{}` holds {} as value {}", column.name, column.values[k], k + 1);
+    let message = format!("column `{}` contains {} at value {}", column.name, column.values[k], k + 1);
     r.log.error(Problem::new(Kind::OutOfRange, &r.span_of("file"), message));
     None
 }
@@ -137,11 +139,11 @@ fn rising(r: &Reader, column: &SideColumn, times: &[f64]) -> Option<()> {
         k + 2
     );
     let problem = Problem::new(Kind::OutOfRange, &r.span_of("file"), message);
-    r.log.error(problem.expected("times of pulses, one after the other"));
+    r.log.error(problem.expected("increasing pulse times"));
     None
 }
 
-/// Angles at the pulses, one pulse before and after the part asked for included.
+/// Shaft angles at the pulses, including one pulse before and after the requested part.
 fn from_pulses(
     r: &Reader,
     key: &str,
@@ -154,17 +156,17 @@ fn from_pulses(
     let last = to.map_or(times.len(), |t| (times.partition_point(|p| *p < t) + 1).min(times.len()));
     let times = times.get(first..last).unwrap_or_default();
     if times.len() < FEWEST {
-        let part = if from.is_some() || to.is_some() { " in the part asked for" } else { "" };
+        let part = if from.is_some() || to.is_some() { " in the requested part" } else { "" };
         let message = format!("{} pulses{part} are too few", times.len());
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message);
         r.log.error(problem.expected(format!("{FEWEST} pulses or more")));
         return None;
     }
-    // What is left to refuse was looked at: finite, increasing, four or more.
+    // Cannot fail: already checked to be finite, increasing and at least four.
     let mut train = PulseTrain::new(times, per_turn).ok()?;
     if train.missing + train.dropped > 0 {
         let message = format!(
-            "of {} pulses {} were taken for false; {} more were missing and are counted",
+            "of {} pulses {} were rejected as spurious; {} missing pulses were inserted",
             times.len(),
             train.dropped,
             train.missing
@@ -183,7 +185,7 @@ fn from_pulses(
         let problem = Problem::new(
             Kind::OutOfRange,
             &r.span_of("smoothing"),
-            "one pulse on either side smooths nothing",
+            "one pulse on either side gives no smoothing",
         );
         r.log.error(problem.expected("0, or 2 pulses or more"));
         return None;
@@ -212,18 +214,22 @@ fn from_speeds(
     [from, to]: [Option<f64>; 2],
 ) -> Option<SpeedProfile> {
     let Some(time) = columns.iter().find(|c| c.name == TIME_COLUMN) else {
-        let message = format!("the file has speeds, `{}`, but no column of times", speeds.name);
+        let message = format!("the file has speeds, `{}`, but no time column", speeds.name);
         let problem = Problem::new(Kind::MissingKey, &r.span_of("file"), message);
-        r.log.error(problem.hint("name the column of times time_s"));
+        r.log.error(problem.hint("name the time column time_s"));
         return None;
     };
     finite(r, time)?;
     rising(r, time, &time.values)?;
     if let Some(k) = speeds.values.iter().position(|v| *v < 0.0) {
-        let message =
-            format!("column `{}` is negative, {}, at value {}", speeds.name, speeds.values[k], k + 1);
+        let message = format!(
+            "column `{}` has a negative value, {}, at value {}",
+            speeds.name,
+            speeds.values[k],
+            k + 1
+        );
         let problem = Problem::new(Kind::OutOfRange, &r.span_of("file"), message);
-        r.log.error(problem.expected("a shaft that turns one way: speeds of zero or more"));
+        r.log.error(problem.expected("rotation in one direction: speeds of zero or more"));
         return None;
     }
     let inside = |t: f64| from.is_none_or(|from| t >= from) && to.is_none_or(|to| t <= to);

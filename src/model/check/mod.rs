@@ -1,4 +1,5 @@
-//! From the tree of a model file to the checked [`Model`] in SI units, with all problems at once.
+//! Model builder: from the tree of a model file to the validated [`Model`] in SI units, reporting all
+//! problems at once.
 
 mod bearing;
 mod bearing_study;
@@ -33,7 +34,7 @@ use places::Places;
 /// Standard gravity \[m/s²\].
 const STANDARD_GRAVITY: f64 = 9.80665;
 
-/// Read the whole model, `files` being those that it names; it is sound only if nothing was logged as an error.
+/// Build the whole model; `files` are its external data files. It is valid only if no error was logged.
 pub(crate) fn build(root: &Table, files: &[SideFile], log: &Log) -> Model {
     let top = Reader::new(root, "", 0..0, log);
     let (name, title, gravity) = head(&top);
@@ -88,7 +89,7 @@ pub(crate) fn build(root: &Table, files: &[SideFile], log: &Log) -> Model {
     model
 }
 
-/// Read a file of bearings alone: its name and title, bearings and studies.
+/// Build a bearing-only file: its name and title, bearings and studies.
 pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(String, Bearing)>, Studies) {
     let top = Reader::new(root, "", 0..0, log);
     let (name, title, gravity) = head(&top);
@@ -111,7 +112,8 @@ fn head(top: &Reader) -> (String, String, [f64; 3]) {
         r.error(Kind::OutOfRange, "name", "model.name is empty");
     }
     if !name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.')) || name.starts_with('.') {
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of("name"), "model.name cannot name a folder");
+        let problem =
+            Problem::new(Kind::OutOfRange, &r.span_of("name"), "model.name is not a valid folder name");
         r.log.error(problem.expected("letters, digits, `_`, `-` and `.` (the results go to out/NAME)"));
     }
     let title = r.text("title").unwrap_or(&name).to_string();
@@ -148,7 +150,7 @@ fn materials(top: &Reader) -> Vec<Material> {
     top.items("material").into_iter().map(read).collect()
 }
 
-/// The material that a key names; without the key, the only material of the file.
+/// Material named by a key; without the key, the only material of the file.
 fn material(r: &Reader, key: &str, materials: &[Material]) -> Option<Material> {
     let Some(name) = r.text(key) else {
         if !r.has(key) {

@@ -1,4 +1,5 @@
-//! How ball bearings are mounted: preload, matched pairs, fits, and what takes the thrust.
+//! Mounting of ball bearings: preload, duplex arrangements (matched pairs), fits, axial location of the
+//! shaft.
 
 use crate::bearing::{Arrangement, BallBearing, BallGeometry, Bearing, Duplex, Fit, Preload};
 use crate::model::Model;
@@ -6,7 +7,7 @@ use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::units::{EXPANSION, FORCE, LENGTH, STIFFNESS, TEMPERATURE_DIFFERENCE};
 
-/// Thermal expansion of bearing steel where the file gives none \[1/K\].
+/// Default coefficient of thermal expansion: bearing steel \[1/K\].
 const STEEL_EXPANSION: f64 = 12e-6;
 
 pub(super) const ARRANGEMENTS: [(&str, Arrangement); 3] = [
@@ -15,14 +16,14 @@ pub(super) const ARRANGEMENTS: [(&str, Arrangement); 3] = [
     ("tandem", Arrangement::Tandem),
 ];
 
-/// `arrangement` with `row_spacing`.
+/// Duplex pair: `arrangement` with `row_spacing`.
 pub(super) fn duplex(r: &Reader, contact_angle: f64) -> Option<Duplex> {
     let arrangement = r.choice("arrangement", &ARRANGEMENTS);
     if !r.has("arrangement") {
         if r.has("row_spacing") {
-            let message = format!("{} says nothing without an arrangement", r.name("row_spacing"));
+            let message = format!("{} applies only with an arrangement", r.name("row_spacing"));
             let problem = Problem::new(Kind::Conflict, &r.span_of("row_spacing"), message);
-            r.log.error(problem.hint("add arrangement = \"back_to_back\", or take row_spacing out"));
+            r.log.error(problem.hint("add arrangement = \"back_to_back\", or remove row_spacing"));
         }
         return None;
     }
@@ -30,14 +31,14 @@ pub(super) fn duplex(r: &Reader, contact_angle: f64) -> Option<Duplex> {
         let message = format!("{} has rows without contact angle", r.path);
         let problem = Problem::new(Kind::Conflict, &r.span_of("arrangement"), message);
         r.log.error(problem.expected("an angular contact bearing").hint(
-            "give contact_angle or a designation such as \"7205B\"; a deep groove bearing has no direction of thrust",
+            "give contact_angle or a designation such as \"7205B\"; a deep groove bearing has no thrust direction",
         ));
     }
     let spacing = r.need("row_spacing", positive(LENGTH));
     arrangement.map(|arrangement| Duplex { arrangement, spacing })
 }
 
-/// `preload = { force = "150 N" }`, `{ dry_force = "150 N" }`, `{ interference = "1.5 um" }` or
+/// Preload: `preload = { force = "150 N" }`, `{ dry_force = "150 N" }`, `{ interference = "1.5 um" }` or
 /// `{ spring = "2e5 N/m", force = "150 N" }`.
 pub(super) fn preload(r: &Reader) -> Preload {
     let Some(p) = r.table("preload") else { return Preload::None };
@@ -45,9 +46,9 @@ pub(super) fn preload(r: &Reader) -> Preload {
         p.one_of(&["spring", "interference", "dry_force"]);
         let stiffness = p.get("spring", any(STIFFNESS)).unwrap_or(1.0);
         if stiffness <= 0.0 {
-            let message = format!("{} has no stiffness", p.name("spring"));
+            let message = format!("{} must be greater than zero", p.name("spring"));
             let problem = Problem::new(Kind::OutOfRange, &p.span_of("spring"), message);
-            p.log.error(problem.expected("a stiffness greater than zero such as \"2e5 N/m\""));
+            p.log.error(problem.expected("a stiffness such as \"2e5 N/m\""));
         }
         Preload::Spring { stiffness, force: p.need("force", positive(FORCE)) }
     } else {
@@ -68,7 +69,7 @@ pub(super) fn preload(r: &Reader) -> Preload {
     preload
 }
 
-/// `fit = { shaft_interference = "8 um", inner_temperature_rise = "20 K", speed_growth = true }`.
+/// Fits: `fit = { shaft_interference = "8 um", inner_temperature_rise = "20 K", speed_growth = true }`.
 pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
     let Some(f) = r.table("fit") else { return Fit::default() };
     let geometry_known = r.sound();
@@ -94,7 +95,7 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
         let problem = Problem::new(Kind::Geometry, &f.span_of("housing_diameter"), message);
         f.log.error(problem.expected(format!("above {:.3} mm", mm(g.outside_diameter))));
     }
-    // A force fit wider than this has slipped a decimal.
+    // A larger interference is probably a typing error in the magnitude.
     let widest = 2e-3 * g.bore;
     for (key, interference) in
         [("shaft_interference", fit.shaft_interference), ("housing_interference", fit.housing_interference)]
@@ -109,7 +110,7 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
     fit
 }
 
-/// Directions in which a bearing takes thrust of the shaft: along +z, along −z.
+/// Directions in which a bearing carries axial load of the shaft: along +z, along −z.
 fn takes_thrust(bearing: &Bearing) -> [bool; 2] {
     match bearing {
         Bearing::Linear(linear) => [linear.table.iter().any(|row| row.stiffness[2][2] != 0.0); 2],
@@ -122,7 +123,7 @@ fn takes_thrust(bearing: &Bearing) -> [bool; 2] {
     }
 }
 
-/// Report every preload that pushes the shaft away, because nothing takes the opposite thrust.
+/// Report every preload without an axial counter-support (no bearing carries the opposite thrust).
 pub(super) fn located(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
@@ -152,10 +153,12 @@ pub(super) fn located(top: &Reader, model: &Model) {
             .into_iter()
             .find(|(name, _)| *name == site.name)
             .map_or(0..0, |(_, r)| r.span_of("preload"));
-        let message =
-            format!("bearing.{} is preloaded, but nothing takes the shaft's thrust along {other}", site.name);
+        let message = format!(
+            "bearing.{} is preloaded, but nothing carries the shaft's axial load along {other}",
+            site.name
+        );
         let problem = Problem::new(Kind::Disconnected, &span, message)
-            .expected(format!("a counterpart to this bearing's thrust = \"{way}\""))
+            .expected(format!("an axial support opposite to this bearing's thrust = \"{way}\""))
             .hint(format!(
                 "add a bearing with thrust = \"{other}\", make this one a pair (arrangement = \"back_to_back\"), or give a linear bearing or bushing axial stiffness"
             ));

@@ -1,4 +1,4 @@
-//! Names of the places that things are fixed to: stations, discs, bodies, housings, ground.
+//! Named attachment points of elements: stations, discs, bodies, housings, ground.
 
 use crate::element::Anchor;
 use crate::model::Station;
@@ -7,7 +7,7 @@ use crate::model::file::reader::Reader;
 use crate::units::LENGTH;
 use std::ops::Range;
 
-/// One place, by its full name: "station.B", "housing.A", "ground".
+/// Attachment point with its full name: "station.B", "housing.A", "ground".
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     pub name: String,
@@ -17,7 +17,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Anchor on this place that holds the given point.
+    /// Anchor on this place at the given point.
     pub fn anchor_at(&self, point: [f64; 3]) -> Anchor {
         let mut offset = point;
         if self.node.is_some() {
@@ -48,7 +48,8 @@ impl Places {
         self.list.push(Place { name, node: Some(node), position });
     }
 
-    /// Place of a name, full or short when only one place ends so; `kinds` limits the search ("station", "housing").
+    /// Find a place by full name, or by unambiguous short name; `kinds` limits the search ("station",
+    /// "housing").
     pub fn find(&self, r: &Reader, text: &str, span: &Range<usize>, kinds: &[&str]) -> Option<&Place> {
         let allowed = |place: &&Place| {
             kinds.is_empty() || kinds.contains(&place.name.split('.').next().unwrap_or_default())
@@ -65,7 +66,7 @@ impl Places {
             [] => {
                 let what = if kinds == ["station"] { "station" } else { "place" };
                 let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
-                // suggest in the form in which it was written
+                // suggest full or short names, as written by the user
                 let full = text.contains('.') || kinds.is_empty();
                 let names: Vec<String> =
                     all.iter().map(|p| if full { p.name.clone() } else { short(p) }).collect();
@@ -78,21 +79,21 @@ impl Places {
             }
             _ => {
                 let names = matches.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(" or ");
-                let message = format!("`{text}` can be more than one place");
+                let message = format!("`{text}` is ambiguous");
                 r.log.error(Problem::new(Kind::UnknownName, span, message).hint(format!("write {names}")));
                 None
             }
         }
     }
 
-    /// Shaft node that a key's station names; stands in node 0 after an error.
+    /// Shaft node and position of the station named by a key; node 0 as placeholder after an error.
     pub fn station(&self, r: &Reader, key: &str) -> (usize, f64) {
         let Some(name) = r.need_text(key, "\"A\"") else { return (0, 0.0) };
         let place = self.find(r, name, &r.span_of(key), &["station"]);
         place.map_or((0, 0.0), |p| (p.node.unwrap_or(0), p.position[2]))
     }
 
-    /// Anchor of the key `at`, moved by the key `offset` (on ground: position).
+    /// Anchor of the key `at` with the key `offset` (on ground: position).
     pub fn anchor(&self, r: &Reader) -> Anchor {
         let name = r.need_text("at", "\"station.A\"");
         let offset = r.vector("offset", LENGTH).unwrap_or_default();
@@ -100,7 +101,8 @@ impl Places {
         Anchor { node: place.and_then(|p| p.node), offset }
     }
 
-    /// The two anchors of the key `between`, both at the key `point` or else at the first place that is not ground.
+    /// The two anchors of the key `between`, both at the key `point` or, by default, at the first place not
+    /// on ground.
     pub fn between(&self, r: &Reader) -> [Anchor; 2] {
         let nowhere = [Anchor::GROUND; 2];
         if !r.has("between") {
@@ -116,7 +118,7 @@ impl Places {
         let b = self.find(r, second, second_span, &[]);
         let (Some(a), Some(b)) = (a, b) else { return nowhere };
         if a.node == b.node {
-            let message = format!("{} joins a place to itself", r.path);
+            let message = format!("{} connects a place to itself", r.path);
             r.error(Kind::Conflict, "between", message);
         }
         let own = if a.node.is_some() { a.position } else { b.position };

@@ -1,4 +1,4 @@
-//! Ball bearings in their plane with a radial coordinate per ball, `model = "radial_ball"`.
+//! Planar ball bearings with one radial degree of freedom per ball, `model = "radial_ball"`.
 
 use super::bearing;
 use super::catalogue::CatalogueEntry;
@@ -10,25 +10,25 @@ use crate::model::file::reader::{Reader, not_negative};
 use crate::model::file::tree::Value;
 use crate::units::TIME;
 
-/// Osculation of grooves that nothing tells of, where the contacts' stiffness is given and it counts for nothing else.
+/// Default osculation of the grooves if the contact stiffness is given; it then has no other effect.
 const OSCULATION: f64 = 0.52;
 
-/// Keys of `model = "ball"` that have no meaning here, and what to say of them.
+/// Keys of `model = "ball"` that do not apply here, with a hint for each.
 const FOREIGN: [(&str, &str); 11] = [
     ("contact_angle", "the balls move in the plane of the bearing"),
     ("thrust", "the balls move in the plane of the bearing"),
     ("moment_arm", "the balls move in the plane of the bearing"),
-    ("preload", "a bearing in its plane takes no thrust; a negative radial_clearance preloads it radially"),
-    ("arrangement", "put a second bearing beside it"),
-    ("ball_inertia", "the balls have inertia and centrifugal force in any case"),
+    ("preload", "a planar bearing carries no axial load; a negative radial_clearance preloads it radially"),
+    ("arrangement", "add a second bearing at a neighbouring station"),
+    ("ball_inertia", "ball inertia and centrifugal force are always included"),
     ("contact", "the contacts are dry, F = K d^1.5; give K as contact_stiffness"),
-    ("contact_damping", "damping goes with stiffness here: stiffness_damping = \"1e-4 s\""),
-    ("damping_ramp", "damping goes with stiffness here: stiffness_damping = \"1e-4 s\""),
-    ("hunt_crossley", "damping goes with stiffness here: stiffness_damping = \"1e-4 s\""),
-    ("film_damping", "damping goes with stiffness here: stiffness_damping = \"1e-4 s\""),
+    ("contact_damping", "use stiffness-proportional damping: stiffness_damping = \"1e-4 s\""),
+    ("damping_ramp", "use stiffness-proportional damping: stiffness_damping = \"1e-4 s\""),
+    ("hunt_crossley", "use stiffness-proportional damping: stiffness_damping = \"1e-4 s\""),
+    ("film_damping", "use stiffness-proportional damping: stiffness_damping = \"1e-4 s\""),
 ];
 
-/// A bearing of this model under gravity \[m/s²\].
+/// Read a bearing of this model; gravity in \[m/s²\].
 pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> RadialBallBearing {
     for (key, hint) in FOREIGN.iter().filter(|(key, _)| r.has(key)) {
         let message = format!("{} does not belong to model = \"radial_ball\"", r.name(key));
@@ -38,7 +38,7 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
         if entry.contact_angle != 0.0 {
             let message = format!("{} is an angular-contact bearing", entry.designation);
             let problem = Problem::new(Kind::Conflict, &r.span_of("designation"), message);
-            r.log.error(problem.expected("a deep-groove bearing, whose balls move in its plane"));
+            r.log.error(problem.expected("a deep-groove bearing (planar ball motion)"));
         }
         CatalogueEntry { contact_angle: 0.0, ..entry }
     });
@@ -48,7 +48,7 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
     if ball.imperfections.law != DefectLaw::Displacement {
         let message = format!("{} does not belong to model = \"radial_ball\"", r.name("defect_law"));
         let problem = Problem::new(Kind::Conflict, &r.span_of("defect_law"), message);
-        r.log.error(problem.expected("\"displacement\", each contact being followed by itself"));
+        r.log.error(problem.expected("\"displacement\", applied to each contact separately"));
     }
     let damping = damping(r);
     let out = RadialBallBearing {
@@ -62,14 +62,15 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
     }
     if r.sound() && out.ball_mass() <= 0.0 {
         let key = if r.has("ball_material") { "ball_material" } else { "material" };
-        let message = format!("the balls of {} have no mass to move by themselves", r.path);
+        let message = format!("the balls of {} have no mass", r.path);
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message);
         r.log.error(problem.expected("a density above 0").hint("model = \"ball\" has massless balls"));
     }
     out
 }
 
-/// `stiffness_damping = "1e-4 s"` of both contacts, or `{ inner = "1e-4 s", outer = "2e-4 s" }`.
+/// Stiffness-proportional contact damping: `stiffness_damping = "1e-4 s"` of both contacts, or
+/// `{ inner = "1e-4 s", outer = "2e-4 s" }`.
 fn damping(r: &Reader) -> [f64; 2] {
     const KEY: &str = "stiffness_damping";
     if let Some(Value::Table(_)) = r.entry(KEY).map(|e| &e.node.value) {

@@ -1,4 +1,4 @@
-//! `[rotor]`: a rigid rotor in place of an elastic shaft.
+//! `[rotor]`: a rigid rotor instead of a flexible shaft.
 
 use super::material;
 use super::shaft::{self, Line};
@@ -15,8 +15,8 @@ const SAME: f64 = 1e-9;
 pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     let r = top.table_or_empty("rotor");
     if top.has("shaft") {
-        let problem = Problem::new(Kind::Conflict, &r.span, "rotor and shaft exclude each other");
-        top.log.error(problem.hint("give [shaft] for an elastic shaft, [rotor] for a rigid one"));
+        let problem = Problem::new(Kind::Conflict, &r.span, "rotor and shaft are mutually exclusive");
+        top.log.error(problem.hint("use [shaft] for a flexible shaft, [rotor] for a rigid rotor"));
         top.table("shaft").inspect(|s| _ = s.entries());
     }
     let centre = r.need("centre", any(LENGTH));
@@ -43,7 +43,7 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     Line { node_z, elements: Vec::new(), stations, rigid: Some(rotor) }
 }
 
-/// By mass and moments of inertia about the centre of mass, or as a cylinder:
+/// Rotor by mass and moments of inertia about the centre of mass, or as a cylinder:
 /// I_p = m (D² + d²)/8, I_d = I_p/2 + m L²/12.
 fn inertia(r: &Reader, length: Option<f64>, materials: &[Material]) -> Disc {
     let mut rotor = Disc {
@@ -65,10 +65,10 @@ fn inertia(r: &Reader, length: Option<f64>, materials: &[Material]) -> Disc {
         rotor.mass = r.need("mass", positive(MASS));
         rotor.polar_inertia = r.need("polar_inertia", not_negative(INERTIA));
         rotor.diametral_inertia = r.need("diametral_inertia", positive(INERTIA));
-        // as of any body, see the discs
+        // holds for any rigid body, see the discs
         if rotor.polar_inertia > 2.0 * rotor.diametral_inertia * (1.0 + 1e-9) && r.sound() {
             let message = format!(
-                "{} is more than twice the diametral one, which no body has",
+                "{} is more than twice the diametral inertia, which is impossible",
                 r.name("polar_inertia")
             );
             r.error(Kind::OutOfRange, "polar_inertia", message);

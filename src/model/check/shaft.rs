@@ -1,4 +1,4 @@
-//! Shaft sections and stations to nodes and elements.
+//! Shaft mesh: nodes and elements from sections and stations.
 
 use super::material;
 use crate::element::{Disc, Material, ShaftElement, ShearCoefficient};
@@ -19,7 +19,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Mass of the shaft \[kg\]: frusta, exactly; or of the rigid rotor.
+    /// Mass of the shaft \[kg\] (exact for conical frusta), or of the rigid rotor.
     pub fn mass(&self) -> f64 {
         let square = |[a, b]: [f64; 2]| (a * a + a * b + b * b) / 3.0;
         let mass = |e: &ShaftElement| {
@@ -29,7 +29,7 @@ impl Line {
     }
 }
 
-/// Properties that the whole shaft states and a section may state anew.
+/// Properties of the whole shaft that a section may override.
 #[derive(Clone)]
 struct Properties {
     material: Option<Material>,
@@ -57,9 +57,9 @@ impl Section {
     }
 }
 
-/// Positions closer than this part of the shaft's length are the same.
+/// Positions closer than this fraction of the shaft's length are equal.
 const SAME: f64 = 1e-9;
-/// More nodes than this are taken for a slip of the pen in `element_length`.
+/// More nodes than this are treated as an error in `element_length`.
 const MAX_NODES: f64 = 5000.0;
 
 pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
@@ -83,7 +83,7 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> Line {
     let ends = sections.first().zip(sections.last()).map(|(first, last)| [first.z[0], last.z[1]]);
     let stations = stations(top, ends, spacing);
     if !sound || sections.is_empty() || top.log.count() > before {
-        // stations keep their names so that references to them still resolve
+        // keep the stations so that references to them still resolve
         return Line { stations, ..Line::default() };
     }
     mesh(top, &sections, stations, spacing)
@@ -136,7 +136,7 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
         let from = s.or("from", any(LENGTH), end);
         if (from - end).abs() > SAME * (from.abs() + end.abs()) && s.sound() {
             let word = if from > end { "leaves a gap after" } else { "overlaps" };
-            let other = if sections.is_empty() { "the shaft's start" } else { "the section before" };
+            let other = if sections.is_empty() { "the shaft's start" } else { "the previous section" };
             s.error(
                 Kind::Geometry,
                 "from",
@@ -173,7 +173,7 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
     sections
 }
 
-/// Stations in file order, between the ends if known; their nodes are found later.
+/// Stations in file order, within the shaft ends if known; their nodes are assigned later.
 pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Vec<Station> {
     let Some(r) = top.table("station") else { return Vec::new() };
     let mut stations: Vec<Station> = Vec::new();
@@ -203,7 +203,7 @@ pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Ve
     stations
 }
 
-/// Nodes at every section end and station, and between them so that no element is longer than stated.
+/// Mesh with nodes at every section end and station, subdivided so that no element exceeds `element_length`.
 fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing: f64) -> Line {
     let mut line = Line::default();
     let total = sections[sections.len() - 1].z[1] - sections[0].z[0];
@@ -213,7 +213,7 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
         let span = top.table("shaft").map_or(0..0, |r| r.span_of("element_length"));
         let problem = Problem::new(Kind::OutOfRange, &span, message);
         top.log.error(
-            problem.hint(format!("at most {MAX_NODES} are taken; is the unit of element_length right?")),
+            problem.hint(format!("at most {MAX_NODES} are allowed; check the unit of element_length")),
         );
         return Line { stations, ..line };
     }
@@ -255,7 +255,7 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
     Line { stations, ..line }
 }
 
-/// Element between two positions; none when the section's material is unknown (which was reported).
+/// Element between two positions; `None` if the section's material is unknown (already reported).
 fn element(section: &Section, left: f64, right: f64) -> Option<ShaftElement> {
     let p = &section.properties;
     let ends = |diameters| [section.at(diameters, left), section.at(diameters, right)];

@@ -1,4 +1,4 @@
-//! Six-by-six stiffness and damping from named components.
+//! 6x6 stiffness and damping matrices from named components.
 
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative};
@@ -21,7 +21,7 @@ pub(super) enum Family {
 }
 
 impl Family {
-    /// First letter of the component keys, whole-matrix key, dimensions by the number of tilts (0, 1, 2).
+    /// First letter of the component keys, whole-matrix key, dimensions by the number of rotations (0, 1, 2).
     fn parts(self) -> (&'static str, &'static str, [Dimension; 3]) {
         match self {
             Self::Stiffness => ("k", "stiffness_si", [STIFFNESS, CROSS_STIFFNESS, TILT_STIFFNESS]),
@@ -30,13 +30,13 @@ impl Family {
     }
 }
 
-/// One matrix from its components; `passive` demands a symmetric one without negative diagonal.
+/// One matrix from its components; `passive` requires symmetry and a non-negative diagonal.
 pub(super) fn matrix(r: &Reader, family: Family, passive: bool) -> Matrix6 {
     let [matrix] = table(r, family, 1, passive).try_into().unwrap_or([[[0.0; 6]; 6]]);
     matrix
 }
 
-/// A matrix for each of `rows` speeds; a component is one value for all speeds or one for each.
+/// One matrix for each of `rows` speeds; a component has one value for all speeds or one per speed.
 pub(super) fn table(r: &Reader, family: Family, rows: usize, passive: bool) -> Vec<Matrix6> {
     let (letter, whole, dimensions) = family.parts();
     let mut matrices = vec![[[0.0; 6]; 6]; rows];
@@ -48,7 +48,7 @@ pub(super) fn table(r: &Reader, family: Family, rows: usize, passive: bool) -> V
                 }
             }
         } else {
-            let problem = format!("{} has {} numbers, not six rows of six", r.name(whole), values.len());
+            let problem = format!("{} has {} numbers instead of 6 x 6", r.name(whole), values.len());
             r.log.error(
                 Problem::new(Kind::WrongType, &r.span_of(whole), problem)
                     .hint("rows and columns u_x u_y u_z theta_x theta_y theta_z, SI units, nested lists"),
@@ -89,7 +89,10 @@ pub(super) fn table(r: &Reader, family: Family, rows: usize, passive: bool) -> V
                 let (one, other) =
                     (format!("{letter}_{}{}", DOFS[i], DOFS[j]), format!("{letter}_{}{}", DOFS[j], DOFS[i]));
                 let given = if r.has(&one) { &one } else { &other };
-                let message = format!("{}: {one} and {other} differ, so this would make energy", r.path);
+                let message = format!(
+                    "{}: {one} and {other} differ; an asymmetric matrix is not passive (it generates energy)",
+                    r.path
+                );
                 let problem = Problem::new(Kind::Conflict, &r.span_of(given), message);
                 r.log.error(problem.hint("give both with the same value, or use a linear bearing"));
             }

@@ -1,4 +1,4 @@
-//! The studies at steady speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
+//! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::study::{channels, integrator};
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -11,7 +11,7 @@ use crate::model::study::{
 use crate::model::{Drive, Model, Probe, Quantity};
 use crate::units::{ANGLE, FREQUENCY, LENGTH, NUMBER, SPEED, TIME, leading_number};
 
-/// Perturbation that an exponent is taken from \[m\].
+/// Default perturbation for the Lyapunov exponent \[m\].
 const PERTURBATION: f64 = 1e-9;
 const TOLERANCE: f64 = 1e-3;
 const LONGEST_PERIOD: usize = 32;
@@ -40,8 +40,8 @@ pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     }
 }
 
-/// A steady run; integrator, step and cutoff are those of the run-up unless told otherwise. A `varied` speed need not
-/// be stated.
+/// A run at constant speed; integrator, step and cutoff default to those of the run-up. `varied`: the speed
+/// is the bifurcation parameter and need not be given.
 fn steady(
     r: &Reader,
     model: &Model,
@@ -54,7 +54,7 @@ fn steady(
         r.missing("speed", "\"3000 rpm\"");
     }
     if matches!(model.drive, Drive::Torque { .. }) && r.sound() {
-        let message = format!("{} holds the speed, but the drive is a torque", r.path);
+        let message = format!("{} runs at constant speed, but the drive is a torque", r.path);
         let problem = Problem::new(Kind::Conflict, &r.span, message);
         r.log.error(problem.hint("set drive.kind = \"prescribed\""));
     }
@@ -102,13 +102,13 @@ fn clock(r: &Reader, model: &Model) -> Clock {
     }
 }
 
-/// Planes as pairs of probes, "disc_x, disc_y"; a single probe is seen over its own rate of change.
+/// Planes as pairs of probes, "disc_x, disc_y"; a single probe gives its phase plane (value and rate).
 fn planes(r: &Reader, model: &Model) -> Vec<Plane> {
     let named = |name: &str| model.probes.iter().find(|p| p.name == name);
     if !r.has("planes") {
         let planes = default_planes(model);
         if planes.is_empty() && r.sound() {
-            let message = format!("{} has no probe to look at", r.path);
+            let message = format!("{} has no probe", r.path);
             let problem = Problem::new(Kind::MissingKey, &r.span, message);
             r.log.error(problem.hint("add [probe.NAME] with at and direction"));
         }
@@ -131,7 +131,7 @@ fn planes(r: &Reader, model: &Model) -> Vec<Plane> {
         match plane {
             Some(plane) => planes.push(plane),
             None => {
-                let message = format!("`{text}` is no plane");
+                let message = format!("`{text}` is not a plane");
                 let problem = Problem::new(Kind::OutOfRange, &span, message);
                 r.log.error(problem.expected(
                     "two probes, \"disc_x, disc_y\", or one of a displacement or velocity, \"disc_x\"",
@@ -142,7 +142,8 @@ fn planes(r: &Reader, model: &Model) -> Vec<Plane> {
     planes
 }
 
-/// Every two probes along x and y of one point and quantity; every other displacement or velocity over its rate.
+/// Orbit planes of all x-y probe pairs of one point and quantity; phase planes of the other displacements and
+/// velocities.
 fn default_planes(model: &Model) -> Vec<Plane> {
     let axis = |p: &Probe| (0..6).find(|&k| p.direction[k] == 1.0 && p.direction.iter().sum::<f64>() == 1.0);
     let partner = |p: &Probe, wanted: usize| {
@@ -160,7 +161,7 @@ fn pair(x: &Probe, y: &Probe) -> Plane {
     Plane { name: format!("{}_{}", x.name, y.name), x: x.clone(), y: y.clone() }
 }
 
-/// A displacement over its velocity, a velocity over its acceleration.
+/// Phase plane: displacement and velocity, or velocity and acceleration.
 fn against_rate(x: &Probe) -> Option<Plane> {
     let quantity = match x.quantity {
         Quantity::Displacement => Quantity::Velocity,
@@ -186,7 +187,7 @@ fn bifurcation(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>) -> Bifurc
         shown.clone_from(&model.probes);
     }
     if shown.is_empty() && r.sound() {
-        let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no probe to look at", r.path));
+        let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no probe", r.path));
         r.log.error(problem.hint("add [probe.NAME] with at and direction"));
     }
     let sweeps = [("up", Sweep::Up), ("down", Sweep::Down), ("both", Sweep::Both)];
@@ -220,7 +221,7 @@ fn bifurcation(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>) -> Bifurc
 
 /// Paths and values: `parameter = "bearing.B.radial_clearance"`, `values = { from = "5 um", to = "40 um", count = 71 }`.
 ///
-/// What unit fits is known only when a value is set; here it is kept as written.
+/// The unit is checked when a value is set; here it is kept as written.
 fn parameter(r: &Reader) -> Parameter {
     if !r.has("parameter") {
         r.missing("parameter", "\"speed\", or \"bearing.B.radial_clearance\", or any other value's path");
@@ -256,7 +257,7 @@ fn parameter(r: &Reader) -> Parameter {
     Parameter { paths, unit, values, texts }
 }
 
-/// Number and unit of a value, whatever its dimension.
+/// Number and unit of a value of any dimension.
 fn split(r: &Reader, node: &Node) -> Option<(f64, String)> {
     let split = match &node.value {
         #[allow(clippy::cast_precision_loss)] // integers in a model file are small
@@ -267,7 +268,7 @@ fn split(r: &Reader, node: &Node) -> Option<(f64, String)> {
         _ => None,
     };
     if split.as_ref().is_none_or(|(value, _)| !value.is_finite()) {
-        let problem = Problem::new(Kind::WrongType, &node.span, "not a value of a parameter");
+        let problem = Problem::new(Kind::WrongType, &node.span, "not a parameter value");
         r.log.error(problem.expected("such as \"5 um\", \"3000 rpm\" or 8"));
         return None;
     }
@@ -285,8 +286,8 @@ fn listed(r: &Reader, items: &[Node]) -> Option<(String, Vec<f64>)> {
 }
 
 fn same_unit(r: &Reader, node: &Node, found: &str, unit: &str) {
-    let message = format!("`{found}` and `{unit}` in one list of values");
-    r.log.error(Problem::new(Kind::BadQuantity, &node.span, message).hint("write them all in one unit"));
+    let message = format!("different units in one list of values: `{found}` and `{unit}`");
+    r.log.error(Problem::new(Kind::BadQuantity, &node.span, message).hint("use one unit for all values"));
 }
 
 fn spaced(r: &Reader) -> Option<(String, Vec<f64>)> {
@@ -321,14 +322,14 @@ fn spaced(r: &Reader) -> Option<(String, Vec<f64>)> {
                 r.error(
                     Kind::OutOfRange,
                     "step",
-                    format!("{} goes {steps:.1} times into the range", r.name("step")),
+                    format!("{} divides the range into {steps:.1} steps", r.name("step")),
                 );
                 return None;
             }
             return Some((unit, (0..=(steps + 1e-9) as usize).map(|k| from + k as f64 * step).collect()));
         }
         (Some("step"), None) => return None,
-        // Whole numbers of something that is counted: every one of them.
+        // Integer parameter without unit: every integer of the range.
         (None, _) if unit.is_empty() && whole(from) && whole(to) => (to - from) as usize,
         _ => count - 1,
     };

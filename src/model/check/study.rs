@@ -1,4 +1,4 @@
-//! The studies a file asks for, with their defaults.
+//! Studies requested by a file, with their defaults.
 
 use super::bearing_study;
 use super::loading::{QUANTITIES, aim, increasing};
@@ -52,8 +52,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         let responses = responses(&r, model, Quantity::Displacement);
         studies.unbalance = Some(UnbalanceStudy { speeds: speeds(&r), responses });
         if model.unbalances.is_empty() && r.sound() {
-            let problem =
-                Problem::new(Kind::MissingKey, &r.span, "study.unbalance has no unbalance to respond to");
+            let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
         }
         r.finish();
@@ -80,7 +79,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     studies
 }
 
-/// The studies of a file of bearings alone.
+/// Studies of a bearing-only file.
 pub(super) fn read_for_bearings(top: &Reader, bearings: &[(String, Bearing)]) -> Studies {
     let all = top.table_or_empty("study");
     let bearing = bearing(&all, bearings.iter().map(|(name, bearing)| (name, bearing)));
@@ -102,7 +101,7 @@ fn bearing<'a>(
 fn needs_run_up(r: &Reader, studies: &Studies) {
     if studies.run_up.is_none() {
         let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} needs [study.run_up]", r.path));
-        r.log.error(problem.hint("add [study.run_up], whose channels it looks at"));
+        r.log.error(problem.hint("add [study.run_up], whose channels are analysed"));
     }
 }
 
@@ -127,21 +126,21 @@ fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
         ("accelerance", Quantity::Acceleration),
     ];
     let quantity = r.choice("quantity", &kinds).unwrap_or(Quantity::Displacement);
-    let read = |(name, blow): (&str, Reader)| {
-        let (at, direction) = aim(&blow, places);
-        blow.finish();
+    let read = |(name, excitation): (&str, Reader)| {
+        let (at, direction) = aim(&excitation, places);
+        excitation.finish();
         Excitation { name: name.into(), at, direction }
     };
     let excitations: Vec<Excitation> = r.items("excitation").into_iter().map(read).collect();
     if excitations.is_empty() && r.sound() {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.frf has no excitation");
-        r.log.error(problem.hint("add [study.frf.excitation.blow] with at and direction"));
+        r.log.error(problem.hint("add [study.frf.excitation.NAME] with at and direction"));
     }
     let speed = r.or("speed", not_negative(SPEED), 0.0);
     FrfStudy { speed, frequencies, excitations, responses: responses(r, model, quantity), quantity }
 }
 
-/// Probes of the names given, or all, reading the study's quantity.
+/// Probes of the given names, or all, with the study's quantity.
 fn responses(r: &Reader, model: &Model, quantity: Quantity) -> Vec<Probe> {
     let names = channels(r, "responses", model);
     let quantity = r.choice("response_quantity", &QUANTITIES).unwrap_or(quantity);
@@ -149,7 +148,7 @@ fn responses(r: &Reader, model: &Model, quantity: Quantity) -> Vec<Probe> {
     let chosen: Vec<Probe> =
         model.probes.iter().filter(wanted).map(|p| Probe { quantity, ..p.clone() }).collect();
     if chosen.is_empty() && r.sound() {
-        let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no probe to respond", r.path));
+        let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no response probe", r.path));
         r.log.error(problem.hint("add [probe.NAME] with at, direction and quantity"));
     }
     chosen
@@ -181,7 +180,7 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
     }
 }
 
-/// The integrator asked for, or the default; its settings belong to it alone.
+/// The requested integrator or the default; reject settings of other integrators.
 pub(super) fn integrator(r: &Reader, default: Integrator) -> Integrator {
     #[derive(Clone, Copy)]
     enum Method {
@@ -283,8 +282,8 @@ fn order_spectra(r: &Reader, model: &Model) -> OrderStudy {
     }
 }
 
-/// Orders as numbers, or by name: "BPFO", "2 BPFO", "BPFI", "BSF", "FTF", with the bearing where they differ:
-/// "B.BPFO".
+/// Orders as numbers or by name: "BPFO", "2 BPFO", "BPFI", "BSF", "FTF", with the bearing if they differ
+/// between bearings: "B.BPFO".
 fn orders(r: &Reader, key: &str, model: &Model, default: &[f64]) -> Vec<f64> {
     let Some(entry) = r.entry(key) else { return default.to_vec() };
     let items: &[Node] = match &entry.node.value {
@@ -343,13 +342,13 @@ fn named_order(text: &str, model: &Model) -> Result<f64, String> {
                 "BPFI" => g.balls as f64 * (1.0 - cage),
                 "BSF" => g.pitch_diameter / (2.0 * g.ball_diameter) * (1.0 - ratio * ratio),
                 "FTF" => cage,
-                _ => return Err(format!("`{frequency}` is none of BPFO, BPFI, BSF, FTF")),
+                _ => return Err(format!("`{frequency}` is not one of BPFO, BPFI, BSF, FTF")),
             });
         }
     }
     match found[..] {
-        [] => Err(format!("`{text}` needs a ball bearing, and there is none of that name")),
+        [] => Err(format!("`{text}` needs a ball bearing, but no such bearing exists")),
         [first, ..] if found.iter().all(|f| (f - first).abs() <= 1e-9 * first) => Ok(factor * first),
-        _ => Err(format!("`{text}` differs from bearing to bearing; write BEARING.{frequency}")),
+        _ => Err(format!("`{text}` differs between bearings; write BEARING.{frequency}")),
     }
 }

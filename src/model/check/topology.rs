@@ -1,4 +1,4 @@
-//! What hangs on what: every body must be held by ground or by the shaft.
+//! Connectivity check: every body must be connected to ground or to the shaft.
 
 use crate::bearing::Bearing;
 use crate::element::Anchor;
@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::Reader;
 
-/// Report bodies that nothing connects to the shaft or to ground, and warn of a shaft that nothing holds.
+/// Report bodies without connection to the shaft or to ground, and warn of an unsupported (free-free) shaft.
 pub(super) fn check(top: &Reader, model: &Model) {
     let first_body = model.node_z.len();
     // parts: 0 ground, 1 the shaft, 2.. bodies
@@ -16,7 +16,7 @@ pub(super) fn check(top: &Reader, model: &Model) {
         Some(node) => 2 + node - first_body,
     };
     let mut links: Vec<(usize, usize)> = Vec::new();
-    // a bushing that only damps does not hold
+    // a bushing with damping only is no support
     let held = |k: &[[f64; 6]; 6]| k.iter().flatten().any(|&v| v != 0.0);
     links.extend(model.bushings.iter().filter(|b| held(&b.stiffness)).map(|b| (part(&b.a), part(&b.b))));
     links.extend(model.joints.iter().map(|j| (part(&j.a), part(&j.b))));
@@ -38,27 +38,32 @@ pub(super) fn check(top: &Reader, model: &Model) {
         let kind = ["body", "housing"].into_iter().find(|kind| named(top, kind, &body.name).is_some());
         let kind = kind.unwrap_or("body");
         let span = named(top, kind, &body.name).unwrap_or(0..0);
-        let message = format!("{kind} `{}` is disconnected: nothing holds it", body.name);
+        let message =
+            format!("{kind} `{}` is disconnected: nothing connects it to ground or to the shaft", body.name);
         let hint =
             format!("add a [bushing.{}] between it and ground, a joint, or a bearing in it", body.name);
         top.log.error(Problem::new(Kind::Disconnected, &span, message).hint(hint));
     }
     if !reach(&[0])[1] {
         let span = top.table("shaft").or_else(|| top.table("rotor")).map_or(0..0, |r| r.span);
-        let problem = Problem::new(Kind::Disconnected, &span, "nothing holds the shaft: it floats freely");
-        top.log.warn(problem.hint("add a bearing, joint or bushing if that is not meant"));
+        let problem = Problem::new(
+            Kind::Disconnected,
+            &span,
+            "the shaft has no support: it is free-free, with rigid body modes",
+        );
+        top.log.warn(problem.hint("add a bearing, joint or bushing if this is not intended"));
     }
     tilting(top, model);
 }
 
-/// Report every steady moment on a shaft whose one support lets it tilt, such as a ball joint.
+/// Report every constant moment on a shaft with a single support that permits tilting, such as a ball joint.
 fn tilting(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let shaft_node = |a: &Anchor, b: &Anchor| match [a.node, b.node].map(|n| n.filter(|&n| n < shaft)) {
         [Some(node), None] | [None, Some(node)] => Some(node),
         _ => None,
     };
-    // (node, holds sideways, holds against tilting, name)
+    // (node, radial support, tilt support, name)
     let stiff = |k: &[[f64; 6]; 6], i: usize| k[i][i] != 0.0;
     let joints = model.joints.iter().filter_map(|j| {
         let holds = (j.locked[0] || j.locked[1], j.locked[3] && j.locked[4]);
@@ -92,11 +97,13 @@ fn tilting(top: &Reader, model: &Model) {
     for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, "load", &l.name)?))) {
         let on_shaft = load.at.node.is_some_and(|node| node < shaft);
         if on_shaft && load.history.is_empty() && tilts(&load.force) {
-            let message =
-                format!("load.{} tilts the shaft, which {name} alone lets tilt like a ball joint", load.name);
+            let message = format!(
+                "load.{} tilts the shaft, whose only support, {name}, permits tilting like a ball joint",
+                load.name
+            );
             let problem = Problem::new(Kind::Disconnected, &r.span_of("moment"), message);
             top.log.error(problem.expected("a second support, or one that resists tilting").hint(
-                "a joint of kind = \"revolute\" holds against tilting; so do two supports apart, a ball bearing, or k_tilt",
+                "a joint of kind = \"revolute\", a second support at another station, a ball bearing or k_tilt resists tilting",
             ));
         }
     }

@@ -1,4 +1,4 @@
-//! What is wrong, or doubtful, in a model file: plain data that points into its text.
+//! Diagnostics (errors and warnings) of a model file: plain data with spans into its text.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -10,7 +10,7 @@ pub struct Source {
     pub text: String,
 }
 
-/// Kind of a problem, for machines.
+/// Kind of a problem, machine-readable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Not TOML, or not text at all.
@@ -22,36 +22,36 @@ pub enum Kind {
     /// Unknown unit or malformed quantity.
     BadQuantity,
     WrongDimension,
-    /// Negative, zero, infinite or NaN where that cannot be.
+    /// Negative, zero, infinite or NaN where not allowed.
     OutOfRange,
     /// A station, body, material, designation, variant or other item that does not exist.
     UnknownName,
-    /// Two statements that exclude each other, or a name used twice.
+    /// Mutually exclusive keys, or a duplicate name.
     Conflict,
-    /// Lengths that do not fit together.
+    /// Incompatible dimensions.
     Geometry,
-    /// A body that nothing holds.
+    /// A body or shaft without the supports or connections it needs.
     Disconnected,
     /// A `--set` argument whose path does not exist.
     BadPath,
 }
 
-/// One problem with its place.
+/// One problem with its location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     pub kind: Kind,
-    /// Which of the sources the span is in.
+    /// Index of the source that the span refers to.
     pub source: usize,
-    /// Bytes of the source's text.
+    /// Byte range in the source's text.
     pub span: Range<usize>,
     pub message: String,
-    /// What stands there ideally; shown at the span.
+    /// Expected content; shown at the span.
     pub expected: Option<String>,
-    /// How to mend it.
+    /// How to fix it.
     pub hint: Option<String>,
 }
 
-/// Everything that is wrong with a model file.
+/// All errors of a model file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}", summary(.diagnostics))]
 pub struct ModelErrors {
@@ -63,7 +63,7 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
     diagnostics.iter().map(|d| d.message.as_str()).collect::<Vec<_>>().join("; ")
 }
 
-/// A problem while it is being written: spans still count over all sources.
+/// A problem under construction: its span is an offset over all sources.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     kind: Kind,
@@ -88,7 +88,7 @@ impl Problem {
         self
     }
 
-    /// Hint at the nearest of the known names when one is near.
+    /// Suggest the nearest known name, if any is close.
     pub fn suggest_near<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         match nearest(word, &known.into_iter().collect::<Vec<_>>()) {
             Some(near) => self.hint(format!("did you mean `{near}`?")),
@@ -96,7 +96,7 @@ impl Problem {
         }
     }
 
-    /// Hint at the nearest of the known names, or list them when none is near.
+    /// Suggest the nearest known name, or list the known names if none is close.
     pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
         if let Some(near) = nearest(word, &known) {
@@ -110,7 +110,8 @@ impl Problem {
     }
 }
 
-/// Most alike of the known names, if one is alike enough to be meant.
+/// Nearest known name by string similarity (Jaro-Winkler, Damerau-Levenshtein), if close enough for a
+/// suggestion.
 pub(crate) fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
     let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let word = plain(word);
@@ -120,7 +121,7 @@ pub(crate) fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
     (close || score(best) > 0.87).then_some(best)
 }
 
-/// All texts that were read, laid end to end so that one offset names a place in any of them.
+/// All texts that were read, concatenated so that one offset identifies a location in any of them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sources {
     sources: Vec<Source>,
@@ -161,7 +162,7 @@ impl Sources {
     }
 }
 
-/// Problems found so far; reading goes on after each.
+/// Problems found so far; reading continues after each.
 #[derive(Default)]
 pub(crate) struct Log {
     errors: RefCell<Vec<Problem>>,
@@ -173,7 +174,7 @@ impl Log {
         self.errors.borrow_mut().push(problem);
     }
 
-    /// Take back the report of a missing key whose misspelt form was found.
+    /// Remove the report of a missing key whose misspelt form was found.
     pub fn retract_missing(&self, span: &Range<usize>, message: &str) {
         let is_it = |p: &Problem| p.kind == Kind::MissingKey && p.span == *span && p.message == message;
         self.errors.borrow_mut().retain(|p| !is_it(p));
@@ -183,7 +184,7 @@ impl Log {
         self.warnings.borrow_mut().push(problem);
     }
 
-    /// Number of errors so far; a check that needs sound values compares it with the number before.
+    /// Number of errors so far; a check that needs valid values compares it with the number before.
     pub fn count(&self) -> usize {
         self.errors.borrow().len()
     }

@@ -1,8 +1,9 @@
-//! From text to a tree of values with their places, changed by variants and `--set`, and typed access to it.
+//! From text to a tree of values with source spans, overridden by variants and `--set`, and typed access to
+//! it.
 //!
 //! The whole file is kept as a tree of spanned values instead of being deserialised into structs: a derived
-//! deserialiser stops at its first error and loses the spans of tagged enums, while a reader of the tree goes on
-//! and so reports every problem of a file at once, each at its exact place.
+//! deserialiser stops at its first error and loses the spans of tagged enums, while a reader of the tree
+//! continues and so reports all problems of a file at once, each with its exact span.
 
 pub(crate) mod diagnostic;
 pub(crate) mod overlay;

@@ -1,4 +1,4 @@
-//! What changes the document before it is checked: variants and `--set` arguments.
+//! Overrides of the document before validation: variants and `--set` arguments.
 
 use super::diagnostic::{Kind, Log, Problem, Sources};
 use super::tree::{Entry, Node, Table, Value};
@@ -21,10 +21,10 @@ pub(crate) const COLLECTIONS: &[&str] = &[
     "probe",
 ];
 
-/// Lay the variant of this name over the document; takes all variants out of it.
+/// Merge the named variant into the document and remove the `variant` table.
 ///
-/// A variant may build on another (`based_on = "wavy"`), drop items (`remove = ["housing.A"]`), and state
-/// anything else that the file can state: tables are merged, everything else is replaced.
+/// A variant may build on another (`based_on = "wavy"`), remove items (`remove = ["housing.A"]`), and set any
+/// other key of the file: tables are merged, all other values are replaced.
 pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
     let (variants, place) = match root.remove("variant") {
         Some(Entry { key_span, node: Node { value: Value::Table(table), .. }, .. }) => (table, key_span),
@@ -103,7 +103,7 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
     };
     for path in paths {
         let Value::Text(text) = &path.value else {
-            log.error(Problem::new(Kind::WrongType, &path.span, "a path to remove must be a text"));
+            log.error(Problem::new(Kind::WrongType, &path.span, "a path to remove must be a string"));
             continue;
         };
         let mut table = &mut *root;
@@ -145,7 +145,8 @@ fn merge(into: &mut Table, from: Table) {
     }
 }
 
-/// Apply one `--set PATH=VALUE`; the value is read as TOML, or as a text when it is not TOML (`20 um`).
+/// Apply one `--set PATH=VALUE`; the value is parsed as TOML, or taken as a string if it is not TOML
+/// (`20 um`).
 pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut Sources, log: &Log) {
     let text = format!("{path}={value}");
     let start = sources.push("--set", text);
@@ -190,7 +191,7 @@ fn set_in_table(
     }
     let last = depth + 1 == parts.len();
     if table.get(part.name).is_none() {
-        // a slip in the name of an item must not make a new one
+        // a misspelt item name must not create a new item
         let item = depth == 1 && !last && COLLECTIONS.contains(&parts[0].name);
         if depth == 0 && COLLECTIONS.contains(&part.name) || item {
             let what = parts[..=depth].iter().map(|p| p.name).collect::<Vec<_>>().join(".");
@@ -212,7 +213,7 @@ fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: 
     let part = &parts[depth];
     match &mut into.value {
         Value::Table(table) => set_in_table(table, path, parts, depth, node),
-        // a number picks an item of a list: shaft.section.0.length
+        // a number selects an item of a list: shaft.section.0.length
         Value::List(items) => {
             let count = items.len();
             let Some(item) = part.name.parse::<usize>().ok().and_then(|i| items.get_mut(i)) else {
@@ -228,7 +229,7 @@ fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: 
         }
         _ => {
             let owner = &parts[depth - 1];
-            Err(bad(owner, format!("`{}` is a value, so `{path}` cannot go into it", owner.name)))
+            Err(bad(owner, format!("`{}` is a single value, so `{path}` cannot be set", owner.name)))
         }
     }
 }

@@ -1,7 +1,8 @@
-//! Typed access to one table of the file: every problem is logged at its place and reading goes on.
+//! Typed access to one table of the file: every problem is logged with its span and reading continues.
 //!
-//! A method that must return a value returns a stand-in after an error; a model with an error is never handed out.
-//! Every key that is asked for becomes known, so [`Reader::finish`] can report the others with a suggestion.
+//! A method that must return a value returns a placeholder after an error; a model with errors is never
+//! returned.
+//! Every requested key is recorded as known, so [`Reader::finish`] can report unknown keys with a suggestion.
 
 use super::diagnostic::{Kind, Log, Problem, nearest};
 use super::tree::{Entry, Node, Table, Value};
@@ -38,7 +39,7 @@ pub(crate) const fn not_negative(dimension: Dimension) -> Spec {
 /// One table of the file.
 pub(crate) struct Reader<'a> {
     table: &'a Table,
-    /// Where the table is named: its key.
+    /// Span of the table's key.
     pub span: Range<usize>,
     /// Path of the table: "bearing.B".
     pub path: String,
@@ -54,7 +55,7 @@ impl<'a> Reader<'a> {
         Self { table, span, path: path.into(), log, errors_before: log.count(), asked: RefCell::default() }
     }
 
-    /// Whether nothing was wrong in this table so far.
+    /// Whether no error has been logged since this table was opened.
     pub fn sound(&self) -> bool {
         self.log.count() == self.errors_before
     }
@@ -70,7 +71,7 @@ impl<'a> Reader<'a> {
         self.entry(key).is_some()
     }
 
-    /// Place of the key's value, or of the table when the key is absent.
+    /// Span of the key's value, or of the table if the key is absent.
     pub fn span_of(&self, key: &str) -> Range<usize> {
         self.table.get(key).map_or_else(|| self.span.clone(), |e| e.node.span.clone())
     }
@@ -99,11 +100,11 @@ impl<'a> Reader<'a> {
         self.log.error(Problem::new(Kind::WrongType, &node.span, message).expected(expected));
     }
 
-    /// Log an error when more than one of these keys is given; returns the first one that is.
+    /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given.
     pub fn one_of<'k>(&self, keys: &[&'k str]) -> Option<&'k str> {
         let given: Vec<&'k str> = keys.iter().copied().filter(|k| self.has(k)).collect();
         if let [first, second, ..] = given[..] {
-            let message = format!("{} and `{second}` exclude each other", self.name(first));
+            let message = format!("{} and `{second}` are mutually exclusive", self.name(first));
             let problem = Problem::new(Kind::Conflict, &self.span_of(second), message);
             self.log.error(problem.hint(format!("give one of {}", keys.join(", "))));
         }
@@ -116,7 +117,7 @@ impl<'a> Reader<'a> {
         let entry = self.entry(key)?;
         let values = self.quantities(key, &entry.node, spec)?;
         if values.len() > 1 {
-            let message = format!("{} is one value, not {}", self.name(key), values.len());
+            let message = format!("{} must be a single value, but has {}", self.name(key), values.len());
             self.error(Kind::WrongType, key, message);
         }
         values.first().copied()
@@ -151,7 +152,8 @@ impl<'a> Reader<'a> {
         let values = self.list(key, any(dimension))?;
         let vector = values.as_slice().try_into().ok();
         if vector.is_none() {
-            let message = format!("{} has {} of its three components x, y, z", self.name(key), values.len());
+            let message =
+                format!("{} has {} components instead of three (x, y, z)", self.name(key), values.len());
             self.error(Kind::WrongType, key, message);
         }
         vector
@@ -236,7 +238,7 @@ impl<'a> Reader<'a> {
                 if *dimension == units::FORCE.name && unit.contains("lb") {
                     p.hint("lb is a mass; write lbf for the force")
                 } else if unit == "1/s" {
-                    p.hint("1/s leaves open whether turns or radians are meant: write Hz, rpm or rad/s")
+                    p.hint("1/s is ambiguous (revolutions or radians): write Hz, rpm or rad/s")
                 } else {
                     p
                 }
@@ -246,7 +248,7 @@ impl<'a> Reader<'a> {
                     .suggest(unit, units::unit_names())
             }
             UnitError::ScaleOfTemperature(_) => problem(Kind::WrongDimension, format!("{name}: {error}"))
-                .hint("write K, in which differences are the same"),
+                .hint("write K: a temperature difference has the same value in K and degC"),
             UnitError::NotFinite(_) => problem(Kind::OutOfRange, format!("{name} is not a finite number")),
             _ => problem(Kind::BadQuantity, format!("{name}: {error}")),
         }
@@ -265,7 +267,7 @@ impl<'a> Reader<'a> {
                 let step = r.need("step", positive(spec.dimension));
                 let steps = (to - from) / step;
                 if !(1.0..1e6).contains(&steps) {
-                    r.error(Kind::OutOfRange, "step", format!("{} makes {steps:.0} steps", r.name("step")));
+                    r.error(Kind::OutOfRange, "step", format!("{} gives {steps:.0} steps", r.name("step")));
                     2
                 } else {
                     steps.round() as usize + 1
@@ -306,7 +308,7 @@ impl<'a> Reader<'a> {
         match &entry.node.value {
             Value::Text(text) => Some(text),
             _ => {
-                self.wrong_type(key, &entry.node, "a text in quotes");
+                self.wrong_type(key, &entry.node, "a string in quotes");
                 None
             }
         }
@@ -319,7 +321,7 @@ impl<'a> Reader<'a> {
         self.text(key)
     }
 
-    /// A list of texts, each with its place; a single text counts as a list of one.
+    /// A list of strings, each with its span; a single string counts as a list of one.
     pub fn texts(&self, key: &str) -> Option<Vec<(&'a str, Range<usize>)>> {
         let entry = self.entry(key)?;
         let items = match &entry.node.value {
@@ -330,7 +332,7 @@ impl<'a> Reader<'a> {
         for item in items {
             match &item.value {
                 Value::Text(text) => texts.push((text.as_str(), item.span.clone())),
-                _ => self.wrong_type(key, item, "a text in quotes"),
+                _ => self.wrong_type(key, item, "a string in quotes"),
             }
         }
         Some(texts)
@@ -364,7 +366,7 @@ impl<'a> Reader<'a> {
         default
     }
 
-    /// One of several words.
+    /// One of several keywords.
     pub fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Option<T> {
         let word = self.text(key)?;
         let found = choices.iter().find(|c| c.0 == word).map(|c| c.1);
@@ -379,7 +381,7 @@ impl<'a> Reader<'a> {
 
     // --- tables ---
 
-    /// The table of this key, if it is there.
+    /// The table of this key, if present.
     pub fn table(&self, key: &str) -> Option<Reader<'a>> {
         let entry = self.entry(key)?;
         match &entry.node.value {
@@ -433,7 +435,7 @@ impl<'a> Reader<'a> {
         readers
     }
 
-    /// Entries of this table, all of which count as asked for.
+    /// All entries of this table, marked as known.
     pub fn entries(&self) -> &'a [Entry] {
         for entry in &self.table.entries {
             self.entry(&entry.key);
@@ -441,7 +443,7 @@ impl<'a> Reader<'a> {
         &self.table.entries
     }
 
-    /// Report every key that nobody asked for; a missing key that it misspells is no longer called missing.
+    /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
     pub fn finish(self) {
         let asked = self.asked.borrow();
         let known: Vec<&str> = asked.iter().map(String::as_str).collect();

@@ -1,10 +1,10 @@
-//! The document as a tree in file order, every key and value with its place.
+//! The TOML document as a tree in file order, every key and value with its source span.
 
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A value and its place.
+/// A value and its source span.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub span: Range<usize>,
@@ -19,7 +19,7 @@ pub(crate) enum Value {
     Boolean(bool),
     List(Vec<Node>),
     Table(Table),
-    /// A date, or an integer too large to keep.
+    /// A date, or an integer beyond 64 bits.
     Other,
 }
 
@@ -27,9 +27,9 @@ impl Value {
     /// Name of the type, for messages.
     pub fn type_name(&self) -> &'static str {
         match self {
-            Self::Text(_) => "a text",
+            Self::Text(_) => "a string",
             Self::Integer(_) | Self::Float(_) => "a bare number",
-            Self::Boolean(_) => "a truth value",
+            Self::Boolean(_) => "a boolean",
             Self::List(_) => "a list",
             Self::Table(_) => "a table",
             Self::Other => "a date or huge number",
@@ -68,7 +68,7 @@ impl Table {
         self.entries.iter().map(|e| e.key.as_str())
     }
 
-    /// Parse a TOML text whose spans start at `offset`.
+    /// Parse TOML text whose spans start at `offset`.
     pub fn parse(text: &str, offset: usize) -> Result<Self, toml::de::Error> {
         let root = DeTable::parse(text)?;
         Ok(table(root.get_ref(), offset))

@@ -1,4 +1,4 @@
-//! The ends of a bifurcation diagram's parameter: is there a model at each?
+//! Validation of a bifurcation parameter: the model must be valid at its first and last value.
 
 use crate::model::check;
 use crate::model::file::diagnostic::{Kind, Log, Problem, Sources};
@@ -7,8 +7,8 @@ use crate::model::file::tree::{Table, Value};
 use crate::model::study::{Continuation, Parameter};
 use crate::model::{Model, SideFile};
 
-/// Sets the parameter of a bifurcation diagram to its first and last value and reads the model again: a path that is
-/// not there, a unit that does not fit and a value that cannot be are told at the study, before anything runs.
+/// Set the parameter of a bifurcation diagram to its first and last value and validate the model: an unknown
+/// path, a wrong unit or an invalid value is reported at the study before any run.
 pub(super) fn check(root: &Table, files: &[SideFile], model: &Model, log: &Log) {
     let Some(study) = &model.studies.bifurcation else { return };
     let parameter = &study.parameter;
@@ -42,11 +42,13 @@ pub(super) fn check(root: &Table, files: &[SideFile], model: &Model, log: &Log) 
     {
         let message = format!("{} changes the number of degrees of freedom", parameter.paths.join(", "));
         let problem = Problem::new(Kind::Conflict, &span(root, "parameter"), message);
-        log.error(problem.hint("no state can be carried over: add start = \"equilibrium\""));
+        log.error(
+            problem.hint("the state cannot be continued from value to value: add start = \"equilibrium\""),
+        );
     }
 }
 
-/// Why there is no model at a value.
+/// Reason why the model is invalid at a parameter value.
 struct Refusal {
     is_path: bool,
     message: String,
@@ -68,7 +70,7 @@ fn at(root: &Table, files: &[SideFile], parameter: &Parameter, k: usize) -> Resu
     })
 }
 
-/// Place of a key of the study.
+/// Span of a key of the study.
 fn span(root: &Table, key: &str) -> std::ops::Range<usize> {
     let mut table = root;
     for name in ["study", "bifurcation"] {

@@ -1,6 +1,6 @@
-//! Axes of records: even, listed, or not told.
+//! Axes of records: uniform, listed point by point, or unknown.
 
-/// What a record is sampled over.
+/// Axis of a record: quantity and points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub quantity: AxisQuantity,
@@ -18,43 +18,43 @@ pub enum AxisQuantity {
     Frequency,
     /// rpm.
     Speed,
-    /// Multiples of the speed of rotation.
+    /// Orders: multiples of the rotational speed.
     Order,
 }
 
-/// Places of the values on an axis.
+/// Points of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Points {
-    /// x_k = start + k step.
+    /// Uniform, x_k = start + k step.
     Even { start: f64, step: f64 },
-    /// x_k one by one, at uneven steps.
+    /// Non-uniform points x_k.
     Listed(Vec<f64>),
-    /// The file does not tell.
+    /// Not given by the file.
     Unknown,
 }
 
-/// Deviation from even points, over the step, that printed digits and clocks explain.
+/// Tolerated deviation from uniform points over the step (rounding of printed digits, clock jitter).
 const JITTER: f64 = 0.05;
 
 impl Axis {
-    /// An axis the file does not describe.
+    /// An unknown axis.
     pub const UNKNOWN: Axis = Axis { quantity: AxisQuantity::Unknown, points: Points::Unknown };
 
-    /// An even axis.
+    /// A uniform axis.
     pub fn even(quantity: AxisQuantity, start: f64, step: f64) -> Self {
         Axis { quantity, points: Points::Even { start, step } }
     }
 
-    /// The axis through given points: even where they lie within a twentieth of a step of an even one.
+    /// The axis through given points: uniform if they deviate by at most 5 % of a step from a uniform one.
     ///
-    /// Where 1/step is within the points' own scatter of a whole number it is taken as that: times printed
-    /// with few digits then still give 12000 Hz.
+    /// 1/step is rounded to a whole number if this is within the scatter of the points: times printed with
+    /// few digits then still give 12000 Hz.
     pub fn through(quantity: AxisQuantity, points: Vec<f64>) -> Self {
         let even = even_through(&points);
         Axis { quantity, points: even.unwrap_or(Points::Listed(points)) }
     }
 
-    /// The first `count` points; `None` where the file does not tell.
+    /// The first `count` points; `None` if unknown.
     pub fn points(&self, count: usize) -> Option<Vec<f64>> {
         match &self.points {
             Points::Even { start, step } => Some((0..count).map(|k| start + k as f64 * step).collect()),
@@ -63,7 +63,7 @@ impl Axis {
         }
     }
 
-    /// The first point; 0 where the file does not tell.
+    /// The first point; 0 if unknown.
     pub fn start(&self) -> f64 {
         match &self.points {
             Points::Even { start, .. } => *start,
@@ -72,14 +72,14 @@ impl Axis {
         }
     }
 
-    /// The axis in words, "401 points from 0 Hz by 0.5 Hz".
+    /// Description of the axis, "401 points from 0 Hz by 0.5 Hz".
     pub fn describe(&self, count: usize) -> String {
         let unit = self.quantity.unit();
         match &self.points {
             Points::Even { start, step } => format!("{count} points from {start} {unit} by {step} {unit}"),
             Points::Listed(p) => {
                 let (first, last) = (p.first().unwrap_or(&f64::NAN), p.last().unwrap_or(&f64::NAN));
-                format!("{count} uneven points from {first} {unit} to {last} {unit}")
+                format!("{count} non-uniform points from {first} {unit} to {last} {unit}")
             }
             Points::Unknown => format!("{count} points without an axis"),
         }
@@ -87,7 +87,7 @@ impl Axis {
 }
 
 impl AxisQuantity {
-    /// Unit of the axis; empty where it has none.
+    /// Unit of the axis; empty if it has none.
     pub fn unit(self) -> &'static str {
         match self {
             AxisQuantity::Unknown | AxisQuantity::Order => "",
@@ -106,7 +106,7 @@ fn even_through(points: &[f64]) -> Option<Points> {
         .iter()
         .enumerate()
         .map(|(k, x)| (x - (first + k as f64 * step)).abs())
-        // NaN must not pass for even.
+        // NaN must not count as uniform.
         .fold(0.0, |worst: f64, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) });
     if !(step > 0.0 && off <= JITTER * step) {
         return None;
@@ -117,7 +117,7 @@ fn even_through(points: &[f64]) -> Option<Points> {
     Some(Points::Even { start: first, step })
 }
 
-/// The step farthest from the mean: the index of its first point, the step, the mean.
+/// The step that deviates most from the mean: the index of its first point, the step, the mean.
 pub(super) fn worst_step(points: &[f64]) -> (usize, f64, f64) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return (0, f64::NAN, f64::NAN) };
     let mean = (last - first) / (points.len() - 1).max(1) as f64;

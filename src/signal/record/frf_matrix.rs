@@ -1,4 +1,4 @@
-//! FRFs of a test as a matrix over responses, references and frequencies.
+//! FRF matrix of a test over responses, references and frequencies.
 
 use super::{Dof, Kind, Measured, Record, RecordError, Values};
 use crate::signal::Complex;
@@ -8,23 +8,23 @@ use crate::signal::Complex;
 pub struct FrfMatrix {
     /// Frequencies \[Hz\].
     pub frequencies: Vec<f64>,
-    /// Increasing.
+    /// In increasing order.
     pub responses: Vec<Dof>,
-    /// Increasing.
+    /// In increasing order.
     pub references: Vec<Dof>,
     /// `values[response][reference][line]`, in `units`.
     pub values: Vec<Vec<Vec<Complex<f64>>>>,
-    /// SI unit of each, `units[response][reference]`; empty where unknown.
+    /// SI unit of each, `units[response][reference]`; empty if unknown.
     pub units: Vec<Vec<String>>,
-    /// γ² alike, where the file holds it for all.
+    /// Coherence γ² with the same indices, if the file contains it for all FRFs.
     pub coherence: Option<Vec<Vec<Vec<f64>>>>,
 }
 
 impl Measured {
-    /// All FRFs of the file as one matrix, with their coherence where it is there for all.
+    /// All FRFs of the file as one matrix, with coherence if present for all.
     ///
     /// # Errors
-    /// No FRF, frequency axes that differ, a pair of response and reference missing or there twice.
+    /// No FRF, different frequency axes, a pair of response and reference missing or duplicated.
     pub fn frf_matrix(&self) -> Result<FrfMatrix, RecordError> {
         let frfs: Vec<&Record> = self.records.iter().filter(|r| r.kind == Kind::Frf).collect();
         let Some(first) = frfs.first() else {
@@ -91,7 +91,7 @@ impl Measured {
         responses.iter().map(row).collect()
     }
 
-    /// How many records of which kind there are, "3 time, 1 PSD".
+    /// Number of records of each kind, "3 time, 1 PSD".
     fn kinds(&self) -> String {
         let count = |kind: Kind| self.records.iter().filter(|r| r.kind == kind).count();
         let found: Vec<String> = Kind::WORDS
@@ -99,11 +99,11 @@ impl Measured {
             .filter(|(kind, _)| count(*kind) > 0)
             .map(|(kind, word)| format!("{} {word}", count(*kind)))
             .collect();
-        if found.is_empty() { "there are none".into() } else { found.join(", ") }
+        if found.is_empty() { "none".into() } else { found.join(", ") }
     }
 }
 
-/// Whether two axes agree within a thousandth of their step, which is what printed digits leave.
+/// Whether two axes agree within a thousandth of their step (rounding of printed digits).
 fn same_axis(a: &[f64], b: &[f64]) -> bool {
     let step = if a.len() > 1 { (a[a.len() - 1] - a[0]).abs() / (a.len() - 1) as f64 } else { 1.0 };
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-3 * step)

@@ -1,7 +1,7 @@
-//! Records as plain data: what measured files hold and what is written for other programs.
+//! Measurement data: records, FRFs, test geometry and shapes, as read from and written to files.
 //!
-//! Values are SI where the file's unit is known, see [`Record::unit`]. Nothing here knows files or rotors; a
-//! point and a direction are labels ([`Dof`]).
+//! Values are in SI if the file's unit is known, see [`Record::unit`]. Independent of file formats and of the
+//! rotor model; a point and a direction are labels ([`Dof`]).
 
 mod axis;
 mod frf_matrix;
@@ -15,18 +15,18 @@ pub use shape::{Analysis, Element, Geometry, Mount, Node, Polyline, Shape};
 
 use super::Complex;
 
-/// All that a file holds.
+/// Contents of a measured file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
     /// Title of the file; empty if it has none.
     pub title: String,
     /// Time records, spectra and FRFs in the file's order; no two have the same name.
     pub records: Vec<Record>,
-    /// Single numbers with their names, such as a speed of rotation.
+    /// Named scalars, such as a rotational speed.
     pub scalars: Vec<(String, f64)>,
     pub geometry: Geometry,
     pub shapes: Vec<Shape>,
-    /// What a reader had to assume or to put right, in words.
+    /// Assumptions and corrections made by the reader, as text.
     pub notes: Vec<String>,
 }
 
@@ -37,22 +37,22 @@ pub struct Record {
     pub kind: Kind,
     pub axis: Axis,
     pub values: Values,
-    /// SI unit, such as "m/s^2" or "(m/s^2)/N"; "1" without dimension, empty when the file does not tell. Speeds
-    /// of rotation may be in "rpm".
+    /// SI unit, such as "m/s^2" or "(m/s^2)/N"; "1" if dimensionless, empty if the file gives none.
+    /// Rotational speeds may be in "rpm".
     pub unit: String,
-    /// Unit as the file states it; values were converted from it if `unit` is not empty.
+    /// Unit in the file; values were converted from it if `unit` is not empty.
     pub stated_unit: String,
-    /// Where and which way it was measured.
+    /// Response DOF: point and direction of the measurement.
     pub response: Dof,
-    /// Where and which way the reference (force) acts; [`Dof::NONE`] without one.
+    /// Reference DOF: point and direction of the excitation (force); [`Dof::NONE`] without one.
     pub reference: Dof,
-    /// Speed of rotation \[rpm\].
+    /// Rotational speed \[rpm\].
     pub speed_rpm: Option<f64>,
-    /// Date and time as the file states them.
+    /// Date and time as written in the file.
     pub date: String,
 }
 
-/// What a record is.
+/// Kind of a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     #[default]
@@ -69,7 +69,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Every kind with its word.
+    /// Every kind with its label.
     pub const WORDS: [(Kind, &'static str); 9] = [
         (Kind::General, "general"),
         (Kind::Time, "time"),
@@ -82,7 +82,7 @@ impl Kind {
         (Kind::Spectrum, "spectrum"),
     ];
 
-    /// The kind in a word, "FRF".
+    /// Label of the kind, such as "FRF".
     pub fn word(self) -> &'static str {
         Self::WORDS[self as usize].1
     }
@@ -107,7 +107,7 @@ impl Values {
         self.len() == 0
     }
 
-    /// Every value times `numerator` over `divisor`; a ratio of 1 leaves them as they are to the bit.
+    /// Scales every value by `numerator` / `divisor`; a ratio of 1 leaves them bit-identical.
     pub fn scale(&mut self, numerator: f64, divisor: f64) {
         if numerator == divisor {
             return;
@@ -118,7 +118,7 @@ impl Values {
         }
     }
 
-    /// Number of NaN and infinite values, and the place of the first.
+    /// Number of NaN and infinite values, and the index of the first.
     pub fn not_finite(&self) -> Option<(usize, usize)> {
         let places: Vec<usize> = match self {
             Values::Real(v) => (0..v.len()).filter(|&k| !v[k].is_finite()).collect(),
@@ -130,7 +130,8 @@ impl Values {
     }
 }
 
-/// A point and a direction: ±1 ±2 ±3 are ±x ±y ±z, ±4 ±5 ±6 the rotations about them, 0 is a scalar.
+/// Degree of freedom of a test, a point and a direction: ±1 ±2 ±3 are ±x ±y ±z, ±4 ±5 ±6 the rotations about
+/// them, 0 is a scalar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Dof {
     /// Number of the point; 0 for none.
@@ -169,7 +170,7 @@ impl std::fmt::Display for Dof {
     }
 }
 
-/// A record that cannot serve as what was asked of it: what is wrong, and what to do.
+/// Error for an unsuitable record: what is wrong, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
     #[error("there is no channel `{name}`; there are {known}")]
@@ -177,7 +178,7 @@ pub enum RecordError {
     #[error("`{channel}` does not state its sampling rate; give it, such as \"12 kHz\"")]
     NoRate { channel: String },
     #[error(
-        "`{channel}` is not sampled at even steps: after value {index} the step is {given:.6e}, on average it is {mean:.6e}; resample it at a constant rate first"
+        "`{channel}` is not sampled uniformly: the step after value {index} is {given:.6e}, the mean step is {mean:.6e}; resample it at a constant rate first"
     )]
     NotEven { channel: String, index: usize, given: f64, mean: f64 },
     #[error("`{channel}` is {given}, not a time record; choose a channel of samples over time")]
@@ -188,10 +189,10 @@ pub enum RecordError {
     NoFrequencies { channel: String },
     #[error(
         "the unit of `{channel}` is unknown ({}); state it, such as \"m/s^2\"",
-        if stated.is_empty() { "the file does not tell".into() } else { format!("the file says \"{stated}\"") }
+        if stated.is_empty() { "the file gives none".into() } else { format!("the file gives \"{stated}\"") }
     )]
     UnknownUnit { channel: String, stated: String },
-    #[error("the axes of `{first}` and `{second}` differ: {axes}; measure them alike, or leave one out")]
+    #[error("the axes of `{first}` and `{second}` differ: {axes}; use one axis for both, or leave one out")]
     AxesDiffer { first: String, second: String, axes: String },
     #[error(
         "there is no FRF between response {response} and reference {reference}; add it, or leave that {} out",
@@ -199,47 +200,47 @@ pub enum RecordError {
     )]
     MissingFrf { response: String, reference: String, few_references: bool },
     #[error(
-        "`{first}` and `{second}` are both the FRF of {between}; leave one out, or tell their places in a mapping (blows at the same places are averaged)"
+        "`{first}` and `{second}` are both the FRF of {between}; leave one out, or state their points in a mapping (hits at the same point are averaged)"
     )]
     DoubleFrf { first: String, second: String, between: String },
-    #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
+    #[error("`{channel}` is NaN or infinite at value {index}; cut that part out of the record")]
     NotFinite { channel: String, index: usize },
     #[error(
-        "no force is known among the time records ({found}); name its channel (--force), or state its unit N in a mapping"
+        "no force channel was identified among the time records ({found}); name it (--force), or state its unit N in a mapping"
     )]
     NoForce { found: String },
     #[error("several time records are forces in N ({found}); name the channel of the hammer (--force)")]
     SeveralForces { found: String },
-    #[error("there is no time record beside the force ({found}); add the channels of the accelerometers")]
+    #[error("there is no time record other than the force ({found}); add the channels of the accelerometers")]
     NoResponse { found: String },
     #[error(
-        "`{channel}` holds no blow: its largest value, {largest} {unit}, does not stand out of its median size of {median} {unit}; is it the hammer's channel (--force), and was it connected?"
+        "`{channel}` contains no hammer hit: its largest value, {largest} {unit}, is not clearly above its median magnitude of {median} {unit}; check that it is the hammer's channel (--force) and was connected"
     )]
     NoBlow { channel: String, largest: f64, median: f64, unit: String },
     #[error(
-        "the record of `{channel}` ends {seconds:.3} s after its first blow, before a block of {block:.3} s; take shorter blocks (--block)"
+        "the record of `{channel}` ends {seconds:.3} s after its first hit, less than a block of {block:.3} s; use shorter blocks (--block)"
     )]
     ShortRecord { channel: String, seconds: f64, block: f64 },
-    #[error("no blow in `{channel}` is fit for use, of {blows}: {faults}")]
+    #[error("none of the {blows} hits in `{channel}` is usable: {faults}")]
     NoGoodBlow { channel: String, blows: usize, faults: String },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
     NoFrf { found: String },
 }
 
 impl RecordError {
-    /// Two records that cannot go together because of their axes.
+    /// Error for two records with different axes.
     pub fn axes_differ(first: &Record, second: &Record) -> Self {
         let axis = |r: &Record| r.axis.describe(r.values.len());
         RecordError::AxesDiffer {
             first: first.name.clone(),
             second: second.name.clone(),
-            axes: format!("{} against {}", axis(first), axis(second)),
+            axes: format!("{} and {}", axis(first), axis(second)),
         }
     }
 }
 
 impl Record {
-    /// A record of a kind over an axis, in a unit that is SI already; the rest is empty.
+    /// A record of a kind over an axis, in an SI unit; all other fields are empty.
     pub fn new(name: &str, kind: Kind, axis: Axis, values: Values, unit: &str) -> Self {
         Record {
             name: name.into(),
@@ -255,7 +256,7 @@ impl Record {
         }
     }
 
-    /// Samples at a constant rate \[Hz\] from `start` \[s\].
+    /// Time record sampled at a constant rate \[Hz\] from `start` \[s\].
     pub fn samples(name: &str, rate: f64, start: f64, values: Vec<f64>, unit: &str) -> Self {
         let axis = Axis { quantity: AxisQuantity::Time, points: Points::Even { start, step: 1.0 / rate } };
         Record::new(name, Kind::Time, axis, Values::Real(values), unit)
@@ -264,7 +265,7 @@ impl Record {
     /// The samples of a time record.
     ///
     /// # Errors
-    /// It is complex or over another axis than time.
+    /// Complex values, or an axis other than time.
     pub fn time_samples(&self) -> Result<&[f64], RecordError> {
         match (&self.values, self.axis.quantity) {
             (Values::Real(values), AxisQuantity::Time | AxisQuantity::Unknown) => Ok(values),
@@ -275,7 +276,7 @@ impl Record {
     /// Sampling rate \[Hz\] of a time record.
     ///
     /// # Errors
-    /// The file does not state it, the steps differ, or it is no time record.
+    /// The rate is unknown, the sampling is not uniform, or it is not a time record.
     pub fn sample_rate(&self) -> Result<f64, RecordError> {
         self.time_samples()?;
         match &self.axis.points {
@@ -291,7 +292,7 @@ impl Record {
     /// Values of an FRF over frequencies in Hz.
     ///
     /// # Errors
-    /// It is real, or over another axis than frequency.
+    /// Real values, or an axis other than frequency.
     pub fn frf(&self) -> Result<&[Complex<f64>], RecordError> {
         match (&self.values, self.axis.quantity) {
             (Values::Complex(values), AxisQuantity::Frequency) => Ok(values),
@@ -305,7 +306,7 @@ impl Record {
     /// The SI unit.
     ///
     /// # Errors
-    /// The file states none, or one that is not known.
+    /// The file gives no unit, or an unknown one.
     pub fn si_unit(&self) -> Result<&str, RecordError> {
         match self.unit.as_str() {
             "" => {
@@ -320,7 +321,7 @@ impl Measured {
     /// The record of this name.
     ///
     /// # Errors
-    /// There is none; says which there are.
+    /// No such record; the error lists the available names.
     pub fn record(&self, name: &str) -> Result<&Record, RecordError> {
         self.records.iter().find(|r| r.name == name).ok_or_else(|| {
             let known: Vec<&str> = self.records.iter().map(|r| r.name.as_str()).take(20).collect();
@@ -329,7 +330,7 @@ impl Measured {
         })
     }
 
-    /// Gives every complex record whose file does not state its axis frequencies from 0 by this step \[Hz\]: an FRF.
+    /// Sets the axis of every complex record without one to frequencies from 0 by this step \[Hz\]: an FRF.
     pub fn set_missing_frequency_step(&mut self, step: f64) {
         let unknown =
             |r: &&mut Record| r.axis.points == Points::Unknown && matches!(r.values, Values::Complex(_));
@@ -341,7 +342,7 @@ impl Measured {
         }
     }
 
-    /// Gives every time record whose file does not state its rate this one \[Hz\].
+    /// Sets the sampling rate \[Hz\] of every time record without one.
     pub fn set_missing_rate(&mut self, rate: f64) {
         let unknown = |r: &&mut Record| {
             r.axis.points == Points::Unknown && matches!(r.values, Values::Real(_)) && r.kind == Kind::Time

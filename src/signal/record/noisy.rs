@@ -1,4 +1,4 @@
-//! FRFs as a test would give them: exact ones with the noise of force and response, averaged.
+//! Simulated FRF measurement: exact FRFs with noise on force and response, averaged (H₁ estimate).
 
 use std::f64::consts::TAU;
 
@@ -6,28 +6,29 @@ use super::FrfMatrix;
 use crate::signal::Complex;
 use crate::signal::error::{SignalError, check};
 
-/// A test with a flat force spectrum, such as a hammer's.
+/// Settings of a simulated test with a flat force spectrum, such as an impact test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyTest {
-    /// Signal to noise of a single block \[dB\]: 20 log of the RMS over the lines, for every response and the force.
+    /// Signal-to-noise ratio (SNR) of a single block \[dB\]: 20 log of the RMS ratio over the lines, for
+    /// every response and the force.
     pub signal_to_noise_db: f64,
-    /// Blocks averaged.
+    /// Number of averages (blocks).
     pub averages: usize,
     pub seed: u64,
 }
 
 impl FrfMatrix {
-    /// H₁ and coherence of these FRFs measured with noise: white and Gaussian, its own for every response and block,
-    /// that of the force common to all responses.
+    /// H₁ estimate and coherence of these FRFs measured with white Gaussian noise: independent for every
+    /// response and block, that of the force common to all responses.
     ///
     /// H₁ = Σ F* X / Σ |F|², F = 1 + n_f, X = H + n_x. Same seed, same FRFs.
     ///
     /// # Errors
-    /// No average, a signal to noise that is not finite.
+    /// No average, a signal-to-noise ratio that is not finite.
     pub fn measured_with(&self, test: &NoisyTest) -> Result<FrfMatrix, SignalError> {
         check(test.averages > 0, "averages", "one or more", test.averages as f64)?;
         let db = test.signal_to_noise_db;
-        check(db.is_finite(), "signal to noise", "a finite number of dB", db)?;
+        check(db.is_finite(), "signal-to-noise ratio", "a finite number of dB", db)?;
         let noise = 10f64.powf(-db / 20.0);
         let lines = self.frequencies.len();
         let mut out = self.clone();
@@ -58,12 +59,12 @@ impl FrfMatrix {
     }
 }
 
-/// Complex Gaussian numbers of mean square 1, from splitmix64 by Box and Muller.
+/// Complex Gaussian random numbers of mean square 1 (splitmix64, Box-Muller).
 struct Stream(u64);
 
 impl Stream {
     fn new(seed: u64, reference: u64, response: u64) -> Self {
-        // Far apart in the sequence: each number of the key is mixed in turn.
+        // Independent streams: each number of the key is mixed into the state in turn.
         let mut stream = Stream(seed);
         for key in [reference, response] {
             stream.0 = stream.bits() ^ key.wrapping_mul(0xd134_2543_de82_ef95);

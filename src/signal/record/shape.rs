@@ -1,24 +1,24 @@
-//! Geometry of a measured structure, and shapes over its points.
+//! Test geometry (wireframe) of a measured structure, and shapes over its points.
 
 use crate::signal::Complex;
 
-/// Points and what joins them.
+/// Test geometry: points, and the lines and elements that connect them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
     pub nodes: Vec<Node>,
     pub lines: Vec<Polyline>,
     pub elements: Vec<Element>,
-    /// Points beside others, which a mapping has placed.
+    /// Points with an offset from others, defined by a mapping.
     pub mounts: Vec<Mount>,
 }
 
-/// A point fixed to another at a distance, as a sensor on a housing or a blow on a rim.
+/// A point rigidly attached to another with an offset, such as a sensor on a housing or a hit on a disc rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
     pub number: i64,
     /// The point that carries it.
     pub on: i64,
-    /// From there \[m\].
+    /// Offset from that point \[m\].
     pub offset: [f64; 3],
 }
 
@@ -31,20 +31,20 @@ pub struct Node {
     pub local_system: i64,
 }
 
-/// Strokes through points, drawn for the eye.
+/// Trace lines through points, for display.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyline {
     pub name: String,
-    /// Every stroke joins its nodes one after the other.
+    /// Every stroke connects its nodes in order.
     pub strokes: Vec<Vec<i64>>,
 }
 
-/// A finite element of another program, kept for its outline.
+/// A finite element of another program, kept for display.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     pub number: i64,
-    /// The universal file's number of its kind: 11 rod, 21 beam, 41 and 91 triangles, 44 and 94 quadrilaterals,
-    /// 111 tetrahedron, 115 brick.
+    /// Element type (FE descriptor id) of the universal file: 11 rod, 21 beam, 41 and 91 triangles, 44 and 94
+    /// quadrilaterals, 111 tetrahedron, 115 brick.
     pub descriptor: i64,
     pub nodes: Vec<i64>,
 }
@@ -59,14 +59,14 @@ pub struct Shape {
     /// Values per node: 1 scalar, 3 translations, 6 with rotations.
     pub components: usize,
     pub nodes: Vec<i64>,
-    /// Node by node; imaginary parts are zero where `complex` is not set.
+    /// Node by node; imaginary parts are zero if `complex` is not set.
     pub values: Vec<Complex<f64>>,
     pub complex: bool,
-    /// SI unit; empty where the shape has none of its own.
+    /// SI unit; empty if the shape has none.
     pub unit: String,
 }
 
-/// What a shape is the answer to.
+/// Analysis type of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Analysis {
     Static,
@@ -81,7 +81,7 @@ pub enum Analysis {
     ComplexMode {
         /// λ = −ζω + jω√(1−ζ²) \[1/s\].
         eigenvalue: Complex<f64>,
-        /// Modal a and b of the first-order form; 0 where not given.
+        /// Modal a and b of the first-order (state-space) form; 0 if not given.
         modal_a: Complex<f64>,
         modal_b: Complex<f64>,
     },

@@ -1,4 +1,4 @@
-//! Cyclic spectral coherence over the rates at which a bearing can modulate.
+//! Cyclic spectral coherence over the modulation (cyclic) frequencies of a bearing.
 
 use super::Job;
 use crate::results::{CyclicLine, CyclicResult};
@@ -8,15 +8,15 @@ use crate::signal::cyclic::cyclic_coherence;
 use crate::signal::jerk::median;
 use crate::signal::spectrum::{Spectrum, Welch};
 
-/// Samples of a segment: a carrier's width is the sampling rate over it.
+/// Samples of a segment: the carrier resolution is the sampling rate divided by it.
 const SEGMENT: usize = 256;
-/// Most rates of modulation; a longer record is cut so that as many resolve it.
+/// Largest number of modulation frequencies; a longer record is truncated to match.
 const RATES: usize = 1500;
-/// Highest rate of modulation where no bearing is known, over the sampling rate.
+/// Highest modulation frequency without bearing data, relative to the sampling rate.
 const SHARE: f64 = 1.0 / 32.0;
 
 impl Job<'_> {
-    /// Coherence up to twice the highest rate of the bearing, at the spacing that the record resolves.
+    /// Coherence up to twice the highest characteristic frequency, at the resolution of the record.
     pub(super) fn cyclic(&self) -> Result<CyclicResult, SignalError> {
         let rates = match self.bearing {
             Some(_) => {
@@ -44,7 +44,7 @@ impl Job<'_> {
         Ok(CyclicResult { coherence, enhanced, lines, duration: x.len() as f64 / self.rate })
     }
 
-    /// The highest coherence within the slip about a rate, and how far it stands out of its neighbours.
+    /// The highest coherence within the slip tolerance about a rate, and its prominence over the background.
     fn cyclic_line(
         &self,
         over: &Spectrum,

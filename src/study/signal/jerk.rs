@@ -1,4 +1,4 @@
-//! Jerk, its jumps, and the defects of a race that they show.
+//! Jerk, its jumps, and the race defects located from them.
 
 use super::{Job, Race};
 use crate::results::{JerkResult, RaceResult};
@@ -6,16 +6,16 @@ use crate::signal::SignalError;
 use crate::signal::jerk::{jerk, jerk_jumps};
 use crate::signal::race_defects::{BallPassage, fold_jerk, race_defects};
 
-/// Robust standard deviations by which a jump stands out.
+/// Detection threshold of a jump in robust standard deviations.
 const THRESHOLD: f64 = 10.0;
 
 impl Job<'_> {
-    /// Jerk and jumps; with a bearing at steady speed the defects of the race asked for.
+    /// Jerk and jumps; with a bearing at constant speed the defects of the chosen race.
     pub(super) fn jerk(&self) -> Result<JerkResult, SignalError> {
         let race = match self.bearing {
             None => None,
             Some(bearing) => {
-                let speed = self.steady_speed("reading a race's defects from the jerk")?;
+                let speed = self.steady_speed("locating a race's defects from the jerk")?;
                 let (race, order, race_speed, radius) = match self.settings.race {
                     Race::Outer => ("outer race", bearing.orders.bpfo, 0.0, 1),
                     Race::Inner => ("inner race", bearing.orders.bpfi, speed, 0),
@@ -24,7 +24,7 @@ impl Job<'_> {
                     frequency: order * speed,
                     balls: bearing.balls,
                     race_speed,
-                    // From the first sample analysed.
+                    // Relative to the first analysed sample.
                     datum: self.settings.datum - self.channel.start - self.first as f64 / self.rate,
                 };
                 let beside = self.channel.beside.as_ref();

@@ -1,4 +1,4 @@
-//! A record of any origin looked at with every tool of [`crate::signal`].
+//! Signal analysis of a measured or computed record with the tools of [`crate::signal`].
 
 mod cyclic;
 mod jerk;
@@ -26,35 +26,36 @@ use crate::signal::stft::{Stft, StftSettings};
 use crate::signal::synchronous::synchronous_average;
 use crate::signal::{SignalError, WindowKind};
 
-/// Deepest level of a kurtogram that is drawn: 128 bands.
+/// Deepest level of a kurtogram: 128 bands.
 const DEPTH: usize = 7;
-/// Highest order where nothing asks for more.
+/// Default highest order.
 const ORDERS: f64 = 20.0;
-/// Speed below which the shaft counts as standing \[rev/s\].
+/// Speed below which the shaft counts as stationary \[rev/s\].
 const LEAST_SPEED: f64 = 0.1;
 
 /// One channel of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalChannel {
     pub name: String,
-    /// SI unit; empty where it is not known.
+    /// SI unit; empty if unknown.
     pub unit: String,
     /// \[Hz\].
     pub sample_rate: f64,
     /// Time of the first sample \[s\].
     pub start: f64,
     pub samples: Vec<f64>,
-    /// The same place a quarter turn on, from x to y, for angles all round a race.
+    /// Second channel at the same place, 90° from the first (x to y), to locate defects over the full race.
     pub beside: Option<Vec<f64>>,
 }
 
-/// Looks for everything that is asked for in one channel.
+/// All requested analyses of one channel.
 ///
-/// `shaft` speeds and angles from the channel's first sample on: with an angle only the samples it covers are used;
-/// `bearing` rates per turn. Statistics are always there. What the settings leave open and the record does not allow
-/// becomes a warning; what was asked for and is not possible is an error.
-/// Errors: NaN; an envelope, or anything that was asked for, that the record is too short, too slowly sampled or too
-/// little known for.
+/// `shaft`: speeds and angles from the channel's first sample on; with an angle only the samples it covers
+/// are used.
+/// `bearing`: characteristic orders. Statistics are always computed. A default analysis that the record does
+/// not allow becomes a warning; a requested one is an error.
+/// Errors: NaN; a record too short, too slowly sampled or without the shaft data for a requested analysis (or
+/// the envelope of a bearing).
 pub fn analyse(
     channel: &SignalChannel,
     shaft: Option<&ShaftMotion>,
@@ -86,20 +87,20 @@ pub fn analyse(
     };
     for analysis in job.wanted() {
         let Err(error) = job.perform(analysis, &mut out) else { continue };
-        // The envelope answers the question that a bearing asks.
+        // The envelope is the main analysis of a bearing: always required.
         let asked = matches!(settings.analyses, Wanted::These(_))
             || (analysis == Analysis::Envelope && bearing.is_some());
         if asked {
             return Err(error.into());
         }
-        out.warnings.push(format!("{}: {} left out: {error}", channel.name, analysis.word()));
+        out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.word()));
     }
     Ok(out)
 }
 
-/// What all analyses of a channel share.
+/// Data shared by all analyses of a channel.
 struct Job<'a> {
-    /// The samples analysed, and the place of the first in the channel.
+    /// The analysed samples, and the index of the first in the channel.
     x: &'a [f64],
     first: usize,
     rate: f64,
@@ -141,7 +142,7 @@ impl<'a> Job<'a> {
         wanted
     }
 
-    /// The shaft's angle at the samples analysed.
+    /// Shaft angle at the analysed samples.
     fn angle(&self, purpose: &'static str) -> Result<&'a [f64], SignalError> {
         let angle = self.shaft.map_or(&[][..], |s| &s.angle);
         match angle.is_empty() {
@@ -150,7 +151,7 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// Mean speed \[rev/s\] of a shaft that keeps it.
+    /// Mean speed \[rev/s\], if constant.
     fn steady_speed(&self, purpose: &'static str) -> Result<f64, SignalError> {
         match self.shaft {
             Some(s) if s.summary.steady => Ok(s.summary.mean),
@@ -158,14 +159,15 @@ impl<'a> Job<'a> {
         }
     }
 
-    /// The bearing's rates: in Hz at steady speed, else in orders; with the clock they belong to.
+    /// Characteristic frequencies of the bearing at constant speed, else orders; with the shaft rotation.
     fn rates(&self) -> Option<(BearingRates, Turning<'a>)> {
         let bearing = self.bearing?;
         let (unit, turning) = self.clock()?;
         Some((rates_of(bearing, unit), turning))
     }
 
-    /// What rates are multiples of, and what they are over.
+    /// Reference of the characteristic rates: shaft speed \[Hz\] at constant speed, else order 1 over the
+    /// shaft angle.
     fn clock(&self) -> Option<(f64, Turning<'a>)> {
         let shaft = self.shaft?;
         Some(match shaft.summary.steady {
@@ -212,7 +214,7 @@ impl<'a> Job<'a> {
         let frame = 1 << (self.x.len() / 64).clamp(256, 8192).ilog2();
         let settings = StftSettings::new(WindowKind::Hann, frame, 0.75)?;
         let mut map = Stft::new(settings, self.rate)?.spectrogram(self.x)?;
-        // Over a changing speed as far as orders are looked at.
+        // At varying speed up to the highest order.
         let changing = self.shaft.filter(|s| !s.summary.steady);
         let orders = changing.map(|s| 1.1 * self.max_order() * s.summary.most);
         if let Some(limit) = self.settings.max_frequency.or(orders) {
@@ -276,7 +278,7 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// Highest order: as asked, else what bearing and sampling rate suggest.
+    /// Highest order: as given, else by bearing and sampling rate.
     fn max_order(&self) -> f64 {
         let wanted = self.bearing.map_or(ORDERS, |b| (2.2 * b.orders.bpfi).max(ORDERS));
         let fastest = self.shaft.map_or(0.0, |s| s.summary.most);
@@ -303,7 +305,7 @@ impl<'a> Job<'a> {
         Ok(ShaftOrders { cuts: cuts?, average, map })
     }
 
-    /// 1x, 2x and the bearing's lines.
+    /// 1x, 2x and the bearing's characteristic orders.
     fn order_lines(&self) -> Vec<OrderLine> {
         let shaft = |n: f64| OrderLine { label: format!("{n}x"), order: n, bearing: false };
         let mut lines = vec![shaft(1.0), shaft(2.0)];
@@ -325,7 +327,7 @@ impl<'a> Job<'a> {
         let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
         let mut records = resampler.resample(&[self.x])?;
         let record = records.swap_remove(longest).swap_remove(0);
-        // Turns begin at the angle 0.
+        // Revolutions begin at angle 0.
         let skipped = (-parts[longest].first).rem_euclid(per_turn as i64) as usize;
         let record = &record[skipped.min(record.len())..];
         let average = synchronous_average(record, per_turn)?;
@@ -336,7 +338,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// A bearing's rates in multiples of `unit`, the shaft's.
+/// Characteristic rates of a bearing at shaft rate `unit`.
 fn rates_of(bearing: &RatedBearing, unit: f64) -> BearingRates {
     let orders = bearing.orders;
     BearingRates {

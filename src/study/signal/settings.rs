@@ -1,9 +1,9 @@
-//! What is asked of a record.
+//! Settings of a signal analysis.
 
 use crate::signal::bearing_lines::LineSettings;
 use crate::signal::diagnosis::BandRule;
 
-/// Something that can be looked for in a record.
+/// One kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Analysis {
     Spectrum,
@@ -19,7 +19,7 @@ pub enum Analysis {
 }
 
 impl Analysis {
-    /// Every analysis with its word.
+    /// Every analysis with its keyword.
     pub const ALL: [(Analysis, &'static str); 10] = [
         (Analysis::Spectrum, "spectrum"),
         (Analysis::Density, "psd"),
@@ -33,13 +33,13 @@ impl Analysis {
         (Analysis::Cyclic, "cyclic"),
     ];
 
-    /// Its word, "kurtogram".
+    /// Its keyword, such as "kurtogram".
     pub fn word(self) -> &'static str {
         Self::ALL[self as usize].1
     }
 }
 
-/// Which race jumps of the jerk are read for.
+/// Race whose defects are located from the jerk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Race {
     #[default]
@@ -47,35 +47,36 @@ pub enum Race {
     Inner,
 }
 
-/// Which analyses are done.
+/// Selection of analyses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Wanted {
-    /// What suits the record; what it does not allow is left out with a warning.
+    /// Those suited to the record (default); impossible ones are omitted with a warning.
     #[default]
     Usual,
-    /// All that the record allows.
+    /// All that are possible with the record.
     All,
-    /// These, or an error.
+    /// Exactly these; an impossible one is an error.
     These(Vec<Analysis>),
 }
 
-/// What is looked for, and how.
+/// Analyses and their settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalSettings {
     pub analyses: Wanted,
-    /// Band of the envelope; `None` takes the band that shows a bearing's lines best, without bearing that of the highest
-    /// kurtosis.
+    /// Rule for the demodulation band of the envelope; `None`: the band with the strongest bearing lines,
+    /// without bearing that of the highest kurtosis.
     pub band: Option<BandRule>,
-    /// Spacing of the density's lines \[Hz\]; `None` averages about fifteen segments.
+    /// Frequency resolution of the PSD \[Hz\]; `None` averages about fifteen segments.
     pub resolution: Option<f64>,
     /// Highest frequency of the spectrogram \[Hz\].
     pub max_frequency: Option<f64>,
-    /// Spacing and highest of the orders; `None` goes to twice BPFI, or to 20.
+    /// Resolution and highest order of order tracking; `None`: 2.2 BPFI, at least 20.
     pub order_resolution: f64,
     pub max_order: Option<f64>,
     pub lines: LineSettings,
     pub race: Race,
-    /// Time \[s\] on the channel's own axis at which a ball stands at angle 0 of the race and that angle lies along x.
+    /// Time \[s\] on the channel's time axis at which a ball is at angle 0 of the race and that angle lies
+    /// along x.
     pub datum: f64,
 }
 

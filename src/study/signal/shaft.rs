@@ -1,4 +1,4 @@
-//! How a shaft turned while a record was taken.
+//! Shaft speed and angle during a record: constant, sampled, from tacho pulses, or from an order line.
 
 use std::f64::consts::TAU;
 
@@ -8,24 +8,24 @@ use crate::signal::resample::integrate_speed;
 use crate::signal::speed_line::{LineSettings, speed_from_line};
 use crate::signal::tacho::PulseTrain;
 
-/// Change of speed over the mean up to which rates count as lines in Hz.
+/// Relative speed variation up to which the speed counts as constant.
 const STEADY: f64 = 0.01;
-/// Stretches of a record over which speeds are compared.
+/// Number of sections of a record over which speeds are compared.
 const STRETCHES: usize = 200;
-/// Pulses on either side by which a tacho's jitter is smoothed where asked.
+/// Pulses on either side used to smooth tacho jitter, if requested.
 const SMOOTHING: usize = 4;
 
-/// Speed of a shaft, and its angle where that is known.
+/// Speed of a shaft, and its angle if known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShaftMotion {
     pub summary: ShaftSummary,
-    /// Shaft angle \[rad\] at the record's samples from `first` on; empty where only the mean speed is known.
+    /// Shaft angle \[rad\] at the record's samples from `first` on; empty if only the mean speed is known.
     pub angle: Vec<f64>,
     pub first: usize,
 }
 
 impl ShaftMotion {
-    /// One speed \[rev/s\] all along, whichever way the shaft turns; `source` in words.
+    /// Constant speed \[rev/s\], the direction ignored; `source`: description.
     pub fn steady(speed: f64, source: String) -> Self {
         let speed = speed.abs();
         let summary = ShaftSummary { source, mean: speed, least: speed, most: speed, steady: true };
@@ -34,7 +34,7 @@ impl ShaftMotion {
 
     /// An angle \[rad\] sampled at `sample_rate` \[Hz\] from sample `first` of the record on.
     ///
-    /// Least and greatest speed are means over a turn, or over a 200th of the record if that is longer.
+    /// Lowest and highest speed are means over one revolution or a 200th of the record, if that is longer.
     pub fn of_angle(angle: Vec<f64>, first: usize, sample_rate: f64, source: String) -> Self {
         let last = angle.len() - 1;
         let turns = |a: usize, b: usize| (angle[b] - angle[a]).abs() / TAU;
@@ -55,7 +55,7 @@ impl ShaftMotion {
         Ok(Self::of_angle(integrate_speed(speed, sample_rate, 0.0)?, 0, sample_rate, source))
     }
 
-    /// The pulses of a tacho at times \[s\] from the record's first sample; `smooth` takes their jitter away.
+    /// From tacho pulses at times \[s\] from the record's first sample; `smooth` reduces their jitter.
     ///
     /// Errors: too few pulses, no sample between the first and the last.
     pub fn of_pulses(
@@ -76,9 +76,10 @@ impl ShaftMotion {
         Ok(Self::of_angle(angle, first, sample_rate, source))
     }
 
-    /// The line of one order in the record itself, between two frequencies \[Hz\].
+    /// Tacholess: from the line of one order in the record itself, between two frequencies \[Hz\].
     ///
-    /// Frames hold 24 periods at the geometric mean of the two; the line may cross the range in an eighth of the record.
+    /// Frames contain 24 periods at the geometric mean of the two; the line may cross the range in an eighth
+    /// of the record.
     /// Errors: as [`speed_from_line`].
     pub fn of_line(
         record: &[f64],
@@ -100,7 +101,8 @@ impl ShaftMotion {
         Ok(Self::of_angle(found.theta, 0, sample_rate, source))
     }
 
-    /// Times \[s\] from `start`, that of the channel's first sample, and speeds \[rpm\], each over a 200th of the record.
+    /// Times \[s\] (`start`: that of the channel's first sample) and mean speeds \[rpm\] over every 200th of
+    /// the record.
     pub fn speeds(&self, sample_rate: f64, start: f64) -> [Vec<f64>; 2] {
         let last = self.angle.len().saturating_sub(1);
         let stride = (last / STRETCHES).max(1);
