@@ -5,6 +5,7 @@
 //! | [`sparse`] | [`Triplets`] to assemble into, [`SparseMatrix`] (compressed columns), [`SparseRow`] |
 //! | [`band`] | node ordering, [`BandLayout`] and the banded [`BandLu`], real and complex |
 //! | [`banded`] | the banded [`BandMatrix`] in natural order |
+//! | [`fft_length`](mod@fft_length) | lengths that a fast Fourier transform is quick at |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
 //! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
 //! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
@@ -16,6 +17,7 @@
 pub mod band;
 pub mod banded;
 pub mod eigen;
+pub mod fft_length;
 pub mod gmres;
 pub mod krylov;
 pub mod panel;
@@ -26,6 +28,7 @@ pub mod spline;
 
 pub use band::{BandLayout, BandLu, ZeroPivot};
 pub use banded::BandMatrix;
+pub use fft_length::fft_length;
 pub use gmres::gmres;
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 
