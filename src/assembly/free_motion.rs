@@ -5,7 +5,7 @@ use super::{Assembly, DofMap, LinearSystem};
 use crate::bearing::Bearing;
 use crate::bearing::LinearElement;
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{BandLayout, SparseMatrix, Triplets, eigen};
+use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 use crate::model::{Drive, Model};
 
 /// Slower than this \[rad/s\], a motion counts as free: one turn in ten minutes.
@@ -78,12 +78,12 @@ fn may_move(assembly: &Assembly, stiffness: &SparseMatrix) -> bool {
     let mut slowest = 0.0;
     for _ in 0..STEPS {
         let momentum = mass.mul(&x);
-        let size = x.iter().zip(&momentum).map(|(x, p)| x * p).sum::<f64>().sqrt();
+        let size = dot(&x, &momentum).sqrt();
         x = momentum.iter().map(|p| p / size).collect();
         factors.solve(&mut x);
         let response = mass.mul(&x);
         // 1/(ω² + 1) of the slowest motion is approached from below.
-        slowest = x.iter().zip(&response).map(|(x, p)| x * p).sum::<f64>().sqrt();
+        slowest = dot(&x, &response).sqrt();
     }
     // Half way between a free motion (1) and the slowest that a machine is held by.
     slowest.is_nan() || slowest > 0.5

@@ -2,6 +2,7 @@
 
 use super::row::Row;
 use super::{Preload, Reaction, Rotation, root};
+use crate::linalg::dot;
 
 /// Preload of a bearing whose rings are centred, at a speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,7 +93,7 @@ impl Row {
         // The ring's axial motion per motion of the shaft; at a loose ring without a spring, none.
         let follow: [f64; 6] =
             std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
-        let slip: f64 = follow.iter().zip(v).map(|(f, v)| f * v).sum();
+        let slip = dot(&follow, v);
         let mut out = if turning == 0.0 && v.iter().all(|v| *v == 0.0) {
             RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
         } else {

@@ -1,6 +1,6 @@
 //! Generalised minimal residual method with a right preconditioner.
 
-use super::banded::dot;
+use super::dot::dot_in_fours as dot;
 
 /// What a run of [`gmres`] gave.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,6 +4,7 @@
 //! group by group, always the one known least far. Without gyroscopic effect it works
 //! on blocks of two, which find the double eigenvalues of an axisymmetric rotor at rest; rotation parts them.
 
+use super::dot::partial_sums;
 use super::eigen::{self, EigenError};
 use super::{BandLayout, BandLu, Complex64, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
@@ -320,16 +321,9 @@ fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) {
     }
 }
 
-/// Dot product in four partial sums, which the compiler can lay side by side.
+/// Scalar product over four partial sums, added one after the other.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let tail: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a4.zip(b4) {
-        for i in 0..4 {
-            sums[i] += a[i] * b[i];
-        }
-    }
+    let (sums, tail) = partial_sums(a, b);
     sums.iter().sum::<f64>() + tail
 }
 

@@ -7,6 +7,7 @@
 //! | [`banded`] | the banded [`BandMatrix`] in natural order |
 //! | [`fft_length`](mod@fft_length) | lengths that a fast Fourier transform is quick at |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
+//! | [`dot`](mod@dot) | scalar products |
 //! | [`eigen`] | dense eigenvalue problems, with the traps of the library behind handled |
 //! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
 //! | [`panel`] | dense matrix-vector products of a time step |
@@ -16,6 +17,7 @@
 
 pub mod band;
 pub mod banded;
+pub mod dot;
 pub mod eigen;
 pub mod fft_length;
 pub mod gmres;
@@ -28,6 +30,7 @@ pub mod spline;
 
 pub use band::{BandLayout, BandLu, ZeroPivot};
 pub use banded::BandMatrix;
+pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
