@@ -12,6 +12,7 @@
 //! | [`krylov`] | the lowest eigenvalues of λ² M + λ C + K |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
+//! | [`piecewise`](mod@piecewise) | piecewise-linear tables |
 //! | [`small`] | small dense systems |
 //! | [`spline`] | interpolating cubic spline |
 
@@ -24,6 +25,7 @@ pub mod gmres;
 pub mod krylov;
 pub mod panel;
 pub mod pchip;
+pub mod piecewise;
 pub mod small;
 pub mod sparse;
 pub mod spline;
@@ -33,6 +35,7 @@ pub use banded::BandMatrix;
 pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;
+pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 
 pub use nalgebra::Complex;

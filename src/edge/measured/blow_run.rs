@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::edge::hdf5::{Attribute, Store};
 use crate::edge::results_file::read_history;
 use crate::error::Error;
+use crate::linalg::{Outside, piecewise};
 use crate::model::{self, Load, Model, Options, Quantity};
 use crate::signal::impact::{Blow, ImpactWindows, frf_from_blows};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
@@ -37,7 +38,8 @@ pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Mea
     let history = read_history(store)?;
     let (Some(first), Some(last)) = (load.history.first(), load.history.last()) else { return Ok(None) };
     let (size, direction) = along(&load.force);
-    let force: Vec<f64> = history.time.iter().map(|t| size * factor(&load.history, *t)).collect();
+    let factor = |t: &f64| piecewise(&load.history, *t, Outside::Zero)[1];
+    let force: Vec<f64> = history.time.iter().map(|t| size * factor(t)).collect();
     let node = |at: &crate::element::Anchor| match at.node {
         Some(node) if at.offset == [0.0; 3] => node as i64 + 1,
         _ => 0,
@@ -81,15 +83,6 @@ fn along(force: &[f64; 6]) -> (f64, i8) {
     match (parts.next(), parts.next()) {
         (Some((k, f)), None) => (f.abs(), (k as i8 + 1) * f.signum() as i8),
         _ => (force.iter().map(|f| f * f).sum::<f64>().sqrt(), 0),
-    }
-}
-
-/// The history's factor at a time: linear between its rows, zero outside.
-fn factor(history: &[[f64; 2]], t: f64) -> f64 {
-    let after = history.partition_point(|row| row[0] <= t);
-    match (after.checked_sub(1).map(|k| history[k]), history.get(after)) {
-        (Some([t0, f0]), Some([t1, f1])) => f0 + (f1 - f0) * (t - t0) / (t1 - t0),
-        _ => 0.0,
     }
 }
 
