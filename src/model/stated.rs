@@ -1,9 +1,9 @@
 //! What a file states at a path: the numbers that an update may change.
 
-use super::file::diagnostic::nearest;
 use super::file::overlay::COLLECTIONS;
 use super::file::tree::{Entry, Node, Table, Value};
 use super::load::{Document, Options};
+use crate::names::nearest;
 use crate::units::leading_number;
 
 /// A text or number of a file.
@@ -104,7 +104,7 @@ fn holds(node: &Node, parts: &[&str]) -> bool {
 
 fn missing(table: &Table, part: &str, parts: &[&str], depth: usize) -> String {
     let known: Vec<&str> = table.keys().collect();
-    let near = nearest(part, &known);
+    let near = nearest(part, known.iter().copied());
     let hint = match near {
         Some(near) => format!("did you mean `{near}`?"),
         None if depth > 1 => {

@@ -25,6 +25,7 @@ use serde::Deserialize;
 
 use super::unit;
 use crate::error::Error;
+use crate::names::nearest;
 use crate::signal::record::{Dof, Geometry, Kind, Measured, Mount, Record};
 use crate::units;
 
@@ -142,7 +143,7 @@ impl Mapping {
         // What has no station is the shaft's, and has been taken out.
         let placed = self.channel.iter().filter(|(_, own)| own.station.is_some()).map(|(name, _)| name);
         for name in placed.filter(|name| !known.contains(&name.as_str())) {
-            problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
+            problems.push(format!("there is no channel `{name}`{}", but_known(name, &known)));
         }
         for number in self.point.keys() {
             let is_at = |dof: Dof| dof.node.to_string() == *number;
@@ -183,7 +184,7 @@ impl Mapping {
             let known: Vec<&str> = left_out.iter().map(String::as_str).collect();
             problems.push(format!(
                 "it names none of the file's channels{}: add [channel.NAME] or [point.NUMBER]",
-                alike("", &known)
+                but_known("", &known)
             ));
         }
         measured.records = mapped;
@@ -319,12 +320,11 @@ fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     None
 }
 
-/// "; did you mean `...`?" or the names there are.
-fn alike(name: &str, known: &[&str]) -> String {
-    let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(k, name), k)).min();
-    match nearest {
-        Some((distance, best)) if distance <= 2 => format!(", but `{best}`"),
-        _ => {
+/// `, but` and the name that may be meant, or the names there are.
+fn but_known(name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(best) => format!(", but `{best}`"),
+        None => {
             let some: Vec<&str> = known.iter().copied().take(8).collect();
             format!(", but {}{}", some.join(", "), if known.len() > 8 { ", ..." } else { "" })
         }

@@ -1,5 +1,6 @@
 //! What is wrong, or doubtful, in a model file: plain data that points into its text.
 
+use crate::names::nearest;
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -90,7 +91,7 @@ impl Problem {
 
     /// Hint at the nearest of the known names when one is near.
     pub fn suggest_near<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
-        match nearest(word, &known.into_iter().collect::<Vec<_>>()) {
+        match nearest(word, known) {
             Some(near) => self.hint(format!("did you mean `{near}`?")),
             None => self,
         }
@@ -99,7 +100,7 @@ impl Problem {
     /// Hint at the nearest of the known names, or list them when none is near.
     pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
-        if let Some(near) = nearest(word, &known) {
+        if let Some(near) = nearest(word, known.iter().copied()) {
             return self.hint(format!("did you mean `{near}`?"));
         }
         match known.len() {
@@ -108,16 +109,6 @@ impl Problem {
             n => self.hint(format!("known here: {} and {} more", known[..12].join(", "), n - 12)),
         }
     }
-}
-
-/// Most alike of the known names, if one is alike enough to be meant.
-pub(crate) fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
-    let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
-    let word = plain(word);
-    let score = |name: &str| strsim::jaro_winkler(&word, &plain(name));
-    let best = known.iter().copied().max_by(|a, b| score(a).total_cmp(&score(b)))?;
-    let close = strsim::damerau_levenshtein(&word, &plain(best)) <= word.chars().count() / 3;
-    (close || score(best) > 0.87).then_some(best)
 }
 
 /// All texts that were read, laid end to end so that one offset names a place in any of them.

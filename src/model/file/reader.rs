@@ -3,8 +3,9 @@
 //! A method that must return a value returns a stand-in after an error; a model with an error is never handed out.
 //! Every key that is asked for becomes known, so [`Reader::finish`] can report the others with a suggestion.
 
-use super::diagnostic::{Kind, Log, Problem, nearest};
+use super::diagnostic::{Kind, Log, Problem};
 use super::tree::{Entry, Node, Table, Value};
+use crate::names::nearest;
 use crate::units::{self, Dimension, NUMBER, UnitError};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -446,7 +447,7 @@ impl<'a> Reader<'a> {
         let asked = self.asked.borrow();
         let known: Vec<&str> = asked.iter().map(String::as_str).collect();
         for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
-            if let Some(meant) = nearest(&entry.key, &known) {
+            if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
                 self.log.retract_missing(&self.span, &self.missing_message(meant));
             }
             let message = format!("unknown key {}", self.name(&entry.key));
