@@ -365,19 +365,19 @@ Examples:
   rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
     Bearing(Box<BearingArgs>),
 
-    /// Modes from measured FRFs or hammer records: poles, damping, shapes, with their standard errors
+    /// Modes from measured FRFs or records of an impact test: poles, damping, shapes, with their standard errors
     ///
     /// Poly-reference least-squares complex frequency over all orders; poles that stay are chosen, refined together on
     /// all FRFs, and those that the data do not bear out dropped. Reads universal files, MATLAB, NumPy, CSV, HDF5 and
-    /// our own results.h5; time records of a hammer test are turned into FRFs first, blows of files with the same points
+    /// our own results.h5; time records of an impact test are turned into FRFs first, hits of files with the same points
     /// averaged, double hits and overloads left out. A run-up at 0 rpm under one [load.X] with a history is a simulated
-    /// hammer test. Writes results.h5, modes.uff (data sets 55) and figures: stabilisation diagram, autoMAC, FRFs
+    /// impact test. Writes results.h5, modes.uff (data sets 55) and figures: stabilisation diagram, autoMAC, FRFs
     /// measured and synthesised, shapes where the file has geometry.
     #[command(after_long_help = "\
 Examples:
   rotordyn identify frfs.uff --band \"5 .. 180 Hz\"
   rotordyn identify test.npz --quantity accelerance --max-order 40
-  rotordyn identify blow_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
+  rotordyn identify hit_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
   rotordyn identify out/overhung_rig/results.h5 --json")]
     Identify(Box<IdentifyArgs>),
 
@@ -407,7 +407,7 @@ Examples:
     ///
     /// Pairs measured and computed modes by MAC and frequency (the assignment that is best for all together), lists
     /// frequencies, errors, damping and MAC, and what has no partner on either side; FRFs are identified on the way
-    /// and laid over the model's, with FRAC and FDAC. Several files, such as hammer tests of different force, are also
+    /// and laid over the model's, with FRAC and FDAC. Several files, such as impact tests of different force, are also
     /// held against the first: how far has every mode shifted? The record of a run-up is set beside the run-up that the
     /// model makes with the same speed: maps, waterfalls, and where every order is highest.
     #[command(after_long_help = update::VALIDATE)]

@@ -1,18 +1,17 @@
-//! `identify`: modes from measured FRFs, or from the time records of a hammer test.
+//! `identify`: modes from measured FRFs, or from the time records of an impact test.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::measured::blow_run;
+use rotordyn::edge::measured::impact_run;
 use rotordyn::edge::measured::mapping::{self, Mapping};
 use rotordyn::edge::{exchange, figures, identified, measured};
 use rotordyn::error::Error;
 use rotordyn::identify::{Identified, Settings, identify, quantity_of};
 use rotordyn::model::Quantity;
-use rotordyn::signal::hammer::{self, HammerTest};
-use rotordyn::signal::impact::{Estimator, ImpactWindows};
+use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
 use serde_json::json;
@@ -28,7 +27,7 @@ use super::{Outcome, written};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let settings = settings(args)?;
-    let test = HammerTest {
+    let test = ImpactTest {
         force: args.force.clone(),
         block: value("--block", args.block.as_ref(), units::TIME)?,
         time_constant: value("--window", args.window.as_ref(), units::TIME)?,
@@ -72,18 +71,18 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
 /// What the files hold, as a matrix, and its modes; warnings also where it fails.
 fn found(
     args: &IdentifyArgs,
-    test: &HammerTest,
+    test: &ImpactTest,
     settings: &Settings,
     warnings: &mut Vec<String>,
 ) -> Result<(Measured, FrfMatrix, Identified), Failure> {
-    let (all, from_blows) = read(args, test, warnings)?;
+    let (all, from_hits) = read(args, test, warnings)?;
     // Channels of several files have their file's name.
     let at = |error: Error| match &args.files[..] {
         [only] => in_file(only, error),
         _ => error.into(),
     };
     let frfs = all.frf_matrix().map_err(|error| at(error.into()))?;
-    doubts(&frfs, args, from_blows, warnings);
+    doubts(&frfs, args, from_hits, warnings);
     let found = identify(&frfs, settings).map_err(|error| at(error.into()))?;
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
@@ -113,7 +112,7 @@ fn misfits(found: &Identified, warnings: &mut Vec<String>) {
         worst.iter().take(4).map(|(error, name)| format!("{name} by {:.0} %", 100.0 * error)).collect();
     if count > 0 {
         warnings.push(format!(
-            "{count} of {all} FRFs do not fit the modes ({}{}): a bad blow, a wrong point or direction, or hardly any motion; look \
+            "{count} of {all} FRFs do not fit the modes ({}{}): a bad hit, a wrong point or direction, or hardly any motion; look \
              at their coherence, measure them again or leave them out",
             some.join(", "),
             if count > 4 { ", ..." } else { "" }
@@ -196,7 +195,7 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
 /// Everything in the files, time records turned into FRFs; and whether some were.
 fn read(
     args: &IdentifyArgs,
-    test: &HammerTest,
+    test: &ImpactTest,
     warnings: &mut Vec<String>,
 ) -> Result<(Measured, bool), Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
@@ -255,7 +254,7 @@ fn read(
         if has_frf || !has_time {
             put(args, path, file.records, &mut all);
         } else {
-            // Blows of several files are averaged where their places are known to be the same.
+            // Hits of several files are averaged where their places are known to be the same.
             match tests.iter_mut().find(|(_, files)| same_test(&files[0], &file)) {
                 Some((_, files)) => files.push(file),
                 None => tests.push((path, vec![file])),
@@ -266,9 +265,9 @@ fn read(
         warnings
             .push("--force, --block and --estimator are for time records, and there are FRFs only".into());
     }
-    let from_blows = simulated || !tests.is_empty();
+    let from_hits = simulated || !tests.is_empty();
     for (path, files) in tests {
-        let (records, doubts) = hammer::frfs(&files, test).map_err(|error| in_file(path, error))?;
+        let (records, doubts) = impact::frfs(&files, test).map_err(|error| in_file(path, error))?;
         warnings.extend(doubts);
         put(args, path, records, &mut all);
     }
@@ -277,16 +276,16 @@ fn read(
     if !named.is_empty() {
         warnings.push(format!("no --model numbers the mapping's stations: as points, {}", named.join(", ")));
     }
-    Ok((all, from_blows))
+    Ok((all, from_hits))
 }
 
-/// FRFs of a simulated hammer test.
-fn of_run(path: &Path, test: &HammerTest) -> Result<Option<Measured>, Failure> {
+/// FRFs of a simulated impact test.
+fn of_run(path: &Path, test: &ImpactTest) -> Result<Option<Measured>, Failure> {
     if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
         return Ok(None);
     }
     let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
-    Ok(blow_run::frfs_windowed(&Store::open(path)?, windows)?)
+    Ok(impact_run::frfs_windowed(&Store::open(path)?, windows)?)
 }
 
 /// Whether two files hold the same channels, all of them at places that are told.
@@ -308,8 +307,8 @@ fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Mea
     all.records.extend(records);
 }
 
-fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mut Vec<String>) {
-    if frfs.coherence.is_none() && !from_blows {
+fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warnings: &mut Vec<String>) {
+    if frfs.coherence.is_none() && !from_hits {
         warnings.push(
             "not all FRFs have their coherence beside them: where noise spoils them cannot be shown; export it with \
              them"

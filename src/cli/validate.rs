@@ -84,7 +84,7 @@ fn nothing(path: &Path, why: &str) -> Error {
     Error::Content {
         path: path.into(),
         problem: format!("it holds neither modes nor FRFs, and no run-up: {why}"),
-        advice: "`rotordyn identify` makes FRFs from hammer blows".into(),
+        advice: "`rotordyn identify` makes FRFs from an impact test".into(),
     }
 }
 
@@ -138,7 +138,7 @@ fn compare_structures(
     Ok((json!(documents), levels, files))
 }
 
-/// Modes of every file beside those of the first: with blows of different force the shift is what the machine's
+/// Modes of every file beside those of the first: with hits of different force the shift is what the machine's
 /// clearances and contacts make of it.
 fn levels(found: &[(&Path, ReadTarget)], states: &[State], terminal: &Terminal) -> Value {
     fn candidates(target: &Target) -> Vec<Candidate<'_>> {

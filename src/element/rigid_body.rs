@@ -26,7 +26,7 @@ pub struct Disc {
     pub polar_inertia: f64,
     /// Diametral moment of inertia I_d about x and y \[kg m²\].
     pub diametral_inertia: f64,
-    /// Outer diameter \[m\], for pictures and blows at the rim; 0 when the disc is given by inertia alone.
+    /// Outer diameter \[m\], for pictures and hits at the rim; 0 when the disc is given by inertia alone.
     pub outer_diameter: f64,
     /// Axial thickness \[m\], for pictures; 0 when unknown.
     pub thickness: f64,

@@ -186,7 +186,7 @@ impl Data {
     /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which keeps residues
     /// of rank one; returns the b.
     ///
-    /// RMS over inputs and over outputs in turn: FRFs that are zero, as those of torsion to a blow along x, do no harm.
+    /// RMS over inputs and over outputs in turn: FRFs that are zero, as those of torsion to a hit along x, do no harm.
     pub fn rescale(&mut self, sizes: &[Vec<f64>]) -> Vec<f64> {
         const ROUNDS: usize = 5;
         let (no, ni) = (self.outputs(), self.inputs());
@@ -241,7 +241,7 @@ fn scatter(frf: &[Complex64]) -> f64 {
     (median / (20.0 * std::f64::consts::LN_2)).sqrt()
 }
 
-/// Power of jω of every FRF: as set, else by its unit, else accelerance, which hammer tests give.
+/// Power of jω of every FRF: as set, else by its unit, else accelerance, which impact tests give.
 fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
     let power = |unit: &String| match settings.quantity.or_else(|| quantity_of(unit)) {
         Some(Quantity::Displacement) => 0,

@@ -174,7 +174,7 @@ const FEW: usize = 8;
 const ALIKE: f64 = 0.7;
 
 /// Whether a more significant mode beside this one has its shape: FRFs that do not fit together (a structure that
-/// changed between blows) give one mode twice.
+/// changed between hits) give one mode twice.
 ///
 /// Alike as measured, or as fitted: the weights of the fit raise outputs that hardly move, where twins share out at
 /// random.

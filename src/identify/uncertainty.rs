@@ -2,7 +2,7 @@
 //!
 //! Σ δ δᵀ, δ being the change of the poles when the FRFs to one reference at one line are left out:
 //! δ = (JᵀJ − G)⁻¹ g, with g and G the group's share of the gradient and of JᵀJ (jackknife by groups). Noise that changes
-//! over frequency, and noise that the responses to one blow share (that of the force), is thereby counted as it is. The
+//! over frequency, and noise that the responses to one hit share (that of the force), is thereby counted as it is. The
 //! share G matters: a lightly damped mode rests on few lines, bends to the noise of each, and what the fit leaves there
 //! is far less than the noise was.
 //!
@@ -60,7 +60,7 @@ pub(super) fn covariance(data: &Data, at: &Point, step: &Step) -> Vec<PoleCovari
     let groups = Groups::new(at, step, &lambda);
     let (lines, inputs, outputs) = (data.lines(), data.inputs(), data.outputs());
     let all: Vec<usize> = (0..outputs).collect();
-    // Blows are to references: outputs where they are those (then inputs answer together), else inputs.
+    // Hits are to references: outputs where they are those (then inputs answer together), else inputs.
     let sizes = NoiseSizes::new(data, at);
     let of_line = |k: usize| {
         let mut sums = vec![Sums::default(); at.poles.len()];

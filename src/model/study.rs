@@ -75,7 +75,7 @@ pub struct FrfStudy {
     pub quantity: Quantity,
 }
 
-/// A unit blow: where, and along which combination of force and moment.
+/// A unit force: where, and along which combination of force and moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Excitation {
     pub name: String,

@@ -15,9 +15,7 @@
 //! | [`period`] | period of a section; quasi-periodic or chaotic by the 0–1 test |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
-//! | [`blow`] | hammer blows found in a record; double hits and overloads |
-//! | [`impact`] | H1, H2, Hv and coherence from blows or random excitation |
-//! | [`hammer`] | the FRFs of a hammer test from its time records |
+//! | [`impact`] | impact tests: hits, their quality, H1, H2, Hv and coherence |
 //! | [`envelope`] | analytic signal, envelope, envelope spectrum, squared envelope, of a band |
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, bands scored by anything ([`filter_bank`]) |
 //! | [`bearing_lines`] | lines at FTF, BPFO, BPFI, 2 BSF with side bands over background; which part is damaged |
@@ -34,7 +32,6 @@
 //! [`SignalError`].
 
 pub mod bearing_lines;
-pub mod blow;
 pub mod cepstrum;
 pub mod cyclic;
 pub mod diagnosis;
@@ -42,7 +39,6 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
-pub mod hammer;
 pub mod impact;
 pub mod jerk;
 pub mod kurtogram;

@@ -14,7 +14,7 @@ use crate::linalg::{Complex64, SparseRow};
 /// A line gives ln|H_computed/H_measured|, and with `complex` their difference in phase \[rad\] beside it; for small errors
 /// the two are the complex difference over |H|. Logarithms let resonances and antiresonances count alike and grow
 /// evenly as they part, so that a fit finds its way from housings twice too stiff. Both |H| have 2 % of the largest
-/// response to the same force added in squares, a: sensors answer across and blows are askew, and no test knows an
+/// response to the same force added in squares, a: sensors answer across and hits are askew, and no test knows an
 /// antiresonance or a plane that the force hardly moves any better.
 ///
 /// A line's variance is n σ² + (1 − γ²)/(2 γ²). The first part is what a good model leaves: it is shared by neighbouring

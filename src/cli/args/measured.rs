@@ -10,7 +10,7 @@ pub struct NoiseArgs {
     /// Signal to noise of force and responses, such as "40 dB": writes frf_noisy.uff, as a test would measure it
     #[arg(long, value_name = "LEVEL", allow_hyphen_values = true)]
     pub noise: Option<String>,
-    /// Blows averaged
+    /// Hits averaged
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub averages: usize,
     /// Seed of the noise
@@ -36,7 +36,7 @@ pub struct ShaftArgs {
     pub track: Option<String>,
 }
 
-/// An estimate of FRFs from blows.
+/// An estimate of FRFs from hits.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EstimatorName {
     H1,
@@ -47,7 +47,7 @@ pub enum EstimatorName {
 /// Which FRFs, and how.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {
-    /// Files with FRFs, or with the time records of a hammer test; results.h5 too
+    /// Files with FRFs, or with the time records of an impact test; results.h5 too
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Mapping file (TOML): which channel is which station and direction, units and rates that files do not tell
@@ -72,10 +72,10 @@ pub struct IdentifyArgs {
     /// Channel of the force in time records [default: the one in N]
     #[arg(long, value_name = "NAME")]
     pub force: Option<String>,
-    /// Length of a blow's block in time records, such as "2 s" [default: up to the next blow]
+    /// Length of a hit's block in time records, such as "2 s" [default: up to the next hit]
     #[arg(long, value_name = "TIME")]
     pub block: Option<String>,
-    /// How blows are averaged: h1 bears noise of the responses, h2 noise of the force, hv noise of both
+    /// How hits are averaged: h1 bears noise of the responses, h2 noise of the force, hv noise of both
     #[arg(long, value_name = "NAME", default_value = "h1")]
     pub estimator: EstimatorName,
     /// Sampling rate of time records whose file does not tell, such as "12 kHz"

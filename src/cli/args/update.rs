@@ -20,13 +20,13 @@ A measured point k + 1 is node k of the model, as `export` writes it; a mapping 
 A record of a run-up is held against one that the model makes with the measured speed, by the settings of the file's
 [study.run_up], [study.spectrogram] and [study.orders]; the speed is that of a channel of the file, or of a tacho.
 
-A run-up at 0 rpm under one [load.X] with a history is a hammer test: its results.h5 can be held against the model.
+A run-up at 0 rpm under one [load.X] with a history is an impact test: its results.h5 can be held against the model.
 
 Examples:
   rotordyn validate models/overhung_rig.toml --measured hammer.uff --mapping points.toml
   rotordyn validate models/overhung_rig.toml --measured modes.uff --band \"10 .. 300 Hz\"
   rotordyn validate models/overhung_rig.toml --measured run_up.mat --mapping channels.toml --tacho tacho
-  rotordyn validate my_machine.toml --measured out/tap/results.h5 --measured out/blow/results.h5";
+  rotordyn validate my_machine.toml --measured out/soft/results.h5 --measured out/hard/results.h5";
 
 pub const UPDATE: &str = "\
 Any number of the file can be free. Positive ones are varied by factors. Those that the data do not tell (more than half \

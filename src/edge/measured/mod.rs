@@ -10,8 +10,8 @@
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 pub mod arrays;
-pub mod blow_run;
 pub mod datasets;
+pub mod impact_run;
 pub mod mapping;
 pub mod run_up;
 mod signal_calc;

@@ -1,4 +1,4 @@
-//! What a model is held against, from a measured file: identified modes, FRFs, or a simulated hammer test.
+//! What a model is held against, from a measured file: identified modes, FRFs, or a simulated impact test.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -33,14 +33,14 @@ pub struct ReadTarget {
     pub warnings: Vec<String>,
     /// "9 modes identified from 12 FRFs", "9 modes of the file".
     pub source: String,
-    /// Largest force of a simulated blow \[N\].
+    /// Largest force of a simulated hit \[N\].
     pub force: Option<f64>,
 }
 
 /// Reads a file and puts what it holds into the model.
 ///
 /// Modes of a universal file (55, 2414) or of a results file come as they are; FRFs are identified on the way; the run
-/// of a hammer test, stored by `run-up` with a load over time, gives its FRFs first. `None` where it holds neither modes
+/// of an impact test, stored by `run-up` with a load over time, gives its FRFs first. `None` where it holds neither modes
 /// nor FRFs.
 ///
 /// # Errors
@@ -146,7 +146,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
     }
     let responses = sensors(&matrix.responses, &measured.geometry, model)?;
-    // A blow that no single point and direction describes has shapes all the same, and no FRF to compare.
+    // A hit that no single point and direction describes has shapes all the same, and no FRF to compare.
     let at = |dof: &Dof| sensors(std::slice::from_ref(dof), &measured.geometry, model).ok()?.pop();
     let references: Vec<Option<Sensor>> = matrix.references.iter().map(at).collect();
     let placed: Vec<usize> = (0..references.len()).filter(|&e| references[e].is_some()).collect();
@@ -177,7 +177,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     let count = matrix.responses.len() * matrix.references.len();
     let source = format!("{} modes identified from {count} FRFs", modes.len());
     let target = Target { speed, sensors: points, modes, frfs };
-    let force = measured.scalars.iter().find(|(name, _)| name == super::blow_run::PEAK_FORCE).map(|s| s.1);
+    let force = measured.scalars.iter().find(|(name, _)| name == super::impact_run::PEAK_FORCE).map(|s| s.1);
     Ok(ReadTarget { target, warnings, source, force })
 }
 
@@ -244,7 +244,7 @@ fn own_results(path: &Path) -> Result<Option<Measured>, Error> {
         return Ok(None);
     }
     let store = Store::open(path)?;
-    if let Some(frfs) = super::blow_run::frfs(&store)? {
+    if let Some(frfs) = super::impact_run::frfs(&store)? {
         return Ok(Some(frfs));
     }
     if !store.contains("/modes/eigenvalue") || !store.contains("/modes/shapes") {

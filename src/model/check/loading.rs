@@ -269,7 +269,7 @@ pub(super) fn direction(r: &Reader) -> [f64; 6] {
     direction
 }
 
-/// Anchor and direction, as of a blow.
+/// Anchor and direction, as of an excitation.
 pub(super) fn aim(r: &Reader, places: &Places) -> (Anchor, [f64; 6]) {
     (places.anchor(r), direction(r))
 }

@@ -127,15 +127,15 @@ fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
         ("accelerance", Quantity::Acceleration),
     ];
     let quantity = r.choice("quantity", &kinds).unwrap_or(Quantity::Displacement);
-    let read = |(name, blow): (&str, Reader)| {
-        let (at, direction) = aim(&blow, places);
-        blow.finish();
+    let read = |(name, force): (&str, Reader)| {
+        let (at, direction) = aim(&force, places);
+        force.finish();
         Excitation { name: name.into(), at, direction }
     };
     let excitations: Vec<Excitation> = r.items("excitation").into_iter().map(read).collect();
     if excitations.is_empty() && r.sound() {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.frf has no excitation");
-        r.log.error(problem.hint("add [study.frf.excitation.blow] with at and direction"));
+        r.log.error(problem.hint("add [study.frf.excitation.hit] with at and direction"));
     }
     let speed = r.or("speed", not_negative(SPEED), 0.0);
     FrfStudy { speed, frequencies, excitations, responses: responses(r, model, quantity), quantity }

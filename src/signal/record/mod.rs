@@ -199,7 +199,7 @@ pub enum RecordError {
     )]
     MissingFrf { response: String, reference: String, few_references: bool },
     #[error(
-        "`{first}` and `{second}` are both the FRF of {between}; leave one out, or tell their places in a mapping (blows at the same places are averaged)"
+        "`{first}` and `{second}` are both the FRF of {between}; leave one out, or tell their places in a mapping (hits at the same places are averaged)"
     )]
     DoubleFrf { first: String, second: String, between: String },
     #[error("`{channel}` holds no finite number at value {index}; cut that part out of the record")]
@@ -213,15 +213,15 @@ pub enum RecordError {
     #[error("there is no time record beside the force ({found}); add the channels of the accelerometers")]
     NoResponse { found: String },
     #[error(
-        "`{channel}` holds no blow: its largest value, {largest} {unit}, does not stand out of its median size of {median} {unit}; is it the hammer's channel (--force), and was it connected?"
+        "`{channel}` holds no hit: its largest value, {largest} {unit}, does not stand out of its median size of {median} {unit}; is it the hammer's channel (--force), and was it connected?"
     )]
-    NoBlow { channel: String, largest: f64, median: f64, unit: String },
+    NoHit { channel: String, largest: f64, median: f64, unit: String },
     #[error(
-        "the record of `{channel}` ends {seconds:.3} s after its first blow, before a block of {block:.3} s; take shorter blocks (--block)"
+        "the record of `{channel}` ends {seconds:.3} s after its first hit, before a block of {block:.3} s; take shorter blocks (--block)"
     )]
     ShortRecord { channel: String, seconds: f64, block: f64 },
-    #[error("no blow in `{channel}` is fit for use, of {blows}: {faults}")]
-    NoGoodBlow { channel: String, blows: usize, faults: String },
+    #[error("no good hit in `{channel}`, of {hits}: {faults}")]
+    NoGoodHit { channel: String, hits: usize, faults: String },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
     NoFrf { found: String },
 }

@@ -6,7 +6,7 @@ use super::FrfMatrix;
 use crate::signal::Complex;
 use crate::signal::error::{SignalError, check};
 
-/// A test with a flat force spectrum, such as a hammer's.
+/// A test with a flat force spectrum, such as an impact test's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyTest {
     /// Signal to noise of a single block \[dB\]: 20 log of the RMS over the lines, for every response and the force.

@@ -12,7 +12,7 @@ pub struct Geometry {
     pub mounts: Vec<Mount>,
 }
 
-/// A point fixed to another at a distance, as a sensor on a housing or a blow on a rim.
+/// A point fixed to another at a distance, as a sensor on a housing or a hit on a rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
     pub number: i64,

@@ -1,4 +1,4 @@
-//! A simulated hammer test: the stored run of a machine at rest under one load over time, as FRFs.
+//! A simulated impact test: the stored run of a machine at rest under one load over time, as FRFs.
 
 use std::f64::consts::TAU;
 
@@ -7,16 +7,16 @@ use crate::edge::results_file::read_history;
 use crate::error::Error;
 use crate::linalg::{Outside, piecewise};
 use crate::model::{self, Load, Model, Options, Quantity};
-use crate::signal::impact::{Blow, ImpactWindows, frf_from_blows};
+use crate::signal::impact::{Hit, ImpactWindows, frf_from_hits};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
 
-/// Name of the number that tells the largest force of the blow \[N\].
+/// Name of the number that tells the largest force of the hit \[N\].
 pub const PEAK_FORCE: &str = "peak_force";
 
 /// FRFs from the load to every probe; `None` where the file holds no run under exactly one load over time.
 ///
-/// The force is that of the model stored in the file. Frequencies go up to the inverse of the blow's duration, where
-/// a half-sine or a triangle still has half its force; what moves before the blow is taken as rest.
+/// The force is that of the model stored in the file. Frequencies go up to the inverse of the hit's duration, where
+/// a half-sine or a triangle still has half its force; what moves before the hit is taken as rest.
 ///
 /// # Errors
 /// The file cannot be read, or the run is too short to tell anything.
@@ -51,8 +51,8 @@ pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Mea
         let Some(channel) = history.channels.iter().find(|c| c.name == probe.name) else { continue };
         let rest = channel.values.first().copied().unwrap_or(0.0);
         let response: Vec<f64> = channel.values.iter().map(|v| v - rest).collect();
-        let blow = Blow { force: &force, response: &response };
-        let found = frf_from_blows(&[blow], history.sample_rate, windows)?;
+        let hit = Hit { force: &force, response: &response };
+        let found = frf_from_hits(&[hit], history.sample_rate, windows)?;
         let count = found.frequencies.iter().filter(|f| **f <= top).count();
         let step = found.frequencies.get(1).copied().unwrap_or(1.0);
         let axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
