@@ -66,11 +66,7 @@ struct Reference {
 /// # Errors
 /// The file cannot be read, or is not as described above; says the line.
 pub fn read(path: &Path) -> Result<Mapping, Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let text = std::fs::read_to_string(path).map_err(Error::of_file("read", path))?;
     toml::from_str(&text).map_err(|error| Error::Content {
         path: path.into(),
         problem: error.to_string().trim_end().to_owned(),
