@@ -1,6 +1,6 @@
 //! Errors of the library: input, physics, environment.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Any error other than those of reading a model file.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +26,16 @@ pub enum Error {
     /// A failed operation on a file or folder.
     #[error("{operation} {}: {source}", path.display())]
     Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
+}
+
+impl Error {
+    /// The failure of an operation on a file or folder, for `map_err`.
+    pub fn of_file<E>(operation: &'static str, path: &Path) -> impl Fn(E) -> Self
+    where
+        E: Into<Box<dyn std::error::Error + Send + Sync>>,
+    {
+        move |source| Self::Environment { operation, path: path.into(), source: source.into() }
+    }
 }
 
 /// A failure of the physics or of its numerical solution, with item, speed, time and residual if known.

@@ -100,7 +100,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
-//! | [`units`], [`material`] | quantities as text; material data |
+//! | [`units`], [`material`], [`names`] | quantities as text; material data; names as meant |
 //! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
 //! | [`signal`] | spectra, STFT, order tracking, envelopes, bearing faults, orbits of sampled records |
 //! | [`contact`] | Hertz contacts |
@@ -122,6 +122,7 @@
 
 pub mod conventions;
 pub mod material;
+pub mod names;
 pub mod units;
 
 pub mod linalg;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Layers from the ground up; a module may use its own layer and those before it. `error` may be used anywhere.
 const LAYERS: [&[&str]; 11] = [
-    &["units", "conventions", "references", "material"],
+    &["units", "conventions", "references", "material", "names"],
     &["linalg", "signal"],
     &["contact"],
     &["element", "bearing"],

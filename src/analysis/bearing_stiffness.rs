@@ -3,6 +3,7 @@
 use super::equilibrium::{CAGE_ANGLES, CageTreatment};
 use crate::bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
 use crate::error::PhysicsError;
+use crate::linalg::dot;
 use crate::linalg::small::solve_in_place;
 use rayon::prelude::*;
 
@@ -76,7 +77,7 @@ impl BearingEquilibrium {
         if !solve_in_place(&mut k, &mut x) {
             return 0.0;
         }
-        let compliance: f64 = direction.iter().zip(&x).map(|(n, x)| n * x).sum();
+        let compliance = dot(&direction, &x);
         let stiffness = largest / compliance;
         if stiffness > 1e-10 * largest { stiffness } else { 0.0 }
     }
@@ -189,7 +190,7 @@ impl BearingSolver {
             if !solve_in_place(&mut k, &mut step) {
                 break;
             }
-            let along = |r: &[f64; 5]| r.iter().zip(&step).map(|(r, s)| r * s).sum::<f64>();
+            let along = |r: &[f64; 5]| dot(r, &step);
             let first = along(&now.residual);
             // Zero or negative only by round-off at the solution.
             let at_solution = first <= 0.0 || first.is_nan();

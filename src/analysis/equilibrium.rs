@@ -3,7 +3,7 @@
 use crate::assembly::Assembly;
 use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{BandLayout, SparseMatrix, Triplets};
+use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};
 use crate::model::Model;
 
 /// Number of cage angles per ball pitch over which a bearing is averaged.
@@ -260,8 +260,4 @@ fn full_pattern(assembly: &Assembly) -> SparseMatrix {
 
 fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |m: f64, x| if x.is_nan() || m.is_nan() { f64::NAN } else { m.max(x.abs()) })
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -5,7 +5,7 @@ use super::{Assembly, DofMap, LinearSystem};
 use crate::bearing::Bearing;
 use crate::bearing::LinearElement;
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{BandLayout, SparseMatrix, Triplets, eigen};
+use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 use crate::model::{Drive, Model};
 
 /// Natural frequency \[rad/s\] below which a mode counts as rigid-body mode: one cycle in ten minutes.
@@ -79,12 +79,12 @@ fn may_move(assembly: &Assembly, stiffness: &SparseMatrix) -> bool {
     let mut slowest = 0.0;
     for _ in 0..STEPS {
         let momentum = mass.mul(&x);
-        let size = x.iter().zip(&momentum).map(|(x, p)| x * p).sum::<f64>().sqrt();
+        let size = dot(&x, &momentum).sqrt();
         x = momentum.iter().map(|p| p / size).collect();
         factors.solve(&mut x);
         let response = mass.mul(&x);
         // Converges from below to 1/(ω² + 1) of the lowest mode.
-        slowest = x.iter().zip(&response).map(|(x, p)| x * p).sum::<f64>().sqrt();
+        slowest = dot(&x, &response).sqrt();
     }
     // Threshold between a rigid-body mode (1) and the lowest elastic mode (near 0).
     slowest.is_nan() || slowest > 0.5

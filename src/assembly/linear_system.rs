@@ -3,7 +3,7 @@
 use super::Assembly;
 use crate::bearing::SiteTangent;
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{SparseMatrix, Triplets, eigen};
+use crate::linalg::{Outside, SparseMatrix, Triplets, eigen, piecewise};
 
 /// M q̈ + D q̇ + S q = f at speed Ω, with D = C + Ω G and S = K + Ω K_c, bearings and belts included.
 #[derive(Clone, Debug)]
@@ -62,7 +62,9 @@ pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Sp
     let momentum = &mass * &shapes;
     for (mut column, square) in shapes.column_iter_mut().zip(&squares) {
         let omega = square.max(0.0).sqrt();
-        column *= 2.0 * omega * damping_ratio(&assembly.modal_damping, omega / std::f64::consts::TAU);
+        let hz = omega / std::f64::consts::TAU;
+        let [_, ratio] = piecewise(&assembly.modal_damping, hz, Outside::Constant);
+        column *= 2.0 * omega * ratio;
     }
     let mut dense = &momentum * (mass * shapes).transpose();
     // Entries between uncoupled unknowns are round-off only: set to zero to keep sparsity.
@@ -73,14 +75,4 @@ pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Sp
         }
     });
     Ok(SparseMatrix::from_dense(&dense))
-}
-
-/// Damping ratio ζ at a frequency \[Hz\]: piecewise linear, constant beyond the ends.
-fn damping_ratio(table: &[[f64; 2]], hz: f64) -> f64 {
-    let after = table.partition_point(|row| row[0] <= hz);
-    match (after.checked_sub(1).map(|k| table[k]), table.get(after).copied()) {
-        (Some([f0, z0]), Some([f1, z1])) => z0 + (z1 - z0) * (hz - f0) / (f1 - f0),
-        (Some([_, z]), None) | (None, Some([_, z])) => z,
-        (None, None) => 0.0,
-    }
 }

@@ -17,7 +17,7 @@ use crate::bearing::Reaction;
 use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
 use crate::error::Error;
-use crate::linalg::{Complex64, SparseMatrix, SparseRow};
+use crate::linalg::{Complex64, SparseMatrix, SparseRow, dot};
 use crate::model::Model;
 
 /// Equations of motion over the free DOFs, without bearings.
@@ -128,7 +128,7 @@ impl Assembly {
             gravity_load: dofs.reduce(&gravity),
             static_load: dofs.reduce(&steady),
             spin_momentum: dofs.reduce(&momentum),
-            polar_inertia: momentum.iter().zip(&rotation).map(|(p, r)| p * r).sum(),
+            polar_inertia: dot(&momentum, &rotation),
             unbalances: model
                 .unbalances
                 .iter()

@@ -5,6 +5,7 @@
 
 use super::duplex::{motion_at, seen_from_station};
 use super::force::RowForce;
+use super::ring_motion::RingMotion;
 use super::row::Row;
 use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
 use crate::contact::{ContactPatch, HertzPair};
@@ -114,19 +115,21 @@ impl BallElement {
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all balls unloaded gives zero force and zero tangents; no ball transmits tension.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
-        self.react(d, v, rotation, rotation.cage_speed, true)
+        self.react(&RingMotion { d, v, rotation, cage_speed: rotation.cage_speed, with_defects: true })
     }
 
     /// The force of [`BallElement::reaction`] with its energy, powers and mean contact angle, to `out`.
     ///
     /// The tangents of `out` are unspecified; the force agrees up to round-off.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
+        let station = RingMotion { d, v, rotation, cage_speed: rotation.cage_speed, with_defects: true };
         let mut sum = RowForce::default();
         for (place, row) in &self.rows {
-            match row.force(&motion_at(*place, d), &motion_at(*place, v), rotation) {
+            let ring = RingMotion { d: &motion_at(*place, d), v: &motion_at(*place, v), ..station };
+            match row.force(&ring) {
                 Some(part) => sum.add(&part, *place),
                 None => {
-                    *out = self.reaction(d, v, rotation);
+                    *out = self.react(&station);
                     return;
                 }
             }
@@ -138,18 +141,11 @@ impl BallElement {
         out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.nominal_cos };
     }
 
-    fn react(
-        &self,
-        d: &[f64; 6],
-        v: &[f64; 6],
-        rotation: &Rotation,
-        turning: f64,
-        imperfect: bool,
-    ) -> Reaction {
+    fn react(&self, ring: &RingMotion) -> Reaction {
         let (mut load, mut load_cos) = (0.0, 0.0);
         let mut row_reaction = |place: f64, row: &Row| {
-            let (d, v) = (motion_at(place, d), motion_at(place, v));
-            let out = row.react(&d, &v, rotation, turning, imperfect);
+            let (d, v) = (motion_at(place, ring.d), motion_at(place, ring.v));
+            let out = row.react(&RingMotion { d: &d, v: &v, ..*ring });
             load += out.load;
             load_cos += out.load_cos;
             seen_from_station(place, &out.reaction)
@@ -178,7 +174,7 @@ impl BallElement {
         for k in 0..angles {
             let at =
                 Rotation { cage_angle: rotation.cage_angle + pitch * k as f64 / angles as f64, ..*rotation };
-            out.add(&self.react(d, &[0.0; 6], &at, 0.0, false), 1.0 / angles as f64);
+            out.add(&self.react(&RingMotion::at_rest(d, &at, false)), 1.0 / angles as f64);
         }
         out
     }

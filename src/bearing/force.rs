@@ -3,7 +3,8 @@
 use pulp::{Arch, NullaryFnOnce};
 
 use super::preload::Seat;
-use super::row::{Row, passing_at};
+use super::ring_motion::RingMotion;
+use super::row::Row;
 use super::{Passing, Rotation};
 use crate::contact::{ContactDamping, SpeedContacts};
 
@@ -54,7 +55,7 @@ impl Lean {
         };
         let balls: Vec<_> = spacing.chunks(LANES).map(lane).collect();
         let common = Common {
-            offset: row.operating(&Rotation::default(), 0.0, false).offset,
+            offset: row.operating(&RingMotion::at_rest(&[0.0; 6], &Rotation::default(), false)).offset,
             arm: row.arm,
             centre_distance: row.centre_distance,
             stiffness: pair.stiffness,
@@ -112,20 +113,20 @@ impl Row {
     /// The force of [`Row::react`]; `None` if the row has no [`Lean`] or its defects act by the force law.
     ///
     /// Summation order differs, so results agree up to round-off of the largest ball force.
-    pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Option<RowForce> {
+    pub fn force(&self, ring: &RingMotion) -> Option<RowForce> {
         let lean = self.lean.as_ref()?;
         let deviations = match &self.profile {
             None => None,
             Some(profile) if profile.force_law().is_some() => return None,
-            Some(profile) => Some(deviations(&profile.at(&passing_at(rotation, rotation.cage_speed)))),
+            Some(profile) => Some(deviations(&profile.at(&ring.passing()))),
         };
-        let (sin, cos) = rotation.cage_angle.sin_cos();
+        let (sin, cos) = ring.rotation.cage_angle.sin_cos();
         let mut sums = Sums::default();
         lean.arch.dispatch(Balls {
             lanes: &lean.balls,
             common: &lean.common,
-            motion: [d, v],
-            cage: [cos, sin, rotation.cage_speed],
+            motion: [ring.d, ring.v],
+            cage: [cos, sin, ring.cage_speed],
             deviations: deviations.as_ref(),
             sums: &mut sums,
         });

@@ -4,6 +4,7 @@
 
 use super::BallGeometry;
 use crate::contact::{HertzPair, Race};
+use crate::linalg::{Outside, piecewise};
 
 /// Load ratings: basic dynamic, basic static, fatigue load limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,8 +98,8 @@ fn load_factors(angle: f64, relative: f64) -> [f64; 3] {
         [5.17, 1.00, 0.56],
         [6.89, 1.00, 0.56],
     ];
-    let [y0, e0] = interpolate(&DEEP_GROOVE, relative);
-    let [y15, e15] = interpolate(&FIFTEEN, relative);
+    let [_, y0, e0] = piecewise(&DEEP_GROOVE, relative, Outside::Constant);
+    let [_, y15, e15] = piecewise(&FIFTEEN, relative, Outside::Constant);
     // Angle, X, Y, e.
     let table = [
         [0.0, 0.56, y0, e0],
@@ -110,15 +111,8 @@ fn load_factors(angle: f64, relative: f64) -> [f64; 3] {
         [40.0, 0.35, 0.57, 1.14],
         [45.0, 0.33, 0.50, 1.34],
     ];
-    interpolate(&table, angle)
-}
-
-/// Values of a table at x, linear between its rows and constant beyond them; the first column is x.
-fn interpolate<const N: usize, const M: usize>(table: &[[f64; N]], x: f64) -> [f64; M] {
-    let next = table.partition_point(|row| row[0] <= x).clamp(1, table.len() - 1);
-    let (low, high) = (&table[next - 1], &table[next]);
-    let t = ((x - low[0]) / (high[0] - low[0])).clamp(0.0, 1.0);
-    std::array::from_fn(|k| low[k + 1] + t * (high[k + 1] - low[k + 1]))
+    let [_, x, y, e] = piecewise(&table, angle, Outside::Constant);
+    [x, y, e]
 }
 
 /// Basic rating life L₁₀ = (C/P)³; infinite without load. Source: ISO 281 eq. 4.
@@ -180,7 +174,7 @@ pub fn reliability_factor(reliability: f64) -> f64 {
         [0.999, 0.093],
         [0.9995, 0.077],
     ];
-    let [factor] = interpolate(&TABLE, reliability);
+    let [_, factor] = piecewise(&TABLE, reliability, Outside::Constant);
     factor
 }
 

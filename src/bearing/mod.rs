@@ -18,6 +18,7 @@ mod preload;
 pub mod profile;
 mod raceway;
 pub mod radial;
+mod ring_motion;
 mod ring_sum;
 mod root;
 mod row;

@@ -1,7 +1,9 @@
 //! Axial preload: rigid (displacement or force) and spring preload with a floating outer ring.
 
+use super::ring_motion::RingMotion;
 use super::row::Row;
 use super::{Preload, Reaction, Rotation, root};
+use crate::linalg::dot;
 
 /// Preload of a bearing with centred rings at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -67,37 +69,30 @@ pub(super) struct RowReaction {
 
 impl Row {
     /// Force on the inner ring and tangents, for any preload mechanism of the outer ring.
-    pub fn react(
-        &self,
-        d: &[f64; 6],
-        v: &[f64; 6],
-        rotation: &Rotation,
-        turning: f64,
-        imperfect: bool,
-    ) -> RowReaction {
-        let operating = self.operating(rotation, turning, imperfect);
-        let evaluate = |d: &[f64; 6], v: &[f64; 6]| {
-            let sum = self.sum(d, v, rotation, &operating);
-            let reaction = self.reaction(&sum, &operating);
+    pub fn react(&self, ring: &RingMotion) -> RowReaction {
+        let operating = self.operating(ring);
+        let evaluate = |ring: &RingMotion| {
+            let sum = self.sum(ring, &operating);
+            let reaction = sum.reaction(self.arm, ring.cage_speed);
             RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
         };
         let Seat::Spring { stiffness, force, .. } = self.seat else {
-            return evaluate(d, v);
+            return evaluate(ring);
         };
-        let shift = self.spring_shift(d, rotation, imperfect);
-        let moved = shifted(d, self.direction * shift);
-        let still = self.operating(rotation, 0.0, imperfect);
-        let sum = self.sum(&moved, &[0.0; 6], rotation, &still);
-        let elastic = self.reaction(&sum, &still);
+        let shift = self.spring_shift(ring);
+        let moved = shifted(ring.d, self.direction * shift);
+        let still = RingMotion::at_rest(&moved, ring.rotation, ring.with_defects);
+        let sum = self.sum(&still, &self.operating(&still));
+        let elastic = sum.reaction(self.arm, still.cage_speed);
         let whole = elastic.stiffness[2][2] + stiffness;
         // Axial ring displacement per shaft displacement; zero for an unloaded ring without spring.
         let follow: [f64; 6] =
             std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
-        let slip: f64 = follow.iter().zip(v).map(|(f, v)| f * v).sum();
-        let mut out = if turning == 0.0 && v.iter().all(|v| *v == 0.0) {
+        let slip = dot(&follow, ring.v);
+        let mut out = if ring.cage_speed == 0.0 && ring.v.iter().all(|v| *v == 0.0) {
             RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
         } else {
-            evaluate(&moved, &shifted(v, slip))
+            evaluate(&RingMotion { d: &moved, v: &shifted(ring.v, slip), ..*ring })
         };
         condense(&mut out.reaction, &elastic, &follow);
         out.reaction.elastic_energy += (0.5 * stiffness * shift - force) * shift;
@@ -106,34 +101,36 @@ impl Row {
 
     /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
     /// e.
-    fn spring_shift(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> f64 {
+    fn spring_shift(&self, ring: &RingMotion) -> f64 {
         let Seat::Spring { stiffness, force, dry, follows } = self.seat else { return 0.0 };
-        let still = self.operating(rotation, 0.0, imperfect);
+        let still = RingMotion::at_rest(ring.d, ring.rotation, ring.with_defects);
+        let operating = self.operating(&still);
         root::rising(
             |e| {
-                let at = shifted(d, self.direction * e);
-                let (n, slope) = self.sum(&at, &[0.0; 6], rotation, &still).axial();
+                let d = shifted(ring.d, self.direction * e);
+                let (n, slope) = self.sum(&RingMotion { d: &d, ..still }, &operating).axial();
                 [self.direction * n + stiffness * e - force, slope + stiffness]
             },
-            dry - follows * self.direction * d[2],
+            dry - follows * self.direction * ring.d[2],
         )
     }
 
-    /// Displacement d with the displacement of a spring-preloaded ring added.
-    pub fn with_spring(&self, d: &[f64; 6], rotation: &Rotation, imperfect: bool) -> [f64; 6] {
-        shifted(d, self.direction * self.spring_shift(d, rotation, imperfect))
+    /// Where a ring on a spring is, added to its displacement.
+    pub fn with_spring(&self, ring: &RingMotion) -> [f64; 6] {
+        shifted(ring.d, self.direction * self.spring_shift(ring))
     }
 
     /// Offset and axial force of the centred bearing.
     pub fn preload_state(&self, rotation: &Rotation) -> PreloadState {
-        let operating = self.operating(rotation, 0.0, false);
+        let centred = RingMotion::at_rest(&[0.0; 6], rotation, false);
+        let operating = self.operating(&centred);
         let offset = match self.seat {
             Seat::Fixed(offset) => offset,
             Seat::Force { .. } => operating.preload,
-            Seat::Spring { .. } => self.spring_shift(&[0.0; 6], rotation, false),
+            Seat::Spring { .. } => self.spring_shift(&centred),
         };
-        let at = shifted(&[0.0; 6], self.direction * (offset - operating.preload));
-        let (axial, _) = self.sum(&at, &[0.0; 6], rotation, &operating).axial();
+        let d = shifted(centred.d, self.direction * (offset - operating.preload));
+        let (axial, _) = self.sum(&RingMotion { d: &d, ..centred }, &operating).axial();
         PreloadState { offset, axial_force: self.direction * axial }
     }
 }

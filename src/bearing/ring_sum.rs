@@ -111,9 +111,9 @@ impl RingSum {
     /// Force and tangents with moment arm R \[m\] at a cage speed `turning` \[rad/s\].
     ///
     /// ṡ = B ḋ + ψ̇ (∂B/∂ψ) d; hence the stiffness is Σ Bᵀ (∂p/∂s) B + ψ̇ Σ Bᵀ (∂p/∂ṡ) ∂B/∂ψ.
-    pub fn reaction(&self, arm: f64, turning: f64) -> Reaction {
+    pub fn reaction(&self, arm: f64, cage_speed: f64) -> Reaction {
         let factor = [1.0, 1.0, 1.0, arm, -arm];
-        let turned = [-1.0, 1.0, 0.0, arm, arm].map(|f| f * turning);
+        let turned = [-1.0, 1.0, 0.0, arm, arm].map(|f| f * cage_speed);
         let by_rate = [[&self.by_rate[0], &self.by_rate[1]], [&self.by_rate[1], &self.by_rate[2]]];
         let mut out = Reaction {
             elastic_energy: self.energy,
@@ -130,7 +130,7 @@ impl RingSum {
                 out.damping[a][b] = both * by_rate[p][q][harmonic];
             }
         }
-        if turning != 0.0 {
+        if cage_speed != 0.0 {
             for (a, (p, f)) in ROWS.into_iter().enumerate() {
                 for (b, (q, g)) in TURNED.into_iter().enumerate() {
                     out.stiffness[a][b] += factor[a] * turned[b] * by_rate[p][q][PRODUCT[f][g]];

@@ -3,6 +3,7 @@
 use super::force::Lean;
 use super::jones::{Balls, Fling, Laws, Settled};
 use super::preload::Seat;
+use super::ring_motion::RingMotion;
 use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
 use super::{BallBearing, BallLoad, Deviation, Passing, Profile, Rotation};
 use super::{defect_force, massless, root};
@@ -49,10 +50,6 @@ pub(super) struct Operating<'a> {
     pub preload: f64,
     /// Centrifugal force and gyroscopic moment of the balls; `None` at rest and for massless balls.
     fling: Option<Fling>,
-    /// Cage speed as motion of the contacts \[rad/s\]; 0 in statics.
-    pub turning: f64,
-    /// Whether waviness, off-size balls and defects are included.
-    pub imperfect: bool,
 }
 
 /// Position of a ball's inner groove centre relative to the outer one, in the plane (radial, axial).
@@ -143,7 +140,8 @@ impl Row {
     ///
     /// The inertial loads use the cage speed, or if it is zero (statics) the shaft speed times the nominal
     /// cage ratio.
-    pub fn operating(&self, rotation: &Rotation, turning: f64, imperfect: bool) -> Operating<'_> {
+    pub fn operating(&self, ring: &RingMotion) -> Operating<'_> {
+        let rotation = ring.rotation;
         let speed = self.entrainment * rotation.shaft_speed.abs();
         let contacts = self.contacts.at_speed(speed);
         let orbit = if rotation.cage_speed != 0.0 {
@@ -160,7 +158,7 @@ impl Row {
             let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
             offset[0] -= 0.5 * change;
         }
-        let mut out = Operating { contacts, offset, preload: 0.0, fling, turning, imperfect };
+        let mut out = Operating { contacts, offset, preload: 0.0, fling };
         out.preload = match self.seat {
             Seat::Fixed(offset) => offset,
             Seat::Spring { .. } => 0.0,
@@ -195,43 +193,41 @@ impl Row {
         (z * ball.force[1], z * ball.by_motion[3])
     }
 
-    /// Sum over all balls at displacement d and velocity v of the inner ring relative to the outer one.
-    pub fn sum(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, operating: &Operating) -> RingSum {
+    /// Sum over all balls at a motion of the inner ring relative to the outer one.
+    pub fn sum(&self, ring: &RingMotion, operating: &Operating) -> RingSum {
         if let Some(fling) = &operating.fling {
-            return self.sum_flung(d, v, rotation, operating, fling);
+            return self.sum_flung(ring, operating, fling);
         }
         let a = self.centre_distance;
         // One loop per contact law (monomorphised), to avoid dispatch per ball.
         let massless = |law: &SpeedContacts, motion: &PlaneMotion| {
             massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
         };
-        match (&operating.contacts, self.force_law(operating)) {
-            (law, Some(on_loaded)) => self.sum_of(d, v, rotation, operating, |motion| {
+        match (&operating.contacts, self.force_law(ring)) {
+            (law, Some(on_loaded)) => self.sum_of(ring, operating, |motion| {
                 defect_force::pushed(massless(law, motion), on_loaded, motion)
             }),
-            (dry @ SpeedContacts::Hertz(pair), None) => self.sum_of(d, v, rotation, operating, |motion| {
+            (dry @ SpeedContacts::Hertz(pair), None) => self.sum_of(ring, operating, |motion| {
                 massless::react(|approach| pair.series(approach), dry, &self.damping, a, motion)
             }),
-            (law, None) => self.sum_of(d, v, rotation, operating, |motion| massless(law, motion)),
+            (law, None) => self.sum_of(ring, operating, |motion| massless(law, motion)),
         }
     }
 
     /// `Some` if defects act by the force law: whether on loaded balls only.
-    fn force_law(&self, operating: &Operating) -> Option<bool> {
-        self.profile.as_deref().filter(|_| operating.imperfect)?.force_law()
+    fn force_law(&self, ring: &RingMotion) -> Option<bool> {
+        self.profile.as_deref().filter(|_| ring.with_defects)?.force_law()
     }
 
     #[inline(always)]
     fn sum_of(
         &self,
-        d: &[f64; 6],
-        v: &[f64; 6],
-        rotation: &Rotation,
+        ring: &RingMotion,
         operating: &Operating,
         react: impl Fn(&PlaneMotion) -> Option<PlaneForce>,
     ) -> RingSum {
         let mut sum = RingSum::default();
-        self.each(d, v, rotation, operating, |[cos, sin], motion, turn| {
+        self.each(ring, operating, |[cos, sin], motion, turn| {
             if let Some(mut ball) = react(&motion) {
                 // Cage rotation moves the ball past the ring: input power at a fixed ring.
                 ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
@@ -242,19 +238,12 @@ impl Row {
     }
 
     /// Sum over balls with inertial loads (centrifugal force, gyroscopic moment).
-    fn sum_flung(
-        &self,
-        d: &[f64; 6],
-        v: &[f64; 6],
-        rotation: &Rotation,
-        operating: &Operating,
-        fling: &Fling,
-    ) -> RingSum {
+    fn sum_flung(&self, ring: &RingMotion, operating: &Operating, fling: &Fling) -> RingSum {
         let mut sum = RingSum::default();
-        self.each(d, v, rotation, operating, |[cos, sin], motion, turn| {
+        self.each(ring, operating, |[cos, sin], motion, turn| {
             let (mut ball, moment) = self.flung(fling, operating, &motion);
             ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
-            ball.power -= moment.moment * (v[3] * sin - v[4] * cos);
+            ball.power -= moment.moment * (ring.v[3] * sin - ring.v[4] * cos);
             sum.add(cos, sin, &ball);
             if fling.on_inner() {
                 sum.add_moment(cos, sin, &moment);
@@ -299,19 +288,18 @@ impl Row {
     #[inline(always)]
     fn each(
         &self,
-        d: &[f64; 6],
-        v: &[f64; 6],
-        rotation: &Rotation,
+        ring: &RingMotion,
         operating: &Operating,
         mut visit: impl FnMut([f64; 2], PlaneMotion, [f64; 2]),
     ) {
-        let (turned, r) = (operating.turning, self.arm);
+        let RingMotion { d, v, rotation, cage_speed, .. } = *ring;
+        let r = self.arm;
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
-        let passing = self.passing(rotation, operating);
+        let passing = self.passing(ring);
         for (j, [cj, sj]) in self.spacing.iter().enumerate() {
             let cos = cage_cos * cj - cage_sin * sj;
             let sin = cage_sin * cj + cage_cos * sj;
-            let turn = [turned * (d[1] * cos - d[0] * sin), turned * r * (d[3] * cos + d[4] * sin)];
+            let turn = [cage_speed * (d[1] * cos - d[0] * sin), cage_speed * r * (d[3] * cos + d[4] * sin)];
             let mut motion = PlaneMotion {
                 s: [
                     operating.offset[0] + d[0] * cos + d[1] * sin,
@@ -328,21 +316,18 @@ impl Row {
     }
 
     /// Surface profile at the current angles; zero rates in statics.
-    fn passing(&self, rotation: &Rotation, operating: &Operating) -> Option<Passing<'_>> {
-        let profile = self.profile.as_deref().filter(|_| operating.imperfect)?;
-        Some(profile.at(&passing_at(rotation, operating.turning)))
-    }
-
-    /// Force on the inner ring and tangents from a sum.
-    pub fn reaction(&self, sum: &RingSum, operating: &Operating) -> super::Reaction {
-        sum.reaction(self.arm, operating.turning)
+    fn passing(&self, ring: &RingMotion) -> Option<Passing<'_>> {
+        let profile = self.profile.as_deref().filter(|_| ring.with_defects)?;
+        Some(profile.at(&ring.passing()))
     }
 
     /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
-        let operating = self.operating(rotation, 0.0, true);
-        let d = self.with_spring(d, rotation, true);
-        self.each(&d, &[0.0; 6], rotation, &operating, |[cos, sin], motion, _| {
+        let held = RingMotion::at_rest(d, rotation, true);
+        let operating = self.operating(&held);
+        let d = self.with_spring(&held);
+        let ring = RingMotion { d: &d, ..held };
+        self.each(&ring, &operating, |[cos, sin], motion, _| {
             let settled = operating.fling.map(|fling| self.settle(&fling, &operating, &motion));
             let angle = |n: [f64; 2]| n[1].atan2(n[0]);
             let (loads, angles, deflection) = match settled {
@@ -355,7 +340,7 @@ impl Row {
                     let distance = motion.s[0].hypot(motion.s[1]);
                     let deflection = distance - self.centre_distance + motion.deviation.total();
                     let elastic = operating.contacts.series(deflection).load;
-                    let load = match self.force_law(&operating) {
+                    let load = match self.force_law(&ring) {
                         Some(true) if elastic > 0.0 => (elastic + motion.deviation.push).max(0.0),
                         Some(false) => elastic + motion.deviation.push,
                         _ => elastic,
@@ -376,12 +361,6 @@ impl Row {
             });
         });
     }
-}
-
-/// Rotation with the surface speeds of the contacts: zero in statics (`turning` = 0).
-pub(super) fn passing_at(rotation: &Rotation, turning: f64) -> Rotation {
-    let shaft_speed = if turning == 0.0 { 0.0 } else { rotation.shaft_speed };
-    Rotation { cage_speed: turning, shaft_speed, ..*rotation }
 }
 
 /// Approach of a dry contact under a load Q ≥ 0: (Q/K)^{2/3}.

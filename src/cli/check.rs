@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use rotordyn::assembly::free_motion;
 use rotordyn::bearing::Bearing;
+use rotordyn::linalg::dot;
 use rotordyn::model::{Loaded, Model};
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
@@ -80,7 +81,7 @@ fn check(origin: &Origin, variant: &str) -> Result<Checked, Failure> {
     // Unit rigid-body translation u along x: uᵀ M u is the total mass.
     let along: Vec<f64> =
         (0..machine.assembly.dofs.full_len()).map(|i| f64::from(u8::from(i % 6 == 0))).collect();
-    let mass = full.mul(&along).iter().zip(&along).map(|(p, u)| p * u).sum();
+    let mass = dot(&full.mul(&along), &along);
     Ok(Checked { name: variant.to_string(), loaded, machine, mass, free })
 }
 

@@ -32,7 +32,7 @@ impl From<ModelErrors> for Failure {
 impl Failure {
     /// A file operation that failed.
     pub fn environment(operation: &'static str, path: &std::path::Path, source: std::io::Error) -> Self {
-        Self::Library(Error::Environment { operation, path: path.into(), source: source.into() })
+        Self::Library(Error::of_file(operation, path)(source))
     }
 
     /// 2 input, 3 physics, 4 environment, 130 Ctrl-C.

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::measured::blow_run;
+use rotordyn::edge::measured::impact_run;
 use rotordyn::edge::measured::mapping::{self, Mapping};
 use rotordyn::edge::{exchange, figures, identified, measured};
 use rotordyn::error::Error;
 use rotordyn::identify::{Identified, Settings, identify, quantity_of};
 use rotordyn::model::Quantity;
-use rotordyn::signal::hammer::{self, HammerTest};
-use rotordyn::signal::impact::{Estimator, ImpactWindows};
+use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
 use serde_json::json;
@@ -28,7 +27,7 @@ use super::{Outcome, written};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let settings = settings(args)?;
-    let test = HammerTest {
+    let test = ImpactTest {
         force: args.force.clone(),
         block: value("--block", args.block.as_ref(), units::TIME)?,
         time_constant: value("--window", args.window.as_ref(), units::TIME)?,
@@ -72,18 +71,18 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
 /// FRF matrix of the files and its modes; warnings are also collected on failure.
 fn found(
     args: &IdentifyArgs,
-    test: &HammerTest,
+    test: &ImpactTest,
     settings: &Settings,
     warnings: &mut Vec<String>,
 ) -> Result<(Measured, FrfMatrix, Identified), Failure> {
-    let (all, from_blows) = read(args, test, warnings)?;
+    let (all, from_hits) = read(args, test, warnings)?;
     // With several files the channel names already contain the file name.
     let at = |error: Error| match &args.files[..] {
         [only] => in_file(only, error),
         _ => error.into(),
     };
     let frfs = all.frf_matrix().map_err(|error| at(error.into()))?;
-    doubts(&frfs, args, from_blows, warnings);
+    doubts(&frfs, args, from_hits, warnings);
     let found = identify(&frfs, settings).map_err(|error| at(error.into()))?;
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
@@ -196,7 +195,7 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
 /// Reads all files, converts time records to FRFs; also returns whether any FRF comes from hits.
 fn read(
     args: &IdentifyArgs,
-    test: &HammerTest,
+    test: &ImpactTest,
     warnings: &mut Vec<String>,
 ) -> Result<(Measured, bool), Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
@@ -267,9 +266,9 @@ fn read(
             "--force, --block and --estimator apply to time records, but the files contain only FRFs".into(),
         );
     }
-    let from_blows = simulated || !tests.is_empty();
+    let from_hits = simulated || !tests.is_empty();
     for (path, files) in tests {
-        let (records, doubts) = hammer::frfs(&files, test).map_err(|error| in_file(path, error))?;
+        let (records, doubts) = impact::frfs(&files, test).map_err(|error| in_file(path, error))?;
         warnings.extend(doubts);
         put(args, path, records, &mut all);
     }
@@ -279,16 +278,16 @@ fn read(
         warnings
             .push(format!("without --model the stations of the mapping are numbered: {}", named.join(", ")));
     }
-    Ok((all, from_blows))
+    Ok((all, from_hits))
 }
 
 /// FRFs of a simulated impact test.
-fn of_run(path: &Path, test: &HammerTest) -> Result<Option<Measured>, Failure> {
+fn of_run(path: &Path, test: &ImpactTest) -> Result<Option<Measured>, Failure> {
     if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
         return Ok(None);
     }
     let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
-    Ok(blow_run::frfs_windowed(&Store::open(path)?, windows)?)
+    Ok(impact_run::frfs_windowed(&Store::open(path)?, windows)?)
 }
 
 /// Whether two files contain the same channels, all at known points.
@@ -310,8 +309,8 @@ fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Mea
     all.records.extend(records);
 }
 
-fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_blows: bool, warnings: &mut Vec<String>) {
-    if frfs.coherence.is_none() && !from_blows {
+fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warnings: &mut Vec<String>) {
+    if frfs.coherence.is_none() && !from_hits {
         warnings.push(
             "not all FRFs have a coherence function, so noisy frequency ranges are not known; export the coherence with \
              the FRFs"

@@ -100,9 +100,10 @@ pub fn frf(
         (None, None, Some(station)) => format!("station.{}", station.name),
         (None, None, None) => "ground".to_string(),
     };
-    let blow = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", quoted(&place));
+    let force = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", quoted(&place));
     let words = format!("unit forces along x and y at {place}, 1 to 500 Hz");
-    let values = [("frequencies", sweep("500 Hz")), ("excitation.x", blow("x")), ("excitation.y", blow("y"))];
+    let values =
+        [("frequencies", sweep("500 Hz")), ("excitation.x", force("x")), ("excitation.y", force("y"))];
     draft.defaults(model.studies.frf.is_none(), &words, &values)
 }
 

@@ -65,11 +65,7 @@ pub fn to_csv(columns: &[Column]) -> String {
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write(path: &Path, columns: &[Column]) -> Result<(), Error> {
-    std::fs::write(path, to_csv(columns)).map_err(|source| Error::Environment {
-        operation: "write",
-        path: path.to_path_buf(),
-        source: source.into(),
-    })
+    std::fs::write(path, to_csv(columns)).map_err(Error::of_file("write", path))
 }
 
 /// Writes channels of one constant sample rate, with the first column `time_s` = t₀ + k/f_s.

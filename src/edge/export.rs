@@ -85,9 +85,5 @@ fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
 }
 
 fn make(folder: &Path) -> Result<(), Error> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::Environment {
-        operation: "create folder",
-        path: folder.to_path_buf(),
-        source: source.into(),
-    })
+    std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))
 }

@@ -107,11 +107,7 @@ pub fn to_glb(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write(path: &Path, scene: &Scene) -> Result<(), Error> {
-    std::fs::write(path, to_glb(scene)).map_err(|source| Error::Environment {
-        operation: "write",
-        path: path.to_path_buf(),
-        source: source.into(),
-    })
+    std::fs::write(path, to_glb(scene)).map_err(Error::of_file("write", path))
 }
 
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {

@@ -65,7 +65,7 @@ impl Store {
     pub fn create(path: impl AsRef<Path>) -> Result<Store, Error> {
         let path = path.as_ref();
         if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| failure("create the folder of", path, e))?;
+            std::fs::create_dir_all(folder).map_err(Error::of_file("create the folder of", path))?;
         }
         Store::open_as(path, OpenMode::Create, "create")
     }
@@ -91,7 +91,7 @@ impl Store {
             access.libver_bounds(LibraryVersion::V18, LibraryVersion::V18).file_locking(false)
         });
         options.with_fcpl(|create| create.obj_track_times(false));
-        let file = options.open_as(path, mode).map_err(|e| failure(operation, path, e))?;
+        let file = options.open_as(path, mode).map_err(Error::of_file(operation, path))?;
         Ok(Store { file, path: path.into() })
     }
 
@@ -102,7 +102,7 @@ impl Store {
 
     /// Flushes all written data to the operating system.
     pub fn flush(&self) -> Result<(), Error> {
-        self.file.flush().map_err(|e| failure("write", &self.path, e))
+        self.file.flush().map_err(Error::of_file("write", &self.path))
     }
 
     /// Whether there is a group or data set of this name.
@@ -291,20 +291,12 @@ impl Store {
     }
 
     fn writing<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {
-        result.map_err(|e| failure("write", &self.path, format!("{object}: {e}")))
+        result.map_err(|e| Error::of_file("write", &self.path)(format!("{object}: {e}")))
     }
 
     fn reading<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {
-        result.map_err(|e| failure("read", &self.path, format!("{object}: {e}")))
+        result.map_err(|e| Error::of_file("read", &self.path)(format!("{object}: {e}")))
     }
-}
-
-fn failure(
-    operation: &'static str,
-    path: &Path,
-    source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
-) -> Error {
-    Error::Environment { operation, path: path.into(), source: source.into() }
 }
 
 /// `/a/b/c` as `/a`, `/a/b`, `/a/b/c`.

@@ -40,11 +40,7 @@ pub fn is_mat(head: &[u8]) -> bool {
 /// # Errors
 /// The file cannot be read, is cut off, or is not a v5 .mat file.
 pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
     parse(&bytes).map_err(|problem| Error::Content {
         path: path.into(),
         problem: problem.into(),
@@ -228,11 +224,7 @@ pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
         problem: format!("`{name}` is too large for a v5 .mat file"),
         advice: "write .npz or HDF5 instead".into(),
     })?;
-    std::fs::write(path, bytes).map_err(|source| Error::Environment {
-        operation: "write",
-        path: path.into(),
-        source: source.into(),
-    })
+    std::fs::write(path, bytes).map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a file; error: the name of an array that is too large.

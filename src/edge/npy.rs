@@ -28,11 +28,7 @@ pub fn is_npz(head: &[u8]) -> bool {
 /// # Errors
 /// The file cannot be read, is damaged or cut off.
 pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
     let content = |problem: String| Error::Content {
         path: path.into(),
         problem,
@@ -189,11 +185,7 @@ pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
         problem: "the records are too large for a .npz archive".into(),
         advice: "write HDF5 instead".into(),
     })?;
-    std::fs::write(path, bytes).map_err(|source| Error::Environment {
-        operation: "write",
-        path: path.into(),
-        source: source.into(),
-    })
+    std::fs::write(path, bytes).map_err(Error::of_file("write", path))
 }
 
 fn npy(array: &Array) -> Vec<u8> {

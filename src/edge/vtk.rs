@@ -119,8 +119,8 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
 /// # Errors
 /// [`Error::Environment`] when [`to_vtu`] rejects the data or the file cannot be written.
 pub fn write_vtu(path: &Path, grid: &Grid, fields: &[Field]) -> Result<(), Error> {
-    let text = to_vtu(grid, fields).map_err(|reason| failure(path, reason.into()))?;
-    std::fs::write(path, text).map_err(|source| failure(path, source.into()))
+    let text = to_vtu(grid, fields).map_err(Error::of_file("write", path))?;
+    std::fs::write(path, text).map_err(Error::of_file("write", path))
 }
 
 /// Writes a .pvd collection of .vtu files in the same folder over time \[s\] (or phase, or mode number).
@@ -137,7 +137,7 @@ pub fn write_pvd(path: &Path, frames: &[(f64, String)]) -> Result<(), Error> {
         let _ = writeln!(out, "<DataSet timestep=\"{time:e}\" part=\"0\" file=\"{file}\"/>");
     }
     out.push_str("</Collection>\n</VTKFile>\n");
-    std::fs::write(path, out).map_err(|source| failure(path, source.into()))
+    std::fs::write(path, out).map_err(Error::of_file("write", path))
 }
 
 fn array(out: &mut String, name: &str, components: usize, numbers: &[f64]) -> Result<(), String> {
@@ -167,8 +167,4 @@ fn integers(out: &mut String, name: &str, kind: &str, numbers: impl Iterator<Ite
 
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-fn failure(path: &Path, source: Box<dyn std::error::Error + Send + Sync>) -> Error {
-    Error::Environment { operation: "write", path: path.to_path_buf(), source }
 }

@@ -126,7 +126,7 @@ pub fn write(path: &Path, records: &[&Record], samples: Samples) -> Result<(), E
 fn failure(operation: &'static str, path: &Path, error: hound::Error) -> Error {
     match error {
         hound::Error::IoError(source) if source.kind() != std::io::ErrorKind::Other => {
-            Error::Environment { operation, path: path.into(), source: source.into() }
+            Error::of_file(operation, path)(source)
         }
         other => Error::Content {
             path: path.into(),

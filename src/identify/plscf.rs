@@ -16,7 +16,7 @@ use rustfft::FftPlanner;
 
 use super::data::Data;
 use super::{IdentifyError, Settings};
-use crate::linalg::{Complex64, eigen};
+use crate::linalg::{Complex64, eigen, fft_length};
 
 /// A pole with its participation vector, of one order.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl NormalEquations {
         let (ni, lines) = (data.inputs(), data.lines());
         // Start at most a fifth along the half circle: near its end powers of z are ill-conditioned.
         let start = ((data.frequencies[0] / data.step).round() as usize).min(lines / 4);
-        let length = fast_length((2 * (start + lines)).max(2 * n + 2));
+        let length = fft_length((2 * (start + lines)).max(2 * n + 2), 1);
         let fft = FftPlanner::<f64>::new().plan_fft_forward(length);
         // Sums Σ x_k z_k^l for l = −n..n, by one FFT: X[m] = Σ x_k e^{−2πjkm/N}.
         let sums = |series: &mut dyn Iterator<Item = Complex64>| -> Vec<f64> {
@@ -202,17 +202,4 @@ fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
         // Terminates at the latest when the diagonal dominates.
         grain = if grain == 0.0 { 1e-15 } else { 10.0 * grain };
     }
-}
-
-/// Next FFT length with prime factors 2, 3, 5 only.
-fn fast_length(at_least: usize) -> usize {
-    let smooth = |mut n: usize| {
-        for p in [2, 3, 5] {
-            while n.is_multiple_of(p) {
-                n /= p;
-            }
-        }
-        n == 1
-    };
-    (at_least..).find(|&n| smooth(n)).unwrap_or(at_least)
 }

@@ -3,6 +3,7 @@
 use pulp::Arch;
 
 use super::ZeroPivot;
+use super::dot::dot_in_fours;
 
 /// Square band matrix; after factorisation, its LU factors in the same memory.
 ///
@@ -76,26 +77,14 @@ impl BandMatrix {
         for r in 0..n {
             let first = r.saturating_sub(lower);
             let row = &self.values[r * width + lower + first - r..][..r - first];
-            b[r] -= dot(row, &b[first..r]);
+            b[r] -= dot_in_fours(row, &b[first..r]);
         }
         for r in (0..n).rev() {
             let reach = self.upper.min(n - 1 - r);
             let row = &self.values[r * width + lower..][..=reach];
-            b[r] = (b[r] - dot(&row[1..], &b[r + 1..=r + reach])) / row[0];
+            b[r] = (b[r] - dot_in_fours(&row[1..], &b[r + 1..=r + reach])) / row[0];
         }
     }
-}
-
-/// Dot product in four partial sums: vectorisable, with the same rounding on every processor.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut sums, whole) = ([0.0; 4], a.len() / 4 * 4);
-    for (a, b) in a[..whole].chunks_exact(4).zip(b.chunks_exact(4)) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    let rest: f64 = a[whole..].iter().zip(&b[whole..]).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

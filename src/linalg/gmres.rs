@@ -1,6 +1,6 @@
 //! Generalised minimal residual method (GMRES) with right preconditioning.
 
-use super::banded::dot;
+use super::dot::dot_in_fours as dot;
 
 /// Result of [`gmres`].
 #[derive(Clone, Debug, PartialEq)]

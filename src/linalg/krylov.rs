@@ -4,6 +4,7 @@
 //! extending the one with the lowest converged eigenvalue. Without gyroscopic effect the block size is two,
 //! to find the double eigenvalues of an axisymmetric rotor at rest, which rotation splits.
 
+use super::dot::partial_sums;
 use super::eigen::{self, EigenError};
 use super::{BandLayout, BandLu, Complex64, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
@@ -323,14 +324,7 @@ fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) {
 
 /// Dot product in four partial sums, which the compiler can vectorise.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let tail: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a4.zip(b4) {
-        for i in 0..4 {
-            sums[i] += a[i] * b[i];
-        }
-    }
+    let (sums, tail) = partial_sums(a, b);
     sums.iter().sum::<f64>() + tail
 }
 

@@ -5,6 +5,7 @@
 //! | [`sparse`] | [`Triplets`] for assembly, [`SparseMatrix`] (compressed columns, CSC), [`SparseRow`] |
 //! | [`band`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
 //! | [`banded`] | the banded [`BandMatrix`] in natural order |
+//! | [`fft_length`](mod@fft_length) | lengths that a fast Fourier transform is quick at |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
@@ -15,18 +16,24 @@
 
 pub mod band;
 pub mod banded;
+pub mod dot;
 pub mod eigen;
+pub mod fft_length;
 pub mod gmres;
 pub mod krylov;
 pub mod panel;
 pub mod pchip;
+pub mod piecewise;
 pub mod small;
 pub mod sparse;
 pub mod spline;
 
 pub use band::{BandLayout, BandLu, ZeroPivot};
 pub use banded::BandMatrix;
+pub use dot::dot;
+pub use fft_length::fft_length;
 pub use gmres::gmres;
+pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 
 pub use nalgebra::Complex;

@@ -2,8 +2,9 @@
 
 /// Monotone cubic through points; shape-preserving, C¹, with exact integral.
 ///
-/// Slopes by Fritsch & Butland's weighted harmonic mean, ends by the three-point formula limited to keep
-/// the shape (the scheme of scipy's `PchipInterpolator`). Outside the points it goes on linearly.
+/// Slopes by the weighted harmonic mean of Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984), ends by the
+/// three-point formula limited to keep the shape (the scheme of scipy's `PchipInterpolator`). Outside the points it
+/// goes on linearly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pchip {
     x: Vec<f64>,

@@ -1,9 +1,8 @@
 //! Interpolating cubic spline.
 
-/// Cubic spline through points with continuous second derivative; parabolas at the ends (not-a-knot with four points
-/// or more). Outside the points it goes on linearly.
+/// Cubic spline through points with continuous second derivative. Outside the points it goes on linearly.
 ///
-/// A cubic is reproduced exactly. Source: de Boor, A Practical Guide to Splines (1978), ch. IV.
+/// Source: de Boor, A Practical Guide to Splines (1978), ch. IV.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     x: Vec<f64>,
@@ -12,18 +11,38 @@ pub struct Spline {
     curvature: Vec<f64>,
 }
 
+/// What determines the second derivative at the two ends.
+#[derive(Clone, Copy, PartialEq)]
+enum Ends {
+    /// The third derivative does not jump at the first and the last inner point.
+    NotAKnot,
+    /// It is zero.
+    Natural,
+}
+
 impl Spline {
-    /// Through points of strictly increasing `x`; `None` when the lengths differ, there are fewer than four points, or
-    /// `x` does not increase.
+    /// Not-a-knot spline through points of strictly increasing `x`, which reproduces a cubic exactly.
+    ///
+    /// `None` when the lengths differ, there are fewer than four points, or `x` does not increase.
     pub fn new(x: &[f64], y: &[f64]) -> Option<Self> {
+        Self::with_ends(x, y, 4, Ends::NotAKnot)
+    }
+
+    /// Natural spline through points of strictly increasing `x`: second derivative 0 at both ends.
+    ///
+    /// `None` when the lengths differ, there are fewer than two points, or `x` does not increase.
+    pub fn natural(x: &[f64], y: &[f64]) -> Option<Self> {
+        Self::with_ends(x, y, 2, Ends::Natural)
+    }
+
+    fn with_ends(x: &[f64], y: &[f64], least: usize, ends: Ends) -> Option<Self> {
         let n = x.len();
-        if n < 4 || y.len() != n || !x.windows(2).all(|w| w[0] < w[1]) {
+        if n < least || y.len() != n || !x.windows(2).all(|w| w[0] < w[1]) {
             return None;
         }
         let h: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
         let secant: Vec<f64> = y.windows(2).zip(&h).map(|(w, h)| (w[1] - w[0]) / h).collect();
-        // h_{k−1} m_{k−1} + 2 (h_{k−1} + h_k) m_k + h_k m_{k+1} = 6 (s_k − s_{k−1}) for the inner points; the third
-        // derivative does not jump at the first and last of them: m_0 = m_1 + (m_1 − m_2) h_0/h_1 and so at the end.
+        // h_{k−1} m_{k−1} + 2 (h_{k−1} + h_k) m_k + h_k m_{k+1} = 6 (s_k − s_{k−1}) for the inner points.
         let inner = n - 2;
         let (mut lower, mut diagonal, mut upper, mut right) =
             (vec![0.0; inner], vec![0.0; inner], vec![0.0; inner], vec![0.0; inner]);
@@ -32,12 +51,15 @@ impl Spline {
             (lower[i], diagonal[i], upper[i]) = (a, 2.0 * (a + b), b);
             right[i] = 6.0 * (secant[i + 1] - secant[i]);
         }
-        let (a, b) = (h[0], h[1]);
-        diagonal[0] += a * (1.0 + a / b);
-        upper[0] -= a * a / b;
-        let (a, b) = (h[n - 2], h[n - 3]);
-        diagonal[inner - 1] += a * (1.0 + a / b);
-        lower[inner - 1] -= a * a / b;
+        if ends == Ends::NotAKnot {
+            // m_0 = m_1 + (m_1 − m_2) h_0/h_1 and so at the end.
+            let (a, b) = (h[0], h[1]);
+            diagonal[0] += a * (1.0 + a / b);
+            upper[0] -= a * a / b;
+            let (a, b) = (h[n - 2], h[n - 3]);
+            diagonal[inner - 1] += a * (1.0 + a / b);
+            lower[inner - 1] -= a * a / b;
+        }
         // Thomas; diagonally dominant but for the two ends, whose pivots stay positive.
         for i in 1..inner {
             let factor = lower[i] / diagonal[i - 1];
@@ -49,8 +71,10 @@ impl Spline {
             let next = if i + 1 < inner { upper[i] * curvature[i + 2] } else { 0.0 };
             curvature[i + 1] = (right[i] - next) / diagonal[i];
         }
-        curvature[0] = curvature[1] + (curvature[1] - curvature[2]) * h[0] / h[1];
-        curvature[n - 1] = curvature[n - 2] + (curvature[n - 2] - curvature[n - 3]) * h[n - 2] / h[n - 3];
+        if ends == Ends::NotAKnot {
+            curvature[0] = curvature[1] + (curvature[1] - curvature[2]) * h[0] / h[1];
+            curvature[n - 1] = curvature[n - 2] + (curvature[n - 2] - curvature[n - 3]) * h[n - 2] / h[n - 3];
+        }
         Some(Self { x: x.to_vec(), y: y.to_vec(), curvature })
     }
 
@@ -88,6 +112,18 @@ mod tests {
                 }
             }
             assert_eq!(spline.at(-1.0)[2], 0.0);
+        }
+    }
+
+    #[test]
+    fn a_natural_spline_is_straight_at_the_ends() {
+        let line = Spline::natural(&[1.0, 3.0], &[2.0, 6.0]).unwrap();
+        assert_eq!(line.at(2.5), [5.0, 2.0, 0.0]);
+        // By hand: the inner second derivatives are −120/27.75 and 104/27.75.
+        let spline = Spline::natural(&[0.0, 1.0, 2.5, 4.0], &[1.0, 3.0, 2.0, 5.0]).unwrap();
+        assert!(spline.at(0.0)[2] == 0.0 && spline.at(4.0)[2].abs() < 1e-14);
+        for (x, y) in [(0.5, 2.0 + 7.5 / 27.75), (3.0, 3.0 - 390.0 / 749.25)] {
+            assert!((spline.at(x)[0] - y).abs() < 1e-14, "{x}: {} {y}", spline.at(x)[0]);
         }
     }
 

@@ -1,9 +1,9 @@
 //! Values of a model file by parameter path: the numbers that model updating may change.
 
-use super::file::diagnostic::nearest;
 use super::file::overlay::COLLECTIONS;
 use super::file::tree::{Entry, Node, Table, Value};
 use super::load::{Document, Options};
+use crate::names::nearest;
 use crate::units::leading_number;
 
 /// A number or quantity string of a model file, with its parameter path.
@@ -104,7 +104,7 @@ fn holds(node: &Node, parts: &[&str]) -> bool {
 
 fn missing(table: &Table, part: &str, parts: &[&str], depth: usize) -> String {
     let known: Vec<&str> = table.keys().collect();
-    let near = nearest(part, &known);
+    let near = nearest(part, known.iter().copied());
     let hint = match near {
         Some(near) => format!("did you mean `{near}`?"),
         None if depth > 1 => {

@@ -10,6 +10,7 @@ use super::SignalError;
 use super::error::{check, check_length, check_record};
 use super::segment::bin_axis;
 use super::spectrum::{Spectrum, Welch};
+use crate::linalg::dot;
 
 /// Squared magnitude of the cyclic spectral coherence over cyclic frequency α and frequency f.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +107,7 @@ fn independent_segments(window: &[f64], hop: usize, segments: usize) -> f64 {
     let count = segments as f64;
     let mut spread = 1.0;
     for q in 1..segments.min(window.len().div_ceil(hop)) {
-        let overlap: f64 = window.iter().zip(&window[q * hop..]).map(|(a, b)| a * b).sum();
+        let overlap = dot(window, &window[q * hop..]);
         spread += 2.0 * (1.0 - q as f64 / count) * (overlap / power).powi(2);
     }
     count / spread

@@ -34,7 +34,6 @@
 //! infinity.
 
 pub mod bearing_lines;
-pub mod blow;
 pub mod cepstrum;
 pub mod cyclic;
 pub mod diagnosis;
@@ -42,7 +41,6 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
-pub mod hammer;
 pub mod impact;
 pub mod jerk;
 pub mod kurtogram;

@@ -10,6 +10,7 @@ use super::resample::{AngleResampler, SAMPLES_PER_ORDER, Skipped, speed_rpm};
 use super::segment::{Level, SegmentTransform};
 use super::stft::sample_at;
 use super::window::WindowKind;
+use crate::linalg::fft_length;
 
 /// Settings of order tracking.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +109,7 @@ impl OrderTracker {
             max_order,
         )?;
         check((0.0..1.0).contains(&overlap), "overlap", "a fraction from 0 to below 1", overlap)?;
-        let per_revolution = smooth_at_least((SAMPLES_PER_ORDER * max_order).ceil() as usize);
+        let per_revolution = fft_length(((SAMPLES_PER_ORDER * max_order).ceil() as usize).max(4), 2);
         let resampler = AngleResampler::new(theta, sample_rate, per_revolution, settings.least_speed)?;
         let length = (per_revolution as f64 / resolution).round() as usize;
         let hop = ((length as f64 * (1.0 - overlap)).round() as usize).max(1);
@@ -273,19 +274,4 @@ impl OrderSpectrogram {
         check(windows > 0, "speed range from", "a range that the run passes through", from_rpm)?;
         Ok(power.iter().map(|p| (p / windows as f64).sqrt()).collect())
     }
-}
-
-/// Smallest even number ≥ `least` with no prime factor above 5 (a fast FFT length).
-fn smooth_at_least(least: usize) -> usize {
-    let smooth = |n: usize| {
-        let mut rest = n;
-        for p in [2, 3, 5] {
-            while rest.is_multiple_of(p) {
-                rest /= p;
-            }
-        }
-        rest == 1
-    };
-    let start = least.max(4).next_multiple_of(2);
-    (start..).step_by(2).find(|n| smooth(*n)).expect("powers of two are smooth and unbounded")
 }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
 use super::stft::sample_at;
+use crate::linalg::spline::Spline;
 
 /// Zero crossings of the interpolating sinc on each side.
 const ZERO_CROSSINGS: usize = 32;
@@ -279,34 +280,13 @@ pub fn to_uniform_time(time: &[f64], record: &[f64], sample_rate: f64) -> Result
     check_rate(sample_rate)?;
     check_length("time", time.len(), 2, "interpolation")?;
     let n = time.len();
-    let steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
-    if let Some(index) = steps.iter().position(|h| *h <= 0.0) {
+    let Some(spline) = Spline::natural(time, record) else {
+        let index = time.windows(2).position(|w| w[1] <= w[0]).unwrap_or(0);
         let expected = (time[n - 1] - time[0]) / (n - 1) as f64;
-        return Err(SignalError::NonUniform { index, expected, given: steps[index] });
-    }
-    // Second derivatives m from h₋ m₋ + 2(h₋ + h₊) m + h₊ m₊ = 6 (slope₊ − slope₋), m = 0 at both ends.
-    let slope: Vec<f64> = (0..n - 1).map(|i| (record[i + 1] - record[i]) / steps[i]).collect();
-    let (mut upper, mut curvature) = (vec![0.0; n], vec![0.0; n]);
-    for i in 1..n - 1 {
-        let pivot = 2.0 * (steps[i - 1] + steps[i]) - steps[i - 1] * upper[i - 1];
-        upper[i] = steps[i] / pivot;
-        curvature[i] = (6.0 * (slope[i] - slope[i - 1]) - steps[i - 1] * curvature[i - 1]) / pivot;
-    }
-    for i in (1..n - 1).rev() {
-        curvature[i] -= upper[i] * curvature[i + 1];
-    }
-    let count = ((time[n - 1] - time[0]) * sample_rate * (1.0 + 1e-12)).floor() as usize + 1;
-    let mut i = 0;
-    let value = |k: usize| {
-        let t = time[0] + k as f64 / sample_rate;
-        while i + 2 < n && time[i + 1] <= t {
-            i += 1;
-        }
-        let (h, a, b) = (steps[i], (time[i + 1] - t) / steps[i], (t - time[i]) / steps[i]);
-        let bend = (a * a * a - a) * curvature[i] + (b * b * b - b) * curvature[i + 1];
-        a * record[i] + b * record[i + 1] + bend * h * h / 6.0
+        return Err(SignalError::NonUniform { index, expected, given: time[index + 1] - time[index] });
     };
-    Ok((0..count).map(value).collect())
+    let count = ((time[n - 1] - time[0]) * sample_rate * (1.0 + 1e-12)).floor() as usize + 1;
+    Ok((0..count).map(|k| spline.at(time[0] + k as f64 / sample_rate)[0]).collect())
 }
 
 /// Speed \[rpm\] at the centre of a stretch of outputs, over the revolution (or what there is) about it.

@@ -2,6 +2,7 @@
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
+use crate::linalg::pchip::Pchip;
 
 /// Most pitches of the pulse wheel that one interval may hold, and most pulses dropped in a row.
 const MOST_PITCHES: usize = 6;
@@ -137,21 +138,8 @@ impl PulseTrain {
             let purpose = "a shaft angle between the first and the last pulse";
             return Err(SignalError::TooShort { name: "record", needed: from + 2, given: samples, purpose });
         }
-        let slopes = monotone_slopes(&self.times, &self.revolutions);
-        let mut i = 0;
-        let angle = (from..end).map(|n| {
-            let t = n as f64 / sample_rate;
-            while i + 2 < self.times.len() && self.times[i + 1] <= t {
-                i += 1;
-            }
-            let h = self.times[i + 1] - self.times[i];
-            let s = (t - self.times[i]) / h;
-            let (s2, s3) = (s * s, s * s * s);
-            let turn = (2.0 * s3 - 3.0 * s2 + 1.0) * self.revolutions[i]
-                + (3.0 * s2 - 2.0 * s3) * self.revolutions[i + 1]
-                + h * ((s3 - 2.0 * s2 + s) * slopes[i] + (s3 - s2) * slopes[i + 1]);
-            std::f64::consts::TAU * turn
-        });
+        let turns = Pchip::new(&self.times, &self.revolutions).expect("the times of a train increase");
+        let angle = (from..end).map(|n| std::f64::consts::TAU * turns.at(n as f64 / sample_rate)[0]);
         Ok((angle.collect(), from))
     }
 }
@@ -208,31 +196,4 @@ fn best_counts(times: &[f64]) -> (Vec<usize>, Vec<usize>) {
     kept.reverse();
     counts.reverse();
     (kept, counts)
-}
-
-/// Slopes of the monotone cubic through points: weighted harmonic means of the neighbouring secants.
-///
-/// Source: Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984).
-fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
-    let steps: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
-    let secants: Vec<f64> = y.windows(2).zip(&steps).map(|(w, h)| (w[1] - w[0]) / h).collect();
-    let last = secants.len() - 1;
-    let inner = |k: usize| {
-        let (h, g, d, e) = (steps[k - 1], steps[k], secants[k - 1], secants[k]);
-        if d * e <= 0.0 { 0.0 } else { 3.0 * (h + g) / ((2.0 * g + h) / d + (g + 2.0 * h) / e) }
-    };
-    // One-sided parabola at the ends, held to the secant's sign and three times its size.
-    let end = |h: f64, g: f64, d: f64, e: f64| {
-        let slope = ((2.0 * h + g) * d - h * e) / (h + g);
-        if slope * d <= 0.0 { 0.0 } else { slope.abs().min(3.0 * d.abs()).copysign(d) }
-    };
-    let mut slopes = Vec::with_capacity(x.len());
-    slopes.push(if last == 0 { secants[0] } else { end(steps[0], steps[1], secants[0], secants[1]) });
-    slopes.extend((1..=last).map(inner));
-    slopes.push(if last == 0 {
-        secants[0]
-    } else {
-        end(steps[last], steps[last - 1], secants[last], secants[last - 1])
-    });
-    slopes
 }

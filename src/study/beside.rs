@@ -5,6 +5,7 @@ use super::record::describe;
 use super::signal::{ShaftMotion, SignalChannel};
 use super::tracking::without_mean;
 use crate::error::Error;
+use crate::linalg::{Outside, piecewise};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
 use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult};
@@ -191,20 +192,11 @@ fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
 /// Correlation (MAC-like, (Σ m c)² / (Σ m² Σ c²)) over the measured windows, computed levels interpolated
 /// linearly.
 fn likeness(measured: &OrderCut, computed: &OrderCut) -> f64 {
-    let at = |t: f64| {
-        let after = computed.times.partition_point(|own| *own < t);
-        match (after.checked_sub(1), computed.times.get(after)) {
-            (Some(k), Some(next)) => {
-                let part = (t - computed.times[k]) / (next - computed.times[k]);
-                computed.rms[k] + part * (computed.rms[after] - computed.rms[k])
-            }
-            (None, _) => computed.rms.first().copied().unwrap_or(0.0),
-            (Some(k), None) => computed.rms[k],
-        }
-    };
+    let levels: Vec<[f64; 2]> =
+        computed.times.iter().zip(&computed.rms).map(|(t, level)| [*t, *level]).collect();
     let (mut both, mut own, mut other) = (0.0, 0.0, 0.0);
     for (t, m) in measured.times.iter().zip(&measured.rms) {
-        let c = at(*t);
+        let [_, c] = piecewise(&levels, *t, Outside::Constant);
         both += m * c;
         own += m * m;
         other += c * c;

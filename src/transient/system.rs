@@ -10,6 +10,7 @@ use super::torque::TorqueDrive;
 use crate::bearing::radial::{Rings, StepGain};
 use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::linalg::panel::Panel;
+use crate::linalg::{Outside, piecewise};
 use crate::model::{Quantity, SpeedCurve, Spin};
 
 /// A nonlinear bearing of the reduced system and the rows of W that give its relative displacement.
@@ -237,7 +238,7 @@ impl System {
             out.axpy(drive.torque_at(spin.speed), &drive.torque, 1.0);
         }
         for history in &self.histories {
-            let factor = piecewise(&history.points, time, 0.0);
+            let factor = piecewise(&history.points, time, Outside::Zero)[1];
             if factor != 0.0 {
                 out.axpy(factor, &history.vector, 1.0);
             }
@@ -439,23 +440,5 @@ impl System {
         for (value, channel) in out.iter_mut().zip(&self.channels) {
             *value = channel.read(state);
         }
-    }
-}
-
-/// Piecewise-linear table, `outside` beyond its ends.
-pub fn piecewise(points: &[[f64; 2]], x: f64, outside: f64) -> f64 {
-    let (Some(first), Some(last)) = (points.first(), points.last()) else {
-        return outside;
-    };
-    if x < first[0] || x > last[0] {
-        return outside;
-    }
-    let k = points.partition_point(|p| p[0] <= x).clamp(1, points.len().max(2) - 1);
-    match points.get(k) {
-        Some(right) if right[0] > points[k - 1][0] => {
-            let left = points[k - 1];
-            left[1] + (right[1] - left[1]) * (x - left[0]) / (right[0] - left[0])
-        }
-        _ => first[1],
     }
 }

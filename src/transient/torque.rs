@@ -2,7 +2,8 @@
 
 use nalgebra::DVector;
 
-use super::system::{State, piecewise};
+use super::system::State;
+use crate::linalg::{Outside, piecewise};
 
 /// Driving torque T(Ω) at one node, accelerating the polar inertia of all rotating parts, with viscous drag.
 ///
@@ -24,11 +25,7 @@ pub struct TorqueDrive {
 impl TorqueDrive {
     /// Net torque of drive and drag at a speed \[N m\].
     pub fn torque_at(&self, speed: f64) -> f64 {
-        let (Some(first), Some(last)) = (self.table.first(), self.table.last()) else {
-            return -self.drag * speed;
-        };
-        let clamped = speed.clamp(first[0], last[0]);
-        piecewise(&self.table, clamped, 0.0) - self.drag * speed
+        piecewise(&self.table, speed, Outside::Constant)[1] - self.drag * speed
     }
 
     /// Transfers the rigid rotation in the coordinates to the frame.

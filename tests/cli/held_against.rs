@@ -318,12 +318,12 @@ fn noisy_frfs_give_the_housings_back_and_not_the_bearings() {
 }
 
 #[test]
-fn hammer_tests_of_two_forces_show_the_shift() {
+fn impact_tests_of_two_forces_show_the_shift() {
     let folder = tempfile::tempdir().unwrap();
     let model = file(&folder, "hammer.toml", &struck_rig());
     let mut runs = Vec::new();
     for force in ["1", "200"] {
-        let out = folder.path().join(format!("blow_{force}N"));
+        let out = folder.path().join(format!("hit_{force}N"));
         rotordyn()
             .args(["run-up", &model, "--no-figures", "--step", "50 us", "--set"])
             .arg(format!("load.hammer.force=0, {force}, 0 N"))
@@ -345,7 +345,7 @@ fn hammer_tests_of_two_forces_show_the_shift() {
     println!("{:#}", document["levels"]);
     let shifts: Vec<f64> = levels.iter().filter_map(|m| m["others"][0]["shift"].as_f64()).collect();
     assert!(shifts.len() >= 2, "{levels:?}");
-    // The small blow meets the linear machine; the large one works the clearance.
+    // The small hit meets the linear machine; the large one works the clearance.
     let largest = shifts.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a });
     assert!(largest.abs() > 2e-3, "{shifts:?}");
     assert!(text.contains("Frequency shift of the measured modes relative to the first file"), "{text}");

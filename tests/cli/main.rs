@@ -1,12 +1,12 @@
 //! The command as users meet it: every model, every command, exit codes, Ctrl-C, JSON.
 
 mod bearings;
-mod blow_beside;
 mod commands;
 mod failures;
-mod hammer_blows;
 mod held_against;
+mod hit_beside_shaft;
 mod identify;
+mod impact_test;
 mod run_ups;
 mod runs;
 mod signal;
@@ -43,7 +43,7 @@ fn models() -> Vec<PathBuf> {
     models
 }
 
-/// The rig at rest, struck along y at its disc by a triangle of 2 ms, 1 N high.
+/// The rig at rest, hit along y at its disc by a triangle of 2 ms, 1 N high.
 fn struck_rig() -> String {
     let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/overhung_rig.toml");
     let text = std::fs::read_to_string(rig).unwrap();

@@ -294,7 +294,13 @@ fn a_stored_run() {
         "B_ax",
     ]);
     let text = output_of(&mut command);
-    for part in ["channel `theta`", "Statistics", "Orders of B_ax", "Time synchronous average of B_ax", "no bearing diagnosis"] {
+    for part in [
+        "channel `theta`",
+        "Statistics",
+        "Orders of B_ax",
+        "Time synchronous average of B_ax",
+        "no bearing diagnosis",
+    ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     assert!(text.lines().all(|line| line.chars().count() <= 140), "{text}");

@@ -111,7 +111,10 @@ fn warnings() {
         String::from_utf8_lossy(&assert.get_output().stderr).trim().to_string()
     };
     let rate = warned("good.h5", &["--rate", "48 kHz", "--analyses", "psd"]);
-    assert!(rate.contains("the file states 12000 Hz") && rate.contains("48000 Hz of --rate is used"), "{rate}");
+    assert!(
+        rate.contains("the file states 12000 Hz") && rate.contains("48000 Hz of --rate is used"),
+        "{rate}"
+    );
     let unit = warned("good.h5", &["--unit", "g", "--analyses", "psd"]);
     assert!(unit.contains("--unit g is ignored"), "{unit}");
     let tacho = warned("gaps.h5", &["--tacho", "tacho", "--analyses", "orders"]);

@@ -30,14 +30,18 @@ fn steady_motions_are_computed_shown_and_stored() {
     };
     // Settled within sixty passages at 1600 rpm: a motion of the ball passage's own period.
     let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300", "--periods", "40"]);
-    for part in ["Motion at 1600.0 rpm, 40 section points", "ball passage of C (82.256 Hz)", "period 1", "x_rate"] {
+    for part in
+        ["Motion at 1600.0 rpm, 40 section points", "ball passage of C (82.256 Hz)", "period 1", "x_rate"]
+    {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     let text = run("lyapunov", &["--speed", "1600 rpm", "--settle", "300", "--periods", "200"]);
     assert!(text.contains("convergent: regular"), "{text}");
     let range = ["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"];
     let text = run("bifurcation", &[&range[..], &SHORT].concat());
-    for part in ["Motion over speed rpm, sweep up", "Motion over speed rpm, sweep down", "chaotic", "period 1"] {
+    for part in
+        ["Motion over speed rpm, sweep up", "Motion over speed rpm, sweep down", "chaotic", "period 1"]
+    {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     let store = Store::open(folder.path().join("results.h5")).unwrap();

@@ -7,7 +7,7 @@ use crate::{json_of, output_of, rotordyn};
 
 const RIG: &str = "models/overhung_rig.toml";
 
-/// FRFs by blows on the disc along y and on housing B along x, stored by `frf --noise`.
+/// FRFs by hits on the disc along y and on housing B along x, stored by `frf --noise`.
 static TEST: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("test");
@@ -67,21 +67,16 @@ fn the_report_tells_what_was_fitted() {
     let folder = tempfile::tempdir().unwrap();
     let text = output_of(&mut update("frf-complex", folder.path()));
     println!("{text}");
-    for part in [
-        "housing.*.k_x",
-        "standard error %",
-        "found",
-        "degrees of freedom",
-        "FRAC",
-        "dB after the update",
-    ] {
+    for part in
+        ["housing.*.k_x", "standard error %", "found", "degrees of freedom", "FRAC", "dB after the update"]
+    {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
 }
 
-/// The rig's own blow at the rim is along no axis: its shapes serve, and the FRFs of the other force are fitted.
+/// The rig's own hit at the rim is along no axis: its shapes serve, and the FRFs of the other force are fitted.
 #[test]
-fn a_blow_askew_has_no_frfs_to_fit() {
+fn a_hit_askew_has_no_frfs_to_fit() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("test");
     let mut test = rotordyn();

@@ -1,13 +1,12 @@
 //! FRF estimates held to an analyser's own: SignalCalc, hammer and three accelerometers on a plane.
 //!
-//! The file holds the last blow's time blocks X, windowed blocks W and spectra S, and the averages over all blows:
+//! The file holds the last hit's time blocks X, windowed blocks W and spectra S, and the averages over all hits:
 //! G (auto-spectra as peak amplitudes, cross spectra as half products), H and C. Everything is stored in single
 //! precision, 6e-8 of the largest value of its kind.
 
 use rotordyn::edge::measured::read;
 use rotordyn::signal::Complex;
-use rotordyn::signal::blow::{Limits, inspect};
-use rotordyn::signal::impact::{Blow, ImpactWindows, frf_from_blows, frf_from_spectra};
+use rotordyn::signal::impact::{Hit, ImpactWindows, Limits, frf_from_hits, frf_from_spectra, inspect};
 use rotordyn::signal::record::{Measured, Values};
 
 use crate::measured_data::measured;
@@ -54,13 +53,13 @@ fn windows_are_the_analysers() {
 }
 
 #[test]
-fn one_blow_gives_the_ratio_of_its_spectra() {
+fn one_hit_gives_the_ratio_of_its_spectra() {
     let Some(file) = file() else { return };
     let rate = file.record("X1").unwrap().sample_rate().unwrap();
     let f = complex(&file, "S1");
     for channel in 2..=4 {
-        let blow = Blow { force: real(&file, "X1"), response: real(&file, &format!("X{channel}")) };
-        let estimate = frf_from_blows(&[blow], rate, WINDOWS).unwrap();
+        let hit = Hit { force: real(&file, "X1"), response: real(&file, &format!("X{channel}")) };
+        let estimate = frf_from_hits(&[hit], rate, WINDOWS).unwrap();
         let x = complex(&file, &format!("S{channel}"));
         for k in 0..f.len() {
             let own = x[k] / f[k];
@@ -68,10 +67,7 @@ fn one_blow_gives_the_ratio_of_its_spectra() {
             assert!((estimate.h1[k] - own).norm() <= precision, "channel {channel}, line {k}");
         }
         assert_eq!(estimate.frequencies[3200], 200.0);
-        assert!(
-            estimate.coherence.iter().all(|c| (c - 1.0).abs() < 1e-9),
-            "one blow is coherent with itself"
-        );
+        assert!(estimate.coherence.iter().all(|c| (c - 1.0).abs() < 1e-9), "one hit is coherent with itself");
     }
 }
 
@@ -97,11 +93,11 @@ fn averages_give_the_analysers_h1_and_coherence() {
 }
 
 #[test]
-fn the_real_blow_is_a_good_one() {
+fn the_real_hit_is_a_good_one() {
     let Some(file) = file() else { return };
     let (_, window) = WINDOWS.samples(8192, 512.0).unwrap();
-    let blow = Blow { force: real(&file, "X1"), response: real(&file, "X2") };
-    let seen = inspect(&blow, &Limits::default(), Some(&window)).unwrap();
-    assert_eq!((seen.peak.0, seen.contact.clone()), (5, 5..7));
-    assert!(seen.is_good() && seen.faults().is_empty(), "{seen:?}");
+    let hit = Hit { force: real(&file, "X1"), response: real(&file, "X2") };
+    let quality = inspect(&hit, &Limits::default(), Some(&window)).unwrap();
+    assert_eq!((quality.peak.0, quality.contact.clone()), (5, 5..7));
+    assert!(quality.is_good() && quality.faults().is_empty(), "{quality:?}");
 }

@@ -57,7 +57,7 @@ fn channels_are_placed_by_name_and_others_left_out() {
 }
 
 #[test]
-fn sensors_and_blows_beside_a_station_are_points_of_their_own() {
+fn sensors_and_hits_beside_a_station_are_points_of_their_own() {
     let frf = |name: &str, kind: Kind| {
         let values = Values::Complex(vec![Complex::new(1.0, 0.0); 4]);
         Record::new(name, kind, Axis::even(AxisQuantity::Frequency, 0.0, 1.0), values, "")

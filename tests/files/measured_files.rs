@@ -59,7 +59,7 @@ fn an_analyser_file_with_blocks_spectra_and_frfs() {
 }
 
 #[test]
-fn frfs_of_seventy_four_blows_and_three_accelerometers() {
+fn frfs_of_seventy_four_hits_and_three_accelerometers() {
     let Some(path) = measured("plane_ema/lab2_frf.npz") else { return };
     let found = read(&path).unwrap();
     let matrix = found.frf_matrix().unwrap();

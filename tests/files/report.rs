@@ -78,7 +78,7 @@ fn variants_are_compared_on_one_page() {
     let folder = tempfile::tempdir().unwrap();
     let variants = [("ball bearings".to_string(), results), ("spherical".to_string(), results)];
     let files = draw_comparison(&variants, folder.path()).unwrap();
-    // A blow on housing B does not twist the disc: no figure of it.
+    // A hit on housing B does not twist the disc: no figure of it.
     assert_eq!(files.len(), 2 * 7 - 1 + 1);
     let svg = std::fs::read_to_string(folder.path().join("comparison_frf_rim_disc_x.svg")).unwrap();
     assert!(svg.contains("ball bearings") && svg.contains("spherical"));

@@ -31,7 +31,7 @@ const Y: [f64; 6] = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 const Z: [f64; 6] = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
 const TWIST: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 
-/// The machine and its FRFs at a speed: disc, pulley and both housings, blows at the disc along x and z, along its
+/// The machine and its FRFs at a speed: disc, pulley and both housings, hits at the disc along x and z, along its
 /// rim (y and torsion), and at housing B along y.
 fn tested(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (Machine, FrfMatrix) {
     let mut model = variant(None, set);
@@ -45,15 +45,15 @@ fn tested(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (Machine, 
         direction,
         quantity: Quantity::Acceleration,
     };
-    let blow = |name: &str, at: Anchor, direction: [f64; 6]| Excitation { name: name.into(), at, direction };
+    let hit = |name: &str, at: Anchor, direction: [f64; 6]| Excitation { name: name.into(), at, direction };
     let study = FrfStudy {
         speed,
         frequencies,
         excitations: vec![
-            blow("disc_x", disc, X),
-            blow("disc_z", disc, Z),
-            blow("rim", rim, Y),
-            blow("B_y", housing("B_ay"), Y),
+            hit("disc_x", disc, X),
+            hit("disc_z", disc, Z),
+            hit("rim", rim, Y),
+            hit("B_y", housing("B_ay"), Y),
         ],
         responses: vec![
             probe("disc_x", disc, X),

@@ -1,11 +1,11 @@
 //! Signal tools: closed forms, scipy as oracle, and refusal of unusable records.
 
 mod bearing_faults;
-mod blows;
 mod closed_forms;
 mod defects;
 mod dented_bearing;
-mod impact;
+mod impact_frfs;
+mod impact_hits;
 mod measured_bearings;
 mod oracle;
 mod oracle_bearing;

@@ -8,7 +8,7 @@ use rotordyn::signal::envelope::{
     analytic_signal, band_analytic_signal, envelope_spectrum, squared_envelope_spectrum,
 };
 use rotordyn::signal::filter::{Band, butterworth};
-use rotordyn::signal::impact::{Blow, ImpactWindows, frf_from_blows};
+use rotordyn::signal::impact::{Hit, ImpactWindows, frf_from_hits};
 use rotordyn::signal::jerk::{impulses, jerk, jerk_jumps};
 use rotordyn::signal::kurtogram::{fast_kurtogram, scored_bands, spectral_kurtosis};
 use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
@@ -35,7 +35,7 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
     let once = || butterworth(2, Band::LowPass(0.1 * rate), rate)?.filter(x);
     let rates = BearingRates { shaft: 1.0, cage: 0.4, outer: 3.6, inner: 5.4, ball: 2.4 };
     let passage = BallPassage { frequency: 3.6, balls: 9, race_speed: 0.0, datum: 0.0 };
-    let blow = [Blow { force: x, response: x }];
+    let hit = [Hit { force: x, response: x }];
     vec![
         ("amplitude", amplitude_spectrum(x, rate, hann, Level::Rms).err()),
         ("psd", power_spectral_density(x, rate, &welch).err()),
@@ -49,7 +49,7 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
         ("orbit", FilteredOrbit::fit(x, x, x, 1.0).err()),
         ("full spectrum", full_spectrum(x, x, rate, hann).err()),
         ("statistics", statistics(x).err()),
-        ("blows", frf_from_blows(&blow, rate, ImpactWindows::default()).err()),
+        ("hits", frf_from_hits(&hit, rate, ImpactWindows::default()).err()),
         ("angle", AngleResampler::new(x, rate, 32, 0.05).err()),
         ("orders", OrderTracker::new(x, rate, OrderSettings::new(0.05, 10.0)).err()),
         ("speed", integrate_speed(x, rate, 0.0).err()),

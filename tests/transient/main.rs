@@ -6,8 +6,8 @@ mod measured_data;
 mod rig;
 
 mod attractor;
-mod hammer;
 mod high_speed;
+mod impact;
 mod imperfections;
 mod measured_run_up;
 mod radial_balls;

@@ -12,7 +12,7 @@ use rotordyn::update::{Update, Verdict};
 use crate::rig::variant;
 use crate::rig_as_truth::{TRUTH, fitted, measured, point};
 
-/// Accelerances of both bearings, pulley and disc by blows on disc and bearing B, with 40 dB over the noise.
+/// Accelerances of both bearings, pulley and disc by hits on disc and bearing B, with 40 dB over the noise.
 fn tested(model: Model, seed: u64) -> TargetFrfs {
     let dofs = |names: &[(&str, i8)]| -> Vec<Dof> {
         names.iter().map(|(name, way)| Dof::new(point(&model, name), *way)).collect()

@@ -13,7 +13,7 @@ pub(super) struct Seen {
     pub shift_rate: [f64; 2],
     pub frame_rate: [f64; 2],
     /// Cage speed ψ̇ \[rad/s\].
-    pub turning: f64,
+    pub cage_speed: f64,
     /// m g·e_r \[N\].
     pub weight: f64,
     /// Deviations w_i and w_o of race and ball, positive towards each other \[m\], and their rates \[m/s\].
@@ -60,7 +60,7 @@ impl Acting {
             -inner * self.n[0],
             -inner * self.n[1],
             outer - inner * self.n[0],
-            -2.0 * mass * seen.turning * self.radial_rate,
+            -2.0 * mass * seen.cage_speed * self.radial_rate,
         ]
     }
 }
@@ -69,14 +69,14 @@ impl RadialElement {
     /// State of the ball at position y and velocity ẏ.
     #[inline(always)]
     pub(super) fn ball(&self, seen: &Seen, place: f64, rate: f64) -> Acting {
-        let turning = seen.turning;
+        let cage_speed = seen.cage_speed;
         let lift = place - seen.frame[0];
         let radius = self.outer_reach + lift;
-        let radial_rate = rate - seen.frame_rate[0] - turning * seen.frame[1];
+        let radial_rate = rate - seen.frame_rate[0] - cage_speed * seen.frame[1];
         let arm = [radius - seen.shift[0], -seen.shift[1]];
         let distance = (arm[0] * arm[0] + arm[1] * arm[1]).sqrt();
         let n = [arm[0] / distance, arm[1] / distance];
-        let drift = [radial_rate - seen.shift_rate[0], radius * turning - seen.shift_rate[1]];
+        let drift = [radial_rate - seen.shift_rate[0], radius * cage_speed - seen.shift_rate[1]];
         // ρ_i − χ without cancellation: χ − a_r = a_t²/(χ + a_r).
         let bend = arm[1] * arm[1] / (distance + arm[0]);
         let gap = self.outer_reach - self.inner_reach;
@@ -86,7 +86,7 @@ impl RadialElement {
             radial_rate + seen.deviation_rate[1],
         ];
         let contacts = [0, 1].map(|k| self.press(k, depth[k], closing[k]));
-        let carried = turning * (turning * (radius - seen.frame[0]) + 2.0 * seen.frame_rate[1]);
+        let carried = cage_speed * (cage_speed * (radius - seen.frame[0]) + 2.0 * seen.frame_rate[1]);
         let force = contacts[0].force * n[0] - contacts[1].force + self.mass * carried + seen.weight;
         Acting { n, distance, drift, radial_rate, depth, closing, contacts, force }
     }

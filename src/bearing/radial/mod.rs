@@ -179,7 +179,7 @@ impl RadialElement {
                     frame: local(&rings.frame),
                     shift_rate: local(&rings.shift_rate),
                     frame_rate: local(&rings.frame_rate),
-                    turning: rotation.cage_speed,
+                    cage_speed: rotation.cage_speed,
                     weight: self.mass * local(&self.gravity)[0],
                     deviation: deviation.height,
                     deviation_rate: deviation.rate,

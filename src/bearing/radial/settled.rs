@@ -124,14 +124,14 @@ impl RadialElement {
 
     /// Stiffness (3/2) K_o^{2/3} Q^{1/3} of a ball's outer contact under its centrifugal force and its weight \[N/m\].
     pub fn seat_stiffness(&self, rotation: &Rotation) -> f64 {
-        let turning = self.turning(rotation);
+        let cage_speed = self.cage_speed(rotation);
         let weight = self.gravity[0].hypot(self.gravity[1]);
-        let load = self.mass * (turning * turning * self.outer_reach + weight);
+        let load = self.mass * (cage_speed * cage_speed * self.outer_reach + weight);
         1.5 * (self.stiffness[1] * self.stiffness[1] * load).cbrt()
     }
 
     /// Cage speed, or if it is zero (statics) the one from the shaft speed and the cage ratio \[rad/s\].
-    fn turning(&self, rotation: &Rotation) -> f64 {
+    fn cage_speed(&self, rotation: &Rotation) -> f64 {
         if rotation.cage_speed != 0.0 {
             rotation.cage_speed
         } else {
@@ -144,9 +144,9 @@ impl RadialElement {
         // Cage speed zero, so that contacts have no rates; the centrifugal force is added below.
         let still = Rings { shift_rate: [0.0; 2], frame_rate: [0.0; 2], ..*rings };
         let standing = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..*rotation };
-        let turning = self.turning(rotation);
+        let cage_speed = self.cage_speed(rotation);
         self.each(&still, &standing, |_, seen| {
-            let flung = |lift: f64| self.mass * turning * turning * (self.outer_reach + lift);
+            let flung = |lift: f64| self.mass * cage_speed * cage_speed * (self.outer_reach + lift);
             let push = flung(0.0) + seen.weight;
             let guess = push.signum() * (push.abs() / self.stiffness[1]).cbrt().powi(2);
             let missing = |lift: f64| {

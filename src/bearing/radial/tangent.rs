@@ -32,13 +32,13 @@ impl Acting {
     /// b = (0, 0, −1, 0, 1).
     pub(super) fn tangent(&self, seen: &Seen, mass: f64) -> BallTangent {
         let [inner, outer] = &self.contacts;
-        let (n, turning) = (self.n, seen.turning);
+        let (n, cage_speed) = (self.n, seen.cage_speed);
         let mut out = BallTangent::default();
         let along = n[0] * self.drift[0] + n[1] * self.drift[1];
         let w = [0, 1].map(|k| (self.drift[k] - n[k] * along) / self.distance);
         let b = [n[0], n[1], n[0], 0.0, -n[0]];
-        let late = w[0] + n[1] * turning;
-        let g = [w[0], w[1], late, n[0] * turning, -late];
+        let late = w[0] + n[1] * cage_speed;
+        let g = [w[0], w[1], late, n[0] * cage_speed, -late];
         // ∂n_r/∂q and ∂n_t/∂q.
         let p = [n[1] * n[1], -n[0] * n[1], n[0] * n[0]].map(|v| v / self.distance);
         let swing = [[-p[0], -p[1], -p[0], 0.0, p[0]], [-p[1], -p[2], -p[1], 0.0, p[1]]];
@@ -57,18 +57,18 @@ impl Acting {
         for (r, sign) in [(2, -1.0), (Y, 1.0)] {
             out.stiffness[r][2] -= sign * outer.by_depth;
             out.stiffness[r][Y] += sign * outer.by_depth;
-            out.stiffness[r][3] -= sign * outer.by_rate * turning;
+            out.stiffness[r][3] -= sign * outer.by_rate * cage_speed;
             out.damping[r][2] -= sign * outer.by_rate;
             out.damping[r][Y] += sign * outer.by_rate;
         }
         // m ψ̇² (y − 2 h_r) + 2 m ψ̇ ḣ_t on y, −2 m ψ̇ (ẏ − ḣ_r − ψ̇ h_t) on h_t.
-        let (coriolis, centrifugal) = (2.0 * mass * turning, mass * turning * turning);
+        let (coriolis, centrifugal) = (2.0 * mass * cage_speed, mass * cage_speed * cage_speed);
         out.stiffness[Y][Y] -= centrifugal;
         out.stiffness[Y][2] += 2.0 * centrifugal;
         out.damping[Y][3] -= coriolis;
         out.damping[3][Y] += coriolis;
         out.damping[3][2] -= coriolis;
-        out.stiffness[3][3] -= coriolis * turning;
+        out.stiffness[3][3] -= coriolis * cage_speed;
         out
     }
 }

@@ -3,6 +3,7 @@
 use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
 use rotordyn::edge::hdf5::Store;
 use rotordyn::model::catalogue;
+use rotordyn::names::nearest;
 use rotordyn::results::RatedBearing;
 
 use super::super::args::ModelArgs;
@@ -11,7 +12,7 @@ use super::super::failure::Failure;
 use super::super::machine::Origin;
 use super::super::store::stored_origin;
 use super::args::SignalArgs;
-use super::input::{File, Findings, alike};
+use super::input::{File, Findings};
 
 /// The bearing given by the flags.
 pub fn find(
@@ -44,7 +45,7 @@ pub fn find(
     }
     let designations: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
     let known = of_model.iter().map(|(name, _)| name.as_str()).chain(designations);
-    let hint = match alike(name, known) {
+    let hint = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`rotordyn catalogue` lists all; use --rates for any other".into(),
     };

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use rotordyn::edge::measured::run_up::is_clock;
 use rotordyn::edge::measured::{self, unit};
+use rotordyn::names::nearest;
 use rotordyn::signal::record::{Measured, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
@@ -112,7 +113,7 @@ impl File {
     pub fn record(&self, name: &str) -> Result<&Record, String> {
         let found = self.measured.record(name);
         found.map_err(|error| {
-            let near = alike(name, self.measured.records.iter().map(|r| r.name.as_str()));
+            let near = nearest(name, self.measured.records.iter().map(|r| r.name.as_str()));
             near.map_or_else(
                 || error.to_string(),
                 |near| format!("there is no channel `{name}`; did you mean `{near}`?"),
@@ -296,13 +297,4 @@ fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64
             None
         }
     }
-}
-
-/// The known name most similar to a word (edit distance), if similar enough to suggest.
-pub fn alike<'n>(word: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
-    let word = plain(word);
-    let (distance, best) =
-        known.map(|name| (strsim::damerau_levenshtein(&word, &plain(name)), name)).min()?;
-    (distance <= word.chars().count().div_ceil(3)).then_some(best)
 }

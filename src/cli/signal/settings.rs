@@ -1,12 +1,13 @@
 //! Settings of the signal analyses from the flags.
 
+use rotordyn::names::nearest;
 use rotordyn::signal::bearing_lines::LineSettings;
 use rotordyn::signal::diagnosis::BandRule;
 use rotordyn::study::signal::{Analysis, Race, SignalSettings, Wanted};
 use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
 
 use super::args::SignalArgs;
-use super::input::{Findings, alike};
+use super::input::Findings;
 
 /// Settings from the flags; `bearing` is whether a bearing is known.
 pub fn of(args: &SignalArgs, bearing: bool, findings: &mut Findings) -> SignalSettings {
@@ -49,7 +50,7 @@ fn analyses(words: &[String], findings: &mut Findings) -> Wanted {
             Some((analysis, _)) if wanted.contains(analysis) => {}
             Some((analysis, _)) => wanted.push(*analysis),
             None => {
-                let hint = match alike(word, known()) {
+                let hint = match nearest(word, known()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!("there are {}", known().collect::<Vec<_>>().join(", ")),
                 };

@@ -10,6 +10,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use super::scaled::Scaled;
+use crate::linalg::fft_length;
 
 /// Columns on either side kept in real space, for the preconditioner.
 pub(super) const NEAR: usize = 2;
@@ -40,7 +41,7 @@ impl Deflection {
     pub(super) fn new(s: &Scaled) -> Self {
         let (nx, ny) = (s.nx, s.ny);
         let kernel = |d: usize| folded(&s.influence(d), ny);
-        let padded = smooth_length(2 * nx);
+        let padded = fft_length(2 * nx, 2);
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
         let frequencies = padded / 2 + 1;
@@ -130,19 +131,6 @@ fn folded(influence: &[f64], ny: usize) -> Vec<f64> {
         }
     }
     kernel
-}
-
-/// Smallest length ≥ n without prime factors above 5, even.
-fn smooth_length(n: usize) -> usize {
-    let smooth = |mut n: usize| {
-        for factor in [2, 3, 5] {
-            while n.is_multiple_of(factor) {
-                n /= factor;
-            }
-        }
-        n == 1
-    };
-    (n.max(2)..).find(|&n| n.is_multiple_of(2) && smooth(n)).unwrap_or(n)
 }
 
 /// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y); differences over the corners give a rectangle.

@@ -4,6 +4,7 @@ use super::Problem;
 use super::newton::Start;
 use super::scaled::Scaled;
 use crate::contact::FilmFormula;
+use crate::linalg::dot;
 
 /// Semi-ellipsoidal pressure over the dry contact, or over the film's wedge if wider, and the separation at
 /// which the minimum film is about Hamrock and Dowson's.
@@ -18,7 +19,7 @@ pub(super) fn ellipse(problem: &Problem, s: &Scaled) -> Start {
             .enumerate()
             .map(|(node, square)| if s.is_inner(node) { square.max(0.0).sqrt() } else { 0.0 })
             .collect();
-    let load: f64 = pressure.iter().zip(&s.weights).map(|(p, w)| p * w).sum();
+    let load = dot(&pressure, &s.weights);
     pressure.iter_mut().for_each(|p| *p /= load);
     Start { pressure, separation: f64::NEG_INFINITY, least_film: film / s.film }
 }

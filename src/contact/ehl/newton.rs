@@ -8,7 +8,7 @@ use super::deflection::{Deflection, NEAR};
 use super::reynolds::{self, POINTS, Row, neighbour};
 use super::scaled::Scaled;
 use crate::contact::Lubricant;
-use crate::linalg::{BandMatrix, gmres};
+use crate::linalg::{BandMatrix, dot, gmres};
 
 /// Convergence tolerance on the RMS of min(P, R/d).
 const TOLERANCE: f64 = 1e-6;
@@ -231,8 +231,4 @@ impl<'a> Newton<'a> {
         }
         best
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

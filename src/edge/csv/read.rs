@@ -22,11 +22,7 @@ type Cell = Option<Complex<f64>>;
 /// The file cannot be read, contains no numbers, a line has another number of cells, a cell is not a number,
 /// an axis does not increase.
 pub fn read(path: &Path) -> Result<Measured, Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
         // Not UTF-8: Latin-1, which has degree signs.

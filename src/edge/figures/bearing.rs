@@ -4,6 +4,7 @@
 use super::display::unit;
 use super::{Named, TO_RPM};
 use crate::edge::plot::{BallLoads, BallRow, Curve, Figure, FilmMap, Grid, GridPanel, Lines};
+use crate::linalg::piecewise_within;
 use crate::model::study::Swept;
 use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState, SolvedFilm};
 
@@ -157,8 +158,8 @@ fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid 
 fn crossing(sweep: &BearingSweepResult, load: f64) -> Option<f64> {
     let loads: Vec<f64> = sweep.points.iter().map(BearingPoint::largest_load).collect();
     let k = loads.windows(2).position(|w| w[0] < load && load <= w[1])?;
-    let part = (load - loads[k]) / (loads[k + 1] - loads[k]);
-    Some(sweep.values[k] + part * (sweep.values[k + 1] - sweep.values[k]))
+    let row = |k: usize| [loads[k], sweep.values[k]];
+    piecewise_within(&[row(k), row(k + 1)], load).map(|[_, value]| value)
 }
 
 /// Name, unit and factor from SI of the swept quantity.

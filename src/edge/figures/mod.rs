@@ -141,11 +141,7 @@ pub fn draw_pairs(
 }
 
 fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::Environment {
-        operation: "create folder",
-        path: folder.to_path_buf(),
-        source: source.into(),
-    })?;
+    std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))?;
     let stems: Vec<String> = figures.iter().map(|(name, _)| file_name(name)).collect();
     figures
         .par_iter()

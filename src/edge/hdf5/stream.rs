@@ -1,6 +1,6 @@
 //! Channels of a run: streamed to disk during the run, read back afterwards.
 
-use super::{Attribute, DEFLATE, Store, attribute, failure};
+use super::{Attribute, DEFLATE, Store, attribute};
 use crate::error::Error;
 use hdf5::Dataset;
 
@@ -66,7 +66,7 @@ impl ChannelStream {
         for channel in channels {
             if channel.name.is_empty() || channel.name.contains('/') {
                 let message = format!("{:?} cannot be the name of a channel", channel.name);
-                return Err(failure("write", &store.path, message));
+                return Err(Error::of_file("write", &store.path)(message));
             }
             let attributes: [(&str, Attribute); 4] = [
                 ("unit", channel.unit.as_str().into()),
@@ -91,7 +91,7 @@ impl ChannelStream {
     pub fn push(&mut self, time: f64, angle: f64, speed: f64, values: &[f64]) -> Result<(), Error> {
         if values.len() + 3 != self.columns.len() {
             let message = format!("{} values for {} channels", values.len(), self.columns.len() - 3);
-            return Err(failure("write", &self.store.path, message));
+            return Err(Error::of_file("write", &self.store.path)(message));
         }
         let row = [time, angle, speed];
         for (column, value) in self.columns.iter_mut().zip(row.iter().chain(values)) {
@@ -169,7 +169,7 @@ pub struct Recording {
 /// Reads a run that a [`ChannelStream`] wrote under `at`, complete or not.
 pub fn read_recording(store: &Store, at: &str) -> Result<Recording, Error> {
     let missing =
-        |object: &str, name| failure("read", &store.path, format!("{object} has no attribute {name}"));
+        |object: &str, name| Error::of_file("read", &store.path)(format!("{object} has no attribute {name}"));
     let text = |object: &str, name| match store.attribute(object, name)? {
         Some(Attribute::Text(text)) => Ok(text),
         _ => Err(missing(object, name)),

@@ -26,6 +26,7 @@ use serde::Deserialize;
 
 use super::unit;
 use crate::error::Error;
+use crate::names::nearest;
 use crate::signal::record::{Dof, Geometry, Kind, Measured, Mount, Record};
 use crate::units;
 
@@ -66,11 +67,7 @@ struct Reference {
 /// # Errors
 /// The file cannot be read, or does not have the format above; the message has the line.
 pub fn read(path: &Path) -> Result<Mapping, Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let text = std::fs::read_to_string(path).map_err(Error::of_file("read", path))?;
     toml::from_str(&text).map_err(|error| Error::Content {
         path: path.into(),
         problem: error.to_string().trim_end().to_owned(),
@@ -145,7 +142,7 @@ impl Mapping {
         // Channels without a station belong to the shaft and have been removed before.
         let placed = self.channel.iter().filter(|(_, own)| own.station.is_some()).map(|(name, _)| name);
         for name in placed.filter(|name| !known.contains(&name.as_str())) {
-            problems.push(format!("there is no channel `{name}`{}", alike(name, &known)));
+            problems.push(format!("there is no channel `{name}`{}", but_known(name, &known)));
         }
         for number in self.point.keys() {
             let is_at = |dof: Dof| dof.node.to_string() == *number;
@@ -188,7 +185,7 @@ impl Mapping {
             let known: Vec<&str> = left_out.iter().map(String::as_str).collect();
             problems.push(format!(
                 "it names none of the file's channels{}: add [channel.NAME] or [point.NUMBER]",
-                alike("", &known)
+                but_known("", &known)
             ));
         }
         measured.records = mapped;
@@ -325,12 +322,11 @@ fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     None
 }
 
-/// ", but `...`" with the nearest known name, else the known names.
-fn alike(name: &str, known: &[&str]) -> String {
-    let nearest = known.iter().map(|k| (strsim::damerau_levenshtein(k, name), k)).min();
-    match nearest {
-        Some((distance, best)) if distance <= 2 => format!(", but `{best}`"),
-        _ => {
+/// `, but` and the name that may be meant, or the names there are.
+fn but_known(name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(best) => format!(", but `{best}`"),
+        None => {
             let some: Vec<&str> = known.iter().copied().take(8).collect();
             format!(", but {}{}", some.join(", "), if known.len() > 8 { ", ..." } else { "" })
         }

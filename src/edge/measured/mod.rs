@@ -10,8 +10,8 @@
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 pub mod arrays;
-pub mod blow_run;
 pub mod datasets;
+pub mod impact_run;
 pub mod mapping;
 pub mod run_up;
 mod signal_calc;
@@ -82,9 +82,8 @@ impl Format {
 pub fn read(path: &Path) -> Result<Measured, Error> {
     let mut head = Vec::new();
     let file = std::fs::File::open(path);
-    file.and_then(|file| file.take(HEAD as u64).read_to_end(&mut head)).map_err(|source| {
-        Error::Environment { operation: "read", path: path.into(), source: source.into() }
-    })?;
+    file.and_then(|file| file.take(HEAD as u64).read_to_end(&mut head))
+        .map_err(Error::of_file("read", path))?;
     let content = |problem: &str, advice: &str| Error::Content {
         path: path.into(),
         problem: problem.into(),

@@ -74,8 +74,7 @@ pub fn channels(measured: &Measured, model: &Model) -> Result<Placed, Error> {
         .collect();
     if !others.is_empty() {
         let (names, own) = (listed(&others), &first.name);
-        warnings
-            .push(format!("left out, not sampled like `{own}`: {names}; give them in a separate file"));
+        warnings.push(format!("left out, not sampled like `{own}`: {names}; give them in a separate file"));
     }
     let mut out = Vec::new();
     for (probe, record) in placed.iter().filter(|(_, r)| r.axis == axis && r.values.len() == count) {

@@ -178,7 +178,7 @@ fn of_frfs(measured: &Measured, reading: &Reading, model: &Model) -> Result<Read
     let count = matrix.responses.len() * matrix.references.len();
     let source = format!("{} modes identified from {count} FRFs", modes.len());
     let target = Target { speed, sensors: points, modes, frfs };
-    let force = measured.scalars.iter().find(|(name, _)| name == super::blow_run::PEAK_FORCE).map(|s| s.1);
+    let force = measured.scalars.iter().find(|(name, _)| name == super::impact_run::PEAK_FORCE).map(|s| s.1);
     Ok(ReadTarget { target, warnings, source, force })
 }
 
@@ -245,7 +245,7 @@ fn own_results(path: &Path) -> Result<Option<Measured>, Error> {
         return Ok(None);
     }
     let store = Store::open(path)?;
-    if let Some(frfs) = super::blow_run::frfs(&store)? {
+    if let Some(frfs) = super::impact_run::frfs(&store)? {
         return Ok(Some(frfs));
     }
     if !store.contains("/modes/eigenvalue") || !store.contains("/modes/shapes") {

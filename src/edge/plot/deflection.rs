@@ -6,6 +6,7 @@ use super::labels::{Entry, NameRow, head};
 use super::scale::Range;
 use super::style::*;
 use super::svg::{Dash, Style, Svg};
+use crate::linalg::piecewise_within;
 
 /// A labelled station of the shaft.
 #[derive(Clone, Debug, Default)]
@@ -57,8 +58,9 @@ pub fn draw(data: &Deflection) -> Svg {
     row(&axes).draw(&mut svg, frame.y, true, MUTED);
     for (u, style, marker) in [(&u_x, horizontal, Marker::Square), (&u_y, vertical, Marker::Circle)] {
         axes.curve(&mut svg, &z, u, style);
+        let line: Vec<[f64; 2]> = z.iter().zip(u).map(|(z, u)| [*z, *u]).collect();
         for station in &data.stations {
-            if let Some(value) = interpolate(&z, u, 1e3 * station.z) {
+            if let Some([_, value]) = piecewise_within(&line, 1e3 * station.z) {
                 axes.markers(&mut svg, &[1e3 * station.z], &[value], marker, dot(style), 0.0);
             }
         }
@@ -66,13 +68,4 @@ pub fn draw(data: &Deflection) -> Svg {
     axes.border(&mut svg, Some(&axes.x.label("axial position z", "mm")), &axes.y.label("deflection", "µm"));
     svg.height = frame.bottom() + BOTTOM;
     svg
-}
-
-/// Value of a polyline at x; None outside.
-fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
-    let (x_pairs, y_pairs) = (xs.windows(2), ys.windows(2));
-    x_pairs
-        .zip(y_pairs)
-        .find(|(p, _)| (p[0]..=p[1]).contains(&x))
-        .map(|(p, q)| if p[1] > p[0] { q[0] + (q[1] - q[0]) * (x - p[0]) / (p[1] - p[0]) } else { q[0] })
 }

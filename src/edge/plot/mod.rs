@@ -151,18 +151,10 @@ pub fn write(figure: &Figure, stem: &Path) -> Result<(), Error> {
         std::path::PathBuf::from(name)
     };
     let put = |path: std::path::PathBuf, bytes: &[u8]| {
-        std::fs::write(&path, bytes).map_err(|e| Error::Environment {
-            operation: "write figure",
-            path,
-            source: e.into(),
-        })
+        std::fs::write(&path, bytes).map_err(Error::of_file("write figure", &path))
     };
     put(name(".svg"), svg.as_bytes())?;
-    let png = png(&svg).map_err(|source| Error::Environment {
-        operation: "render figure",
-        path: name(".png"),
-        source,
-    })?;
+    let png = png(&svg).map_err(Error::of_file("render figure", &name(".png")))?;
     put(name(".png"), &png)
 }
 

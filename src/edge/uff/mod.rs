@@ -48,11 +48,7 @@ const SI: UnitSystem = UnitSystem { length: 1.0, force: 1.0 };
 /// # Errors
 /// The file cannot be read, or a block is cut off or does not have the format of its data set number.
 pub fn read(path: &Path) -> Result<Measured, Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Environment {
-        operation: "read",
-        path: path.into(),
-        source: source.into(),
-    })?;
+    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
     parse(&bytes).map_err(|fault| Error::Content {
         path: path.into(),
         problem: format!("line {}: {}", fault.line, fault.problem),

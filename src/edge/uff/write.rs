@@ -38,11 +38,7 @@ pub enum Geometries {
 /// A record without a sampling rate or with NaN, or a file that cannot be written.
 pub fn write(path: &Path, measured: &Measured, options: Options) -> Result<(), Error> {
     let bytes = to_bytes(measured, options)?;
-    std::fs::write(path, bytes).map_err(|source| Error::Environment {
-        operation: "write",
-        path: path.into(),
-        source: source.into(),
-    })
+    std::fs::write(path, bytes).map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a universal file; the same input gives the same bytes, dates are those of the records.

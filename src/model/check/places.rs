@@ -4,6 +4,7 @@ use crate::element::Anchor;
 use crate::model::Station;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::Reader;
+use crate::names::nearest;
 use crate::units::LENGTH;
 use std::ops::Range;
 
@@ -72,7 +73,7 @@ impl Places {
                     all.iter().map(|p| if full { p.name.clone() } else { short(p) }).collect();
                 let shorts: Vec<String> = all.iter().map(|p| short(p)).collect();
                 let near = if text.contains('.') { &names } else { &shorts };
-                let near_found = near.iter().any(|n| strsim::jaro_winkler(n, text) > 0.87);
+                let near_found = nearest(text, near.iter().map(String::as_str)).is_some();
                 let shown = if near_found { near } else { &names };
                 r.log.error(problem.suggest(text, shown.iter().map(String::as_str)));
                 None

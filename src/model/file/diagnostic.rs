@@ -1,5 +1,6 @@
 //! Diagnostics (errors and warnings) of a model file: plain data with spans into its text.
 
+use crate::names::nearest;
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -90,7 +91,7 @@ impl Problem {
 
     /// Suggest the nearest known name, if any is close.
     pub fn suggest_near<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
-        match nearest(word, &known.into_iter().collect::<Vec<_>>()) {
+        match nearest(word, known) {
             Some(near) => self.hint(format!("did you mean `{near}`?")),
             None => self,
         }
@@ -99,7 +100,7 @@ impl Problem {
     /// Suggest the nearest known name, or list the known names if none is close.
     pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();
-        if let Some(near) = nearest(word, &known) {
+        if let Some(near) = nearest(word, known.iter().copied()) {
             return self.hint(format!("did you mean `{near}`?"));
         }
         match known.len() {
@@ -108,17 +109,6 @@ impl Problem {
             n => self.hint(format!("known here: {} and {} more", known[..12].join(", "), n - 12)),
         }
     }
-}
-
-/// Nearest known name by string similarity (Jaro-Winkler, Damerau-Levenshtein), if close enough for a
-/// suggestion.
-pub(crate) fn nearest<'n>(word: &str, known: &[&'n str]) -> Option<&'n str> {
-    let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
-    let word = plain(word);
-    let score = |name: &str| strsim::jaro_winkler(&word, &plain(name));
-    let best = known.iter().copied().max_by(|a, b| score(a).total_cmp(&score(b)))?;
-    let close = strsim::damerau_levenshtein(&word, &plain(best)) <= word.chars().count() / 3;
-    (close || score(best) > 0.87).then_some(best)
 }
 
 /// All texts that were read, concatenated so that one offset identifies a location in any of them.

@@ -4,8 +4,9 @@
 //! returned.
 //! Every requested key is recorded as known, so [`Reader::finish`] can report unknown keys with a suggestion.
 
-use super::diagnostic::{Kind, Log, Problem, nearest};
+use super::diagnostic::{Kind, Log, Problem};
 use super::tree::{Entry, Node, Table, Value};
+use crate::names::nearest;
 use crate::units::{self, Dimension, NUMBER, UnitError};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -448,7 +449,7 @@ impl<'a> Reader<'a> {
         let asked = self.asked.borrow();
         let known: Vec<&str> = asked.iter().map(String::as_str).collect();
         for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
-            if let Some(meant) = nearest(&entry.key, &known) {
+            if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
                 self.log.retract_missing(&self.span, &self.missing_message(meant));
             }
             let message = format!("unknown key {}", self.name(&entry.key));

@@ -216,13 +216,13 @@ pub enum RecordError {
     #[error(
         "`{channel}` contains no hammer hit: its largest value, {largest} {unit}, is not clearly above its median magnitude of {median} {unit}; check that it is the hammer's channel (--force) and was connected"
     )]
-    NoBlow { channel: String, largest: f64, median: f64, unit: String },
+    NoHit { channel: String, largest: f64, median: f64, unit: String },
     #[error(
         "the record of `{channel}` ends {seconds:.3} s after its first hit, less than a block of {block:.3} s; use shorter blocks (--block)"
     )]
     ShortRecord { channel: String, seconds: f64, block: f64 },
-    #[error("none of the {blows} hits in `{channel}` is usable: {faults}")]
-    NoGoodBlow { channel: String, blows: usize, faults: String },
+    #[error("none of the {hits} hits in `{channel}` is usable: {faults}")]
+    NoGoodHit { channel: String, hits: usize, faults: String },
     #[error("there is no FRF among the records ({found}); FRFs are complex values over Hz")]
     NoFrf { found: String },
 }

@@ -1,4 +1,4 @@
-//! `identify` from time records: blows that are measured and blows that are simulated give the modes back.
+//! `identify` from time records: hits that are measured and hits that are simulated give the modes back.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -10,32 +10,31 @@ use rotordyn::analysis::modal;
 use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{self, Options};
-use rotordyn::signal::hammer::{self, HammerTest};
-use rotordyn::signal::impact::Estimator;
+use rotordyn::signal::impact::{self, Estimator, ImpactTest};
 use rotordyn::signal::record::{Axis, AxisQuantity, Kind, Measured, Points, Record, Values};
 
-/// Samples a second of the records of blows.
+/// Samples a second of the records of hits.
 const RATE: f64 = 4096.0;
 /// Steps of the simulation a sample.
 const FINE: usize = 2;
 
-/// One blow of the hammer: when \[s\], how hard \[N\].
+/// One hit of the hammer: when \[s\], how hard \[N\].
 #[derive(Clone, Copy)]
-struct Strike {
+struct Pulse {
     at: f64,
     peak: f64,
 }
 
-/// Force, and accelerations of all points, of half-sine blows of 4 ms at a point, without noise.
-fn struck(seconds: f64, point: usize, strikes: &[Strike]) -> (Vec<f64>, [Vec<f64>; 4]) {
+/// Force, and accelerations of all points, of half-sine hits of 4 ms at a point, without noise.
+fn struck(seconds: f64, point: usize, pulses: &[Pulse]) -> (Vec<f64>, [Vec<f64>; 4]) {
     let step = 1.0 / (RATE * FINE as f64);
     let width = 4e-3;
     let force = |t: f64| {
-        let one = |s: &Strike| {
+        let one = |s: &Pulse| {
             let x = (t - s.at) / width;
             if (0.0..1.0).contains(&x) { s.peak * (std::f64::consts::PI * x).sin() } else { 0.0 }
         };
-        strikes.iter().map(one).sum::<f64>()
+        pulses.iter().map(one).sum::<f64>()
     };
     let mut out = (Vec::new(), [(); 4].map(|()| Vec::new()));
     let poles = MODES.map(pole);
@@ -68,7 +67,7 @@ fn struck(seconds: f64, point: usize, strikes: &[Strike]) -> (Vec<f64>, [Vec<f64
     out
 }
 
-/// What is on the channels of a hammer test.
+/// What is on the channels of an impact test.
 fn channels(force: Vec<f64>, responses: &[Vec<f64>]) -> Vec<Record> {
     let mut out = vec![Record::samples("hammer", RATE, 0.0, force, "N")];
     for (r, values) in responses.iter().enumerate() {
@@ -114,29 +113,29 @@ fn warnings(document: &serde_json::Value) -> Vec<String> {
     document["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().into()).collect()
 }
 
-/// Eight blows six seconds apart, the fourth a double hit, the sixth clipped.
-fn eight_blows() -> Vec<Record> {
-    let mut strikes: Vec<Strike> = (0..8u8)
-        .map(|k| Strike { at: 0.5 + 6.0137 * f64::from(k), peak: 80.0 + 7.0 * f64::from(k % 3) })
+/// Eight hits six seconds apart, the fourth a double hit, the sixth clipped.
+fn eight_hits() -> Vec<Record> {
+    let mut pulses: Vec<Pulse> = (0..8u8)
+        .map(|k| Pulse { at: 0.5 + 6.0137 * f64::from(k), peak: 80.0 + 7.0 * f64::from(k % 3) })
         .collect();
-    strikes.push(Strike { at: strikes[3].at + 0.05, peak: 40.0 });
-    let (force, responses) = struck(49.0, 2, &strikes);
+    pulses.push(Pulse { at: pulses[3].at + 0.05, peak: 40.0 });
+    let (force, responses) = struck(49.0, 2, &pulses);
     let mut records = channels(force, &responses);
     noisy(&mut records, [2e-3, 2e-3], 5);
     if let Values::Real(force) = &mut records[0].values {
-        let from = (strikes[5].at * RATE) as usize;
+        let from = (pulses[5].at * RATE) as usize;
         force[from..from + 20].iter_mut().for_each(|f| *f = f.min(50.0));
     }
     records
 }
 
-/// What a hammer test of two seconds a blow gives: an exponential window ends decays of a fifth, and its damping is
+/// What an impact test of two seconds a hit gives: an exponential window ends decays of a fifth, and its damping is
 /// taken off again.
 #[test]
-fn hammer_test() {
+fn impact_test_of_eight_hits() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let records = eight_blows();
+    let records = eight_hits();
     write(folder, "test.npz", records.clone());
     write(folder, "test.mat", records.clone());
     let flags = ["--block", "2 s", "--window", "0.4 s", "--band", "10 .. 110 Hz"];
@@ -152,21 +151,21 @@ fn hammer_test() {
         );
         assert!(off[0].abs() < 1e-3 && off[1].abs() < 0.02, "{mode:?} {off:?}");
     }
-    let said = warnings(&document);
-    assert_eq!(said.len(), 2, "{said:#?}");
-    assert!(said[0].starts_with("blow 4 of `hammer` at 18.5"), "{said:#?}");
-    assert!(said[0].contains("a double hit, there is another 0.049 s after it"), "{said:#?}");
+    let warned = warnings(&document);
+    assert_eq!(warned.len(), 2, "{warned:#?}");
+    assert!(warned[0].starts_with("hit 4 of `hammer` at 18.5"), "{warned:#?}");
+    assert!(warned[0].contains("double hit, the other 0.049 s after it"), "{warned:#?}");
     assert!(
-        said[1].starts_with("blow 6 of `hammer` at 30.") && said[1].contains("it stays at 50 N"),
-        "{said:#?}"
+        warned[1].starts_with("hit 6 of `hammer` at 30.") && warned[1].contains("the force stays at 50 N"),
+        "{warned:#?}"
     );
     // Formats hold the same samples.
     assert_eq!(modes(&identified(folder, &["test.mat"], &flags)), found);
 
     // The same FRFs without a word on their window are damped by 1/(tau omega) more.
-    let test = HammerTest { block: Some(2.0), time_constant: Some(0.4), ..HammerTest::default() };
+    let test = ImpactTest { block: Some(2.0), time_constant: Some(0.4), ..ImpactTest::default() };
     let measured = Measured { records, ..Measured::default() };
-    let (windowed, _) = hammer::frfs(&[measured], &test).unwrap();
+    let (windowed, _) = impact::frfs(&[measured], &test).unwrap();
     write(folder, "windowed.uff", windowed);
     let told =
         modes(&identified(folder, &["windowed.uff"], &["--window", "0.4 s", "--band", "10 .. 110 Hz"]));
@@ -184,9 +183,8 @@ fn hammer_test() {
 fn estimators() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let strikes: Vec<Strike> =
-        (0..6u8).map(|k| Strike { at: 0.5 + 8.0 * f64::from(k), peak: 80.0 }).collect();
-    let (mut force, responses) = struck(48.5, 2, &strikes);
+    let pulses: Vec<Pulse> = (0..6u8).map(|k| Pulse { at: 0.5 + 8.0 * f64::from(k), peak: 80.0 }).collect();
+    let (mut force, responses) = struck(48.5, 2, &pulses);
     // A fifth more and a fifth less in turn is noise of 0.04 over the force's power; none of it is in the responses.
     for (k, f) in force.iter_mut().enumerate() {
         *f *= if (k as f64 / RATE / 8.0) % 2.0 < 1.0 { 1.2 } else { 0.8 };
@@ -199,15 +197,15 @@ fn estimators() {
         (Estimator::Hv, "hv", 1.0 / 1.04_f64.sqrt()),
         (Estimator::H2, "h2", 1.0),
     ] {
-        let test = HammerTest { estimator, ..HammerTest::default() };
-        let (frfs, said) = hammer::frfs(std::slice::from_ref(&measured), &test).unwrap();
-        assert!(said.is_empty(), "{said:#?}");
+        let test = ImpactTest { estimator, ..ImpactTest::default() };
+        let (frfs, warned) = impact::frfs(std::slice::from_ref(&measured), &test).unwrap();
+        assert!(warned.is_empty(), "{warned:#?}");
         let frf = frfs.iter().find(|r| r.kind == Kind::Frf).unwrap();
         let lines = frf.axis.points(frf.values.len()).unwrap();
         let at = lines.iter().position(|hz| *hz >= 35.0).unwrap();
         let ratio = frf.frf().unwrap()[at] / accelerance(0, 2, lines[at]);
         println!("{name}: {ratio}");
-        // Before the next blow 0.2 % of the decay is left.
+        // Before the next hit 0.2 % of the decay is left.
         assert!((ratio / expected - 1.0).norm() < 5e-3, "{name}: {ratio} for {expected}");
 
         let document = identified(folder, &["test.npz"], &["--estimator", name, "--band", "10 .. 110 Hz"]);
@@ -225,38 +223,38 @@ fn estimators() {
     }
 }
 
-/// Blows of several files at points that are told are averaged; a bounce after a third of a second is one blow's fault
+/// Hits of several files at points that are told are averaged; a bounce after a third of a second is one hit's fault
 /// and shortens no other block.
 #[test]
-fn blows_of_several_files() {
+fn hits_of_several_files() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for k in 0..3u32 {
-        let mut strikes = vec![Strike { at: 0.3, peak: 60.0 }, Strike { at: 8.3, peak: 70.0 }];
+        let mut pulses = vec![Pulse { at: 0.3, peak: 60.0 }, Pulse { at: 8.3, peak: 70.0 }];
         if k == 1 {
-            strikes.push(Strike { at: 8.63, peak: 50.0 });
+            pulses.push(Pulse { at: 8.63, peak: 50.0 });
         }
-        let (force, responses) = struck(16.5, 2, &strikes);
+        let (force, responses) = struck(16.5, 2, &pulses);
         let mut records = channels(force, &responses);
         noisy(&mut records, [1e-3, 2e-3], 10 + k);
-        write(folder, &format!("blow_{k}.mat"), records);
+        write(folder, &format!("hit_{k}.mat"), records);
     }
     let mut mapping = "[channel.hammer]\nstation = \"P3\"\ndirection = \"y\"\n".to_string();
     for r in 1..=4 {
         mapping += &format!("[channel.y{r}]\nstation = \"P{r}\"\ndirection = \"y\"\n");
     }
     std::fs::write(folder.join("points.toml"), mapping).unwrap();
-    let files = ["blow_0.mat", "blow_1.mat", "blow_2.mat"];
+    let files = ["hit_0.mat", "hit_1.mat", "hit_2.mat"];
     let document = identified(folder, &files, &["--mapping", "points.toml", "--band", "10 .. 110 Hz"]);
     let found = modes(&document);
     assert_eq!(found.len(), 3, "{found:?}");
     for (mode, (hz, zeta)) in MODES.iter().zip(&found) {
         assert!((hz / damped(*mode) - 1.0).abs() < 5e-4 && (zeta / mode.1 - 1.0).abs() < 0.03, "{found:?}");
     }
-    let said = warnings(&document);
+    let warned = warnings(&document);
     assert!(
-        said[0].starts_with("blow 4 of `hammer` at 8.3") && said[0].contains("0.328 s after it"),
-        "{said:#?}"
+        warned[0].starts_with("hit 4 of `hammer` at 8.3") && warned[0].contains("0.328 s after it"),
+        "{warned:#?}"
     );
     // Blocks of eight seconds.
     let lines = document["lines"].as_u64().unwrap();
@@ -264,13 +262,13 @@ fn blows_of_several_files() {
     assert_eq!(document["references"][0], "1:+y", "{}", document["references"]);
 }
 
-/// Time records that are no hammer test.
+/// Time records that are no impact test.
 #[test]
-fn bad_blows_are_told() {
+fn bad_hits_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let strikes = [Strike { at: 0.3, peak: 60.0 }, Strike { at: 8.3, peak: 70.0 }];
-    let (force, responses) = struck(16.5, 2, &strikes);
+    let pulses = [Pulse { at: 0.3, peak: 60.0 }, Pulse { at: 8.3, peak: 70.0 }];
+    let (force, responses) = struck(16.5, 2, &pulses);
     let good = || channels(force.clone(), &responses[..2]);
     let silent = |r: &mut Record| r.values = Values::Real(vec![0.0; r.values.len()]);
     let random = |r: &mut Record| {
@@ -296,9 +294,9 @@ fn bad_blows_are_told() {
     write(folder, "rates.npz", changed(good(), slow));
     let untold = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
     write(folder, "no_rate.npz", changed(good(), untold));
-    let (force, responses) = struck(8.2, 2, &[strikes[0], Strike { at: 0.35, peak: 40.0 }]);
+    let (force, responses) = struck(8.2, 2, &[pulses[0], Pulse { at: 0.35, peak: 40.0 }]);
     write(folder, "double.npz", channels(force, &responses[..2]));
-    let (force, responses) = struck(8.2, 2, &strikes[..1]);
+    let (force, responses) = struck(8.2, 2, &pulses[..1]);
     write(folder, "once.npz", channels(force, &responses[..2]));
     let clip = |r: &mut Vec<Record>| {
         if let Values::Real(values) = &mut r[2].values {
@@ -315,28 +313,28 @@ fn bad_blows_are_told() {
         ("no such force", vec!["volts.npz"], vec!["--force", "hamer"]),
         ("two forces", vec!["two_forces.npz"], vec![]),
         ("a force alone", vec!["force_only.npz"], vec![]),
-        ("no blow", vec!["silent.npz"], vec![]),
-        ("no blow but noise", vec!["noise.npz"], vec![]),
+        ("no hit", vec!["silent.npz"], vec![]),
+        ("no hit but noise", vec!["noise.npz"], vec![]),
         ("a value that is no number", vec!["nan.npz"], vec![]),
         ("rates that differ", vec!["rates.npz"], vec![]),
         ("no rate", vec!["no_rate.npz"], vec![]),
         ("the rate given", vec!["no_rate.npz"], vec!["--rate", "4096 Hz"]),
         ("the rate in a mapping", vec!["no_rate.npz"], vec!["--mapping", "rate.toml"]),
         ("a rate without unit", vec!["no_rate.npz"], vec!["--rate", "4096"]),
-        ("one blow, a double hit", vec!["double.npz"], vec![]),
-        ("one blow", vec!["once.npz"], vec![]),
+        ("one hit, a double hit", vec!["double.npz"], vec![]),
+        ("one hit", vec!["once.npz"], vec![]),
         ("a response beyond its range", vec!["clipped.npz"], vec![]),
         ("a block longer than the record", vec!["good.npz"], vec!["--block", "20 s"]),
         ("a block of no length", vec!["good.npz"], vec!["--block", "0 s"]),
         ("a block that cuts the decay", vec!["good.npz"], vec!["--block", "0.5 s", "--band", "10 .. 110 Hz"]),
         ("two tests of the same points", vec!["good.npz", "once.npz"], vec![]),
     ];
-    insta::assert_snapshot!("bad_blows", told(folder, &cases));
+    insta::assert_snapshot!("bad_hits", told(folder, &cases));
 }
 
-/// A simulated hammer test: the stored run of the rig at rest under a blow gives the modes of `modal` that it moves.
+/// A simulated impact test: the stored run of the rig at rest under a hit gives the modes of `modal` that it moves.
 #[test]
-fn simulated_hammer_test() {
+fn simulated_impact_test() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let text = struck_rig();
@@ -365,7 +363,7 @@ fn simulated_hammer_test() {
         let document = identified(folder, &["tap/results.h5"], &flags);
         assert_eq!(warnings(&document), Vec::<String>::new());
         let found = modes(&document);
-        // The blow along y hardly moves the shaft along itself, nor about.
+        // The hit along y hardly moves the shaft along itself, nor about.
         assert_eq!(found.len(), 7, "{found:?}");
         for (hz, zeta) in &found {
             let off = |pole: &&Complex64| (pole.im / TAU / hz - 1.0).abs();

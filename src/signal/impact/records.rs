@@ -1,45 +1,46 @@
-//! FRFs of a hammer test from its time records: blows found and judged, averaged, windowed.
+//! FRFs of an impact test from its time records: hits found, bad ones left out, windowed, averaged.
 
 use std::ops::Range;
 
-use super::blow::{Inspection, Limits, Trigger, inspect};
-use super::impact::{Blow, Estimator, FrfEstimate, ImpactWindows, frf_from_blows};
-use super::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, RecordError, Values};
+use super::frf::{Estimator, FrfEstimate, ImpactWindows, frf_from_hits};
+use super::quality::{HitQuality, Limits, inspect};
+use super::{Hit, Trigger};
 use crate::error::Error;
+use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, RecordError, Values};
 
 /// How the records are cut.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct HammerTest {
+pub struct ImpactTest {
     /// Name of the force's channel; the one in newtons if `None`.
     pub force: Option<String>,
-    /// Length of a blow's block \[s\]; up to the next blow if `None`.
+    /// Length of a hit's block \[s\]; up to the next hit if `None`.
     pub block: Option<f64>,
     /// Time constant of an exponential window \[s\].
     pub time_constant: Option<f64>,
     pub estimator: Estimator,
 }
 
-/// A blow begins where the force passes this share of its largest value.
+/// A hit begins where the force passes this share of its largest value.
 const LEVEL: f64 = 0.25;
 /// Time kept before it \[s\], at most a tenth of the block.
 const BEFORE: f64 = 0.01;
-/// Blows nearer to each other are one double hit \[s\].
+/// Hits nearer to each other are one double hit \[s\].
 const APART: f64 = 0.2;
 /// So are those nearer than this share of the median gap.
 const OF_MEDIAN: f64 = 0.5;
-/// A blow is so many times larger than the median |force|: noise and shakers stay below.
+/// A hit is so many times larger than the median |force|: noise and shakers stay below.
 const STANDS_OUT: f64 = 10.0;
 /// The force counts for at least so long after the contact \[s\], in which filters ring.
 const AFTER: f64 = 0.01;
 
-/// FRFs of every response to the force, with coherence where there are several blows; and what deserves a warning.
+/// FRFs of every response to the force, with coherence where there are several hits; and what deserves a warning.
 ///
-/// `files` hold the same channels at the same points: their blows are averaged. Bad blows (double hits, overloads)
+/// `files` hold the same channels at the same points: their hits are averaged. Bad hits (double hits, overloads)
 /// are left out, an overloaded response only where it is. Beyond the contact the force is noise and set to zero.
 ///
 /// # Errors
-/// No force, records of different rates or lengths, no good blow, NaN.
-pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<String>), Error> {
+/// No force, records of different rates or lengths, no good hit, NaN.
+pub fn frfs(files: &[Measured], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), Error> {
     let Some(first) = files.first() else { return Ok((Vec::new(), Vec::new())) };
     let time = time_records(first);
     let force = force(first, &time, test)?;
@@ -55,7 +56,7 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
     // Blocks of all files are of one length.
     let length = blocks.iter().flatten().map(|b| b.len()).min().unwrap_or(0);
     blocks.iter_mut().flatten().for_each(|block| block.end = block.start + length);
-    let blows = blocks.iter().map(|own| own.len()).sum();
+    let hits = blocks.iter().map(|own| own.len()).sum();
 
     let mut out = Vec::new();
     if force.unit != "N" && !force.unit.is_empty() {
@@ -65,40 +66,41 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
             force.name
         ));
     }
-    let mut forces_said = false;
+    let mut force_reported = false;
     let mut single = Vec::new();
     let responses = time.iter().filter(|r| r.name != force.name);
     for (number, response) in responses.enumerate() {
         let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
         let (_, window) = windows.samples(length, rate)?;
-        let Judged { good, faults, contact, left_over } = judged(files, &blocks, force, response, &window)?;
-        let of_force = faults.iter().filter_map(|f| force_fault(f, force, rate));
-        let of_response = faults.iter().filter_map(response_fault);
-        let said: Vec<String> = if forces_said && !good.is_empty() {
+        let HitSet { good, inspected, contact, residual } =
+            inspect_all(files, &blocks, force, response, &window)?;
+        let of_force = inspected.iter().filter_map(|hit| hit.force_fault(force, rate));
+        let of_response = inspected.iter().filter_map(Inspected::response_fault);
+        let faults: Vec<String> = if force_reported && !good.is_empty() {
             of_response.collect()
         } else {
             of_force.chain(of_response).collect()
         };
-        forces_said = true;
+        force_reported = true;
         if good.is_empty() {
             let channel = force.name.clone();
-            return Err(RecordError::NoGoodBlow { channel, blows, faults: said.join("; ") }.into());
+            return Err(RecordError::NoGoodHit { channel, hits, faults: faults.join("; ") }.into());
         }
-        warnings.extend(said);
+        warnings.extend(faults);
         if good.len() == 1 {
             single.push(format!("`{}`", response.name));
         }
-        if left_over > 0.0 {
+        if residual > 0.0 {
             warnings.push(format!(
-                "`{}` has not died away: {:.0} % of its peak is left at the end of a block; take longer blocks \
-                 (--block), or an exponential window (--window)",
+                "`{}` is truncated: {:.0} % of its peak is left at the end of a block; take longer blocks (--block), or \
+                 an exponential window (--window)",
                 response.name,
-                100.0 * left_over
+                100.0 * residual
             ));
         }
         let after = (AFTER * rate).round() as usize;
         let windows = ImpactWindows { force_length: Some(2 * contact + after), ..windows };
-        let estimate = frf_from_blows(&good, rate, windows)?;
+        let estimate = frf_from_hits(&good, rate, windows)?;
         out.extend(records(force, response, number, estimate, good.len(), test.estimator));
     }
     if out.is_empty() {
@@ -107,32 +109,32 @@ pub fn frfs(files: &[Measured], test: &HammerTest) -> Result<(Vec<Record>, Vec<S
     }
     if !single.is_empty() {
         warnings.push(format!(
-            "there is one good blow only for {}, which tells no coherence and averages no noise; strike several times",
+            "there is one good hit only for {}: no coherence, and no average over noise; take several hits",
             single.join(", ")
         ));
     }
     Ok((out, warnings))
 }
 
-/// The blows of one response.
+/// The hits of one response.
 #[derive(Default)]
-struct Judged<'a> {
-    good: Vec<Blow<'a>>,
-    faults: Vec<Seen<'a>>,
+struct HitSet<'a> {
+    good: Vec<Hit<'a>>,
+    inspected: Vec<Inspected<'a>>,
     /// Samples of a block up to the end of the longest contact.
     contact: usize,
-    /// Largest share of a good blow's peak at its end, where it is too much.
-    left_over: f64,
+    /// Largest residual of a good hit, where it is too much.
+    residual: f64,
 }
 
-fn judged<'a>(
+fn inspect_all<'a>(
     files: &'a [Measured],
     blocks: &[Vec<Range<usize>>],
     force: &Record,
     response: &'a Record,
     window: &[f64],
-) -> Result<Judged<'a>, Error> {
-    let mut out = Judged::default();
+) -> Result<HitSet<'a>, Error> {
+    let mut out = HitSet::default();
     let rate = force.sample_rate()?;
     for (file, blocks) in files.iter().zip(blocks) {
         let (force, own) = (file.record(&force.name)?, file.record(&response.name)?);
@@ -143,46 +145,59 @@ fn judged<'a>(
         finite(own)?;
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
         for block in blocks {
-            let blow = Blow { force: &samples[block.clone()], response: &values[block.clone()] };
-            let seen = inspect(&blow, &Limits::default(), Some(window))?;
-            if seen.is_good() {
-                out.contact = out.contact.max(seen.contact.end);
-                out.left_over = out.left_over.max(if seen.cut_off { seen.left_over } else { 0.0 });
-                out.good.push(blow);
+            let hit = Hit { force: &samples[block.clone()], response: &values[block.clone()] };
+            let quality = inspect(&hit, &Limits::default(), Some(window))?;
+            if quality.is_good() {
+                out.contact = out.contact.max(quality.contact.end);
+                out.residual = out.residual.max(if quality.truncated { quality.residual } else { 0.0 });
+                out.good.push(hit);
             }
-            let start = force.axis.start() + block.start as f64 / rate;
-            out.faults.push((out.faults.len() + 1, start, seen, &response.name));
+            out.inspected.push(Inspected {
+                number: out.inspected.len() + 1,
+                start: force.axis.start() + block.start as f64 / rate,
+                quality,
+                response: &response.name,
+            });
         }
     }
     Ok(out)
 }
 
-/// Number of a blow, time of its block's start \[s\], what it is like, and the response.
-type Seen<'a> = (usize, f64, Inspection, &'a str);
-
-fn force_fault(&(number, start, ref seen, _): &Seen, force: &Record, rate: f64) -> Option<String> {
-    let at = start + seen.peak.0 as f64 / rate;
-    let blow = format!("blow {number} of `{}` at {at:.3} s is left out", force.name);
-    if seen.overload[0].is_some() {
-        return Some(format!(
-            "{blow}: the force is beyond its range, it stays at {} {}; strike softer, or choose a larger range",
-            digits(seen.peak.1),
-            force.unit
-        ));
-    }
-    let second = seen.double_hit? as f64 / rate + start - at;
-    let word = if second > 0.0 { "after" } else { "before" };
-    Some(format!("{blow}: a double hit, there is another {:.3} s {word} it; strike again", second.abs()))
+/// A hit with its quality in one response.
+struct Inspected<'a> {
+    number: usize,
+    /// Start of its block \[s\].
+    start: f64,
+    quality: HitQuality,
+    response: &'a str,
 }
 
-fn response_fault(&(number, start, ref seen, name): &Seen) -> Option<String> {
-    let own = seen.overload[1].is_some() && seen.overload[0].is_none() && seen.double_hit.is_none();
-    own.then(|| {
-        format!(
-            "blow {number} at {start:.3} s is left out for `{name}`: it is beyond its range; strike softer, or choose \
-             a larger range"
-        )
-    })
+impl Inspected<'_> {
+    fn force_fault(&self, force: &Record, rate: f64) -> Option<String> {
+        let at = self.start + self.quality.peak.0 as f64 / rate;
+        let hit = format!("hit {} of `{}` at {at:.3} s is left out", self.number, force.name);
+        if self.quality.overload[0].is_some() {
+            return Some(format!(
+                "{hit}: overload, the force stays at {} {}; hit more softly, or choose a larger range",
+                digits(self.quality.peak.1),
+                force.unit
+            ));
+        }
+        let second = self.quality.double_hit? as f64 / rate + self.start - at;
+        let side = if second > 0.0 { "after" } else { "before" };
+        Some(format!("{hit}: double hit, the other {:.3} s {side} it; repeat the hit", second.abs()))
+    }
+
+    fn response_fault(&self) -> Option<String> {
+        let HitQuality { overload, double_hit, .. } = &self.quality;
+        let own = overload[1].is_some() && overload[0].is_none() && double_hit.is_none();
+        own.then(|| {
+            format!(
+                "hit {} at {:.3} s is left out for `{}`: overload; hit more softly, or choose a larger range",
+                self.number, self.start, self.response
+            )
+        })
+    }
 }
 
 fn time_records(measured: &Measured) -> Vec<&Record> {
@@ -207,7 +222,7 @@ fn finite(record: &Record) -> Result<(), RecordError> {
 fn force<'a>(
     measured: &'a Measured,
     time: &[&'a Record],
-    test: &HammerTest,
+    test: &ImpactTest,
 ) -> Result<&'a Record, RecordError> {
     if let Some(name) = &test.force {
         return measured.record(name);
@@ -229,26 +244,26 @@ fn force<'a>(
     }
 }
 
-/// Ranges of samples of the blows, all of one length.
+/// Ranges of samples of the hits, all of one length.
 fn blocks(
     record: &Record,
     rate: f64,
-    test: &HammerTest,
+    test: &ImpactTest,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Range<usize>>, Error> {
     let force = record.time_samples()?;
     let samples = |seconds: f64| (seconds * rate).round().max(1.0) as usize;
     let largest = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
-    let median = median(force.iter().map(|f| f.abs()).collect());
-    if largest <= STANDS_OUT * median {
+    let usual_size = median(force.iter().map(|f| f.abs()).collect());
+    if largest <= STANDS_OUT * usual_size {
         let (channel, unit) = (record.name.clone(), record.unit.clone());
-        let (largest, median) = (digits(largest), digits(median));
-        return Err(RecordError::NoBlow { channel, largest, median, unit }.into());
+        let (largest, median) = (digits(largest), digits(usual_size));
+        return Err(RecordError::NoHit { channel, largest, median, unit }.into());
     }
     // Second hits belong to the first.
     let starts = starts(force, LEVEL * largest, samples(APART));
     let gaps: Vec<f64> = starts.windows(2).map(|pair| (pair[1] - pair[0]) as f64).collect();
-    let least = OF_MEDIAN * self::median(gaps.clone());
+    let least = OF_MEDIAN * median(gaps.clone());
     let rest = starts.last().map_or(0, |last| force.len() - last) as f64;
     let usual = gaps.iter().copied().filter(|gap| *gap >= least).fold(f64::INFINITY, f64::min);
     let length = match test.block {
@@ -265,7 +280,7 @@ fn blocks(
     let end = blocks.last().map_or(0, |b| b.end);
     if let Some(start) = starts.iter().find(|start| **start >= end) {
         warnings.push(format!(
-            "the blow of `{}` at {:.3} s is left out: the record ends before its block of {:.3} s",
+            "the hit of `{}` at {:.3} s is left out: the record ends before its block of {:.3} s",
             record.name,
             record.axis.start() + *start as f64 / rate,
             length as f64 / rate
@@ -305,7 +320,7 @@ fn records(
     response: &Record,
     number: usize,
     found: FrfEstimate,
-    blows: usize,
+    hits: usize,
     estimator: Estimator,
 ) -> Vec<Record> {
     let step = found.frequencies.get(1).copied().unwrap_or(1.0);
@@ -333,7 +348,7 @@ fn records(
         Estimator::Hv => found.hv,
     };
     let mut out = vec![place(Record::new(&name, Kind::Frf, axis.clone(), Values::Complex(values), &unit))];
-    if blows > 1 {
+    if hits > 1 {
         let name = format!("coherence {name}");
         out.push(place(Record::new(&name, Kind::Coherence, axis, Values::Real(found.coherence), "1")));
     }

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use crate::edge::hdf5::{Attribute, Store};
 use crate::edge::results_file::read_history;
 use crate::error::Error;
+use crate::linalg::{Outside, piecewise};
 use crate::model::{self, Load, Model, Options, Quantity};
-use crate::signal::impact::{Blow, ImpactWindows, frf_from_blows};
+use crate::signal::impact::{Hit, ImpactWindows, frf_from_hits};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
 
 /// Name of the scalar with the peak force of the impact \[N\].
@@ -38,7 +39,8 @@ pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Mea
     let history = read_history(store)?;
     let (Some(first), Some(last)) = (load.history.first(), load.history.last()) else { return Ok(None) };
     let (size, direction) = along(&load.force);
-    let force: Vec<f64> = history.time.iter().map(|t| size * factor(&load.history, *t)).collect();
+    let factor = |t: &f64| piecewise(&load.history, *t, Outside::Zero)[1];
+    let force: Vec<f64> = history.time.iter().map(|t| size * factor(t)).collect();
     let node = |at: &crate::element::Anchor| match at.node {
         Some(node) if at.offset == [0.0; 3] => node as i64 + 1,
         _ => 0,
@@ -50,8 +52,8 @@ pub fn frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<Mea
         let Some(channel) = history.channels.iter().find(|c| c.name == probe.name) else { continue };
         let rest = channel.values.first().copied().unwrap_or(0.0);
         let response: Vec<f64> = channel.values.iter().map(|v| v - rest).collect();
-        let blow = Blow { force: &force, response: &response };
-        let found = frf_from_blows(&[blow], history.sample_rate, windows)?;
+        let hit = Hit { force: &force, response: &response };
+        let found = frf_from_hits(&[hit], history.sample_rate, windows)?;
         let count = found.frequencies.iter().filter(|f| **f <= top).count();
         let step = found.frequencies.get(1).copied().unwrap_or(1.0);
         let axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
@@ -82,15 +84,6 @@ fn along(force: &[f64; 6]) -> (f64, i8) {
     match (parts.next(), parts.next()) {
         (Some((k, f)), None) => (f.abs(), (k as i8 + 1) * f.signum() as i8),
         _ => (force.iter().map(|f| f * f).sum::<f64>().sqrt(), 0),
-    }
-}
-
-/// Load factor of the history at a time: linear interpolation, zero outside.
-fn factor(history: &[[f64; 2]], t: f64) -> f64 {
-    let after = history.partition_point(|row| row[0] <= t);
-    match (after.checked_sub(1).map(|k| history[k]), history.get(after)) {
-        (Some([t0, f0]), Some([t1, f1])) => f0 + (f1 - f0) * (t - t0) / (t1 - t0),
-        _ => 0.0,
     }
 }
 

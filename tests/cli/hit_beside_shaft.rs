@@ -1,11 +1,11 @@
-//! A tangential blow at the disc's rim, told by the mapping: torsion is seen, and FRFs are those of the model.
+//! A tangential hit at the disc's rim, told by the mapping: torsion is seen, and FRFs are those of the model.
 
 use crate::{json_of, rotordyn};
 
 const RIG: &str = "models/overhung_rig.toml";
 
 #[test]
-fn a_mapping_places_a_blow_beside_the_shaft() {
+fn a_mapping_places_a_hit_beside_the_shaft() {
     let folder = tempfile::tempdir().unwrap();
     let (test, mapping) = (folder.path().join("test"), folder.path().join("points.toml"));
     rotordyn()
@@ -60,6 +60,6 @@ fn a_mapping_places_a_blow_beside_the_shaft() {
         measured["frac"].as_array().unwrap().iter().map(|row| row[0].as_f64().unwrap_or(f64::NAN)).collect();
     println!("{frac:?} {torsion}");
     assert_eq!(frac.len(), 4);
-    // A blow along y at x = 150 mm moves the disc along y and turns it.
+    // A hit along y at x = 150 mm moves the disc along y and turns it.
     assert!(frac[1..].iter().all(|f| *f > 0.9999), "{frac:?}");
 }

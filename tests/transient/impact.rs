@@ -1,4 +1,4 @@
-//! A simulated hammer blow, small enough to keep contact, gives the linearised FRF.
+//! A simulated hit, small enough to keep contact, gives the linearised FRF.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -49,7 +49,7 @@ fn peak(h: impl Fn(f64) -> f64, hz: f64) -> (f64, f64) {
 }
 
 #[test]
-fn small_blow_gives_the_linear_frf() {
+fn small_hit_gives_the_linear_frf() {
     let mut model = variant(None, &[]);
     model.unbalances.clear();
     model.profile = SpeedProfile::Constant { speed: 0.0, duration: DURATION };

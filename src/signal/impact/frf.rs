@@ -1,12 +1,13 @@
-//! Frequency response functions from force and response records: hammer blows and random excitation.
+//! Frequency response functions from force and response records: hits of an impact test, and random excitation.
 
 use rustfft::num_complex::Complex;
 
-use super::SignalError;
-use super::error::{check, check_rate, check_record, check_same_length};
-use super::segment::{SegmentTransform, bin_axis};
-use super::spectrum::{Densities, Welch, densities};
-use super::window::WindowKind;
+use super::Hit;
+use crate::signal::SignalError;
+use crate::signal::error::{check, check_rate, check_record, check_same_length};
+use crate::signal::segment::{SegmentTransform, bin_axis};
+use crate::signal::spectrum::{Densities, Welch, densities};
+use crate::signal::window::WindowKind;
 
 /// Estimated FRF between one force and one response \[response unit per force unit\].
 #[derive(Clone, Debug, PartialEq)]
@@ -54,14 +55,7 @@ pub enum Estimator {
     Hv,
 }
 
-/// One blow: force and response sampled together.
-#[derive(Clone, Copy, Debug)]
-pub struct Blow<'a> {
-    pub force: &'a [f64],
-    pub response: &'a [f64],
-}
-
-/// Windows of an impact test.
+/// Force window and exponential window of an impact test.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct ImpactWindows {
     /// Force beyond this many samples is set to zero; `None` keeps it all.
@@ -90,19 +84,19 @@ impl ImpactWindows {
     }
 }
 
-/// FRF from one or more blows of equal length, averaged; no mean is taken away.
+/// FRF from one or more hits of equal length, averaged; no mean is taken away.
 ///
 /// With one rectangular window that holds the whole decay, the DFT's ratio is exact for a linear system up to
-/// aliasing. `sample_rate` \[Hz\]. Errors: no blow, NaN, unequal lengths, time constant not positive.
+/// aliasing. `sample_rate` \[Hz\]. Errors: no hit, NaN, unequal lengths, time constant not positive.
 /// Source: Ewins, Modal Testing (2000), ch. 3.
-pub fn frf_from_blows(
-    blows: &[Blow],
+pub fn frf_from_hits(
+    hits: &[Hit],
     sample_rate: f64,
     windows: ImpactWindows,
 ) -> Result<FrfEstimate, SignalError> {
     check_rate(sample_rate)?;
-    let length = blows.first().ok_or(SignalError::Empty { name: "list of blows" })?.force.len();
-    check_record("force", blows[0].force)?;
+    let length = hits.first().ok_or(SignalError::Empty { name: "list of hits" })?.force.len();
+    check_record("force", hits[0].force)?;
     let (force_window, response_window) = windows.samples(length, sample_rate)?;
     let mut transform = SegmentTransform::new(WindowKind::Rectangular, length, length);
     let bins = transform.bins();
@@ -116,14 +110,14 @@ pub fn frf_from_blows(
     let mut force = vec![0.0; length];
     let mut response = vec![0.0; length];
     let mut force_spectrum = vec![Complex::ZERO; bins];
-    for blow in blows {
-        check_record("force", blow.force)?;
-        check_record("response", blow.response)?;
-        check_same_length("force", blow.force.len(), "the first blow", length)?;
-        check_same_length("response", blow.response.len(), "force", length)?;
+    for hit in hits {
+        check_record("force", hit.force)?;
+        check_record("response", hit.response)?;
+        check_same_length("force", hit.force.len(), "the first hit", length)?;
+        check_same_length("response", hit.response.len(), "force", length)?;
         for n in 0..length {
-            force[n] = force_window[n] * blow.force[n];
-            response[n] = response_window[n] * blow.response[n];
+            force[n] = force_window[n] * hit.force[n];
+            response[n] = response_window[n] * hit.response[n];
         }
         force_spectrum.copy_from_slice(transform.run(&force, 0.0));
         for (k, (f, x)) in force_spectrum.iter().zip(transform.run(&response, 0.0)).enumerate() {
@@ -137,7 +131,7 @@ pub fn frf_from_blows(
 
 /// FRF from long records of random excitation, by Welch averages.
 ///
-/// Errors as [`super::spectrum::cross_spectral_density`].
+/// Errors as [`crate::signal::spectrum::cross_spectral_density`].
 pub fn frf_from_random(
     force: &[f64],
     response: &[f64],

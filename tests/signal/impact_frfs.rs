@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::impact::{Blow, ImpactWindows, frf_from_blows, frf_from_random};
+use rotordyn::signal::impact::{Hit, ImpactWindows, frf_from_hits, frf_from_random};
 use rotordyn::signal::spectrum::Welch;
 use rotordyn::signal::{Complex, SignalError};
 
@@ -13,7 +13,7 @@ const FREQUENCY: f64 = 100.0;
 const DAMPING: f64 = 0.01;
 
 /// Response of ẍ + 2ζω ẋ + ω² x = f to a unit impulse at the sample `start`, force f_s for one sample.
-fn blow(n: usize, start: usize) -> (Vec<f64>, Vec<f64>) {
+fn hit(n: usize, start: usize) -> (Vec<f64>, Vec<f64>) {
     let omega = TAU * FREQUENCY;
     let damped = omega * (1.0 - DAMPING * DAMPING).sqrt();
     let mut force = vec![0.0; n];
@@ -40,11 +40,10 @@ fn sampled_receptance(s: Complex<f64>) -> Complex<f64> {
 
 /// A record that holds the whole decay (e^{−2π·100·0.01·8} = 1e-22) gives the receptance exactly.
 #[test]
-fn one_blow_gives_the_receptance() {
-    let (force, response) = blow(32_000, 10);
+fn one_hit_gives_the_receptance() {
+    let (force, response) = hit(32_000, 10);
     let estimate =
-        frf_from_blows(&[Blow { force: &force, response: &response }], RATE, ImpactWindows::default())
-            .unwrap();
+        frf_from_hits(&[Hit { force: &force, response: &response }], RATE, ImpactWindows::default()).unwrap();
     let omega = TAU * FREQUENCY;
     let peak = 1.0 / (2.0 * DAMPING * omega * omega);
     for (k, f) in estimate.frequencies.iter().enumerate().step_by(37) {
@@ -63,9 +62,9 @@ fn one_blow_gives_the_receptance() {
 #[test]
 fn exponential_window_and_its_correction() {
     let tau = 0.05;
-    let (force, response) = blow(8_000, 0);
+    let (force, response) = hit(8_000, 0);
     let windows = ImpactWindows { force_length: Some(40), time_constant: Some(tau) };
-    let estimate = frf_from_blows(&[Blow { force: &force, response: &response }], RATE, windows).unwrap();
+    let estimate = frf_from_hits(&[Hit { force: &force, response: &response }], RATE, windows).unwrap();
     for (k, f) in estimate.frequencies.iter().enumerate().step_by(11) {
         let shifted = sampled_receptance(Complex::new(1.0 / tau, TAU * f));
         // The window leaves e^{−2 s (1/τ + ζω)} = 1e-23 at the record's end.
@@ -111,14 +110,13 @@ fn hv_is_right_when_both_channels_are_noisy_alike() {
 fn silent_bins_are_zero_not_nan() {
     let silent = [0.0; 16];
     let estimate =
-        frf_from_blows(&[Blow { force: &silent, response: &silent }], RATE, ImpactWindows::default())
-            .unwrap();
+        frf_from_hits(&[Hit { force: &silent, response: &silent }], RATE, ImpactWindows::default()).unwrap();
     assert!(estimate.h1.iter().chain(&estimate.h2).chain(&estimate.hv).all(|h| h.norm() == 0.0));
     assert!(estimate.coherence.iter().all(|c| *c == 0.0));
 }
 
 #[test]
-fn no_blow_is_an_error() {
-    let error = frf_from_blows(&[], RATE, ImpactWindows::default()).unwrap_err();
-    assert_eq!(error, SignalError::Empty { name: "list of blows" });
+fn no_hit_is_an_error() {
+    let error = frf_from_hits(&[], RATE, ImpactWindows::default()).unwrap_err();
+    assert_eq!(error, SignalError::Empty { name: "list of hits" });
 }

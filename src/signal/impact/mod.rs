@@ -1,0 +1,31 @@
+//! Impact tests: FRFs from hits with an instrumented hammer.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`trigger`] | hits found in a long record of the force |
+//! | [`quality`] | double hits, overloads and truncated responses of a hit |
+//! | [`frf`] | force and exponential window; H1, H2, Hv and coherence from hits or random excitation |
+//! | [`records`] | all of it: from time records to FRFs, bad hits left out |
+
+pub mod frf;
+pub mod quality;
+pub mod records;
+pub mod trigger;
+
+pub use frf::{Estimator, FrfEstimate, ImpactWindows, frf_from_hits, frf_from_random, frf_from_spectra};
+pub use quality::{HitQuality, Limits, inspect};
+pub use records::{ImpactTest, frfs};
+pub use trigger::Trigger;
+
+/// One hit: force and response sampled together.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit<'a> {
+    pub force: &'a [f64],
+    pub response: &'a [f64],
+}
+
+/// Sample and size of the largest |value|; (0, 0) of an empty record.
+fn peak(record: &[f64]) -> (usize, f64) {
+    let largest = record.iter().enumerate().map(|(n, v)| (n, v.abs()));
+    largest.fold((0, 0.0), |best, here| if here.1 > best.1 { here } else { best })
+}
