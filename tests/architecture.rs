@@ -1,9 +1,9 @@
-//! The rules of CONTRIBUTING.md about what may use what, read off the sources.
+//! Dependency rules of CONTRIBUTING.md (module layers, foreign crates), checked on the source text.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Layers from the ground up; a module may use its own layer and those before it. `error` may be used anywhere.
+/// Layers, lowest first; a module may use its own layer and lower ones. `error` may be used anywhere.
 const LAYERS: [&[&str]; 11] = [
     &["units", "conventions", "references", "material", "names"],
     &["linalg", "signal"],
@@ -18,7 +18,7 @@ const LAYERS: [&[&str]; 11] = [
     &["edge"],
 ];
 
-/// Foreign crates and the places that may use them.
+/// Foreign crates and the modules that may use them.
 const OWNERS: [(&[&str], &[&str]); 8] = [
     (&["faer"], &["linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["edge/rapier"]),
@@ -30,7 +30,7 @@ const OWNERS: [(&[&str], &[&str]); 8] = [
     (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
 ];
 
-/// Modules that compute and must not touch files.
+/// Computing modules, which must not access files.
 const NO_FILES: [&str; 14] = [
     "units",
     "material",
@@ -125,7 +125,7 @@ fn used_modules(code: &str) -> Vec<String> {
     used
 }
 
-/// Whether `code` names the foreign crate `name`: `name::` that no path leads to, or `use name`.
+/// Whether `code` uses the foreign crate `name`: `name::` not preceded by a path, or `use name`.
 fn uses_crate(code: &str, name: &str) -> bool {
     code.match_indices(name).any(|(start, _)| {
         let (before, after) = (&code[..start], &code[start + name.len()..]);
@@ -138,7 +138,7 @@ fn uses_crate(code: &str, name: &str) -> bool {
 }
 
 #[test]
-fn imports_go_one_way() {
+fn imports_follow_layer_order() {
     let mut wrong = Vec::new();
     for Source { path, code, .. } in sources() {
         let Some(own) = layer(module(&path)) else {
@@ -152,11 +152,11 @@ fn imports_go_one_way() {
             }
         }
     }
-    assert!(wrong.is_empty(), "imports against the layers:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "imports that violate the layer order:\n{}", wrong.join("\n"));
 }
 
 #[test]
-fn foreign_crates_stay_with_their_owners() {
+fn foreign_crates_are_used_only_by_their_modules() {
     let mut wrong = Vec::new();
     for Source { path, code, .. } in sources() {
         for (crates, owners) in OWNERS {
@@ -170,24 +170,28 @@ fn foreign_crates_stay_with_their_owners() {
 }
 
 #[test]
-fn physics_knows_no_files() {
+fn computing_modules_do_not_access_files() {
     let touches =
         |code: &str| ["std::fs", "std::io"].iter().any(|m| code.contains(m)) || uses_crate(code, "fs");
     let wrong: Vec<_> =
         sources().into_iter().filter(|s| NO_FILES.contains(&module(&s.path)) && touches(&s.code)).collect();
-    assert!(wrong.is_empty(), "these touch files: {:?}", wrong.iter().map(|s| &s.path).collect::<Vec<_>>());
+    assert!(
+        wrong.is_empty(),
+        "modules that access files: {:?}",
+        wrong.iter().map(|s| &s.path).collect::<Vec<_>>()
+    );
 }
 
 #[test]
-fn a_file_has_one_purpose_and_few_lines() {
+fn source_files_stay_below_line_limit() {
     let long: Vec<_> =
         sources().into_iter().filter(|s| s.lines > MAX_LINES).map(|s| (s.path, s.lines)).collect();
     assert!(long.is_empty(), "over {MAX_LINES} lines: {long:?}");
 }
 
-/// The rules above are worth no more than the reading of the sources.
+/// The checks above depend on this source scanner.
 #[test]
-fn the_reader_sees_what_it_should() {
+fn source_scanner_detects_modules_and_crates() {
     assert_eq!(
         used_modules("use crate::model::Model; crate::{a, b::{c, d}, e::f}"),
         ["model", "a", "b", "e"]

@@ -1,4 +1,4 @@
-//! Clearance of a mounted bearing against closed forms of thick and thin rings.
+//! Clearance change by fits compared with closed forms of thick and thin rings.
 
 use crate::bearing::{rig_6205, steel};
 use rotordyn::bearing::{BallGeometry, Fit, FitMaterials};
@@ -19,17 +19,17 @@ fn near(value: f64, exact: f64, tolerance: f64) {
 
 #[test]
 fn solid_shaft_of_the_same_steel() {
-    // Pressure and modulus drop out: the race grows by I d/F, whatever the steel.
+    // Contact pressure and modulus cancel: the race expands by I d/F for any steel.
     let (g, steel) = (geometry(), steel());
     let fit = Fit { shaft_interference: 12e-6, ..Fit::default() };
     let change = fit.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
     near(change, -12e-6 * g.bore / races(&g)[0], 1e-13);
-    // A hollow shaft yields more, and the race grows less: by I (d/F)(1 − (d₁/d)²)/(1 − (d₁/F)²).
+    // A hollow shaft is more compliant and the race expands less: by I (d/F)(1 − (d₁/d)²)/(1 − (d₁/F)²).
     let hollow = Fit { shaft_bore: 15e-3, ..fit };
     let [f, _] = races(&g);
     let exact = -12e-6 * g.bore / f * (1.0 - (15e-3 / g.bore).powi(2)) / (1.0 - (15e-3 / f).powi(2));
     near(hollow.clearance_change(&g, &FitMaterials::all(&steel), 0.0), exact, 1e-13);
-    // A shaft without stiffness leaves the race where it is.
+    // A shaft of negligible stiffness does not expand the race.
     let rubber = Material { young: 1.0, ..steel.clone() };
     let materials = FitMaterials { shaft: &rubber, ..FitMaterials::all(&steel) };
     assert!(fit.clearance_change(&g, &materials, 0.0).abs() < 1e-15);
@@ -37,24 +37,24 @@ fn solid_shaft_of_the_same_steel() {
 
 #[test]
 fn housing_of_the_same_steel() {
-    // In a housing of infinite size of the same steel the race contracts by I E/D (1 over the ratio of the
-    // solid shaft's case seen from outside): p = I_h E_y (D² − E²)/(2 D · D²), 2u = 2 p E D²/(E_y (D² − E²)).
+    // In an infinite housing of the same steel the race contracts by I E/D (the inverse ratio of the solid
+    // shaft): p = I_h E_y (D² − E²)/(2 D · D²), 2u = 2 p E D²/(E_y (D² − E²)).
     let (g, steel) = (geometry(), steel());
     let [_, e] = races(&g);
     let fit = Fit { housing_interference: 9e-6, housing_diameter: 1e3, ..Fit::default() };
     let change = fit.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
     near(change, -9e-6 * e / g.outside_diameter, 1e-8);
-    // A rigid housing squeezes more than any other.
+    // A rigid housing gives the largest contraction.
     let rigid = Fit { housing_diameter: 0.0, ..fit }.clearance_change(&g, &FitMaterials::all(&steel), 0.0);
     let ratio = (e / g.outside_diameter).powi(2);
     near(rigid, -9e-6 * e / g.outside_diameter * 2.0 / (1.0 + ratio - 0.3 * (1.0 - ratio)), 1e-13);
-    // And a thin one hardly at all.
+    // A thin housing gives almost none.
     let thin = Fit { housing_diameter: g.outside_diameter * (1.0 + 1e-6), ..fit };
     assert!(thin.clearance_change(&g, &FitMaterials::all(&steel), 0.0).abs() < 1e-9);
 }
 
 #[test]
-fn temperature() {
+fn temperature_difference_changes_clearance() {
     let (g, steel) = (geometry(), steel());
     let fit = Fit {
         inner_temperature_rise: 30.0,
@@ -68,7 +68,7 @@ fn temperature() {
 }
 
 #[test]
-fn rotation() {
+fn centrifugal_growth_of_inner_ring() {
     let steel = steel();
     let speed = 3000.0;
     let fit = Fit { speed_growth: true, ..Fit::default() };
@@ -82,14 +82,14 @@ fn rotation() {
     let disc = BallGeometry { bore: 1e-9, ..geometry() };
     near(fit.clearance_change(&disc, &FitMaterials::all(&steel), speed), -2.0 * u * 0.7 / 4.0, 1e-8);
     assert!(free < -2.0 * u * 0.7 / 4.0 && free > -2.0 * u);
-    // Grows with the square of the speed, and not where it is not asked for.
+    // Proportional to the square of the speed; off by default.
     near(fit.clearance_change(&geometry(), &FitMaterials::all(&steel), 2.0 * speed), 4.0 * free, 1e-13);
     assert_eq!(Fit::default().clearance_change(&geometry(), &FitMaterials::all(&steel), speed), 0.0);
 }
 
 #[test]
-fn a_fit_that_holds_makes_ring_and_shaft_one_disc() {
-    // Shrunk on tightly, ring and solid shaft of one steel turn as one disc: growth by the fit plus the disc's.
+fn tight_fit_rotates_as_one_disc() {
+    // Under contact pressure, ring and solid shaft of one steel grow as one rotating disc, plus the fit.
     let (g, steel) = (geometry(), steel());
     let materials = FitMaterials::all(&steel);
     let fit = Fit { shaft_interference: 20e-6, speed_growth: true, ..Fit::default() };
@@ -97,7 +97,8 @@ fn a_fit_that_holds_makes_ring_and_shaft_one_disc() {
     let [f, _] = races(&g);
     let disc = 7850.0 * speed * speed * (0.5 * f).powi(3) * 0.7 / (4.0 * 207e9);
     near(fit.clearance_change(&g, &materials, speed), -20e-6 * g.bore / f - 2.0 * disc, 1e-12);
-    // The pressure falls with the speed until the ring turns loose; from there on it grows by itself.
+    // Contact pressure falls with speed until the fit is lost; above that speed the ring grows as a free
+    // ring.
     assert!(fit.shaft_pressure(&g, &materials, speed) < fit.shaft_pressure(&g, &materials, 0.0));
     let loose = 20_000.0;
     assert_eq!(fit.shaft_pressure(&g, &materials, loose), 0.0);

@@ -1,11 +1,11 @@
-//! Hertz contact against closed forms and the rig's independent figures.
+//! Hertzian contact compared with closed forms and independent values for the rig's bearing.
 
 use crate::bearing::{rig_6205, steel};
 use rotordyn::bearing::BallElement;
 use rotordyn::contact::EllipticContact;
 
 #[test]
-fn sphere_on_flat_is_the_circular_solution() {
+fn sphere_on_flat_gives_circular_contact() {
     // Q = (4/3) E* sqrt(R) δ^1.5 for a sphere of radius R on a flat of the same steel.
     let radius: f64 = 5e-3;
     let contact = EllipticContact::new(1.0 / radius, 1.0 / radius, [&steel(), &steel()]);
@@ -21,7 +21,7 @@ fn sphere_on_flat_is_the_circular_solution() {
 }
 
 #[test]
-fn ellipse_ratio_satisfies_its_equation_over_all_shapes() {
+fn ellipse_ratio_satisfies_curvature_equation() {
     let m = steel();
     for across in [0.999, 0.5, 0.1, 1e-2, 1e-4] {
         let c = EllipticContact::new(1.0, across, [&m, &m]);
@@ -35,7 +35,7 @@ fn ellipse_ratio_satisfies_its_equation_over_all_shapes() {
 
 #[test]
 fn rig_contact_constants() {
-    // Figures of an independent program for the same geometry (tests/data/rig.json, bearing.catalogue).
+    // Values of an independent program for the same geometry (tests/data/rig.json, bearing.catalogue).
     let pair = BallElement::new(&rig_6205()).contacts;
     assert!((pair.inner.stiffness / 28162882888.95517 - 1.0).abs() < 1e-9);
     assert!((pair.outer.stiffness / 25018667553.86848 - 1.0).abs() < 1e-9);

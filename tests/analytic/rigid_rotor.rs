@@ -1,4 +1,4 @@
-//! The rigid rotor: its free motions, its precession, and a rigid rotor on two springs in closed form.
+//! Rigid rotor: rigid-body modes, free precession, two springs in closed form, unbalance response.
 
 use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
@@ -29,7 +29,7 @@ fn load(text: &str) -> Model {
 const INERTIA: [f64; 3] = [4.8, 4.8 * 4e-4 / 2.0, 4.8 * (12e-4 + 0.3025) / 12.0];
 
 #[test]
-fn free_rotor_has_six_rigid_motions_and_its_inertia() {
+fn free_rotor_mass_matrix_and_six_rigid_body_modes() {
     let assembly = Assembly::new(&load("")).unwrap();
     let [mass, polar, diametral] = INERTIA;
     assert_eq!((assembly.dofs.len(), assembly.dofs.full_len()), (6, 18));
@@ -42,7 +42,7 @@ fn free_rotor_has_six_rigid_motions_and_its_inertia() {
     assert!((assembly.polar_inertia - polar).abs() < 1e-18);
     let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
     assert_eq!(free_motion::free_motions_of(&assembly, &system).unwrap().len(), 6);
-    // The ends move as the centre and its tilts say: u_x = x + (z - z_c) θ_y, u_y = y - (z - z_c) θ_x.
+    // Displacements of the ends as a rigid body: u_x = x + (z - z_c) θ_y, u_y = y - (z - z_c) θ_x.
     let q = assembly.dofs.expand(&[1.0, 2.0, 3.0, 0.01, 0.02, 0.03]);
     for (node, arm) in [(0, -0.2), (1, 0.0), (2, 0.25)] {
         let expected = [1.0 + 0.02 * arm, 2.0 - 0.01 * arm, 3.0, 0.01, 0.02, 0.03];
@@ -52,7 +52,7 @@ fn free_rotor_has_six_rigid_motions_and_its_inertia() {
     }
 }
 
-/// A free rotor's axis precesses at Ω I_p/I_d.
+/// The axis of a free rotor precesses at Ω I_p/I_d.
 #[test]
 fn free_precession() {
     let assembly = Assembly::new(&load("")).unwrap();
@@ -98,12 +98,12 @@ station = "A"
             let w = match mode.kind {
                 ModeKind::Forward => mode.eigenvalue.im,
                 ModeKind::Backward => -mode.eigenvalue.im,
-                // an axis that the two ends whirl round in opposite senses belongs to one circular whirl all the same
+                // also a mode whose two ends whirl in opposite senses is one circular whirl
                 kind => panic!("{kind:?} at {speed} rad/s"),
             };
             let h = 1e-6 * w;
             let newton = value(w) / ((value(w + h) - value(w - h)) / (2.0 * h));
-            assert!((newton / w).abs() < 1e-8, "{speed} rad/s: {w} rad/s is {newton} off");
+            assert!((newton / w).abs() < 1e-8, "{speed} rad/s: {w} rad/s, error {newton}");
             assert!(mode.label.contains("rigid-body"), "{}", mode.label);
             found += 1;
         }
@@ -112,7 +112,7 @@ station = "A"
 }
 
 #[test]
-fn by_its_inertia() {
+fn rigid_rotor_given_by_inertia() {
     let [mass, polar, diametral] = INERTIA;
     let text = format!(
         "[model]\nname = \"r\"\n[rotor]\ncentre = \"0 m\"\nmass = \"{mass} kg\"\npolar_inertia = \"{polar} kg m^2\"\n\
@@ -124,10 +124,10 @@ fn by_its_inertia() {
     assert_eq!((model.node_z, rotor.node), (vec![0.0], 0));
 }
 
-/// Unbalance U at the centre of a rotor midway between equal springs, run at a steady speed until its start is forgotten:
-/// r = U Ω²/(2 k − m Ω² + 2 j c Ω), to what the step leaves of its order.
+/// Unbalance U at the centre of a rotor midway between equal springs, at constant speed after the transient:
+/// r = U Ω²/(2 k − m Ω² + 2 j c Ω), within the discretisation error of the time step.
 #[test]
-fn whirl_under_unbalance() {
+fn steady_unbalance_response() {
     let text = r#"
 [model]
 name = "whirl"
@@ -195,7 +195,7 @@ speeds = "500 rad/s"
     let history = recorder.history;
     let x = &history.channels.iter().find(|c| c.name == "x").unwrap().values;
     let late = &x[x.len() * 3 / 4..];
-    // 20 turns: the RMS does not care where they start.
+    // 20 revolutions: the RMS is independent of the start phase.
     let rms = (late.iter().map(|v| v * v).sum::<f64>() / late.len() as f64).sqrt();
     assert!((rms * 2.0_f64.sqrt() / expected - 1.0).abs() < 2e-3, "{rms} {expected}");
 }

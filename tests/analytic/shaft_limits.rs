@@ -1,4 +1,5 @@
-//! Limits of the shaft's terms that a closed form knows: internal damping, acceleration, torque, free motions.
+//! Shaft terms with closed-form limits: internal damping, angular acceleration, Euler buckling, rigid-body
+//! modes.
 
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::{campbell::campbell, modal, stability::thresholds};
@@ -6,7 +7,7 @@ use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
 use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
 use rotordyn::model::{Drive, Model};
 
-/// Pins at both ends; the left one also holds u_z and θ_z.
+/// Pins at both ends; the left one also constrains u_z and θ_z.
 fn pinned(model: &mut Model) {
     let last = model.node_z.len() - 1;
     for (node, axial) in [(0, true), (last, false)] {
@@ -17,7 +18,7 @@ fn pinned(model: &mut Model) {
 
 /// Internal damping c_i = η k and external damping c_e of a Jeffcott rotor: stable below Ω = ω (1 + c_e/c_i).
 #[test]
-fn internal_damping_turns_unstable_at_the_jeffcott_threshold() {
+fn internal_damping_stability_threshold_of_jeffcott_rotor() {
     let (eta, external, mass) = (1e-4, 20.0, 10.0);
     let mut light = element(0.1, 0.02, 0.02);
     light.material.density = 1e-3;
@@ -53,7 +54,7 @@ fn internal_damping_turns_unstable_at_the_jeffcott_threshold() {
     assert!(deviation < 1e-4);
 }
 
-/// A smooth bent shape u and its slope u′ along the shaft, and another plane's.
+/// Smooth bent shape of the shaft in planes x and y: displacement u, slope u′, curvature u″.
 fn shape(z: f64) -> ([f64; 2], [f64; 2], [f64; 2]) {
     let u = [z * (1.0 - z) * (2.0 + z), (1.3 * z).sin()];
     let slope = [2.0 - 2.0 * z - 3.0 * z * z, 1.3 * (1.3 * z).cos()];
@@ -61,19 +62,20 @@ fn shape(z: f64) -> ([f64; 2], [f64; 2], [f64; 2]) {
     (u, slope, curvature)
 }
 
-/// The moments of angular acceleration in an accelerated shaft, against the balance of moments of its slices.
+/// Moments from angular acceleration of the shaft compared with the moment balance of its slices.
 ///
-/// With all inertia turned through the shaft only T dt/dz is left in it (t = tangent, T(z) = polar inertia beyond
-/// z for Ω̇ = 1), and half of the drive's torque times the tilt at the driven station.
+/// All polar inertia is accelerated through the shaft: only T dt/dz remains (t = tangent, T(z) = polar
+/// inertia beyond z for Ω̇ = 1), plus half of the drive torque times the tilt at the driven station.
 #[test]
-fn spin_up_terms_balance_the_moments_of_every_slice() {
+fn spin_up_terms_satisfy_moment_balance() {
     let virtual_tilt = |z: f64| [0.4 + z * z, 1.0 - 0.5 * z];
     let (radius, disc_inertia, drive_z) = (0.04f64, 0.02, 0.25);
     let ip = 7850.0 * std::f64::consts::PI / 2.0 * radius.powi(4);
     let total = ip + disc_inertia;
     let torque = |z: f64| ip * (1.0 - z) + disc_inertia - if z < drive_z { total } else { 0.0 };
 
-    // Virtual work of T t′ on the tilt, by Simpson on either side of the drive, and the drive's half.
+    // Virtual work of T t′ on the tilt by Simpson's rule on both sides of the drive, plus half the drive
+    // torque.
     let density = |z: f64, side: f64| {
         let (_, _, [xx, yy]) = shape(z);
         let [dx, dy] = virtual_tilt(z);
@@ -128,9 +130,9 @@ fn spin_up_terms_balance_the_moments_of_every_slice() {
     assert!(errors[2] < 1e-6 && errors[1] > 8.0 * errors[2]);
 }
 
-/// Euler's buckling force makes the lowest frequency vanish.
+/// At the Euler buckling load the lowest natural frequency is zero.
 #[test]
-fn axial_force_buckles_at_eulers_load() {
+fn euler_buckling_load() {
     let ei = 2.1e11 * std::f64::consts::PI / 64.0 * 0.02f64.powi(4);
     let lowest = |force: f64| {
         let mut e = element(0.05, 0.02, 0.02);
@@ -150,7 +152,7 @@ fn axial_force_buckles_at_eulers_load() {
 }
 
 #[test]
-fn free_motions_are_named() {
+fn rigid_body_modes_are_named() {
     let name = |model: &Model| {
         let assembly = Assembly::new(model).unwrap();
         let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
@@ -167,9 +169,9 @@ fn free_motions_are_named() {
     assert_eq!(name(&model), ["axial motion of the shaft (u_z)", "rotation of the shaft about z (θ_z)"]);
 }
 
-/// Modal damping as measured comes out of the complex eigenvalues as it went in.
+/// The complex eigenvalues reproduce the given modal damping ratios.
 #[test]
-fn modal_damping_is_what_was_measured() {
+fn modal_damping_ratios_are_reproduced() {
     let mut model = shaft(vec![element(0.1, 0.03, 0.03); 8]);
     pinned(&mut model);
     model.damping.modal = vec![[100.0, 0.01], [500.0, 0.03]];

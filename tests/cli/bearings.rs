@@ -1,4 +1,4 @@
-//! `bearing`: of a machine, of a file of bearings alone, with every flag.
+//! `bearing` command: bearings of a machine, bearing-only files, all flags.
 
 use crate::{json_of, output_of, rotordyn};
 use serde_json::Value;
@@ -12,13 +12,13 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn every_bearing_of_a_machine_under_its_own_load() {
+fn all_bearings_of_a_machine_at_their_static_loads() {
     let folder = tempfile::tempdir().unwrap();
     let document = json_of(rotordyn().args(["bearing", RIG, "--out"]).arg(folder.path()));
     assert_eq!((&document["command"], &document["exit_code"]), (&"bearing".into(), &0.into()));
     let bearings = document["bearings"].as_array().unwrap();
     assert_eq!(bearings.iter().map(|b| b["name"].as_str().unwrap()).collect::<Vec<_>>(), ["A", "B"]);
-    // Together they carry rotor and pulley, 17.5 kg without the housings, and the belt's 250 N along x.
+    // Total load: weight of rotor and pulley (17.5 kg without the housings) and 250 N belt tension along x.
     let total: Vec<f64> =
         (0..2).map(|k| bearings.iter().map(|b| numbers(&b["operating"]["load"])[k]).sum()).collect();
     assert!((total[0].abs() - 250.0).abs() < 25.0 && total[1] < -100.0, "{total:?}");
@@ -51,7 +51,7 @@ fn every_bearing_of_a_machine_under_its_own_load() {
 }
 
 #[test]
-fn a_bearing_alone_under_a_given_load() {
+fn bearing_only_file_under_a_given_load() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("spindle.toml");
     std::fs::write(&model, ALONE).unwrap();
@@ -89,24 +89,24 @@ fn a_bearing_alone_under_a_given_load() {
 }
 
 #[test]
-fn what_is_wrong_with_the_flags_is_told() {
-    let says = |flags: &[&str], part: &str| {
+fn invalid_flags_are_reported() {
+    let fails_with = |flags: &[&str], part: &str| {
         let assert = rotordyn().args(["bearing", RIG, "--no-figures"]).args(flags).assert().code(2);
         let text = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
         assert!(text.contains(part), "{part} is not in\n{text}");
     };
-    says(&["--bearing", "C"], "unknown ball bearing `C`");
-    says(&["--load", "1, 2 N"], "F_x, F_y, F_z");
-    says(&["--load", "1, 2, 3"], "unit");
-    says(&["--sweep", "weight"], "load, displacement, speed, cage_angle");
-    says(&["--sweep", "load=2 kN"], "load=\"0 N .. 2 kN\"");
-    says(&["--hold", "up"], "theta_x");
+    fails_with(&["--bearing", "C"], "unknown ball bearing `C`");
+    fails_with(&["--load", "1, 2 N"], "F_x, F_y, F_z");
+    fails_with(&["--load", "1, 2, 3"], "unit");
+    fails_with(&["--sweep", "weight"], "load, displacement, speed, cage_angle");
+    fails_with(&["--sweep", "load=2 kN"], "load=\"0 N .. 2 kN\"");
+    fails_with(&["--hold", "up"], "theta_x");
     rotordyn().args(["bearing", "models/jeffcott.toml"]).assert().code(2);
 }
 
-/// `[study.bearing]` of a machine is done by `run`, with the others.
+/// `run` computes `[study.bearing]` of a machine with the other studies.
 #[test]
-fn run_does_the_bearings_that_the_file_asks_for() {
+fn run_computes_the_bearing_study() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("small.toml");
     let bearing = |name: &str| {
@@ -132,7 +132,7 @@ fn run_does_the_bearings_that_the_file_asks_for() {
     let of: Vec<&str> =
         bearing["sweeps"].as_array().unwrap().iter().map(|s| s["of"].as_str().unwrap()).collect();
     assert_eq!(of, ["load", "speed"]);
-    // Half the shaft's weight, and a film that grows with speed.
+    // Load: half the shaft's weight; the film thickness increases with speed.
     let weight = 7850.0 * std::f64::consts::PI * 1e-4 * 0.4 * 9.80665;
     assert!((numbers(&bearing["operating"]["load"])[1] / (-0.5 * weight) - 1.0).abs() < 1e-3);
     let points = bearing["sweeps"][1]["points"].as_array().unwrap();
@@ -142,9 +142,9 @@ fn run_does_the_bearings_that_the_file_asks_for() {
     assert!(folder.path().join("bearing_B_contacts_over_speed.png").exists());
 }
 
-/// A solved film: computed once, kept on disk, its fields drawn and stored.
+/// EHL film: solved once, cached on disk, its pressure and thickness fields plotted and stored.
 #[test]
-fn a_bearing_whose_film_is_solved() {
+fn ehl_film_is_solved_once_and_cached() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("filmed.toml");
     let text = "[model]\nname = \"filmed\"\n[lubricant.oil]\ngrade = \"ISO VG 68\"\ntemperature = \"50 degC\"\n\
@@ -176,7 +176,7 @@ fn a_bearing_whose_film_is_solved() {
         let pressure = store.read(&format!("/bearings/front/film_{race}/pressure")).unwrap();
         assert!(pressure.shape.len() == 2 && pressure.data.iter().copied().fold(0.0, f64::max) > 5e8);
     }
-    // The film the law carries is the one that was solved, and the same from the cache.
+    // The contact law's film thickness is the solved one; the second run reads it from the cache.
     let inner = &bearing["operating"]["balls"].as_array().unwrap().iter().max_by(|a, b| {
         let load = |v: &Value| v["inner"]["load"].as_f64().unwrap();
         load(a).total_cmp(&load(b))
@@ -190,7 +190,7 @@ fn a_bearing_whose_film_is_solved() {
 }
 
 #[test]
-fn a_damaged_bearing_says_so() {
+fn defects_are_reported_and_averaging_warns() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("worn.toml");
     let text = "[model]\nname = \"worn\"\n[bearing.b]\nmodel = \"ball\"\ndesignation = \"6205\"\n\
@@ -207,9 +207,9 @@ fn a_damaged_bearing_says_so() {
         let output = command.assert().success().get_output().clone();
         (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
     };
-    let (told, doubts) = run(&[]);
-    assert!(told.contains("races and balls: dent on outer race"), "{told}");
-    assert!(!doubts.contains("as if it had no defects"), "{doubts}");
-    let (_, doubts) = run(&["--averaged"]);
-    assert!(doubts.contains("(dent on outer race) is averaged"), "{doubts}");
+    let (report, warnings) = run(&[]);
+    assert!(report.contains("races and balls: dent on outer race"), "{report}");
+    assert!(!warnings.contains("as if it had no defects"), "{warnings}");
+    let (_, warnings) = run(&["--averaged"]);
+    assert!(warnings.contains("(dent on outer race) is averaged"), "{warnings}");
 }

@@ -1,4 +1,4 @@
-//! Every command, on small settings.
+//! Every command, with small settings.
 
 use crate::{json_of, models, output_of, rotordyn};
 use serde_json::Value;
@@ -44,7 +44,7 @@ fn every_model_passes_check_with_all_its_variants() {
 }
 
 #[test]
-fn check_prints_the_machine() {
+fn check_prints_the_machine_summary() {
     let text = output_of(rotordyn().args(["check", RIG]));
     // 6205: gamma = 7.938 / 38.5
     for part in ["total 17.51 kg", "3.5722", "5.4278", "disc.main, unbalance.residual", "cylindrical"] {
@@ -54,7 +54,7 @@ fn check_prints_the_machine() {
 }
 
 #[test]
-fn help_reads_like_a_manual() {
+fn help_has_examples_units_and_exit_codes() {
     let text = output_of(rotordyn().arg("--help"));
     for part in ["Examples:", "Exit codes:", "Units", "NO_COLOR", "--threads"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
@@ -84,7 +84,7 @@ fn studies_print_tables_and_write_files() {
         let text = output_of(rotordyn().args([command, JEFFCOTT, "--out"]).arg(folder.path()).args(flags));
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
-    // One file that every command added its part to, and a figure of each.
+    // All commands add their results to one file; each writes its figures.
     let store = rotordyn::edge::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
     for group in ["/equilibrium", "/modes", "/campbell", "/critical_speeds", "/frf", "/unbalance"] {
         assert!(store.contains(group), "{group}");
@@ -94,9 +94,9 @@ fn studies_print_tables_and_write_files() {
     }
 }
 
-/// A closed form to see that the numbers printed are those computed: a stiffly held Jeffcott rotor's first pair.
+/// Printed frequency against the closed form: first bending pair of a Jeffcott rotor on stiff bearings.
 #[test]
-fn modal_gives_the_frequencies_of_the_file() {
+fn modal_prints_the_first_bending_frequency() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = rotordyn();
     command.args(["modal", JEFFCOTT, "--no-figures", "--speed", "0 rpm", "--out"]).arg(folder.path());
@@ -108,12 +108,12 @@ fn modal_gives_the_frequencies_of_the_file() {
         .unwrap()
         .parse()
         .unwrap();
-    // The model file's estimate with rigid bearings, 1550 rpm; its 2e7 N/m bearings give way by a thousandth.
+    // The model file's estimate with rigid bearings is 1550 rpm; bearings of 2e7 N/m lower it by 0.1 %.
     assert!((first * 60.0 / 1550.0 - 1.0).abs() < 5e-3, "{first}");
 }
 
 #[test]
-fn a_study_that_the_file_does_not_ask_for_says_what_it_does() {
+fn studies_missing_in_the_file_report_their_defaults() {
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string(JEFFCOTT).unwrap();
     let studies = text.find("[study.static]").unwrap();
@@ -152,7 +152,7 @@ fn quiet_prints_nothing_and_json_only_json() {
 }
 
 #[test]
-fn compare_shows_the_three_bearing_models_side_by_side() {
+fn compare_lists_the_three_bearing_models() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = rotordyn();
     command.args(["compare", RIG, "--variants", "spherical,cylindrical,base"]);
@@ -167,7 +167,7 @@ fn compare_shows_the_three_bearing_models_side_by_side() {
         let values = mode["frequency_hz"].as_array().unwrap();
         values.iter().map(|v| v.as_f64().expect("a mode in every variant")).collect()
     };
-    // The paper's order of the second bending pair: cylindrical, spherical, ball bearings from above.
+    // Second bending pair in descending frequency as in the paper: cylindrical, spherical, ball bearings.
     let second = row("2nd bending y");
     assert!(second[1] > second[0] && second[0] > second[2], "{second:?}");
     let torsion = row("1st torsional");
@@ -176,7 +176,7 @@ fn compare_shows_the_three_bearing_models_side_by_side() {
 }
 
 #[test]
-fn the_catalogue_answers() {
+fn catalogue_lists_all_bearings_and_one() {
     let all = json_of(rotordyn().arg("catalogue"));
     assert!(all["bearings"].as_array().unwrap().len() >= 40);
     let one = json_of(rotordyn().args(["catalogue", "6205"]));
@@ -190,9 +190,9 @@ fn the_catalogue_answers() {
     rotordyn().args(["catalogue", "nonsense"]).assert().code(2);
 }
 
-/// What the README shows works as shown.
+/// The README's example model works, every command is mentioned and every link resolves.
 #[test]
-fn the_readme_is_true() {
+fn readme_example_commands_and_links_are_valid() {
     let folder = tempfile::tempdir().unwrap();
     let text = std::fs::read_to_string("README.md").unwrap();
     let (_, rest) = text.split_once("```toml\n").unwrap();
@@ -205,9 +205,9 @@ fn the_readme_is_true() {
     assert_eq!(names, ["base", "loose"]);
     output_of(rotordyn().arg("modal").arg(&model).args(["--variant", "loose", "--out"]).arg(folder.path()));
     for command in COMMANDS.iter().chain(&["catalogue"]) {
-        assert!(text.contains(&format!("`{command}")), "the README does not tell of {command}");
+        assert!(text.contains(&format!("`{command}")), "the README does not mention {command}");
     }
     for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')) {
-        assert!(std::path::Path::new(link.0).exists(), "{} is not there", link.0);
+        assert!(std::path::Path::new(link.0).exists(), "{} does not exist", link.0);
     }
 }

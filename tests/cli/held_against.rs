@@ -1,4 +1,4 @@
-//! `validate` and `update`: a measurement made by the rig with other numbers, and every kind of wrong request.
+//! `validate` and `update`: simulated measurements of the rig with changed parameters, and invalid requests.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ fn validate_pairs_all_modes() {
     );
     let modes = document["measured"][0]["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 12);
-    // Housings softer along x and stiffer along y part the planes, and turn the shapes with them.
+    // Housings softer along x and stiffer along y split the pairs and rotate their shapes.
     let paired = modes.iter().filter(|m| m["mac"].as_f64().is_some_and(|mac| mac > 0.5)).count();
     assert!(paired >= 8, "{modes:#?}");
     for file in ["validation.h5", "validation_mac.svg", "validation_mac.png", "validation_frequencies.svg"] {
@@ -51,9 +51,9 @@ fn validate_pairs_all_modes() {
     }
 }
 
-/// What `modal` stores and `export` writes is the model again, rotations with translations.
+/// Modes stored by `modal` and written by `export` agree with the model, rotations and translations.
 #[test]
-fn a_model_held_against_its_own_modes_agrees() {
+fn model_agrees_with_its_own_modes() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("own");
     rotordyn()
@@ -80,7 +80,7 @@ fn a_model_held_against_its_own_modes_agrees() {
 }
 
 #[test]
-fn update_writes_the_file_as_the_user_wrote_it() {
+fn update_changes_only_the_updated_values_in_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let document = json_of(
         rotordyn()
@@ -114,12 +114,12 @@ fn update_writes_the_file_as_the_user_wrote_it() {
         assert!(folder.path().join(file).exists(), "{file}");
     }
     output_of(rotordyn().arg("check").arg(folder.path().join("overhung_rig_updated.toml")));
-    keep_pictures(folder.path(), "update");
+    copy_figures(folder.path(), "update");
 }
 
-/// What a model cannot explain is said, not only counted; and machines are told as people are.
+/// An insufficient fit gives warnings, also in the JSON document.
 #[test]
-fn updates_that_do_not_explain_the_data_say_so() {
+fn insufficient_fits_give_warnings() {
     let folder = tempfile::tempdir().unwrap();
     let warnings = |more: &[&str]| {
         let mut command = rotordyn();
@@ -127,12 +127,12 @@ fn updates_that_do_not_explain_the_data_say_so() {
         command.args(more).arg("--measured").arg(truth()).arg("--out").arg(folder.path());
         json_of(&mut command)["warnings"].to_string()
     };
-    // Both housings and both planes differ, and one number is free.
-    let said = warnings(&[]);
-    assert!(said.contains("does not fit the data"), "{said}");
-    let said = warnings(&["--prior", "housing.B.k_x=+- 0.1 %"]);
-    assert!(said.contains("prior standard deviations away from the prior mean"), "{said}");
-    // With all that differs free there is nothing to say.
+    // Both housings differ in both planes, and one parameter is free.
+    let text = warnings(&[]);
+    assert!(text.contains("does not fit the data"), "{text}");
+    let text = warnings(&["--prior", "housing.B.k_x=+- 0.1 %"]);
+    assert!(text.contains("prior standard deviations away from the prior mean"), "{text}");
+    // No warning if all differing parameters are free.
     let mut command = rotordyn();
     command.args(["update", RIG, "--free", "housing.*.k_x,housing.*.k_y", "--no-figures", "--band"]);
     command.args(["5 .. 300 Hz", "--measured"]).arg(truth()).arg("--out").arg(folder.path());
@@ -141,9 +141,9 @@ fn updates_that_do_not_explain_the_data_say_so() {
     assert_eq!(document["schema"], "rotordyn-results-1");
 }
 
-/// Sensors beside a housing's middle are found again by the model that has them.
+/// Sensors offset from a housing's centre are assigned to the same places of the model.
 #[test]
-fn sensors_on_housings_are_found_again() {
+fn sensors_on_housings_are_assigned_to_the_model() {
     let folder = tempfile::tempdir().unwrap();
     let (model, out) = ("models/two_disc_pedestals.toml", folder.path().join("test"));
     rotordyn().args(["frf", model, "--no-figures", "--noise", "40 dB", "--out"]).arg(&out).assert().success();
@@ -159,7 +159,7 @@ fn sensors_on_housings_are_found_again() {
     }
 }
 
-/// What a command says on its way to exit code 2.
+/// Standard error of a command that ends with exit code 2.
 fn refused(command: &str, args: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let mut run = rotordyn();
@@ -170,11 +170,11 @@ fn refused(command: &str, args: &[&str]) -> String {
             arg => run.arg(arg),
         };
     }
-    let said = run.assert().code(2).get_output().stderr.clone();
-    let said = String::from_utf8(said).unwrap();
-    // Folders differ from run to run.
+    let stderr = run.assert().code(2).get_output().stderr.clone();
+    let stderr = String::from_utf8(stderr).unwrap();
+    // Temporary folders differ between runs.
     let truth = truth().display().to_string();
-    said.replace(&truth, "truth.h5").replace(&folder.path().display().to_string(), "OUT")
+    stderr.replace(&truth, "truth.h5").replace(&folder.path().display().to_string(), "OUT")
 }
 
 fn update_refused(free: &str, more: &[&str]) -> String {
@@ -183,7 +183,7 @@ fn update_refused(free: &str, more: &[&str]) -> String {
     refused("update", &args)
 }
 
-/// A file of this name and text, kept for the whole test.
+/// Writes a file into the test's folder; returns its path.
 fn file(folder: &tempfile::TempDir, name: &str, text: &str) -> String {
     let path = folder.path().join(name);
     std::fs::write(&path, text).unwrap();
@@ -243,11 +243,11 @@ fn every_wrong_request_says_what_to_do() {
     ];
     let base = folder.path().display().to_string();
     let all: Vec<String> =
-        cases.iter().map(|(name, said)| format!("# {name}\n{}", said.replace(&base, "TMP"))).collect();
+        cases.iter().map(|(name, stderr)| format!("# {name}\n{}", stderr.replace(&base, "TMP"))).collect();
     insta::assert_snapshot!(all.join("\n"));
 }
 
-/// A universal file 55 with one mode at points that no model of ours has, and without their places.
+/// A universal file (dataset 55) with one mode at points that are not in the model, without geometry.
 fn uff_mode_without_points() -> String {
     let mut out = String::from("    -1\n    55\nmode 1\nNONE\nNONE\nNONE\nNONE\n");
     out += "         1         2         3         8         2         3\n";
@@ -260,7 +260,7 @@ fn uff_mode_without_points() -> String {
     out
 }
 
-/// The rig's file with something put in place of something else.
+/// The rig's file with texts replaced.
 fn changed_rig(folder: &tempfile::TempDir, name: &str, changes: &[(&str, &str)]) -> String {
     let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG);
     let mut text = std::fs::read_to_string(rig).unwrap();
@@ -272,9 +272,9 @@ fn changed_rig(folder: &tempfile::TempDir, name: &str, changes: &[(&str, &str)])
 }
 
 #[test]
-fn noisy_frfs_give_the_housings_back_and_not_the_bearings() {
+fn noisy_frfs_identify_the_housings_but_not_the_bearings() {
     let folder = tempfile::tempdir().unwrap();
-    // Bearings of a steel of their own, so that their stiffness can be free alone.
+    // A separate material for the bearings, so that their stiffness is a parameter of its own.
     let own =
         "[material.bearing_steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n\n[shaft] ";
     let bearing = [
@@ -314,11 +314,11 @@ fn noisy_frfs_give_the_housings_back_and_not_the_bearings() {
         assert!((parameter["value"].as_f64().unwrap() / truth - 1.0).abs() < 0.02, "{parameter}");
     }
     assert_ne!(document["parameters"][3]["verdict"], "found", "{}", document["parameters"][3]);
-    keep_pictures(&folder.path().join("updated"), "noisy");
+    copy_figures(&folder.path().join("updated"), "noisy");
 }
 
 #[test]
-fn impact_tests_of_two_forces_show_the_shift() {
+fn frequency_shift_between_impact_tests_of_two_forces() {
     let folder = tempfile::tempdir().unwrap();
     let model = file(&folder, "hammer.toml", &struck_rig());
     let mut runs = Vec::new();
@@ -345,15 +345,15 @@ fn impact_tests_of_two_forces_show_the_shift() {
     println!("{:#}", document["levels"]);
     let shifts: Vec<f64> = levels.iter().filter_map(|m| m["others"][0]["shift"].as_f64()).collect();
     assert!(shifts.len() >= 2, "{levels:?}");
-    // The small hit meets the linear machine; the large one works the clearance.
+    // The small hit gives the linear response; the large one is affected by the bearing clearance.
     let largest = shifts.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a });
     assert!(largest.abs() > 2e-3, "{shifts:?}");
     assert!(text.contains("Frequency shift of the measured modes relative to the first file"), "{text}");
-    keep_pictures(&folder.path().join("levels"), "levels");
+    copy_figures(&folder.path().join("levels"), "levels");
 }
 
-/// Copies pictures to the folder that ROTORDYN_PICTURES names, to be looked at.
-fn keep_pictures(from: &Path, name: &str) {
+/// Copies figures to the folder given by ROTORDYN_PICTURES, for visual inspection.
+fn copy_figures(from: &Path, name: &str) {
     let Some(to) = std::env::var_os("ROTORDYN_PICTURES") else { return };
     let to = PathBuf::from(to).join(name);
     std::fs::create_dir_all(&to).unwrap();

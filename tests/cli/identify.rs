@@ -1,4 +1,4 @@
-//! `identify`: what is wrong with files, mappings and flags is told with what to do; threads change nothing.
+//! `identify` command: error messages for files, mappings and flags; results do not depend on threads.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -11,19 +11,19 @@ use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, 
 /// Natural frequency \[Hz\], damping ratio, shape of unit modal mass.
 pub type Mode = (f64, f64, [f64; 4]);
 
-/// A structure of three modes seen at four points.
+/// A structure with three modes, measured at four points.
 pub const MODES: [Mode; 3] = [
     (21.0, 0.006, [0.5, 0.9, 1.2, 0.3]),
     (48.0, 0.009, [1.1, 0.3, -0.8, 0.6]),
     (83.0, 0.012, [0.7, -1.0, 0.6, -0.9]),
 ];
 
-/// λ of a mode.
+/// Pole λ of a mode.
 pub fn pole((hz, zeta, _): Mode) -> Complex64 {
     TAU * hz * Complex64::new(-zeta, (1.0 - zeta * zeta).sqrt())
 }
 
-/// Accelerance of point `r` to a force at point `e`.
+/// Accelerance of point `r` for a force at point `e`.
 pub fn accelerance(r: usize, e: usize, hz: f64) -> Complex64 {
     let s = Complex64::new(0.0, TAU * hz);
     let one = |mode: &Mode| {
@@ -33,7 +33,7 @@ pub fn accelerance(r: usize, e: usize, hz: f64) -> Complex64 {
     MODES.iter().map(one).sum()
 }
 
-/// FRFs of the first three points along y to the forces, 5 to 110 Hz.
+/// FRFs of the first three points along y for forces at `references`, 5 to 110 Hz.
 fn frfs(references: &[usize]) -> Vec<Record> {
     let lines: Vec<f64> = (0..421).map(|k| 5.0 + 0.25 * f64::from(k)).collect();
     let mut out = Vec::new();
@@ -51,7 +51,7 @@ fn frfs(references: &[usize]) -> Vec<Record> {
     out
 }
 
-/// Those FRFs, each with its coherence.
+/// Adds the coherence of each FRF.
 fn with_coherence(frfs: Vec<Record>) -> Vec<Record> {
     let coherence = |frf: &Record| {
         let name = format!("coherence {}", frf.name);
@@ -79,7 +79,7 @@ pub fn write(folder: &Path, name: &str, records: Vec<Record>) {
     measured::write(&folder.join(name), &Measured { records, ..Measured::default() }).unwrap();
 }
 
-/// Numbers in −1..1.
+/// Uniform random numbers in −1..1.
 pub fn noise(seed: u32) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
@@ -94,8 +94,8 @@ fn cut(folder: &Path, from: &str, to: &str, share: f64) {
     std::fs::write(folder.join(to), &bytes[..length]).unwrap();
 }
 
-/// Exit code and what is said beside the results.
-fn said(folder: &Path, files: &[&str], flags: &[&str]) -> String {
+/// Exit code and standard error.
+fn exit_code_and_stderr(folder: &Path, files: &[&str], flags: &[&str]) -> String {
     let mut command = rotordyn();
     command
         .current_dir(folder)
@@ -109,14 +109,14 @@ fn said(folder: &Path, files: &[&str], flags: &[&str]) -> String {
     format!("exit code {code}\n{}", String::from_utf8_lossy(&output.stderr).trim())
 }
 
-pub fn told(folder: &Path, cases: &[(&str, Vec<&str>, Vec<&str>)]) -> String {
+pub fn outputs_of_cases(folder: &Path, cases: &[(&str, Vec<&str>, Vec<&str>)]) -> String {
     let one = |(name, files, flags): &(&str, Vec<&str>, Vec<&str>)| {
-        format!("# {name}\n{}\n", said(folder, files, flags))
+        format!("# {name}\n{}\n", exit_code_and_stderr(folder, files, flags))
     };
     cases.iter().map(one).collect::<Vec<_>>().join("\n")
 }
 
-/// Files of FRFs, good and bad.
+/// Valid and invalid FRF files.
 fn frf_files(folder: &Path) {
     let good = || with_coherence(frfs(&[0, 2]));
     write(folder, "good.uff", good());
@@ -244,12 +244,12 @@ fn bad_frfs_are_told() {
         ("mapping: no such station", vec!["good.uff"], vec!["--mapping", "station.toml", "--model", model]),
         ("no mapping file", vec!["good.uff"], vec!["--mapping", "nowhere.toml"]),
     ];
-    insta::assert_snapshot!("bad_frfs", told(folder, &cases));
+    insta::assert_snapshot!("bad_frfs", outputs_of_cases(folder, &cases));
 }
 
 /// Results are the same to the byte whatever the number of threads.
 #[test]
-fn threads_change_nothing() {
+fn results_do_not_depend_on_threads() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let lines: Vec<f64> = (0..421).map(|k| 5.0 + 0.25 * f64::from(k)).collect();

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use crate::identify::{MODES, Mode, accelerance, changed, noise, pole, told, write};
+use crate::identify::{MODES, Mode, accelerance, changed, noise, outputs_of_cases, pole, write};
 use crate::{json_of, rotordyn, struck_rig};
 use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium};
 use rotordyn::analysis::modal;
@@ -329,7 +329,7 @@ fn bad_hits_are_reported() {
         ("a block that cuts the decay", vec!["good.npz"], vec!["--block", "0.5 s", "--band", "10 .. 110 Hz"]),
         ("two tests of the same points", vec!["good.npz", "once.npz"], vec![]),
     ];
-    insta::assert_snapshot!("bad_hits", told(folder, &cases));
+    insta::assert_snapshot!("bad_hits", outputs_of_cases(folder, &cases));
 }
 
 /// A simulated impact test: the stored run of the rig at rest under a hit gives the modes of `modal` that it moves.

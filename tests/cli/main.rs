@@ -1,4 +1,4 @@
-//! The command as users meet it: every model, every command, exit codes, Ctrl-C, JSON.
+//! Command-line tests of the binary: every model, every command, exit codes, Ctrl-C, JSON output.
 
 mod bearings;
 mod commands;
@@ -17,7 +17,7 @@ mod update_frf;
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
 
-/// The program, in the repository's root.
+/// The `rotordyn` binary, run in the repository root.
 fn rotordyn() -> Command {
     let mut command = Command::cargo_bin("rotordyn").unwrap();
     command.current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("NO_COLOR");
@@ -29,7 +29,7 @@ fn output_of(command: &mut Command) -> String {
     String::from_utf8(command.assert().success().get_output().stdout.clone()).unwrap()
 }
 
-/// The document of a command that must succeed with `--json`.
+/// JSON document (`--json`) of a command that must succeed.
 fn json_of(command: &mut Command) -> serde_json::Value {
     serde_json::from_str(&output_of(command.arg("--json"))).unwrap()
 }
@@ -43,14 +43,14 @@ fn models() -> Vec<PathBuf> {
     models
 }
 
-/// The rig at rest, hit along y at its disc by a triangle of 2 ms, 1 N high.
+/// Model file of the rig at rest with a hammer impact on the disc along y: triangular pulse, 2 ms, 1 N peak.
 fn struck_rig() -> String {
     let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/overhung_rig.toml");
     let text = std::fs::read_to_string(rig).unwrap();
     let (start, end) = (text.find("[speed]").unwrap(), text.find("[probe.A_ax]").unwrap());
     let hammer = "[speed]\nprofile = \"constant\"\nspeed = \"0 rpm\"\nduration = \"4 s\"\n\n\
         [load.hammer]\nat = \"disc.main\"\nforce = \"0, 1, 0 N\"\ntime = \"0, 1, 2 ms\"\nfactor = [0, 1, 0]\n\n";
-    // Nothing turns: there are no orders to see.
+    // No rotation, so no order study.
     let orders = text.find("[study.orders]").unwrap()..text.find("# --- the paper's other").unwrap();
     format!("{}{hammer}{}{}", &text[..start], &text[end..orders.start], &text[orders.end..])
 }

@@ -1,4 +1,4 @@
-//! `validate` with run-ups: the Jeffcott rotor as its own test rig, its channels and tacho as a recorder stores them.
+//! `validate` with run-ups: the simulated Jeffcott rotor as test rig, channels and tacho as a recorder stores them.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::{json_of, output_of, rotordyn};
 
 const MODEL: &str = "models/jeffcott.toml";
-/// What the rig is where it differs from its model: a thicker shaft.
+/// Difference between rig and model: a thicker shaft.
 const THICKER: &str = "shaft.section=[{ length = \"800 mm\", outer_diameter = \"20.6 mm\" }]";
 
 /// Deterministic noise between −1 and 1.
@@ -24,8 +24,8 @@ fn noise(seed: u64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The record of a run-up: displacements of the disc in um and a tacho, the angle itself not told.
-fn recorded(folder: &Path, name: &str, settings: &[&str], floor: f64) -> PathBuf {
+/// Record of a run-up: displacements of the disc in um and a tacho signal, without the shaft angle.
+fn record_run_up(folder: &Path, name: &str, settings: &[&str], floor: f64) -> PathBuf {
     let out = folder.join(format!("{name}_run"));
     let mut run = rotordyn();
     run.args(["run-up", MODEL, "--no-figures", "--out"]).arg(&out);
@@ -38,7 +38,7 @@ fn recorded(folder: &Path, name: &str, settings: &[&str], floor: f64) -> PathBuf
         let noisy = values(of).iter().zip(noise(seed)).map(|(v, n)| 1e6 * (v + floor * n)).collect();
         Record::samples(name, rate, 0.0, noisy, "")
     };
-    // A probe over a keyway: its level crosses zero upwards once a turn.
+    // Keyphasor signal: one upward zero crossing per revolution.
     let theta = found.records.iter().find(|r| r.unit == "rad" && r.name.contains("theta")).unwrap();
     let Values::Real(theta) = &theta.values else { panic!() };
     let tacho = theta.iter().map(|a| 2.0 * (a - 0.7).sin()).collect();
@@ -58,7 +58,7 @@ const MAPPING: &str = "[channel.ch1]\nstation = \"disc\"\ndirection = \"x\"\nuni
 /// The folder, the record of the rig as modelled, and the mapping.
 static AS_MODELLED: LazyLock<(tempfile::TempDir, PathBuf, PathBuf)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    let record = recorded(folder.path(), "as_modelled", &[], 0.0);
+    let record = record_run_up(folder.path(), "as_modelled", &[], 0.0);
     let mapping = folder.path().join("channels.toml");
     std::fs::write(&mapping, MAPPING).unwrap();
     (folder, record, mapping)
@@ -81,7 +81,7 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
-fn a_run_up_of_the_model_itself_agrees_with_it() {
+fn run_up_of_the_unchanged_model_agrees() {
     let out = AS_MODELLED.0.path().join("same");
     let document = json_of(&mut validate(&AS_MODELLED.1, &out, &[]));
     let run = &document["run_ups"][0];
@@ -91,7 +91,7 @@ fn a_run_up_of_the_model_itself_agrees_with_it() {
         println!("{} {level:.4} dB", channel["channel"]);
         assert!(level.abs() < 0.1, "{channel}");
     }
-    // The tacho's first turn is not known, and the model starts from rest after it: the rest is the same run.
+    // The tacho's first revolution is unknown and the model starts from rest after it: otherwise the same run.
     for channel in 0..2 {
         let once = order(&document, channel, "1x");
         println!("{once}");
@@ -109,10 +109,10 @@ fn a_run_up_of_the_model_itself_agrees_with_it() {
 }
 
 #[test]
-fn a_thicker_shaft_shows_where_it_is_critical() {
+fn thicker_shaft_shifts_the_critical_speed() {
     let folder = tempfile::tempdir().unwrap();
-    // Slowly, and with windows of five turns: each passes some 30 rpm.
-    let record = recorded(folder.path(), "thicker", &[THICKER, "speed.ramp=20 s"], 2e-7);
+    // Slow ramp, windows of five revolutions: each covers about 30 rpm.
+    let record = record_run_up(folder.path(), "thicker", &[THICKER, "speed.ramp=20 s"], 2e-7);
     let out = folder.path().join("out");
     let flags = ["--no-figures", "--smooth-tacho", "--set", "study.orders.resolution=0.2"];
     let document = json_of(&mut validate(&record, &out, &flags));
@@ -126,17 +126,17 @@ fn a_thicker_shaft_shows_where_it_is_critical() {
     let ratio = critical(&[]) / critical(&[THICKER]);
     for channel in 0..2 {
         let once = order(&document, channel, "1x");
-        // A ramp carries both maxima upwards alike.
+        // The ramp shifts both maxima upwards equally.
         let found = number(&once["computed_rpm"]) / number(&once["measured_rpm"]);
         println!("{found:.4} {ratio:.4} {once}");
         assert!((found / ratio - 1.0).abs() < 5e-3 && ratio < 0.97, "{found} {ratio}");
     }
 }
 
-/// Edges of a square wave fall between samples: the angle jitters, and the shaft must not be shaken by it. And a
-/// recorder that stores a speed without its unit is told it by the mapping.
+/// Edges of a square-wave tacho fall between samples: the angle jitter must not excite the shaft. A speed channel
+/// stored without unit gets it from the mapping.
 #[test]
-fn coarse_tachos_and_bare_speeds_drive_the_model() {
+fn run_ups_with_coarse_tacho_or_speed_without_unit() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("run");
     let mut run = rotordyn();
@@ -171,7 +171,7 @@ fn coarse_tachos_and_bare_speeds_drive_the_model() {
 }
 
 #[test]
-fn a_results_file_holds_modes_and_a_run_up() {
+fn results_file_with_modes_and_a_run_up() {
     let folder = tempfile::tempdir().unwrap();
     let (run, out) = (folder.path().join("run"), folder.path().join("out"));
     rotordyn().args(["run", MODEL, "--no-figures", "--out"]).arg(&run).assert().success();
@@ -185,9 +185,9 @@ fn a_results_file_holds_modes_and_a_run_up() {
     assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 1e-3, "{once}");
 }
 
-/// The channels as `export` writes them tell how the shaft turned, and most where they were measured.
+/// Channels written by `export` contain the shaft rotation, and in UFF and CSV the measurement points.
 #[test]
-fn exported_channels_are_run_ups() {
+fn exported_channels_are_read_as_run_ups() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
     rotordyn().args(["run-up", MODEL, "--no-figures", "--out"]).arg(&run).assert().success();
@@ -195,7 +195,7 @@ fn exported_channels_are_run_ups() {
     for file in ["channels.csv", "channels.uff", "channels.mat", "channels.npz"] {
         let mut command = rotordyn();
         command.args(["validate", MODEL, "--no-figures", "--measured"]).arg(run.join(file));
-        // Names of MATLAB's arrays are its own: there the probes are named.
+        // Array names of .mat and .npz files do not give the place: the mapping does.
         if !file.ends_with("uff") && !file.ends_with("csv") {
             let names = match file.ends_with("mat") {
                 true => ["X001_disc_x_time", "X001_disc_y_time"],
@@ -219,8 +219,8 @@ fn exported_channels_are_run_ups() {
     }
 }
 
-/// What `validate` says of a bad file; folders differ from run to run.
-fn said(folder: &Path, file: &str, flags: &[&str], code: i32) -> String {
+/// Standard error of `validate` for an invalid file, run inside the folder, with the model's path shortened.
+fn error_text(folder: &Path, file: &str, flags: &[&str], code: i32) -> String {
     let mut command = rotordyn();
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(MODEL);
     command.current_dir(folder).arg("validate").arg(&model).args(["--measured", file, "--no-figures"]);
@@ -284,9 +284,9 @@ fn bad_run_ups() {
         ("two rates", "two_rates.h5", with(&[]), 0),
         ("some left out, not from rest", "some.h5", with(&[]), 0),
     ];
-    let told: Vec<String> = cases
+    let outputs: Vec<String> = cases
         .iter()
-        .map(|(name, file, flags, code)| format!("# {name}\n{}\n", said(folder, file, flags, *code)))
+        .map(|(name, file, flags, code)| format!("# {name}\n{}\n", error_text(folder, file, flags, *code)))
         .collect();
-    insta::assert_snapshot!("bad_run_ups", told.join("\n"));
+    insta::assert_snapshot!("bad_run_ups", outputs.join("\n"));
 }

@@ -1,4 +1,4 @@
-//! Run-ups: streamed, interrupted, failed, looked at afterwards, repeated.
+//! Run-ups: streaming to the file, interruption, divergence, post-processing, reproducibility.
 
 use crate::{json_of, output_of, rotordyn};
 use rotordyn::edge::hdf5::{Attribute, Store};
@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Half a second of the rig, with analyses that fit into it.
+/// Half a second of the rig, with analysis windows short enough for it.
 const SHORT: [&str; 14] = [
     "--set",
     "study.run_up.sample_rate=2 kHz",
@@ -34,7 +34,7 @@ fn state_of(file: &Path) -> String {
 }
 
 #[test]
-fn a_run_up_is_stored_and_looked_at_again() {
+fn run_up_is_stored_and_post_processed() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let text = output_of(rotordyn().args(["run-up", RIG, "--no-figures", "--out"]).arg(out).args(SHORT));
@@ -60,7 +60,7 @@ fn a_run_up_is_stored_and_looked_at_again() {
     let exported = json_of(rotordyn().args(["export", RIG, "--out"]).arg(out));
     let csv = std::fs::read_to_string(out.join("channels.csv")).unwrap();
     assert!(csv.starts_with("time_s,A_ax_m_s2") && csv.lines().count() == 1002, "{exported}");
-    // The same channels for measurement programs, each with its point and direction.
+    // The same channels in exchange formats, each with its point and direction.
     for file in ["channels.uff", "channels.mat"] {
         let run = measured::read(&out.join(file)).unwrap();
         let name = if file == "channels.mat" { "X001_B_ax_time" } else { "B_ax" };
@@ -84,16 +84,16 @@ fn a_run_up_is_stored_and_looked_at_again() {
 
 /// An explicit method with a step far above its stability limit.
 #[test]
-fn a_run_that_diverges_leaves_what_it_had() {
+fn diverged_run_keeps_its_samples() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = rotordyn();
     command.args(["run-up", RIG, "--no-figures", "--integrator", "rk4", "--step", "500 us", "--out"]);
-    // generalised-alpha's parameter does not go with another method
+    // the parameter of generalised-alpha is invalid for another method
     let sets = ["--set", "study.run_up={ step = \"500 us\", integrator = \"rk4\", cutoff = \"1500 Hz\" }"];
     let assert = command.arg(folder.path()).args(SHORT).args(sets).assert().code(3);
-    let said = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
+    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
     for part in ["run-up: the run diverged at t = ", "bearing ", "rpm"] {
-        assert!(said.contains(part), "{part} is not in\n{said}");
+        assert!(stderr.contains(part), "{part} is not in\n{stderr}");
     }
     let file = folder.path().join("results.h5");
     let state = state_of(&file);
@@ -113,8 +113,8 @@ fn ctrl_c_ends_a_run_cleanly() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // The first block of samples on disk says that the run-up goes on; a hundred thousand seconds do not end by
-    // themselves.
+    // The first block of samples on disk shows that the run-up is in progress; a run-up of 100000 s does not end by
+    // itself.
     let begun = Instant::now();
     let samples = || Store::open(&file).and_then(|s| s.read("/time/t")).map_or(0, |t| t.data.len());
     while samples() == 0 {
@@ -126,7 +126,7 @@ fn ctrl_c_ends_a_run_cleanly() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let state = state_of(&file);
     assert!(state.starts_with("stopped: ended by Ctrl-C at t = "), "{state}");
-    // What was computed before it is there, and the run can be looked at.
+    // Results computed before it are stored, and the partial run can be post-processed.
     let store = Store::open(&file).unwrap();
     assert!(store.contains("/modes") && store.contains("/run_up"));
     drop(store);
@@ -135,9 +135,9 @@ fn ctrl_c_ends_a_run_cleanly() {
     assert!(String::from_utf8_lossy(&assert.get_output().stderr).contains("is incomplete: stopped"));
 }
 
-/// Every byte of the file, with one thread, with two, and again.
+/// The results file is identical to the byte with one thread, with two, and when repeated.
 #[test]
-fn numbers_do_not_depend_on_threads() {
+fn results_do_not_depend_on_threads() {
     let folder = tempfile::tempdir().unwrap();
     let run = |name: &str, threads: &str| {
         let out = folder.path().join(name);

@@ -1,4 +1,4 @@
-//! `signal`: measured records, records of our own making in every format, stored runs.
+//! `signal` command: measured records, synthetic records in every file format, stored runs.
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use serde_json::Value;
 mod measured_data;
 
 fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
-/// Uniform numbers in −1..1.
+/// Uniform random numbers in −1..1.
 fn noise(seed: u32, n: usize) -> impl Iterator<Item = f64> {
     let mut state = seed;
     (0..n).map(move |_| {
@@ -25,8 +25,8 @@ fn noise(seed: u32, n: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Noise, and pulses that ring at 3.5 kHz `per_second` times a second.
-pub fn faulty(n: usize, rate: f64, per_second: f64) -> Vec<f64> {
+/// Noise and impulses exciting a 3.5 kHz resonance, `per_second` times per second.
+pub fn faulty_bearing_record(n: usize, rate: f64, per_second: f64) -> Vec<f64> {
     let mut x: Vec<f64> = noise(7, n).collect();
     for k in 0..(n as f64 / rate * per_second) as usize {
         let start = k as f64 / per_second;
@@ -39,10 +39,15 @@ pub fn faulty(n: usize, rate: f64, per_second: f64) -> Vec<f64> {
     x
 }
 
-/// A file with one record of this kind; 6205-2RS at 1800 rpm, BPFO 3.58482 a turn.
-pub fn faulty_file(folder: &Path, name: &str, rate: f64, unit: &str) -> PathBuf {
-    let mut record =
-        Record::samples("A_ax", rate, 0.0, faulty((3.0 * rate) as usize, rate, 30.0 * 3.58482), unit);
+/// A file with one such record: 6205-2RS at 1800 rpm, outer race fault at BPFO, order 3.58482.
+pub fn faulty_bearing_file(folder: &Path, name: &str, rate: f64, unit: &str) -> PathBuf {
+    let mut record = Record::samples(
+        "A_ax",
+        rate,
+        0.0,
+        faulty_bearing_record((3.0 * rate) as usize, rate, 30.0 * 3.58482),
+        unit,
+    );
     record.speed_rpm = Some(1800.0);
     let path = folder.join(name);
     measured::write(&path, &Measured { records: vec![record], ..Measured::default() }).unwrap();
@@ -53,20 +58,20 @@ fn signal(path: &Path, out: &Path, flags: &[&str]) -> Value {
     json_of(rotordyn().arg("signal").arg(path).arg("--out").arg(out).args(flags))
 }
 
-/// Measured at Case Western Reserve University: verdicts, rates and statistics as in the records' description.
+/// Records of Case Western Reserve University: diagnosis, fault frequencies and statistics as in their description.
 #[test]
-fn measured_races_are_named() {
+fn measured_race_faults_are_diagnosed() {
     for (file, verdict, line, hz, rms, kurtosis) in [
         ("cwru/105_IR007_0hp_12k.mat", "inner race", "BPFI", 161.68, 0.29153, 5.396),
         ("cwru/130_OR007at6_0hp_12k.mat", "outer race", "BPFO", 107.65, 0.66951, 7.649),
     ] {
         let Some(path) = measured_data::measured(file) else { return };
         let folder = tempfile::tempdir().unwrap();
-        // The band by the bearing's lines, by kurtosis, none, and the one of the description.
+        // Band selected by the bearing fault lines, by kurtosis, none, and the one of the description.
         for band in [None, Some("kurtosis"), Some("whole"), Some("500 Hz .. 5.5 kHz")] {
             let mut flags = vec!["--rate", "12 kHz", "--bearing", "6205-2RS"];
             flags.extend(band.iter().flat_map(|band| ["--band", band]));
-            // Every figure once.
+            // Figures for the first band only.
             if band.is_some() {
                 flags.extend(["--no-figures", "--analyses", "envelope"]);
             }
@@ -81,12 +86,12 @@ fn measured_races_are_named() {
             assert_eq!(envelope["verdict"], verdict, "{file} {band:?}");
             let strongest = &envelope["strongest"];
             assert_eq!(strongest["line"], line, "{file} {band:?}");
-            // Within 0.5 % of the catalogue, and where the description has it, by the printed digit.
+            // Within 0.5 % of the catalogue, and equal to the description to the printed digit.
             let (at, expected) = (number(&strongest["at"]), number(&strongest["expected"]));
             assert!((at / expected - 1.0).abs() < 5e-3, "{file} {band:?}: {at} {expected}");
             let harmonic = number(&strongest["harmonic"]);
             assert!((at / harmonic - hz).abs() < 0.05, "{file} {band:?}: {at}");
-            // The narrow band that shows the lines best has the second harmonic as high as the first.
+            // In the narrow band selected by the fault lines the second harmonic is as high as the first.
             assert!(band.is_none() || harmonic == 1.0);
         }
         let name = document_channel(&path);
@@ -108,24 +113,24 @@ fn document_channel(path: &Path) -> String {
     format!("X{id}_DE_time")
 }
 
-/// The same record from every format that can be written: one verdict, one RMS.
+/// The same record in every writable format gives the same diagnosis and RMS.
 #[test]
-fn every_format_says_the_same() {
+fn all_file_formats_give_the_same_diagnosis() {
     let folder = tempfile::tempdir().unwrap();
-    let mut seen: Vec<f64> = Vec::new();
+    let mut levels: Vec<f64> = Vec::new();
     for name in ["a.csv", "a.mat", "a.npz", "a.uff", "a.h5", "a.wav"] {
-        let path = faulty_file(folder.path(), name, 12_000.0, "m/s^2");
+        let path = faulty_bearing_file(folder.path(), name, 12_000.0, "m/s^2");
         let flags =
             ["--bearing", "6205-2RS", "--speed", "1800 rpm", "--no-figures", "--analyses", "envelope"];
         let document = signal(&path, &folder.path().join("out"), &flags);
         let channel = &document["channels"][0];
         assert_eq!(channel["envelope"]["verdict"], "outer race", "{name}");
         assert_eq!(number(&channel["sample_rate_hz"]), 12_000.0, "{name}");
-        seen.push(number(&channel["statistics"]["rms"]));
+        levels.push(number(&channel["statistics"]["rms"]));
     }
-    for rms in &seen {
+    for rms in &levels {
         // A WAV file holds 32-bit floats.
-        assert!((rms / seen[0] - 1.0).abs() < 1e-6, "{seen:?}");
+        assert!((rms / levels[0] - 1.0).abs() < 1e-6, "{levels:?}");
     }
 }
 
@@ -140,7 +145,7 @@ fn run_up_file(folder: &Path) -> (PathBuf, f64) {
         .enumerate()
         .map(|(k, v)| 0.2 * v + 2.0 * at(k).cos() + (bpfo * at(k) + 0.3).cos())
         .collect();
-    // A pulse of a tenth of a turn, with edges of a sample.
+    // Pulses of a tenth of a revolution, edges of one sample.
     let tacho: Vec<f64> =
         (0..n).map(|k| if turns(k as f64 / rate).fract() < 0.1 { 5.0 } else { 0.0 }).collect();
     let record = |name: &str, values: Vec<f64>, unit: &str| Record::samples(name, rate, 0.0, values, unit);
@@ -151,7 +156,7 @@ fn run_up_file(folder: &Path) -> (PathBuf, f64) {
 }
 
 #[test]
-fn a_tacho_turns_smeared_lines_into_sharp_ones() {
+fn order_tracking_sharpens_smeared_lines() {
     let folder = tempfile::tempdir().unwrap();
     let (path, bpfo) = run_up_file(folder.path());
     let out = folder.path().join("out");
@@ -163,7 +168,7 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
         let shaft = &channel["shaft"];
         assert_eq!(shaft["steady"], false);
         assert!((number(&shaft["least_rpm"]) - 600.0).abs() < 30.0, "{shaft}");
-        // The line's frequency is held over the last half frame, 0.6 s of 150 rpm/s.
+        // The tracked frequency is constant over the last half frame, 0.6 s at 150 rpm/s.
         let slack = if how[0] == "--track" { 100.0 } else { 30.0 };
         assert!((number(&shaft["most_rpm"]) - 2400.0).abs() < slack, "{shaft}");
         let cut = |label: &str| {
@@ -171,7 +176,7 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
             let cut = cuts.iter().find(|cut| cut["label"] == label).unwrap();
             cut["rms"].as_array().unwrap().iter().map(number).collect::<Vec<f64>>()
         };
-        // Tones of 2 and 1: RMS over their root of two, at every speed; by the line but at the record's ends.
+        // Amplitudes 2 and 1: RMS = amplitude/√2 at every speed; with a tracked line not at the record's ends.
         for (label, amplitude) in [("1x", 2.0), ("BPFO", 1.0)] {
             let cut = cut(label);
             let ends = if how[0] == "--track" { cut.len() / 10 } else { 0 };
@@ -182,7 +187,7 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
         let store = Store::open(out.join("signal.h5")).unwrap();
         let orders = store.read("/A_ax/orders/order").unwrap().data;
         let average = store.read("/A_ax/orders/average").unwrap().data;
-        // In orders the highest bin is the line's own; in Hz the same tone is spread over a thousand lines.
+        // In the order spectrum the highest bin is the order's; in Hz the tone is smeared over a thousand lines.
         let highest = |from: f64, to: f64| {
             let inside = (0..orders.len()).filter(|&k| (from..to).contains(&orders[k]));
             inside.max_by(|&a, &b| average[a].total_cmp(&average[b])).unwrap()
@@ -190,7 +195,7 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
         for (order, amplitude) in [(1.0, 2.0), (bpfo, 1.0)] {
             let k = highest(order - 0.4, order + 0.4);
             assert!((orders[k] - order).abs() <= 0.5 * orders[1] + 1e-9, "{how:?}: {}", orders[k]);
-            // Hann: at worst 1.42 dB low between bins.
+            // Scalloping loss of a Hann window: up to 1.42 dB.
             assert!(
                 average[k] > 0.84 * amplitude && average[k] < 1.03 * amplitude,
                 "{how:?}: {}",
@@ -208,15 +213,15 @@ fn a_tacho_turns_smeared_lines_into_sharp_ones() {
     }
 }
 
-/// The real pulses of a run-up and coast-down, with a tone of order 3.585 on their turns.
+/// Measured tacho pulses of a run-up and coast-down, with a synthetic tone of order 3.585.
 #[test]
-fn pulses_of_a_measured_run_up() {
+fn order_tracking_with_measured_tacho_pulses() {
     let Some(times) = measured_data::measured("tacho_run_up/time_s.csv") else { return };
     let pulses = match measured::read(&times).unwrap().records.remove(0).values {
         rotordyn::signal::record::Values::Real(values) => values,
         rotordyn::signal::record::Values::Complex(_) => unreachable!("the file holds times"),
     };
-    // Straight between the pulses: what the command does not assume.
+    // Linear between the pulses, unlike the interpolation of the command.
     let rate = 5120.0;
     let n = (pulses[pulses.len() - 1] * rate) as usize;
     let mut k = 0;
@@ -239,7 +244,7 @@ fn pulses_of_a_measured_run_up() {
     let flags = ["--tacho", times.to_str().unwrap(), "--no-figures", "--max-order", "8"];
     let document = signal(&path, &out, &flags);
     let shaft = &document["channels"][0]["shaft"];
-    // The description: 208 to 2982 rpm.
+    // Speed range of the description: 208 to 2982 rpm.
     assert!(
         number(&shaft["least_rpm"]) < 450.0 && (number(&shaft["most_rpm"]) - 2982.0).abs() < 30.0,
         "{shaft}"
@@ -251,17 +256,17 @@ fn pulses_of_a_measured_run_up() {
         let near = (0..orders.len()).filter(|&k| (orders[k] - order).abs() < 0.5);
         let k = near.max_by(|&a, &b| average[a].total_cmp(&average[b])).unwrap();
         assert!((orders[k] - order).abs() <= orders[1], "{order}: {}", orders[k]);
-        // Between bins up to 1.42 dB low; the pulses' cubic against straight lines takes some more at 3.585.
+        // Scalloping loss up to 1.42 dB; cubic against linear interpolation of the angle costs some more at 3.585.
         assert!(average[k] > 0.7, "{order}: {}", average[k]);
     }
 }
 
-/// Two records at different rates and in different units come into one figure over orders.
+/// Two records of different sampling rates are compared in one figure over orders.
 #[test]
-fn another_record_is_laid_against_the_first() {
+fn two_records_are_compared() {
     let folder = tempfile::tempdir().unwrap();
-    let first = faulty_file(folder.path(), "first.mat", 12_000.0, "m/s^2");
-    let second = faulty_file(folder.path(), "second.h5", 20_000.0, "m/s^2");
+    let first = faulty_bearing_file(folder.path(), "first.mat", 12_000.0, "m/s^2");
+    let second = faulty_bearing_file(folder.path(), "second.h5", 20_000.0, "m/s^2");
     let out = folder.path().join("out");
     let flags = ["--bearing", "6205-2RS", "--analyses", "envelope", "--against", second.to_str().unwrap()];
     let document = signal(&first, &out, &flags);
@@ -273,9 +278,9 @@ fn another_record_is_laid_against_the_first() {
     assert!(store.contains("/against/A_ax/envelope/values"));
 }
 
-/// A stored run knows its own rate, speed and shaft angle; results go beside it.
+/// A stored run contains its sampling rate, speed and shaft angle; results are written next to it.
 #[test]
-fn a_stored_run() {
+fn signal_analysis_of_a_stored_run() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
     let short = ["--set", "speed.settle=0.1 s", "--set", "speed.ramp=0.5 s", "--set", "speed.hold=0.3 s"];
@@ -305,17 +310,17 @@ fn a_stored_run() {
     }
     assert!(text.lines().all(|line| line.chars().count() <= 140), "{text}");
     assert!(out.join("signal.h5").exists() && out.join("signal_orders_B_ax.svg").exists());
-    // A bearing of the stored model, by its name; half a second holds too few turns of its cage.
+    // A bearing of the stored model by its name; half a second contains too few cage revolutions.
     let assert = rotordyn().arg("signal").arg(out).args(["--bearing", "A", "--no-figures"]).assert().code(2);
     let text = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
     assert!(text.contains("ten revolutions of the cage"), "{text}");
 }
 
-/// Rates given by hand say what the catalogue's bearing says; what is left out follows from the others.
+/// Fault frequencies given by `--rates` give the diagnosis of the catalogue's bearing; missing ones are derived.
 #[test]
-fn rates_by_hand() {
+fn fault_frequencies_given_by_rates() {
     let folder = tempfile::tempdir().unwrap();
-    let path = faulty_file(folder.path(), "a.h5", 12_000.0, "m/s^2");
+    let path = faulty_bearing_file(folder.path(), "a.h5", 12_000.0, "m/s^2");
     let flags = ["--no-figures", "--analyses", "envelope,jerk,cyclic", "--speed", "1800 rpm"];
     let document = signal(
         &path,
@@ -327,16 +332,16 @@ fn rates_by_hand() {
     assert_eq!(channel["bearing"]["balls"], 9);
     assert!((number(&channel["bearing"]["orders"]["bsf"]) - 2.3567).abs() < 1e-3);
     let lines = channel["cyclic"]["lines"].as_array().unwrap();
-    // The third harmonic of BPFO is within the slip of the second of BPFI: first harmonics alone.
+    // 3 BPFO is within the slip tolerance of 2 BPFI: first harmonics only.
     let firsts = lines.iter().filter(|l| l["harmonic"] == 1);
     let best = firsts.max_by(|a, b| number(&a["deviations"]).total_cmp(&number(&b["deviations"]))).unwrap();
     assert_eq!(best["line"], "BPFO", "{best}");
     assert!((number(&best["found_hz"]) - 107.545).abs() < 0.4, "{best}");
 }
 
-/// Seven dents and bumps of a simulated outer race, and two of an inner one, read from the jerk with no hint.
+/// Seven dents and bumps of a simulated outer race and two of an inner one, located from the jerk alone.
 #[test]
-fn defects_of_a_simulated_race() {
+fn race_defects_are_located_from_the_jerk() {
     const RANDOM: [(&str, f64, f64); 7] = [
         ("dent", 2.0, 0.12),
         ("bump", 6.3, 0.2),
@@ -362,10 +367,10 @@ fn defects_of_a_simulated_race() {
         assert_eq!(found.len(), expected.len(), "{jerk}");
         for (defect, (kind, angle, width)) in found.iter().zip(expected) {
             assert_eq!(defect["kind"], *kind, "{defect}");
-            // A sample is 0.026 deg of a ball's way on the outer race, 0.039 deg on the inner.
+            // One sample is 0.026 deg of ball travel on the outer race, 0.039 deg on the inner.
             let off = number(&defect["angle"]).to_degrees() - angle;
             assert!(off.abs() < 0.1, "{variant} {angle}: off by {off} deg");
-            // A sample is 10.6 um of the outer raceway, 10.5 um of the inner; jumps are placed between samples.
+            // One sample is 10.6 um of the outer raceway, 10.5 um of the inner; jumps are interpolated between samples.
             let wide = number(&defect["width_m"]) * 1e3 - width;
             assert!(wide.abs() < 6e-3, "{variant} {angle}: off by {wide} mm");
         }
@@ -373,9 +378,9 @@ fn defects_of_a_simulated_race() {
     }
 }
 
-/// The rig of the measured records, simulated: the same verdicts with no hint, both envelopes in one figure.
+/// Simulation of the measured rig: the same diagnosis, both envelope spectra in one figure.
 #[test]
-fn the_simulated_rig_says_the_same() {
+fn simulated_rig_gives_the_measured_diagnosis() {
     for (variant, verdict, line, file) in [
         ("inner_race", "inner race", "BPFI", "cwru/105_IR007_0hp_12k.mat"),
         ("outer_race", "outer race", "BPFO", "cwru/130_OR007at6_0hp_12k.mat"),
@@ -383,7 +388,7 @@ fn the_simulated_rig_says_the_same() {
         let folder = tempfile::tempdir().unwrap();
         let mut run = rotordyn();
         run.args(["run-up", "models/cwru_6205.toml", "--variant", variant, "--no-figures", "--out"]);
-        // Eleven turns of the cage after the quarter of a second in which the run settles.
+        // Eleven cage revolutions after the initial transient of 0.25 s.
         output_of(run.arg(folder.path()).args(["--set", "speed.duration=1.25 s", "--quiet"]));
         let measured = measured_data::measured(file);
         let mut flags =
@@ -403,7 +408,7 @@ fn the_simulated_rig_says_the_same() {
         assert_eq!(envelope["verdict"], verdict, "{variant}");
         let strongest = &envelope["strongest"];
         assert_eq!(strongest["line"], line, "{variant}");
-        // The cage turns as measured, 0.35 % from the rates of the geometry.
+        // Cage speed as measured, 0.35 % off the kinematic rates of the geometry.
         let off = number(&strongest["at"]) / number(&strongest["expected"]) - 1.0;
         assert!(off.abs() < 5e-3, "{variant}: {off}");
         if let Some(path) = &measured {

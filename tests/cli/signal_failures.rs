@@ -1,13 +1,13 @@
-//! `signal`: what is wrong with files and flags is told, all of it, with what to do.
+//! `signal` command: all problems of files and flags are reported, with hints.
 
 use std::path::Path;
 
 use crate::rotordyn;
-use crate::signal::faulty_file;
+use crate::signal::faulty_bearing_file;
 use rotordyn::edge::measured;
 use rotordyn::signal::record::{Measured, Record};
 
-/// What a command that must fail says, with the folder's name left out.
+/// Standard error of a command that must fail, run inside the folder.
 fn refusal(folder: &Path, file: &str, flags: &[&str]) -> String {
     let mut command = rotordyn();
     command.current_dir(folder).args(["signal", file, "--no-figures", "--out", "out"]).args(flags);
@@ -25,8 +25,8 @@ fn write(folder: &Path, name: &str, records: Vec<Record>) {
 fn bad_input() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    faulty_file(folder, "good.h5", 12_000.0, "m/s^2");
-    faulty_file(folder, "slow.h5", 1000.0, "m/s^2");
+    faulty_bearing_file(folder, "good.h5", 12_000.0, "m/s^2");
+    faulty_bearing_file(folder, "slow.h5", 1000.0, "m/s^2");
     let plain = |name: &str, rate: f64, values: Vec<f64>| Record::samples(name, rate, 0.0, values, "m/s^2");
     let wave = |n: usize| (0..n).map(|k| (0.3 * k as f64).sin()).collect::<Vec<_>>();
     write(folder, "short.h5", vec![plain("A_ax", 12_000.0, wave(3000))]);
@@ -80,20 +80,20 @@ fn bad_input() {
             vec!["--channel", "B", "--bearing", "62", "--band", "x", "--race", "middle"],
         ),
     ];
-    let told: Vec<String> = cases
+    let outputs: Vec<String> = cases
         .iter()
         .map(|(name, file, flags)| format!("# {name}\n{}\n", refusal(folder, file, flags)))
         .collect();
-    insta::assert_snapshot!("bad_input_of_signal", told.join("\n"));
+    insta::assert_snapshot!("bad_input_of_signal", outputs.join("\n"));
 }
 
-/// Doubts that are no errors: said, and the work is done.
+/// Questionable input gives warnings, and the analysis is computed.
 #[test]
 fn warnings() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    faulty_file(folder, "good.h5", 12_000.0, "m/s^2");
-    // A tacho with every seventh pulse missing, 25 turns a second.
+    faulty_bearing_file(folder, "good.h5", 12_000.0, "m/s^2");
+    // A tacho at 25 rev/s with every seventh pulse missing.
     let pulse = |k: usize| {
         let turns = 25.0 * k as f64 / 12_000.0;
         f64::from(turns.fract() < 0.2 && (turns as usize) % 7 != 6)

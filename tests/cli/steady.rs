@@ -1,4 +1,4 @@
-//! Steady motions: sections, exponents, diagrams, on the varying-compliance machine.
+//! Steady motions of the varying-compliance machine: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use crate::{json_of, output_of, rotordyn};
 use rotordyn::edge::hdf5::{Attribute, Store};
@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 const MODEL: &str = "models/varying_compliance.toml";
-/// Small enough to take a second.
+/// Few periods, for a run of about a second.
 const SHORT: [&str; 4] = ["--settle", "60", "--periods", "40"];
 
 fn texts(store: &Store, path: &str) -> Vec<String> {
@@ -14,21 +14,21 @@ fn texts(store: &Store, path: &str) -> Vec<String> {
 }
 
 #[test]
-fn help_of_steady_motions_reads_like_a_manual() {
+fn help_of_steady_motion_commands_has_examples() {
     for command in ["poincare", "lyapunov", "bifurcation"] {
         let text = output_of(rotordyn().args([command, "--help"]));
         assert!(text.contains("Examples:") && text.contains(&format!("[study.{command}]")), "{text}");
     }
 }
 
-/// One file, to which all three add their part.
+/// All three commands add their results to one file.
 #[test]
-fn steady_motions_are_computed_shown_and_stored() {
+fn steady_motions_are_computed_printed_and_stored() {
     let folder = tempfile::tempdir().unwrap();
     let run = |command: &str, flags: &[&str]| {
         output_of(rotordyn().args([command, MODEL, "--out"]).arg(folder.path()).args(flags))
     };
-    // Settled within sixty passages at 1600 rpm: a motion of the ball passage's own period.
+    // At 1600 rpm transients decay within 60 ball passages: a motion with the ball-passage period.
     let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300", "--periods", "40"]);
     for part in
         ["Motion at 1600.0 rpm, 40 section points", "ball passage of C (82.256 Hz)", "period 1", "x_rate"]
@@ -51,7 +51,7 @@ fn steady_motions_are_computed_shown_and_stored() {
         panic!()
     };
     let history = store.read("/lyapunov/exponent").unwrap().data;
-    // −c/2m is the slowest that a perturbation can fade here.
+    // The four exponents sum to −2c/m: the largest is at least −c/(2m) = −5 1/s.
     assert!(exponent < -2.0 && exponent > -10.0 && history.last() == Some(&exponent), "{exponent}");
     let section = store.read("/bifurcation/up/channels/x/section").unwrap();
     assert_eq!(section.shape, [8, 40]);
@@ -62,9 +62,9 @@ fn steady_motions_are_computed_shown_and_stored() {
     }
 }
 
-/// Clearance, number of balls (every whole number), and a speed that the file states nowhere else.
+/// Diagrams over clearance, over the number of balls (every integer), and over speed without a `[speed]` table.
 #[test]
-fn diagrams_over_any_parameter() {
+fn bifurcation_diagrams_over_any_parameter() {
     let folder = tempfile::tempdir().unwrap();
     let run = |flags: &[&str]| {
         let mut command = rotordyn();
@@ -79,16 +79,16 @@ fn diagrams_over_any_parameter() {
     let points = found["sweeps"][0]["points"].as_array().unwrap();
     assert_eq!((found["sweeps"].as_array().unwrap().len(), points.len()), (1, 5));
     assert!(points.iter().all(|p| p["exponent"]["value"].is_f64()), "{found}");
-    // The looser, the deeper the shaft hangs: by half the clearance, less what the load spreads over more balls.
-    let hangs = |k: usize| points[k]["extremes"][1][0].as_f64().unwrap();
-    let deeper = hangs(0) - hangs(4);
-    assert!((20e-6..26e-6).contains(&deeper), "{deeper}");
+    // Clearance lowers the shaft by half its value, and further because fewer balls carry the load.
+    let lowest = |k: usize| points[k]["extremes"][1][0].as_f64().unwrap();
+    let lowering = lowest(0) - lowest(4);
+    assert!((20e-6..26e-6).contains(&lowering), "{lowering}");
     let found =
         run(&["--parameter", "bearing.C.balls", "--from", "7", "--to", "9", "--start", "equilibrium"]);
     let points = found["sweeps"][0]["points"].as_array().unwrap();
     let balls: Vec<f64> = points.iter().map(|p| p["value"].as_f64().unwrap()).collect();
     assert_eq!(balls, [7.0, 8.0, 9.0]);
-    // The clock is each machine's own: Z times the cage.
+    // The section frequency is each machine's ball-passage frequency: Z times the cage speed.
     for (p, z) in points.iter().zip(balls) {
         let expected = z * 0.385_577 * 1600.0 / 60.0;
         assert!((p["frequency_hz"].as_f64().unwrap() / expected - 1.0).abs() < 1e-6, "{p}");
@@ -106,9 +106,9 @@ fn diagrams_over_any_parameter() {
     assert_eq!(found["bifurcation"]["sweeps"][0]["points"].as_array().unwrap().len(), 3);
 }
 
-/// Every byte of the file: pieces of a sweep run side by side give the diagram of one run after the other.
+/// Identical to the byte: parts of a sweep computed in parallel give the serial diagram.
 #[test]
-fn diagrams_do_not_depend_on_threads() {
+fn bifurcation_diagrams_do_not_depend_on_threads() {
     let folder = tempfile::tempdir().unwrap();
     let run = |threads: &str| {
         let out = folder.path().join(threads);
@@ -122,7 +122,7 @@ fn diagrams_do_not_depend_on_threads() {
 }
 
 #[test]
-fn ctrl_c_leaves_the_values_done() {
+fn ctrl_c_keeps_the_computed_values() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
         .args(["bifurcation", MODEL, "--no-figures", "--threads", "1", "--json"])
@@ -133,14 +133,14 @@ fn ctrl_c_leaves_the_values_done() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    // The file appears when the models are read; some seconds later some values are done, two thousand are not.
+    // The file appears when the models are read; 20 s later some, but not all, of the 2000 values are computed.
     let begun = Instant::now();
     while !folder.path().join("results.h5").exists() {
         assert!(begun.elapsed() < Duration::from_secs(300), "no file after five minutes");
         std::thread::sleep(Duration::from_millis(100));
     }
     std::thread::sleep(Duration::from_secs(20));
-    assert!(child.try_wait().unwrap().is_none(), "it was done already");
+    assert!(child.try_wait().unwrap().is_none(), "the run had already finished");
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
@@ -154,16 +154,16 @@ fn ctrl_c_leaves_the_values_done() {
     assert!((1..1000).contains(&done), "{done}");
 }
 
-/// What cannot be is said at its place in the file, before anything is run.
+/// Invalid parameters are reported at their place in the file before any computation.
 #[test]
-fn a_wrong_parameter_is_refused_before_the_work() {
-    let said = |flags: &[&str]| {
+fn invalid_parameter_is_rejected_before_the_run() {
+    let error_text = |flags: &[&str]| {
         let output =
             rotordyn().args(["bifurcation", MODEL]).args(flags).assert().code(2).get_output().clone();
         String::from_utf8(output.stderr).unwrap()
     };
-    let text = said(&["--parameter", "bearing.C.radial_clearence", "--from", "0 um", "--to", "9 um"]);
+    let text = error_text(&["--parameter", "bearing.C.radial_clearence", "--from", "0 um", "--to", "9 um"]);
     assert!(text.contains("did you mean `radial_clearance`?"), "{text}");
-    let text = said(&["--from", "1600 rpm", "--to", "1600 rpm"]);
+    let text = error_text(&["--from", "1600 rpm", "--to", "1600 rpm"]);
     assert!(text.contains("must be above"), "{text}");
 }

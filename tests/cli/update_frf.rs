@@ -1,4 +1,4 @@
-//! `update --fit frf`: FRFs that the rig with other housings gives with noise, fitted by the rig as it is.
+//! `update --fit frf`: noisy FRFs of the rig with changed housings, fitted by the unchanged rig.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -7,7 +7,7 @@ use crate::{json_of, output_of, rotordyn};
 
 const RIG: &str = "models/overhung_rig.toml";
 
-/// FRFs by hits on the disc along y and on housing B along x, stored by `frf --noise`.
+/// FRFs of hits on the disc along y and on housing B along x, stored by `frf --noise`.
 static TEST: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("test");
@@ -45,7 +45,7 @@ fn update(fit: &str, out: &Path) -> assert_cmd::Command {
 }
 
 #[test]
-fn housings_come_back_by_every_fit_of_frfs() {
+fn housing_stiffness_is_recovered_by_every_frf_fit() {
     let folder = tempfile::tempdir().unwrap();
     for fit in ["frf", "frf-complex", "frequency,mac,frf"] {
         let document = json_of(&mut update(fit, folder.path()));
@@ -56,14 +56,19 @@ fn housings_come_back_by_every_fit_of_frfs() {
             assert!((value / truth - 1.0).abs() < 0.02, "{fit}: {parameter}");
         }
         assert_eq!(document["converged"], true);
-        let apart = |when: &str| document[format!("frf_db_{when}")].as_f64().unwrap();
-        // Noise of 40 dB is some tenths of a dB between resonances.
-        assert!(apart("before") > 3.0 && apart("after") < 1.0, "{} {}", apart("before"), apart("after"));
+        let distance_db = |when: &str| document[format!("frf_db_{when}")].as_f64().unwrap();
+        // A signal-to-noise ratio of 40 dB gives some tenths of a dB between resonances.
+        assert!(
+            distance_db("before") > 3.0 && distance_db("after") < 1.0,
+            "{} {}",
+            distance_db("before"),
+            distance_db("after")
+        );
     }
 }
 
 #[test]
-fn the_report_tells_what_was_fitted() {
+fn report_lists_the_fitted_parameters() {
     let folder = tempfile::tempdir().unwrap();
     let text = output_of(&mut update("frf-complex", folder.path()));
     println!("{text}");
@@ -74,9 +79,9 @@ fn the_report_tells_what_was_fitted() {
     }
 }
 
-/// The rig's own hit at the rim is along no axis: its shapes serve, and the FRFs of the other force are fitted.
+/// The rig's rim excitation is along no axis: its shapes are used, but only the FRFs of the other force are fitted.
 #[test]
-fn a_hit_askew_has_no_frfs_to_fit() {
+fn skew_excitation_is_excluded_from_the_frf_fit() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("test");
     let mut test = rotordyn();
@@ -86,8 +91,8 @@ fn a_hit_askew_has_no_frfs_to_fit() {
     command.args(["update", RIG, "--free", "housing.*.k_x", "--fit", "frf", "--no-figures", "--json"]);
     command.arg("--measured").arg(out.join("frf_noisy.uff")).arg("--out").arg(folder.path());
     let output = command.assert().success().get_output().clone();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("FRFs under the force") && said.contains("are not compared"), "{said}");
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(stderr.contains("FRFs under the force") && stderr.contains("are not compared"), "{stderr}");
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let parameter = &document["parameters"][0];
     let ratio = parameter["value"].as_f64().unwrap() / parameter["start"].as_f64().unwrap();
@@ -95,7 +100,7 @@ fn a_hit_askew_has_no_frfs_to_fit() {
 }
 
 #[test]
-fn modal_damping_is_free_like_any_number() {
+fn modal_damping_ratios_are_free_parameters() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("jeffcott.toml");
     let text =
@@ -126,7 +131,7 @@ fn modal_damping_is_free_like_any_number() {
     let new = std::fs::read_to_string(folder.path().join("updated/jeffcott_updated.toml")).unwrap();
     assert!(new.contains("# a guess"), "{new}");
     println!("{}", new.lines().find(|line| line.contains("a guess")).unwrap());
-    // Both at once keep their ratio.
+    // Freed together by a wildcard they keep their ratio.
     let document = json_of(&mut update("damping.modal.ratio.*"));
     assert_eq!(document["parameters"][0]["paths"].as_array().unwrap().len(), 2);
     let refused = update("damping.modal.ratio").assert().code(2).get_output().stderr.clone();

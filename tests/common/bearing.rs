@@ -1,4 +1,4 @@
-//! The rig's 6205 as data, for tests that need a bearing and no model file.
+//! Ball bearing 6205 of the overhung rig, for tests without a model file.
 #![allow(dead_code)]
 
 use rotordyn::bearing::{BallBearing, BallGeometry, BallInertia, Cage, Fit, Preload};

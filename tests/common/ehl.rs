@@ -9,7 +9,7 @@ pub fn steel(young: f64) -> Material {
     Material { name: "steel".into(), young, shear, poisson: 0.3, density: 7850.0 }
 }
 
-/// Circular contact of Moes' parameters M = Q/(E′ R²) (2U)^{−3/4} and L = α E′ (2U)^{1/4}, U = η₀ u/(E′ R),
+/// Circular contact of Moes parameters M = Q/(E′ R²) (2U)^{−3/4} and L = α E′ (2U)^{1/4}, U = η₀ u/(E′ R),
 /// E′ = 2 E*: E 206 GPa, ν 0.3, R 10 mm, η₀ 0.04 Pa s, α 2.2e-8 1/Pa (so Roelands' z is 0.668).
 pub fn circular(m: f64, l: f64, nodes: usize) -> Problem {
     let radius = 10e-3;

@@ -35,7 +35,7 @@ pub fn disc(node: usize, mass: f64, polar: f64, diametral: f64) -> Disc {
     }
 }
 
-/// A bare shaft, free in space.
+/// A bare shaft without supports (free-free).
 pub fn shaft(elements: Vec<ShaftElement>) -> Model {
     let mut node_z = vec![0.0];
     for e in &elements {

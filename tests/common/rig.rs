@@ -20,7 +20,7 @@ pub fn rig(supports: Supports) -> Model {
     }
 }
 
-/// The rig with a variant and settings laid over it.
+/// The rig with a variant and overriding settings.
 pub fn variant(variant: Option<&str>, set: &[(&str, &str)]) -> Model {
     let options = Options {
         variant: variant.map(String::from),

@@ -1,4 +1,4 @@
-//! Builds a model from a reference file of ROSS 3.1.0 figures (schema ross-ref-1).
+//! Builds a model from a reference file of ROSS 3.1.0 results (schema ross-ref-1).
 
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow, LinearElement, SiteTangent};
 use rotordyn::element::{Anchor, Disc, Material, ShaftElement, ShearCoefficient};

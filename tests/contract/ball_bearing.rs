@@ -1,9 +1,9 @@
-//! The ball bearing's tangents by differences, its symmetry, its energy.
+//! Ball bearing: tangents compared with finite differences, rotational symmetry, energy and power balance.
 
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{BallElement, Fit, Rotation, Wave};
 
-/// Small deterministic generator; the seed is the test's own.
+/// Deterministic pseudo-random numbers in [−1, 1); every test sets its seed.
 pub struct Random(pub u64);
 impl Random {
     pub fn next(&mut self) -> f64 {
@@ -32,7 +32,7 @@ fn variants() -> Vec<BallElement> {
 }
 
 #[test]
-fn tangents_equal_differences() {
+fn tangents_match_finite_differences() {
     let mut random = Random(7);
     let mut loaded = 0;
     for element in variants() {
@@ -45,7 +45,7 @@ fn tangents_equal_differences() {
                 shaft_speed: 100.0,
             };
             let here = element.reaction(&d, &v, &rotation);
-            // A contact about to open or still in the damping ramp has a kink within the difference step.
+            // A contact near opening or at the end of the damping ramp has a kink within the difference step.
             let smooth = element
                 .ball_loads(&d, &rotation)
                 .iter()
@@ -84,7 +84,7 @@ fn tangents_equal_differences() {
 }
 
 #[test]
-fn elastic_force_is_the_gradient_of_the_energy() {
+fn elastic_force_is_gradient_of_energy() {
     let mut random = Random(11);
     for element in variants() {
         for _ in 0..50 {
@@ -112,7 +112,8 @@ fn elastic_force_is_the_gradient_of_the_energy() {
 
 #[test]
 fn power_balance_closes() {
-    // d(energy)/dt + dissipation = −f·v + parametric power, along a straight path with turning cage and waves.
+    // d(energy)/dt + dissipation = −f·v + parametric power, along a straight path with rotating cage and
+    // waviness.
     let mut random = Random(5);
     for element in variants() {
         for _ in 0..50 {
@@ -142,10 +143,10 @@ fn power_balance_closes() {
 }
 
 #[test]
-fn contact_damping_never_pulls() {
+fn contact_force_is_never_tensile() {
     let element = &variants()[0];
     let rotation = Rotation::default();
-    // Withdrawing fast from a squeezed position: the contact lets go instead of pulling.
+    // Fast separation from a compressed position: the contact opens instead of transmitting tension.
     let d = [8e-6, 0.0, 0.0, 0.0, 0.0, 0.0];
     let fast = element.reaction(&d, &[-10.0, 0.0, 0.0, 0.0, 0.0, 0.0], &rotation);
     assert_eq!(fast.force, [0.0; 6]);
@@ -155,7 +156,7 @@ fn contact_damping_never_pulls() {
 }
 
 #[test]
-fn rotating_load_and_cage_together_rotates_the_answer() {
+fn rotating_displacement_and_cage_rotates_force() {
     let element = &variants()[0];
     let mut random = Random(3);
     for _ in 0..20 {
@@ -175,7 +176,7 @@ fn rotating_load_and_cage_together_rotates_the_answer() {
 }
 
 #[test]
-fn a_mounted_bearing_has_the_clearance_its_fit_leaves() {
+fn fit_changes_radial_clearance() {
     let mut mounted = rig_6205();
     mounted.fit = Fit {
         shaft_interference: 6e-6,

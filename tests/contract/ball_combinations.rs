@@ -1,4 +1,4 @@
-//! Every allowed combination of contact law, ball inertia, preload and pairing owes the same.
+//! Invariants of every allowed combination of contact law, ball inertia, preload and pair arrangement.
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
@@ -33,8 +33,8 @@ pub fn angular() -> BallBearing {
     bearing
 }
 
-/// Every combination that a bearing can be made of.
-pub fn each(mut visit: impl FnMut(&str, &BallBearing)) {
+/// Calls `visit` with every combination of the bearing's options.
+pub fn for_each_combination(mut visit: impl FnMut(&str, &BallBearing)) {
     let pairs =
         [None, Some(Arrangement::BackToBack), Some(Arrangement::FaceToFace), Some(Arrangement::Tandem)];
     for law in [ContactLaw::Hertz, film(), tabulated(&angular().hertz())] {
@@ -93,23 +93,23 @@ fn largest(m: &[[f64; 6]; 6]) -> f64 {
 }
 
 #[test]
-fn tangents_equal_differences() {
+fn tangents_match_finite_differences() {
     let mut random = Random(31);
     let mut compared = 0;
-    each(|name, bearing| compared += compare_tangents(&mut random, name, bearing));
+    for_each_combination(|name, bearing| compared += compare_tangents(&mut random, name, bearing));
     assert!(compared > 10_000);
 }
 
-/// Both tangents against differences at four random motions; how many entries were compared.
+/// Compares both tangents with finite differences at four random states; returns the number of entries.
 pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) -> usize {
     let mut compared = 0;
     let element = BallElement::new(bearing);
-    let sprung = matches!(bearing.preload, Preload::Spring { .. });
+    let spring_preload = matches!(bearing.preload, Preload::Spring { .. });
     for _ in 0..4 {
         let (d, v, mut rotation) = sample(random);
         let mut v_for_stiffness = v;
-        if sprung {
-            // On a spring the stiffness is exact at rest; see the element.
+        if spring_preload {
+            // With spring preload the stiffness is exact at rest only; see the element.
             v_for_stiffness = [0.0; 6];
             rotation.cage_speed = 0.0;
         }
@@ -126,20 +126,20 @@ pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) 
             let (plus, minus) = (at(step), at(-step));
             let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
             let (faster, slower) = (along(rate), along(-rate));
-            // A ball that lets go within the step bends the force; the damping of one that holds is the same.
-            let lets_go = (0..5)
+            // A ball that loses contact within the step has a kink; otherwise its damping is constant.
+            let loses_contact = (0..5)
                 .any(|a| (0..5).any(|b| (faster.damping[a][b] - slower.damping[a][b]).abs() > 1e-9 * c_size));
             for row in 0..5 {
                 let scale = lever(row) * lever(column);
                 let k = -(plus.force[row] - minus.force[row]) / (2.0 * step);
-                // The mean of both ends follows a tangent that changes within the step, as where a ball unloads.
+                // Mean of both ends, since the tangent changes within the step, e.g. where a ball unloads.
                 let mean = 0.5 * (plus.stiffness[row][column] + minus.stiffness[row][column]);
                 let c = -(faster.force[row] - slower.force[row]) / (2.0 * rate);
                 let (dk, dc) = (k - mean, c - here.damping[row][column]);
-                // A ball that unloads within the step costs √(0.1 nm/1 µm) of its own small stiffness.
+                // A ball that unloads within the step adds an error of √(0.1 nm/1 µm) of its small stiffness.
                 assert!(dk.abs() <= 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
                 assert!(
-                    lets_go || dc.abs() <= 1e-6 * c_size * scale,
+                    loses_contact || dc.abs() <= 1e-6 * c_size * scale,
                     "{name} C[{row}][{column}] {c} off by {dc}"
                 );
                 compared += 1;
@@ -152,12 +152,13 @@ pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) 
 #[test]
 fn power_balance_closes() {
     let mut random = Random(5);
-    each(|name, bearing| balance_power(&mut random, name, bearing));
+    for_each_combination(|name, bearing| check_power_balance(&mut random, name, bearing));
 }
 
-/// d(energy)/dt + dissipation = −f·v + parametric power along a straight path with turning cage.
-pub fn balance_power(random: &mut Random, name: &str, bearing: &BallBearing) {
-    // On a spring the work of the balls' inertia along what the turning cage does to the ring is not booked.
+/// d(energy)/dt + dissipation = −f·v + parametric power along a straight path with rotating cage.
+pub fn check_power_balance(random: &mut Random, name: &str, bearing: &BallBearing) {
+    // With spring preload the work of ball inertia on the ring motion due to cage rotation is not accounted
+    // for.
     if matches!(bearing.preload, Preload::Spring { .. }) && bearing.inertia != BallInertia::None {
         return;
     }
@@ -182,9 +183,9 @@ pub fn balance_power(random: &mut Random, name: &str, bearing: &BallBearing) {
 }
 
 #[test]
-fn rotating_load_and_cage_rotates_the_answer() {
+fn rotating_displacement_and_cage_rotates_force() {
     let mut random = Random(3);
-    each(|name, bearing| {
+    for_each_combination(|name, bearing| {
         let mut bearing = bearing.clone();
         bearing.imperfections.inner_waviness.clear();
         bearing.imperfections.outer_waviness.clear();
@@ -203,7 +204,8 @@ fn rotating_load_and_cage_rotates_the_answer() {
         for (k, (a, b)) in expected.into_iter().zip(other.force).enumerate() {
             assert!((a - b).abs() < 1e-9 * size * lever(k), "{name}");
         }
-        // Averaged over the cage, a turn of the load alone does it, but for the harmonics that 12 angles miss.
+        // Averaged over the cage angle, rotating the displacement alone suffices, up to harmonics missed by
+        // 12 angles.
         let plain = turn(element.cage_average(&d, &rotation, 12).force);
         let other = element.cage_average(&turn(d), &rotation, 12).force;
         for k in 0..5 {
@@ -213,13 +215,13 @@ fn rotating_load_and_cage_rotates_the_answer() {
 }
 
 #[test]
-fn at_rest_inertia_changes_nothing() {
+fn ball_inertia_has_no_effect_at_rest() {
     let mut random = Random(8);
-    each(|name, bearing| {
+    for_each_combination(|name, bearing| {
         let massless = BallElement::new(&BallBearing { inertia: BallInertia::None, ..bearing.clone() });
         let element = BallElement::new(bearing);
         let (d, v, _) = sample(&mut random);
-        // At rest, and creeping: the centrifugal force is 1e-11 N.
+        // At rest and at very low speed, where the centrifugal force is 1e-11 N.
         for (shaft_speed, tolerance) in [(0.0, 1e-15), (1e-3, 1e-10)] {
             let rotation = Rotation { cage_angle: 0.3, shaft_speed, ..Rotation::default() };
             let (a, b) = (element.reaction(&d, &v, &rotation), massless.reaction(&d, &v, &rotation));
@@ -236,7 +238,7 @@ fn at_rest_inertia_changes_nothing() {
 }
 
 #[test]
-fn work_over_a_closed_path_of_the_dry_law_is_zero() {
+fn dry_law_does_no_work_on_closed_path() {
     for duplex in [None, Some(Duplex { arrangement: Arrangement::BackToBack, spacing: 15e-3 })] {
         for preload in PRELOAD {
             let element = BallElement::new(&BallBearing { preload, duplex, ..angular() });
@@ -255,7 +257,7 @@ fn work_over_a_closed_path_of_the_dry_law_is_zero() {
                 work += step;
                 size += step.abs();
             }
-            // The midpoint rule on 4000 steps round the path; balls unload on the way.
+            // Midpoint rule with 4000 steps; balls unload along the path.
             assert!(work.abs() < 1e-5 * size, "{preload:?}: {work} of {size}");
         }
     }

@@ -1,4 +1,5 @@
-//! Balls with inertia: their balance put together outside the element, angles, and the race they leave.
+//! Ball inertia (centrifugal force, gyroscopic moment): independent force balance, contact angles, loss of
+//! inner contact.
 
 use crate::ball_bearing::Random;
 use crate::ball_combinations::{angular, film};
@@ -12,14 +13,14 @@ fn at_speed(speed: f64) -> Rotation {
     Rotation { cage_angle: 0.3, cage_speed: CAGE * speed, shaft_speed: speed, ..Rotation::default() }
 }
 
-/// What is left of the force balance of a ball \[N\], by Harris' angles of attitude and his J ω_R ω_m sin β.
-fn imbalance(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
+/// Residual force of a ball \[N\], with Harris' attitude angle β and gyroscopic moment J ω_R ω_m sin β.
+fn force_residual(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
     let (d, pitch) = (bearing.geometry.ball_diameter, bearing.geometry.pitch_diameter);
     let mass = bearing.ball_material.density * std::f64::consts::PI / 6.0 * d.powi(3);
     let (gamma, orbit) = (d / pitch, CAGE * shaft);
     let centrifugal = 0.5 * mass * pitch * orbit * orbit;
     let (ai, ao) = (ball.contact_angle, ball.outer_contact_angle);
-    // Spin relative to the cage from rolling on one race, about an axis at β in which there is no pivoting on it.
+    // Spin relative to the cage from rolling on one race, about an axis at β without pivoting on that race.
     let moment = |beta: f64, spin: f64| 0.1 * mass * d * d * spin * orbit * beta.sin();
     let outer = {
         let beta = (ao.sin() / (ao.cos() + gamma)).atan();
@@ -46,9 +47,9 @@ fn imbalance(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
 }
 
 #[test]
-fn balls_are_in_balance_to_a_billionth_of_a_newton() {
+fn ball_force_balance() {
     let mut random = Random(17);
-    let (mut loaded, mut thrown) = (0, 0);
+    let (mut loaded, mut unloaded) = (0, 0);
     for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
         for law in [ContactLaw::Hertz, film()] {
             for base in [rig_6205(), angular()] {
@@ -58,22 +59,22 @@ fn balls_are_in_balance_to_a_billionth_of_a_newton() {
                     let speed = 10f64.powf(1.0 + 2.6 * (0.5 + 0.5 * random.next()));
                     let d = random.scaled([20e-6, 20e-6, 80e-6, 1e-3, 1e-3, 0.0]);
                     for ball in element.ball_loads(&d, &at_speed(speed)) {
-                        let left = imbalance(&bearing, &ball, speed);
-                        // Angles pass through atan2: 1e-16 of the load besides.
+                        let left = force_residual(&bearing, &ball, speed);
+                        // Plus round-off of the angles (atan2), relative to the load.
                         let bound = 1e-9 + 1e-14 * ball.outer_load;
-                        assert!(left < bound, "{inertia:?} at {speed}: {left} N left, {ball:?}");
-                        assert!(ball.outer_load > 0.0, "a thrown ball lies on the outer race");
-                        if ball.load > 0.0 { loaded += 1 } else { thrown += 1 }
+                        assert!(left < bound, "{inertia:?} at {speed}: residual {left} N, {ball:?}");
+                        assert!(ball.outer_load > 0.0, "a ball always loads the outer race");
+                        if ball.load > 0.0 { loaded += 1 } else { unloaded += 1 }
                     }
                 }
             }
         }
     }
-    assert!(loaded > 3000 && thrown > 3000, "{loaded} loaded, {thrown} thrown");
+    assert!(loaded > 3000 && unloaded > 3000, "{loaded} loaded, {unloaded} unloaded");
 }
 
 #[test]
-fn outer_angle_falls_and_inner_angle_rises_with_speed() {
+fn outer_contact_angle_falls_and_inner_rises_with_speed() {
     for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
         let element = BallElement::new(&BallBearing { inertia, ..angular() });
         let mut before: Option<BallLoad> = None;
@@ -92,8 +93,8 @@ fn outer_angle_falls_and_inner_angle_rises_with_speed() {
 }
 
 #[test]
-fn a_ball_leaves_the_inner_race_without_a_jump() {
-    // The inner ring is drawn back along the thrust at speed until its balls are thrown free.
+fn force_is_continuous_at_loss_of_inner_contact() {
+    // Radial displacement of the inner ring at speed, from no inner contact to load.
     for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
         let element = BallElement::new(&BallBearing { inertia, ..rig_6205() });
         let force =
@@ -104,14 +105,14 @@ fn a_ball_leaves_the_inner_race_without_a_jump() {
             let middle = 0.5 * (low + high);
             if force(middle) < 0.0 { high = middle } else { low = middle }
         }
-        // Hertz: 1e-12 m beyond the last contact is 1e10 (1e-12)^1.5 N.
+        // Hertz: 1e-12 m beyond first contact gives 1e10 (1e-12)^1.5 N.
         assert!(force(high + 1e-12).abs() < 1e-7, "{inertia:?}: {}", force(high + 1e-12));
     }
 }
 
 #[test]
-fn cage_follows_the_kinematics_of_outer_race_control() {
-    // Without given cage speed the mean cosine must be the one of a ball with both contact angles.
+fn cage_speed_ratio_of_outer_race_control() {
+    // With a rolling cage the ratio is that of a ball with different inner and outer contact angles.
     let bearing = BallBearing {
         inertia: BallInertia::OuterRaceControl,
         cage: Cage::Rolling,
@@ -129,7 +130,7 @@ fn cage_follows_the_kinematics_of_outer_race_control() {
 }
 
 #[test]
-fn what_changes_with_speed_says_so() {
+fn speed_dependence_is_reported() {
     assert!(!BallElement::new(&angular()).depends_on_speed());
     for bearing in [
         BallBearing { contact: film(), ..angular() },

@@ -1,4 +1,4 @@
-//! One bearing alone: the equilibrium it finds, the stiffness it gives, from any load.
+//! Single-bearing solver: equilibrium and stiffness under any load.
 
 use crate::bearing::rig_6205;
 use proptest::prelude::*;
@@ -18,10 +18,10 @@ fn angular_contact() -> BallBearing {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// From the centred bearing with clearance to any load, moments included: an equilibrium, and the load that
-    /// holds its displacement is the one given.
+    /// Equilibrium under any load, moments included, started at the centred bearing with clearance; the
+    /// reaction at the constrained equilibrium displacement equals the load.
     #[test]
-    fn any_load_is_met(
+    fn equilibrium_under_any_load(
         force in prop::array::uniform3(-3000.0..3000.0f64),
         moment in prop::array::uniform2(-8.0..8.0f64),
         size in -4.0..0.0f64,
@@ -41,9 +41,9 @@ proptest! {
         }
     }
 
-    /// Averaged over the cage a bearing has no direction of its own: turning the load turns the answer.
+    /// Averaged over the cage angle the bearing is isotropic: rotating the load rotates the displacement.
     #[test]
-    fn turned_load_turned_displacement(angle in -3.0..3.0f64, axial in 0.0..800.0f64, tilt in -3.0..3.0f64) {
+    fn rotated_load_rotates_displacement(angle in -3.0..3.0f64, axial in 0.0..800.0f64, tilt in -3.0..3.0f64) {
         let solver = BearingSolver::new("round", &rig_6205());
         let load = [0.0, -900.0, axial, tilt, 0.0];
         let (sin, cos) = f64::sin_cos(angle);
@@ -55,16 +55,16 @@ proptest! {
         let force = solver.reaction(&free(load), &turn(found.displacement)).force;
         let turned = turn(load);
         for k in 0..5 {
-            // What the mean over 108 places of a ball, some just leaving contact, leaves of the pitch.
+            // Residual ball-pitch dependence of the mean over 108 ball positions, some near loss of contact.
             let size = if k > 2 { 900.0 * solver.radius } else { 900.0 };
             prop_assert!((force[k] + turned[k]).abs() < 1e-3 * size, "{k}: {force:?} {turned:?}");
         }
     }
 }
 
-/// The stiffness with other motions free is the slope of load over displacement when nothing else is held.
+/// The condensed stiffness (other DOFs free) is the slope of load over displacement.
 #[test]
-fn condensed_stiffness_is_the_slope_of_the_load() {
+fn condensed_stiffness_is_slope_of_load() {
     let solver = BearingSolver::new("slope", &angular_contact());
     let load = [200.0, -400.0, 900.0, 1.0, -2.0];
     let at = solver.solve(&condition(load, CageTreatment::AsPlaced), None).unwrap();
@@ -82,10 +82,10 @@ fn condensed_stiffness_is_the_slope_of_the_load() {
     }
 }
 
-/// Held motions take what load they need; free ones carry the load given.
+/// Constrained DOFs take the reaction; free DOFs carry the given load.
 #[test]
-fn any_motion_can_be_held() {
-    let solver = BearingSolver::new("held", &angular_contact());
+fn any_dofs_can_be_constrained() {
+    let solver = BearingSolver::new("constrained", &angular_contact());
     let base = condition([0.0, -500.0, 700.0, 0.0, 0.0], CageTreatment::AsPlaced);
     for mask in 0..32usize {
         let held: [Option<f64>; 5] =
@@ -101,9 +101,9 @@ fn any_motion_can_be_held() {
     }
 }
 
-/// No load on a bearing with clearance: nothing moves, nothing resists; a sweep from there goes on.
+/// Zero load with clearance gives zero displacement and stiffness; a load sweep from there converges.
 #[test]
-fn from_no_load() {
+fn load_sweep_from_zero() {
     let solver = BearingSolver::new("loose", &rig_6205());
     let loads: Vec<Condition> = (0..20)
         .map(|k| condition([0.0, -50.0 * f64::from(k), 0.0, 0.0, 0.0], CageTreatment::AsPlaced))
@@ -113,13 +113,13 @@ fn from_no_load() {
     assert_eq!(found[0].displacement, [0.0; 5]);
     assert_eq!(found[0].stiffness_free(&[0.0, 1.0, 0.0, 0.0, 0.0], solver.radius), 0.0);
     assert!(found.windows(2).all(|w| w[1].displacement[1] < w[0].displacement[1]));
-    // The first ball meets the load after half the diametral clearance at the least.
+    // Contact starts after at least half the diametral clearance.
     assert!(found[1].displacement[1] < -5e-6);
 }
 
-/// The table of loads and cage angles is the same whatever the number of threads, and as good as point by point.
+/// The map over loads and cage angles is independent of the number of threads and equals single solutions.
 #[test]
-fn a_map_is_its_points() {
+fn map_equals_single_solutions() {
     let solver = BearingSolver::new("map", &rig_6205());
     let at = |angle: usize, load: usize| Condition {
         cage_angle: 0.03 * angle as f64,
@@ -141,9 +141,9 @@ fn a_map_is_its_points() {
     }
 }
 
-/// Under a load that nothing can meet: bearing, load, speed and residual in words.
+/// Without an equilibrium the error message gives bearing, load, speed and residual.
 #[test]
-fn what_cannot_be_met_is_told() {
+fn no_equilibrium_error_message() {
     let solver = BearingSolver::new("front", &rig_6205());
     let load = [f64::NAN, 0.0, 0.0, 0.0, 0.0];
     let error = solver.solve(&Condition { speed: 104.72, ..condition(load, CageTreatment::AsPlaced) }, None);

@@ -1,4 +1,5 @@
-//! What every contact law owes: slope and energy by differences, no jump, no pull, damping that dissipates.
+//! Invariants of every contact law: slope and energy match finite differences, continuity, no tension,
+//! dissipative damping.
 
 use crate::bearing::steel;
 use crate::ehl_table::tabulated;
@@ -15,7 +16,7 @@ fn oil() -> Lubricant {
     Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.3e-8, density: 870.0 }
 }
 
-/// Every law at a crawl, at a usual speed and at a high one.
+/// Every law at a very low, a usual and a high entrainment speed.
 fn laws() -> Vec<(BallContacts, f64)> {
     let power = |stiffness, exponent, offset| {
         ContactLaw::PowerLaw(PowerLaw { stiffness, exponent, offset, range: [600.0, 2000.0] })
@@ -30,23 +31,23 @@ fn laws() -> Vec<(BallContacts, f64)> {
     let at = |law: &ContactLaw, speeds: [f64; 3]| {
         speeds.map(|speed| (BallContacts::new(pair(), law.clone()), speed))
     };
-    // The made-up table is no film far outside its speeds.
+    // The synthetic table is not valid far outside its speeds.
     let solved = at(&tabulated(&pair()), [0.7, 3.0, 18.0]);
     laws.iter().flat_map(|law| at(law, [1e-4, 1.2, 40.0])).chain(solved).collect()
 }
 
-/// Loads at which a law changes its form.
+/// Loads at which the slope of a law has a kink.
 fn kinks() -> [f64; 4] {
     [FilmSpring::THRESHOLD, 150.0, 155.465, 417.7]
 }
 
-/// Approaches close in every scale to where load begins, and up to 0.1 mm.
+/// Approaches spaced logarithmically above the onset of load, up to 0.1 mm.
 fn approaches(contacts: &SpeedContacts) -> Vec<f64> {
     (0..=140).map(|k| contacts.onset() + 1e-11 * 10f64.powf(f64::from(k) / 20.0)).collect()
 }
 
 #[test]
-fn slope_and_energy_equal_differences() {
+fn slope_and_energy_match_finite_differences() {
     for (contacts, speed) in laws() {
         let at = contacts.at_speed(speed);
         let pieces: [&dyn Fn(f64) -> Loaded; 3] =
@@ -54,7 +55,7 @@ fn slope_and_energy_equal_differences() {
         for law in pieces {
             for x in approaches(&at) {
                 let here = law(x);
-                // Central differences over a small part of the length on which the curve bends.
+                // Central differences with a step small against the scale of curvature.
                 let step = 1e-4 * here.load / here.slope;
                 let (low, high) = (law(x - step), law(x + step));
                 // dQ/dδ has a kink at the threshold.
@@ -74,7 +75,7 @@ fn slope_and_energy_equal_differences() {
 }
 
 #[test]
-fn load_rises_from_nothing_without_a_jump() {
+fn load_rises_continuously_from_onset() {
     for (contacts, speed) in laws() {
         let at = contacts.at_speed(speed);
         let onset = at.onset();
@@ -90,19 +91,19 @@ fn load_rises_from_nothing_without_a_jump() {
 }
 
 #[test]
-fn value_and_slope_meet_at_the_threshold() {
+fn load_and_slope_are_continuous_at_threshold() {
     let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
     for speed in [1e-4, 1.2, 40.0] {
         let at = contacts.at_speed(speed);
         let threshold = (FilmSpring::THRESHOLD / pair().stiffness).powf(2.0 / 3.0)
             - at.film(Race::Inner, FilmSpring::THRESHOLD)
             - at.film(Race::Outer, FilmSpring::THRESHOLD);
-        // Two points a rounding apart from the threshold, on either side of it.
+        // Two points within round-off of the threshold, one on each side.
         let (low, high) = (at.series(threshold - 1e-18), at.series(threshold + 1e-18));
         assert!((high.load / low.load - 1.0).abs() < 1e-6);
         assert!((high.slope / low.slope - 1.0).abs() < 1e-6);
         assert!((high.energy / low.energy - 1.0).abs() < 1e-6);
-        // Unloaded about a tenth beyond the film at the threshold, 1 + 1.5 · 0.067 to be exact.
+        // Load vanishes at −(1 + 1.5 · 0.067) times the film thickness at the threshold.
         let film = at.film(Race::Inner, FilmSpring::THRESHOLD) + at.film(Race::Outer, FilmSpring::THRESHOLD);
         assert!((at.onset() / (-1.1005 * film) - 1.0).abs() < 1e-9);
         assert!(
@@ -112,19 +113,19 @@ fn value_and_slope_meet_at_the_threshold() {
 }
 
 #[test]
-fn without_speed_the_film_law_is_the_dry_one() {
+fn film_law_tends_to_dry_law_at_zero_speed() {
     let film = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
     let dry = BallContacts::new(pair(), ContactLaw::Hertz);
     for x in [-1e-6, 1e-9, 1e-6, 1e-5] {
         assert_eq!(film.at_speed(0.0).series(x), dry.at_speed(3.0).series(x));
-        // And it tends to it: h ∝ u^0.67.
+        // Limit u → 0: h ∝ u^0.67.
         let (slow, bare) = (film.at_speed(1e-9).series(x).load, dry.at_speed(0.0).series(x).load);
         assert!((slow - bare).abs() <= 1e-3 * bare + 1e-6, "δ {x}: {slow} and {bare}");
     }
 }
 
 #[test]
-fn a_hopeless_film_is_still_a_number() {
+fn extreme_film_parameters_give_finite_values() {
     for (viscosity, alpha) in [(0.0, 1e-8), (1e3, 1e-7)] {
         let lubricant = Lubricant { viscosity, pressure_viscosity: alpha, ..oil() };
         let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant, speed_factor: 1.0 });
@@ -154,11 +155,11 @@ fn damped_load_and_its_derivatives() {
                 for rate in [-1.0, -1e-3, 0.0, 1e-3, 1.0] {
                     let (here, elastic) = (law(x, rate), at.series(x));
                     assert!(here.load >= 0.0 && here.by_rate >= 0.0);
-                    // What the damping takes is never negative.
+                    // Dissipated power is never negative.
                     assert!((here.load - elastic.load) * rate >= 0.0);
                     let step = 1e-4 * (x - at.onset());
                     let (low, high) = (law(x - step, rate), law(x + step, rate));
-                    // The end of the ramp, the threshold and the point of letting go are kinks of the damping.
+                    // The end of the ramp, the threshold and the loss of contact are kinks of the damping.
                     let kink =
                         [1e-6, 1e-6 - 2.0 * step].iter().any(|r| (x - at.onset() - r).abs() < 2.0 * step)
                             || (at.series(x - step).load < FilmSpring::THRESHOLD
@@ -189,9 +190,9 @@ fn damped_load_and_its_derivatives() {
 }
 
 #[test]
-fn film_damping_is_the_lag_of_the_film() {
-    // A film that follows the load's call with a lag of b/u: stepping it in time at a slow harmonic approach must
-    // give the damping coefficient. Outer and inner contact are made equal so that one lag is enough.
+fn film_damping_from_film_lag() {
+    // Film thickness with a first-order lag τ = b/u: integration over a slow harmonic approach must give the
+    // damping coefficient. Outer and inner contact are equal, so that one time constant suffices.
     let one = HertzPair { outer: pair().inner, ..pair() };
     let one = HertzPair { stiffness: one.inner.stiffness / 2f64.powf(1.5), ..one };
     let contacts = BallContacts::new(one, ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
@@ -220,12 +221,12 @@ fn film_damping_is_the_lag_of_the_film() {
     }
     let measured = work / (std::f64::consts::PI * omega * amplitude * amplitude);
     let damped = ContactDamping::Film { factor: 1.0 }.apply(&at, &at.series(middle), middle, 0.0).by_rate;
-    // What is left is of second order in ω τ = 1e-3.
+    // The error is of second order in ω τ = 1e-3.
     assert!((measured / damped - 1.0).abs() < 1e-5, "{measured} and {damped}");
 }
 
 #[test]
-fn power_law_as_it_stands_above_its_smooth_start() {
+fn power_law_is_exact_above_smoothed_onset() {
     for (stiffness, exponent, offset) in
         [(8.562e9, 1.475, 30.207), (1.18e10, 1.51, -155.465), (1e10, 1.5, 0.0)]
     {
@@ -246,7 +247,7 @@ fn power_law_as_it_stands_above_its_smooth_start() {
         }
         assert!(at.outside(599.0) && at.outside(2001.0) && !at.outside(600.0) && !at.outside(0.0));
     }
-    // Without an offset and n = 3/2 the smooth start is the law itself.
+    // Without an offset and n = 3/2 the smoothed onset equals the law.
     let law = PowerLaw { stiffness: 1e10, exponent: 1.5, offset: 0.0, range: [600.0, 2000.0] };
     let contacts = BallContacts::new(pair(), ContactLaw::PowerLaw(law));
     let at = contacts.at_speed(0.0);
@@ -260,7 +261,7 @@ fn power_law_as_it_stands_above_its_smooth_start() {
 }
 
 #[test]
-fn fit_finds_the_law_it_was_given() {
+fn power_law_fit_recovers_parameters() {
     for (stiffness, exponent, offset) in
         [(8.562e9, 1.475, 30.207), (1.18e10, 1.51, -155.465), (2.1e9, 1.3, 235.0)]
     {

@@ -1,15 +1,17 @@
-//! Bearings whose races and balls are not perfect owe what perfect ones do, in every combination.
+//! Bearings with waviness, off-size balls and defects: invariants of perfect bearings in every combination.
 
 use crate::ball_bearing::Random;
-use crate::ball_combinations::{angular, balance_power, compare_tangents, each, lever, sample};
+use crate::ball_combinations::{
+    angular, check_power_balance, compare_tangents, for_each_combination, lever, sample,
+};
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{
     BallBearing, BallElement, BallInertia, BallSpin, BallWave, Defect, DefectForm, DefectLaw, Imperfections,
     OffSize, Preload, Rotation, Shape, Surface, Wave,
 };
 
-/// Something of everything, wide enough to be under several balls at any time.
-pub fn worn(law: DefectLaw) -> Imperfections {
+/// Imperfections of every kind; defects wide enough to be under several balls at any time.
+pub fn all_imperfections(law: DefectLaw) -> Imperfections {
     let defect = |on, start, width, form| Defect { on, row: None, start, width, form };
     let dent = DefectForm::Dent { depth: Some(0.8e-6), shape: Shape::HalfSine };
     let bump = DefectForm::Bump { height: 0.6e-6, shape: Shape::Cap };
@@ -46,11 +48,11 @@ const LAWS: [DefectLaw; 4] = [
     DefectLaw::Force { stiffness: Some(5e9), on_loaded: true },
 ];
 
-/// Every combination that takes the law.
-fn each_damaged(mut visit: impl FnMut(&str, &BallBearing)) {
+/// Calls `visit` with every combination that permits the defect law.
+fn for_each_with_imperfections(mut visit: impl FnMut(&str, &BallBearing)) {
     for law in LAWS {
-        each(|name, bearing| {
-            let bearing = BallBearing { imperfections: worn(law), ..bearing.clone() };
+        for_each_combination(|name, bearing| {
+            let bearing = BallBearing { imperfections: all_imperfections(law), ..bearing.clone() };
             if bearing.problems().is_empty() {
                 visit(&format!("{law:?} {name}"), &bearing);
             }
@@ -59,10 +61,10 @@ fn each_damaged(mut visit: impl FnMut(&str, &BallBearing)) {
 }
 
 #[test]
-fn tangents_equal_differences() {
+fn tangents_match_finite_differences() {
     let mut random = Random(77);
     let mut compared = 0;
-    each_damaged(|name, bearing| compared += compare_tangents(&mut random, name, bearing));
+    for_each_with_imperfections(|name, bearing| compared += compare_tangents(&mut random, name, bearing));
     assert!(compared > 100_000, "{compared}");
 }
 
@@ -70,25 +72,25 @@ fn tangents_equal_differences() {
 fn power_balance_closes() {
     let mut random = Random(19);
     let mut damaged = 0;
-    each_damaged(|name, bearing| {
-        balance_power(&mut random, name, bearing);
+    for_each_with_imperfections(|name, bearing| {
+        check_power_balance(&mut random, name, bearing);
         damaged += 1;
     });
     assert!(damaged > 1000, "{damaged}");
 }
 
-/// An explicit step's force is that which comes with tangents.
+/// The force for explicit integration equals the force evaluated with tangents.
 #[test]
-fn the_force_alone_is_the_same() {
+fn force_only_equals_force_with_tangents() {
     let mut random = Random(23);
-    each_damaged(|name, bearing| {
+    for_each_with_imperfections(|name, bearing| {
         let (d, v, rotation) = sample(&mut random);
         crate::force_alone::compare(name, bearing, &d, &v, &rotation);
     });
 }
 
 #[test]
-fn force_laws_are_refused_where_they_say_nothing() {
+fn force_laws_are_rejected_where_undefined() {
     let forced = Imperfections { law: LAWS[2], ..Imperfections::default() };
     for (inertia, preload) in [
         (BallInertia::Shared, Preload::None),
@@ -103,16 +105,16 @@ fn force_laws_are_refused_where_they_say_nothing() {
 }
 
 #[test]
-fn turning_all_that_is_not_round_turns_the_answer() {
+fn rotating_bearing_and_imperfections_rotates_force() {
     let mut random = Random(4);
-    each_damaged(|name, bearing| {
+    for_each_with_imperfections(|name, bearing| {
         let (d, v, rotation) = sample(&mut random);
         let angle = 3.0 * random.next();
         let (s, c) = angle.sin_cos();
         let turn = |w: [f64; 6]| {
             [c * w[0] - s * w[1], s * w[0] + c * w[1], w[2], c * w[3] - s * w[4], s * w[3] + c * w[4], w[5]]
         };
-        // Both rings with their marks and the cage with its balls, which do not spin meanwhile.
+        // Rotate both rings with their imperfections and the cage with its balls, without ball spin.
         let mut turned = bearing.clone();
         turned.cage_angle += angle;
         let marks = &mut turned.imperfections;
@@ -135,7 +137,7 @@ fn turning_all_that_is_not_round_turns_the_answer() {
 }
 
 #[test]
-fn defects_of_no_size_change_no_bit() {
+fn zero_size_imperfections_have_no_effect() {
     let mut random = Random(12);
     let defect = |on, width, form| Defect { on, row: None, start: 0.3, width, form };
     let nothing = Imperfections {
@@ -152,7 +154,7 @@ fn defects_of_no_size_change_no_bit() {
         ..Imperfections::default()
     };
     for law in LAWS {
-        each(|name, bearing| {
+        for_each_combination(|name, bearing| {
             let perfect = BallBearing { imperfections: Imperfections::default(), ..bearing.clone() };
             let marked =
                 BallBearing { imperfections: Imperfections { law, ..nothing.clone() }, ..perfect.clone() };
@@ -164,7 +166,7 @@ fn defects_of_no_size_change_no_bit() {
 }
 
 #[test]
-fn an_eccentric_race_is_a_ring_out_of_place() {
+fn eccentric_race_equals_displaced_ring() {
     let mut random = Random(6);
     let d = [5e-6, -7e-6, 0.0, 0.0, 0.0, 0.0];
     let (by, towards) = (1.5e-6, 0.7_f64);
@@ -189,7 +191,7 @@ fn an_eccentric_race_is_a_ring_out_of_place() {
 }
 
 #[test]
-fn a_ball_too_large_takes_its_excess_as_approach() {
+fn oversize_ball_increases_approach() {
     let mut bearing = rig_6205();
     let (d, rotation) = ([8e-6, 2e-6, 0.0, 0.0, 0.0, 0.0], Rotation::default());
     let before = BallElement::new(&bearing).ball_loads(&d, &rotation);
@@ -199,13 +201,13 @@ fn a_ball_too_large_takes_its_excess_as_approach() {
         let excess = if j == 1 { 0.3e-6 } else { 0.0 };
         assert!((b.deflection - a.deflection - excess).abs() < 1e-18, "{j}");
     }
-    // The mean over cage angles is that of the bearing as drawn.
+    // The mean over cage angles is that of the nominal bearing.
     let mean = |b| BallElement::new(b).cage_average(&d, &rotation, 4);
     assert_eq!(mean(&bearing), mean(&rig_6205()));
 }
 
 #[test]
-fn a_ball_defect_meets_each_race_once_a_turn_of_its_spin() {
+fn ball_defect_passes_each_race_once_per_spin_revolution() {
     let mut bearing = rig_6205();
     let form = DefectForm::Bump { height: 1e-6, shape: Shape::HalfSine };
     let width = 0.2e-3;
@@ -215,10 +217,10 @@ fn a_ball_defect_meets_each_race_once_a_turn_of_its_spin() {
         bearing.imperfections.spin = spin;
         let profile =
             rotordyn::bearing::Profile::new(&bearing.geometry, &bearing.imperfections, 0, 0.0, 1e10).unwrap();
-        // Where the bump's middle is met, in turns of the shaft.
+        // Passages of the middle of the bump, in shaft revolutions.
         let turns = 40.0;
         let steps = 400_000;
-        let mut met = [const { Vec::new() }; 2];
+        let mut passages = [const { Vec::new() }; 2];
         let mut before = [0.0; 2];
         for k in 0..steps {
             let shaft = std::f64::consts::TAU * turns * f64::from(k) / f64::from(steps);
@@ -231,18 +233,19 @@ fn a_ball_defect_meets_each_race_once_a_turn_of_its_spin() {
             let at = profile.at(&rotation).ball(0);
             for contact in 0..2 {
                 if before[contact] > 0.0 && at.rate[contact] < 0.0 {
-                    met[contact].push(shaft / std::f64::consts::TAU);
+                    passages[contact].push(shaft / std::f64::consts::TAU);
                 }
                 before[contact] = at.rate[contact];
             }
         }
         let step = turns / f64::from(steps);
         let middle = (1.0 + 0.5 * width / (0.5 * bearing.geometry.ball_diameter)) / std::f64::consts::TAU;
-        // The angle grows against the spin: the mark comes up to the outer race, then half a turn later the inner one.
+        // The angle counts against the spin: the defect passes the outer race, half a revolution later the
+        // inner race.
         for (contact, offset) in [(1, 0.0), (0, 0.5)] {
             let first = (middle + offset).rem_euclid(1.0);
-            assert_eq!(met[contact].len(), (turns * order - first).ceil() as usize);
-            for (k, turn) in met[contact].iter().enumerate() {
+            assert_eq!(passages[contact].len(), (turns * order - first).ceil() as usize);
+            for (k, turn) in passages[contact].iter().enumerate() {
                 let expected = (first + k as f64) / order;
                 assert!((turn - expected).abs() <= step, "{spin:?} {contact} {k}: {turn} {expected}");
             }

@@ -1,4 +1,4 @@
-//! The numerical film as a contact law: interpolation, tangents, energy, limits, storage.
+//! Tabulated EHL solution as a contact law: interpolation, tangents, energy, limits, storage.
 
 use crate::lubricated::steel;
 use rotordyn::contact::ehl::{EhlLaw, Failure, Table, TableSpec, geometric};
@@ -26,7 +26,7 @@ fn loads() -> impl Iterator<Item = f64> {
 }
 
 #[test]
-fn the_table_holds_its_own_figures() {
+fn table_reproduces_its_nodes() {
     for (u, speed) in TABLE.speeds.iter().enumerate() {
         let curve = TABLE.at_speed(*speed);
         for (q, &load) in TABLE.loads.iter().enumerate() {
@@ -34,7 +34,8 @@ fn the_table_holds_its_own_figures() {
             let shift = dry - curve.approach(load)[0];
             assert!((shift / TABLE.shift[u][q] - 1.0).abs() < 1e-10);
             assert!((curve.central_film(load) / TABLE.central_film[u][q] - 1.0).abs() < 1e-10);
-            // The film takes a little more off the approach than its own thickness: the wedge carries load too.
+            // The film reduces the approach by slightly more than its thickness: the inlet wedge carries load
+            // too.
             let ratio = TABLE.shift[u][q] / TABLE.central_film[u][q];
             assert!((1.0..1.8).contains(&ratio), "{ratio} at {speed} m/s, {load} N");
         }
@@ -42,13 +43,13 @@ fn the_table_holds_its_own_figures() {
 }
 
 #[test]
-fn load_inverts_approach_with_its_tangent_and_energy() {
+fn load_inverts_approach_with_slope_and_energy() {
     for speed in [0.0, 0.01, 2.0, 3.3, 12.0, 40.0] {
         let curve = TABLE.at_speed(speed);
         for load in loads() {
             let [approach, slope] = curve.approach(load);
             let found = curve.load(approach);
-            // δ cancels to rounding where film and deformation are alike, so the load is known to its tangent.
+            // Film and deformation cancel in δ; the load is accurate to the round-off of δ over the slope.
             let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.reach()) / slope;
             assert!((found.load - load).abs() < 1e3 * known, "{speed} {load}: {}", found.load);
             assert!((found.slope * slope - 1.0).abs() < 1e-6, "{speed} {load}");
@@ -67,7 +68,7 @@ fn load_inverts_approach_with_its_tangent_and_energy() {
 }
 
 #[test]
-fn two_contacts_in_series_add_their_approaches() {
+fn curves_in_series_add_approaches() {
     let (slow, fast, dry) = (TABLE.at_speed(2.0), TABLE.at_speed(12.0), TABLE.at_speed(0.0));
     for (first, second) in [(&slow, &fast), (&fast, &dry), (&dry, &slow), (&dry, &dry)] {
         let both = first.in_series(second);
@@ -83,7 +84,7 @@ fn two_contacts_in_series_add_their_approaches() {
 }
 
 #[test]
-fn unloaded_beyond_the_reach_of_the_film() {
+fn no_load_beyond_film_reach() {
     let curve = TABLE.at_speed(5.0);
     let reach = curve.reach();
     assert!(reach > TABLE.central_film[1][0]);
@@ -94,7 +95,7 @@ fn unloaded_beyond_the_reach_of_the_film() {
 }
 
 #[test]
-fn monotone_in_load_and_speed_and_dry_without_speed() {
+fn approach_is_monotone_and_dry_at_zero_speed() {
     for pair in loads().collect::<Vec<_>>().windows(2) {
         for speed in [0.1, 2.0, 7.0] {
             let curve = TABLE.at_speed(speed);
@@ -113,9 +114,9 @@ fn monotone_in_load_and_speed_and_dry_without_speed() {
     assert_eq!(TABLE.at_speed(0.0).reach(), 0.0);
 }
 
-/// Far outside its loads the film falls as Hamrock and Dowson's.
+/// Far outside the tabulated loads the film has the load exponent of Hamrock and Dowson.
 #[test]
-fn power_law_outside_the_loads() {
+fn hamrock_dowson_exponent_outside_load_range() {
     let curve = TABLE.at_speed(5.0);
     for load in [0.1, 1e5] {
         let power = (curve.central_film(1.01 * load) / curve.central_film(load)).ln() / 1.01_f64.ln();
@@ -124,7 +125,7 @@ fn power_law_outside_the_loads() {
 }
 
 #[test]
-fn the_same_from_any_number_of_threads_and_through_a_file() {
+fn table_is_independent_of_threads_and_serialisation() {
     let calls = AtomicUsize::new(0);
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let small = TableSpec { loads: vec![50.0, 500.0], speeds: vec![2.0, 5.0], ..spec() };
@@ -140,7 +141,7 @@ fn the_same_from_any_number_of_threads_and_through_a_file() {
 }
 
 #[test]
-fn the_key_tells_every_input() {
+fn cache_key_depends_on_every_input() {
     let base = spec();
     let mut others = vec![base.clone(); 6];
     others[0].points += 1;
@@ -155,15 +156,15 @@ fn the_key_tells_every_input() {
 }
 
 #[test]
-fn a_table_without_order_is_refused() {
+fn unsorted_table_axes_are_rejected() {
     for (loads, speeds) in [(vec![10.0, 5.0], vec![1.0]), (vec![], vec![1.0]), (vec![1.0], vec![0.0, 1.0])] {
         let wrong = TableSpec { loads, speeds, ..spec() };
         assert!(matches!(wrong.compute(|_, _| ()), Err(Failure::Input { .. })));
     }
 }
 
-/// The law of a bearing with tables that are not solved but look as solved ones do: near the film formula, with
-/// powers of load and speed that change over the range.
+/// EHL contact law with synthetic tables instead of solved ones: close to the film formula, with exponents of
+/// load and speed that vary over the range.
 pub fn tabulated(hertz: &HertzPair) -> ContactLaw {
     let lubricant =
         Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.3e-8, density: 870.0 };
@@ -195,7 +196,7 @@ pub fn tabulated(hertz: &HertzPair) -> ContactLaw {
     ContactLaw::Ehl(law)
 }
 
-/// Both contacts under one load approach by the sum of their own approaches.
+/// The approach of both contacts under one load is the sum of the single approaches.
 #[test]
 fn contacts_in_series_add_their_approaches() {
     let steel = crate::bearing::steel();
@@ -205,7 +206,7 @@ fn contacts_in_series_add_their_approaches() {
     for approach in [-1e-7, 1e-6, 5e-6, 3e-5] {
         let load = at.series(approach).load;
         let own = |race| {
-            // Bisection on the contact's own law.
+            // Bisection on the law of the single contact.
             let (mut low, mut high) = (-1e-5, 1e-4);
             for _ in 0..200 {
                 let middle = 0.5 * (low + high);
@@ -214,7 +215,7 @@ fn contacts_in_series_add_their_approaches() {
             low
         };
         let sum = own(Race::Inner) + own(Race::Outer);
-        // The logarithm of a sum is not the sum of cubics in logarithms: exact at knots, close between them.
+        // Cubic interpolation in logarithms is exact for the sum only at knots.
         assert!((sum - approach).abs() < 2e-3 * approach.abs() + 1e-9, "{approach:e} {sum:e}");
     }
 }

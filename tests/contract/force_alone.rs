@@ -1,20 +1,20 @@
-//! What an explicit step asks for, the force without tangents, is the same as what comes with them.
+//! The force without tangents (explicit integration) equals the force evaluated with tangents.
 
 use crate::ball_bearing::Random;
-use crate::ball_combinations::{angular, each, lever, sample};
+use crate::ball_combinations::{angular, for_each_combination, lever, sample};
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{
     BallBearing, Bearing, BearingElement, Defect, DefectForm, DefectLaw, OffSize, Reaction, Rotation, Shape,
     Surface,
 };
 
-/// The same up to the order of the sums over balls.
+/// Compares both evaluations, which differ only in the summation order over balls.
 pub fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) {
     let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
     let whole = element.reaction(d, v, rotation);
     let mut alone = Reaction::default();
     element.force(d, v, rotation, &mut alone);
-    // The balls' loads, which may cancel in the sum, with the damping of 0.01 m/s.
+    // Sum of ball loads, which may cancel in the resultant, plus damping at 0.01 m/s.
     let loads: f64 =
         element.ball_loads(d, rotation).iter().map(|b| b.load.abs().max(b.outer_load.abs()) + 3.0).sum();
     for k in 0..6 {
@@ -31,17 +31,17 @@ pub fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], ro
 }
 
 #[test]
-fn of_every_combination() {
+fn force_only_for_every_combination() {
     let mut random = Random(17);
-    each(|name, bearing| {
+    for_each_combination(|name, bearing| {
         let (d, v, rotation) = sample(&mut random);
         compare(name, bearing, &d, &v, &rotation);
     });
 }
 
-/// Lanes that are full, and such that are not.
+/// Full and partially filled SIMD lanes.
 #[test]
-fn of_any_number_of_balls() {
+fn force_only_for_any_number_of_balls() {
     let mut random = Random(18);
     for balls in 2..=40 {
         for mut bearing in [rig_6205(), angular()] {
@@ -53,9 +53,9 @@ fn of_any_number_of_balls() {
     }
 }
 
-/// Balls on and beside narrow and wide defects, of every law; the cage creeps over them.
+/// Balls on and next to narrow and wide defects, for every defect law, at small steps of the cage angle.
 #[test]
-fn of_races_with_defects() {
+fn force_only_for_races_with_defects() {
     let dent = DefectForm::Dent { depth: None, shape: Shape::HalfSine };
     let bump = DefectForm::Bump { height: 3e-7, shape: Shape::Cap };
     let on = |on, start: f64, width, form| Defect { on, row: None, start, width, form };
@@ -94,8 +94,9 @@ fn of_races_with_defects() {
                     rotation.cage_angle = 0.01 * step as f64;
                     rotation.shaft_angle = 0.03 * step as f64;
                     compare(&format!("{law:?} {balls} {sized} {step}"), &bearing, &d, &v, &rotation);
-                    let [worn, whole] = [&element, &perfect].map(|e| e.reaction(&d, &v, &rotation).force);
-                    seen += usize::from(worn != whole);
+                    let [defective, nominal] =
+                        [&element, &perfect].map(|e| e.reaction(&d, &v, &rotation).force);
+                    seen += usize::from(defective != nominal);
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! The linear bearing: tangents by differences at every speed of its table, and its power balance.
+//! Linear bearing: tangents compared with finite differences over its speed table, and power balance.
 
 use rotordyn::bearing::{Bearing, BearingElement, LinearBearing, LinearBearingRow, Rotation};
 
@@ -9,7 +9,7 @@ fn row(speed: f64, scale: f64) -> LinearBearingRow {
 }
 
 #[test]
-fn tangents_equal_differences_and_power_closes() {
+fn tangents_match_finite_differences_and_power_balances() {
     let table = vec![row(0.0, 1.0), row(100.0, 1.4), row(300.0, 3.0)];
     let element = BearingElement::new(&Bearing::Linear(LinearBearing { table }));
     let (d, v) = ([1e-5, -2e-5, 3e-6, 1e-4, -2e-4, 5e-5], [1e-3, 2e-3, -1e-3, 0.1, 0.05, -0.02]);

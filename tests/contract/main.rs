@@ -1,4 +1,4 @@
-//! What every force element owes: force and tangents that agree, dissipation, no pull.
+//! Invariants of every force element: consistent force and tangents, dissipation, no tensile contact.
 
 #[path = "../common/bearing.rs"]
 mod bearing;

@@ -1,4 +1,4 @@
-//! Preload: the force asked for is the force found, and pairs tilt as their arrangement says.
+//! Preload: the specified force is reached; tilt stiffness of pairs by arrangement.
 
 use crate::ball_combinations::{angular, film};
 use crate::bearing::rig_6205;
@@ -12,7 +12,7 @@ fn close(a: f64, b: f64, tolerance: f64) -> bool {
 }
 
 #[test]
-fn the_force_asked_for_is_carried() {
+fn specified_preload_force_is_reached() {
     let still = Rotation { shaft_speed: SPEED, ..Rotation::default() };
     for law in [ContactLaw::Hertz, film()] {
         for inertia in [BallInertia::None, BallInertia::OuterRaceControl, BallInertia::Shared] {
@@ -27,7 +27,7 @@ fn the_force_asked_for_is_carried() {
                     let found = element.reaction(&[0.0; 6], &[0.0; 6], &still).force;
                     assert!(close(found[2], -250.0 * direction, 1e-10), "{found:?}");
 
-                    // On a spring the ring takes up what the shaft does: force F₀ − k e.
+                    // With spring preload the axial force is F₀ − k e at offset e.
                     bearing.preload = Preload::Spring { stiffness: 2e6, force: 250.0 };
                     let element = BallElement::new(&bearing);
                     let state = element.preload_state(SPEED);
@@ -43,7 +43,7 @@ fn the_force_asked_for_is_carried() {
 }
 
 #[test]
-fn dry_force_is_carried_at_rest_and_more_with_a_film() {
+fn film_adds_to_dry_preload_force() {
     let bearing = BallBearing { contact: film(), preload: Preload::DryForce(250.0), ..angular() };
     let element = BallElement::new(&bearing);
     let (rest, fast) = (element.preload_state(0.0), element.preload_state(SPEED));
@@ -52,7 +52,7 @@ fn dry_force_is_carried_at_rest_and_more_with_a_film() {
 }
 
 #[test]
-fn a_stiff_spring_is_a_rigid_seat_and_none_holds_the_force() {
+fn stiff_spring_is_rigid_and_zero_stiffness_keeps_force() {
     let still = Rotation::default();
     let d = [2e-6, -1e-6, 3e-6, 1e-4, 5e-5, 0.0];
     let with =
@@ -72,7 +72,7 @@ fn a_stiff_spring_is_a_rigid_seat_and_none_holds_the_force() {
 }
 
 #[test]
-fn back_to_back_is_stiffer_against_tilt_than_face_to_face() {
+fn back_to_back_tilt_stiffness_exceeds_face_to_face() {
     let reaction = |arrangement: Option<Arrangement>| {
         let duplex = arrangement.map(|arrangement| Duplex { arrangement, spacing: 15e-3 });
         let bearing = BallBearing { duplex, preload: Preload::DryForce(250.0), ..angular() };
@@ -88,11 +88,11 @@ fn back_to_back_is_stiffer_against_tilt_than_face_to_face() {
         back.stiffness[3][3],
         face.stiffness[3][3]
     );
-    // Rows of one pair pull against each other; tandem rows together.
+    // Opposed rows cancel axially; tandem rows add.
     assert!(back.force[2].abs() < 1e-9 && face.force[2].abs() < 1e-9);
     assert!(close(tandem.force[2], 2.0 * single.force[2], 1e-12) && close(single.force[2], -250.0, 1e-10));
     for pair in [&back, &face, &tandem] {
-        // Axially and radially two rows, whichever way they lie.
+        // Axial and radial stiffness of two rows for any arrangement.
         for k in 0..3 {
             assert!(close(pair.stiffness[k][k], 2.0 * single.stiffness[k][k], 1e-9));
         }
@@ -112,7 +112,7 @@ fn back_to_back_is_stiffer_against_tilt_than_face_to_face() {
 }
 
 #[test]
-fn combinations_that_make_no_sense_are_named() {
+fn invalid_combinations_are_reported() {
     assert!(angular().problems().is_empty());
     let bad = BallBearing {
         preload: Preload::Spring { stiffness: -1.0, force: 1.0 },

@@ -1,4 +1,5 @@
-//! The bearing with one radial coordinate per ball: tangents by differences, momentum, power, limit cases.
+//! Bearing with one radial DOF per ball: tangents compared with finite differences, momentum and power
+//! balance, limit cases.
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
@@ -11,8 +12,8 @@ fn bearing() -> RadialBallBearing {
     RadialBallBearing { ball: rig_6205(), stiffness_damping: [1e-4, 0.7e-4], pulls: false, gravity: GRAVITY }
 }
 
-/// With waves on races and balls, and a ball too large.
-fn imperfect() -> RadialBallBearing {
+/// With waviness of races and balls, and an oversize ball.
+fn with_defects() -> RadialBallBearing {
     let mut out = bearing();
     let wave = |order, amplitude| Wave { order, amplitude, phase: 0.4 * f64::from(order) };
     out.ball.imperfections.inner_waviness = vec![wave(7, 1e-6)];
@@ -22,8 +23,8 @@ fn imperfect() -> RadialBallBearing {
     out
 }
 
-/// Coordinates d_x d_y h_x h_y and the balls', with their rates: contacts pressed in by micrometres, rates as in a rig
-/// that shakes.
+/// Coordinates d_x d_y h_x h_y and of the balls, with their rates: deflections of micrometres, rates of a
+/// vibrating rig.
 #[derive(Clone)]
 struct State {
     q: Vec<f64>,
@@ -59,7 +60,7 @@ fn spinning(random: &mut Random) -> Rotation {
     }
 }
 
-/// Least depth over all contacts, in size: a contact about to open or close has its kink within a difference.
+/// Smallest |deflection| of all contacts: near zero a contact opens or closes within the difference step.
 fn nearest_kink(
     element: &RadialElement,
     state: &State,
@@ -81,7 +82,7 @@ fn nearest_kink(
 }
 
 #[test]
-fn tangents_equal_differences() {
+fn tangents_match_finite_differences() {
     let mut random = Random(11);
     for pulls in [false, true] {
         let bearing = RadialBallBearing { pulls, ..bearing() };
@@ -90,7 +91,7 @@ fn tangents_equal_differences() {
         for _ in 0..60 {
             let state = State::random(&mut random, element.balls());
             let rotation = spinning(&mut random);
-            // Within 0.2 um of a kink the √δ of the damping bends by more than a difference can follow.
+            // Within 0.2 um of a kink the √δ of the damping is too curved for a finite difference.
             if nearest_kink(&element, &state, &rotation, &bearing) < 2e-7 {
                 continue;
             }
@@ -108,8 +109,8 @@ fn tangents_equal_differences() {
                 };
                 let (k, c) = (difference(1e-10, false), difference(1e-6, true));
                 for row in 0..state.q.len() {
-                    // Stiffness is of 1e7 N/m here, damping of 1e3 N s/m. A contact that lets go by its rate has a kink
-                    // too, which few states are near.
+                    // Stiffness is of 1e7 N/m here, damping of 1e3 N s/m. Loss of contact by the rate is a
+                    // kink too, but few states are near it.
                     let (dk, dc) =
                         (k[row] - tangent.stiffness[row][column], c[row] - tangent.damping[row][column]);
                     assert!(
@@ -130,7 +131,7 @@ fn tangents_equal_differences() {
 }
 
 #[test]
-fn an_implicit_step_solves_the_balls_and_follows_the_rings() {
+fn implicit_step_solves_balls_and_gives_ring_tangents() {
     let mut random = Random(5);
     let gain = |ball: f64| StepGain { place: 0.25 * 1e-5_f64.powi(2), rate: 0.5e-5, ball };
     for pulls in [false, true] {
@@ -142,19 +143,25 @@ fn an_implicit_step_solves_the_balls_and_follows_the_rings() {
             let rotation = spinning(&mut random);
             let step = |state: &State| {
                 let mut at = state.clone();
-                let (mut force, mut follow) = (vec![0.0; element.balls()], vec![[0.0; 4]; element.balls()]);
+                let (mut force, mut tangents) = (vec![0.0; element.balls()], vec![[0.0; 4]; element.balls()]);
                 let (places, rates) = (&mut at.q[4..], &mut at.rate[4..]);
-                let reaction =
-                    element.step(&state.rings(), [places, rates], &rotation, &gain, &mut force, &mut follow);
-                (reaction, at, force, follow)
+                let reaction = element.step(
+                    &state.rings(),
+                    [places, rates],
+                    &rotation,
+                    &gain,
+                    &mut force,
+                    &mut tangents,
+                );
+                (reaction, at, force, tangents)
             };
-            let (reaction, end, force, follow) = step(&start);
+            let (reaction, end, force, tangents) = step(&start);
             let found = end.forces(&element, &rotation);
             for j in 0..element.balls() {
-                let lead = gain.ball * force[j];
-                assert!((end.q[4 + j] - start.q[4 + j] - gain.place * lead).abs() < 1e-19);
-                assert!((end.rate[4 + j] - start.rate[4 + j] - gain.rate * lead).abs() < 1e-15);
-                // Q satisfies its own equation: to round-off of forces that differences of 1e-22 m make.
+                let acceleration = gain.ball * force[j];
+                assert!((end.q[4 + j] - start.q[4 + j] - gain.place * acceleration).abs() < 1e-19);
+                assert!((end.rate[4 + j] - start.rate[4 + j] - gain.rate * acceleration).abs() < 1e-15);
+                // Q satisfies its equation to round-off: forces from coordinate errors of 1e-22 m.
                 assert!(
                     (found[4 + j] - force[j]).abs() < 2e-10 * (1.0 + force[j].abs()),
                     "{} {}",
@@ -168,7 +175,7 @@ fn an_implicit_step_solves_the_balls_and_follows_the_rings() {
             if nearest_kink(&element, &end, &rotation, &bearing) < 2e-7 {
                 continue;
             }
-            // Small against the kink of a contact that lets go, which rates of 2e-5 m/s would move by 3e-9 m.
+            // Small step: rates of 2e-5 m/s would shift the kink of an opening contact by 3e-9 m.
             let by = 1e-12;
             let column = |column: usize| {
                 let moved = |sign: f64| {
@@ -180,7 +187,7 @@ fn an_implicit_step_solves_the_balls_and_follows_the_rings() {
                 };
                 let (plus, minus) = (moved(1.0), moved(-1.0));
                 let expected = reaction.stiffness[..4].iter().map(|row| row[column]);
-                let expected = expected.chain(follow.iter().map(|row| row[column]));
+                let expected = expected.chain(tangents.iter().map(|row| row[column]));
                 for ((plus, minus), expected) in plus.iter().zip(&minus).zip(expected) {
                     let k = -(plus - minus) / (2.0 * by);
                     assert!((k - expected).abs() < 1e-4 * 1e8, "{k} for {expected}");
@@ -191,9 +198,10 @@ fn an_implicit_step_solves_the_balls_and_follows_the_rings() {
     }
 }
 
-/// Balls, rings and cage exchange momentum and angular momentum among themselves; what comes from outside is gravity.
+/// Linear momentum balance: forces among balls, rings and cage are internal; gravity is the only external
+/// force.
 #[test]
-fn momentum_is_passed_on_whole() {
+fn linear_momentum_balance_closes() {
     let mut random = Random(3);
     let bearing = bearing();
     let element = RadialElement::new(&bearing);
@@ -222,7 +230,8 @@ fn momentum_is_passed_on_whole() {
             weight += mass;
         }
         for k in 0..2 {
-            // Rings get Q_d − Q_d + Q_h less the inertia and with the weight of the Z m/2 that the cage carries along.
+            // Force on the rings: Q_d − Q_d + Q_h, minus inertia and plus weight of the carried ball mass Z
+            // m/2.
             let rings = forces[2 + k] - bearing.carried_mass() * (h_accel[k] - GRAVITY[k]);
             let left = total[k] + rings - weight * GRAVITY[k];
             assert!(left.abs() < 1e-9, "{left} N of {}", forces[k]);
@@ -231,10 +240,10 @@ fn momentum_is_passed_on_whole() {
 }
 
 #[test]
-fn power_is_elastic_energy_loss_and_what_the_cage_gives() {
+fn power_balance_closes() {
     let mut random = Random(8);
     for k in 0..100 {
-        let element = RadialElement::new(&if k % 2 == 0 { bearing() } else { imperfect() });
+        let element = RadialElement::new(&if k % 2 == 0 { bearing() } else { with_defects() });
         let state = State::random(&mut random, element.balls());
         let rotation = spinning(&mut random);
         let energy = |t: f64| {
@@ -261,7 +270,7 @@ fn power_is_elastic_energy_loss_and_what_the_cage_gives() {
 }
 
 #[test]
-fn turned_bearings_give_turned_forces() {
+fn rotated_state_gives_rotated_forces() {
     let mut random = Random(21);
     let element = RadialElement::new(&RadialBallBearing { gravity: [0.0; 2], ..bearing() });
     for _ in 0..50 {
@@ -284,16 +293,16 @@ fn turned_bearings_give_turned_forces() {
         };
         let expected = turned(&state.forces(&element, &rotation));
         for (a, b) in other.forces(&element, &rotated).iter().zip(&expected) {
-            // Differences of 1e-20 m on a contact of 1e7 N/m and its 1e-4 s.
+            // Round-off of 1e-20 m on a contact of 1e7 N/m with damping of 1e-4 s.
             assert!((a - b).abs() < 1e-8 * (1.0 + b.abs()), "{a} {b}");
         }
     }
 }
 
-/// With balls that weigh nothing, statics are those of the model with massless balls but for the balls beside the load:
-/// their line runs through the centres of the races here, and along e_r there.
+/// For zero ball mass the static solution equals the massless-ball model, except for balls off the load line:
+/// their line of contact runs through the race centres here, and along e_r in the massless model.
 #[test]
-fn without_mass_equal_to_the_massless_ball() {
+fn zero_ball_mass_equals_massless_ball_model() {
     let mut plain = rig_6205();
     let mut light = RadialBallBearing { gravity: GRAVITY, ..bearing() };
     light.ball.ball_material.density = 1e-6;
@@ -312,7 +321,7 @@ fn without_mass_equal_to_the_massless_ball() {
         }
         let loads = (massless.ball_loads(&d, &rotation), radial.ball_loads(&d, &rotation));
         for (a, b) in loads.0.iter().zip(&loads.1) {
-            // The outer one carries the part of the inner one along e_r: 1 − n_r < 1e-6.
+            // The outer load is the component of the inner load along e_r: 1 − n_r < 1e-6.
             assert!((b.load - b.outer_load).abs() <= 1e-6 * b.load + 1e-9, "{} {}", b.load, b.outer_load);
             let slope = 1.5 * (massless.contacts.stiffness.powi(2) * a.load).cbrt();
             assert!((a.load - b.load).abs() < 1e-8 * slope + 1e-3, "{} {}", a.load, b.load);
@@ -321,7 +330,7 @@ fn without_mass_equal_to_the_massless_ball() {
 }
 
 #[test]
-fn settled_balls_balance_and_their_tangent_is_that_of_the_force() {
+fn ball_equilibrium_and_its_stiffness() {
     let bearing = bearing();
     let element = RadialElement::new(&bearing);
     let mass = element.ball_mass();
@@ -335,15 +344,18 @@ fn settled_balls_balance_and_their_tangent_is_that_of_the_force() {
         let mut carried = [0.0; 2];
         for ball in element.ball_loads(&d, &rotation) {
             let (sin, cos) = ball.position.sin_cos();
-            let flung = mass * w * w * 0.5 * bearing.ball.geometry.pitch_diameter;
+            let centrifugal = mass * w * w * 0.5 * bearing.ball.geometry.pitch_diameter;
             let weight = mass * (GRAVITY[0] * cos + GRAVITY[1] * sin);
             // ρ is within 15 um of half the pitch diameter: 1e-3 of the centrifugal force.
-            assert!((ball.outer_load - ball.load - flung - weight).abs() < 1e-3 * flung + 1e-6 * ball.load);
+            assert!(
+                (ball.outer_load - ball.load - centrifugal - weight).abs()
+                    < 1e-3 * centrifugal + 1e-6 * ball.load
+            );
             carried[0] += cos * (ball.outer_load - ball.load);
             carried[1] += sin * (ball.outer_load - ball.load);
         }
         let loads = element.ball_loads(&d, &rotation);
-        let bent: f64 =
+        let geometric: f64 =
             loads.iter().map(|b| b.load / (0.5 * bearing.ball.geometry.pitch_diameter) * 1.01).sum();
         let here = element.reaction(&d, &[0.0; 6], &rotation);
         for k in 0..2 {
@@ -361,9 +373,9 @@ fn settled_balls_balance_and_their_tangent_is_that_of_the_force() {
             for row in 0..2 {
                 let k = -(plus[row] - minus[row]) / 2e-10;
                 let dk = k - here.stiffness[row][column];
-                // Left out is −F/χ of every ball, χ half the pitch diameter within 1e-3; an inner contact that opens
-                // within the difference changes K by up to 1e6.
-                if dk.abs() < bent + 2e-4 * 1e7 {
+                // The tangent omits the geometric stiffness −F/χ of every ball, χ half the pitch diameter
+                // within 1e-3; an inner contact that opens within the difference changes K by up to 1e6.
+                if dk.abs() < geometric + 2e-4 * 1e7 {
                     compared += 1;
                 }
             }

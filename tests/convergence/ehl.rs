@@ -1,4 +1,5 @@
-//! Elastohydrodynamic point contact: order in the mesh, and the limit against published figures.
+//! Elastohydrodynamic point contact: order of mesh convergence, extrapolated limit compared with published
+//! values.
 
 use crate::lubricated::circular;
 use rotordyn::contact::ehl;

@@ -12,8 +12,8 @@ use rotordyn::transient::run::{End, Settings, run};
 
 const DURATION: f64 = 0.01;
 
-/// The rig at 900 rpm with bearings of interference, so that every ball keeps its contact and the force law is
-/// smooth (the orders are those of smooth equations), and a cage ratio that does not depend on the state.
+/// The rig at 900 rpm with interference (negative clearance), so that every ball stays in contact and the
+/// force law is smooth, as the nominal orders require, and with a constant cage speed ratio.
 fn machine() -> (Machine, Reduction) {
     let mut model =
         variant(None, &[("bearing.A.radial_clearance", "-20 um"), ("bearing.B.radial_clearance", "-20 um")]);
@@ -30,7 +30,7 @@ fn machine() -> (Machine, Reduction) {
     (machine, reduction)
 }
 
-/// Coordinates at the end, started at equilibrium with the shaft thrown sideways along its first mode.
+/// Final coordinates, started at equilibrium with an initial velocity of the first two coordinates.
 fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra::DVector<f64> {
     let system = &reduction.system;
     let mut v = &reduction.equilibrium * 0.0;
@@ -56,9 +56,9 @@ fn order(coarse: f64, fine: f64) -> f64 {
 }
 
 #[test]
-fn fixed_step_methods() {
+fn fixed_step_convergence_orders() {
     let (_machine, reduction) = machine();
-    // Classical Runge-Kutta at a step far finer than any below is the reference for all.
+    // Reference: classical Runge-Kutta at a step far finer than any below.
     let reference = end(&reduction, Integrator::RungeKutta4, 8192);
     for (integrator, expected, steps) in [
         (Integrator::Newmark, 2.0, [512, 1024, 2048, 4096]),
@@ -75,7 +75,7 @@ fn fixed_step_methods() {
 }
 
 #[test]
-fn error_control_keeps_its_promise() {
+fn adaptive_step_error_within_tolerance() {
     let (_machine, reduction) = machine();
     let reference = end(&reduction, Integrator::RungeKutta4, 8192);
     let size = reference.amax();
@@ -84,7 +84,7 @@ fn error_control_keeps_its_promise() {
             Integrator::DormandPrince { relative_tolerance: tolerance, absolute_tolerance: 1e-16 };
         let error = (end(&reduction, integrator, 1000) - &reference).amax() / size;
         println!("tolerance {tolerance:.0e}: error {error:.1e}");
-        // Local errors of a few hundred steps add up.
+        // Local errors accumulate over a few hundred steps.
         assert!(error < 300.0 * tolerance, "{error} at {tolerance}");
     }
 }

@@ -1,4 +1,4 @@
-//! Fitted order of every time integrator on balls with coordinates of their own.
+//! Fitted order of every time integrator with one radial DOF per ball.
 
 use std::ops::ControlFlow;
 
@@ -11,7 +11,8 @@ use rotordyn::transient::run::{End, Settings, run};
 const DURATION: f64 = 1e-3;
 const SPEED: f64 = 523.6;
 
-/// Upadhyay's rotor with interference, so that every ball keeps both contacts and the law is smooth.
+/// Upadhyay's rotor with interference, so that every ball stays in contact with both races and the law is
+/// smooth.
 fn reduction() -> Reduction {
     let set = [("bearing.B.radial_clearance", "-20 um"), ("bearing.B.stiffness_damping", "1e-6 s")];
     let options = Options {
@@ -26,7 +27,7 @@ fn reduction() -> Reduction {
     reduction
 }
 
-/// Coordinates of rotor and balls at the end, the rotor thrown sideways.
+/// Final coordinates of rotor and balls, with a lateral initial velocity of the rotor.
 fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra::DVector<f64> {
     let mut v = &reduction.equilibrium * 0.0;
     v[0] = 5e-3;
@@ -48,7 +49,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra:
 }
 
 #[test]
-fn orders_on_balls_of_their_own() {
+fn convergence_orders_with_radial_ball_dofs() {
     let reduction = reduction();
     let reference = end(&reduction, Integrator::RungeKutta4, 65_536);
     for (integrator, expected, steps) in [

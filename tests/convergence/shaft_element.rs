@@ -1,10 +1,11 @@
-//! The shaft element against the exact rotating pinned-pinned Timoshenko shaft.
+//! The shaft element compared with the exact rotating pinned-pinned Timoshenko shaft.
 //!
-//! With r = u_x + j u_y = U sin(k z) e^{jωt} and tilt Ψ cos(k z) e^{jωt}, k = nπ/L, the exact frequencies solve
-//! (κGA k² − ρA ω²)(EI k² + κGA − ρI ω² + 2ρI Ω ω) = (κGA k)². The element holds the exact static deflection under
-//! end loads, so that what it lacks under the load ω²ρA u is a cubic bubble of bending and a parabola of shear:
-//! Δω/ω = (k h)⁴/1440 + ρω²h²/(24 κG). The first is the fourth order of every slender shaft; the second is the price
-//! of one shear parameter per element and shows where h comes near the diameter.
+//! With r = u_x + j u_y = U sin(k z) e^{jωt} and tilt Ψ cos(k z) e^{jωt}, k = nπ/L, the exact frequencies
+//! solve (κGA k² − ρA ω²)(EI k² + κGA − ρI ω² + 2ρI Ω ω) = (κGA k)². The element gives the exact static
+//! deflection under end loads; under the distributed load ω²ρA u it lacks a cubic bubble of bending and a
+//! parabola of shear: Δω/ω = (k h)⁴/1440 + ρω²h²/(24 κG). The first term is the fourth order of every slender
+//! shaft; the second is due to the single shear parameter per element and matters where h approaches the
+//! diameter.
 
 use crate::machine::{element, shaft};
 use crate::ross::{number, read};
@@ -62,7 +63,7 @@ fn fitted_order(sizes: &[usize], errors: &[f64]) -> f64 {
 }
 
 #[test]
-fn the_closed_form_is_the_reference() {
+fn closed_form_matches_reference_values() {
     let file = &read("ross/uniform_pinned.json")["results"]["analytic_timoshenko_pinned_pinned"]["by_speed"];
     for (name, speed) in [("0.0", 0.0), ("1000.0", 1000.0), ("3000.0", 3000.0)] {
         for n in 1..=4 {
@@ -75,7 +76,7 @@ fn the_closed_form_is_the_reference() {
 }
 
 #[test]
-fn a_slender_rotating_shaft_converges_with_fourth_order() {
+fn slender_rotating_shaft_converges_with_fourth_order() {
     let sizes = [6, 8, 12, 16];
     for forward in [true, false] {
         let found: Vec<Vec<f64>> = sizes.iter().map(|&n| frequencies(n, 0.005, 1000.0, forward)).collect();
@@ -87,19 +88,19 @@ fn a_slender_rotating_shaft_converges_with_fourth_order() {
                 "mode {mode}, forward {forward}: order {order:.3}, error with 16 elements {:.1e}",
                 errors[3]
             );
-            // Between the pure fourth order and the start of the shear term.
+            // Fourth order with a small contribution of the shear term.
             assert!((order - 4.0).abs() < 0.25, "{order}");
         }
     }
 }
 
 #[test]
-fn a_thick_rotating_shaft_has_the_predicted_error() {
+fn thick_rotating_shaft_has_predicted_error() {
     let steel = element(1.0, 0.05, 0.05);
     let shear_speed_squared =
         steel.shear_coefficient().unwrap() * steel.material.shear / steel.material.density;
     let sizes = [12, 16, 24, 32];
-    // At higher speed the gyroscopic moment adds a little of its own to the second-order term.
+    // At higher speed the gyroscopic moment adds a little to the second-order term.
     for speed in [0.0, 1000.0] {
         for forward in [true, false] {
             let found: Vec<Vec<f64>> = sizes.iter().map(|&n| frequencies(n, 0.05, speed, forward)).collect();
@@ -115,7 +116,7 @@ fn a_thick_rotating_shaft_has_the_predicted_error() {
                     .collect();
                 let order = fitted_order(&sizes, &rest);
                 println!(
-                    "mode {mode} at {speed} rad/s, forward {forward}: order beside the shear term {order:.3}"
+                    "mode {mode} at {speed} rad/s, forward {forward}: order without the shear term {order:.3}"
                 );
                 assert!((order - 4.0).abs() < 0.3, "{order}");
             }

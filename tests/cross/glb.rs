@@ -1,4 +1,4 @@
-//! The .glb export read back by a reader that knows only the glTF specification.
+//! The .glb export read back by an independent minimal reader of the glTF specification.
 
 use rotordyn::edge::gltf::{Scene, to_glb};
 use rotordyn::edge::parry::BearingShapes;
@@ -39,7 +39,7 @@ fn numbers(document: &Value, binary: &[u8], accessor: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn a_bearing_has_its_named_parts_where_they_belong() {
+fn bearing_part_names_positions_and_meshes() {
     let bearing = rig_6205();
     let shapes = BearingShapes::new(&bearing.geometry, bearing.cage_pocket_diameter);
     let at = shapes.centred(0.1);
@@ -54,7 +54,7 @@ fn a_bearing_has_its_named_parts_where_they_belong() {
     assert_eq!(nodes[0]["children"].as_array().unwrap().len(), 12);
     for (j, ball) in at.balls.iter().enumerate() {
         for k in 0..3 {
-            // serde_json reads numbers to within one last bit.
+            // serde_json reads numbers to within one unit in the last place.
             assert!((nodes[4 + j]["translation"][k].as_f64().unwrap() - ball[k]).abs() < 1e-17);
         }
     }

@@ -1,4 +1,5 @@
-//! A whole machine exported for viewing: the overhung rig's main dimensions (reconstructed), in glTF and VTK.
+//! Export of a whole machine for viewers: the overhung rig's main dimensions (reconstructed), in glTF and
+//! VTK.
 
 use rotordyn::bearing::Bearing;
 use rotordyn::edge::gltf::{self, Scene};
@@ -73,7 +74,7 @@ fn rig() -> Model {
 }
 
 #[test]
-fn gltf_holds_every_part() {
+fn gltf_contains_every_part() {
     let scene = Scene::of_machine(&rig());
     let names: Vec<&str> = scene.nodes.iter().map(|n| n.name.as_str()).collect();
     // 50 shaft sections, 2 discs, 2 housings, 2 bearings of 3 parts and 9 balls under one node.
@@ -99,7 +100,7 @@ fn gltf_holds_every_part() {
 }
 
 #[test]
-fn vtk_holds_nodes_bodies_and_balls() {
+fn vtk_contains_nodes_bodies_and_balls() {
     let grid = Grid::of_machine(&rig());
     assert_eq!((grid.points.len(), grid.lines.len()), (51 + 2 + 18, 50));
     let q: Vec<f64> = (0..6 * 53).map(|k| 1e-6 * f64::from(k)).collect();

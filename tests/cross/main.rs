@@ -1,4 +1,4 @@
-//! A second opinion: other programs' figures and other libraries' methods beside ours.
+//! Cross-checks with independent readers and with the methods of other libraries (parry, rapier).
 
 #[path = "../common/bearing.rs"]
 mod bearing;

@@ -1,7 +1,7 @@
-//! parry's ball-to-race gaps against the deflection δ of the force element.
+//! parry's ball-to-race gaps compared with the deflection δ of the force element.
 //!
 //! Where a ball's centre lies on the line through its groove centres, gap to inner race + gap to outer race
-//! = −δ, however the load divides δ.
+//! = −δ, for any split of δ between the races.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use rotordyn::bearing::{BallBearing, BallElement, Rotation};
@@ -22,7 +22,8 @@ impl Random {
     }
 }
 
-/// Ball centre between the groove centres, where the outer one is at rest: `share` of the approach at the inner.
+/// Ball centre on the line of groove centres, outer ring at rest; `share` of the approach is at the inner
+/// race.
 fn ball_centre(shapes: &BearingShapes, angle: f64, inner_centre: Vector3<f64>, share: f64) -> Point3<f64> {
     let (sin, cos) = angle.sin_cos();
     let outer = Vector3::new(
@@ -43,10 +44,10 @@ fn angular(mut bearing: BallBearing, contact_angle: f64, thrust: f64) -> BallBea
     bearing
 }
 
-/// The element's own kinematics, section by section: displacement of the groove in the plane of each ball.
+/// Kinematics of the element: displacement of the groove in the plane of each ball.
 /// Lengths of 0.02 m have a last bit of 3.5e-18 m; a dozen roundings of the trigonometry give some 1e-17.
 #[test]
-fn gaps_add_up_to_the_deflection_of_the_element() {
+fn gaps_sum_to_element_deflection() {
     let mut random = Random(1);
     let mut worst: f64 = 0.0;
     for bearing in [rig_6205(), angular(rig_6205(), 15f64.to_radians(), 1.0), angular(rig_6205(), 0.6, -1.0)]
@@ -89,9 +90,10 @@ fn gaps_add_up_to_the_deflection_of_the_element() {
 }
 
 /// The ring moved and tilted as a rigid body: the element is linear in the displacement, so the difference is
-/// of second order, at most about |d|²/R with |d| the displacement of the groove, and falls by four when |d| halves.
+/// of second order, at most about |d|²/R with |d| the displacement of the groove, a quarter when |d| is
+/// halved.
 #[test]
-fn the_linearised_ring_errs_by_second_order_only() {
+fn ring_linearisation_error_is_second_order() {
     let bearing = rig_6205();
     let element = BallElement::new(&bearing);
     let shapes = BearingShapes::new(&bearing.geometry, bearing.cage_pocket_diameter);

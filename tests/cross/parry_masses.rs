@@ -1,7 +1,7 @@
-//! Closed-form masses and inertias against parry's integration over triangle meshes.
+//! Closed-form masses and inertias compared with parry's integration over triangle meshes.
 //!
-//! An inscribed mesh with n facets errs by O(n⁻²): the difference must fall by four when n doubles, and the
-//! value extrapolated from two meshes meet the closed form.
+//! An inscribed mesh with n facets has an error of O(n⁻²): it must fall to a quarter when n doubles, and the
+//! value extrapolated from two meshes must equal the closed form.
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
@@ -38,9 +38,9 @@ fn check(name: &str, solid: &Solid, mesh: impl Fn(usize) -> Mesh, tolerance: f64
     assert!((fine[1] - exact[1]).abs() < 1e-7, "{name}: {} {}", fine[1], exact[1]);
 }
 
-/// What is left after extrapolation is O(n⁻⁴): with 128 and 256 facets about (2π/128)⁴/30 = 2e-7.
+/// The error after extrapolation is O(n⁻⁴): with 128 and 256 facets about (2π/128)⁴/30 = 2e-7.
 #[test]
-fn balls_and_rings() {
+fn mass_of_balls_and_rings() {
     let mut bearing = rig_6205();
     for contact_angle in [0.0, 0.5] {
         bearing.geometry.contact_angle = contact_angle;
@@ -53,17 +53,17 @@ fn balls_and_rings() {
 }
 
 #[test]
-fn cage() {
+fn mass_of_cage() {
     let bearing = rig_6205();
     let shapes = BearingShapes::new(&bearing.geometry, bearing.cage_pocket_diameter);
     let solid = shapes.masses(DENSITY, DENSITY, DENSITY).cage;
     check("cage", &solid, |n| Mesh::cage(&shapes.cage, 64 * n, 8 * n), 1e-6);
 }
 
-/// Catalogues give about 0.128 kg for a 6205. Ours lacks the rings' chamfers and recesses and has a solid cage
-/// in place of a ribbon, so it is somewhat heavier.
+/// Catalogues give about 0.128 kg for a 6205. Ours lacks the rings' chamfers and recesses and has a solid
+/// cage in place of a ribbon, so it is somewhat heavier.
 #[test]
-fn the_6205_weighs_what_its_catalogue_says() {
+fn catalogue_mass_of_6205() {
     let bearing = rig_6205();
     let shapes = BearingShapes::new(&bearing.geometry, bearing.cage_pocket_diameter);
     let m = shapes.masses(7850.0, 7850.0, 7850.0);

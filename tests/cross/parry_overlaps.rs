@@ -1,4 +1,4 @@
-//! Overlaps of bearing parts: found when they are there, silent when not.
+//! Overlap detection of bearing parts, without false overlaps.
 
 use nalgebra::{Isometry3, Vector3};
 use rotordyn::bearing::BallBearing;
@@ -27,7 +27,7 @@ fn depth(found: &[Overlap], first: Part, second: Part) -> f64 {
 }
 
 #[test]
-fn the_rigs_bearing_is_sound() {
+fn rig_bearing_has_no_overlaps() {
     assert_eq!(overlaps(&rig_6205()), []);
     for contact_angle in [15f64, 25.0, 40.0] {
         let mut bearing = rig_6205();
@@ -37,7 +37,7 @@ fn the_rigs_bearing_is_sound() {
 }
 
 #[test]
-fn crowded_balls_overlap_by_diameter_less_chord() {
+fn adjacent_balls_overlap_by_diameter_minus_chord() {
     let mut bearing = rig_6205();
     bearing.geometry.balls = 16;
     let found = overlaps(&bearing);
@@ -50,7 +50,7 @@ fn crowded_balls_overlap_by_diameter_less_chord() {
 }
 
 #[test]
-fn a_tight_pocket_a_tight_groove_and_interference_show() {
+fn tight_pocket_and_interference_are_reported() {
     let mut bearing = rig_6205();
     bearing.cage_pocket_diameter = 7.9e-3;
     let found = overlaps(&bearing);
@@ -67,13 +67,13 @@ fn a_tight_pocket_a_tight_groove_and_interference_show() {
 }
 
 #[test]
-fn grooves_through_the_bore_the_outside_and_the_faces_show() {
+fn grooves_cutting_bore_outside_or_faces_are_reported() {
     let mut bearing = rig_6205();
     bearing.geometry.bore = 31e-3;
     bearing.geometry.outside_diameter = 46e-3;
     bearing.geometry.width = 6e-3;
     let found = overlaps(&bearing);
-    // Groove bottoms lie at D_pw ∓ (D_w + P_d/2) across.
+    // Groove bottom diameters are D_pw ∓ (D_w + P_d/2).
     let bottom = 38.5e-3 - 7.938e-3 - 5e-6;
     let first = depth(&found, Part::Groove(Race::Inner), Part::Bore);
     assert!((first - 0.5 * (31e-3 - bottom)).abs() < 1e-15, "{first}");
@@ -83,7 +83,7 @@ fn grooves_through_the_bore_the_outside_and_the_faces_show() {
 }
 
 #[test]
-fn a_ring_out_of_place_meets_balls_cage_and_the_other_ring() {
+fn displaced_ring_overlaps_balls_cage_and_outer_ring() {
     let shapes = shapes(&rig_6205());
     let mut at = shapes.centred(0.0);
     at.inner = Isometry3::translation(6e-3, 0.0, 0.0);
@@ -92,7 +92,7 @@ fn a_ring_out_of_place_meets_balls_cage_and_the_other_ring() {
     assert!((depth(&found, Part::InnerRing, Part::OuterRing) - (6e-3 - play)).abs() < 1e-15);
     assert!(depth(&found, Part::InnerRing, Part::Cage) > 4e-3);
     assert!(depth(&found, Part::Ball(0), Part::InnerRing) > 1e-3);
-    // A ball held at the pitch radius lets the groove pass by √(e² − (e − P_d/4)²), e = r_i − D_w/2.
+    // A ball fixed at the pitch radius permits an axial offset of √(e² − (e − P_d/4)²), e = r_i − D_w/2.
     let e: f64 = 0.015 * 7.938e-3;
     let play = (e * e - (e - 2.5e-6) * (e - 2.5e-6)).sqrt();
     at.inner = Isometry3::new(Vector3::new(0.0, 0.0, 0.999 * play), Vector3::zeros());

@@ -1,4 +1,4 @@
-//! Free balls in rapier against the kinematic cage: speed ratio ½ (1 − D_w/D_pw) and even spacing.
+//! Free balls in rapier compared with the kinematic cage: speed ratio ½ (1 − D_w/D_pw) and even spacing.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ const SPEED: f64 = 1200.0 * TAU / 60.0;
 
 fn settings(cage: bool, displacement: [f64; 3]) -> FreeBallSettings {
     FreeBallSettings {
-        // Ball of 2 g between contacts of some 5e7 N/m: ω dt = 0.4, and traction settles at a rate of
+        // Ball of 2 g between contacts of some 5e7 N/m: ω dt = 0.4, and traction relaxes at a rate of
         // 2 (1 + 5/2) μQ/(m v₀), 4e5 1/s at 75 N: 0.8 a step. Both well below the limit of 2.
         step: 2e-6,
         speed: SPEED,
@@ -32,18 +32,18 @@ fn bearing(radial_clearance: f64) -> BallBearing {
     bearing
 }
 
-/// How far a ball is ahead of its place \[rad\], in (−π, π].
+/// Angle by which a ball leads its nominal position \[rad\], in (−π, π].
 fn ahead(free: &FreeBallBearing, ball: usize, first: f64) -> f64 {
     let centre = free.ball_centre(ball);
     let angle = centre.y.atan2(centre.x) - first - TAU * ball as f64 / 9.0;
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// Light interference holds every ball, gravity is all that disturbs: its creep v₀ m g/(2 μ Q) is about
-/// 3e-4 m/s of 0.95 m/s at Q = 9 N, one way on one side of the ring and the other way on the other.
-/// Interference moves centres and contacts by P_d/4 = 1 um of 19 mm, 5e-5.
+/// Light interference keeps every ball loaded; gravity is the only disturbance: its creep v₀ m g/(2 μ Q) is
+/// about 3e-4 m/s of 0.95 m/s at Q = 9 N, with opposite sign on opposite sides of the ring. Interference
+/// moves centres and contacts by P_d/4 = 1 um of 19 mm, 5e-5.
 #[test]
-fn balls_without_cage_roll_at_the_kinematic_speed() {
+fn balls_without_cage_roll_at_kinematic_speed() {
     let bearing = bearing(-4e-6);
     let expected = BallElement::new(&bearing).cage_ratio(1.0) * SPEED;
     let mut free = FreeBallBearing::new(&bearing, settings(false, [0.0; 3]));
@@ -55,7 +55,7 @@ fn balls_without_cage_roll_at_the_kinematic_speed() {
     }
     let mean = ratios.iter().sum::<f64>() / 9.0;
     assert!((mean - 1.0).abs() < 1e-4, "{mean}");
-    // Nothing but rolling keeps them apart: still evenly spaced within the clearance that pockets would have.
+    // Spaced by rolling alone: deviations are within the clearance that cage pockets would have.
     let first = free.ball_centre(0);
     let first = first.y.atan2(first.x);
     for j in 0..9 {
@@ -63,10 +63,10 @@ fn balls_without_cage_roll_at_the_kinematic_speed() {
     }
 }
 
-/// Under radial load with clearance some balls are free; the cage takes them along. Each ball may be anywhere
+/// Under radial load with clearance some balls are unloaded; the cage drives them. Each ball may be anywhere
 /// in its pocket, so over an angle φ the cage's mean speed is known to two pocket clearances over R φ.
 #[test]
-fn a_free_cage_keeps_the_kinematic_speed_and_spacing() {
+fn free_cage_has_kinematic_speed_and_spacing() {
     let bearing = bearing(10e-6);
     let expected = BallElement::new(&bearing).cage_ratio(1.0) * SPEED;
     let mut free = FreeBallBearing::new(&bearing, settings(true, [0.0, -9e-6, 0.0]));
@@ -82,7 +82,7 @@ fn a_free_cage_keeps_the_kinematic_speed_and_spacing() {
         last = angle;
         for j in 0..9 {
             farthest = farthest.max(radius * ahead(&free, j, angle).abs());
-            // Within 20 degrees of the load's line.
+            // Within 20 degrees of the load direction.
             let centre = free.ball_centre(j);
             if centre.y < -radius * 20f64.to_radians().cos() {
                 loaded.push(free.orbital_speed(j) / expected);
@@ -95,8 +95,8 @@ fn a_free_cage_keeps_the_kinematic_speed_and_spacing() {
     println!("cage {ratio}, loaded balls {loaded_mean}, farthest {farthest:e} of {clearance:e} m");
     assert!((ratio - 1.0).abs() < 2.0 * clearance / (radius * travelled), "{ratio}");
     // Clearance and load move ball centres out by P_d/4 + δ_o = 4.6 um of 19.3 mm and inner contacts in by
-    // P_d/4 + δ_i/2 = 3.5 um of 15.3 mm: 4.7e-4 slower; creep that carries the free balls along: 3e-4.
+    // P_d/4 + δ_i/2 = 3.5 um of 15.3 mm: 4.7e-4 slower; creep that drives the unloaded balls: 3e-4.
     assert!((loaded_mean - 1.0 + 4.7e-4).abs() < 3e-4, "{loaded_mean}");
-    // The pocket wall gives way by a few micrometres where a driven ball pushes it.
+    // The pocket wall deflects by a few micrometres under a driven ball.
     assert!(farthest < clearance + 5e-6, "{farthest:e}");
 }

@@ -1,10 +1,10 @@
-//! CSV and VTK files, read back number by number.
+//! Round trips of CSV and VTK files, number by number.
 
 use rotordyn::edge::csv::{self, Column};
 use rotordyn::edge::vtk::{Field, Grid, Values, machine_fields, to_vtu, write_pvd, write_vtu};
 
 #[test]
-fn csv_reads_back_exactly_with_units_in_its_header() {
+fn csv_round_trip_is_exact_with_units_in_header() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.csv");
     let acceleration = [1.0 / 3.0, -2.5e-300, 0.0];
@@ -41,7 +41,7 @@ fn grid() -> Grid {
 }
 
 #[test]
-fn vtu_reads_back_exactly() {
+fn vtu_round_trip_is_exact() {
     let q: Vec<f64> = (0..18).map(|k| f64::from(k) / 7.0).collect();
     let fields = machine_fields(&grid(), &q, &[55.5]);
     let text = to_vtu(&grid(), &fields).unwrap();
@@ -58,7 +58,7 @@ fn vtu_reads_back_exactly() {
 }
 
 #[test]
-fn vtk_series_and_refusals() {
+fn vtk_series_and_error_messages() {
     let folder = tempfile::tempdir().unwrap();
     let fields = machine_fields(&grid(), &[0.0; 18], &[]);
     write_vtu(&folder.path().join("a&b.vtu"), &grid(), &fields).unwrap();
@@ -74,6 +74,6 @@ fn vtk_series_and_refusals() {
     assert_eq!(error, "field f does not have one value for each of 4 points");
     let bad = Grid { lines: vec![[0, 9]], ..grid() };
     assert_eq!(to_vtu(&bad, &[]).unwrap_err(), "a line ends at point 9 of 4");
-    let nowhere = folder.path().join("missing").join("x.vtu");
-    assert!(write_vtu(&nowhere, &grid(), &fields).unwrap_err().to_string().starts_with("write "));
+    let missing_folder = folder.path().join("missing").join("x.vtu");
+    assert!(write_vtu(&missing_folder, &grid(), &fields).unwrap_err().to_string().starts_with("write "));
 }

@@ -1,9 +1,9 @@
-//! Snapshots of the messages, rendered without colour.
+//! Snapshots of the error messages, rendered without colour.
 
 use crate::sample::Sample;
 use rotordyn::model::{self, Options};
 
-/// A small sound model that each case spoils in one place.
+/// A small valid model; each case introduces one error.
 const GOOD: &str = r#"[model]
 name = "good"
 
@@ -68,7 +68,7 @@ fn messages(text: impl AsRef<[u8]>, options: &Options) -> String {
     MACHINE.refused_with(text, options)
 }
 
-/// The good model with one text replaced.
+/// The valid model with one text replaced.
 fn spoiled(from: &str, to: &str) -> String {
     assert_eq!(GOOD.matches(from).count(), 1, "`{from}`");
     GOOD.replace(from, to)
@@ -83,7 +83,7 @@ fn set(path: &str, value: &str) -> String {
 }
 
 #[test]
-fn the_good_model_is_good() {
+fn valid_model_has_no_warnings() {
     let options = Options { variant: Some("soft".into()), ..Options::default() };
     assert_eq!(model::load("machine.toml", GOOD, &options).unwrap().warnings, []);
 }
@@ -136,7 +136,7 @@ cases! {
     set_not_a_path: set("bearing..B", "1");
 }
 
-/// 10 MB of seeded noise on one line, as bytes, as text, and as brackets: a short message, and soon.
+/// 10 MB of seeded random bytes, text and brackets on one line: a short message within a short time.
 #[test]
 fn garbage() {
     const SIZE: usize = 10_000_000;

@@ -1,9 +1,9 @@
-//! Messages about bearings whose contact, preload or mounting does not hold together.
+//! Messages about inconsistent contact, preload or mounting of bearings.
 
 use crate::sample::Sample;
 use rotordyn::model::{self, Options};
 
-/// A rotor on two preloaded angular-contact bearings with a film; each case spoils it in one place.
+/// A rotor on two preloaded angular-contact bearings with a lubricant film; each case introduces one error.
 const GOOD: &str = r#"[model]
 name = "spindle"
 
@@ -54,20 +54,20 @@ fn changed(from: &str, to: &str) -> String {
     SPINDLE.changed(from, to)
 }
 
-/// The good model with lines added to bearing A.
+/// The valid model with lines added to bearing A.
 fn added(lines: &str) -> String {
     changed("thrust = \"-z\"\n", &format!("thrust = \"-z\"\n{lines}\n"))
 }
 
 #[test]
-fn the_good_spindle_is_good() {
+fn valid_spindle_has_no_warnings() {
     assert_eq!(model::load("spindle.toml", GOOD, &Options::default()).unwrap().warnings, []);
 }
 
 const OIL: &str = "[lubricant.oil]\nviscosity = \"0.04 Pa s\"\npressure_viscosity = \"23 1/GPa\"\n";
 const FILM: &str = "contact = \"film\"\nlubricant = \"oil\"\npreload";
 
-/// Bearing A with massless balls and these numbers of a fitted law.
+/// Bearing A with massless balls and these keys of a fitted power law.
 fn fitted(law: &str) -> String {
     let law = format!("contact = \"power_law\"\n{law}preload");
     refused(&GOOD.replace("ball_inertia = \"outer_race_control\"\n", "").replace(FILM, &law))

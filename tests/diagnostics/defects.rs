@@ -1,4 +1,4 @@
-//! Messages about races and balls that cannot be so, and warnings about what no ball will notice.
+//! Messages about invalid defects of races and balls, and warnings about defects that no ball reaches.
 
 use crate::sample::Sample;
 use rotordyn::model::{self, Options};
@@ -45,7 +45,7 @@ fn defect(lines: &str) -> String {
     WORN.changed(DEFECT, lines)
 }
 
-fn doubtful(lines: &str) -> String {
+fn warned(lines: &str) -> String {
     WORN.warned(DEFECT, lines)
 }
 
@@ -55,15 +55,15 @@ fn added(lines: &str) -> String {
 }
 
 #[test]
-fn the_good_bearing_is_good() {
+fn valid_bearing_has_no_warnings() {
     assert_eq!(model::load("worn.toml", GOOD, &Options::default()).unwrap().warnings, []);
 }
 
 cases! {
-    wider_than_the_ball_spacing: doubtful("kind = \"dent\"\non = \"outer\"\nangle = \"0 deg\"\nwidth = \"18 mm\"\ndepth = \"1 um\"\n");
-    wider_than_half_a_ball: doubtful("kind = \"bump\"\non = \"ball\"\nball = 2\nangle = \"0 deg\"\nwidth = \"14 mm\"\nheight = \"1 um\"\n");
-    deeper_than_the_ball_reaches: doubtful("kind = \"dent\"\non = \"outer\"\nangle = \"0 deg\"\nwidth = \"0.17 mm\"\ndepth = \"0.28 mm\"\n");
-    spall_deeper_than_the_ball_reaches: doubtful("kind = \"spall\"\non = \"inner\"\nangle = \"0 deg\"\nwidth = \"1 mm\"\ndepth = \"0.1 mm\"\nedge_radius = \"0.1 mm\"\n");
+    wider_than_the_ball_spacing: warned("kind = \"dent\"\non = \"outer\"\nangle = \"0 deg\"\nwidth = \"18 mm\"\ndepth = \"1 um\"\n");
+    wider_than_half_a_ball: warned("kind = \"bump\"\non = \"ball\"\nball = 2\nangle = \"0 deg\"\nwidth = \"14 mm\"\nheight = \"1 um\"\n");
+    deeper_than_the_ball_reaches: warned("kind = \"dent\"\non = \"outer\"\nangle = \"0 deg\"\nwidth = \"0.17 mm\"\ndepth = \"0.28 mm\"\n");
+    spall_deeper_than_the_ball_reaches: warned("kind = \"spall\"\non = \"inner\"\nangle = \"0 deg\"\nwidth = \"1 mm\"\ndepth = \"0.1 mm\"\nedge_radius = \"0.1 mm\"\n");
     all_the_way_round: defect("kind = \"spall\"\non = \"inner\"\nangle = \"0 deg\"\nwidth = \"100 mm\"\ndepth = \"1 um\"\n");
     wider_than_a_ball_without_depth: defect("kind = \"dent\"\non = \"outer\"\nangle = \"0 deg\"\nwidth = \"9 mm\"\n");
     race_that_is_not_there: defect("kind = \"dent\"\non = \"middle\"\nangle = \"0 deg\"\nwidth = \"0.17 mm\"\n");

@@ -1,4 +1,4 @@
-//! Each kind of bad input, and the message it gets.
+//! Error messages for each kind of invalid input.
 
 #[macro_use]
 mod sample;

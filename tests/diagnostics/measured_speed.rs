@@ -1,4 +1,4 @@
-//! Messages about speeds that were measured.
+//! Messages about measured speed profiles.
 
 use crate::render::render;
 use rotordyn::model::{self, Loaded, ModelErrors, Options, SideColumn, SideFile};
@@ -63,7 +63,7 @@ fn speeds(times: &[f64], rpm: &[f64]) -> String {
 }
 
 #[test]
-fn good_pulses_are_good() {
+fn valid_pulses_have_no_warnings() {
     for keys in [FILE.to_string(), "pulses = \"0.1, 0.3, 0.48, 0.64, 0.78, 0.9 s\"".into()] {
         let loaded = load(&keys, Ok(vec![column("time", "s", &TURNS)])).unwrap();
         assert_eq!(loaded.warnings, []);

@@ -1,4 +1,4 @@
-//! No slip of the pen makes the reader panic, and every refusal points into the text.
+//! Mutated model files never make the reader panic, and every error span lies within the text.
 
 use rotordyn::model::{self, Options};
 
@@ -26,9 +26,9 @@ const VALUES: [&str; 12] = [
     "\"0, 0, 0 mm\"",
 ];
 
-/// Every line dropped, and every value replaced by each of the odd ones.
+/// Every line deleted, and every value replaced by each of `VALUES`.
 #[test]
-fn spoiled_lines_are_refused_or_read_but_never_panic() {
+fn mutated_lines_never_panic() {
     let (mut read, mut refused) = (0, 0);
     for text in FILES {
         let lines: Vec<&str> = text.lines().collect();
@@ -38,13 +38,13 @@ fn spoiled_lines_are_refused_or_read_but_never_panic() {
             let key = line.split_once(" = ").map(|(key, _)| key);
             let replacements = VALUES.iter().filter_map(|v| key.map(|key| format!("{key} = {v}")));
             for line in replacements.chain([String::new()]) {
-                let mut spoiled = lines.clone();
-                spoiled[k] = &line;
-                let spoiled = spoiled.join("\n");
+                let mut mutated = lines.clone();
+                mutated[k] = &line;
+                let mutated = mutated.join("\n");
                 for variant in &variants {
                     match model::load(
                         "m",
-                        &spoiled,
+                        &mutated,
                         &Options { variant: variant.clone(), ..Options::default() },
                     ) {
                         Ok(_) => read += 1,
@@ -52,10 +52,10 @@ fn spoiled_lines_are_refused_or_read_but_never_panic() {
                             refused += 1;
                             for d in &errors.diagnostics {
                                 assert!(
-                                    d.span.start <= d.span.end && d.span.end <= spoiled.len(),
+                                    d.span.start <= d.span.end && d.span.end <= mutated.len(),
                                     "{line}: {d:?}"
                                 );
-                                assert!(spoiled.get(d.span.clone()).is_some(), "{line}: {d:?}");
+                                assert!(mutated.get(d.span.clone()).is_some(), "{line}: {d:?}");
                             }
                         }
                     }

@@ -1,9 +1,9 @@
-//! Messages about ball bearings whose balls have coordinates of their own.
+//! Messages about radial ball bearings with ball degrees of freedom (`model = "radial_ball"`).
 
 use crate::sample::Sample;
 use rotordyn::model::{self, Options};
 
-/// A rigid rotor on one such bearing; each case spoils it in one place.
+/// A rigid rotor on one such bearing; each case introduces one error.
 const GOOD: &str = r#"[model]
 name = "rotor"
 
@@ -43,13 +43,13 @@ fn changed(from: &str, to: &str) -> String {
     ROTOR.changed(from, to)
 }
 
-/// The good model with lines added to the bearing.
+/// The valid model with lines added to the bearing.
 fn added(lines: &str) -> String {
     changed("material = \"steel\"\n", &format!("material = \"steel\"\n{lines}\n"))
 }
 
 #[test]
-fn the_good_rotor_is_good() {
+fn valid_rotor_has_no_warnings() {
     assert_eq!(model::load("rotor.toml", GOOD, &Options::default()).unwrap().warnings, []);
 }
 

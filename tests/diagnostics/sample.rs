@@ -1,16 +1,16 @@
-//! What the files of cases share: a sound text spoiled in one place, and the message it then gets.
+//! Shared by the cases: a valid model file, changed in one place, and the resulting message.
 
 use crate::render::render;
 use rotordyn::model::{self, Options};
 
-/// A sound model file.
+/// A valid model file.
 pub struct Sample {
     pub file: &'static str,
     pub text: &'static str,
 }
 
 impl Sample {
-    /// The message that refuses a text in this file's place.
+    /// Error message for a text in place of this file's.
     pub fn refused(&self, text: impl AsRef<[u8]>) -> String {
         self.refused_with(text, &Options::default())
     }
@@ -21,13 +21,13 @@ impl Sample {
         render(&errors.diagnostics, &errors.sources, miette::Severity::Error, false)
     }
 
-    /// The message when every occurrence of `from` is replaced.
+    /// Error message with every occurrence of `from` replaced.
     pub fn changed(&self, from: &str, to: &str) -> String {
         self.refused(self.with(from, to))
     }
 
-    /// The warnings of a text that is sound but doubtful.
-    #[allow(dead_code)] // not every kind of input has doubtful cases
+    /// Warnings of a valid but questionable text.
+    #[allow(dead_code)] // not every kind of input has cases with warnings
     pub fn warned(&self, from: &str, to: &str) -> String {
         let loaded = model::load(self.file, self.with(from, to), &Options::default());
         let loaded = loaded.unwrap_or_else(|errors| panic!("{errors:?}"));

@@ -2,7 +2,7 @@
 
 use crate::sample::Sample;
 
-/// A rigid rotor on a ball bearing and a linear one, with all three studies; each case spoils one place.
+/// A rigid rotor on a ball bearing and a linear one, with all three studies; each case introduces one error.
 const GOOD: &str = r#"[model]
 name = "steady"
 
@@ -78,11 +78,11 @@ const CONSTANT: &str = "[speed]\nprofile = \"constant\"\nspeed = \"1200 rpm\"\nd
 const UM: &str = "{ from = \"0 um\", to = \"40 um\", count = 41 }";
 
 #[test]
-fn the_good_machine_is_good() {
+fn valid_machine_has_no_warnings() {
     let loaded = rotordyn::model::load("steady.toml", GOOD, &Default::default()).unwrap();
     assert_eq!(loaded.warnings, []);
     assert!(loaded.model.studies.bifurcation.is_some());
-    // Over its speed a diagram needs no other.
+    // A diagram over speed needs no `[speed]` table.
     let text = GOOD.replace(CONSTANT, "").replace("\"bearing.B.radial_clearance\"", "\"speed\"");
     let text = text.replace(UM, "{ from = \"100 rpm\", to = \"900 rpm\" }");
     let text = text.replace("[study.poincare]", "[study.poincare]\nspeed = \"9 Hz\"");

@@ -1,8 +1,8 @@
-//! FRF estimates held to an analyser's own: SignalCalc, hammer and three accelerometers on a plane.
+//! FRF estimates compared with an analyser's (SignalCalc): impact test of a plane with three accelerometers.
 //!
-//! The file holds the last hit's time blocks X, windowed blocks W and spectra S, and the averages over all hits:
-//! G (auto-spectra as peak amplitudes, cross spectra as half products), H and C. Everything is stored in single
-//! precision, 6e-8 of the largest value of its kind.
+//! The file contains time blocks X, windowed blocks W and spectra S of the last hit, and the averages over
+//! all hits: G (auto-spectra as peak amplitudes, cross spectra as half products), H and C, all in single
+//! precision, 6e-8 of the largest value of each kind.
 
 use rotordyn::edge::measured::read;
 use rotordyn::signal::Complex;
@@ -11,7 +11,7 @@ use rotordyn::signal::record::{Measured, Values};
 
 use crate::measured_data::measured;
 
-/// Single precision with a few operations on it.
+/// Round-off of single precision after a few operations.
 const SINGLE: f64 = 3e-7;
 
 fn file() -> Option<Measured> {
@@ -36,11 +36,12 @@ fn largest(values: &[Complex<f64>]) -> f64 {
     values.iter().map(|v| v.norm()).fold(0.0, f64::max)
 }
 
-/// The analyser's settings, read off W/X: force kept for 1 % of 16 s, both under e^{−t/14.4 s} (0.9 of the block).
+/// The analyser's windows from W/X: force window of 1 % of 16 s, exponential window e^{−t/14.4 s} (0.9 of the
+/// block).
 const WINDOWS: ImpactWindows = ImpactWindows { force_length: Some(82), time_constant: Some(14.4) };
 
 #[test]
-fn windows_are_the_analysers() {
+fn windows_match_the_analyser() {
     let Some(file) = file() else { return };
     let rate = file.record("X1").unwrap().sample_rate().unwrap();
     let (force, response) = WINDOWS.samples(8192, rate).unwrap();
@@ -53,7 +54,7 @@ fn windows_are_the_analysers() {
 }
 
 #[test]
-fn one_hit_gives_the_ratio_of_its_spectra() {
+fn single_hit_frf_is_ratio_of_spectra() {
     let Some(file) = file() else { return };
     let rate = file.record("X1").unwrap().sample_rate().unwrap();
     let f = complex(&file, "S1");
@@ -67,12 +68,12 @@ fn one_hit_gives_the_ratio_of_its_spectra() {
             assert!((estimate.h1[k] - own).norm() <= precision, "channel {channel}, line {k}");
         }
         assert_eq!(estimate.frequencies[3200], 200.0);
-        assert!(estimate.coherence.iter().all(|c| (c - 1.0).abs() < 1e-9), "one hit is coherent with itself");
+        assert!(estimate.coherence.iter().all(|c| (c - 1.0).abs() < 1e-9), "coherence of a single hit");
     }
 }
 
 #[test]
-fn averages_give_the_analysers_h1_and_coherence() {
+fn averaged_h1_and_coherence_match_the_analyser() {
     let Some(file) = file() else { return };
     let square = |name: &str| real(&file, name).iter().map(|a| a * a).collect::<Vec<f64>>();
     let frequencies = file.record("H1_2").unwrap().axis.points(3201).unwrap();
@@ -93,7 +94,7 @@ fn averages_give_the_analysers_h1_and_coherence() {
 }
 
 #[test]
-fn the_real_hit_is_a_good_one() {
+fn measured_hit_passes_quality_checks() {
     let Some(file) = file() else { return };
     let (_, window) = WINDOWS.samples(8192, 512.0).unwrap();
     let hit = Hit { force: real(&file, "X1"), response: real(&file, "X2") };

@@ -1,7 +1,7 @@
-//! .mat and .npz: as scipy and numpy read ours and we theirs, and files that are damaged.
+//! .mat and .npz files: exchange with scipy and numpy in both directions, and damaged files.
 //!
-//! `tests/data/arrays` holds the files and, in `numpy.json`, what `read_arrays.py` printed about ours. Without
-//! Python the files are still held to that; with it the script is run again.
+//! `tests/data/arrays` contains the files and, in `numpy.json`, the output of `read_arrays.py` for the
+//! written ones. Without Python the files are compared with that; with Python the script is run again.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -30,12 +30,12 @@ fn written(file: &str) -> Vec<u8> {
 }
 
 #[test]
-fn scipy_and_numpy_read_what_we_write() {
+fn scipy_and_numpy_read_written_files() {
     let stored: Value = serde_json::from_slice(&std::fs::read(folder().join("numpy.json")).unwrap()).unwrap();
     for file in ["all.mat", "all.npz"] {
         assert!(
             std::fs::read(folder().join(file)).is_ok_and(|stored| stored == written(file)),
-            "{file} is written otherwise now: set ROTORDYN_BLESS=1, write the files anew and run read_arrays.py"
+            "{file} has changed: set ROTORDYN_BLESS=1 to rewrite the files, then run read_arrays.py"
         );
         let numbers =
             |name: &str| -> Vec<f64> { serde_json::from_value(stored[file][name].clone()).unwrap() };
@@ -56,7 +56,7 @@ fn scipy_and_numpy_read_what_we_write() {
 }
 
 #[test]
-fn numpy_itself_agrees_with_what_is_stored() {
+fn numpy_output_matches_stored_output() {
     if std::env::var_os("ROTORDYN_BLESS").is_some() {
         std::fs::create_dir_all(folder()).unwrap();
         ["all.mat", "all.npz"].iter().for_each(|f| std::fs::write(folder().join(f), written(f)).unwrap());
@@ -70,7 +70,10 @@ fn numpy_itself_agrees_with_what_is_stored() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let fresh: Value = serde_json::from_slice(&output.stdout).unwrap();
     let stored: Value = serde_json::from_slice(&std::fs::read(folder().join("numpy.json")).unwrap()).unwrap();
-    assert!(fresh == stored, "numpy reads otherwise now: compare read_arrays.py's output with numpy.json");
+    assert!(
+        fresh == stored,
+        "numpy's result has changed: compare the output of read_arrays.py with numpy.json"
+    );
 }
 
 fn real(found: &Measured, name: &str) -> Vec<f64> {
@@ -81,7 +84,7 @@ fn real(found: &Measured, name: &str) -> Vec<f64> {
 }
 
 #[test]
-fn we_read_compressed_files_of_scipy_and_numpy() {
+fn compressed_scipy_and_numpy_files_are_read() {
     let wave: Vec<f64> = (0..12).map(|k| (0.3 * f64::from(k)).sin()).collect();
     for file in ["scipy_compressed.mat", "numpy_compressed.npz"] {
         let found = measured::read(&folder().join(file)).unwrap();
@@ -109,15 +112,15 @@ fn we_read_compressed_files_of_scipy_and_numpy() {
     assert!(numpy.records.iter().all(|r| r.kind != Kind::General));
 }
 
-/// Every format, cut off anywhere or with any byte changed, is read or refused, but never makes the program fail.
+/// Every format, truncated or with changed bytes, is read or rejected with an error, never with a panic.
 #[test]
-fn damaged_files_are_refused_or_read() {
+fn damaged_files_do_not_panic() {
     let temporary = tempfile::tempdir().unwrap();
     let path = temporary.path().join("file");
     let records: Vec<Record> = time_records();
-    let sound = temporary.path().join("a.wav");
+    let wav_file = temporary.path().join("a.wav");
     wav::write(
-        &sound,
+        &wav_file,
         &records.iter().collect::<Vec<_>>(),
         wav::Samples::Pcm { bits: 24, full_scale: 300.0 },
     )
@@ -133,7 +136,7 @@ fn damaged_files_are_refused_or_read() {
         std::fs::read(folder().join("scipy_compressed.mat")).unwrap(),
         std::fs::read(folder().join("numpy_compressed.npz")).unwrap(),
         written("all.mat"),
-        std::fs::read(sound).unwrap(),
+        std::fs::read(wav_file).unwrap(),
         binary,
         ascii.unwrap(),
     ] {
@@ -145,7 +148,7 @@ fn damaged_files_are_refused_or_read() {
         (0..bytes.len()).step_by(step).for_each(|end| try_read(&bytes[..end]));
         for at in (0..bytes.len()).step_by(step / 2 + 1) {
             let mut damaged = bytes.clone();
-            // Another value for every place, with high bits now and then.
+            // A different bit pattern per position, including high bits.
             damaged[at] ^= [0x01, 0x80, 0xff, 0x10][at % 4];
             try_read(&damaged);
         }

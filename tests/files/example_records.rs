@@ -14,7 +14,8 @@ fn complex(count: usize, f: impl Fn(f64) -> Complex<f64>) -> Values {
     Values::Complex((0..count).map(|k| f(k as f64)).collect())
 }
 
-/// Channels of a run on two bearings: even time axis, names longer than a universal file's ten letters.
+/// Channels of a run on two bearings: uniform time axis, names longer than the ten characters of a universal
+/// file.
 pub fn time_records() -> Vec<Record> {
     let axis = Axis::even(AxisQuantity::Time, 0.25, 1.0 / 12000.0);
     let record = |name: &str, node, direction, unit, values| Record {
@@ -29,7 +30,7 @@ pub fn time_records() -> Vec<Record> {
     ]
 }
 
-/// FRFs, their coherence, a density, a spectrum on an uneven axis.
+/// FRFs, their coherence, a spectral density, spectra on a non-uniform axis.
 pub fn frequency_records() -> Vec<Record> {
     let axis = Axis::even(AxisQuantity::Frequency, 0.0, 0.125);
     let uneven: Vec<f64> = (0..9).map(|k| 1.0 + 0.5 * f64::from(k * k)).collect();
@@ -119,7 +120,7 @@ pub fn shapes() -> Vec<Shape> {
     ]
 }
 
-/// All of it.
+/// All records, geometry and shapes.
 pub fn everything() -> Measured {
     Measured {
         title: "overhung rig".into(),
@@ -138,10 +139,11 @@ fn pairs(values: &Values) -> Vec<[f64; 2]> {
     }
 }
 
-/// Asserts that a record came back: words equal, numbers within `relative` of their own size.
+/// Asserts that a record survives a round trip: metadata equal, numbers within the tolerance `relative`.
 pub fn assert_record(got: &Record, want: &Record, relative: f64, axis_relative: f64) {
-    let words = |r: &Record| (r.kind, r.axis.quantity, r.unit.clone(), r.response, r.reference, r.speed_rpm);
-    assert_eq!(words(got), words(want), "{}", want.name);
+    let metadata =
+        |r: &Record| (r.kind, r.axis.quantity, r.unit.clone(), r.response, r.reference, r.speed_rpm);
+    assert_eq!(metadata(got), metadata(want), "{}", want.name);
     let count = want.values.len();
     assert_eq!(got.values.len(), count, "{}", want.name);
     let (a, b) = (got.axis.points(count).unwrap(), want.axis.points(count).unwrap());

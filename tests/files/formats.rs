@@ -1,4 +1,4 @@
-//! Round trips through every format, and how formats are recognised.
+//! Round trips round_trip every format, and format detection.
 
 use std::path::Path;
 
@@ -9,21 +9,21 @@ use rotordyn::signal::record::{Kind, Measured, Record, Values};
 
 use crate::example_records::{assert_record, everything, frequency_records, time_records};
 
-fn of(records: Vec<Record>) -> Measured {
+fn measured_of(records: Vec<Record>) -> Measured {
     Measured { records, ..Measured::default() }
 }
 
-fn through(measured: &Measured, file: &str) -> Measured {
+fn round_trip(measured: &Measured, file: &str) -> Measured {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(file);
     measured::write(&path, measured).unwrap();
     let first = std::fs::read(&path).unwrap();
     measured::write(&path, measured).unwrap();
-    assert!(first == std::fs::read(&path).unwrap(), "{file}: the same input gives the same bytes");
+    assert!(first == std::fs::read(&path).unwrap(), "{file}: the same input must give the same bytes");
     measured::read(&path).unwrap()
 }
 
-/// In the order of the records, but for HDF5, which sorts by name.
+/// Compares in the order of the records or, with `names`, sorted by name (HDF5 sorts by name).
 fn assert_same(got: &Measured, want: &Measured, relative: f64, names: bool) {
     assert_eq!(got.records.len(), want.records.len());
     let (mut got, mut want) = (got.clone(), want.clone());
@@ -38,54 +38,55 @@ fn assert_same(got: &Measured, want: &Measured, relative: f64, names: bool) {
 }
 
 #[test]
-fn arrays_come_back_exactly() {
+fn array_formats_round_trip_exactly() {
     let mut all = everything();
     all.scalars = vec![("X105RPM".into(), 1797.0), ("load_hp".into(), 0.0)];
     for file in ["all.mat", "all.npz", "all.h5"] {
-        let back = through(&all, file);
+        let back = round_trip(&all, file);
         assert_same(&back, &all, 0.0, true);
         assert_eq!(back.title, all.title);
         let mut scalars = back.scalars.clone();
         scalars.sort_by(|a, b| a.0.cmp(&b.0));
         assert_eq!(scalars, [("X105RPM".to_string(), 1797.0), ("load_hp".to_string(), 0.0)]);
         assert_eq!(back.notes, Vec::<String>::new(), "{file}");
-        // As many samples as lines.
-        let mut mixed = of([time_records()[..1].to_vec(), frequency_records()[..1].to_vec()].concat());
+        // As many time samples as spectral lines.
+        let mut mixed =
+            measured_of([time_records()[..1].to_vec(), frequency_records()[..1].to_vec()].concat());
         mixed.records[0].values = Values::Real((0..17).map(f64::from).collect());
-        assert_same(&through(&mixed, file), &mixed, 0.0, true);
-        // One axis for all: told once; coherence belongs to its FRF.
-        let matrix = through(&of(frequency_records()[..1].to_vec()), file).frf_matrix().unwrap();
+        assert_same(&round_trip(&mixed, file), &mixed, 0.0, true);
+        // A common axis is stored once; coherence is assigned to its FRF.
+        let matrix = round_trip(&measured_of(frequency_records()[..1].to_vec()), file).frf_matrix().unwrap();
         assert_eq!((matrix.frequencies.len(), matrix.frequencies[16]), (17, 2.0));
     }
 }
 
 #[test]
-fn names_that_a_format_cannot_hold_come_back() {
+fn names_not_allowed_by_a_format_round_trip() {
     let mut long = time_records()[0].clone();
     long.name = "2 Gehäuse B, a_x (links) ".repeat(5).trim_end().into();
-    let mut twin = long.clone();
-    twin.name += "2";
+    let mut second = long.clone();
+    second.name += "2";
     for file in ["a.mat", "a.npz", "a.h5"] {
-        let both = of(vec![long.clone(), twin.clone()]);
-        assert_same(&through(&both, file), &both, 0.0, true);
+        let both = measured_of(vec![long.clone(), second.clone()]);
+        assert_same(&round_trip(&both, file), &both, 0.0, true);
     }
 }
 
 #[test]
-fn csv_keeps_every_digit() {
-    let mut time = of(time_records());
+fn csv_round_trip_is_exact() {
+    let mut time = measured_of(time_records());
     time.records.iter_mut().for_each(|r| {
         r.speed_rpm = None;
         (r.response, r.reference) = Default::default();
     });
-    assert_same(&through(&time, "a.csv"), &time, 0.0, true);
-    let mut lines = of(frequency_records()[..4].to_vec());
+    assert_same(&round_trip(&time, "a.csv"), &time, 0.0, true);
+    let mut lines = measured_of(frequency_records()[..4].to_vec());
     lines.records.iter_mut().for_each(|r| (r.response, r.reference) = Default::default());
-    let back = through(&lines, "a.csv");
-    // A slash is no letter of a column's name.
+    let back = round_trip(&lines, "a.csv");
+    // A slash is not allowed in a column name.
     let names: Vec<&str> = back.records.iter().map(|r| r.name.as_str()).collect();
     assert_eq!(names, ["rim_disc_y", "rim_disc_twist", "coherence", "density"]);
-    // The density is one by its name alone in tables.
+    // Tables do not store the kind of a record: the density is read as a spectrum.
     lines.records[3].kind = Kind::Spectrum;
     assert_same(&back, &lines, 0.0, false);
     let folder = tempfile::tempdir().unwrap();
@@ -99,7 +100,7 @@ fn csv_keeps_every_digit() {
 }
 
 #[test]
-fn wav_keeps_single_precision_or_its_bits() {
+fn wav_round_trip_within_sample_precision() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.wav");
     let records = time_records();
@@ -139,7 +140,7 @@ fn wav_keeps_single_precision_or_its_bits() {
 }
 
 #[test]
-fn a_universal_file_is_known_by_its_content_and_keeps_all() {
+fn universal_file_is_detected_by_content() {
     let all = everything();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("measured.dat");
@@ -150,7 +151,7 @@ fn a_universal_file_is_known_by_its_content_and_keeps_all() {
 }
 
 #[test]
-fn results_of_a_run_are_read_as_records() {
+fn run_results_are_read_as_records() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     crate::hdf5_h5py::write_example(&path);
@@ -167,31 +168,31 @@ fn results_of_a_run_are_read_as_records() {
 }
 
 #[test]
-fn formats_are_told_by_content() {
-    let told = |head: &[u8]| Format::of_content(head);
-    assert_eq!(told(b"\x89HDF\r\n\x1a\n\0\0"), Some(Format::Hdf5));
+fn formats_are_detected_by_content() {
+    let detect = |head: &[u8]| Format::of_content(head);
+    assert_eq!(detect(b"\x89HDF\r\n\x1a\n\0\0"), Some(Format::Hdf5));
     let mut matlab_73 = vec![b' '; 512];
     matlab_73.extend(b"\x89HDF\r\n\x1a\n");
-    assert_eq!(told(&matlab_73), Some(Format::Hdf5));
-    assert_eq!(told(b"\n    -1\r\n   151\n"), Some(Format::Universal));
-    assert_eq!(told(b"time_s,ax\n-1,2\n"), Some(Format::Table));
-    assert_eq!(told(b"\x93NUMPY\x01\0"), Some(Format::Numpy));
-    assert_eq!(told(b"PK\x03\x04"), Some(Format::Numpy));
-    assert_eq!(told(b"RIFF\0\0\0\0WAVEfmt "), Some(Format::Wav));
-    assert_eq!(told(b"%PDF-1.4\n\x01\x02"), None);
+    assert_eq!(detect(&matlab_73), Some(Format::Hdf5));
+    assert_eq!(detect(b"\n    -1\r\n   151\n"), Some(Format::Universal));
+    assert_eq!(detect(b"time_s,ax\n-1,2\n"), Some(Format::Table));
+    assert_eq!(detect(b"\x93NUMPY\x01\0"), Some(Format::Numpy));
+    assert_eq!(detect(b"PK\x03\x04"), Some(Format::Numpy));
+    assert_eq!(detect(b"RIFF\0\0\0\0WAVEfmt "), Some(Format::Wav));
+    assert_eq!(detect(b"%PDF-1.4\n\x01\x02"), None);
     assert_eq!(Format::of_extension(Path::new("A.UNV")), Some(Format::Universal));
     assert_eq!(Format::of_extension(Path::new("a.xlsx")), None);
 }
 
 #[test]
-fn an_unknown_extension_is_refused_on_writing() {
+fn unknown_extension_is_rejected_on_writing() {
     let error = measured::write(Path::new("a.xlsx"), &everything()).unwrap_err();
     assert!(matches!(error, Error::Content { .. }));
     assert!(error.to_string().ends_with("use .uff, .unv, .mat, .npz, .wav, .csv or .h5"), "{error}");
-    // Values of no finite size have no place in a universal file.
+    // A universal file cannot store non-finite values.
     let mut one = time_records()[0].clone();
     one.values = Values::Real(vec![f64::INFINITY]);
     let folder = tempfile::tempdir().unwrap();
-    let error = measured::write(&folder.path().join("a.uff"), &of(vec![one])).unwrap_err();
+    let error = measured::write(&folder.path().join("a.uff"), &measured_of(vec![one])).unwrap_err();
     assert!(error.to_string().contains("is NaN or infinite at value 0"), "{error}");
 }

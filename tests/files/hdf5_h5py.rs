@@ -1,11 +1,11 @@
-//! Files open in h5py with the types that a Python user expects.
+//! HDF5 files read by h5py, with the types that a Python user expects.
 
 use nalgebra::Complex;
 use rotordyn::edge::hdf5::{Channel, ChannelStream, Store};
 use std::path::Path;
 use std::process::Command;
 
-/// One of everything; `read_results.py` knows these values.
+/// One object of every kind; `read_results.py` expects these values.
 pub fn write_example(path: &Path) {
     let store = Store::create(path).unwrap();
     store.set_attribute("/meta", "program", "rotordyn").unwrap();
@@ -40,7 +40,7 @@ pub fn write_example(path: &Path) {
     stream.finish("complete").unwrap();
 }
 
-/// Whether this Python has h5py; without it the test is skipped, but not where everything must run.
+/// Whether this Python has h5py; if not, the test is skipped, or fails with `CI` set.
 pub fn has_h5py(python: &str) -> bool {
     has_modules(python, "h5py, numpy")
 }
@@ -51,9 +51,9 @@ pub fn has_modules(python: &str, modules: &str) -> bool {
     if import.is_ok_and(|output| output.status.success()) {
         return true;
     }
-    let message = format!("{python} with {modules} is not there");
+    let message = format!("{python} with {modules} not found");
     let must_run = std::env::var_os("CI").is_some() && std::env::var_os("ROTORDYN_ALLOW_SKIP").is_none();
-    assert!(!must_run, "{message}; set ROTORDYN_ALLOW_SKIP to go on without it");
+    assert!(!must_run, "{message}; set ROTORDYN_ALLOW_SKIP to skip the test");
     eprintln!("SKIPPED: {message}");
     false
 }

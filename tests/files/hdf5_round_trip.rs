@@ -1,11 +1,11 @@
-//! What goes into a store comes out again.
+//! Round trips of data sets and attributes through an HDF5 store.
 
 use nalgebra::Complex;
 use rotordyn::edge::hdf5::{Attribute, Store};
 use rotordyn::error::Error;
 
 #[test]
-fn data_sets_and_attributes_come_back_unchanged() {
+fn data_sets_and_attributes_round_trip() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("new folder/results.h5");
     let store = Store::create(&path).unwrap();
@@ -51,7 +51,7 @@ fn data_sets_and_attributes_come_back_unchanged() {
 }
 
 #[test]
-fn more_studies_go_into_the_same_file_and_replace_removed_ones() {
+fn studies_are_appended_and_replaced_in_one_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     Store::append(&path).unwrap().write("/modes/omega", &[1], &[1.0], &[]).unwrap();
@@ -73,7 +73,7 @@ fn more_studies_go_into_the_same_file_and_replace_removed_ones() {
 }
 
 #[test]
-fn errors_name_the_operation_the_file_and_the_object() {
+fn errors_state_operation_file_and_object() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     let store = Store::create(&path).unwrap();
@@ -106,17 +106,17 @@ fn errors_name_the_operation_the_file_and_the_object() {
 }
 
 #[test]
-fn writing_the_same_again_gives_the_same_bytes() {
+fn repeated_writing_gives_identical_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let paths = ["a.h5", "b.h5"].map(|name| folder.path().join(name));
     for path in &paths {
         crate::hdf5_h5py::write_example(path);
-        // Object times in HDF5 are whole seconds: without this pause they could not differ.
+        // HDF5 object times have a resolution of one second: the pause makes any stored time differ.
         std::thread::sleep(std::time::Duration::from_millis(1100));
     }
     let [a, b] = paths.map(|path| std::fs::read(path).unwrap());
     assert!(a == b, "the files differ, first at {:?}", a.iter().zip(&b).position(|(a, b)| a != b));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "no other file is left behind");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "no other file remains");
 }
 
 trait MapBits {

@@ -1,4 +1,4 @@
-//! Channels stay readable however a run ends.
+//! Streamed channels stay readable after complete, killed and failed runs.
 
 use rotordyn::edge::hdf5::{Channel, ChannelStream, Recording, Store, read_recording};
 use std::path::Path;
@@ -33,7 +33,7 @@ fn start(path: &Path, at: &str) -> ChannelStream {
     ChannelStream::create(&store, at, &[channel("B_x"), channel("B_y")], SAMPLE_RATE, 0.0).unwrap()
 }
 
-fn assert_holds(run: &Recording, samples: usize, state: &str) {
+fn assert_contains(run: &Recording, samples: usize, state: &str) {
     assert_eq!(run.state, state);
     assert_eq!((run.sample_rate, run.start), (SAMPLE_RATE, 0.0));
     assert_eq!(
@@ -48,7 +48,7 @@ fn assert_holds(run: &Recording, samples: usize, state: &str) {
 }
 
 #[test]
-fn a_complete_run_reads_back_bit_for_bit() {
+fn complete_run_round_trip_is_exact() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     let mut stream = start(&path, "/spherical");
@@ -56,13 +56,13 @@ fn a_complete_run_reads_back_bit_for_bit() {
     stream.finish("complete").unwrap();
     start(&path, "").finish("stopped: Ctrl-C").unwrap();
     let store = Store::open(&path).unwrap();
-    assert_holds(&read_recording(&store, "/spherical").unwrap(), 10_000, "complete");
-    assert_holds(&read_recording(&store, "").unwrap(), 0, "stopped: Ctrl-C");
+    assert_contains(&read_recording(&store, "/spherical").unwrap(), 10_000, "complete");
+    assert_contains(&read_recording(&store, "").unwrap(), 0, "stopped: Ctrl-C");
 }
 
-/// A copy of the file while the run goes on is what a killed process leaves.
+/// A copy of the file during the run equals the file of a killed process.
 #[test]
-fn a_killed_run_keeps_its_whole_blocks() {
+fn killed_run_keeps_complete_blocks() {
     let folder = tempfile::tempdir().unwrap();
     let (path, copy) = (folder.path().join("results.h5"), folder.path().join("killed.h5"));
     let mut stream = start(&path, "");
@@ -70,12 +70,12 @@ fn a_killed_run_keeps_its_whole_blocks() {
         push(&mut stream, from..to);
         std::fs::copy(&path, &copy).unwrap();
         let store = Store::open(&copy).unwrap();
-        assert_holds(&read_recording(&store, "").unwrap(), kept, "running");
+        assert_contains(&read_recording(&store, "").unwrap(), kept, "running");
     }
 }
 
 #[test]
-fn a_run_dropped_by_an_error_keeps_every_sample() {
+fn run_stopped_by_error_keeps_all_samples() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     let mut stream = start(&path, "");
@@ -83,11 +83,11 @@ fn a_run_dropped_by_an_error_keeps_every_sample() {
     assert!(stream.push(1.0, 1.0, 1.0, &[1.0]).is_err(), "one value for two channels");
     drop(stream);
     let store = Store::open(&path).unwrap();
-    assert_holds(&read_recording(&store, "").unwrap(), 5000, "stopped: not finished");
+    assert_contains(&read_recording(&store, "").unwrap(), 5000, "stopped: not finished");
 }
 
 #[test]
-fn a_channel_name_with_a_slash_is_refused() {
+fn channel_name_with_slash_is_rejected() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::create(folder.path().join("results.h5")).unwrap();
     let error = ChannelStream::create(&store, "", &[channel("B/x")], SAMPLE_RATE, 0.0).unwrap_err();

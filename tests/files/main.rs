@@ -1,4 +1,4 @@
-//! Files that rotordyn writes: read back in Rust, and by the programs that users open them with.
+//! Files written and read: round trips in Rust, exchange with h5py, scipy, numpy and pyuff, measured records.
 
 mod analyser;
 mod arrays;

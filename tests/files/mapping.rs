@@ -1,4 +1,4 @@
-//! Which channel is which station and direction.
+//! Channel mapping: assignment of channels to stations and directions of the model.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ fn mapping(text: &str) -> Result<Mapping, Error> {
     mapping::read(&path)
 }
 
-/// Stations of a model, by the number of their point.
+/// Point number of a station of the model.
 fn station(name: &str) -> Option<i64> {
     ["A", "disc", "B"].iter().position(|n| *n == name).map(|k| 10 * (k as i64 + 1))
 }
@@ -31,7 +31,7 @@ fn apply(text: &str, records: &[Record]) -> Result<(Measured, Vec<String>), Stri
 }
 
 #[test]
-fn channels_are_placed_by_name_and_others_left_out() {
+fn channels_are_mapped_by_name_and_others_dropped() {
     let mut records = time_records();
     records[1].unit = String::new();
     records[1].axis.points = Points::Unknown;
@@ -49,7 +49,7 @@ fn channels_are_placed_by_name_and_others_left_out() {
     assert_eq!(warnings, ["1 channels are not in the mapping and left out: twist"]);
     assert_eq!(found.records.len(), 2);
     assert_eq!(found.records[0].response, Dof::new(30, -2));
-    assert_eq!(found.records[0].sample_rate(), Ok(12000.0), "what the file tells stays");
+    assert_eq!(found.records[0].sample_rate(), Ok(12000.0), "the rate given in the file is kept");
     let force = &found.records[1];
     assert_eq!((force.response, force.sample_rate()), (Dof::new(10, 6), Ok(6000.0)));
     let Values::Real(values) = &force.values else { panic!() };
@@ -57,7 +57,7 @@ fn channels_are_placed_by_name_and_others_left_out() {
 }
 
 #[test]
-fn sensors_and_hits_beside_a_station_are_points_of_their_own() {
+fn offset_sensors_and_hits_are_separate_points() {
     let frf = |name: &str, kind: Kind| {
         let values = Values::Complex(vec![Complex::new(1.0, 0.0); 4]);
         Record::new(name, kind, Axis::even(AxisQuantity::Frequency, 0.0, 1.0), values, "")
@@ -84,7 +84,7 @@ fn sensors_and_hits_beside_a_station_are_points_of_their_own() {
     let [a, b, coherence] = &found.records[..] else { panic!() };
     assert_eq!((a.response, a.reference), (Dof::new(mounts[0].number, 1), Dof::new(mounts[1].number, 2)));
     assert_eq!((b.response, b.reference), (Dof::new(10, 1), Dof::new(mounts[1].number, -2)));
-    // A coherence goes with its FRF, and has no unit.
+    // A coherence takes the DOFs of its FRF and has no unit.
     assert_eq!((coherence.response, coherence.reference), (a.response, a.reference));
     assert_eq!(coherence.unit, "");
     let wrong = r#"
@@ -97,13 +97,16 @@ fn sensors_and_hits_beside_a_station_are_points_of_their_own() {
         offset = "1, 2, 3"
         direction = "x"
     "#;
-    let said = apply(wrong, &records).unwrap_err();
-    assert!(said.contains("offset = \"40 mm\" is not three lengths, such as \"150, 0, 0 mm\""), "{said}");
-    assert!(said.contains("offset: ") && said.contains("unit"), "{said}");
+    let message = apply(wrong, &records).unwrap_err();
+    assert!(
+        message.contains("offset = \"40 mm\" is not three lengths, such as \"150, 0, 0 mm\""),
+        "{message}"
+    );
+    assert!(message.contains("offset: ") && message.contains("unit"), "{message}");
 }
 
 #[test]
-fn frfs_are_placed_by_their_points_and_turned_into_the_models_axes() {
+fn frfs_are_mapped_by_points_and_rotated_to_model_axes() {
     // The file's x, y, z are the model's -z, x, -y.
     let text = r#"
         axes = ["-z", "x", "-y"]
@@ -125,7 +128,7 @@ fn frfs_are_placed_by_their_points_and_turned_into_the_models_axes() {
 }
 
 #[test]
-fn all_that_is_wrong_is_told_at_once() {
+fn all_mapping_errors_are_reported_together() {
     let text = r#"
         rate = "12 mm"
         frequency_step = "0 Hz"
@@ -163,7 +166,7 @@ fn all_that_is_wrong_is_told_at_once() {
 }
 
 #[test]
-fn directions_in_words() {
+fn directions_are_parsed() {
     for (word, number) in [("x", 1), ("+y", 2), ("-z", -3), ("theta_x", 4), ("-theta_z", -6), ("Ry", 5)] {
         assert_eq!(direction(word), Some(number));
     }

@@ -1,4 +1,4 @@
-//! Measured records of others: CWRU bearings, the plane's modal test, a tacho run-up.
+//! Third-party measured records: CWRU bearings, modal test of a plane, tacho pulses of a run-up, beam FRFs.
 
 use rotordyn::edge::measured::read;
 use rotordyn::signal::record::{Dof, Kind, Measured, Points, Values};
@@ -7,7 +7,7 @@ use rotordyn::signal::statistics::statistics;
 use crate::measured_data::measured;
 
 #[test]
-fn bearing_records_of_the_case_western_reserve_university() {
+fn cwru_bearing_records() {
     for (file, number, rpm, length, rms, kurtosis) in [
         ("cwru/105_IR007_0hp_12k.mat", "105", 1797.0, 121_265, 0.29153, 5.396),
         ("cwru/130_OR007at6_0hp_12k.mat", "130", 1796.0, 121_991, 0.66951, 7.649),
@@ -27,7 +27,7 @@ fn bearing_records_of_the_case_western_reserve_university() {
         found.set_missing_rate(12000.0);
         let drive_end = found.record(&wanted[0]).unwrap();
         assert_eq!(drive_end.sample_rate(), Ok(12000.0));
-        // To the digits of the data's README, in g as stored.
+        // To the digits of the data set's README, in g as stored.
         let of = statistics(drive_end.time_samples().unwrap()).unwrap();
         assert!((of.rms - rms).abs() < 5e-6, "{}", of.rms);
         let found = of.kurtosis.unwrap();
@@ -36,7 +36,7 @@ fn bearing_records_of_the_case_western_reserve_university() {
 }
 
 #[test]
-fn an_analyser_file_with_blocks_spectra_and_frfs() {
+fn analyser_file_with_blocks_spectra_and_frfs() {
     let Some(path) = measured("plane_ema/lab1_DPsv00001.mat") else { return };
     let found = read(&path).unwrap();
     assert_eq!(found.records.len(), 35);
@@ -59,7 +59,7 @@ fn an_analyser_file_with_blocks_spectra_and_frfs() {
 }
 
 #[test]
-fn frfs_of_seventy_four_hits_and_three_accelerometers() {
+fn frfs_of_74_hits_and_3_accelerometers() {
     let Some(path) = measured("plane_ema/lab2_frf.npz") else { return };
     let found = read(&path).unwrap();
     let matrix = found.frf_matrix().unwrap();
@@ -71,7 +71,7 @@ fn frfs_of_seventy_four_hits_and_three_accelerometers() {
 }
 
 #[test]
-fn pulses_of_a_run_up() {
+fn tacho_pulses_of_a_run_up() {
     let (Some(times), Some(speeds)) =
         (measured("tacho_run_up/time_s.csv"), measured("tacho_run_up/speed_rpm.csv"))
     else {
@@ -86,12 +86,12 @@ fn pulses_of_a_run_up() {
     assert_eq!((speeds.records[0].name.as_str(), speeds.records[0].unit.as_str()), ("speed", "rpm"));
     let (t, n) = (one(&times), one(&speeds));
     assert_eq!((t.len(), n.len()), (489, 489));
-    // Speed is 60 over the interval before the pulse.
+    // Speed in rpm is 60 s over the interval before the pulse.
     assert!(t.windows(2).zip(&n[1..]).all(|(t, n)| ((t[1] - t[0]) * n / 60.0 - 1.0).abs() < 1e-3));
 }
 
 #[test]
-fn beam_frfs_as_complex_text_lines() {
+fn beam_frfs_as_complex_text() {
     let peaks = [52, 142, 279, 460, 687, 959];
     for file in ["meas_point_1.txt", "meas_point_2.txt", "meas_point_3.txt"] {
         let Some(path) = measured(&format!("uff/{file}")) else { return };
@@ -99,7 +99,8 @@ fn beam_frfs_as_complex_text_lines() {
         found.set_missing_frequency_step(1.0);
         let frf = found.records[0].frf().unwrap();
         assert_eq!(frf.len(), 1001);
-        // Every peak of the free-free beam is one of magnitude here too, but for those with a node at the point.
+        // Resonances of the free-free beam are peaks of magnitude here, except modes with a node at the
+        // point.
         let is_peak = |k: usize| {
             (k - 3..=k + 3)
                 .all(|j| frf[j].norm() <= frf[k - 1..=k + 1].iter().map(|h| h.norm()).fold(0.0, f64::max))

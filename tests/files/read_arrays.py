@@ -1,6 +1,6 @@
-"""What scipy and numpy read in the .mat and .npz of a folder, as JSON; with `--write` their own go there first.
+"""Prints as JSON what scipy and numpy read from the .mat and .npz files of a folder; `--write` first writes theirs.
 
-Made tests/data/arrays/numpy.json, scipy_compressed.mat and numpy_compressed.npz (numpy 2.4.6, scipy 1.17.1):
+Created tests/data/arrays/numpy.json, scipy_compressed.mat and numpy_compressed.npz (numpy 2.4.6, scipy 1.17.1):
     ROTORDYN_BLESS=1 cargo test --test files arrays
     python3 tests/files/read_arrays.py tests/data/arrays --write > tests/data/arrays/numpy.json
 """

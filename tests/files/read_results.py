@@ -1,4 +1,4 @@
-"""Reads the example of hdf5_h5py.rs as a user would, with plain h5py."""
+"""Checks the example file of hdf5_h5py.rs with plain h5py."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Reads the rig's results.h5 with plain h5py and holds it to the same results in JSON."""
+"""Compares the rig's results.h5, read with plain h5py, with the same results in JSON."""
 
 import json
 import sys

@@ -1,6 +1,6 @@
-"""What pyuff reads in the universal files of a folder, as JSON; with `--write` it writes its own there first.
+"""Prints as JSON what pyuff reads from the universal files of a folder; `--write` first writes pyuff's own files.
 
-Made tests/data/uff/pyuff.json and pyuff_*.uff:
+Created tests/data/uff/pyuff.json and pyuff_*.uff:
     ROTORDYN_BLESS=1 cargo test --test files pyuff
     python3 tests/files/read_uff.py tests/data/uff --write > tests/data/uff/pyuff.json
 """
@@ -55,7 +55,7 @@ def describe(dset):
 
 
 def write(name, binary):
-    """The records of example_records.rs that show how pyuff differs."""
+    """Writes the records of example_records.rs in which pyuff's files differ."""
     path = os.path.join(folder, name)
     file = pyuff.UFF(path)
     k = np.arange(17.0)

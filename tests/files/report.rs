@@ -1,4 +1,4 @@
-//! Figures, JSON and viewer files of the rig's results.
+//! Figures, JSON and viewer files (glTF, VTK) of the rig's results.
 
 use rotordyn::edge::export::{export_geometry, export_modes};
 use rotordyn::edge::figures::{draw, draw_comparison};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::rig_results::RIG;
 
 #[test]
-fn every_figure_is_drawn_and_the_same_again() {
+fn all_figures_are_drawn_reproducibly() {
     let (machine, results) = &*RIG;
     let folder = tempfile::tempdir().unwrap();
     let files = draw(results, machine, &folder.path().join("a")).unwrap();
@@ -68,17 +68,17 @@ fn every_figure_is_drawn_and_the_same_again() {
         let svg = text(file);
         words.iter().for_each(|w| assert!(svg.contains(w), "{file}: {w}"));
     }
-    // What lies above the Campbell diagram's axis is neither drawn nor in its panel of decrements.
+    // Branches above the frequency axis are neither drawn nor listed in the log decrement panel.
     assert!(!text("campbell.svg").contains("housing A, u_z"));
 }
 
 #[test]
-fn variants_are_compared_on_one_page() {
+fn variant_comparison_figures() {
     let (_, results) = &*RIG;
     let folder = tempfile::tempdir().unwrap();
     let variants = [("ball bearings".to_string(), results), ("spherical".to_string(), results)];
     let files = draw_comparison(&variants, folder.path()).unwrap();
-    // A hit on housing B does not twist the disc: no figure of it.
+    // A hit on housing B does not excite the disc's torsion: no figure.
     assert_eq!(files.len(), 2 * 7 - 1 + 1);
     let svg = std::fs::read_to_string(folder.path().join("comparison_frf_rim_disc_x.svg")).unwrap();
     assert!(svg.contains("ball bearings") && svg.contains("spherical"));
@@ -96,7 +96,7 @@ fn numbers(value: &Value, path: &str, out: &mut Vec<(String, Option<f64>)>) {
 }
 
 #[test]
-fn json_holds_finite_numbers_in_stated_units() {
+fn json_contains_finite_numbers_and_units() {
     let (machine, results) = &*RIG;
     let document = to_json(results, machine);
     let keys: Vec<&String> = document.as_object().unwrap().keys().collect();
@@ -128,7 +128,7 @@ fn json_holds_finite_numbers_in_stated_units() {
     let missing: Vec<_> = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches")).collect();
     assert!(all.len() > 10_000 && missing.is_empty(), "{missing:?}");
 
-    // What is no number becomes null instead of invalid JSON.
+    // Non-finite numbers become null instead of invalid JSON.
     let mut broken = results.clone();
     broken.equilibrium.as_mut().unwrap().residual = f64::NAN;
     broken.orders[0].cuts[0].1.rms[0] = f64::INFINITY;
@@ -140,7 +140,7 @@ fn json_holds_finite_numbers_in_stated_units() {
 }
 
 #[test]
-fn geometry_and_modes_are_exported_for_viewers() {
+fn geometry_and_mode_shapes_are_exported() {
     let (machine, results) = &*RIG;
     let folder = tempfile::tempdir().unwrap();
     let shapes = export_geometry(machine, folder.path()).unwrap();

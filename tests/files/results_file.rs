@@ -1,4 +1,4 @@
-//! results.h5 of the rig: read by h5py beside the same results as JSON, read back, written again.
+//! results.h5 of the rig: compared with the JSON results in h5py, read back, written again.
 
 use std::path::Path;
 use std::process::Command;
@@ -29,7 +29,7 @@ fn write_all(path: &Path) {
 }
 
 #[test]
-fn h5py_reads_what_the_json_says() {
+fn h5py_results_equal_json_results() {
     let python = std::env::var("ROTORDYN_PYTHON").unwrap_or_else(|_| "python3".into());
     if !crate::hdf5_h5py::has_h5py(&python) {
         return;
@@ -45,7 +45,7 @@ fn h5py_reads_what_the_json_says() {
 }
 
 #[test]
-fn a_stored_run_comes_back_and_studies_are_replaced() {
+fn stored_run_round_trip_and_study_replacement() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.h5");
     let (machine, results) = &*RIG;
@@ -73,7 +73,7 @@ fn a_stored_run_comes_back_and_studies_are_replaced() {
     ];
     assert_eq!(groups, expected);
 
-    // One study alone replaces itself and leaves the others.
+    // Writing one study replaces it and leaves the others.
     let mut fewer = results.clone();
     fewer.modal.truncate(1);
     (fewer.campbell, fewer.frf, fewer.run_up) = (None, None, None);
@@ -85,7 +85,7 @@ fn a_stored_run_comes_back_and_studies_are_replaced() {
 }
 
 #[test]
-fn a_file_without_a_run_says_so() {
+fn file_without_run_error_message() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::create(folder.path().join("results.h5")).unwrap();
     let message = read_history(&store).unwrap_err().to_string();

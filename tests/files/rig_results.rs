@@ -23,8 +23,8 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
         ],
     );
     let machine = Machine::new(model).unwrap();
-    let ask = machine.model.studies.clone();
-    let study = ask.run_up.unwrap();
+    let studies = machine.model.studies.clone();
+    let study = studies.run_up.unwrap();
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
@@ -33,17 +33,17 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
     });
     let history = recorder.history;
     let mut results = Results {
-        equilibrium: Some(machine.equilibrium(&ask.equilibrium.unwrap()).unwrap()),
-        modal: machine.modal(&ask.modal.unwrap()).unwrap(),
-        campbell: Some(machine.campbell(&ask.campbell.unwrap()).unwrap()),
-        critical: Some(machine.critical(&ask.critical.unwrap()).unwrap()),
-        frf: Some(machine.frf(&ask.frf.unwrap()).unwrap()),
-        unbalance: Some(machine.unbalance(&ask.unbalance.unwrap()).unwrap()),
+        equilibrium: Some(machine.equilibrium(&studies.equilibrium.unwrap()).unwrap()),
+        modal: machine.modal(&studies.modal.unwrap()).unwrap(),
+        campbell: Some(machine.campbell(&studies.campbell.unwrap()).unwrap()),
+        critical: Some(machine.critical(&studies.critical.unwrap()).unwrap()),
+        frf: Some(machine.frf(&studies.frf.unwrap()).unwrap()),
+        unbalance: Some(machine.unbalance(&studies.unbalance.unwrap()).unwrap()),
         bearings: machine
             .bearings(&BearingStudy { bearings: vec!["B".into()], ..Default::default() })
             .unwrap(),
-        spectrograms: machine.spectrograms(&ask.spectrogram.unwrap(), &history).unwrap(),
-        orders: machine.orders(&ask.orders.unwrap(), &history).unwrap(),
+        spectrograms: machine.spectrograms(&studies.spectrogram.unwrap(), &history).unwrap(),
+        orders: machine.orders(&studies.orders.unwrap(), &history).unwrap(),
         run_up: Some(RunUpResult {
             modes: reduction.modes,
             corrections: reduction.corrections,

@@ -1,4 +1,4 @@
-//! Tables of other programs: separators, decimal commas, units, complex cells, and what is wrong with them.
+//! Tables of other programs: separators, decimal commas, units, complex cells, error messages.
 
 use rotordyn::edge::measured;
 use rotordyn::error::Error;
@@ -57,13 +57,13 @@ fn units_are_converted_and_unknown_ones_kept() {
 }
 
 #[test]
-fn printed_times_give_the_rate_they_mean() {
+fn sampling_rate_from_rounded_times() {
     // 12 kHz with six decimals: steps of 83 and 84 microseconds.
     let rows: String = (0..4000).map(|k| format!("{:.6},1\n", f64::from(k) / 12000.0)).collect();
     let back = read(&("time_s,a\n".to_owned() + &rows));
     assert_eq!(back.records[0].sample_rate(), Ok(12000.0));
     assert!(back.notes.is_empty());
-    // A sample lost in the middle is not forgiven.
+    // A missing sample in the middle is reported.
     let mut lines: Vec<&str> = rows.lines().collect();
     lines.remove(2000);
     let back = read(&("time_s,a\n".to_owned() + &lines.join("\n")));
@@ -96,7 +96,7 @@ fn complex_columns_and_cells() {
 }
 
 #[test]
-fn a_table_without_names_or_rate() {
+fn table_without_names_or_rate() {
     let mut back = try_read("speed_rpm.csv", b"2.07e+02\n4.11e+02\n").unwrap();
     assert_eq!((back.records[0].name.as_str(), back.records[0].unit.as_str()), ("speed", "rpm"));
     assert_eq!(back.notes, ["no sampling rate or frequency step is stated for speed"]);
@@ -111,13 +111,13 @@ fn a_table_without_names_or_rate() {
 }
 
 #[test]
-fn columns_of_other_lengths_and_missing_values() {
+fn columns_of_different_lengths_and_missing_values() {
     let back = read("time_s,a,b\n0,1,5\n1,,6\n2,3,\n3,NaN,\n");
     assert_eq!(real(&back, "b"), [5.0, 6.0]);
     let a = real(&back, "a");
     assert!(a[1].is_nan() && a[3].is_nan() && a[2] == 3.0);
     assert_eq!(back.notes, ["`a` has 2 values of 4 that are not finite, the first at index 1"]);
-    // Names that are there twice.
+    // Duplicate names.
     let twice = read("time_s,a,a\n0,1,2\n1,1,2\n");
     assert_eq!(real(&twice, "a (2)"), [2.0, 2.0]);
     let text = twice.record("b").unwrap_err().to_string();
@@ -125,7 +125,7 @@ fn columns_of_other_lengths_and_missing_values() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place() {
+fn errors_state_line_and_column() {
     let message = |text: &str| match try_read("table.csv", text.as_bytes()) {
         Err(Error::Content { problem, advice, .. }) => format!("{problem}; {advice}"),
         other => panic!("{other:?}"),

@@ -1,4 +1,4 @@
-//! Universal files: round trips in every form, other byte orders, and the faults of other programs' files.
+//! Universal files: round trips in every variant, byte orders, malformed files of other programs.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,7 @@ fn message(bytes: &[u8]) -> String {
 }
 
 #[test]
-fn every_form_comes_back_to_its_precision() {
+fn every_variant_round_trips_to_its_precision() {
     let all = everything();
     for geometry in [Geometries::Classic, Geometries::Modern] {
         for (binary, single, precision) in [
@@ -52,7 +52,7 @@ fn every_form_comes_back_to_its_precision() {
             assert_eq!(back.records.len(), all.records.len());
             for (got, want) in back.records.iter().zip(&all.records) {
                 assert_eq!(got.name, want.name);
-                // Even axes come back exactly: the steps are inverse whole numbers.
+                // Uniform axes are exact: the steps are inverse integers.
                 let even = matches!(want.axis.points, Points::Even { .. });
                 let axis = if even {
                     0.0
@@ -68,7 +68,7 @@ fn every_form_comes_back_to_its_precision() {
 }
 
 #[test]
-fn geometry_and_shapes_come_back() {
+fn geometry_and_shapes_round_trip() {
     let all = everything();
     let write = |geometry| uff::to_bytes(&all, Options { geometry, ..Options::default() }).unwrap();
     let classic = read(&write(Geometries::Classic));
@@ -133,7 +133,7 @@ fn binary_data_of_both_byte_orders() {
 }
 
 #[test]
-fn no_line_end_stands_in_a_binary_block_and_its_byte_count_is_exact() {
+fn binary_block_without_line_end_and_with_exact_byte_count() {
     let (bytes, start, end) = binary_example(Options::default());
     assert_eq!(&bytes[end..], b"    -1\n");
     assert_eq!(bytes[start - 1], b'\n');
@@ -149,7 +149,7 @@ fn no_line_end_stands_in_a_binary_block_and_its_byte_count_is_exact() {
 }
 
 #[test]
-fn wrong_byte_counts_and_stray_line_ends_are_forgiven() {
+fn wrong_byte_counts_and_stray_line_ends_are_tolerated() {
     let (bytes, start, end) = binary_example(Options::default());
     let good = values(&read(&bytes)).to_vec();
     let with_count = |count: &str| {
@@ -168,7 +168,7 @@ fn wrong_byte_counts_and_stray_line_ends_are_forgiven() {
     }
     // No -1 at the end of the file.
     assert_eq!(values(&read(&bytes[..end])), good);
-    // A short block: said so.
+    // A short block is reported.
     let short = [&bytes[..end - 16], &bytes[end..]].concat();
     let back = read(&short);
     assert_eq!(values(&back), &good[..23]);
@@ -180,7 +180,7 @@ fn wrong_byte_counts_and_stray_line_ends_are_forgiven() {
 }
 
 #[test]
-fn binary_forms_that_are_not_read_say_so() {
+fn unsupported_binary_formats_are_rejected() {
     let (bytes, ..) = binary_example(Options::default());
     let at = bytes.windows(7).position(|w| w == b"    58b").unwrap();
     let with = |field: &str| {
@@ -205,30 +205,30 @@ fn ascii(record_7: &str, ordinate: &str, values: &str) -> String {
 const ACCELERATION: &str = "        12    0    0    0 Acceleration         m/s^2               ";
 
 #[test]
-fn short_padded_and_touching_values_are_read() {
+fn short_padded_and_adjacent_values_are_read() {
     let even =
         |count: usize| format!("         2{count:>10}         1  0.00000E+00  1.00000E-03  0.00000E+00");
-    let touching = " 1.00000E+00-2.00000E+00-3.00000E+00 4.00000E+00";
-    let back = read(ascii(&even(4), ACCELERATION, touching).as_bytes());
+    let adjacent = " 1.00000E+00-2.00000E+00-3.00000E+00 4.00000E+00";
+    let back = read(ascii(&even(4), ACCELERATION, adjacent).as_bytes());
     assert_eq!(values(&back), [1.0, -2.0, -3.0, 4.0]);
     assert_eq!(back.records[0].sample_rate(), Ok(1000.0));
-    let padded = read(ascii(&even(3), ACCELERATION, touching).as_bytes());
+    let padded = read(ascii(&even(3), ACCELERATION, adjacent).as_bytes());
     assert_eq!(values(&padded), [1.0, -2.0, -3.0]);
     assert_eq!(padded.notes, ["`ch` has 4 values, its header states 3"]);
-    let short = read(ascii(&even(9), ACCELERATION, touching).as_bytes());
+    let short = read(ascii(&even(9), ACCELERATION, adjacent).as_bytes());
     assert_eq!(values(&short).len(), 4);
     assert_eq!(short.notes.len(), 1);
     // With Windows line ends and blanks behind the marks.
-    let windows = ascii(&even(4), ACCELERATION, touching).replace('\n', "   \r\n");
+    let windows = ascii(&even(4), ACCELERATION, adjacent).replace('\n', "   \r\n");
     assert_eq!(values(&read(windows.as_bytes())), values(&back));
     // Cut off: no end mark.
-    let whole = ascii(&even(9), ACCELERATION, touching);
+    let whole = ascii(&even(9), ACCELERATION, adjacent);
     let cut = whole.strip_suffix("    -1\n").unwrap();
     assert!(message(cut.as_bytes()).contains("`ch` is cut off: 4 of 9 values"));
 }
 
 #[test]
-fn wrong_content_is_refused_with_its_line() {
+fn malformed_content_errors_state_the_line() {
     let even = "         2         4         1  0.00000E+00  1.00000E-03  0.00000E+00";
     let numbers = " 1.0 2.0 3.0 4.0";
     let bad = message(ascii(even, ACCELERATION, " 1.0 2.0 x 4.0").as_bytes());
@@ -245,13 +245,13 @@ fn wrong_content_is_refused_with_its_line() {
         message(b"    -1\nhello\n    -1\n").contains("`hello` is expected to be the number of a data set")
     );
     assert!(message(b"    -1\n    58\nid\n").contains("data set 58 ends after 1 lines"));
-    // Values that are no numbers are kept, for the caller to find.
+    // Non-finite values are kept and reported by `not_finite`.
     let nan = read(ascii(even, ACCELERATION, " 1.0 NaN ************* 4.0").as_bytes());
     assert_eq!(nan.records[0].values.not_finite(), Some((2, 1)));
 }
 
 #[test]
-fn units_become_si_by_label_or_by_set_164() {
+fn units_are_converted_to_si_by_label_or_set_164() {
     let even = "         2         1         1  0.00000E+00  1.00000E-03  0.00000E+00";
     let record = |system: &str, ordinate: &str| {
         read((system.to_owned() + &ascii(even, ordinate, " 2.0")).as_bytes()).records.remove(0)
@@ -266,13 +266,13 @@ fn units_become_si_by_label_or_by_set_164() {
     check(&record("", &label(8, "mm")), 2e-3, "m");
     check(&record("", &label(12, "NONE")), 2.0, "m/s^2");
     check(&record("", &label(1, "kPa")), 2000.0, "Pa");
-    // Millimetres and newtons, by the file's own divisors; the label goes before them.
+    // Millimetres and newtons, by the file's own divisors; the label takes precedence.
     let mm = "    -1\n   164\n         5mm (milli-newton)            2\n  1.0D+03  1.0D+03  1.0D+00\n  2.7315D+02\n    -1\n";
     check(&record(mm, &label(12, "NONE")), 2e-3, "m/s^2");
     check(&record(mm, &label(13, "NONE")), 2e-3, "N");
     check(&record(mm, &label(15, "NONE")), 2e-3 * 1e6, "Pa");
     check(&record(mm, &label(12, "m/s^2")), 2.0, "m/s^2");
-    // Neither: kept as it is, and asking for SI says what to do.
+    // Neither: the value is kept, and `si_unit` returns an error with a hint.
     let unknown = record("", &label(12, "EU"));
     check(&unknown, 2.0, "");
     assert_eq!(unknown.stated_unit, "EU");
@@ -285,7 +285,7 @@ fn units_become_si_by_label_or_by_set_164() {
 }
 
 #[test]
-fn what_cannot_be_written_is_refused() {
+fn unwritable_values_are_rejected() {
     let mut one = Measured { records: time_records()[..1].to_vec(), ..Measured::default() };
     one.records[0].values = Values::Real(vec![1.0, f64::NAN]);
     let text = uff::to_bytes(&one, Options::default()).unwrap_err().to_string();

@@ -10,7 +10,7 @@ fn read(file: &str) -> Option<Measured> {
 }
 
 #[test]
-fn a_microphone_record_in_ascii_and_in_binary_is_the_same() {
+fn ascii_and_binary_microphone_records_agree() {
     let (Some(ascii), Some(binary)) = (read("Sample_UFF58_ascii.uff"), read("Sample_UFF58b_bin.uff")) else {
         return;
     };
@@ -34,7 +34,7 @@ fn a_microphone_record_in_ascii_and_in_binary_is_the_same() {
 }
 
 #[test]
-fn a_measured_density_with_latin_letters_in_its_unit() {
+fn psd_with_latin1_characters_in_its_unit() {
     let Some(file) = read("sample_dataset58_psd.uff") else { return };
     let record = &file.records[0];
     assert_eq!((record.name.as_str(), record.kind), ("Pilot 1", Kind::Psd));
@@ -50,7 +50,7 @@ fn a_measured_density_with_latin_letters_in_its_unit() {
 }
 
 #[test]
-fn geometry_of_a_test_program() {
+fn geometry_of_testlab() {
     let Some(file) = read("TestLab_161_164_18_15_82.uff") else { return };
     assert_eq!(file.title, "AME_Test");
     assert_eq!(file.geometry.nodes.len(), 36);
@@ -71,7 +71,7 @@ fn geometry_of_a_test_program() {
 }
 
 #[test]
-fn a_finite_element_model_in_millimetres() {
+fn finite_element_model_in_millimetres() {
     let Some(file) = read("heat_engine_housing.uff") else { return };
     assert_eq!(file.geometry.nodes.len(), 10);
     assert!((file.geometry.nodes[0].position[0] + 0.171_175_567_626_953_1).abs() < 1e-16);
@@ -85,7 +85,7 @@ fn a_finite_element_model_in_millimetres() {
 }
 
 #[test]
-fn mode_shapes_whose_numbers_touch() {
+fn mode_shapes_with_adjacent_numbers() {
     let Some(file) = read("uff55_sample_record10.uff") else { return };
     let shape = &file.shapes[0];
     assert_eq!((shape.nodes.as_slice(), shape.components, shape.complex), (&[111_111, 60_101][..], 3, true));

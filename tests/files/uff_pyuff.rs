@@ -1,7 +1,7 @@
-//! Our universal files as pyuff reads them, and pyuff's as we do.
+//! Universal files: exchange with pyuff in both directions.
 //!
-//! `tests/data/uff` holds the files and, in `pyuff.json`, what `read_uff.py` printed about them (pyuff 2.5.8).
-//! Without Python the files are still held to that; with it the script is run again.
+//! `tests/data/uff` contains the files and, in `pyuff.json`, the output of `read_uff.py` for them (pyuff
+//! 2.5.8). Without Python the files are compared with that; with Python the script is run again.
 
 use std::path::Path;
 use std::process::Command;
@@ -16,9 +16,10 @@ fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/uff")
 }
 
-/// Every file that is stored, and how it is written.
+/// Every stored file with its bytes as written now.
 ///
-/// pyuff reads complex shapes of three components only, and doubles beside which the abscissa is double too.
+/// pyuff reads only complex shapes of three components, and double-precision data only with a double
+/// abscissa.
 fn files() -> Vec<(&'static str, Vec<u8>)> {
     let mut readable = everything();
     readable.shapes.retain(|shape| shape.components == 3);
@@ -36,13 +37,13 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 #[test]
-fn pyuff_reads_what_we_write() {
+fn pyuff_reads_written_files() {
     let stored: Value = serde_json::from_slice(&std::fs::read(folder().join("pyuff.json")).unwrap()).unwrap();
     let all = everything();
     for (name, bytes) in files() {
         assert!(
             std::fs::read(folder().join(name)).is_ok_and(|stored| stored == bytes),
-            "{name} is written otherwise now: set ROTORDYN_BLESS=1, write the files anew and run read_uff.py"
+            "{name} has changed: set ROTORDYN_BLESS=1 to rewrite the files, then run read_uff.py"
         );
         let precision = if name == "binary.uff" { 0.0 } else { 5e-13 };
         let sets = stored[name].as_array().unwrap();
@@ -81,9 +82,9 @@ fn pyuff_reads_what_we_write() {
     }
 }
 
-/// Files that pyuff wrote: complex values whose byte count it states wrongly, uneven abscissae of 8 bytes.
+/// Files written by pyuff: complex values with a wrong byte count, non-uniform abscissae of 8 bytes.
 #[test]
-fn we_read_what_pyuff_writes() {
+fn pyuff_files_are_read() {
     for name in ["pyuff_ascii.uff", "pyuff_binary.uff"] {
         let file = uff::read(&folder().join(name)).unwrap();
         let all = everything();
@@ -97,7 +98,8 @@ fn we_read_what_pyuff_writes() {
             if want.kind == Kind::Spectrum {
                 want.kind = Kind::General;
             }
-            // Python divides and takes exponentials to another last bit; 12 digits in pyuff's ASCII, 6 of its uneven abscissae.
+            // Python's division and exp differ in the last bit; pyuff's ASCII has 12 digits, 6 for
+            // non-uniform abscissae.
             let (values, axis) = if name == "pyuff_binary.uff" { (4e-16, 0.0) } else { (5e-12, 5e-6) };
             let even = matches!(want.axis.points, Points::Even { .. });
             assert_record(got, &want, values, if even { 1e-15 } else { axis });
@@ -109,7 +111,7 @@ fn we_read_what_pyuff_writes() {
 }
 
 #[test]
-fn pyuff_itself_agrees_with_what_is_stored() {
+fn pyuff_output_matches_stored_output() {
     let python = std::env::var("ROTORDYN_PYTHON").unwrap_or_else(|_| "python3".into());
     if std::env::var_os("ROTORDYN_BLESS").is_some() {
         std::fs::create_dir_all(folder()).unwrap();
@@ -123,5 +125,5 @@ fn pyuff_itself_agrees_with_what_is_stored() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let fresh: Value = serde_json::from_slice(&output.stdout).unwrap();
     let stored: Value = serde_json::from_slice(&std::fs::read(folder().join("pyuff.json")).unwrap()).unwrap();
-    assert!(fresh == stored, "pyuff reads otherwise now: compare read_uff.py's output with pyuff.json");
+    assert!(fresh == stored, "pyuff's result has changed: compare the output of read_uff.py with pyuff.json");
 }

@@ -1,4 +1,4 @@
-//! The rig as its own truth: FRFs of a changed rig, with noise, give its modes back.
+//! Noisy FRFs of a rig with changed parameters: the identified modes are the computed ones.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use rotordyn::study::Machine;
 use crate::made::lines;
 use crate::rig::variant;
 
-/// Housings 30 % softer along x and 40 % stiffer along y, half as much belt again, other damping.
+/// Housings 30 % softer along x and 40 % stiffer along y, belt 50 % stiffer, other damping.
 const CHANGED: [(&str, &str); 8] = [
     ("housing.A.k_x", "4.2e6 N/m"),
     ("housing.B.k_x", "4.2e6 N/m"),
@@ -33,7 +33,7 @@ const TWIST: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 
 /// The machine and its FRFs at a speed: disc, pulley and both housings, hits at the disc along x and z, along its
 /// rim (y and torsion), and at housing B along y.
-fn tested(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (Machine, FrfMatrix) {
+fn simulated_test(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (Machine, FrfMatrix) {
     let mut model = variant(None, set);
     let place = |name: &str| Anchor::node(exchange::point(&model, name).unwrap() as usize - 1);
     let disc = place("disc");
@@ -98,7 +98,7 @@ fn print(found: &Identified) {
 
 #[test]
 fn all_modes_of_a_changed_rig() {
-    let (machine, exact) = tested(&CHANGED, 0.0, lines(4.0, 340.0, 0.25));
+    let (machine, exact) = simulated_test(&CHANGED, 0.0, lines(4.0, 340.0, 0.25));
     let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
     let found = identify(&exact.measured_with(&test).unwrap(), &Settings::default()).unwrap();
     print(&found);
@@ -122,13 +122,13 @@ fn all_modes_of_a_changed_rig() {
     }
     assert!(truth.iter().any(|(_, label)| label.contains("tors")), "{truth:?}");
     let below = found.modes.iter().filter(|m| m.frequency_hz() < 300.0).count();
-    assert_eq!(below, truth.len(), "as many as there are");
+    assert_eq!(below, truth.len(), "number of modes below 300 Hz");
 }
 
 #[test]
 fn gyroscopic_pairs_whirl_in_opposite_directions() {
     let speed = 1200.0 * TAU / 60.0;
-    // Housings alike along x and y: what parts the pairs is the disc's spin.
+    // Isotropic housings: the pairs are split by the disc's gyroscopic moment.
     let round = [
         ("housing.A.k_y", "6e6 N/m"),
         ("housing.B.k_y", "6e6 N/m"),
@@ -137,7 +137,7 @@ fn gyroscopic_pairs_whirl_in_opposite_directions() {
         ("belt.drive.k_x", "2e4 N/m"),
         ("belt.drive.c_x", "0 N s/m"),
     ];
-    let (machine, exact) = tested(&round, speed, lines(4.0, 240.0, 0.125));
+    let (machine, exact) = simulated_test(&round, speed, lines(4.0, 240.0, 0.125));
     let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 2 };
     let found = identify(&exact.measured_with(&test).unwrap(), &Settings::default()).unwrap();
     print(&found);

@@ -1,4 +1,4 @@
-//! FRFs of modes that are known.
+//! Synthetic FRFs of known modes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,15 +6,15 @@ use rotordyn::identify::Identified;
 use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::{Dof, FrfMatrix};
 
-/// A mode: λ, ψ and l of the receptance.
+/// A mode: pole λ, shape ψ and participation l of the receptance.
 #[derive(Clone, Debug)]
-pub struct Known {
+pub struct KnownMode {
     pub pole: Complex64,
     pub shape: Vec<Complex64>,
     pub participation: Vec<Complex64>,
 }
 
-impl Known {
+impl KnownMode {
     pub fn new(hz: f64, zeta: f64, shape: Vec<Complex64>, participation: Vec<Complex64>) -> Self {
         let omega = TAU * hz;
         let pole = Complex64::new(-zeta * omega, omega * (1.0 - zeta * zeta).sqrt());
@@ -46,8 +46,8 @@ impl Known {
 /// Units by the power of jω.
 const UNITS: [&str; 3] = ["m/N", "(m/s)/N", "(m/s^2)/N"];
 
-/// FRFs of modes over even frequencies.
-pub fn frfs(modes: &[Known], frequencies: &[f64], power: i32) -> FrfMatrix {
+/// FRF matrix of modes, multiplied by (jω)^`power`.
+pub fn frfs(modes: &[KnownMode], frequencies: &[f64], power: i32) -> FrfMatrix {
     let (responses, references) = (modes[0].shape.len(), modes[0].participation.len());
     let value = |r: usize, e: usize, f: f64| {
         let s = Complex64::new(0.0, TAU * f);
@@ -71,18 +71,18 @@ pub fn frfs(modes: &[Known], frequencies: &[f64], power: i32) -> FrfMatrix {
     }
 }
 
-/// Even frequencies.
+/// Uniformly spaced frequencies.
 pub fn lines(from: f64, to: f64, step: f64) -> Vec<f64> {
     (0..=((to - from) / step).round() as usize).map(|k| from + step * k as f64).collect()
 }
 
-/// Shape k of a beam's bending over n points, sin(kπx).
-pub fn bent(k: usize, n: usize) -> Vec<f64> {
+/// Bending shape k of a beam at n points, sin(kπx).
+pub fn bending_shape(k: usize, n: usize) -> Vec<f64> {
     (0..n).map(|p| (k as f64 * PI * (p as f64 + 0.7) / (n as f64 + 0.4)).sin()).collect()
 }
 
 /// Largest relative error of the poles, and of the residues over the largest of each mode; modes in order.
-pub fn distance(found: &Identified, known: &[Known]) -> (f64, f64) {
+pub fn largest_errors(found: &Identified, known: &[KnownMode]) -> (f64, f64) {
     let list: Vec<_> =
         found.modes.iter().map(|m| (m.frequency_hz(), m.damping_ratio(), m.significance)).collect();
     let made: Vec<_> = known.iter().map(|k| (k.hz(), k.zeta())).collect();

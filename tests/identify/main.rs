@@ -1,4 +1,4 @@
-//! Modes from FRFs: exactness, noise, measured structures.
+//! Modal identification from FRFs: exactness, noise, measured structures.
 
 #[path = "../common/measured_data.rs"]
 mod measured_data;

@@ -1,22 +1,22 @@
-//! Noise: modes found all the same, and standard errors that are what the scatter is.
+//! Noisy FRFs: all modes are found, and their standard errors match the scatter.
 
 use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::{Dof, NoisyTest};
 
-use crate::made::{Known, bent, frfs, lines};
+use crate::made::{KnownMode, bending_shape, frfs, lines};
 
-fn known(references: &[usize]) -> Vec<Known> {
+fn known(references: &[usize]) -> Vec<KnownMode> {
     let modes = [(12.0, 0.01), (31.0, 0.006), (33.0, 0.012), (61.0, 0.004), (88.0, 0.015)];
     modes
         .iter()
         .enumerate()
-        .map(|(k, &(hz, zeta))| Known::real(hz, zeta, &bent(k + 1, 8), references))
+        .map(|(k, &(hz, zeta))| KnownMode::real(hz, zeta, &bending_shape(k + 1, 8), references))
         .collect()
 }
 
-/// Root mean square of (found − true)/stated over seeds, for every mode: frequency, damping. The same number is 1 if
-/// the stated errors are right; of 40 seeds it scatters by 1/√80 = 11 %.
+/// RMS over seeds of the pull, (estimate − truth)/(standard error), for every mode: frequency, damping. It is 1 if the
+/// standard errors are correct; over 40 seeds it scatters by 1/√80 = 11 %.
 fn pulls(references: &[usize], power: i32, db: f64, step: f64, seeds: u64) -> Vec<[f64; 2]> {
     let known = known(references);
     let exact = frfs(&known, &lines(2.0, 110.0, step), power);
@@ -54,18 +54,18 @@ fn check(pulls: &[[f64; 2]]) {
 }
 
 #[test]
-fn stated_errors_are_the_scatter() {
+fn standard_errors_match_the_scatter() {
     check(&pulls(&[0, 4], 2, 40.0, 0.1, 40));
 }
 
 #[test]
-fn stated_errors_are_the_scatter_of_receptances() {
+fn standard_errors_match_the_scatter_of_receptances() {
     check(&pulls(&[0], 0, 30.0, 0.1, 40));
 }
 
 #[test]
-fn stated_errors_are_the_scatter_with_few_lines() {
-    // The lowest mode's half-power width of 0.24 Hz is one line.
+fn standard_errors_match_the_scatter_with_few_lines() {
+    // The lowest mode's half-power bandwidth of 0.24 Hz is one line spacing.
     check(&pulls(&[0, 4], 2, 40.0, 0.25, 40));
 }
 
@@ -76,22 +76,22 @@ fn same_seed_same_frfs() {
     let noisy = exact.measured_with(&test).unwrap();
     assert_eq!(noisy, exact.measured_with(&test).unwrap());
     assert_ne!(noisy, exact.measured_with(&NoisyTest { seed: 4, ..test }).unwrap());
-    // 40 dB down, ten averages: the response's share alone is 1e-2/√10 of the RMS.
+    // 40 dB, ten averages: the response noise alone is 1e-2/√10 of the RMS.
     let (mut off, mut size) = (0.0, 0.0);
     for (a, b) in noisy.values.iter().flatten().flatten().zip(exact.values.iter().flatten().flatten()) {
         off += (a - b).norm_sqr();
         size += b.norm_sqr();
     }
     let ratio: f64 = off / size;
-    // Force and response bring 1e-4/10 each; what the force brings rests on the few lines of the resonances.
+    // Force and response noise contribute 1e-4/10 each; the force noise acts on the few lines of the resonances.
     assert!((ratio / 2e-5 - 1.0).abs() < 0.25, "{ratio:.3e}");
     let coherence = noisy.coherence.unwrap();
     assert!(coherence.iter().flatten().flatten().all(|c| (0.0..=1.0).contains(c)));
 }
 
-/// What sensors hear of nothing, beside what moves: no mode is lost by it and no error grows.
+/// Additional responses that contain only noise: no mode is lost and no standard error grows.
 #[test]
-fn responses_of_noise_alone_do_no_harm() {
+fn noise_only_responses_do_not_change_the_modes() {
     let known = known(&[0, 4]);
     let exact = frfs(&known, &lines(2.0, 110.0, 0.1), 2);
     let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
@@ -99,7 +99,7 @@ fn responses_of_noise_alone_do_no_harm() {
     let good = exact.measured_with(&test).unwrap();
     let alone = identify(&good, &settings).unwrap();
     let largest = good.values[0][0].iter().map(|h| h.norm()).fold(0.0, f64::max);
-    // A sensor's floor, a thousandth of the largest response, and round-off.
+    // Sensor noise floor, a thousandth of the largest response, and round-off.
     for floor in [1e-3 * largest, 1e-14 * largest] {
         let mut state = 99_u64;
         let mut noise = || {

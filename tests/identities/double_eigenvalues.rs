@@ -1,4 +1,4 @@
-//! Derivatives of double eigenvalues, which a rotor that is the same in all planes has at rest, against differences.
+//! Derivatives of double eigenvalues of an axisymmetric rotor at rest compared with finite differences.
 
 use rotordyn::analysis::modal::{self, Mode};
 use rotordyn::analysis::sensitivity::{Linearised, ModeSensitivity, SystemDerivative};
@@ -6,7 +6,7 @@ use rotordyn::element::Anchor;
 use rotordyn::linalg::{Complex64, SparseRow};
 use rotordyn::model::{Model, Options, load};
 
-/// Shaft with one disc off its middle; factors on k_xx of bearing A, on k_yy of it, on the shaft's modulus.
+/// Shaft with one disc off midspan; factors on k_xx and k_yy of bearing A and on the shaft's modulus.
 fn rotor(factor: [f64; 3]) -> Model {
     let text = format!(
         r#"
@@ -66,8 +66,8 @@ fn pair_near(modes: &[Mode], value: Complex64) -> [&Mode; 2] {
     [all[0], all[1]]
 }
 
-/// Every double eigenvalue of the rotor with its shapes turned by 0.6 rad.
-fn turned(at: &Linearised) -> Vec<(Complex64, [Vec<Complex64>; 2])> {
+/// Every double eigenvalue of the rotor with its two shapes rotated by 0.6 rad.
+fn rotated_doubles(at: &Linearised) -> Vec<(Complex64, [Vec<Complex64>; 2])> {
     let found = modal::modes(&at.assembly, &at.system, COUNT).unwrap();
     let doubles = modal::doubles(&at.system, &found);
     let (sin, cos) = 0.6_f64.sin_cos();
@@ -86,9 +86,9 @@ fn derivative(at: &Linearised, model: &dyn Fn(f64) -> [f64; 3]) -> SystemDerivat
 }
 
 #[test]
-fn slopes_are_the_eigenvalues_of_the_projected_problem() {
+fn eigenvalue_derivatives_from_projected_problem() {
     let at = Linearised::new(rotor([1.0; 3]), 0.0, None).unwrap();
-    let all = turned(&at);
+    let all = rotated_doubles(&at);
     assert!(all.len() >= 2, "{}", all.len());
     let ways: [&dyn Fn(f64) -> [f64; 3]; 3] = [&|f| [f, 1.0, 1.0], &|f| [f, f, 1.0], &|f| [1.0, 1.0, f]];
     for (value, [u, v]) in &all {
@@ -96,11 +96,11 @@ fn slopes_are_the_eigenvalues_of_the_projected_problem() {
             ModeSensitivity::of_double(&at.system, *value, u, v).unwrap(),
             ModeSensitivity::of_double(&at.system, *value, v, u).unwrap(),
         ];
-        for (parts, way) in ways.iter().enumerate().map(|(k, way)| (k == 0, way)) {
+        for (splits, way) in ways.iter().enumerate().map(|(k, way)| (k == 0, way)) {
             let by = derivative(&at, way);
             let [a, d] = sensitivities.each_ref().map(|s| s.eigenvalue(&by));
             let [c, b] = sensitivities.each_ref().map(|s| s.coupling(&by));
-            // Sum of both, and the square of what parts them, are smooth in the parameter.
+            // The sum and the squared difference of both eigenvalues are smooth in the parameter.
             let (trace, split) = (a + d, (a - d) * (a - d) + 4.0 * b * c);
             let h = 1e-3;
             let [low, high] = [1.0 - h, 1.0 + h].map(|f| {
@@ -114,15 +114,15 @@ fn slopes_are_the_eigenvalues_of_the_projected_problem() {
             let theirs = (high.1 + low.1) / (2.0 * h * h);
             let error = (split - theirs).norm() / trace.norm_sqr();
             assert!(error < 1e-4, "{split} {theirs} {error:.1e}");
-            assert_eq!(split.norm() > 0.1 * trace.norm_sqr(), parts);
-            // Turned by 0.6 rad, the shapes share what moves one plane alone.
-            assert_eq!(c.norm() > 0.1 * trace.norm(), parts, "{c} of {trace}");
+            assert_eq!(split.norm() > 0.1 * trace.norm_sqr(), splits);
+            // A change in one plane couples the shapes rotated by 0.6 rad.
+            assert_eq!(c.norm() > 0.1 * trace.norm(), splits, "{c} of {trace}");
         }
     }
 }
 
 #[test]
-fn shapes_change_within_their_plane() {
+fn shape_derivatives_stay_in_plane() {
     let at = Linearised::new(rotor([1.0; 3]), 0.0, None).unwrap();
     let row = |at: &Linearised, name: &str, direction: usize| -> SparseRow {
         let node = at.model.stations.iter().find(|s| s.name == name).unwrap().node;
@@ -130,7 +130,7 @@ fn shapes_change_within_their_plane() {
     };
     let way = |f: f64| [1.0, 1.0, f];
     let by = derivative(&at, &way);
-    for (value, [u, v]) in &turned(&at) {
+    for (value, [u, v]) in &rotated_doubles(&at) {
         let slope = ModeSensitivity::of_double(&at.system, *value, u, v).unwrap().shapes(&[&by]).unwrap();
         for direction in [0, 1] {
             let [disc, end] = ["disc", "B"].map(|name| row(&at, name, direction));

@@ -1,4 +1,4 @@
-//! Elastohydrodynamic point contact: balances, symmetry, limits, the shape every such film has.
+//! Elastohydrodynamic point contact: load and mass balance, symmetry, dry limit, film shape, failures.
 
 use crate::lubricated::circular;
 use rotordyn::contact::ehl::{self, Failure, Problem, Solution};
@@ -10,13 +10,13 @@ fn solved() -> (Problem, Solution) {
 }
 
 #[test]
-fn the_pressure_carries_the_load_and_nothing_else() {
+fn pressure_carries_the_load_and_is_symmetric() {
     let (problem, s) = solved();
     let (dx, dy) = (s.x[1] - s.x[0], s.y[1] - s.y[0]);
     let carried: f64 = s.pressure.iter().sum::<f64>() * dx * dy;
     assert!((carried / problem.load - 1.0).abs() < 1e-8, "{carried}");
     assert!(s.pressure.iter().all(|&p| p >= 0.0) && s.film.iter().all(|&h| h > 0.0));
-    // Symmetric across; ruptured behind the contact.
+    // Symmetric in y; cavitated behind the contact.
     let ny = s.y.len();
     for (p, h) in s.pressure.chunks_exact(ny).zip(s.film.chunks_exact(ny)) {
         assert!((0..ny).all(|j| p[j] == p[ny - 1 - j] && h[j] == h[ny - 1 - j]));
@@ -36,7 +36,7 @@ fn pressure_spike_and_horseshoe() {
     assert_eq!(peaks.len(), 2, "Hertz maximum and spike, at {peaks:?}");
     let semi_axis = problem.contact.patch(problem.load).semi_minor;
     assert!(s.x[peaks[0]].abs() < 0.3 * semi_axis && s.x[peaks[1]] > 0.5 * semi_axis);
-    // The film is level inside, and thinnest in the two lobes beside the centre line.
+    // The film is flat in the centre and thinnest in the two side lobes (horseshoe).
     let least = s.film.iter().position(|&h| h == s.minimum_film).unwrap();
     assert!(s.y[least % ny].abs() > 0.4 * semi_axis && s.x[least / ny] > 0.0);
     assert!(s.minimum_film < 0.75 * s.central_film);
@@ -44,20 +44,20 @@ fn pressure_spike_and_horseshoe() {
     assert!((inside / s.central_film - 1.0).abs() < 0.06, "{}", inside / s.central_film);
 }
 
-/// What flows into a rectangle about the contact flows out of it: fluxes by central differences and trapezoids,
-/// not by the finite volumes of the solver, so that only the discretisation parts them.
+/// Mass conservation over a rectangle around the contact: fluxes by central differences and the trapezoidal
+/// rule, not by the finite volumes of the solver, so that the imbalance is discretisation error.
 #[test]
 fn mass_is_conserved() {
     let gaps = [61, 121].map(|nodes| {
         let problem = circular(20.0, 10.0, nodes);
-        mass_gap(&problem, &ehl::solve(&problem, None).unwrap())
+        mass_imbalance(&problem, &ehl::solve(&problem, None).unwrap())
     });
     assert!(gaps[1].abs() < 0.01, "{gaps:?}");
     assert!((gaps[0] / gaps[1]).log2() > 1.5, "{gaps:?}");
 }
 
-/// Share of what enters the rectangle −1.8 < X < 0.3, |Y| < 1 that does not leave it.
-fn mass_gap(problem: &Problem, s: &Solution) -> f64 {
+/// Mass imbalance of the rectangle −1.8 < X < 0.3, |Y| < 1 relative to its inflow.
+fn mass_imbalance(problem: &Problem, s: &Solution) -> f64 {
     let (nx, ny) = (s.x.len(), s.y.len());
     let (dx, dy) = (s.x[1] - s.x[0], s.y[1] - s.y[0]);
     let oil = &problem.lubricant;
@@ -84,13 +84,13 @@ fn mass_gap(problem: &Problem, s: &Solution) -> f64 {
     let inflow = trapezoid((south..=north).map(|j| along(west, j)).collect(), dy);
     let outflow = trapezoid((south..=north).map(|j| along(east, j)).collect(), dy);
     let sideways = 2.0 * trapezoid((west..=east).map(|i| across(i, north)).collect(), dx);
-    assert!(sideways > 0.2 * inflow, "the contact pushes fluid aside");
+    assert!(sideways > 0.2 * inflow, "side leakage out of the contact");
     (inflow - outflow - sideways) / inflow
 }
 
-/// The slower, the thinner the film (as speed to the power of about 2/3), the nearer the dry contact.
+/// The film shift falls as speed to the power of about 2/3 towards the dry contact.
 #[test]
-fn slow_contact_is_dry() {
+fn dry_limit_at_low_speed() {
     let shifts = [1.0, 0.5, 0.25].map(|factor| {
         let mut problem = circular(20.0, 10.0, 61);
         problem.speed *= factor;
@@ -108,26 +108,26 @@ fn slow_contact_is_dry() {
 }
 
 #[test]
-fn starting_nearby_gives_the_same() {
+fn continuation_from_nearby_solution() {
     let (problem, s) = solved();
     let mut nearby = problem.clone();
     nearby.load *= 1.3;
     let direct = ehl::solve(&nearby, None).unwrap();
     let continued = ehl::solve(&nearby, Some(&s)).unwrap();
     assert!((direct.approach / continued.approach - 1.0).abs() < 1e-6);
-    // Bit for bit the same when asked again.
+    // A repeated solution is identical bit for bit.
     assert_eq!(direct, ehl::solve(&nearby, None).unwrap());
 }
 
 #[test]
-fn a_contact_that_cannot_be_solved_says_so() {
+fn unsolvable_contacts_are_reported() {
     let mut problem = circular(20.0, 10.0, 41);
     problem.load = -1.0;
     assert!(matches!(ehl::solve(&problem, None), Err(Failure::Input { quantity: "load", .. })));
     let mut problem = circular(20.0, 10.0, 40);
     problem.grid.ny = 40;
     assert!(matches!(ehl::solve(&problem, None), Err(Failure::Input { .. })));
-    // A film far thinner than the grid can hold.
+    // A film far thinner than the grid can resolve.
     let mut problem = circular(20.0, 10.0, 41);
     problem.speed *= 1e-4;
     problem.load *= 1e3;

@@ -1,4 +1,5 @@
-//! Linear studies take ball bearings at their speed: film and ball inertia change the modes, dry massless balls do not.
+//! Linear studies with speed-dependent ball bearings: film and ball inertia change the modes, dry massless
+//! balls do not.
 
 use rotordyn::model::{self, Model, Options, study};
 use rotordyn::study::Machine;
@@ -38,36 +39,36 @@ fn branches(machine: &Machine, follow_bearings: bool) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn campbell_follows_balls_with_inertia() {
+fn campbell_with_ball_inertia() {
     let machine = Machine::new(spindle("ball_inertia = \"outer_race_control\"")).unwrap();
-    let (still, followed) = (branches(&machine, false), branches(&machine, true));
-    for (a, b) in still.iter().zip(&followed) {
+    let (constant, updated) = (branches(&machine, false), branches(&machine, true));
+    for (a, b) in constant.iter().zip(&updated) {
         assert_eq!(a[0], b[0]);
     }
-    let change = |k: usize| followed[k][1] / still[k][1] - 1.0;
-    let largest = (0..still.len()).map(|k| change(k).abs()).fold(0.0, f64::max);
-    println!("inertia: {:?}", (0..still.len()).map(change).collect::<Vec<_>>());
-    assert!(largest > 0.01, "{still:?} {followed:?}");
+    let change = |k: usize| updated[k][1] / constant[k][1] - 1.0;
+    let largest = (0..constant.len()).map(|k| change(k).abs()).fold(0.0, f64::max);
+    println!("inertia: {:?}", (0..constant.len()).map(change).collect::<Vec<_>>());
+    assert!(largest > 0.01, "{constant:?} {updated:?}");
 }
 
 #[test]
-fn campbell_follows_the_film() {
+fn campbell_with_film() {
     let machine = Machine::new(spindle("contact = \"film\"\nlubricant = \"oil\"")).unwrap();
-    let (still, followed) = (branches(&machine, false), branches(&machine, true));
-    println!("film: {still:?} {followed:?}");
-    // A film in a rigidly preloaded bearing adds to the preload: the rotor sits stiffer on it.
-    assert!(followed[0][1] > 1.01 * still[0][1], "{still:?} {followed:?}");
+    let (constant, updated) = (branches(&machine, false), branches(&machine, true));
+    println!("film: {constant:?} {updated:?}");
+    // A film in a rigidly preloaded bearing adds to the preload: the supports become stiffer.
+    assert!(updated[0][1] > 1.01 * constant[0][1], "{constant:?} {updated:?}");
 }
 
 #[test]
-fn dry_massless_balls_stay_as_they_are() {
+fn dry_massless_balls_do_not_depend_on_speed() {
     let machine = Machine::new(spindle("")).unwrap();
     assert_eq!(branches(&machine, false), branches(&machine, true));
 }
 
-/// Modes, FRF and Campbell diagram at one speed are of one and the same machine.
+/// Modes, Campbell diagram, bearing study and equilibrium at one speed use the same bearing state.
 #[test]
-fn every_study_takes_the_bearings_at_its_speed() {
+fn all_studies_use_the_bearings_at_their_speed() {
     let machine = Machine::new(spindle("ball_inertia = \"outer_race_control\"")).unwrap();
     let speed = TAU * 20_000.0 / 60.0;
     let modes = machine.modal(&study::ModalStudy { speeds: vec![speed], modes: 9 }).unwrap();

@@ -11,7 +11,8 @@ use rotordyn::linalg::{Complex64, SparseMatrix, eigen, krylov};
 use rotordyn::model::{BearingSite, Model};
 
 prop_compose! {
-    /// A stepped and tapered shaft with two discs and a body hung on it by a bushing, free in space.
+    /// A stepped and tapered shaft with two discs and a body attached by a bushing, without supports
+    /// (free-free).
     fn free_machine()(
         sections in prop::collection::vec((0.02..0.2f64, 0.01..0.08f64, 0.01..0.08f64, 0.0..0.8f64), 3..7),
         discs in prop::collection::vec((0.0..1.0f64, 0.5..30.0f64, 0.02..0.2f64), 2),
@@ -83,7 +84,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
-    fn matrices_have_their_symmetries(model in free_machine()) {
+    fn matrix_symmetries(model in free_machine()) {
         let assembly = Assembly::new(&model).unwrap();
         let (m, k, g) = (assembly.mass.to_dense(), assembly.stiffness.to_dense(), assembly.gyroscopic.to_dense());
         prop_assert!((&m - m.transpose()).amax() <= 1e-14 * m.amax());
@@ -93,7 +94,7 @@ proptest! {
     }
 
     #[test]
-    fn six_rigid_body_motions_cost_no_energy_and_carry_the_whole_mass(model in free_machine()) {
+    fn rigid_body_modes_have_no_strain_energy_and_full_mass(model in free_machine()) {
         let assembly = Assembly::new(&model).unwrap();
         let nodes = model.node_count();
         let position = |node: usize| match node.checked_sub(model.node_z.len()) {
@@ -130,7 +131,7 @@ proptest! {
     }
 
     #[test]
-    fn forward_and_backward_part_in_proportion_to_speed(mut model in free_machine()) {
+    fn gyroscopic_split_is_proportional_to_speed(mut model in free_machine()) {
         model.bodies.clear();
         model.bushings.clear();
         model.masses.clear();
@@ -147,8 +148,8 @@ proptest! {
             }
         };
         let (fast, slow) = (split(2.0), split(1.0));
-        // The split is odd in speed, so that halving the speed halves it but for terms of third order; 1e-9 is
-        // what the eigenvalues of a stiff random machine are good for.
+        // The split is odd in speed, so that halving the speed halves it up to terms of third order; 1e-9 is
+        // the accuracy of the eigenvalues of a stiff random machine.
         prop_assert!(fast > 0.0 && (fast - 2.0 * slow).abs() < 1e-4 * fast + 1e-9, "{fast} {slow}");
         // At rest the pair is one frequency in two planes.
         let system = LinearSystem::new(&assembly, &tangents(&model), 0.0).unwrap();
@@ -160,12 +161,12 @@ proptest! {
     }
 
     #[test]
-    fn a_fixed_joint_makes_one_body_of_two(model in free_machine()) {
-        // The block held rigidly on node 1 by a joint, or its inertia moved there by hand.
+    fn fixed_joint_merges_two_bodies(model in free_machine()) {
+        // The block rigidly connected to node 1 by a joint.
         let mut jointed = model.clone();
         let bushing = jointed.bushings.remove(0);
         jointed.joints.push(Joint { name: "fixed".into(), a: bushing.a, b: bushing.b, locked: [true; 6] });
-        // Said twice: the second adds nothing.
+        // A redundant second joint adds nothing.
         jointed.joints.push(Joint { name: "again".into(), a: bushing.b, b: bushing.a, locked: [true; 6] });
         let assembly = Assembly::new(&jointed).unwrap();
         prop_assert_eq!(assembly.dofs.len(), 6 * model.node_z.len());
@@ -178,7 +179,7 @@ proptest! {
         for (a, b) in rows.iter().zip(&node) {
             prop_assert!((a.dot(&q) - b.dot(&q)).abs() < 1e-12);
         }
-        // Gravity finds the same total weight.
+        // The gravity load sums to the total weight.
         let weight = |a: &Assembly| -> f64 {
             let mut up = vec![0.0; a.dofs.full_len()];
             up.iter_mut().skip(1).step_by(6).for_each(|v| *v = 1.0);
@@ -192,8 +193,8 @@ proptest! {
     }
 
     #[test]
-    fn the_lowest_modes_are_those_of_the_dense_solver(mut model in free_machine(), round in any::<bool>()) {
-        if round {
+    fn lowest_modes_match_the_dense_solver(mut model in free_machine(), axisymmetric in any::<bool>()) {
+        if axisymmetric {
             // Axisymmetric: every bending frequency is double at rest, the body's too.
             let nodes = model.node_z.len();
             model.masses.clear();
@@ -224,7 +225,7 @@ proptest! {
             for (k, (pair, dense)) in lowest.iter().zip(&dense).take(10).enumerate() {
                 // The dense solver's round-off is that of the fastest mode: up to 1e-6 of a slow one.
                 let deviation = (pair.value.norm() / dense - 1.0).abs();
-                prop_assert!(deviation < 1e-5, "mode {k} at {speed} rad/s: {deviation:e} (round {round})");
+                prop_assert!(deviation < 1e-5, "mode {k} at {speed} rad/s: {deviation:e} (axisymmetric {axisymmetric})");
                 // The vector belongs to the value: φᴴ (λ² M + λ D + S) φ = 0, in parts of λ² φᴴ M φ.
                 let form = |a: &SparseMatrix| -> Complex64 {
                     let image = a.mul_complex(&pair.vector);
@@ -232,7 +233,7 @@ proptest! {
                 };
                 let inertia = pair.value * pair.value * form(m);
                 let rest = (inertia + pair.value * form(d) + form(s)).norm() / inertia.norm();
-                prop_assert!(rest < 1e-6, "mode {k} at {speed} rad/s: {rest:e} (round {round})");
+                prop_assert!(rest < 1e-6, "mode {k} at {speed} rad/s: {rest:e} (axisymmetric {axisymmetric})");
             }
         }
     }

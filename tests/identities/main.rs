@@ -1,4 +1,4 @@
-//! Theorems that hold for any machine, on random ones.
+//! Identities that hold for any machine, checked on random and example machines.
 
 #[path = "../common/ehl.rs"]
 mod lubricated;

@@ -1,4 +1,4 @@
-//! An axisymmetric rotor vibrates in planes at rest and whirls as soon as it turns.
+//! Modes of an axisymmetric rotor: planar at rest, forward and backward whirl with rotation.
 
 use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::model::{Options, load};
@@ -6,7 +6,7 @@ use rotordyn::study::Machine;
 use std::f64::consts::TAU;
 
 #[test]
-fn double_modes_lie_in_planes_only_at_rest() {
+fn double_modes_are_planar_only_at_rest() {
     let text = include_str!("../../models/jeffcott.toml");
     let model = load("jeffcott.toml", text, &Options::default()).unwrap().model;
     let machine = Machine::new(model).unwrap();
@@ -21,7 +21,7 @@ fn double_modes_lie_in_planes_only_at_rest() {
         for pair in bending.chunks_exact(2) {
             let mut kinds = [pair[0].kind, pair[1].kind];
             kinds.sort_by_key(|k| *k as u8);
-            // 10 rpm part the pairs by 1e-6 of their frequency, which is a thousand times their error.
+            // 10 rpm split the pairs by 1e-6 of their frequency, a thousand times their error.
             let expected = if rpm == 0.0 {
                 [ModeKind::PlaneX, ModeKind::PlaneY]
             } else {

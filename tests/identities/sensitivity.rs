@@ -1,4 +1,5 @@
-//! Derivatives of eigenvalues, shapes and FRFs against differences of the whole chain from the model file on.
+//! Derivatives of eigenvalues, shapes and FRFs compared with finite differences of the computation from the
+//! model file.
 
 use rotordyn::analysis::modal;
 use rotordyn::analysis::sensitivity::{Linearised, ModeSensitivity, SystemDerivative, frf_sensitivity};
@@ -20,7 +21,7 @@ const fn parameter(path: &'static str, start: f64, unit: &'static str) -> Parame
     Parameter { path, start, unit }
 }
 
-/// One of every kind: housing, belt, bushing, material, disc, and what works through the ball contacts alone.
+/// One of every kind: housing, belt, bushing, disc, and parameters that act through the ball contacts only.
 const RIG: [Parameter; 9] = [
     parameter("housing.B.k_x", 6e6, "N/m"),
     parameter("housing.A.k_y", 1.5e7, "N/m"),
@@ -36,7 +37,7 @@ const RIG: [Parameter; 9] = [
 impl Parameter {
     fn rig_at(&self, factor: f64) -> Model {
         let value = match self.unit {
-            // Two numbers in one text.
+            // Two numbers in one string.
             "" => format!("\"{:e}, 0 N\"", self.start * factor),
             unit => format!("\"{:e} {unit}\"", self.start * factor),
         };
@@ -45,8 +46,8 @@ impl Parameter {
 }
 
 const STEP: f64 = 1e-4;
-/// Step of the differences that check it.
-const WIDE: f64 = 1e-3;
+/// Step of the finite differences used as a check.
+const CHECK_STEP: f64 = 1e-3;
 
 fn derivative(at: &Linearised, model: &dyn Fn(f64) -> Model) -> SystemDerivative {
     at.derivative(&model(1.0 - STEP), &model(1.0 + STEP), 2.0 * STEP).unwrap()
@@ -61,7 +62,7 @@ fn nearest(model: Model, speed: f64, value: Complex64) -> (Complex64, Vec<Comple
     (mode.eigenvalue, mode.shape)
 }
 
-/// f′(1) by differences of fourth order, f over the factor on a parameter.
+/// f′(1) by fourth-order finite differences, f a function of the factor on a parameter.
 fn difference<T>(f: impl Fn(f64) -> T, combine: impl Fn(&[(f64, T)]) -> Complex64, h: f64) -> Complex64 {
     let points: Vec<(f64, T)> = [(8.0, 1.0), (-8.0, -1.0), (-1.0, 2.0), (1.0, -2.0)]
         .map(|(weight, way)| (weight / (12.0 * h), f(1.0 + way * h)))
@@ -73,7 +74,7 @@ fn sum(points: &[(f64, Complex64)]) -> Complex64 {
     points.iter().map(|(w, v)| v * *w).sum()
 }
 
-/// Largest error of λ′ relative to the largest of the mode's, over the first modes.
+/// Largest error of λ′ over the first modes, relative to λ′, or to 1 % of the natural frequency if larger.
 fn check_eigenvalues(at: &Linearised, models: &[&dyn Fn(f64) -> Model], modes: usize) -> f64 {
     let found = modal::modes(&at.assembly, &at.system, modes).unwrap();
     let by: Vec<SystemDerivative> = models.iter().map(|model| derivative(at, model)).collect();
@@ -83,13 +84,17 @@ fn check_eigenvalues(at: &Linearised, models: &[&dyn Fn(f64) -> Model], modes: u
         for (model, by) in models.iter().zip(&by) {
             let ours = sensitivity.eigenvalue(by);
             let value = |factor: f64| nearest(model(factor), at.system.speed, mode.eigenvalue).0;
-            let theirs = difference(value, sum, WIDE);
-            // Round-off of the stiffest elements leaves some 3e-12 of an eigenvalue uncertain, 5e-9 of it in these
-            // differences: a parameter that moves a mode by less than 1e-2 of itself cannot be told to 1e-6.
+            let theirs = difference(value, sum, CHECK_STEP);
+            // Round-off of the stiffest elements leaves some 3e-12 of an eigenvalue uncertain, 5e-9 of it in
+            // these differences: smaller derivatives than 1e-2 of the eigenvalue cannot be checked to 1e-6.
             let error = (ours - theirs).norm() / theirs.norm().max(1e-2 * mode.natural());
             worst = worst.max(error);
             if error > 1e-6 {
-                println!("{} at {:.2} Hz: {ours:.6e} against {theirs:.6e}", mode.label, mode.frequency_hz());
+                println!(
+                    "{} at {:.2} Hz: {ours:.6e} instead of {theirs:.6e}",
+                    mode.label,
+                    mode.frequency_hz()
+                );
             }
         }
     }
@@ -97,7 +102,7 @@ fn check_eigenvalues(at: &Linearised, models: &[&dyn Fn(f64) -> Model], modes: u
 }
 
 #[test]
-fn eigenvalues_of_the_rig() {
+fn eigenvalue_sensitivities_of_the_rig() {
     for rpm in [0.0, 1200.0] {
         let at = Linearised::new(variant(None, &[]), rpm * TAU / 60.0, None).unwrap();
         let models: Vec<Box<dyn Fn(f64) -> Model>> =
@@ -109,7 +114,7 @@ fn eigenvalues_of_the_rig() {
     }
 }
 
-/// A rotor on bearings with cross-coupled stiffness: left and right vectors differ at every speed.
+/// A rotor on bearings with cross-coupled stiffness: left and right eigenvectors differ at every speed.
 fn cross_coupled(factor: [f64; 3]) -> Model {
     load("cross.toml", cross_coupled_text(factor), &Options::default()).unwrap().model
 }
@@ -163,7 +168,7 @@ fn cross_coupled_text(factor: [f64; 3]) -> String {
 }
 
 #[test]
-fn eigenvalues_where_left_and_right_vectors_differ() {
+fn eigenvalue_sensitivities_with_cross_coupled_stiffness() {
     let at = Linearised::new(cross_coupled([1.0; 3]), 300.0, None).unwrap();
     let worst = check_eigenvalues(
         &at,
@@ -177,7 +182,7 @@ fn eigenvalues_where_left_and_right_vectors_differ() {
 }
 
 #[test]
-fn shapes_and_frfs_of_the_rig_at_speed() {
+fn shape_and_frf_sensitivities_of_the_rig_at_speed() {
     let speed = 1200.0 * TAU / 60.0;
     let at = Linearised::new(variant(None, &[]), speed, None).unwrap();
     let chosen = [&RIG[0], &RIG[3], &RIG[6]];
@@ -189,7 +194,7 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
     };
     let rows = |at: &Linearised| [row(at, "disc", 0), row(at, "B", 1), row(at, "A", 0), row(at, "disc", 1)];
 
-    // Ratios to the first row are what a shape is.
+    // Shapes are compared by their ratios to the first row.
     let found = modal::modes(&at.assembly, &at.system, 6).unwrap();
     let here = rows(&at);
     for mode in &found {
@@ -210,8 +215,9 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
                     let there = rows(&there);
                     there[k].dot_complex(&shape) / there[0].dot_complex(&shape)
                 };
-                let theirs = difference(ratio, sum, WIDE);
-                // Shapes come with some 1e-10 of their largest part, a hundred times what values have.
+                let theirs = difference(ratio, sum, CHECK_STEP);
+                // Shapes have an error of some 1e-10 of their largest component, a hundred times that of
+                // eigenvalues.
                 let scale = theirs.norm().max(0.1 * (part / lead).norm()).max(0.1);
                 let error = (ours - theirs).norm() / scale;
                 assert!(error < 1e-6, "{} {}: {ours} {theirs} {error:.1e}", mode.label, parameter.path);
@@ -233,9 +239,10 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
                     let there = Linearised::new(parameter.rig_at(factor), speed, None).unwrap();
                     frf(&there, &[]).values[r][0][k]
                 };
-                let theirs = difference(value, sum, WIDE);
+                let theirs = difference(value, sum, CHECK_STEP);
                 let slope = ours.slopes[p][r][0][k];
-                // The plane across answers a thousandth of what the plane of the force does, with the latter's round-off.
+                // The response across the force plane is a thousandth of that in it, with the latter's
+                // round-off.
                 let largest = (0..4).map(|r| ours.values[r][0][k].norm()).fold(0.0, f64::max);
                 let scale = theirs.norm().max(1e-2 * largest);
                 let error = (slope - theirs).norm() / scale;
@@ -253,7 +260,7 @@ fn modally_damped(factor: [f64; 2]) -> Model {
 }
 
 #[test]
-fn modal_damping_moves_eigenvalues_and_frfs() {
+fn sensitivities_to_modal_damping() {
     let at = Linearised::new(modally_damped([1.0; 2]), 300.0, None).unwrap();
     let models: [&dyn Fn(f64) -> Model; 3] =
         [&|f| modally_damped([f, 1.0]), &|f| modally_damped([1.0, f]), &|f| modally_damped([f, f])];
@@ -278,7 +285,7 @@ fn modal_damping_moves_eigenvalues_and_frfs() {
             for (k, hz) in frequencies.iter().enumerate() {
                 let value =
                     |f: f64| frf(&Linearised::new(model(f), 300.0, None).unwrap(), &[]).values[r][0][k];
-                let theirs = difference(value, sum, WIDE);
+                let theirs = difference(value, sum, CHECK_STEP);
                 let slope = ours.slopes[p][r][0][k];
                 let scale = theirs.norm().max(1e-2 * ours.values[r][0][k].norm());
                 let error = (slope - theirs).norm() / scale;

@@ -1,5 +1,6 @@
-//! Atef et al. 2022: rates, contacts at rest and the balls' centrifugal force of models/atef_2022.toml, by the ids of
-//! tests/data/atef_2022.json (an independent program of the same equations).
+//! Atef et al. 2022: ball-pass frequencies, contacts at rest and the balls' centrifugal force of
+//! models/atef_2022.toml, by the ids of tests/data/atef_2022.json (an independent program of the same
+//! equations).
 //!
 //! Axes: x and y are the paper's, z is along the shaft; angles from +x, where the load points.
 
@@ -9,7 +10,7 @@ use rotordyn::results::BearingPoint;
 use rotordyn::study::Machine;
 use serde_json::Value;
 
-/// The machine of the model file in one of its variants, with more set.
+/// The machine of the model file in one of its variants, with further settings.
 pub fn model(variant: &str, set: &[(&str, &str)]) -> Model {
     let options = Options {
         variant: (!variant.is_empty()).then(|| variant.into()),
@@ -48,7 +49,7 @@ fn loads(point: &BearingPoint) -> Vec<f64> {
 
 /// A01, A02.
 #[test]
-fn ball_pass_rates() {
+fn ball_pass_frequencies() {
     let point = bearing("");
     let hz = 1797.0 / 60.0;
     assert_within("BPFO", point.orders.bpfo * hz, number(&reference("A01")), 1e-5);
@@ -87,8 +88,8 @@ fn deflection_and_ball_loads_at_rest() {
     assert_within("A17 load", loads(&point)[0] / 2000.0, number(&tight["Qmax_over_Q"]), 1e-4);
 }
 
-/// A13: F_c of eq. 13 is what the outer contact of a ball carries more than the inner one. A14: of balls spaced evenly
-/// the forces cancel, so that eq. 12, which takes F_c off every ball, moves nothing.
+/// A13: F_c of eq. 13 is the outer minus the inner contact load of a ball. A14: the forces of evenly spaced
+/// balls cancel, so that eq. 12, which subtracts F_c from every ball, has no effect.
 #[test]
 fn centrifugal_force() {
     let point = bearing("ball_inertia");
@@ -104,7 +105,7 @@ fn centrifugal_force() {
     assert!(sum.iter().all(|s| s.abs() < 1e-9 * largest), "{sum:?}");
 }
 
-/// Inner ring, outer ring and resonator move along x and y; nothing else moves.
+/// The DOFs are x and y of inner ring, outer ring and resonator.
 #[test]
 fn six_degrees_of_freedom() {
     let machine = Machine::new(model("", &[])).unwrap();

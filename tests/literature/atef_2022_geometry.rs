@@ -1,4 +1,4 @@
-//! Atef et al. 2022: angles, depths, delays and residence of dents as the balls see them, by the ids of
+//! Atef et al. 2022: angles, depths, delays and residence times of balls passing dents, by the ids of
 //! tests/data/atef_2022.json (an independent program of the same equations).
 //!
 //! Axes: x and y are the paper's; angles from +x, where the load points and a defect starts.
@@ -36,7 +36,7 @@ fn bearing(on: Surface, angles: &[f64]) -> BallBearing {
     bearing
 }
 
-/// Times at which any ball comes to a dent, and those at which it leaves \[s\], to 1e-12 s.
+/// Times at which any ball enters a dent, and those at which it leaves \[s\], to 1e-12 s.
 fn passages(bearing: &BallBearing, duration: f64) -> [Vec<f64>; 2] {
     let profile = Profile::new(&bearing.geometry, &bearing.imperfections, 0, 0.0, 0.0).unwrap();
     let speed = TAU * 1797.0 / 60.0;
@@ -71,8 +71,8 @@ fn passages(bearing: &BallBearing, duration: f64) -> [Vec<f64>; 2] {
     out
 }
 
-/// A03: 1 to 2 and 2 to 3 of two dents 15 deg apart on the outer race. A04: on the inner race the later of the pair
-/// is met first, so that the long delay comes before the short one.
+/// A03: 1 to 2 and 2 to 3 of two dents 15 deg apart on the outer race. A04: on the inner race the later of
+/// the pair is passed first, so that the long delay comes before the short one.
 #[test]
 fn delays_between_impulses() {
     for (on, id, inner) in [(Surface::Outer, "A03", false), (Surface::Inner, "A04", true)] {
@@ -93,9 +93,9 @@ fn delays_between_impulses() {
     }
 }
 
-/// A05: 96.55 us under way over the dent, the same on both races.
+/// A05: residence time of 96.55 us over the dent, the same on both races.
 #[test]
-fn residence() {
+fn residence_time() {
     let expected = number(&row("A05")["value"]) * 1e-6;
     for on in [Surface::Outer, Surface::Inner] {
         let [entries, exits] = passages(&bearing(on, &[5.0]), 0.03);
@@ -107,9 +107,9 @@ fn residence() {
     }
 }
 
-/// A06 and A07: the dent's angle on the outer race, and how deep balls sink into openings of three widths.
+/// A06 and A07: the dent's angle on the outer race, and the depth of balls in openings of three widths.
 #[test]
-fn angle_and_depth() {
+fn dent_angle_and_ball_depth() {
     let bearing = bearing(Surface::Outer, &[0.0]);
     let g = &bearing.geometry;
     let angle = bearing.imperfections.defects[0].angle(g).to_degrees();

@@ -17,8 +17,8 @@ fn passage(rate: f64, records: &Records) -> BallPassage {
     BallPassage { frequency: rate, balls: 9, race_speed, datum: -records.start }
 }
 
-/// Defects that the detector finds on the outer race; it is told the balls and their rate, not where to look.
-fn found(records: &Records) -> Vec<RaceDefect> {
+/// Defects detected on the outer race, given only the number of balls and the ball-pass frequency.
+fn detected_defects(records: &Records) -> Vec<RaceDefect> {
     let [x, y] = &records.ring;
     race_defects(x, Some(y), records.rate, &passage(BPFO, records)).unwrap()
 }
@@ -61,10 +61,10 @@ fn impulses_of_two_dents() {
     }
 }
 
-/// Time from a ball's entry into a dent to its leaving it \[us\], at every passage.
-fn residences(records: &Records) -> Vec<f64> {
+/// Residence time of a ball in a dent \[us\], at every passage.
+fn residence_times(records: &Records) -> Vec<f64> {
     let jumps = jerk_jumps(&records.ring[0], records.rate, 8.0).unwrap();
-    assert!(jumps.iter().all(|j| j.size < 0.0), "a dent kinks the ring inward");
+    assert!(jumps.iter().all(|j| j.size < 0.0), "the jerk jumps of a dent are negative");
     jumps.windows(2).map(|w| (w[1].time - w[0].time) * 1e6).filter(|gap| *gap < 200.0).collect()
 }
 
@@ -77,7 +77,7 @@ fn residence_over_a_dent() {
     for (records, expected, mean_within, each_within) in
         [(&*TWO_DENTS, expected[0], 2.0, 2.4), (&fine, expected[1], 0.6, 2.4)]
     {
-        let got = residences(records);
+        let got = residence_times(records);
         let seconds = records.ring[0].len() as f64 / records.rate;
         assert!(got.len() as f64 >= 1.8 * seconds * BPFO, "{} passages", got.len());
         let mean = got.iter().sum::<f64>() / got.len() as f64;
@@ -88,13 +88,13 @@ fn residence_over_a_dent() {
     }
 }
 
-/// A11: extrema of the jerk under the force law H^1.5, which alone cannot be 97 us apart.
+/// A11: extrema of the jerk under the force law H^1.5, which are not 97 us apart.
 #[test]
 fn extrema_of_the_jerk_under_the_force_law() {
     let fine = [("study.run_up.step", "1 us"), ("study.run_up.sample_rate", "1000 kHz")];
     let records = simulate("force", &fine, 0.2, 0.05);
     let jerk = jerk(&records.ring[0], records.rate).unwrap();
-    // Balls stand at the dents' ends at known times, so that every extremum is sought over one dent alone.
+    // Entry and exit times of the balls are known, so that the extrema are searched over one dent alone.
     let cage = BPFO / 9.0;
     let width = 0.17 / OUTER / std::f64::consts::TAU;
     let mut spacings = Vec::new();
@@ -124,8 +124,8 @@ fn angle_between_two_defects() {
     [0.9, 2.6, 3.139, 5.0, 10.0, 20.0, 30.0, 34.8, 38.2].into_par_iter().for_each(|beta| {
         let defects = settings(&[(0.0, BUMP), (beta, DENT)]);
         let records = simulate("bump_and_dent", &[("bearing.B.defect", &defects)], 0.15, 0.2);
-        let got = found(&records);
-        // A start at 0 may be found a hair below it, at the end of the circle.
+        let got = detected_defects(&records);
+        // A start at 0 may be detected slightly below it, near 360 deg.
         assert_eq!(got.len(), 2, "{beta}: {got:?}");
         let of = |kind| got.iter().find(|d| d.kind == kind).unwrap().angle;
         let between = (of(DefectKind::Dent) - of(DefectKind::Bump)).to_degrees().rem_euclid(360.0);
@@ -133,7 +133,8 @@ fn angle_between_two_defects() {
     });
 }
 
-/// A31: N alternating bumps and dents make 2N jumps a passage, outward at a bump and inward at a dent.
+/// A31: N alternating bumps and dents give 2N jerk jumps per passage, positive at a bump and negative at a
+/// dent.
 #[test]
 fn four_six_and_eight_defects() {
     [("four_defects", 4), ("six_defects", 6), ("eight_defects", 8)].into_par_iter().for_each(
@@ -142,7 +143,7 @@ fn four_six_and_eight_defects() {
             let [x, y] = &records.ring;
             let fold = fold_jerk(x, Some(y), records.rate, &passage(BPFO, &records)).unwrap();
             assert_eq!(fold.jumps.len(), 2 * count, "{variant}");
-            let got = found(&records);
+            let got = detected_defects(&records);
             assert_eq!(got.len(), count, "{variant}: {got:?}");
             for (k, defect) in got.iter().enumerate() {
                 let (kind, sign) =
@@ -155,11 +156,11 @@ fn four_six_and_eight_defects() {
     );
 }
 
-/// A32: angle within 0.05 deg, width within one step of 6 us at the contact's 1.76067 m/s, kind 7 of 7.
+/// A32: angle within 0.05 deg, width within one step of 6 us at the contact's 1.76067 m/s, all seven kinds.
 #[test]
 fn seven_random_defects() {
     let records = simulate("random_defects", &[], 0.25, 0.3);
-    let got = found(&records);
+    let got = detected_defects(&records);
     let rows = read("atef_2022.json")["random_defects"]["rows"].clone();
     let rows = rows.as_array().unwrap();
     assert_eq!(got.len(), rows.len(), "{got:?}");
@@ -172,12 +173,12 @@ fn seven_random_defects() {
 }
 
 #[test]
-fn a_sound_bearing_has_no_defects() {
-    let got = found(&simulate("", &[], 0.25, 0.3));
+fn no_defects_detected_without_defects() {
+    let got = detected_defects(&simulate("", &[], 0.25, 0.3));
     assert!(got.is_empty(), "{got:?}");
 }
 
-/// The contact passes at half the raceways' sliding speed: 1.76067 m/s on both races.
+/// The contact point passes over both races at 1.76067 m/s.
 #[test]
 fn residence_is_the_same_on_both_races() {
     let speed = std::f64::consts::TAU * OUTER * 1e-3 * BPFO / 9.0;

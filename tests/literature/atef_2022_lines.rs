@@ -1,4 +1,4 @@
-//! Atef et al. 2022: what the lines of the spectra say of two defects and of the inner race, on the machine of
+//! Atef et al. 2022: spectral lines of two defects and of an inner-race defect, on the machine of
 //! models/atef_2022.toml by the ids of tests/data/atef_2022.json.
 
 use crate::atef_2022_records::{BPFI, BPFO, Records, band_envelope, harmonics, lines, simulate};
@@ -19,11 +19,12 @@ fn pair(angle: f64, other: &str, more: &[(&str, &str)]) -> Records {
     simulate("two_dents", &set, 0.25, 0.5)
 }
 
-/// A30: which harmonic of the envelope is the strongest follows from the resonator's decay σ.
+/// A30: which harmonic of the envelope is the strongest follows from the resonator's decay rate σ.
 ///
-/// Impulses at 0 and β ring with σ: |H_n| = 2 |cos(πnβ/40)|/√(σ² + (2πn BPFO)²), the second strongest from 332 to 1182
-/// 1/s. So it is in a band about the resonance; the unfiltered envelope has in it what pushes the ring while a ball is on
-/// a dent, and at 10 kHz and 1000 1/s its third harmonic is ahead by up to 2 %.
+/// Responses to impulses at 0 and β decay with σ: |H_n| = 2 |cos(πnβ/40)|/√(σ² + (2πn BPFO)²), the second
+/// strongest from 332 to 1182 1/s. This holds in a band around the resonance; the unfiltered envelope also
+/// contains the forced motion while a ball is on a dent, and at 10 kHz and 1000 1/s its third harmonic is
+/// larger by up to 2 %.
 #[test]
 fn strongest_harmonic_of_two_dents() {
     let cases: Vec<(f64, f64, f64)> = [5000.0, 10000.0]
@@ -67,15 +68,15 @@ fn strongest_harmonic_of_two_dents() {
 const ANGLES: [f64; 15] =
     [1.0, 2.5, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 22.5, 25.0, 27.5, 30.0, 35.0, 39.0];
 
-/// Place of the least value; with `-1.0` of the greatest.
-fn least(values: &[f64], sign: f64) -> f64 {
+/// Angle of the smallest value (sign 1) or of the largest (sign −1).
+fn angle_of_extremum(values: &[f64], sign: f64) -> f64 {
     let best = |a: usize, b: usize| if sign * values[b] < sign * values[a] { b } else { a };
     ANGLES[(0..values.len()).reduce(best).unwrap()]
 }
 
 /// A33: two equal dents interfere, at BPFO as |cos(πβ/40)|, at 2 BPFO as |cos(2πβ/40)|.
 #[test]
-fn acceleration_of_two_dents_over_their_angle() {
+fn acceleration_of_two_dents_over_angle() {
     let one = |angle: &f64| {
         let got = pair(*angle, "kind = \"dent\"", &[]);
         let found = lines(&got.resonator, got.rate, &harmonics(BPFO, 2));
@@ -89,21 +90,22 @@ fn acceleration_of_two_dents_over_their_angle() {
         |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| (x - mean(a)) * (y - mean(b))).sum::<f64>();
     let correlation = product(&first, &ideal) / (product(&first, &first) * product(&ideal, &ideal)).sqrt();
     assert!(correlation > 0.98, "{correlation}");
-    assert_eq!(least(&first, 1.0), 20.0, "{first:?}");
+    assert_eq!(angle_of_extremum(&first, 1.0), 20.0, "{first:?}");
     // a + b cos(2πβ/40), as eq. 23.
     let wave: Vec<f64> = ANGLES.iter().map(|b| (std::f64::consts::TAU * b / 40.0).cos()).collect();
     let slope = product(&wave, &first) / product(&wave, &wave);
     let ratio = slope / (mean(&first) - slope * mean(&wave));
     assert!((ratio - 0.656).abs() < 0.03, "b/a = {ratio}");
-    // Least at 10 and 30 deg, greatest at either end and at 20.
+    // Smallest at 10 and 30 deg, largest at both ends and at 20.
     let at = |angle: f64| second[ANGLES.iter().position(|a| *a == angle).unwrap()];
     assert!(at(10.0) < 0.1 * at(1.0) && at(30.0) < 0.1 * at(1.0), "{second:?}");
     assert!(at(20.0) > at(17.5) && at(20.0) > at(22.5) && at(39.0) > at(35.0), "{second:?}");
 }
 
-/// A34: a dent and a bump of one strength: what the one cancels in the acceleration the other does in the envelope.
+/// A34: for a dent and a bump of equal strength, 20 deg apart, acceleration is largest and the envelope
+/// smallest.
 #[test]
-fn dent_and_bump_over_their_angle() {
+fn dent_and_bump_over_angle() {
     let one = |angle: &f64| {
         let got = pair(*angle, "kind = \"bump\", height = \"0.910049 um\"", &[]);
         let envelope = envelope(&got.resonator).unwrap();
@@ -111,14 +113,14 @@ fn dent_and_bump_over_their_angle() {
     };
     let found: Vec<[f64; 2]> = ANGLES.par_iter().map(one).collect();
     let [acceleration, envelope] = [0, 1].map(|n| found.iter().map(|f| f[n]).collect::<Vec<f64>>());
-    assert_eq!(least(&acceleration, -1.0), 20.0, "{acceleration:?}");
-    assert_eq!(least(&envelope, 1.0), 20.0, "{envelope:?}");
+    assert_eq!(angle_of_extremum(&acceleration, -1.0), 20.0, "{acceleration:?}");
+    assert_eq!(angle_of_extremum(&envelope, 1.0), 20.0, "{envelope:?}");
 }
 
-/// A35: a loaded inner race shows BPFI with side bands at the shaft's speed, none where the printed sign of eq. 3 puts
-/// them.
+/// A35: a defect on a loaded inner race gives BPFI with sidebands at the shaft frequency, and none at the
+/// frequencies by the printed sign of eq. 3.
 #[test]
-fn side_bands_of_an_inner_race() {
+fn sidebands_of_an_inner_race_defect() {
     const SHAFT: f64 = 1797.0 / 60.0;
     let got = simulate("loaded_inner_dent", &[], 0.25, 1.0);
     let envelope = envelope(&got.resonator).unwrap();

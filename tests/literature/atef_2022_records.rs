@@ -28,7 +28,7 @@ pub struct Records {
     pub start: f64,
 }
 
-/// Runs a variant for so many seconds after the settling.
+/// Runs a variant for `seconds` after the settling time.
 pub fn simulate(variant: &str, set: &[(&str, &str)], settle: f64, seconds: f64) -> Records {
     let duration = format!("{} s", settle + seconds);
     let model = model(variant, &[set, &[("speed.duration", &duration)]].concat());
@@ -53,21 +53,22 @@ pub fn simulate(variant: &str, set: &[(&str, &str)], settle: f64, seconds: f64) 
     Records { ring: [x, y], resonator, rate, start: first as f64 / rate }
 }
 
-/// What the settings of the file give, run once for all tests that look at it.
+/// Run with the settings of the model file, shared by all tests that use it.
 pub static TWO_DENTS: LazyLock<Records> = LazyLock::new(|| simulate("two_dents", &[], 0.25, 1.0));
 
 pub const BPFO: f64 = 107.364_415;
 pub const BPFI: f64 = 162.185_585;
 
-/// Amplitudes of a record at just these frequencies (Hann): no line falls between two bins.
+/// Amplitudes of a record at the given frequencies (direct Fourier sum, Hann window), independent of a bin
+/// grid.
 pub fn lines(record: &[f64], rate: f64, frequencies: &[f64]) -> Vec<f64> {
     let mean = record.iter().sum::<f64>() / record.len() as f64;
     let turn = std::f64::consts::TAU / record.len() as f64;
-    let weighed: Vec<f64> =
+    let weighted: Vec<f64> =
         record.iter().enumerate().map(|(k, v)| (1.0 - (turn * k as f64).cos()) * (v - mean)).collect();
     let line = |f: &f64| {
         let mut sum = [0.0; 2];
-        for (k, v) in weighed.iter().enumerate() {
+        for (k, v) in weighted.iter().enumerate() {
             let (sin, cos) = (std::f64::consts::TAU * f * k as f64 / rate).sin_cos();
             sum[0] += v * cos;
             sum[1] += v * sin;
@@ -82,41 +83,41 @@ pub fn harmonics(rate: f64, count: usize) -> Vec<f64> {
     (1..=count).map(|n| n as f64 * rate).collect()
 }
 
-/// Envelope of what a zero-phase Butterworth filter of order 4 leaves between two frequencies.
+/// Envelope of a record filtered by a zero-phase Butterworth band-pass of order 4.
 pub fn band_envelope(record: &[f64], rate: f64, band: (f64, f64)) -> Vec<f64> {
     let filter = butterworth(4, Band::BandPass(band.0, band.1), rate).unwrap();
     envelope(&filter.filter_zero_phase(record).unwrap()).unwrap()
 }
 
-fn of(record: &[f64]) -> Statistics {
+fn statistics_of(record: &[f64]) -> Statistics {
     statistics(record).unwrap()
 }
 
 /// A18, A20: the displacement law.
 #[test]
-fn statistics_of_dents_that_displace() {
+fn statistics_under_the_displacement_law() {
     let two = &*TWO_DENTS;
     let [rms, kurtosis, peak, ring] = numbers(&reference("A18"))[..] else { panic!() };
-    let got = of(&two.resonator);
+    let got = statistics_of(&two.resonator);
     assert_within("rms", got.rms, rms, 1e-4);
     assert_within("kurtosis", got.kurtosis.unwrap(), kurtosis, 1e-4);
     assert_within("peak", got.peak, peak, 1e-3);
-    assert_within("rms of the ring", of(&two.ring[0]).rms, ring, 1e-4);
+    assert_within("rms of the ring", statistics_of(&two.ring[0]).rms, ring, 1e-4);
 
     let one = simulate("one_dent", &[], 0.25, 1.0);
     let [rms, kurtosis] = numbers(&reference("A20"))[..] else { panic!() };
-    assert_within("rms of one", of(&one.resonator).rms, rms, 1e-4);
-    assert_within("kurtosis of one", of(&one.resonator).kurtosis.unwrap(), kurtosis, 1e-4);
+    assert_within("rms of one", statistics_of(&one.resonator).rms, rms, 1e-4);
+    assert_within("kurtosis of one", statistics_of(&one.resonator).kurtosis.unwrap(), kurtosis, 1e-4);
 }
 
-/// A19: the printed force law; nothing unloads here, so that the gated one is the same.
+/// A19: the printed force law; no ball unloads here, so that `force_on_loaded` gives the same.
 #[test]
-fn statistics_of_dents_that_push() {
+fn statistics_under_the_force_law() {
     let [rms, ring] = numbers(&reference("A19"))[..] else { panic!() };
     ["force", "force_on_loaded"].into_par_iter().for_each(|variant| {
         let got = simulate(variant, &[], 0.25, 1.0);
-        assert_within(variant, of(&got.resonator).rms, rms, 1e-4);
-        assert_within(variant, of(&got.ring[0]).rms, ring, 1e-4);
+        assert_within(variant, statistics_of(&got.resonator).rms, rms, 1e-4);
+        assert_within(variant, statistics_of(&got.ring[0]).rms, ring, 1e-4);
     });
 }
 
@@ -139,18 +140,18 @@ fn envelope_of_two_dents() {
     }
 }
 
-/// A22: 6 us are short enough.
+/// A22: a step of 6 us has converged.
 #[test]
 fn steps_of_6_us_have_converged() {
     let rms = |step: &str| {
         let got = simulate("two_dents", &[("study.run_up.step", step)], 0.05, 0.1);
-        of(&got.resonator).rms
+        statistics_of(&got.resonator).rms
     };
     let [coarse, fine] = [rms("6 us"), rms("0.25 us")];
     assert_within("rms", coarse, fine, 1e-3);
 }
 
-/// A36: where a wide dent lets go of the balls the vibration is bounded, that of the force law is not.
+/// A36: where balls lose contact over a wide dent the vibration is bounded; under the force law it is not.
 #[test]
 fn vibration_over_the_width_of_a_dent() {
     let widths: [f64; 6] = [0.17, 0.34, 0.5, 1.0, 1.75, 2.5];
@@ -159,7 +160,7 @@ fn vibration_over_the_width_of_a_dent() {
             let dent =
                 format!("[{{ kind = \"dent\", on = \"outer\", angle = \"0 deg\", width = \"{width} mm\" }}]");
             let set = [("bearing.B.defect", dent.as_str()), ("bearing.B.defect_law", law)];
-            of(&simulate("one_dent", &set, 0.25, 0.5).resonator).rms
+            statistics_of(&simulate("one_dent", &set, 0.25, 0.5).resonator).rms
         };
         widths.par_iter().map(one).collect()
     };
@@ -182,9 +183,9 @@ fn vibration_over_the_width_of_a_dent() {
     }
 }
 
-/// The reference is held to one part in 10⁴ where it asks for one in 100: both integrate the same equations.
+/// Tolerances are 1e-4 where the reference asks for 1e-2: both integrate the same equations.
 #[test]
-fn rates_of_these_tests() {
+fn ball_pass_frequencies_of_these_tests() {
     assert_within("BPFO", BPFO, number(&reference("A01")), 1e-5);
     assert_within("BPFI", BPFI, number(&reference("A02")), 1e-5);
 }

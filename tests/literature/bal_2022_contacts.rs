@@ -1,4 +1,4 @@
-//! Bal 2022: the contacts of the FAG 7206 and their films, against an independent program for the same model
+//! Bal 2022: contacts and films of the FAG 7206 compared with an independent program for the same model
 //! (tests/data/bal_2022.json; its `meta` states the formulas).
 
 use crate::ross::{number, read};
@@ -44,7 +44,7 @@ fn hertz_constants() {
 }
 
 #[test]
-fn film_and_load_of_every_lubricated_state() {
+fn film_and_load_of_all_lubricated_states() {
     let data = read("bal_2022.json");
     let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 1.0 });
     let mut states = 0;
@@ -68,7 +68,7 @@ fn film_and_load_of_every_lubricated_state() {
 }
 
 #[test]
-fn each_race_alone_shares_the_approach_of_the_pair() {
+fn approaches_of_both_races_sum_to_that_of_the_pair() {
     let contacts = BallContacts::new(pair(), ContactLaw::Film { lubricant: oil(), speed_factor: 0.5 });
     let running = contacts.at_speed(2.0 * entrainment(1400.0));
     for load in [2e-4, 1e-2, 2.0, 300.0] {
@@ -86,7 +86,7 @@ fn each_race_alone_shares_the_approach_of_the_pair() {
 }
 
 #[test]
-fn minimum_film_is_the_printed_formula() {
+fn minimum_film_equals_the_printed_formula() {
     let contact = pair().inner;
     let (load, speed) = (15.0, 1.2);
     let modulus = 200e9 / (1.0 - 0.09);

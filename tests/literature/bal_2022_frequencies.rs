@@ -1,6 +1,6 @@
 //! Bal et al. 2022, Table A3: frequencies of the FAG 7206, all sixty entries as printed.
 //!
-//! Every digit comes out with a contact angle of 40.018°, none with the stated 40°.
+//! All digits are reproduced with a contact angle of 40.018°, not with the stated 40°.
 
 use rotordyn::bearing::Bearing;
 use rotordyn::model;
@@ -25,7 +25,7 @@ const TABLE: [[&str; 5]; 15] = [
 ];
 
 #[test]
-fn table_a3_in_print() {
+fn frequencies_of_table_a3() {
     let text = include_str!("../../models/bal_2022.toml");
     let model = model::load("bal_2022.toml", text, &Default::default()).unwrap().model;
     let Bearing::Ball(ball) = &model.bearings[0].bearing else { panic!("a ball bearing") };

@@ -1,5 +1,5 @@
-//! Bal 2022: the machine of models/bal_2022.toml against the independent program of tests/data/bal_2022.json, and against
-//! the natural frequencies that the paper prints.
+//! Bal 2022: the machine of models/bal_2022.toml compared with the independent program of
+//! tests/data/bal_2022.json and with the natural frequencies printed in the paper.
 
 use crate::ross::{number, read};
 use rotordyn::analysis::{ModeKind, modal};
@@ -16,8 +16,8 @@ fn machine(variant: &str) -> Machine {
     Machine::new(model::load("bal_2022.toml", text, &options).unwrap().model).unwrap()
 }
 
-/// Deflection \[m\] down and frequencies \[Hz\] of the modes in which the shaft moves bodily along y and x, all about the
-/// equilibrium at the cage angle of the model.
+/// Deflection \[m\] downwards and frequencies \[Hz\] of the modes of shaft translation along y and x, at the
+/// equilibrium for the cage angle of the model.
 fn radial_modes(variant: &str, rpm: f64) -> (f64, [f64; 2]) {
     let machine = machine(variant);
     let found = machine.equilibrium(&EquilibriumStudy { speed: rpm * RPM, cage_average: false }).unwrap();
@@ -34,7 +34,7 @@ fn radial_modes(variant: &str, rpm: f64) -> (f64, [f64; 2]) {
     (-q[6 * centre + 1], [along(1), along(0)])
 }
 
-/// The paper's x is down, our −y. 1e-4 is what the reference claims for its states under gravity.
+/// The paper's x is down, our −y. 1e-4 is the stated accuracy of the reference under gravity.
 #[test]
 fn states_under_gravity() {
     let reference = read("bal_2022.json");
@@ -64,8 +64,9 @@ fn states_under_gravity() {
     }
 }
 
-/// 833.1 Hz at 50 N and 918.5 Hz at 150 N along the paper's x, preload as interference with the film added, 1400 rpm. The
-/// 1.5 % are what the paper leaves open (its damping, its start, the way it counts preload).
+/// 833.1 Hz at 50 N and 918.5 Hz at 150 N along the paper's x, preload as interference with the film added,
+/// 1400 rpm. The tolerance of 1.5 % covers what the paper does not state (damping, start, definition of
+/// preload).
 #[test]
 fn printed_frequencies() {
     for (variant, printed) in [("preload_50", 833.1), ("preload_150", 918.5)] {

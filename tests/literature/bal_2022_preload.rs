@@ -1,8 +1,8 @@
-//! Bal 2022: two preloaded FAG 7206 on a rigid shaft, against an independent program for the same model
+//! Bal 2022: two preloaded FAG 7206 on a rigid shaft compared with an independent program for the same model
 //! (tests/data/bal_2022.json, whose `meta` states its conventions: moment arm D_pw/2, A = r_i + r_o − D_w).
 //!
-//! The shaft hangs midway between two equal bearings that face each other, so that gravity moves it radially only and
-//! one bearing carries half of it. The paper's x points down; here gravity is put along +x.
+//! The centre of mass is midway between two equal, opposed bearings, so that gravity displaces the shaft
+//! radially only and each bearing carries half of it. The paper's x points down; here gravity acts along +x.
 
 use crate::ross::{number, numbers, read};
 use rotordyn::bearing::{BallBearing, BallElement, BallGeometry, BallInertia, Cage, Fit, Preload, Rotation};
@@ -48,13 +48,13 @@ fn bearing(contact: ContactLaw, preload: Preload) -> BallElement {
     })
 }
 
-fn oiled() -> ContactLaw {
+fn film_law() -> ContactLaw {
     let lubricant =
         Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.3e-8, density: 870.0 };
     ContactLaw::Film { lubricant, speed_factor: 1.0 }
 }
 
-fn still(rpm: f64, cage_angle: f64) -> Rotation {
+fn rotation_at(rpm: f64, cage_angle: f64) -> Rotation {
     Rotation { shaft_speed: rpm * std::f64::consts::PI / 30.0, cage_angle, ..Rotation::default() }
 }
 
@@ -83,7 +83,7 @@ fn check(set: &str, rpm: f64, contact: &ContactLaw, preload: impl Fn(f64) -> Pre
     for state in states {
         let value = |key: &str| number(&state[key]);
         let element = bearing(contact.clone(), preload(value("Pr")));
-        let rotation = still(rpm, 0.0);
+        let rotation = rotation_at(rpm, 0.0);
         let what = |key: &str| format!("{set} {} N, {key}", value("Pr"));
         let found = element.preload_state(rotation.shaft_speed);
         near(found.offset, value("d0_axial_m"), 1e-6, &what("offset"));
@@ -127,14 +127,14 @@ fn dry_states() {
 #[test]
 fn states_with_film_at_a_preload_force() {
     for rpm in [1000, 1400, 2000, 2800, 5000] {
-        check(&format!("ehl_force_{rpm}"), f64::from(rpm), &oiled(), Preload::Force);
+        check(&format!("ehl_force_{rpm}"), f64::from(rpm), &film_law(), Preload::Force);
     }
 }
 
 #[test]
 fn states_with_film_at_a_dry_interference() {
     for rpm in [1000, 1400, 2000, 2800, 5000] {
-        check(&format!("ehl_disp_{rpm}"), f64::from(rpm), &oiled(), Preload::DryForce);
+        check(&format!("ehl_disp_{rpm}"), f64::from(rpm), &film_law(), Preload::DryForce);
     }
 }
 
@@ -145,9 +145,9 @@ fn matrices_at_150_newton() {
     let map = [(0, 1.0), (1, 1.0), (2, 1.0), (4, -1.0), (3, 1.0)];
     for (key, rpm, contact, preload) in [
         ("dry", 0.0, ContactLaw::Hertz, Preload::DryForce(150.0)),
-        ("ehl_2800_force", 2800.0, oiled(), Preload::Force(150.0)),
+        ("ehl_2800_force", 2800.0, film_law(), Preload::Force(150.0)),
     ] {
-        let k = bearing(contact, preload).reaction(&[0.0; 6], &[0.0; 6], &still(rpm, 0.0)).stiffness;
+        let k = bearing(contact, preload).reaction(&[0.0; 6], &[0.0; 6], &rotation_at(rpm, 0.0)).stiffness;
         for (a, (i, si)) in map.into_iter().enumerate() {
             for (b, (expected, (j, sj))) in numbers(&data[key][a]).into_iter().zip(map).enumerate() {
                 let size = (k[i][i] * k[j][j]).sqrt();
@@ -159,12 +159,12 @@ fn matrices_at_150_newton() {
 
 #[test]
 fn contact_is_lost_below_the_critical_preload() {
-    // Worst where a ball is right opposite to gravity; the cage is scanned over a pitch besides.
+    // Worst case with a ball opposite to gravity; the cage angle is scanned over a ball pitch.
     let least = |preload: f64| {
         let element = bearing(ContactLaw::Hertz, Preload::DryForce(preload));
         (0..26)
             .map(|k| {
-                let rotation = still(0.0, std::f64::consts::TAU * f64::from(k) / (26.0 * 13.0));
+                let rotation = rotation_at(0.0, std::f64::consts::TAU * f64::from(k) / (26.0 * 13.0));
                 let d = under_gravity(&element, &rotation);
                 element.ball_loads(&d, &rotation).iter().fold(f64::MAX, |m, b| m.min(b.deflection))
             })
@@ -179,15 +179,18 @@ fn contact_is_lost_below_the_critical_preload() {
 }
 
 #[test]
-fn frequencies_in_print_come_from_a_dry_interference_with_the_film_added() {
+fn printed_frequencies_follow_from_dry_interference_plus_film() {
     let frequency = |preload: Preload| {
-        let k = bearing(oiled(), preload).reaction(&[0.0; 6], &[0.0; 6], &still(1400.0, 0.0)).stiffness[0][0];
+        let k = bearing(film_law(), preload)
+            .reaction(&[0.0; 6], &[0.0; 6], &rotation_at(1400.0, 0.0))
+            .stiffness[0][0];
         (2.0 * k / MASS).sqrt() / std::f64::consts::TAU
     };
     let (low, high) = (frequency(Preload::DryForce(50.0)), frequency(Preload::DryForce(150.0)));
     near(low, 833.1, 0.015, "50 N");
     near(high, 918.5, 0.015, "150 N");
-    // The paper's ratio is 1.1025; a preload held as force rises as its sixth root, dry, and more with a film.
+    // The paper's ratio is 1.1025; at constant preload force it rises as the sixth root (dry), more with a
+    // film.
     assert!((1.08..1.13).contains(&(high / low)));
     let ratio = frequency(Preload::Force(150.0)) / frequency(Preload::Force(50.0));
     assert!((1.19..1.28).contains(&ratio), "{ratio}");
@@ -197,8 +200,8 @@ fn frequencies_in_print_come_from_a_dry_interference_with_the_film_added() {
 fn film_falls_and_angle_rises_with_preload() {
     let mut before = None;
     for preload in [20.0, 50.0, 100.0, 150.0, 200.0, 400.0] {
-        let element = bearing(oiled(), Preload::Force(preload));
-        let ball = element.ball_loads(&[0.0; 6], &still(2800.0, 0.0))[0];
+        let element = bearing(film_law(), Preload::Force(preload));
+        let ball = element.ball_loads(&[0.0; 6], &rotation_at(2800.0, 0.0))[0];
         if let Some((film, angle)) = before {
             assert!(ball.film[0] < film && ball.contact_angle > angle);
         }

@@ -1,8 +1,8 @@
-//! The overhung rig against an independent program's figures for the same data (tests/data/rig.json).
+//! The overhung rig compared with an independent program's results for the same data (tests/data/rig.json).
 //!
-//! Mapping: x horizontal, y up, z from drive end to disc, as here. The figures follow from a belt on fixed
-//! centres: the reference's forces on the shaft along x add up to 228 N, not to the pull of 250 N; the missing
-//! 22 N are the belt's stiffness times the pulley's 55 um.
+//! Mapping: x horizontal, y up, z from drive end to disc, as here. The reference has a belt on fixed
+//! centres: the reference's forces on the shaft along x add up to 228 N, not to the pull of 250 N; the
+//! missing 22 N are the belt's stiffness times the pulley's 55 um.
 
 use crate::rig::{Supports, rig, variant};
 use rotordyn::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
@@ -36,7 +36,8 @@ fn solve(supports: Supports) -> (Assembly, Equilibrium) {
     (assembly, found)
 }
 
-/// Every expected frequency has a computed one within 0.5 %; the axial mode is listed apart in the reference.
+/// Every expected frequency has a computed one within 0.5 %; the axial mode is listed separately in the
+/// reference.
 fn assert_frequencies(computed: &[f64], expected: &[f64], case: &str) {
     for f in expected {
         let nearest =
@@ -76,8 +77,8 @@ fn damped_frequencies_and_damping() {
             .collect();
         for row in reference()["expected"]["damped_hz_zeta_pct"][label].as_array().unwrap() {
             let [hz, zeta] = numbers(row)[..] else { panic!("two numbers") };
-            // The reference states the contact damping's two parameters but not its law; with ours the bearings'
-            // share differs, which is seen in ζ (up to 6 % at 271 Hz) and not in the frequencies.
+            // The reference states the contact damping's two parameters but not its law; with ours the
+            // bearings' share differs, which affects ζ (up to 6 % at 271 Hz) but not the frequencies.
             assert!(
                 modes.iter().any(|m| (m[0] / hz - 1.0).abs() < 5e-4 && (m[1] / zeta - 1.0).abs() < 0.07),
                 "{label}: no mode at {hz} Hz with {zeta} %: {modes:?}"
@@ -87,7 +88,7 @@ fn damped_frequencies_and_damping() {
 }
 
 #[test]
-fn what_the_paper_says_of_the_three_bearing_models() {
+fn comparison_of_bearing_models_as_in_the_paper() {
     let cylindrical = natural_frequencies(Supports::Cylindrical, 0.0);
     let spherical = natural_frequencies(Supports::Spherical, 0.0);
     let balls = natural_frequencies(Supports::BallBearings, 0.0);
@@ -129,13 +130,13 @@ fn static_loads_and_bearing_stiffness() {
         let load = expected["static"]["ball_Qmax"][name].as_f64().unwrap();
         assert!(
             (bearing.largest_ball_load / load - 1.0).abs() < 0.01,
-            "{name}: {} against {load}",
+            "{name}: {} instead of {load}",
             bearing.largest_ball_load
         );
         for (i, row) in expected["bearing_K5_at_equilibrium"][name].as_array().unwrap().iter().enumerate() {
             for (j, k) in numbers(row).iter().enumerate() {
                 let computed = bearing.tangent.stiffness[i][j];
-                assert!((computed / k - 1.0).abs() < 0.01, "{name} K[{i}][{j}]: {computed} against {k}");
+                assert!((computed / k - 1.0).abs() < 0.01, "{name} K[{i}][{j}]: {computed} instead of {k}");
             }
         }
     }
@@ -147,7 +148,7 @@ fn static_loads_and_bearing_stiffness() {
 }
 
 #[test]
-fn equilibrium_from_any_clearance() {
+fn equilibrium_for_any_clearance() {
     for clearance in ["-10 um", "-4 um", "0 um", "5 um", "20 um", "33 um", "100 um", "400 um"] {
         let model = variant(
             None,
@@ -156,7 +157,7 @@ fn equilibrium_from_any_clearance() {
         let assembly = Assembly::new(&model).unwrap();
         for cage in [CageTreatment::AsPlaced, CageTreatment::Averaged] {
             let found = equilibrium(&model, &assembly, 0.0, cage, None).unwrap();
-            // The bearings lift what the belt leaves of the weight: F + (−k_y u_y) = m g.
+            // Bearings and belt carry the weight: F + (−k_y u_y) = m g.
             let lift: f64 = found.bearings.iter().map(|b| b.force[1]).sum();
             let belt = -2e4 * assembly.dofs.expand(&found.q)[6 * model.belts[0].node + 1];
             let shaft = std::f64::consts::PI / 4.0 * 0.025f64.powi(2) * 0.625 * 7850.0;

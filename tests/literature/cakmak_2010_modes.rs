@@ -1,7 +1,7 @@
-//! The overhung rig of Cakmak & Sanliturk 2010 as reconstructed in rig.json: on spherical and cylindrical joints, and on
-//! the bearing stiffness printed there, with housings and belt.
+//! The overhung rig of Cakmak & Sanliturk 2010 as reconstructed in rig.json: on spherical and cylindrical
+//! joints, and on the bearing stiffness printed there, with housings and belt.
 //!
-//! Its axes are ours: x horizontal, y up, z from the drive end to the disc.
+//! Same axes as here: x horizontal, y up, z from the drive end to the disc.
 
 use crate::ross::{number, numbers, read};
 use rotordyn::analysis::{ModeKind, modal};
@@ -31,7 +31,7 @@ fn frequencies_on_joints() {
             for (mode, theirs) in ours.iter().zip(&theirs) {
                 let hz = mode.frequency_hz();
                 println!("{variant} {name}: {hz:8.3} Hz, {theirs}, {}", mode.label);
-                // The figures are printed to 0.01 Hz.
+                // The reference is printed to 0.01 Hz.
                 assert!((hz - theirs).abs() < 0.001 * theirs, "{variant} {name}: {hz} {theirs}");
             }
             torsion.push(ours.iter().find(|m| m.kind == ModeKind::Torsional).unwrap().omega());
@@ -59,7 +59,7 @@ fn printed_stiffness() -> [SiteTangent; 2] {
 fn frequencies_on_the_printed_bearing_stiffness() {
     let expected = &read("rig.json")["expected"];
     let tangents = printed_stiffness();
-    // The list of the finite bearings leaves out the axial mode and gives the third pair apart.
+    // The list of the finite bearings gives the axial mode and the third pair separately.
     for (name, rpm) in [("0rpm", 0.0), ("1200rpm", 1200.0)] {
         let mut theirs = numbers(&expected["finite"][name]);
         theirs.insert(2, number(&expected["finite"]["axial_mode"]));

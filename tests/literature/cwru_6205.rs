@@ -1,5 +1,5 @@
-//! The motor rig of the Case Western Reserve University Bearing Data Center, simulated: models/cwru_6205.toml ends in the
-//! verdicts that the measured records 105 and 130 end in.
+//! Motor rig of the Case Western Reserve University Bearing Data Center: the simulation of
+//! models/cwru_6205.toml gives the same bearing diagnosis as the measured records 105 and 130.
 
 use rotordyn::bearing::Bearing;
 use rotordyn::model::{self, Options};
@@ -9,11 +9,11 @@ use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
 use std::ops::ControlFlow;
 
-/// Orders of the 6205-2RS by the centre's catalogue.
+/// Defect orders of the 6205-2RS from the data center's catalogue.
 const BPFO: f64 = 3.5848;
 const BPFI: f64 = 5.4152;
 
-/// What a diagnosis that knows the catalogue's rates makes of the drive end's accelerometer.
+/// Shaft frequency and diagnosis of the drive-end accelerometer, given the nominal defect frequencies.
 fn diagnosis(variant: &str, rule: BandRule) -> (f64, Diagnosis) {
     let text = include_str!("../../models/cwru_6205.toml");
     let options = Options { variant: Some(variant.into()), ..Options::default() };
@@ -44,10 +44,10 @@ fn diagnosis(variant: &str, rule: BandRule) -> (f64, Diagnosis) {
     (shaft, found)
 }
 
-/// Verdict, rates within 0.5 % of the catalogue, and the fault's own rate as the strongest bearing line, with no hint
-/// where to look.
+/// Diagnosis, defect frequencies within 0.5 % of the catalogue, and the fault's defect frequency as the
+/// strongest bearing line, with automatic selection of the band.
 #[test]
-fn faults_of_the_races() {
+fn diagnosis_of_race_faults() {
     for (variant, part, order) in
         [("inner_race", BearingPart::InnerRace, BPFI), ("outer_race", BearingPart::OuterRace, BPFO)]
     {

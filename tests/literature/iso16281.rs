@@ -1,9 +1,10 @@
-//! Displacements of a deep-groove bearing with the load distribution of ISO/TS 16281, by a commercial program.
+//! Displacements of a deep-groove bearing with the load distribution of ISO/TS 16281, by a commercial
+//! program.
 //!
-//! Axes: its radial load is our x, its axial one our z, its tilt ψ in the plane of both our −θ_y (M_y = −R Σ Q
-//! sin α cos ψ_j). Its axial displacements count from the centred bearing and so hold the free play A sin α₀ that
-//! clearance leaves, as ours do. Its ball forces act at half the pitch diameter: with the circle of inner groove centres
-//! instead, as ISO/TS 16281 has it, the tilts come out 1 % smaller.
+//! Axes: its radial load is along our x, its axial load along our z, its tilt ψ in the plane of both is our
+//! −θ_y (M_y = −R Σ Q sin α cos ψ_j). Its axial displacements count from the centred bearing and include the
+//! axial free play A sin α₀ due to clearance, as ours do. Its ball forces act at half the pitch diameter:
+//! with the circle of inner groove centres instead, as in ISO/TS 16281, the tilts are 1 % smaller.
 
 use crate::bearing::rig_6205;
 use rotordyn::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
@@ -53,8 +54,8 @@ fn displacements_of_the_six_cases() {
     let mut compared = 0;
     for case in file["cases"].as_array().unwrap() {
         let found = loaded(case).displacement;
-        // Displacements: what rounding of the listed digits and their contact formulas leave. Tilt: 1 % as the
-        // source's own solution meets it.
+        // Displacements: tolerance for rounding of the listed digits and their contact formulas. Tilt: 1 %,
+        // the accuracy of the source's own solution.
         for (key, value, tolerance) in [
             ("dr_um", 1e6 * found[0], 1e-3),
             ("da_um", 1e6 * found[2], 1e-3),
@@ -72,9 +73,9 @@ fn displacements_of_the_six_cases() {
     assert_eq!(compared, 8);
 }
 
-/// The free play of the unloaded bearing by its geometry: cos α₀ = 1 − s / 2A.
+/// Axial free play of the unloaded bearing from its geometry: cos α₀ = 1 − s / 2A.
 #[test]
-fn free_play_is_found_by_a_vanishing_load() {
+fn axial_free_play_under_vanishing_load() {
     let solver = BearingSolver::new("case", &bearing(10e-6));
     let condition = Condition {
         load: [0.0, 0.0, 1e-9, 0.0, 0.0],

@@ -1,4 +1,4 @@
-//! Ratings and lives against tables of ISO 281, catalogues, and a commercial program for ISO/TS 16281.
+//! Load ratings and lives compared with ISO 281 tables, catalogues and a commercial program for ISO/TS 16281.
 
 use crate::bearing::{rig_6205, steel};
 use rotordyn::bearing::BallGeometry;
@@ -69,15 +69,16 @@ fn factor_f_c_of_table_2() {
 
 #[test]
 fn catalogue_ratings() {
-    // Deep groove 6205: 14.0 kN and 7.8 kN; angular contact 7206-B (40°): 20.5 kN. Large balls go by another power.
+    // Deep groove 6205: 14.0 kN and 7.8 kN; angular contact 7206-B (40°): 20.5 kN. Balls above 25.4 mm have
+    // another exponent.
     let g = rig_6205().geometry;
     let here = rating(&g, 1);
     assert!((here.dynamic / 14.0e3 - 1.0).abs() < 0.01, "{here:?}");
-    let by_the_standard = bearing(9, 7.938, 38.5, [0.52, 0.52], 0.0);
+    let standard_grooves = bearing(9, 7.938, 38.5, [0.52, 0.52], 0.0);
     assert!(
-        (rating(&by_the_standard, 1).stationary / 7.8e3 - 1.0).abs() < 0.03,
+        (rating(&standard_grooves, 1).stationary / 7.8e3 - 1.0).abs() < 0.03,
         "{:?}",
-        rating(&by_the_standard, 1)
+        rating(&standard_grooves, 1)
     );
     assert!((here.fatigue / (here.stationary / 22.0) - 1.0).abs() < 1e-12);
     let angular = bearing(13, 9.528, 46.0, [0.512, 0.531], 40.0);
@@ -108,10 +109,10 @@ fn equivalent_load_of_table_3() {
 }
 
 #[test]
-fn life_and_its_modification() {
+fn basic_life_and_life_modification_factor() {
     assert!((basic_life(14e3, 1400.0) - 1000.0).abs() < 1e-9);
     assert!(basic_life(14e3, 0.0).is_infinite());
-    // 1000 million turns at 1000 rpm.
+    // 1000 million revolutions at 1000 rpm.
     assert!((hours(1000.0, 1000.0 * std::f64::consts::PI / 30.0) - 1e9 / 6e4).abs() < 1e-6);
     let rpm = |n: f64| n * std::f64::consts::PI / 30.0;
     // ν₁ = 4500/√(1500 · 50) mm²/s.
@@ -121,11 +122,11 @@ fn life_and_its_modification() {
             < 1e-9
     );
     let a = |kappa: f64, ratio: f64| life_modification(kappa, 1.0, ratio, 1.0).unwrap();
-    // The branches meet, to the digits of their constants.
+    // The branches are continuous, to the digits of their constants.
     for kappa in [0.4, 1.0] {
         assert!((a(kappa - 1e-9, 0.5) / a(kappa + 1e-9, 0.5) - 1.0).abs() < 2e-3);
     }
-    // Nothing but 0.1 in dirt, 50 at most, nothing more above κ = 4, nothing below κ = 0.1.
+    // Limits: 0.1 under severe contamination, at most 50, constant above κ = 4, undefined below κ = 0.1.
     assert!((life_modification(2.0, 0.0, 500.0, 1000.0).unwrap() - 0.1).abs() < 1e-12);
     assert_eq!(a(4.0, 2.0), 50.0);
     assert_eq!(a(4.0, 0.2), a(9.0, 0.2));
@@ -142,8 +143,9 @@ fn life_and_its_modification() {
 
 #[test]
 fn reference_lives_of_a_commercial_program() {
-    // Z = 7, D_w = 11.5 mm, D_pw = 43.5 mm, r_i = 0.52 D_w, r_e = 0.53 D_w, E = 210 GPa, C_r = 23.4 kN: displacement
-    // and L_10r under 1000 N by the same program as tests/data/iso16281_ball_masta.json (ball 0 under the load).
+    // Z = 7, D_w = 11.5 mm, D_pw = 43.5 mm, r_i = 0.52 D_w, r_e = 0.53 D_w, E = 210 GPa, C_r = 23.4 kN:
+    // displacement and L_10r under 1000 N by the same program as tests/data/iso16281_ball_masta.json (ball 0
+    // under the load).
     let g = bearing(7, 11.5, 43.5, [0.52, 0.53], 0.0);
     let steel = Material { young: 210e9, ..steel() };
     let pair = pair(&g, &steel);
@@ -183,7 +185,7 @@ fn reference_lives_of_a_commercial_program() {
 
 #[test]
 fn reference_life_and_basic_life() {
-    // Pure radial load, no clearance: the distribution for which C_r is made.
+    // Pure radial load, no clearance: the load distribution for which C_r is defined.
     let g = bearing(9, 7.938, 38.5, [0.52, 0.53], 0.0);
     let rigid = |j: usize| {
         let angle = std::f64::consts::TAU * (j as f64 + 0.1) / 9.0;
@@ -194,11 +196,11 @@ fn reference_life_and_basic_life() {
     let under = |load: f64| -> Vec<f64> { shape.iter().map(|q| q * load / sum).collect() };
     let life = |load: f64| reference_life(&g, 14e3, &under(load), &under(load), Race::Inner).life;
     assert!((life(1000.0) / basic_life(14e3, 1000.0) - 1.0).abs() < 0.05, "{}", life(1000.0));
-    // L ~ P⁻³, and a turning outer ring is worse for the inner one at rest.
+    // L ~ P⁻³, and a rotating outer ring shortens the life of the stationary inner ring.
     assert!((life(2000.0) / life(1000.0) - 0.125).abs() < 1e-12);
     let outer = reference_life(&g, 14e3, &under(1000.0), &under(1000.0), Race::Outer);
     assert!(outer.life < life(1000.0));
     assert!(reference_life(&g, 14e3, &[0.0; 9], &[0.0; 9], Race::Inner).life.is_infinite());
-    // Two equal rows live 2^-0.9 as long as one.
+    // The life of two equal rows is 2^-0.9 of that of one.
     assert!((combined_life(&[100.0, 100.0]) - 100.0 * 2f64.powf(-0.9)).abs() < 1e-10);
 }

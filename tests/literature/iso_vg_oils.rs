@@ -1,4 +1,4 @@
-//! Grades of mineral oil against ISO 3448, ASTM D2270, typical data sheets and measured α.
+//! Grades of mineral oil compared with ISO 3448, ASTM D2270, typical data sheets and measured α.
 
 use rotordyn::contact::Lubricant;
 
@@ -14,7 +14,7 @@ fn kinematic(name: &str, celsius: f64) -> f64 {
 }
 
 #[test]
-fn every_grade_has_its_number_at_40_degrees_and_thins_with_heat() {
+fn viscosity_at_40_degrees_and_monotone_temperature_dependence() {
     let mut count = 0;
     for name in Lubricant::grades() {
         let number: f64 = name.strip_prefix("ISO VG ").unwrap().parse().unwrap();
@@ -67,8 +67,8 @@ fn typical_data_sheets_at_100_degrees() {
 
 #[test]
 fn pressure_viscosity_of_mineral_oils() {
-    // Oils of published EHL computations and measurements: η₀ in mPa s, α in 1e-8 1/Pa. The rule knows the viscosity
-    // only, so that a quarter is what it can promise.
+    // Oils of published EHL computations and measurements: η₀ in mPa s, α in 1e-8 1/Pa. The correlation uses
+    // the viscosity only; its accuracy is about 25 %.
     for (name, celsius, range) in [
         ("ISO VG 32", 40.0, 1.8..2.3),
         ("ISO VG 100", 40.0, 2.0..2.6),
@@ -81,7 +81,7 @@ fn pressure_viscosity_of_mineral_oils() {
 }
 
 #[test]
-fn what_is_no_grade_is_refused() {
+fn unknown_grades_and_temperatures_are_rejected() {
     assert!(Lubricant::grade("ISO VG 69", 313.15).is_none());
     assert!(Lubricant::grade("ISO VG 68", 40.0).is_none());
     assert!(Lubricant::grade("ISO VG 68", f64::NAN).is_none());

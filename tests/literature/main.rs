@@ -1,4 +1,4 @@
-//! Published figures; the file's name is its source.
+//! Comparison with published values; the file name gives the source.
 
 #[path = "../common/bearing.rs"]
 mod bearing;

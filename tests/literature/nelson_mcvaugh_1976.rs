@@ -1,8 +1,9 @@
-//! Nelson & McVaugh, "The dynamics of rotor-bearing systems using finite elements", J. Eng. Ind. 98 (1976) 593.
+//! Nelson & McVaugh, "The dynamics of rotor-bearing systems using finite elements", J. Eng. Ind. 98 (1976)
+//! 593.
 //!
-//! Their axes: X along the shaft; Y, Z lateral. Here Y → x, Z → y. Geometry in the exact inches of the original
-//! (ross/nelson_mcvaugh_isotropic_rayleigh.json); its printed centimetres are rounded, and with them (I_p = 0.0020) the
-//! sixth speed at whirl ratio 1 comes out 0.6 % low.
+//! Their axes: X along the shaft; Y, Z lateral. Here Y → x, Z → y. Geometry in the exact inches of the
+//! original (ross/nelson_mcvaugh_isotropic_rayleigh.json); its printed centimetres are rounded, and with them
+//! (I_p = 0.0020) the sixth speed at whirl ratio 1 is 0.6 % low.
 
 use crate::ross::{self, number, numbers, read};
 use rotordyn::analysis::{ModeKind, critical_speed, modal};
@@ -34,7 +35,7 @@ fn critical_speeds_for_three_whirl_ratios() {
         let ours = critical_speed::undamped(&assembly, &system, order, 1.2e5 / 60.0 * TAU).unwrap();
         let bending: Vec<_> = ours.iter().filter(|c| c.mode.kind.is_bending()).collect();
         for (k, theirs) in theirs.iter().enumerate() {
-            // Their list goes backward, forward, backward, forward: the k-th of its kind.
+            // Their list alternates backward and forward: the k-th of its kind.
             let kind = if k % 2 == 0 { ModeKind::Backward } else { ModeKind::Forward };
             let of_kind: Vec<_> = bending.iter().filter(|c| c.mode.kind == kind).collect();
             let rpm = of_kind[k / 2].speed * 60.0 / TAU;

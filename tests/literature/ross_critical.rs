@@ -16,7 +16,7 @@ const CASES: [&str; 6] = [
 ];
 
 #[test]
-fn undamped_critical_speeds_agree_with_their_whirl() {
+fn undamped_critical_speeds_and_their_whirl_agree() {
     for name in CASES {
         let case = read(&format!("ross/{name}.json"));
         let model = ross::model(&case);

@@ -15,7 +15,7 @@ const CASES: [&str; 7] = [
     "uniform_pinned",
 ];
 
-/// Distance from every reference value to its partner among ours, each of ours used once.
+/// Largest relative distance of a reference value from the nearest of ours, each of ours used once.
 fn worst_distance(ours: &[Complex64], theirs: &[Complex64]) -> f64 {
     let mut left = ours.to_vec();
     let mut worst: f64 = 0.0;

@@ -26,7 +26,7 @@ fn complex(value: &Value, name: &str) -> Vec<Complex64> {
 }
 
 /// Largest deviation relative to the response itself, or to a millionth of its largest value (where the
-/// response vanishes between resonances or by symmetry, both programs hold round-off).
+/// response vanishes between resonances or by symmetry, both programs give round-off).
 fn deviation(ours: &[Complex64], theirs: &[Complex64]) -> f64 {
     assert_eq!(ours.len(), theirs.len());
     let floor = 1e-6 * theirs.iter().fold(0.0, |m: f64, v| m.max(v.norm()));

@@ -1,7 +1,7 @@
 //! The run-up of ROSS 3.1.0's Jeffcott rotor through its first critical speed (runup_jeffcott.json).
 //!
-//! Integrated as there: Newmark γ = ½, β = ¼, dt = 1e-4 s, from rest; once with ROSS's terms of angular acceleration,
-//! once with ours, once without.
+//! Integrated as there: Newmark γ = ½, β = ¼, dt = 1e-4 s, from rest; once with ROSS's terms of angular
+//! acceleration, once with ours, once without.
 
 use crate::ross::{self, number, numbers, read};
 use rotordyn::assembly::{Assembly, LinearSystem, SpinUpForm};
@@ -80,7 +80,7 @@ fn distance(a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]) -> f64 {
 }
 
 #[test]
-fn run_up_agrees_and_the_forms_of_acceleration_differ_little() {
+fn run_up_agrees_and_spin_up_forms_differ_little() {
     let case = read("ross/runup_jeffcott.json");
     let theirs = run_up(&case, SpinUpForm::Ross);
     let ours = run_up(&case, SpinUpForm::EnergyConsistent);
@@ -92,12 +92,12 @@ fn run_up_agrees_and_the_forms_of_acceleration_differ_little() {
         let differ = distance(&ours[p], &theirs[p]) / peak;
         let left_out = distance(&none[p], &theirs[p]) / peak;
         println!(
-            "node {}: ROSS's form against ROSS {agree:.1e} of the peak; ours against ROSS's form {differ:.1e}; none {left_out:.1e}",
+            "node {}: ROSS's form differs from ROSS by {agree:.1e} of the peak; ours from ROSS's form by {differ:.1e}; none by {left_out:.1e}",
             probe["node"]
         );
         // The same equations and integrator: round-off over 40 000 steps.
         assert!(agree < 1e-6, "{agree:e}");
-        // ROSS's own figure for dropping its terms.
+        // ROSS's own value for dropping its terms.
         let dropped = number(&case["max_abs_diff_if_Ksdt_is_dropped"][probe["node"].to_string()]) / peak;
         assert!((left_out / dropped - 1.0).abs() < 0.05, "{left_out:e} {dropped:e}");
         assert!(differ > 0.0 && differ < 5e-4, "{differ:e}");

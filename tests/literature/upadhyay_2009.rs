@@ -1,5 +1,5 @@
-//! Upadhyay, Harsha & Jain 2009: the machine of models/upadhyay_2009.toml against the independent program of
-//! tests/data/upadhyay_2009.json, and against the classes of motion in Table II.
+//! Upadhyay, Harsha & Jain 2009: the machine of models/upadhyay_2009.toml compared with the independent
+//! program of tests/data/upadhyay_2009.json and with the classes of motion in Table II.
 
 use crate::ross::{number, read};
 use rotordyn::model::study::{Clock, EquilibriumStudy, Integrator, Steady};
@@ -26,8 +26,8 @@ fn machine(variant: &str, set: &[(&str, &str)]) -> Machine {
     Machine::new(model::load("upadhyay_2009.toml", text, &options).unwrap().model).unwrap()
 }
 
-/// The machine at its speed, ready to be stepped; as the reference starts, from the centre with every ball on the outer
-/// race.
+/// The reduced machine at its speed, for time integration from the reference's start: the centre, every ball
+/// on the outer race.
 fn ready(machine: &Machine) -> Reduction {
     let rest = machine.equilibrium(&EquilibriumStudy { speed: SPEED, cage_average: false }).unwrap();
     let mut reduction = reduce(&machine.model, &machine.assembly, &rest, f64::INFINITY).unwrap();
@@ -67,7 +67,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// With the reference's bins of half a hertz (two seconds), in which a line may stand between two.
+    /// Two seconds as in the reference: bins of 0.5 Hz, so that a line may fall between two bins.
     ///
     /// The reference settles for 2 s; the slowest motion here decays by 64 1/s (N = 7), by e⁻⁶⁴ in one.
     fn of(machine: &Machine, [settle, record]: [f64; 2]) -> Self {
@@ -96,7 +96,7 @@ impl Lines {
         *highest.unwrap().0
     }
 
-    /// The highest line over the ball-pass frequency, when it is a half or a third of a whole number of it.
+    /// Frequency of the highest line over the ball-pass frequency.
     fn main_of_ball_pass(&self, axis: usize, balls: usize) -> f64 {
         self.main(axis) / (balls as f64 * CAGE)
     }
@@ -112,7 +112,7 @@ fn numbers(values: &serde_json::Value) -> Vec<f64> {
 
 /// U01-U04.
 #[test]
-fn frequencies_and_the_ball() {
+fn cage_and_ball_pass_frequencies_and_ball_mass() {
     let reference = read("upadhyay_2009.json");
     let machine = machine("balls_8", &[]);
     let interface = &ready(&machine).system.interfaces[0];
@@ -131,23 +131,24 @@ fn frequencies_and_the_ball() {
     close(ball.geometry.orders(0.0).bsf * 5000.0 / 60.0, number(&row(&reference, "U03")["value"]), 1e-4);
     let theirs = numbers(&row(&reference, "U04")["value"]);
     close(radial.ball_mass(), theirs[0], 2e-3);
-    let turning = std::f64::consts::TAU * cage;
-    close(radial.ball_mass() * turning * turning * 0.5 * ball.geometry.pitch_diameter, theirs[1], 2e-3);
+    let cage_speed = std::f64::consts::TAU * cage;
+    close(radial.ball_mass() * cage_speed * cage_speed * 0.5 * ball.geometry.pitch_diameter, theirs[1], 2e-3);
 }
 
-/// U05 and U06, of massless balls: by `model = "ball"`, and by this model with balls of next to nothing, in which the
-/// line of a ball beside the load runs through the centres of the races instead of along its radius: up to
-/// d_t²/(2 χ) = 1e-9 m further.
+/// U05 and U06, of massless balls: by `model = "ball"`, and by this model with nearly massless balls, where
+/// the line of contact of a ball off the load line runs through the race centres instead of along the radius:
+/// up to d_t²/(2 χ) = 1e-9 m more deflection.
 #[test]
 fn statics_with_massless_balls() {
     let reference = read("upadhyay_2009.json");
     let light = [("material.steel.density", "1e-3 kg/m^3")];
     for balls in [6_usize, 8, 9, 13, 16] {
         let expected = numbers(&row(&reference, "U05")["value"][balls.to_string()]);
-        for (beside, expected) in [0.0, 0.5].iter().zip(expected) {
-            let angle = format!("{} deg", -90.0 + beside * 360.0 / balls as f64);
+        for (offset, expected) in [0.0, 0.5].iter().zip(expected) {
+            let angle = format!("{} deg", -90.0 + offset * 360.0 / balls as f64);
             let count = balls.to_string();
-            // Sixteen of the full size would not fit; with the stiffness given the size says nothing here.
+            // Sixteen of the full size would not fit; with given contact stiffness the size has no effect
+            // here.
             let size = if balls == 16 { "8.5 mm" } else { "9.524 mm" };
             let place = [
                 ("bearing.B.cage_angle", angle.as_str()),
@@ -162,7 +163,7 @@ fn statics_with_massless_balls() {
             let down = 1e6 * radial.bearings[0].displacement[1];
             assert!((down - expected).abs() < 2.5e-3, "{balls} balls: {down} um instead of {expected}");
             if balls == 13 {
-                let name = if *beside == 0.0 { "bottom" } else { "straddle" };
+                let name = if *offset == 0.0 { "bottom" } else { "straddle" };
                 let mut expected = numbers(&row(&reference, "U06")["value"][name]);
                 for found in [&massless, &radial] {
                     let mut loads: Vec<f64> = found.bearings[0].balls.iter().map(|b| b.load).collect();
@@ -179,10 +180,11 @@ fn statics_with_massless_balls() {
     }
 }
 
-/// U07-U10, and U20: half the ball-pass frequency is the highest line of x for 7, 8 and 9 perfect balls, the ball-pass
-/// frequency for 11, 13 and 16. U21: 6 and 10 balls lie beside bifurcations and are told, not judged.
+/// U07-U10, and U20: half the ball-pass frequency is the highest line of x for 7, 8 and 9 perfect balls, the
+/// ball-pass frequency for 11, 13 and 16. U21: 6 and 10 balls are close to bifurcations and are printed, not
+/// asserted.
 #[test]
-fn lines_of_perfect_balls() {
+fn spectral_lines_of_perfect_balls() {
     let reference = read("upadhyay_2009.json");
     let mut wrong = Vec::new();
     for (balls, id) in
@@ -232,12 +234,13 @@ fn lines_of_perfect_balls() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// U11: Newmark at 1e-5 s against Runge-Kutta at 1e-6 s. A line below a hundredth of the highest is held against that
-/// hundredth: Newmark's own error of the motion, 1e-4 of its size, is more of it.
+/// U11: Newmark at 1e-5 s compared with Runge-Kutta at 1e-6 s. Errors of lines below a hundredth of the
+/// highest are relative to that hundredth, since Newmark's error is 1e-4 of the whole motion.
 ///
-/// Both settle for 0.25 s, in which the slowest motion decays by e⁻³⁰; their lines are read at their exact places.
+/// Both settle for 0.25 s, in which the slowest motion decays by e⁻³⁰; lines are evaluated at their exact
+/// frequencies.
 #[test]
-fn lines_of_newmark_and_of_runge_kutta() {
+fn spectral_lines_by_newmark_and_runge_kutta() {
     for balls in [7_usize, 8, 9, 13] {
         let reduction = ready(&machine(&format!("balls_{balls}"), &[]));
         // A whole number of double ball passages.
@@ -273,8 +276,9 @@ fn lines_of_newmark_and_of_runge_kutta() {
     }
 }
 
-/// How fast a run closes up to its motion of period 2 \[1/s\]: over ten double ball passages in its first 0.2 s.
-fn own_decay(balls: usize) -> f64 {
+/// Rate at which a run converges to its period-2 motion \[1/s\], over ten double ball passages in the first
+/// 0.2 s.
+fn convergence_rate(balls: usize) -> f64 {
     let double = 2.0 / (balls as f64 * CAGE);
     let per = 860;
     let x = &motion(
@@ -288,15 +292,15 @@ fn own_decay(balls: usize) -> f64 {
     (away(20) - away(10)) / (10.0 * double)
 }
 
-/// U23: neighbouring motions of 6 balls part, of the others close up.
+/// U23: neighbouring motions diverge for 6 balls (chaos) and converge for the others.
 ///
-/// The reference gives −134 1/s for 7 balls, without the size of its perturbation. Of 1e-9 m and less this is −64 1/s,
-/// of 1e-8 m, which shifts where contacts open, −147 1/s. The run itself closes up to its period at −64 1/s, so that it
-/// is held against that.
+/// The reference gives −134 1/s for 7 balls, without the size of its perturbation. For 1e-9 m and less it is
+/// −64 1/s, for 1e-8 m, which shifts the opening of contacts, −147 1/s. The run itself converges to its
+/// period at −64 1/s, which is the value compared here.
 #[test]
 fn largest_lyapunov_exponents() {
-    let seven = own_decay(7);
-    println!("7 balls: the run closes up at {seven:.1} 1/s");
+    let seven = convergence_rate(7);
+    println!("7 balls: the run converges at {seven:.1} 1/s");
     for (balls, expected) in [
         (6_usize, None),
         (7, Some(seven)),
@@ -332,9 +336,10 @@ fn largest_lyapunov_exponents() {
     }
 }
 
-/// U24: what the set of parameters is told by; a second settles it and one second's bins part the classes.
+/// U24: classes of motion for other parameters; one second of settling and bins of 1 Hz suffice to
+/// distinguish them.
 #[test]
-fn other_parameters_give_other_classes() {
+fn classes_of_motion_for_other_parameters() {
     let main = |balls: usize, set: &[(&str, &str)], axis: usize| {
         let lines = Lines::of(&machine(&format!("balls_{balls}"), set), [1.0, 1.0]);
         let main = lines.main_of_ball_pass(axis, balls);
@@ -357,20 +362,21 @@ fn other_parameters_give_other_classes() {
         assert!(lines.at(0, 0.5 * balls as f64 * CAGE) < 0.2e-6);
     }
     let undamped = [("bushing.damper.c_x", "0 N s/m"), ("bushing.damper.c_y", "1e-9 N s/m")];
-    // Chaotic: over the reference's two seconds the ball-pass line is the higher one (1.3 um beside 0.9).
+    // Chaotic: over the reference's two seconds the ball-pass line is the higher one (1.3 um, the other 0.9
+    // um).
     let lines = Lines::of(&machine("balls_6", &undamped), [2.0, 2.0]);
     near(lines.main_of_ball_pass(0, 6), 1.0);
-    // Broadband: the highest of 1 Hz bins holds but a part of the motion.
+    // Broadband: the highest of the 1 Hz bins contains only a part of the power.
     let (_, lines) = main(9, &undamped, 0);
     let x = &lines.spectra[0];
     let power: f64 = x.values.iter().map(|v| v * v / x.noise_bandwidth_hz).sum();
     let highest = x.values.iter().fold(0.0_f64, |m, v| m.max(*v));
-    println!("highest bin holds {:.3} of the power", highest * highest / power);
+    println!("highest bin contains {:.3} of the power", highest * highest / power);
     assert!(highest * highest < 0.5 * power);
 }
 
-/// U25: two balls 0.2 um larger leave half the ball pass for 6 to 9 balls, but make multiples of the cage's frequency the
-/// highest lines of 13 and 16, so that the paper's pure ball-pass frequency does not hold.
+/// U25: with two balls 0.2 um larger, half the ball-pass frequency stays highest for 6 to 9 balls, but for 13
+/// and 16 a multiple of the cage frequency is, not the paper's ball-pass frequency.
 #[test]
 fn off_size_balls() {
     for balls in [6_usize, 7, 8, 9, 13, 16] {
@@ -387,8 +393,8 @@ fn off_size_balls() {
     }
 }
 
-/// Balls with as many waves as balls, turning with the shaft as the paper's do: its "wave passage" N_w times the shaft's
-/// speed shows in y; told, not judged, since no amplitude is printed.
+/// Balls with as many waves as balls, spinning with the shaft as in the paper: its "wave passage" N_w times
+/// the shaft speed appears in y; printed, not asserted, since the paper gives no amplitude.
 #[test]
 fn wavy_balls_run() {
     for balls in [6_usize, 8, 13] {

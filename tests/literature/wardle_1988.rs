@@ -1,7 +1,9 @@
-//! Wardle 1988: which orders of race waviness shake a thrust-loaded ball bearing radially, and at what frequency.
+//! Wardle 1988: orders of race waviness that excite vibration of a thrust-loaded ball bearing, and their
+//! frequencies.
 //!
-//! Under axial load all Z balls are alike, and ball j follows a wave cos(n φ) by displacing the ring along its line of
-//! contact. The sum over equally spaced balls leaves, for k = 1, 2, ... (waves of order 0 and 1 aside):
+//! Under axial load all Z balls are equally loaded, and ball j on a wave cos(n φ) displaces the ring along
+//! its line of contact. The sum over equally spaced balls is non-zero for k = 1, 2, ... (orders 0 and 1 are
+//! excluded):
 //!
 //! | race | order | motion | frequency |
 //! |---|---|---|---|
@@ -12,23 +14,23 @@
 //! | outer | kZ − 1 | radial, forward whirl | kZ Ω_c |
 //! | outer | kZ | axial | kZ Ω_c |
 //!
-//! and nothing of the others. Amplitudes of the ring, held against tilting: a cos α/(cos² α + ε sin² α) radially,
-//! a sin α/(sin² α + ε cos² α) axially, with ε = (Q/|s|)/(dQ/dδ) = (2/3) δ/|s| the share of the load that turns with the
-//! line of contact; a/cos α and a/sin α when δ is small.
+//! and the other orders cancel. Amplitudes of the ring, constrained against tilt: a cos α/(cos² α + ε sin² α)
+//! radially, a sin α/(sin² α + ε cos² α) axially, with ε = (Q/|s|)/(dQ/dδ) = (2/3) δ/|s| the share of the
+//! load that rotates with the line of contact; a/cos α and a/sin α when δ is small.
 
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{BallElement, BallLoad, Cage, Rotation, Wave};
 use std::f64::consts::TAU;
 
-/// Turns of the shaft in a record, and of a cage whose ratio makes the record periodic.
+/// Revolutions of shaft and cage in a record; their ratio makes the record periodic.
 const TURNS: i32 = 5;
 const CAGE_TURNS: i32 = 2;
 const SAMPLES: usize = 1024;
 /// Amplitude of the waves \[m\], a thousandth of the contacts' approach.
 const AMPLITUDE: f64 = 5e-9;
 
-/// Where the ring of a slowly turning bearing under axial load is, at every sample: x, y, z; and the amplitudes over the
-/// waves' that a radial and an axial line are to have.
+/// Position x, y, z of the ring of a slowly rotating bearing under axial load at every sample, and the
+/// expected amplitudes of a radial and of an axial line over that of the wave.
 fn motion(inner: bool, order: u32) -> (Vec<[f64; 3]>, [f64; 2]) {
     let mut bearing = rig_6205();
     bearing.geometry.contact_angle = 0.4;
@@ -75,8 +77,8 @@ fn motion(inner: bool, order: u32) -> (Vec<[f64; 3]>, [f64; 2]) {
     (place, [cos / (cos * cos + turned * sin * sin), sin / (sin * sin + turned * cos * cos)])
 }
 
-/// Lines of x + i y above a part of the waves' amplitude, as (frequency in shaft turns, amplitude over the waves');
-/// positive frequencies whirl forward.
+/// Spectral lines of x + i y above a fraction of the wave's amplitude, as (frequency in shaft turns,
+/// amplitude over the wave's); positive frequencies whirl forward.
 fn lines(values: &[[f64; 2]], floor: f64) -> Vec<(f64, f64)> {
     let n = values.len() as f64;
     let mean = [0, 1].map(|a| values.iter().map(|v| v[a]).sum::<f64>() / n);
@@ -98,14 +100,14 @@ fn lines(values: &[[f64; 2]], floor: f64) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn orders_next_to_multiples_of_the_balls_shake_radially_and_no_others() {
+fn waviness_orders_that_excite_radial_and_axial_vibration() {
     let balls = 9;
     let ratio = f64::from(CAGE_TURNS) / f64::from(TURNS);
     let (mut radial, mut axial) = (0, 0);
     for inner in [true, false] {
         for order in 2..=20_u32 {
             let (motion, amplitudes) = motion(inner, order);
-            // What a thousandth of the approach leaves of a second order, (3/4 to 1/8) a/δ, is below 2e-3.
+            // Second-order lines, (3/4 to 1/8) a/δ for waves of a thousandth of the approach, are below 2e-3.
             let whirl = lines(&motion.iter().map(|m| [m[0], m[1]]).collect::<Vec<_>>(), 2e-3);
             let thrust = lines(&motion.iter().map(|m| [m[2], 0.0]).collect::<Vec<_>>(), 2e-3);
             let (near, off) =
@@ -131,7 +133,7 @@ fn orders_next_to_multiples_of_the_balls_shake_radially_and_no_others() {
                 _ => panic!("{name} {order}: radial lines {whirl:?}"),
             }
             match (near > 0 && off == 0, &thrust[..]) {
-                // A real motion has its line on both sides, half on each.
+                // A real signal has its line at both signs of frequency, half the amplitude each.
                 (true, [(low, _), (frequency, amplitude)]) => {
                     assert!(
                         (frequency - passing).abs() < 1e-9 && *low == -frequency,

@@ -1,7 +1,8 @@
-//! Zhang, Xie, Lv & Sun 2016: displacements and 5x5 stiffness of a deep-groove bearing under the paper's fitted laws.
+//! Zhang, Xie, Lv & Sun 2016: displacements and 5x5 stiffness of a deep-groove bearing under the paper's
+//! fitted laws.
 //!
-//! The paper's (x, y) is radial and z axial, moments M_x = +r sin ψ F_z and M_y = −r cos ψ F_z: these axes. Reference
-//! figures in tests/data/zhang_2016.json come from an independent program for eq. 12-14.
+//! The paper's (x, y) is radial and z axial, moments M_x = +r sin ψ F_z and M_y = −r cos ψ F_z: these axes.
+//! Reference figures in tests/data/zhang_2016.json come from an independent program for eq. 12-14.
 
 use crate::ross::{number, numbers, read};
 use rotordyn::bearing::{
@@ -60,7 +61,12 @@ fn bearing([stiffness, exponent, offset]: [f64; 3]) -> BallElement {
 }
 
 /// Displacement under a load on the inner ring, ball 0 at an angle, by Newton from a displacement near it.
-fn settle(element: &BallElement, load: [f64; 5], angle: f64, start: [f64; 6]) -> ([f64; 6], Reaction) {
+fn solve_equilibrium(
+    element: &BallElement,
+    load: [f64; 5],
+    angle: f64,
+    start: [f64; 6],
+) -> ([f64; 6], Reaction) {
     let rotation = Rotation { cage_angle: angle, ..Rotation::default() };
     let mut d = start;
     for _ in 0..50 {
@@ -118,13 +124,13 @@ fn appendix([k, n, dq]: [f64; 3], d: &[f64; 6]) -> [[f64; 5]; 5] {
     out
 }
 
-/// Size against which an entry is held: forces per metre, moments per radian with the arm.
+/// Scale of a matrix entry: √(K_aa K_bb).
 fn size(k: &[[f64; 6]; 6], a: usize, b: usize) -> f64 {
     (k[a][a] * k[b][b]).sqrt()
 }
 
 #[test]
-fn appendix_is_the_tangent() {
+fn appendix_equals_the_tangent() {
     for (name, law) in TABLE {
         let element = bearing(law);
         for d in [
@@ -132,7 +138,7 @@ fn appendix_is_the_tangent() {
             [23e-6, -2e-6, 268e-6, -0.2e-3, 2.5e-3, 0.0],
             [38e-6, 0.0, 0.0, 0.0, 0.0, 0.0],
         ] {
-            // The law is smooth from no load: the Appendix, which jumps there, holds above its knee at 155 N.
+            // Our law has a smoothed onset; the Appendix, which is discontinuous there, is valid above 155 N.
             let balls = element.ball_loads(&d, &Rotation::default());
             assert!(balls.iter().all(|b| b.load == 0.0 || b.load > 160.0), "{name} {balls:?}");
             let k = element.reaction(&d, &[0.0; 6], &Rotation::default()).stiffness;
@@ -157,7 +163,7 @@ fn printed_rows_of_section_5() {
             let reference = &data["sec52"][format!("{name}|My={sign}4")];
             let q = numbers(&reference["q"]);
             let start = [q[0] * 1.02, 0.0, q[2] * 0.99, 0.0, q[4] * 1.01, 0.0];
-            let (d, r) = settle(&element, [2000.0, 0.0, 1500.0, 0.0, moment], 0.0, start);
+            let (d, r) = solve_equilibrium(&element, [2000.0, 0.0, 1500.0, 0.0, moment], 0.0, start);
             for a in 0..5 {
                 let scale = [q[0], q[0], q[2], q[4], q[4]][a];
                 assert!((d[a] - q[a]).abs() < 1e-9 * scale, "{name} {sign}: displacement {a}");
@@ -173,7 +179,7 @@ fn printed_rows_of_section_5() {
             let delta = number(&reference["delta_bx"]);
             let start = [delta * 1.001, 0.0, 0.0, 0.0, 0.0, 0.0];
             let force = load.parse().unwrap();
-            let (d, r) = settle(&element, [force, 0.0, 0.0, 0.0, 0.0], 0.0, start);
+            let (d, r) = solve_equilibrium(&element, [force, 0.0, 0.0, 0.0, 0.0], 0.0, start);
             assert!((d[0] / delta - 1.0).abs() < 1e-9, "{name} {load}: {}", d[0]);
             for a in 0..2 {
                 let k = number(&reference["K"][a][a]);
@@ -187,9 +193,15 @@ fn printed_rows_of_section_5() {
 
 #[test]
 fn percentages_of_section_5_1() {
-    // How far the dry displacement lies above the lubricated one, of the dry one, and the paper's words.
+    // Dry minus lubricated displacement in percent of the dry one, compared with the paper's percentages.
     let displacement = |k: usize, force: f64, start: f64| {
-        settle(&bearing(TABLE[k].1), [force, 0.0, 0.0, 0.0, 0.0], 0.0, [start, 0.0, 0.0, 0.0, 0.0, 0.0]).0[0]
+        solve_equilibrium(
+            &bearing(TABLE[k].1),
+            [force, 0.0, 0.0, 0.0, 0.0],
+            0.0,
+            [start, 0.0, 0.0, 0.0, 0.0, 0.0],
+        )
+        .0[0]
     };
     for (force, start, percent) in [(2000.0, 30e-6, [5.0, 9.6]), (4000.0, 42e-6, [3.3, 6.7])] {
         for (speed, percent) in percent.into_iter().enumerate() {
@@ -211,7 +223,7 @@ fn stiffness_over_the_cage_angle() {
             let row = numbers(row);
             let start = [row[1] * 1.01, row[2], row[3] * 0.99, row[4], row[5] * 1.01, 0.0];
             let angle = row[0] * std::f64::consts::TAU / BALLS as f64;
-            let (_, r) = settle(&element, [2000.0, 0.0, 1500.0, 0.0, 4.0], angle, start);
+            let (_, r) = solve_equilibrium(&element, [2000.0, 0.0, 1500.0, 0.0, 4.0], angle, start);
             let k = &r.stiffness;
             let found = [k[0][0], k[1][1], k[2][2], k[3][3], k[4][4], k[0][2], k[0][4], k[1][3], k[2][4]];
             for (found, expected) in found.into_iter().zip(&row[6..]) {

@@ -1,8 +1,9 @@
-//! Zhang 2016, section 5: a deep-groove bearing on fitted contact laws: displacements, full stiffness, percentages.
+//! Zhang 2016, section 5: a deep-groove bearing on fitted contact laws: displacements, full stiffness,
+//! percentages.
 //!
-//! Axes: the paper's x, y are radial and its z axial, as ours; M_x = Σ r Q sin α sin ψ, M_y = −Σ r Q sin α cos ψ, as
-//! ours. Geometry: A₀ = 1.36 mm, moment arm 33.18 mm, radial clearance 6 µm taken once from the radial distance of
-//! the groove centres (P_d = 12 µm), eight balls, the first on the x axis.
+//! Axes: the paper's x, y are radial and its z axial, as ours; M_x = Σ r Q sin α sin ψ, M_y = −Σ r Q sin α
+//! cos ψ, as ours. Geometry: A₀ = 1.36 mm, moment arm 33.18 mm, radial clearance 6 µm taken once from the
+//! radial distance of the groove centres (P_d = 12 µm), eight balls, the first on the x axis.
 
 use crate::bearing::rig_6205;
 use rotordyn::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
@@ -59,7 +60,7 @@ fn loaded(row: &str, load: [f64; 5], cage_angle: f64) -> (BearingSolver, Bearing
     (solver, found)
 }
 
-/// Entries against the reference, relative to the size of their row and column.
+/// Compares entries with the reference, relative to the size of their row and column.
 fn same_matrix(found: &[[f64; 5]; 5], expected: &Value, tolerance: f64, what: &str) {
     let expected: Vec<Vec<f64>> = expected.as_array().unwrap().iter().map(numbers).collect();
     for a in 0..5 {
@@ -136,8 +137,8 @@ fn orbital_scan_of_section_5_2() {
     }
 }
 
-/// What the paper says in words: displacement relative to dry 5.0 and 9.6 % at 2000 N, 3.3 and 6.7 % at 4000 N, radial
-/// stiffness within 1 %.
+/// The paper's text: reduction of displacement relative to dry 5.0 and 9.6 % at 2000 N, 3.3 and 6.7 %
+/// at 4000 N, radial stiffness within 1 %.
 #[test]
 fn percentages_of_section_5_1() {
     for (force, speed, paper) in

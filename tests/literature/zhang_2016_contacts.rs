@@ -1,5 +1,5 @@
-//! Zhang 2016: the dry contacts of the bearing and the power laws fitted to them, against an independent program
-//! (tests/data/zhang_2016.json).
+//! Zhang 2016: the dry contacts of the bearing and the power laws fitted to them, compared with an
+//! independent program (tests/data/zhang_2016.json).
 
 use crate::ross::{number, numbers, read};
 use rotordyn::contact::{HertzPair, fit_power_law};
@@ -73,7 +73,7 @@ fn fits_over_29_loads() {
 
 #[test]
 fn printed_dry_rows_of_table_2() {
-    // With the printed centrifugal forces of 40 and 354 N (eq. 6 gives 38.7 and 348.0, which does not come near).
+    // With the printed centrifugal forces of 40 and 354 N (eq. 6 gives 38.7 and 348.0, which does not fit).
     let data = read("zhang_2016.json");
     let pair = pair();
     for (name, force) in [("dry10", 40.0), ("dry30", 354.0)] {

@@ -1,15 +1,16 @@
-//! Zhang 2016: mutual approach of ball and races with the film solved, at two speeds.
+//! Zhang 2016: mutual approach of ball and races with the numerical EHL film, at two speeds.
 //!
-//! The paper gives fits Q_i = K δⁿ + ΔQ over Q_i = 600-2000 N, δ = δ_i(Q_i) + δ_o(Q_i + F_r) (eq. 9 and 11). Its own
-//! rows of Table 2 do not follow from the entrainment speeds it names, u_r = 10 and 30 m/s, but from u_r/(2π);
-//! so both are compared with the fits of an independent full solution of the same contacts.
+//! The paper gives fits Q_i = K δⁿ + ΔQ over Q_i = 600-2000 N, δ = δ_i(Q_i) + δ_o(Q_i + F_r) (eq. 9 and 11).
+//! Its own rows of Table 2 do not follow from the stated entrainment speeds, u_r = 10 and 30 m/s, but from
+//! u_r/(2π); so both are compared with the fits of an independent full solution of the same contacts.
 
 use crate::lubricated::steel;
 use rotordyn::contact::ehl::{Grid, Problem, extrapolate};
 use rotordyn::contact::{EllipticContact, Lubricant};
 use std::f64::consts::TAU;
 
-/// Table 1: races of 48 and 82 mm, ball 17 mm, grooves of 0.54 ball diameters; oil of 0.096 Pa s and 1.82e-8 1/Pa.
+/// Table 1: races of 48 and 82 mm, ball 17 mm, grooves of 0.54 ball diameters; oil of 0.096 Pa s and 1.82e-8
+/// 1/Pa.
 fn contacts() -> [EllipticContact; 2] {
     let ball = 17e-3;
     let across = 2.0 / ball - 1.0 / (0.54 * ball);
@@ -55,8 +56,8 @@ fn compare(factor: f64, fits: [[f64; 3]; 2]) -> Vec<f64> {
                 "{rolling} m/s x {factor:.3}, {load} N: {:.4} um, {error:+.4}, films {ratios:.3?}",
                 approach * 1e6
             );
-            // Largest at 30 m/s and 600 N, where the film takes more than half of the approach and the width of the
-            // domain counts: 1.2 % here, below 0.4 % in all other cases.
+            // Largest at 30 m/s and 600 N, where the film takes more than half of the approach and the width
+            // of the domain counts: 1.2 % here, below 0.4 % in all other cases.
             assert!(error.abs() < 0.015, "{rolling} m/s x {factor}, {load} N: {error}");
             films.extend(ratios);
         }
@@ -77,6 +78,6 @@ fn approach_at_the_rolling_speed() {
 }
 
 #[test]
-fn approach_in_the_speed_mode_of_the_paper() {
+fn approach_at_the_rolling_speed_over_two_pi() {
     compare(1.0 / TAU, [[8.73e9, 1.4775, 34.5], [7.61e9, 1.462, -42.5]]);
 }

@@ -1,4 +1,4 @@
-//! Files of bearings alone, and the bearings of a machine.
+//! Bearing-only files, and the bearings of a machine's file.
 
 use rotordyn::model::{self, Options};
 
@@ -24,7 +24,7 @@ fn bearings_of_a_machine() {
 }
 
 #[test]
-fn what_has_no_place_in_a_bearing_file() {
+fn invalid_keys_of_a_bearing_file() {
     let refusal =
         |text: &str| model::load_bearings("b.toml", text, &Options::default()).unwrap_err().to_string();
     assert_eq!(refusal(&format!("{HEAD}station = \"A\"")), "unknown key bearing.front.station");

@@ -1,4 +1,4 @@
-//! Every key of a ball bearing's contact, mounting and service arrives in the model, in SI units.
+//! Every key of a ball bearing's contact, mounting and service is read into the model, in SI units.
 
 use rotordyn::bearing::{Arrangement, BallBearing, BallInertia, Duplex, Fit, Preload};
 use rotordyn::contact::{ContactDamping, ContactLaw, ContactStiffness, Lubricant, PowerLaw};
@@ -31,7 +31,7 @@ fn contact_laws() {
     assert_eq!(fitted.contact, ContactLaw::PowerLaw(expected));
 }
 
-/// A stiffness as given replaces that of curvatures and elasticity, in series or for each contact.
+/// A given contact stiffness replaces the Hertzian one, in series or for each contact.
 #[test]
 fn contact_stiffness() {
     let with = |line: &str| bearing(&format!("thrust = \"+z\"\n{line}"));

@@ -27,7 +27,7 @@ fn bores_follow_their_designation() {
 }
 
 #[test]
-fn balls_fit_between_each_other_and_between_the_rings() {
+fn balls_fit_on_the_pitch_circle_and_between_the_rings() {
     for e in catalogue::entries() {
         let spacing = e.pitch_diameter * (PI / e.balls as f64).sin();
         assert!(spacing > 1.05 * e.ball_diameter, "{}: no room for a cage", e.designation);
@@ -52,7 +52,7 @@ const F0: [f64; 36] = [
 
 /// C0 = f0 Z D_w² cos α within 5 %: balls come in steps of 1/64 in, and makers round ratings to three digits.
 #[test]
-fn static_ratings_come_out_by_iso_76() {
+fn static_load_ratings_follow_iso_76() {
     let mut checked = 0;
     for e in catalogue::entries() {
         let Some(quoted) = e.static_rating else { continue };
@@ -61,7 +61,7 @@ fn static_ratings_come_out_by_iso_76() {
         let k = x as usize;
         let f0 = F0[k] + (F0[k + 1] - F0[k]) * (x - k as f64);
         let rating = f0 * e.balls as f64 * (e.ball_diameter * 1e3).powi(2) * cos;
-        assert!((rating / quoted - 1.0).abs() < 0.05, "{}: {rating} against {quoted}", e.designation);
+        assert!((rating / quoted - 1.0).abs() < 0.05, "{}: {rating}, listed {quoted}", e.designation);
         checked += 1;
     }
     assert!(checked >= 55, "{checked}");

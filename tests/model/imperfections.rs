@@ -1,4 +1,4 @@
-//! Every key of a bearing's races and balls arrives in the model, in SI units.
+//! Every key of a bearing's races and balls is read into the model, in SI units.
 
 use rotordyn::bearing::{
     BallBearing, BallSpin, Defect, DefectForm, DefectLaw, Imperfections, OffSize, Shape, Surface, Wave,
@@ -24,7 +24,7 @@ fn near(a: f64, b: f64) {
 }
 
 #[test]
-fn a_bearing_is_perfect_unless_told() {
+fn bearings_have_no_imperfections_by_default() {
     assert!(imperfections("").is_empty());
     assert_eq!(imperfections(""), Imperfections::default());
 }
@@ -72,7 +72,7 @@ edge_radius = "0.1 mm"
 }
 
 #[test]
-fn a_given_depth_is_the_pits_and_the_ball_reaches_the_lesser() {
+fn defect_height_is_the_lesser_of_depth_and_ball_reach() {
     let dent = |depth: &str| {
         let text = format!("kind = \"dent\", on = \"outer\", angle = \"0 deg\", width = \"0.34 mm\"{depth}");
         bearing(&format!("defect = [{{ {text} }}]"))
@@ -86,7 +86,7 @@ fn a_given_depth_is_the_pits_and_the_ball_reaches_the_lesser() {
 }
 
 #[test]
-fn laws_of_defects() {
+fn defect_laws() {
     let law = |line: &str| imperfections(line).law;
     assert_eq!(law(""), DefectLaw::Displacement);
     assert_eq!(law("defect_law = \"undamped_displacement\""), DefectLaw::UndampedDisplacement);
@@ -103,7 +103,7 @@ fn waves_by_law_and_list() {
     );
     assert_eq!((rough.len(), rough[0].order, rough[27].order), (28, 3, 30));
     near(rough[1].amplitude, 2e-6 / 8.0);
-    // The same phases as by another law; an exponent of 1 is 1/n.
+    // Phases do not depend on the law; an exponent of 1 is 1/n.
     let plain = waves("inner_waviness = { amplitude = \"2 um\", from = 3, to = 30, seed = 7 }");
     let one = waves(
         "inner_waviness = { amplitude = \"2 um\", roughness_exponent = 1, from = 3, to = 30, seed = 7 }",
@@ -133,7 +133,7 @@ fn sizes_eccentric_races_and_spin() {
         "off_size = [{ ball = 0, by = \"0.2 um\" }, { ball = 4, by = \"-0.1 um\" }]\nball_spin = \"shaft\"\n\
          inner_eccentricity = { amount = \"2 um\", angle = \"30 deg\" }\nouter_eccentricity = { amount = \"1 um\" }",
     );
-    // Micrometres are read as a division by 10⁶.
+    // Micrometres are converted by division by 10⁶.
     let size = |ball, by| OffSize { ball, by, row: None };
     assert_eq!(found.off_size, [size(0, 0.2 / 1e6), size(4, -0.1 / 1e6)]);
     assert_eq!(found.spin, BallSpin::Shaft);

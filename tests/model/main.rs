@@ -1,4 +1,4 @@
-//! Model files: what they say arrives in the model.
+//! Model files: their content is read into the model.
 
 mod bearing_file;
 mod bearing_keys;

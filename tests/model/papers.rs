@@ -1,4 +1,4 @@
-//! The models of two papers hold the figures that the papers print, and what follows from them.
+//! The models of two papers contain the printed values and the values derived from them.
 
 use rotordyn::bearing::{BallBearing, BallInertia, Bearing, Preload};
 use rotordyn::contact::ContactLaw;
@@ -30,7 +30,7 @@ fn near(a: f64, b: f64, tolerance: f64) {
     assert!((a / b - 1.0).abs() < tolerance, "{a} {b}");
 }
 
-/// Inertias and series stiffness of an independent prototype of the paper, at the 1e-6 it is marked with.
+/// Inertias and series stiffness of an independent implementation of the paper, to its stated 1e-6.
 #[test]
 fn bal_2022() {
     let model = load(BAL, None);
@@ -47,8 +47,8 @@ fn bal_2022() {
         let dry = load(BAL, Some(&format!("preload_{force}")));
         assert!(balls(&dry).iter().all(|ball| ball.preload == Preload::DryForce(force)));
         let name = if force == 150.0 { "force".into() } else { format!("force_{force}") };
-        let held = load(BAL, Some(&name));
-        assert!(balls(&held).iter().all(|ball| ball.preload == Preload::Force(force)));
+        let constant_force = load(BAL, Some(&name));
+        assert!(balls(&constant_force).iter().all(|ball| ball.preload == Preload::Force(force)));
     }
     assert!(balls(&load(BAL, Some("dry_20"))).iter().all(|ball| ball.contact == ContactLaw::Hertz));
 }

@@ -22,7 +22,7 @@ fn get(json: &Value, path: &str) -> f64 {
     json.pointer(path).unwrap_or_else(|| panic!("{path}")).as_f64().unwrap()
 }
 
-/// Decimal digits and units may round twice; nothing else may differ.
+/// Equal up to two roundings: of the decimal digits and of the unit conversion.
 #[track_caller]
 fn same(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-14 * a.abs().max(b.abs()), "{a} {b}");
@@ -132,7 +132,7 @@ fn bearings() {
             same(clearance, at(&format!("clearance_presets_diametral/{preset}")));
         }
     }
-    // order lines by name: BPFO stands fourth in the Campbell study
+    // order lines by name: BPFO is the fourth of the Campbell study
     let orders = rig(None).studies.campbell.unwrap().orders;
     assert!((orders[3] - at("orders/BPFO")).abs() < 5e-5);
 }
@@ -155,13 +155,13 @@ fn unbalance_run_up_and_drive() {
 }
 
 #[test]
-fn joint_variants_stand_straight_on_ground() {
+fn joint_variants_connect_the_shaft_to_ground() {
     for (variant, tilts) in [("spherical", false), ("cylindrical", true)] {
         let model = rig(Some(variant));
         assert!(model.bodies.is_empty() && model.bearings.is_empty());
         assert_eq!(model.belts[0].stiffness, [0.0; 3]);
         let locked: Vec<[bool; 6]> = model.joints.iter().map(|j| j.locked).collect();
-        let axial = |held| [true, true, held, tilts, tilts, false];
+        let axial = |axially_locked| [true, true, axially_locked, tilts, tilts, false];
         assert_eq!(locked, [axial(false), axial(true)], "{variant}");
         for (joint, z) in model.joints.iter().zip([0.03, 0.38]) {
             same(model.node_z[joint.a.node.unwrap()], z);

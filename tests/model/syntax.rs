@@ -1,4 +1,4 @@
-//! What the syntax of a model file means, item by item.
+//! Syntax of a model file, item by item.
 
 use rotordyn::bearing::{Bearing, Cage};
 use rotordyn::model::study::Integrator;

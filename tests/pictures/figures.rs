@@ -1,11 +1,11 @@
-//! What every figure must be: equal bytes for equal data, a PNG of twice the size, small even with long data.
+//! Properties of every figure: equal bytes for equal data, a PNG of twice the SVG's size, small even with long data.
 
 use resvg::{tiny_skia, usvg};
 use rotordyn::edge::plot::*;
 
 use super::samples::all;
 
-fn usual() -> Vec<Figure> {
+fn sample_figures() -> Vec<Figure> {
     let x: Vec<f64> = (0..60).map(|k| 10.0 * f64::from(k)).collect();
     let y: Vec<f64> = (0..60).map(|k| 3.0 + 0.5 * f64::from(k) + (f64::from(k) * 0.3).sin()).collect();
     all(&x, &y, "disc")
@@ -13,7 +13,7 @@ fn usual() -> Vec<Figure> {
 
 #[test]
 fn equal_data_give_equal_bytes() {
-    for (a, b) in usual().into_iter().zip(usual()) {
+    for (a, b) in sample_figures().into_iter().zip(sample_figures()) {
         let (a, b) = (a.svg(), b.svg());
         assert_eq!(a, b);
         assert_eq!(png(&a).unwrap(), png(&b).unwrap());
@@ -23,7 +23,7 @@ fn equal_data_give_equal_bytes() {
 #[test]
 fn svg_parses_and_png_is_twice_its_size() {
     let folder = tempfile::tempdir().unwrap();
-    for (k, figure) in usual().iter().enumerate() {
+    for (k, figure) in sample_figures().iter().enumerate() {
         let stem = folder.path().join(format!("figure_{k}.5_hz"));
         write(figure, &stem).unwrap();
         let path = |extension| folder.path().join(format!("figure_{k}.5_hz.{extension}"));
@@ -32,7 +32,7 @@ fn svg_parses_and_png_is_twice_its_size() {
         let picture = tiny_skia::Pixmap::decode_png(&std::fs::read(path("png")).unwrap()).unwrap();
         let size = tree.size().to_int_size();
         assert_eq!((picture.width(), picture.height()), (2 * size.width(), 2 * size.height()));
-        // Neither blank nor flooded: text and lines cover some of the page, not most of it.
+        // Neither blank nor filled: text and lines cover some of the page, not most of it.
         let inked = picture.pixels().iter().filter(|p| p.red() < 128 || p.blue() < 128).count();
         let share = inked as f64 / (picture.width() * picture.height()) as f64;
         assert!((0.002..0.7).contains(&share), "figure {k}: {share}");
@@ -51,14 +51,14 @@ fn text_is_drawn_with_the_embedded_font() {
 }
 
 #[test]
-fn an_unwritable_place_is_an_environment_error() {
+fn unwritable_path_is_an_environment_error() {
     let figure = Figure::Lines(Lines::default());
     let error = write(&figure, std::path::Path::new("/nonexistent/folder/figure")).unwrap_err();
     assert!(error.to_string().contains("figure.svg"), "{error}");
 }
 
 #[test]
-fn a_million_samples_stay_small_and_keep_their_peak() {
+fn decimation_of_a_million_samples_keeps_the_peak() {
     let time: Vec<f64> = (0..1_000_000).map(|k| f64::from(k) * 1e-5).collect();
     let mut value: Vec<f64> = time.iter().map(|t| (t * 3000.0).sin()).collect();
     // One sample in a million stands out; the axis and the curve must both show it.
@@ -75,11 +75,11 @@ fn a_million_samples_stay_small_and_keep_their_peak() {
     let numbers: Vec<f64> = curve.split(['M', ' ']).filter_map(|n| n.parse().ok()).collect();
     let mut heights: Vec<f64> = numbers.chunks(2).map(|p| p[1]).collect();
     heights.sort_by(f64::total_cmp);
-    assert!(heights[1] - heights[0] > 100.0, "the peak stands alone above the rest: {:?}", &heights[..3]);
+    assert!(heights[1] - heights[0] > 100.0, "the peak is above all other points: {:?}", &heights[..3]);
 }
 
 #[test]
-fn gaps_break_a_line() {
+fn nan_gaps_break_a_curve() {
     let curve = |y: Vec<f64>| Curve { x: vec![0.0, 1.0, 2.0, 3.0, 4.0], y, ..Default::default() };
     let pieces = |y| {
         let svg = Figure::Lines(Lines { curves: vec![curve(y)], ..Default::default() }).svg();
@@ -94,7 +94,7 @@ fn gaps_break_a_line() {
 #[test]
 fn phase_jumps_are_not_joined() {
     let hz: Vec<f64> = (0..100).map(f64::from).collect();
-    // A phasor turning backwards three times: three jumps from -180 to 180.
+    // A phasor rotating backwards three times: three phase jumps from -180 to 180 deg.
     let turn = |k: &f64| 6.0 * std::f64::consts::PI * k / 100.0;
     let curve = FrfCurve {
         re: hz.iter().map(|k| turn(k).cos()).collect(),
@@ -109,8 +109,8 @@ fn phase_jumps_are_not_joined() {
 }
 
 #[test]
-fn a_heat_map_keeps_a_ridge_one_cell_wide_and_its_place() {
-    // One loud cell in a fine grid: it must be seen, and where it belongs.
+fn heat_map_shows_a_single_cell_peak_at_its_place() {
+    // One high cell in a fine grid must be visible at its place.
     let (nx, ny) = (3000, 2000);
     let (rpm, hz): (Vec<f64>, Vec<f64>) =
         ((0..nx).map(f64::from).collect(), (0..ny).map(f64::from).collect());

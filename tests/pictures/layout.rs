@@ -14,7 +14,7 @@ fn steps_are_one_two_or_five() {
 }
 
 #[test]
-fn tick_labels_take_out_powers_of_a_thousand() {
+fn tick_labels_factor_out_powers_of_a_thousand() {
     let axis = Scale::linear(Range::new(0.0, 1.2e8), [0.0, 300.0], 60.0);
     assert_eq!(axis.label("stiffness", "N/m"), "stiffness [10⁶ N/m]");
     assert_eq!(axis.ticks.last().map(|t| t.label.as_str()), Some("100"));
@@ -40,7 +40,7 @@ fn logarithmic_ticks_are_powers_of_ten() {
 }
 
 #[test]
-fn ranges_of_poor_data_are_usable() {
+fn ranges_of_degenerate_data_are_valid() {
     for values in [
         vec![],
         vec![f64::NAN],
@@ -64,7 +64,7 @@ fn ranges_of_poor_data_are_usable() {
 
 proptest! {
     #[test]
-    fn ticks_lie_in_the_range_evenly_and_few(lo in -1e6..1e6f64, span_log in -6.0..6.0f64, count in 2.0..12.0f64) {
+    fn ticks_are_few_uniform_and_within_the_range(lo in -1e6..1e6f64, span_log in -6.0..6.0f64, count in 2.0..12.0f64) {
         let range = Range::new(lo, lo + 10f64.powf(span_log));
         let (ticks, step) = linear_ticks(range, count);
         let slack = 1e-6 * (range.hi - range.lo) + 1e-9 * lo.abs();
@@ -76,7 +76,7 @@ proptest! {
     }
 
     #[test]
-    fn the_scale_hits_the_ends_of_its_page(lo in -1e3..1e3f64, span in 1e-3..1e3f64) {
+    fn scale_maps_the_range_to_its_ends(lo in -1e3..1e3f64, span in 1e-3..1e3f64) {
         let axis = Scale::linear(Range::new(lo, lo + span), [10.0, 110.0], 40.0);
         prop_assert!((axis.px(lo) - 10.0).abs() < 1e-6 && (axis.px(lo + span) - 110.0).abs() < 1e-6);
     }
@@ -103,16 +103,16 @@ proptest! {
 }
 
 #[test]
-fn labels_with_room_stay_where_they_are_wanted() {
+fn labels_without_overlap_keep_their_position() {
     assert_eq!(spread(&[100.0, 50.0], &[10.0, 10.0], 0.0, 200.0), [Some(100.0), Some(50.0)]);
-    // Two at one place give way equally.
+    // Two labels at one position are shifted equally.
     assert_eq!(spread(&[100.0, 100.0], &[10.0, 10.0], 0.0, 200.0), [Some(95.0), Some(105.0)]);
-    // No room for the third: the last in the list goes.
+    // No room for the third: the last in the list is dropped.
     assert_eq!(spread(&[1.0, 2.0, 3.0], &[10.0; 3], 0.0, 20.0), [Some(5.0), Some(15.0), None]);
 }
 
 #[test]
-fn a_line_through_the_frame_is_cut_at_its_edges() {
+fn clipping_cuts_a_line_at_the_frame() {
     let frame = Frame { x: 0.0, y: 0.0, w: 10.0, h: 10.0 };
     assert_eq!(clip(&[[-10.0, 5.0], [20.0, 5.0]], frame), [[0.0, 5.0], [10.0, 5.0]]);
     assert!(clip(&[[-10.0, 50.0], [20.0, 50.0]], frame).is_empty());

@@ -1,4 +1,4 @@
-//! Figures: ticks, labels, decimation, valid and equal SVG, PNG size, and data that no figure should have to see.
+//! Figures: ticks, labels, decimation, valid and equal SVG, PNG size, and degenerate data.
 
 mod figures;
 mod hostile;

@@ -1,4 +1,4 @@
-//! One figure of each kind, with the same numbers in every place.
+//! One figure of each kind, with the same data in every field.
 
 use rotordyn::edge::plot::*;
 

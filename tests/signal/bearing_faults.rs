@@ -1,4 +1,4 @@
-//! Tools that find bearing faults, on records whose answer is known in closed form.
+//! Bearing fault diagnosis on synthetic records with known faults.
 
 use std::f64::consts::TAU;
 
@@ -30,13 +30,13 @@ fn rates() -> BearingRates {
     }
 }
 
-/// Near Gaussian: the sum of six uniform numbers, standard deviation √2.
+/// Nearly Gaussian noise: the sum of six uniform numbers, standard deviation √2.
 fn gaussian(seed: u32, n: usize) -> Vec<f64> {
     noise(seed, 6 * n).chunks_exact(6).map(|c| c.iter().sum()).collect()
 }
 
-/// Pulses at `rate` that ring at `resonance` and decay, in step with `gain` of time, slipping 1 % at random.
-fn ringing(
+/// Impulses at `rate` exciting a decaying `resonance`, with amplitude `gain` over time and 1 % random slip.
+fn impulse_train(
     n: usize,
     rate: f64,
     resonance: f64,
@@ -44,10 +44,10 @@ fn ringing(
     seed: u32,
     gain: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
-    shaken_ringing(n, rate, 0.01, resonance, decay, seed, gain)
+    jittered_impulse_train(n, rate, 0.01, resonance, decay, seed, gain)
 }
 
-fn shaken_ringing(
+fn jittered_impulse_train(
     n: usize,
     rate: f64,
     jitter: f64,
@@ -90,7 +90,7 @@ fn squared_envelope_of_a_modulated_tone() {
     }
 }
 
-/// Bands side by side add up to the analytic signal, and Parseval holds in each.
+/// Adjacent bands add up to the analytic signal, and their energies to its energy (Parseval).
 #[test]
 fn bands_partition_the_record() {
     for n in [500, 501] {
@@ -130,24 +130,24 @@ fn cepstrum_of_an_echo() {
             m if k % delay == 0 && m > 0 => -(-a).powi(m as i32) / (2.0 * m as f64),
             _ => 0.0,
         };
-        // The series runs round the record: terms of order a^{1024/gcd}/k fold back.
+        // The series wraps around the record: terms of order a^{1024/gcd}/k are aliased.
         assert_close(&format!("at {k}"), *value, expected, 1e-3);
     }
-    // The comb takes the echo out of the magnitude and leaves its phase: √((1 + az)/(1 + a/z)) with z the delay,
-    // 1 − a²/4 − 3a⁴/64 … at 0 and a/2 + a³/16 + 3a⁵/128 … at the delay; the teeth miss what folds back.
+    // The comb lifter removes the echo from the magnitude but not from the phase: √((1 + az)/(1 + a/z)) with z the
+    // delay, 1 − a²/4 − 3a⁴/64 … at 0 and a/2 + a³/16 + 3a⁵/128 … at the delay; aliased terms are not removed.
     let comb = Lifter::Comb { quefrency: 0.4, half_width: 0.0 };
     let clean = lifter(&x, 100.0, comb).unwrap();
     assert_close("direct", clean[0], 1.0 - 0.25 * a * a - 3.0 / 64.0 * a.powi(4), 2e-3);
     assert_close("echo", clean[delay], 0.5 * a + a.powi(3) / 16.0 + 3.0 / 128.0 * a.powi(5), 3e-3);
 }
 
-/// Gaussian noise has no spectral kurtosis, a tone has −1, and rare pulses have much.
+/// Spectral kurtosis is 0 for Gaussian noise, −1 for a tone and large for rare impulses.
 #[test]
-fn spectral_kurtosis_tells_noise_tone_and_pulses_apart() {
+fn spectral_kurtosis_of_noise_tone_and_impulses() {
     let n = 60_000;
     let back = gaussian(3, n);
     let tone = sampled(n, RATE, |t| 30.0 * (TAU * 1500.0 * t).cos());
-    let pulses = ringing(n, 30.0, 3750.0, 1500.0, 9, |_| 12.0);
+    let pulses = impulse_train(n, 30.0, 3750.0, 1500.0, 9, |_| 12.0);
     let x = sum(&sum(&back, &tone, 1.0), &pulses, 1.0);
     let welch = Welch { overlap: 48, ..Welch::hann(64) };
     let sk = spectral_kurtosis(&x, RATE, &welch).unwrap();
@@ -158,11 +158,11 @@ fn spectral_kurtosis_tells_noise_tone_and_pulses_apart() {
     assert!(at(3750.0) > 1.0, "{}", at(3750.0));
 }
 
-/// The kurtogram finds the resonance that pulses excite.
+/// The kurtogram selects the resonance excited by impulses.
 #[test]
-fn kurtogram_marks_the_band_of_the_pulses() {
+fn kurtogram_selects_the_band_of_the_impulses() {
     let n = 1 << 16;
-    let x = sum(&gaussian(4, n), &ringing(n, 107.0, 4100.0, 1500.0, 2, |_| 6.0), 1.0);
+    let x = sum(&gaussian(4, n), &impulse_train(n, 107.0, 4100.0, 1500.0, 2, |_| 6.0), 1.0);
     let depth = depth_for_width(n, RATE, 300.0).unwrap();
     let kurtogram = fast_kurtogram(&x, RATE, depth).unwrap();
     let best = kurtogram.best();
@@ -176,17 +176,17 @@ fn kurtogram_marks_the_band_of_the_pulses() {
     let flat = fast_kurtogram(&gaussian(4, n), RATE, depth).unwrap();
     for band in flat.bands() {
         let samples = n as f64 * (band.high - band.low) / (0.5 * RATE);
-        // Six uniform numbers have an excess of −0.2 as a real record; the filters blend it away.
+        // The sum of six uniform numbers has an excess kurtosis of −0.2; filtering reduces it.
         assert!(band.value.abs() < 0.25 + 8.0 / samples.sqrt(), "{band:?}");
     }
 }
 
-/// A few knocks of another source own the highest kurtosis; the bearing's lines are elsewhere.
+/// Rare impacts of another source have the highest kurtosis; the bearing fault lines are in another band.
 #[test]
-fn lines_choose_the_band_where_kurtosis_is_misled() {
+fn band_selection_by_fault_lines_with_interfering_impacts() {
     let n = 1 << 17;
-    let bearing = ringing(n, rates().outer, 4200.0, 1500.0, 2, |_| 1.5);
-    let knocks = shaken_ringing(n, 2.3, 0.5, 1300.0, 900.0, 7, |_| 60.0);
+    let bearing = impulse_train(n, rates().outer, 4200.0, 1500.0, 2, |_| 1.5);
+    let knocks = jittered_impulse_train(n, 2.3, 0.5, 1300.0, 900.0, 7, |_| 60.0);
     let x = sum(&sum(&gaussian(11, n), &bearing, 1.0), &knocks, 1.0);
     let settings = LineSettings::default();
     let by_kurtosis = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Kurtosis, &settings).unwrap();
@@ -201,7 +201,7 @@ fn lines_choose_the_band_where_kurtosis_is_misled() {
     assert_eq!(by_lines.lines.verdict, Some(BearingPart::OuterRace));
 }
 
-/// The value of every band is asked of the same bank, the whole record first.
+/// The score is evaluated for every band of the filter bank, the whole record first.
 #[test]
 fn scored_bands_cover_the_axis() {
     let got = scored_bands(&noise(1, 2048), 1000.0, 3, |band| band.high - band.low).unwrap();
@@ -213,19 +213,22 @@ fn scored_bands_cover_the_axis() {
     }
 }
 
-/// Each part's fault is named; the load zone modulates it as seen from that part.
+/// The faulty part is diagnosed; passing the load zone gives the sidebands of that part.
 #[test]
-fn verdicts() {
+fn diagnosis_of_each_part() {
     let n = 60_000;
     let r = rates();
     let back = gaussian(21, n);
     let zone = |rate: f64| move |t: f64| 1.0 + 0.8 * (TAU * rate * t).cos();
     let settings = LineSettings::default();
     for (part, record) in [
-        (BearingPart::OuterRace, ringing(n, 1.004 * r.outer, 3500.0, 1500.0, 3, |_| 4.0)),
-        (BearingPart::InnerRace, ringing(n, 0.996 * r.inner, 3500.0, 1500.0, 4, |t| 4.0 * zone(r.shaft)(t))),
-        (BearingPart::Ball, ringing(n, 2.006 * r.ball, 3500.0, 1500.0, 5, |t| 4.0 * zone(r.cage)(t))),
-        (BearingPart::Cage, ringing(n, r.cage, 3500.0, 1500.0, 6, |_| 8.0)),
+        (BearingPart::OuterRace, impulse_train(n, 1.004 * r.outer, 3500.0, 1500.0, 3, |_| 4.0)),
+        (
+            BearingPart::InnerRace,
+            impulse_train(n, 0.996 * r.inner, 3500.0, 1500.0, 4, |t| 4.0 * zone(r.shaft)(t)),
+        ),
+        (BearingPart::Ball, impulse_train(n, 2.006 * r.ball, 3500.0, 1500.0, 5, |t| 4.0 * zone(r.cage)(t))),
+        (BearingPart::Cage, impulse_train(n, r.cage, 3500.0, 1500.0, 6, |_| 8.0)),
     ] {
         let x = sum(&back, &record, 1.0);
         for rule in [BandRule::Given(2000.0, 5000.0), BandRule::Whole, BandRule::Kurtosis, BandRule::Lines] {
@@ -234,8 +237,8 @@ fn verdicts() {
             let strongest = got.lines.strongest_line().unwrap();
             assert_eq!((strongest.part, strongest.modulation), (part, None));
             let line = &got.lines.family(part).lines[0];
-            let put = [1.004, 0.996, 1.003, 1.0][index_of(part)];
-            assert_close("slip", line.frequency / line.expected, put, 2e-3);
+            let ratio = [1.004, 0.996, 1.003, 1.0][index_of(part)];
+            assert_close("slip", line.frequency / line.expected, ratio, 2e-3);
         }
         let expected = match part {
             BearingPart::InnerRace => Some(Modulation::Shaft(1)),
@@ -257,7 +260,7 @@ fn index_of(part: BearingPart) -> usize {
 
 /// Noise, unbalance, a gear's modulation by the shaft: no bearing line, whatever the band.
 #[test]
-fn a_sound_machine_has_no_bearing_line() {
+fn healthy_machine_has_no_bearing_line() {
     let n = 60_000;
     for seed in 0..6 {
         let back = gaussian(100 + seed, n);
@@ -278,9 +281,9 @@ fn a_sound_machine_has_no_bearing_line() {
     }
 }
 
-/// A run-up from 10 to 30 rev/s: BPFI is smeared over 100 Hz and stands still in orders, in a resonance that stays in Hz.
+/// Run-up from 10 to 30 rev/s: BPFI is smeared over 100 Hz but constant in order; the resonance is constant in Hz.
 #[test]
-fn verdict_of_a_run_up_by_shaft_angle() {
+fn diagnosis_of_a_run_up_by_shaft_angle() {
     let n = 120_000;
     let turns = |t: f64| 10.0 * t + t * t;
     let theta = sampled(n, RATE, |t| TAU * turns(t));
@@ -319,9 +322,9 @@ fn verdict_of_a_run_up_by_shaft_angle() {
     assert!(text.contains("25.10") && text.contains("ten revolutions of the cage"), "{text}");
 }
 
-/// A record too short, a record sampled too slowly, a band that is none: said, not guessed.
+/// Errors for too short a record, too low a sampling rate and an invalid band.
 #[test]
-fn refusals_of_a_diagnosis() {
+fn invalid_input_of_a_diagnosis() {
     let x = noise(1, 4000);
     let settings = LineSettings::default();
     let message = |rate: f64, rule: BandRule| {
@@ -361,7 +364,7 @@ fn cyclic_coherence_of_modulated_noise() {
     let got = cyclic_coherence(&x, 1000.0, &alphas, &welch).unwrap();
     let spectrum = got.enhanced_envelope_spectrum((50.0, 450.0)).unwrap();
     for (a, value) in spectrum.frequencies.iter().zip(&spectrum.values) {
-        // |γ| = R(α)/R(0) of the power (1 + m cos)²: 2m and m²/2 halves over 1 + m²/2.
+        // |γ| = R(α)/R(0) of the power (1 + m cos)²: half of 2m and of m²/2, over 1 + m²/2.
         let expected = if *a == alpha {
             0.8 / 1.32
         } else if *a == 2.0 * alpha {
@@ -378,9 +381,9 @@ fn cyclic_coherence_of_modulated_noise() {
     assert!((0.002..0.03).contains(&above), "{above}");
 }
 
-/// Shaft lines go into the average, the rest stays: a gear mesh of 23 and a tone of order 3.6.
+/// Time synchronous averaging: shaft orders (gear mesh 23) are in the average, order 3.6 in the residual.
 #[test]
-fn synchronous_average_parts_shaft_from_bearing() {
+fn synchronous_average_separates_shaft_from_bearing() {
     let per_turn = 100;
     let turn = |k: usize| k as f64 / per_turn as f64;
     let gear = |k: usize| 2.0 * (TAU * 23.0 * turn(k) + 0.4).cos() + 0.5;
@@ -389,7 +392,7 @@ fn synchronous_average_parts_shaft_from_bearing() {
     let average = synchronous_average(&x, per_turn).unwrap();
     assert_eq!(average.periods, 50);
     for (k, mean) in average.mean.iter().enumerate() {
-        // Fifty turns hold 180 whole periods of order 3.6: its mean at each place is zero.
+        // Fifty revolutions contain 180 whole periods of order 3.6: its mean at each angle is zero.
         // The cosine of an angle of thousands of radians is good to 1e-12.
         assert_close("mean", *mean, gear(k), 1e-10);
         assert_close("deviation", average.deviation[k], 0.5f64.sqrt(), 1e-10);

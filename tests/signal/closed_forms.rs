@@ -34,7 +34,7 @@ fn window_gains() {
 }
 
 #[test]
-fn tone_at_a_bin_shows_its_amplitude_with_every_window() {
+fn amplitude_of_a_tone_at_a_bin_with_every_window() {
     let x = sampled(1000, 1000.0, |t| 2.0 + 3.0 * (TAU * 120.0 * t + 0.7).cos());
     for kind in KINDS {
         let peak = amplitude_spectrum(&x, 1000.0, kind, Level::Peak).unwrap();
@@ -49,14 +49,14 @@ fn tone_at_a_bin_shows_its_amplitude_with_every_window() {
 
 /// The worst case of a tone between bins: a flat top loses less than 0.02 dB.
 #[test]
-fn flat_top_reads_amplitudes_between_bins() {
+fn flat_top_amplitude_between_bins() {
     let x = sampled(1000, 1000.0, |t| (TAU * 120.5 * t).cos());
     let spectrum = amplitude_spectrum(&x, 1000.0, WindowKind::FlatTop, Level::Peak).unwrap();
     assert!(decibel(spectrum.values[120], 1.0).abs() < 0.02, "{}", spectrum.values[120]);
 }
 
 #[test]
-fn nyquist_tone_has_no_mirror() {
+fn nyquist_line_is_not_doubled() {
     let x: Vec<f64> = (0..64).map(|n| if n % 2 == 0 { 1.5 } else { -1.5 }).collect();
     let spectrum = amplitude_spectrum(&x, 64.0, WindowKind::Rectangular, Level::Peak).unwrap();
     assert_close("Nyquist", spectrum.values[32], 1.5, 1e-14);
@@ -77,7 +77,7 @@ fn parseval() {
     let x = sampled(1000, 1000.0, |t| (TAU * 100.0 * t).sin() + 0.5 * (TAU * 300.3 * t).sin());
     let rms = amplitude_spectrum(&x, 1000.0, WindowKind::Hann, Level::Rms).unwrap();
     let power = rms.values.iter().map(|a| a * a).sum::<f64>() * rms.frequencies[1] / rms.noise_bandwidth_hz;
-    // The tone between bins has a window of energy that depends on its phase at the ends, by 1e-4 here.
+    // The windowed energy of the tone between bins depends on its phase at the ends, by 1e-4 here.
     assert_close("windowed", power, 0.5 + 0.125, 1e-3);
 }
 
@@ -92,10 +92,10 @@ fn chirp_through_the_stft() {
     let ridge = follow_line(&map.frequencies, &map.amplitude, &line, 20.0).unwrap();
     let bin = map.frequencies[1];
     for (peak, f) in ridge.iter().zip(&line) {
-        let peak = peak.expect("the chirp is everywhere");
+        let peak = peak.expect("a peak in every frame");
         assert_close("frequency", peak.position, *f, 0.05 * bin);
-        // The chirp sweeps 0.65 bins within a frame, which widens the lobe; Hann's parabola reads
-        // up to 3.7 % high.
+        // The chirp sweeps 0.65 bins within a frame, which widens the lobe; parabolic interpolation of
+        // a Hann lobe is up to 3.7 % high.
         assert_close("amplitude", peak.amplitude, 1.7, 0.04 * 1.7);
     }
     let speed = sampled(x.len(), rate, |t| 60.0 * (50.0 + 40.0 * t));
@@ -132,9 +132,9 @@ fn peak_between_bins() {
     assert_eq!(found, vec![peak]);
 }
 
-/// A slope of something beside the search band is not taken for a ridge.
+/// The flank of a peak outside the search band is not taken for a ridge.
 #[test]
-fn slope_is_no_ridge() {
+fn flank_is_not_a_ridge() {
     let axis: Vec<f64> = (0..20).map(f64::from).collect();
     let lobe: Vec<f64> = axis.iter().map(|f| (-(f - 10.0f64).powi(2) / 8.0).exp()).collect();
     assert_eq!(follow_line(&axis, &lobe, &[5.0], 2.0).unwrap(), vec![None]);
@@ -152,12 +152,12 @@ fn envelope_of_a_modulated_tone() {
     let plain = envelope_spectrum(&x, 2000.0, None, WindowKind::Rectangular, Level::Peak).unwrap();
     assert_close("line", plain.values[20], 0.4, 1e-12);
     assert_close("mean", plain.values[0], 0.0, 1e-12);
-    // A low tone hides the modulation until the band-pass takes it away.
+    // A low-frequency tone masks the modulation until the band-pass removes it.
     let with_rumble: Vec<f64> =
         x.iter().enumerate().map(|(k, v)| v + 5.0 * (TAU * 30.0 * k as f64 / 2000.0).cos()).collect();
     let band = Some((300.0, 500.0));
     let banded = envelope_spectrum(&with_rumble, 2000.0, band, WindowKind::Hann, Level::Peak).unwrap();
-    // The filter's gain at ±20 Hz from the middle of its ±100 Hz band is 1 within 1e-4; its ends settle.
+    // The filter's gain at ±20 Hz from the middle of its ±100 Hz band is 1 within 1e-4; transients at the ends.
     assert_close("line in the band", banded.values[20], 0.4, 2e-3);
     assert_close("rumble in the band", banded.values[30], 0.0, 2e-3);
 }
@@ -192,7 +192,7 @@ fn statistics_of_known_records() {
     assert_eq!(statistics(&[0.0; 7]).unwrap().crest_factor, None);
 }
 
-/// x = a cos(νθ + α), y = b cos(νθ + β) beside other orders and an offset.
+/// x = a cos(νθ + α), y = b cos(νθ + β) plus other orders and an offset.
 #[test]
 fn filtered_orbit_and_its_whirl() {
     let theta: Vec<f64> = (0..720).map(|k| TAU * k as f64 / 240.0).collect();
@@ -212,7 +212,7 @@ fn filtered_orbit_and_its_whirl() {
     assert_close("centre", orbit.centre[0], 0.7, 1e-12);
     let points = orbit.points(4);
     assert_close("first point", points[0][0], 0.7 + 2.0 * 0.5f64.cos(), 1e-12);
-    // Swapping the channels turns the whirl round.
+    // Swapping the channels reverses the whirl direction.
     let swapped = FilteredOrbit::fit(&y, &x, &theta, 1.0).unwrap();
     assert!(swapped.semi_axes().1 < 0.0);
 

@@ -1,6 +1,6 @@
-//! Defects of a race found from simulated records by a detector that is not told where they are.
+//! Detection of race defects in simulated records, without prior knowledge of their places.
 //!
-//! Values by id: A.. of an independent implementation of Atef et al. 2022 (same law, same parameters).
+//! Reference values A..: independent implementation of Atef et al. 2022 (same law, same parameters).
 
 use rotordyn::signal::jerk::{impulses, jerk_jumps};
 use rotordyn::signal::race_defects::{BallPassage, DefectKind, RaceDefect, race_defects};
@@ -24,17 +24,17 @@ fn found(race: Race, records: &Records) -> Vec<RaceDefect> {
 #[track_caller]
 fn assert_found(race: Race, found: &[RaceDefect], expected: &[Defect]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
-    for (got, put) in found.iter().zip(expected) {
-        assert_close("angle", got.angle.to_degrees(), put.angle_deg, 0.05);
+    for (got, defect) in found.iter().zip(expected) {
+        assert_close("angle", got.angle.to_degrees(), defect.angle_deg, 0.05);
         // 6 us at the contact's speed of 1.76067 m/s.
-        assert_close("width", got.width * race.radius(), put.width, 0.011e-3);
-        assert_eq!(got.kind == DefectKind::Bump, put.height > 0.0, "{got:?}");
+        assert_close("width", got.width * race.radius(), defect.width, 0.011e-3);
+        assert_eq!(got.kind == DefectKind::Bump, defect.height > 0.0, "{got:?}");
     }
 }
 
-/// A18: the simulated rig is the published one.
+/// A18: statistics of the simulated records equal the reference.
 #[test]
-fn the_rig_of_these_tests_gives_the_reference_figures() {
+fn simulated_rig_gives_the_reference_statistics() {
     let records =
         simulate(Race::Outer, &[Defect::dent(0.0, 0.17e-3), Defect::dent(15.0, 0.17e-3)], STEP, 1.0);
     let got = statistics(&records.resonator).unwrap();
@@ -44,7 +44,7 @@ fn the_rig_of_these_tests_gives_the_reference_figures() {
     assert_close("ring rms", statistics(&records.ring[0]).unwrap().rms, 0.192780, 1e-5);
 }
 
-/// A32: angle within 0.05 deg, width within one step, kind 7 of 7.
+/// A32: angle within 0.05 deg, width within one step, all 7 kinds correct.
 #[test]
 fn seven_random_defects() {
     let defects = [
@@ -58,12 +58,12 @@ fn seven_random_defects() {
     ];
     let records = simulate(Race::Outer, &defects, STEP, 0.3);
     assert_found(Race::Outer, &found(Race::Outer, &records), &defects);
-    // One channel along the load knows the same, up to the ball spacing.
+    // One channel along the load gives the same, up to the ball spacing.
     let one = race_defects(&records.ring[0], None, RATE, &passage(Race::Outer, &records)).unwrap();
     assert_found(Race::Outer, &one, &defects);
 }
 
-/// A31: N alternating bumps and dents 5 deg apart give 2N jumps a passage, opposite the load too.
+/// A31: N alternating bumps and dents 5 deg apart give 2N jumps per ball passage, also opposite the load.
 #[test]
 fn four_six_and_eight_defects() {
     for count in [4, 6, 8] {
@@ -87,20 +87,20 @@ fn four_six_and_eight_defects() {
 }
 
 #[test]
-fn two_dents_of_the_turning_inner_race() {
+fn dent_and_bump_of_the_rotating_inner_race() {
     let defects = [Defect::dent(270.0, 0.17e-3), Defect::bump(285.0, 0.2e-3, 0.3e-6)];
     let records = simulate(Race::Inner, &defects, STEP, 0.5);
     assert_found(Race::Inner, &found(Race::Inner, &records), &defects);
 }
 
-/// A12: eq. 22 from entry to entry within 0.03 deg, from neighbours to nearly a ball spacing.
+/// A12: entry-to-entry angle of eq. 22 within 0.03 deg, from close defects to nearly a ball spacing.
 #[test]
 fn angle_between_two_defects() {
     for beta in [1.0, 2.6, 5.0, 10.0, 20.0, 30.0, 38.2] {
         let defects = [Defect::bump(0.0, 0.17e-3, 0.1e-6), Defect::dent(beta, 0.17e-3)];
         let records = simulate(Race::Outer, &defects, STEP, 0.2);
         let got = found(Race::Outer, &records);
-        // A start at 0 may be found a hair below it, at the end of the circle.
+        // A start angle of 0 may be estimated just below 360 deg.
         assert_eq!(got.len(), 2, "{beta}: {got:?}");
         let dent = got.iter().find(|d| d.kind == DefectKind::Dent).unwrap();
         let bump = got.iter().find(|d| d.kind == DefectKind::Bump).unwrap();
@@ -109,9 +109,9 @@ fn angle_between_two_defects() {
     }
 }
 
-/// A10: jumps 97.1 ± 2 us apart at steps of 6 us, 96.57 ± 0.6 us at 1 us; the true residence is 96.554 us.
+/// A10: jumps 97.1 ± 2 us apart at steps of 6 us, 96.57 ± 0.6 us at 1 us; the true residence time is 96.554 us.
 #[test]
-fn residence_over_a_dent() {
+fn residence_time_over_a_dent() {
     let dents = [Defect::dent(0.0, 0.17e-3), Defect::dent(15.0, 0.17e-3)];
     for (step, seconds, expected, tolerance) in [(STEP, 0.2, 97.1, 2.0), (1e-6, 0.05, 96.57, 0.6)] {
         let records = simulate(Race::Outer, &dents, step, seconds);
@@ -121,7 +121,7 @@ fn residence_over_a_dent() {
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
         assert!(gaps.len() as f64 >= 1.8 * seconds * Race::Outer.passing_frequency(), "{}", gaps.len());
         assert_close("mean gap", mean, expected, tolerance);
-        assert!(jumps.iter().all(|j| j.size < 0.0), "a dent kinks the ring inward");
+        assert!(jumps.iter().all(|j| j.size < 0.0), "jerk jumps of a dent are negative");
     }
 }
 
@@ -153,7 +153,7 @@ fn impulse_counts_and_delays() {
 }
 
 #[test]
-fn a_sound_bearing_has_no_defects() {
+fn healthy_bearing_has_no_defects() {
     let records = simulate(Race::Outer, &[], STEP, 0.3);
     let got = found(Race::Outer, &records);
     assert!(got.is_empty(), "{got:?}");

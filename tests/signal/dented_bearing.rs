@@ -22,7 +22,7 @@ pub struct Defect {
 }
 
 impl Defect {
-    /// A dent as deep as a ball sinks into a hole of this diameter (eq. 4).
+    /// A dent as deep as a ball enters a hole of this diameter (eq. 4).
     pub fn dent(angle_deg: f64, width: f64) -> Self {
         let radius = 0.5 * BALL_DIAMETER;
         Defect { angle_deg, width, height: -(radius - (radius * radius - 0.25 * width * width).sqrt()) }
@@ -47,7 +47,7 @@ impl Race {
         }
     }
 
-    /// Balls past a point of the race per second.
+    /// Ball-passing frequency of the race (BPFO, BPFI) \[Hz\].
     pub fn passing_frequency(self) -> f64 {
         let ratio = BALL_DIAMETER / PITCH_DIAMETER;
         match self {
@@ -63,7 +63,7 @@ pub struct Records {
     pub ring: [Vec<f64>; 2],
     /// Resonator, x.
     pub resonator: Vec<f64>,
-    /// Time of the first sample since ball 1 stood at angle 0.
+    /// Time of the first sample after ball 1 was at angle 0.
     pub start: f64,
 }
 

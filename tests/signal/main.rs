@@ -1,4 +1,4 @@
-//! Signal tools: closed forms, scipy as oracle, and refusal of unusable records.
+//! Signal analysis: closed forms, scipy reference values, and errors for unusable records.
 
 mod bearing_faults;
 mod closed_forms;
@@ -19,7 +19,7 @@ mod tacho;
 
 use rotordyn::signal::Complex;
 
-/// Uniform numbers in −1..1 by a 32-bit linear congruential generator; `oracle.py` has the same.
+/// Uniform random numbers in −1..1 by a 32-bit linear congruential generator; `oracle.py` has the same.
 pub fn noise(seed: u32, n: usize) -> Vec<f64> {
     let mut state = seed;
     (0..n)

@@ -1,4 +1,4 @@
-//! Records of the Case Western Reserve University Bearing Data Center: the damaged race is named without a hint.
+//! Records of the Case Western Reserve University Bearing Data Center: the damaged race is diagnosed.
 
 use rotordyn::edge::measured;
 use rotordyn::results::RatedBearing;
@@ -59,9 +59,9 @@ fn faults_of_inner_and_outer_race() {
     }
 }
 
-/// What asks for more than is known of the shaft says so.
+/// Without shaft angle, order analyses are errors if requested and warnings otherwise.
 #[test]
-fn what_is_not_known_is_an_error_when_asked_for() {
+fn order_analyses_need_the_shaft_angle() {
     let channel = SignalChannel {
         name: "A".into(),
         unit: "m/s^2".into(),

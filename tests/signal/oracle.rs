@@ -1,4 +1,4 @@
-//! scipy's figures (oracle.py, stored in tests/data/scipy_signal.json) to 1e-10.
+//! scipy reference values (oracle.py, stored in tests/data/scipy_signal.json) to 1e-10.
 
 use rotordyn::signal::filter::{Band, butterworth};
 use rotordyn::signal::spectrum::{Level, Welch, coherence, cross_spectral_density, power_spectral_density};

@@ -32,7 +32,7 @@ x = noise(5, n) * (1 + 0.8 * np.cos(2 * np.pi * 7.3 * t)) + 3 * (np.arange(n) % 
 out = {"source": f"scipy {scipy.__version__}, numpy {np.__version__}, tests/signal/oracle_bearing.py"}
 
 
-# Fast kurtogram, Antoni 2007: filters turned to the band's centre, decimated, odd bands turned round.
+# Fast kurtogram, Antoni 2007: filters modulated to the band's centre, decimated, odd bands frequency-reversed.
 def bank(z, h, count):
     k = np.arange(len(h))
     for i in range(count):

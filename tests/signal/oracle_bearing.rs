@@ -1,4 +1,4 @@
-//! numpy's and scipy's figures (oracle_bearing.py, stored in tests/data/scipy_bearing_signal.json) to 1e-10.
+//! numpy and scipy reference values (oracle_bearing.py, stored in tests/data/scipy_bearing_signal.json) to 1e-10.
 
 use rotordyn::signal::WindowKind;
 use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
@@ -98,7 +98,7 @@ fn cyclic_coherence_by_the_averaged_cyclic_periodogram() {
 }
 
 #[test]
-fn factors() {
+fn shape_impulse_and_clearance_factors() {
     let got = statistics(&input()).unwrap();
     let expected = &oracle()["statistics"];
     for (name, value) in [

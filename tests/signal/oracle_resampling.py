@@ -19,7 +19,7 @@ def noise(seed, n):
     return np.array(out)
 
 
-# Times at uneven steps between 0.6 and 1.4 ms; a record over them.
+# Nonuniform time steps between 0.6 and 1.4 ms; a record at these times.
 step = 1e-3 * (1.0 + 0.4 * noise(11, 200))
 time = np.concatenate([[0.25], 0.25 + np.cumsum(step)])
 record = noise(12, 201)
@@ -33,7 +33,7 @@ pulses = np.sqrt(np.arange(1, 40)) * 0.1 + 0.002 * noise(13, 39)
 sampled = np.arange(int(np.ceil(pulses[0] * 2000.0)), int(np.floor(pulses[-1] * 2000.0)) + 1) / 2000.0
 angle = 2.0 * np.pi * PchipInterpolator(pulses, np.arange(39))(sampled)
 
-# Envelope of a band: Butterworth of order 4 there and back, analytic signal, Hann, amplitudes of the mean-free envelope.
+# Envelope of a band: zero-phase Butterworth of order 4, analytic signal, Hann, amplitudes of the mean-free envelope.
 x = noise(14, 1500) * (1.0 + 0.6 * np.cos(2 * np.pi * 20.0 * np.arange(1500) / 1000.0))
 sections = signal.butter(4, [100.0, 300.0], "bandpass", fs=1000.0, output="sos")
 filtered = signal.sosfiltfilt(sections, x)

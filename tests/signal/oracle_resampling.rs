@@ -1,4 +1,4 @@
-//! scipy's and numpy's figures (oracle_resampling.py, stored in tests/data/scipy_resampling.json) to 1e-10.
+//! scipy and numpy reference values (oracle_resampling.py, stored in tests/data/scipy_resampling.json) to 1e-10.
 
 use rotordyn::signal::WindowKind;
 use rotordyn::signal::envelope::envelope_spectrum;
@@ -16,7 +16,7 @@ fn oracle() -> Value {
 }
 
 #[test]
-fn uneven_samples_by_the_natural_spline() {
+fn nonuniform_samples_by_the_natural_spline() {
     let mut time = vec![0.25];
     for v in noise(11, 200) {
         time.push(time[time.len() - 1] + 1e-3 * (1.0 + 0.4 * v));
@@ -26,7 +26,7 @@ fn uneven_samples_by_the_natural_spline() {
     assert_all("spline", &got, &numbers(&case["values"]));
 }
 
-/// PCHIP through the pulses' turns: none of these pulses is missing or false.
+/// PCHIP interpolation of the revolutions at the pulses, none of which is missing or spurious.
 #[test]
 fn shaft_angle_between_pulses() {
     let case = &oracle()["pulses"];

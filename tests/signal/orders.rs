@@ -23,9 +23,9 @@ fn record(f: impl Fn(f64) -> f64) -> Vec<f64> {
     sampled(65_000, RATE, |t| f(TAU * run_up(t)))
 }
 
-/// 7x beside 2 BPFO = 7.14x at an order resolution of 0.05: two peaks with the right amplitudes in every window.
+/// 7x and 2 BPFO = 7.14x at an order resolution of 0.05: two peaks with the right amplitudes in every window.
 #[test]
-fn seven_times_and_twice_bpfo_are_apart() {
+fn orders_7_and_2_bpfo_are_resolved() {
     const TONES: [(f64, f64); 3] = [(1.0, 1.0), (7.0, 2.0), (7.14, 1.5)];
     let theta = record(|a| a);
     let x = record(|a| 1.0 * a.cos() + 2.0 * (7.0 * a).cos() + 1.5 * (7.14 * a + 0.8).cos());
@@ -39,14 +39,14 @@ fn seven_times_and_twice_bpfo_are_apart() {
         let peaks = find_peaks(&map.orders, map.row(window), 0.5).unwrap();
         let orders: Vec<f64> = peaks.iter().map(|p| p.position).collect();
         assert_eq!(orders.len(), 3, "{orders:?}");
-        // 2.8 bins apart, the tones' lobes overlap at the bins between them: by the phase between the tones the
-        // parabola errs by up to 0.12 bins and 7.6 %.
+        // 2.8 bins apart, the main lobes of the tones overlap: depending on their relative phase, parabolic
+        // interpolation errs by up to 0.12 bins and 7.6 %.
         for (peak, (order, amplitude)) in peaks.iter().zip(TONES) {
             assert_close("order", peak.position, order, 0.15 * 0.05);
             assert_close("amplitude", peak.amplitude, amplitude, 0.08 * amplitude);
         }
     }
-    // At the order itself each tone stands on the other's side lobe alone: 0.98 % of the other's amplitude.
+    // At its own order each tone is disturbed by the other's side lobe only: 0.98 % of the other's amplitude.
     for ((order, amplitude), leak) in TONES.iter().zip([0.0, 0.0098 * 1.5, 0.0098 * 2.0]) {
         for z in tracker.vector(&angle[0], *order).unwrap().amplitude {
             assert_close("amplitude at the order", z.norm(), *amplitude, leak + 2e-3);
@@ -56,14 +56,14 @@ fn seven_times_and_twice_bpfo_are_apart() {
     assert_eq!(find_peaks(&map.orders, &average, 0.5).unwrap().len(), 3);
 }
 
-/// The speed at a window's centre: 20 turns from rest, the centre after 10, at f = 2 √10 rev/s.
+/// Time and speed at a window's centre: window of 20 revolutions from rest, centre after 10, at f = 2 √10 rev/s.
 #[test]
-fn windows_lie_at_their_centre_in_angle() {
+fn window_times_are_at_the_centre_in_angle() {
     let theta = record(|a| a);
     let tracker = OrderTracker::new(&theta, RATE, OrderSettings::new(0.05, 20.0)).unwrap();
     let angle = tracker.resample(&[&theta]).unwrap();
     let cut = tracker.vector(&angle[0], 1.0).unwrap();
-    // The slowest 0.05 rev/s of the ramp, 0.6 mrev, and the first output of the grid shift it by 1/54 rev at most.
+    // Skipped speeds below 0.05 rev/s (0.6 mrev) and the first point of the grid shift it by 1/54 rev at most.
     assert_close("time", cut.times[0], 1.0 + 10f64.sqrt(), 1.0 / 54.0 / 6.3);
     assert_close("speed", cut.rpm[0], 120.0 * 10f64.sqrt(), 0.5);
     assert_close("hop", tracker.hop_revolutions(), 5.0, 1e-12);
@@ -73,7 +73,7 @@ fn windows_lie_at_their_centre_in_angle() {
     assert_close("last", *cut.rpm.last().unwrap(), 1200.0, 1e-6);
 }
 
-/// RMS in a band is the tone's, growing with speed as put in; the vector has amplitude and phase.
+/// Band RMS is that of the tone, whose amplitude increases with speed; the order vector has amplitude and phase.
 #[test]
 fn order_cuts_follow_the_amplitude() {
     let theta = record(|a| a);
@@ -86,7 +86,7 @@ fn order_cuts_follow_the_amplitude() {
     let vector = tracker.vector(&angle[0], 3.0).unwrap();
     for (k, rpm) in cut.rpm.iter().enumerate().skip(2) {
         let amplitude = 0.1 * rpm / 60.0;
-        // The amplitude bends within a window of 10 turns: by less than 1 % from the third window on.
+        // The amplitude is nonlinear over a window of 10 revolutions, by less than 1 % from the third window on.
         assert_close("rms", cut.rms[k], amplitude / SQRT_2, 0.01 * amplitude);
         assert_close("vector", vector.amplitude[k].norm(), amplitude, 0.01 * amplitude);
         assert_close("phase", vector.amplitude[k].arg(), 0.6, 1e-3);
@@ -96,9 +96,9 @@ fn order_cuts_follow_the_amplitude() {
     assert_close("mean", map.cut(0.0, 0.2).unwrap().rms[steady], 5.0, 1e-3);
 }
 
-/// Resolution, overlap and highest order are kept for odd values too.
+/// Resolution, overlap and highest order are kept for values that are not round, too.
 #[test]
-fn odd_settings() {
+fn settings_that_are_not_round() {
     let theta = record(|a| a);
     let settings = OrderSettings { overlap: 0.0, ..OrderSettings::new(0.03, 13.7) };
     let mut tracker = OrderTracker::new(&theta, RATE, settings).unwrap();

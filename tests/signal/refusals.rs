@@ -1,4 +1,4 @@
-//! Unusable records and settings: an error that says what was expected and what was given, never a panic.
+//! Unusable records and settings: an error with the expected and the given value, never a panic.
 
 use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
 use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
@@ -26,8 +26,8 @@ use rotordyn::signal::tacho::rising_edges;
 use rotordyn::signal::waterfall::waterfall;
 use rotordyn::signal::{SignalError, WindowKind};
 
-/// Every function that takes a record, run on one.
-fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> {
+/// Errors of every function that takes a record, applied to `x`.
+fn errors_of_all_functions(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> {
     let welch = Welch::hann(16);
     let hann = WindowKind::Hann;
     let stft = || Stft::new(StftSettings::new(hann, 16, 0.5)?, rate)?.spectrogram(x);
@@ -84,14 +84,14 @@ fn everything(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> 
     ]
 }
 
-/// Functions that only look at values need no sampling rate.
-const RATELESS: [&str; 9] =
+/// Functions that need no sampling rate.
+const WITHOUT_RATE: [&str; 9] =
     ["analytic", "orbit", "statistics", "rate", "peaks", "ridge", "waterfall", "filter", "synchronous"];
 
 #[test]
 fn empty_records() {
-    for (name, error) in everything(&[], 1000.0) {
-        let error = error.unwrap_or_else(|| panic!("{name} took an empty record"));
+    for (name, error) in errors_of_all_functions(&[], 1000.0) {
+        let error = error.unwrap_or_else(|| panic!("{name} accepted an empty record"));
         assert!(matches!(error, SignalError::Empty { .. }), "{name}: {error}");
     }
 }
@@ -101,8 +101,8 @@ fn nan_and_infinity() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut x: Vec<f64> = (0..64).map(|k| 0.01 * f64::from(k)).collect();
         x[37] = bad;
-        for (name, error) in everything(&x, 1000.0) {
-            let error = error.unwrap_or_else(|| panic!("{name} took {bad}"));
+        for (name, error) in errors_of_all_functions(&x, 1000.0) {
+            let error = error.unwrap_or_else(|| panic!("{name} accepted {bad}"));
             assert!(matches!(error, SignalError::NotFinite { index: 37, .. }), "{name}: {error}");
         }
     }
@@ -112,19 +112,20 @@ fn nan_and_infinity() {
 fn wrong_rates() {
     let x: Vec<f64> = (0..64).map(f64::from).collect();
     for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for (name, error) in everything(&x, rate) {
+        for (name, error) in errors_of_all_functions(&x, rate) {
             let refused = matches!(error, Some(SignalError::OutOfRange { name: "sampling rate", .. }));
-            assert!(refused || RATELESS.contains(&name), "{name} at {rate}: {error:?}");
+            assert!(refused || WITHOUT_RATE.contains(&name), "{name} at {rate}: {error:?}");
         }
     }
 }
 
-/// Records of one, two and three samples either work or are refused, and never give NaN.
+/// Records of 1 to 19 samples either work or are rejected, and never give NaN.
 #[test]
 fn very_short_records_do_not_panic() {
     for n in 1..20 {
         let x: Vec<f64> = (0..n).map(f64::from).collect();
-        let refused: Vec<_> = everything(&x, 100.0).into_iter().filter(|(_, e)| e.is_some()).collect();
+        let refused: Vec<_> =
+            errors_of_all_functions(&x, 100.0).into_iter().filter(|(_, e)| e.is_some()).collect();
         let names: Vec<_> = refused.iter().map(|(name, _)| *name).collect();
         assert_eq!(names.contains(&"psd"), n < 16, "{n}: {names:?}");
         assert_eq!(names.contains(&"stft"), n < 16, "{n}: {names:?}");
@@ -137,7 +138,7 @@ fn very_short_records_do_not_panic() {
 }
 
 #[test]
-fn messages_say_what_was_expected_and_what_was_given() {
+fn messages_state_expected_and_given_values() {
     let x = [1.0; 10];
     let message = |e: SignalError| e.to_string();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Poincaré sections, periods and Lyapunov exponents of systems whose answers are known.
+//! Poincaré sections, periods and Lyapunov exponents of systems with known solutions.
 
 use std::f64::consts::TAU;
 
@@ -45,8 +45,8 @@ fn motion(section: &[f64]) -> Motion {
 }
 
 #[test]
-fn a_section_is_the_value_at_the_phase() {
-    // A clock that runs unevenly, 24 samples and a fraction a turn.
+fn section_values_at_the_section_phase() {
+    // A phase of nonuniform rate, 24.3 samples per revolution.
     let phase: Vec<f64> =
         (0..4000).map(|n| 0.37 + n as f64 * TAU / 24.3 + 0.4 * (n as f64 * 0.013).sin()).collect();
     for start in [0.0, 1.0, -17.3] {
@@ -57,7 +57,7 @@ fn a_section_is_the_value_at_the_phase() {
             let inner = strobe.section(&record).unwrap();
             let inner = &inner[1..inner.len() - 1];
             let worst = inner.iter().map(|v| (v - (order * start).sin()).abs()).fold(0.0, f64::max);
-            // The stated bound with the shortest period of the uneven clock, 23.8 samples.
+            // The documented bound, with the shortest period of the phase, 23.8 samples.
             let bound = 0.005 * (TAU * order / 23.8).powi(6);
             println!("order {order} at {start}: {worst:.1e}, bound {bound:.1e}");
             assert!(worst < bound, "{worst}");
@@ -71,8 +71,8 @@ fn a_section_is_the_value_at_the_phase() {
 }
 
 #[test]
-fn samples_on_the_section_are_taken_as_they_are() {
-    // 20 samples a turn: every 20th sample, the first and the last among them.
+fn samples_on_the_section_are_exact() {
+    // 20 samples per revolution: every 20th sample, including the first and the last.
     let phase: Vec<f64> = (0..=200).map(|n| n as f64 / 20.0).collect();
     let record: Vec<f64> = (0..=200).map(|n| f64::from(n * n % 37)).collect();
     let strobe = Strobe::new(&phase, 0.0, 1.0).unwrap();
@@ -91,7 +91,7 @@ fn sines_are_periodic_or_quasi_periodic() {
     assert_eq!(motion(&section(&|t| (TAU * t + 0.3).sin())), Motion::Periodic(1));
     assert_eq!(motion(&section(&|t| (TAU * t / 2.0 + 0.3).cos() + (TAU * t).sin())), Motion::Periodic(2));
     assert_eq!(motion(&section(&|t| (TAU * t * 3.0 / 7.0).cos())), Motion::Periodic(7));
-    // Golden mean and √2: no common multiple.
+    // Golden mean and √2: incommensurate frequencies.
     for ratio in [0.5 * (5f64.sqrt() - 1.0), 2f64.sqrt()] {
         let found =
             classify(&[&section(&|t| (TAU * t * ratio).cos() + 0.5 * (TAU * t).cos())], &[3.0], 1e-3, 32)
@@ -103,8 +103,8 @@ fn sines_are_periodic_or_quasi_periodic() {
 }
 
 #[test]
-fn logistic_map_doubles_its_period_into_chaos() {
-    // Windows of the map: 2 from 3, 4 from 3.4495, 8 from 3.5441, 3 from 3.8284.
+fn logistic_map_period_doubling_to_chaos() {
+    // Periodic windows of the map: 2 from 3, 4 from 3.4495, 8 from 3.5441, 3 from 3.8284.
     for (r, period) in [(2.8, 1), (3.2, 2), (3.5, 4), (3.55, 8), (3.83, 3), (3.845, 6)] {
         assert_eq!(motion(&logistic(r, 2000, 300)), Motion::Periodic(period), "r = {r}");
     }
@@ -114,7 +114,7 @@ fn logistic_map_doubles_its_period_into_chaos() {
         assert_eq!(found.motion, Motion::Chaotic);
         assert!(found.chaos > 0.9, "r = {r}: {found:?}");
     }
-    // At r = 2.9 the distance to the fixed point changes by −0.9 a step: 60 steps from the start are too few.
+    // At r = 2.9 the distance to the fixed point is multiplied by −0.9 per step: 60 steps are too few to settle.
     assert_eq!(motion(&logistic(2.9, 0, 60)), Motion::Settling(1));
 }
 
@@ -137,7 +137,7 @@ fn duffing(gamma: f64, delta: f64, omega: f64, settle: usize, periods: usize) ->
 }
 
 #[test]
-fn duffing_oscillator_doubles_its_period_into_chaos() {
+fn duffing_oscillator_period_doubling_to_chaos() {
     // δ = 0.3, ω = 1.2, the usual illustration of this oscillator (Jordan and Smith, Nonlinear Ordinary Differential
     // Equations): period 1, 2, 4, 5, chaos, 2 at these forces.
     let expected = [
@@ -150,7 +150,7 @@ fn duffing_oscillator_doubles_its_period_into_chaos() {
     ];
     for (gamma, expected) in expected {
         let [phase, x, v] = duffing(gamma, 0.3, 1.2, 400, 200);
-        // A section at any angle shows the same motion.
+        // The motion does not depend on the section phase.
         for start in [0.0, 2.0] {
             let strobe = Strobe::new(&phase, start, TAU).unwrap();
             let sections = [strobe.section(&x).unwrap(), strobe.section(&v).unwrap()];
@@ -202,7 +202,7 @@ fn growth(
 }
 
 #[test]
-fn exponents_of_known_systems() {
+fn lyapunov_exponents_of_known_systems() {
     // The logistic map at r = 4 has λ = ln 2 exactly: growth |4 − 8x| per step.
     let logs: Vec<f64> = logistic(4.0, 100, 20_000).iter().map(|x| (4.0 - 8.0 * x).abs().ln()).collect();
     let found = exponent(&logs, &vec![1.0; logs.len()]).unwrap();
@@ -222,8 +222,8 @@ fn exponents_of_known_systems() {
         assert!(found.standard_error < 0.003);
         assert_close(name, found.value, published, 4.0 * found.standard_error);
     }
-    // A damped linear oscillator loses −δ/2 whatever happens; its perturbation turns, so that one period's growth
-    // is not another's.
+    // A damped linear oscillator has λ = −δ/2; its perturbation rotates in the phase plane, so that the growth
+    // differs between periods.
     let (logs, intervals) = growth(|x| -1.7 * x, 0.1, 1.0, 50, 400);
     let found = exponent(&logs, &intervals).unwrap();
     println!("linear: {:.6} ± {:.6}", found.value, found.standard_error);
@@ -231,22 +231,22 @@ fn exponents_of_known_systems() {
 }
 
 #[test]
-fn zero_one_test_does_not_see_offset_or_size() {
+fn zero_one_test_is_invariant_to_offset_and_scale() {
     let regular: Vec<f64> = (0..500).map(|n| (n as f64 * 2.4).cos()).collect();
-    let wild = logistic(3.97, 100, 500);
+    let chaotic = logistic(3.97, 100, 500);
     for (shift, factor) in [(0.0, 1.0), (0.0, 1e-6), (10.0, 1.0), (-1e-3, 1e-6)] {
         let moved = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| shift + factor * x).collect() };
-        let (low, high) = (zero_one(&moved(&regular)).unwrap(), zero_one(&moved(&wild)).unwrap());
+        let (low, high) = (zero_one(&moved(&regular)).unwrap(), zero_one(&moved(&chaotic)).unwrap());
         println!("{shift} {factor}: {low:.3} {high:.3}");
         assert!(low < 0.2 && high > 0.8, "{low} {high} at {shift}, {factor}");
     }
 }
 
-/// Tori of one and two frequencies, slow and fast, smooth and with a corner, on the hundred points that a bifurcation
-/// diagram has of each; and maps in their chaotic ranges. The test as published (n up to N/10) calls half of these tori
-/// chaotic.
+/// 0-1 test for chaos of tori of one and two frequencies, slow and fast, smooth and with a corner, with the hundred
+/// points per value of a bifurcation diagram; and of maps in their chaotic ranges. The test as published (n up to N/10)
+/// classifies half of these tori as chaotic.
 #[test]
-fn tori_are_told_from_chaos_on_a_hundred_points() {
+fn zero_one_test_separates_tori_from_chaos_with_a_hundred_points() {
     let mut worst = [f64::NEG_INFINITY, f64::INFINITY];
     for points in [100, 200, 300] {
         for k in 0..120 {
@@ -267,7 +267,7 @@ fn tori_are_told_from_chaos_on_a_hundred_points() {
             worst[0] = worst[0].max(chaos);
             assert!(chaos < 0.5, "{points} points, rotation {rotation}, kind {}: {chaos}", k % 4);
         }
-        // Windows of the logistic map left out.
+        // Outside the periodic windows of the logistic map.
         for r in [3.68, 3.7, 3.72, 3.76, 3.78, 3.8, 3.82, 3.87, 3.9, 3.93, 3.97, 4.0] {
             let chaos = zero_one(&logistic(r, 1000, points)).unwrap();
             worst[1] = worst[1].min(chaos);
@@ -278,7 +278,7 @@ fn tori_are_told_from_chaos_on_a_hundred_points() {
 }
 
 #[test]
-fn groups_are_chains_of_near_points() {
+fn clusters_are_chains_of_neighbouring_points() {
     // Two groups in the plane that overlap in either channel alone.
     let x = [0.0, 0.1, 0.2, 0.05, 0.15, 0.25];
     let y = [0.0, 0.1, 0.2, 1.0, 1.1, 1.2];
@@ -291,7 +291,7 @@ fn groups_are_chains_of_near_points() {
 }
 
 #[test]
-fn what_makes_no_section_is_refused() {
+fn invalid_sections_are_rejected() {
     let phase: Vec<f64> = (0..50).map(f64::from).collect();
     let bad = |result: Result<Strobe, SignalError>, words: &str| {
         let text = result.unwrap_err().to_string();
@@ -310,6 +310,6 @@ fn what_makes_no_section_is_refused() {
     assert!(matches!(classify(&[], &[], 1e-3, 3), Err(SignalError::TooShort { .. })));
     assert!(matches!(classify(&[&phase], &[1.0], 0.0, 3), Err(SignalError::OutOfRange { .. })));
     assert!(matches!(exponent(&[f64::NAN], &[1.0]), Err(SignalError::NotFinite { .. })));
-    // A motion that does not move is of period 1.
+    // A constant motion has period 1.
     assert_eq!(classify(&[&[2.0; 20]], &[0.0], 1e-3, 5).unwrap().motion, Motion::Periodic(1));
 }

@@ -1,4 +1,4 @@
-//! Speed and angle of a shaft from the record alone.
+//! Tacholess speed and shaft angle, from an order line of the record.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::{assert_close, noise, sampled};
 
 const RATE: f64 = 4000.0;
 
-/// Turns of a shaft from 10 to 34 rev/s with a wobble of ±0.5 rev/s.
+/// Revolutions of a shaft from 10 to 34 rev/s with a speed fluctuation of ±0.5 rev/s.
 fn turns(t: f64) -> f64 {
     10.0 * t + 1.5 * t * t + 0.5 / (TAU * 0.7) * (1.0 - (TAU * 0.7 * t).cos())
 }
@@ -39,22 +39,22 @@ fn record() -> Vec<f64> {
 fn angle_and_speed_follow_the_line() {
     let got = speed_from_line(&record(), RATE, &LINE).unwrap();
     assert_eq!(got.theta[0], 0.0);
-    // Where the line of 75 Hz crosses, a quarter as strong, it drags the phase by up to 1/4 rad, 0.01 turns.
+    // The crossing 75 Hz line, a quarter as strong, shifts the phase by up to 1/4 rad, 0.01 revolutions.
     let offset = got.theta[4000] / TAU - turns(1.0);
     for n in (600..31_400).step_by(10) {
         let t = n as f64 / RATE;
         assert_close("turns", got.theta[n] / TAU, turns(t) + offset, 0.02);
     }
     for n in (1000..31_000).step_by(500) {
-        // Over a tenth of a second, the noise of single samples aside.
+        // Mean over a tenth of a second, to average out the noise of single samples.
         let mean = got.rpm[n - 200..=n + 200].iter().sum::<f64>() / 401.0;
         assert_close("rpm", mean, 60.0 * speed(n as f64 / RATE), 20.0);
     }
 }
 
-/// Resampled by the angle found, the orders are lines again.
+/// Resampled by the estimated angle, the orders are sharp lines.
 #[test]
-fn orders_without_a_tacho() {
+fn tacholess_order_tracking() {
     let x = record();
     let got = speed_from_line(&x, RATE, &LINE).unwrap();
     let mut tracker = OrderTracker::new(&got.theta, RATE, OrderSettings::new(0.05, 10.0)).unwrap();
@@ -70,7 +70,7 @@ fn orders_without_a_tacho() {
     assert_close("amplitude", peaks[1].amplitude, 0.5, 0.06);
 }
 
-/// A stronger line that crosses at once, and rows without the ridge, do not lead the path off.
+/// A short stronger line and rows without the ridge do not divert the path.
 #[test]
 fn ridge_by_dynamic_programming() {
     let axis: Vec<f64> = (0..60).map(f64::from).collect();
@@ -81,7 +81,7 @@ fn ridge_by_dynamic_programming() {
             map[row * 60 + place(row)] = 1.0;
         }
     }
-    // Twice as high, but too far to jump to for so short a time.
+    // Twice as high, but too far away for so short a time.
     map[20 * 60 + 50] = 2.0;
     map[21 * 60 + 50] = 2.0;
     let path = follow_ridge(&axis, &map, (5.0, 58.0), 1).unwrap();
@@ -91,7 +91,7 @@ fn ridge_by_dynamic_programming() {
 }
 
 #[test]
-fn refusals() {
+fn invalid_input_is_rejected() {
     let x = record();
     let message = |settings: LineSettings| speed_from_line(&x, RATE, &settings).unwrap_err().to_string();
     assert!(message(LineSettings { order: 0.0, ..LINE }).starts_with("order = 0 is out of range"));

@@ -1,4 +1,4 @@
-//! Steady motions against linear theory, Floquet multipliers and each other.
+//! Steady motions compared with linear theory and Floquet multipliers.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -43,15 +43,15 @@ fn plane(model: &Model, x: &str, y: &str) -> Plane {
     Plane { name: "plane".into(), x: probe(x), y: probe(y) }
 }
 
-/// A linear rotor loses a perturbation as its least damped mode decays, λ = −ζω.
+/// Lyapunov exponent of a linear rotor: the decay rate of its least damped mode, λ = −ζω.
 #[test]
-fn exponent_of_a_linear_rotor_is_its_decay() {
+fn lyapunov_exponent_of_a_linear_rotor_is_its_decay_rate() {
     let speed = 2400.0 * RPM;
     let machine = Machine::new(jeffcott(&[("damping.modal.ratio", "0.02")])).unwrap();
     let modes = machine.modal(&ModalStudy { speeds: vec![speed], modes: 12 }).unwrap();
     let decay = modes[0].modes.iter().map(|m| m.eigenvalue.re).fold(f64::NEG_INFINITY, f64::max);
     for integrator in EVERY_INTEGRATOR {
-        // The explicit methods must resolve the stiffest motion of the shaft's ends in their bearings.
+        // Explicit methods must resolve the highest mode, the shaft's ends on their bearings.
         let explicit = matches!(integrator, Integrator::RungeKutta4 | Integrator::DormandPrince { .. });
         let step = if explicit { 1.5e-5 } else { 1e-4 };
         let mut steady = steady(speed, Clock::Shaft, step, [160, 160]);
@@ -61,15 +61,15 @@ fn exponent_of_a_linear_rotor_is_its_decay() {
         let found = machine.lyapunov(&study, &mut go).unwrap().unwrap();
         let e = &found.exponent;
         println!("{integrator:?}: {:.5} ± {:.5}, linear {decay:.5}", e.value, e.standard_error);
-        // Second-order steps of 1e-4 s lose (ωh)²/4 of the decay, 1e-4 at 160 rad/s.
-        assert!((e.value / decay - 1.0).abs() < 2e-3, "{} against {decay}", e.value);
+        // Second-order steps of 1e-4 s reduce the decay by (ωh)²/4, 1e-4 at 160 rad/s.
+        assert!((e.value / decay - 1.0).abs() < 2e-3, "{}, linear {decay}", e.value);
         assert!(e.standard_error < 0.02 * decay.abs());
         assert!((found.clock.frequency / 40.0 - 1.0).abs() < 1e-9);
         assert_eq!(e.history.len(), 160);
     }
 }
 
-/// The section of a linear rotor is one point: sag and unbalance response at that shaft angle.
+/// The Poincaré section of a linear rotor is one point: static sag plus unbalance response at that shaft angle.
 #[test]
 fn section_of_a_linear_rotor_is_its_unbalance_response() {
     let speed = 2000.0 * RPM;
@@ -89,34 +89,34 @@ fn section_of_a_linear_rotor_is_its_unbalance_response() {
         println!("{:?}", found.motion);
         assert_eq!(found.motion.motion, Motion::Periodic(1));
         assert_eq!(found.groups, 1);
-        let shown = &found.planes[0];
-        assert_eq!(shown.section[0].len(), 40);
+        let result = &found.planes[0];
+        assert_eq!(result.section[0].len(), 40);
         for (k, probe) in [&plane.x, &plane.y].into_iter().enumerate() {
             let [re, im] = linear.channels[k].amplitude[0];
             let amplitude = Complex64::new(re, im);
             let sag = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&rest.q);
             let expected = sag + (amplitude * Complex64::from_polar(1.0, phase)).re;
-            let worst = shown.section[k].iter().map(|v| (v - expected).abs()).fold(0.0, f64::max);
+            let worst = result.section[k].iter().map(|v| (v - expected).abs()).fold(0.0, f64::max);
             println!("{}: {expected:.6e} m, off by {worst:.1e}", probe.name);
             // (ωh)²/12 of Newmark's period error near resonance, 1e-5 of the amplitude times the magnification.
             assert!(worst < 2e-4 * amplitude.norm(), "{worst} of {}", amplitude.norm());
         }
-        // The orbit is that of the response, run through forward.
-        let size = shown.orbit[0].iter().copied().fold(f64::MIN, f64::max)
-            - shown.orbit[0].iter().copied().fold(f64::MAX, f64::min);
+        // The orbit has the size of the unbalance response.
+        let size = result.orbit[0].iter().copied().fold(f64::MIN, f64::max)
+            - result.orbit[0].iter().copied().fold(f64::MAX, f64::min);
         let [re, im] = linear.channels[0].amplitude[0];
         assert!((size / (2.0 * re.hypot(im)) - 1.0).abs() < 1e-3);
     }
 }
 
-/// The rig on preloaded bearings whose cages turn at a given ratio: its ball passages repeat exactly.
+/// The rig on preloaded bearings with a given cage speed ratio: its ball passages are exactly periodic.
 fn preloaded() -> Machine {
     let clearance = |b: &str| format!("bearing.{b}.radial_clearance");
     let set = [(clearance("A"), "-12 um"), (clearance("B"), "-12 um")];
     let set: Vec<(&str, &str)> = set.iter().map(|(path, value)| (path.as_str(), *value)).collect();
     let mut model = variant(None, &set);
     model.unbalances.clear();
-    // The disc damped ten times as well: settled in seconds.
+    // Ten times the damping of the disc: transients decay within seconds.
     for bushing in &mut model.bushings {
         bushing.damping.iter_mut().flatten().for_each(|c| *c *= 10.0);
     }
@@ -128,10 +128,10 @@ fn preloaded() -> Machine {
     Machine::new(model).unwrap()
 }
 
-/// A periodic motion's exponent is ln |ρ| / T of its largest Floquet multiplier ρ, here from a monodromy matrix by
-/// differences, column by column.
+/// The Lyapunov exponent of a periodic motion is ln |ρ| / T of its largest Floquet multiplier ρ, here from a monodromy
+/// matrix by finite differences, column by column.
 #[test]
-fn exponent_of_a_periodic_motion_is_that_of_its_floquet_multipliers() {
+fn lyapunov_exponent_of_a_periodic_motion_is_its_floquet_exponent() {
     let machine = preloaded();
     let Bearing::Ball(ball) = &machine.model.bearings[0].bearing else { panic!("a ball bearing") };
     let clock = Clock::BallPass { bearing: 0, balls: ball.geometry.balls };
@@ -140,12 +140,12 @@ fn exponent_of_a_periodic_motion_is_that_of_its_floquet_multipliers() {
     let plane = plane(&machine.model, "disc_x", "disc_y");
     let poincare =
         PoincareStudy { steady: settings.clone(), planes: vec![plane], tolerance: 1e-3, longest_period: 4 };
-    let seen = machine.poincare(&poincare, &mut go).unwrap().unwrap();
-    println!("{:?} at {:.3} Hz", seen.motion, seen.clock.frequency);
-    assert_eq!(seen.motion.motion, Motion::Periodic(1));
-    assert!((seen.clock.frequency / (20.0 * 0.4 * ball.geometry.balls as f64) - 1.0).abs() < 1e-6);
+    let section = machine.poincare(&poincare, &mut go).unwrap().unwrap();
+    println!("{:?} at {:.3} Hz", section.motion, section.clock.frequency);
+    assert_eq!(section.motion.motion, Motion::Periodic(1));
+    assert!((section.clock.frequency / (20.0 * 0.4 * ball.geometry.balls as f64) - 1.0).abs() < 1e-6);
 
-    // Settled, then one period from there and from beside there.
+    // The settled state, then one period from it and from perturbed states.
     let (reduction, start) = machine.steady_start(&settings, None).unwrap();
     let mut on = |_: usize| ControlFlow::Continue(());
     let run = |state, [settle, periods]: [usize; 2], on: &mut dyn FnMut(usize) -> ControlFlow<()>| {
@@ -155,7 +155,7 @@ fn exponent_of_a_periodic_motion_is_that_of_its_floquet_multipliers() {
     let settled = run(start, [360, 1], &mut on).state;
     let n = reduction.system.size();
     let once = |x: &nalgebra::DVector<f64>, v: &nalgebra::DVector<f64>| {
-        // Whole steps: the period is a whole number of them, so the map is one of fixed time.
+        // The period is a whole number of steps, so that the map has a fixed time.
         let cages: Vec<f64> = settled.rotations.iter().map(|r| r.cage_angle).collect();
         let mut state = reduction.system.state_at(settled.time, &cages, x.clone(), v.clone());
         let mut stepper =
@@ -188,16 +188,16 @@ fn exponent_of_a_periodic_motion_is_that_of_its_floquet_multipliers() {
         }
     }
     let largest = monodromy.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max);
-    let floquet = largest.ln() * seen.clock.frequency;
+    let floquet = largest.ln() * section.clock.frequency;
     settings.periods = 400;
     let study = LyapunovStudy { steady: settings, perturbation: 1e-9 };
     let found = machine.lyapunov(&study, &mut go).unwrap().unwrap().exponent;
     println!("{:.4} ± {:.4}, Floquet {floquet:.4}", found.value, found.standard_error);
     assert!(floquet < 0.0);
-    assert!((found.value / floquet - 1.0).abs() < 0.01, "{} against {floquet}", found.value);
+    assert!((found.value / floquet - 1.0).abs() < 0.01, "{}, Floquet {floquet}", found.value);
 }
 
-/// The rig with its clearances at low load: a smoke test with the physics that must hold.
+/// The rig with clearances at low load: a smoke test with basic physical checks.
 #[test]
 fn rig_with_clearance() {
     let machine = Machine::new(variant(Some("clearance_33um"), &[])).unwrap();
@@ -217,20 +217,20 @@ fn rig_with_clearance() {
     let study = PoincareStudy { steady, planes: vec![plane], tolerance: 1e-3, longest_period: 8 };
     let found = machine.poincare(&study, &mut go).unwrap().unwrap();
     println!("{:?}, {} groups, {:.4} Hz", found.motion, found.groups, found.clock.frequency);
-    // FTF of a 6205: 0.397 of the shaft, and a little less than that at any contact angle above zero.
+    // FTF of a 6205: 0.397 of the shaft speed, and slightly more at any contact angle above zero.
     assert!((found.clock.frequency / (15.0 * 0.3969) - 1.0).abs() < 2e-3, "{}", found.clock.frequency);
-    // The shaft turns 2.52 times while the cage turns once, and the load has both periods: never periodic.
+    // 2.52 shaft revolutions per cage revolution, and the load has both periods: not periodic.
     assert!(!matches!(found.motion.motion, Motion::Periodic(_)), "{:?}", found.motion);
-    let shown = &found.planes[0];
-    for (orbit, section) in shown.orbit.iter().zip(&shown.section) {
+    let result = &found.planes[0];
+    for (orbit, section) in result.orbit.iter().zip(&result.section) {
         let range = |v: &[f64]| v.iter().fold([f64::MAX, f64::MIN], |[l, h], v| [v.min(l), v.max(h)]);
         let (o, s) = (range(orbit), range(section));
         println!("orbit {o:?}, section {s:?}");
         assert!(s[0] >= o[0] - 1e-9 && s[1] <= o[1] + 1e-9);
-        // Something moves, by no more than the clearance allows.
+        // There is motion, limited by the clearance.
         assert!(o[1] - o[0] > 1e-8 && o[1] - o[0] < 40e-6);
     }
-    // Stopped when asked.
+    // Stops when the callback breaks.
     let mut calls = 0;
     let stopped = machine.poincare(&study, &mut |_| {
         calls += 1;

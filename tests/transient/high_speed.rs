@@ -1,4 +1,4 @@
-//! A fast run-up on preloaded balls with inertia: it runs, and its energy account closes.
+//! High-speed run-up on preloaded bearings with ball inertia: it completes, and its energy balance closes.
 
 use rotordyn::model::{Options, load};
 use rotordyn::study::Machine;
@@ -61,16 +61,18 @@ cutoff = "2500 Hz"
 "#;
 
 #[test]
-fn a_run_up_on_balls_with_inertia_keeps_its_energy_account() {
+fn energy_balance_of_a_run_up_with_ball_inertia() {
     let text = ROTOR.replace("INERTIA", "ball_inertia = \"outer_race_control\"");
-    let model =
-        load("spindle.toml", &text, &Options::default()).map_err(|e| format!("{e:?}")).expect("sound").model;
-    let machine = Machine::new(model).expect("stands");
-    let study = machine.model.studies.run_up.clone().expect("asked for");
-    let reduction = machine.reduce(&study).expect("modes");
+    let model = load("spindle.toml", &text, &Options::default())
+        .map_err(|e| format!("{e:?}"))
+        .expect("a valid model")
+        .model;
+    let machine = Machine::new(model).expect("an assembled machine");
+    let study = machine.model.studies.run_up.clone().expect("a run-up study");
+    let reduction = machine.reduce(&study).expect("a reduced model");
     let report = machine.run_up(&study, &reduction, |_| ControlFlow::Continue(()));
     let energy = report.energy;
-    // The balls' inertia alone puts a tenth of the turnover into the contacts on the way up.
-    assert!(energy.residual().abs() < 5e-3 * energy.turnover(), "{energy:?}: {} left", energy.residual());
+    // The ball inertia alone transfers a tenth of the energy turnover into the contacts during the run-up.
+    assert!(energy.residual().abs() < 5e-3 * energy.turnover(), "{energy:?}: residual {}", energy.residual());
     assert!(energy.contact > energy.start);
 }

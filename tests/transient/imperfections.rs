@@ -1,4 +1,4 @@
-//! Runs of machines whose races and balls are not perfect.
+//! Transient runs of machines with imperfect races and balls.
 
 use rotordyn::model::{Options, load};
 use rotordyn::results::History;
@@ -74,7 +74,7 @@ fn run(inertia: bool, step: f64, bearing_a: &str) -> (History, Report) {
     (recorder.history, report)
 }
 
-const NO_SIZE: &str = r#"
+const ZERO_SIZE: &str = r#"
 off_size = [{ ball = 2, by = "0 um" }]
 inner_waviness = [{ order = 8, amplitude = "0 um" }]
 ball_waviness = { amplitude = "0 um", from = 2, to = 9 }
@@ -97,16 +97,16 @@ defect = [
 "#;
 
 #[test]
-fn defects_of_no_size_change_no_bit_of_a_run() {
+fn defects_of_zero_size_leave_a_run_bit_identical() {
     for inertia in [false, true] {
         let perfect = run(inertia, 10.0, "");
-        assert_eq!(perfect, run(inertia, 10.0, NO_SIZE));
+        assert_eq!(perfect, run(inertia, 10.0, ZERO_SIZE));
         assert_ne!(perfect.0, run(inertia, 10.0, DAMAGED).0);
     }
 }
 
 #[test]
-fn the_energy_account_of_a_damaged_machine_closes() {
+fn energy_balance_closes_with_defects() {
     for law in ["displacement", "undamped_displacement", "force", "force_on_loaded"] {
         for inertia in [false, true] {
             if inertia && law.starts_with("force") {
@@ -117,7 +117,7 @@ fn the_energy_account_of_a_damaged_machine_closes() {
                 let energy = run(inertia, step, &lines).1.energy;
                 energy.residual().abs() / energy.turnover()
             });
-            println!("{law} {inertia}: {coarse:.1e} {fine:.1e} left");
+            println!("{law} {inertia}: residual {coarse:.1e} {fine:.1e}");
             // The rate of a deviation jumps at the edges of dents and the middle of pits, 80 mm/s under 20 N here: within
             // a step the trapezoidal rule misses up to half of that power, to either side, at each of some twenty edges.
             assert!(coarse < 2.5e-2 && fine < 2e-3, "{law} {inertia}: {coarse} {fine}");

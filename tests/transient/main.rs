@@ -1,4 +1,4 @@
-//! The nonlinear transient against linear theory, itself at another step, and its energy account.
+//! Nonlinear transient runs: comparison with linear theory and smaller steps, energy balance.
 
 #[path = "../common/measured_data.rs"]
 mod measured_data;

@@ -1,4 +1,4 @@
-//! A real run-up, once-per-turn pulses of a tacho, as the profile of a simulated one.
+//! Tacho pulses (one per revolution) of a measured run-up as speed profile of a simulated one.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -15,7 +15,7 @@ use rotordyn::study::{Machine, Recorder};
 
 use crate::measured_data::measured;
 
-/// A rigid rotor out of balance on a 6205 with a dent in its outer race, through two seconds of the record's ramp.
+/// A rigid rotor with unbalance on a 6205 with an outer race dent, over two seconds of the measured ramp.
 const MACHINE: &str = r#"[model]
 name = "run_up"
 
@@ -97,10 +97,10 @@ fn record() -> Option<(Vec<f64>, Vec<f64>)> {
     Some((read("time_s.csv")?, read("speed_rpm.csv")?))
 }
 
-/// The whole record: speed between pulses is 60 over the interval, as the record's own column says, and without
-/// smoothing the shaft passes a whole turn at every pulse.
+/// The whole record: speed between pulses is 60 over the interval, equal to the record's speed column, and without
+/// smoothing the shaft angle is a whole revolution at every pulse.
 #[test]
-fn pulses_become_a_profile() {
+fn tacho_pulses_define_the_speed_profile() {
     let Some((times, rpm)) = record() else { return };
     let remove = [("speed.from", "0 s"), ("speed.to", "100 s")];
     let Some(plain) = machine(&[&remove[..], &[("speed.smoothing", "0")]].concat()) else { return };
@@ -114,9 +114,9 @@ fn pulses_become_a_profile() {
         let [a, b] = [times[k - 1], times[k]].map(|t| curve.at(t - times[0]).angle);
         assert!(((b - a) / (times[k] - times[k - 1]) * 60.0 / TAU / rpm[k] - 1.0).abs() < 1e-9);
     }
-    // Smoothed, on the ramp: nowhere farther from the pulses than twice what the record's clock of 1/25600 s is worth at
-    // 3000 rpm, 0.002 turns (0.0045 by the same cubics in numpy); the acceleration is that of the ramp, not of the clock
-    // (107 against 356 rad/s² there).
+    // Smoothed, on the ramp: deviations from the pulses of about twice the record's time resolution of 1/25600 s at
+    // 3000 rpm, 0.002 revolutions (0.0045 by the same cubics in numpy); the acceleration is that of the ramp, without
+    // the resolution's noise (107 instead of 356 rad/s² there).
     let smooth = machine(&remove).unwrap();
     let curve = smooth.profile.curve();
     let mut worst = 0.0f64;
@@ -133,7 +133,7 @@ fn pulses_become_a_profile() {
     };
     let [rough, fine] = [acceleration(&plain), acceleration(&smooth)];
     println!("acceleration up to {rough:.0} rad/s² through the pulses, {fine:.0} rad/s² smoothed");
-    // The record rises by 1428 rpm/s at most, 150 rad/s².
+    // The measured speed increases by 1428 rpm/s at most, 150 rad/s².
     assert!(fine < 150.0 && rough > fine, "{rough} {fine}");
 }
 
@@ -150,11 +150,11 @@ fn run(model: Model) -> History {
     recorder.history
 }
 
-/// Width of the fewest bins that hold half of the energy within a share `reach` about a place, as a share of the place;
-/// where the largest of them is, and how high.
+/// Half-energy bandwidth: width of the fewest bins that contain half of the energy within ±`reach` (relative) of
+/// `place`, divided by `place`; position and amplitude of the largest of them.
 ///
-/// Half: beside its line the dent leaves a third of the energy about BPFO as a background.
-fn line(axis: &[f64], amplitude: &[f64], place: f64, reach: f64) -> (f64, f64, f64) {
+/// Half, because a third of the dent's energy near BPFO is background outside the line.
+fn half_energy_bandwidth(axis: &[f64], amplitude: &[f64], place: f64, reach: f64) -> (f64, f64, f64) {
     let band: Vec<(f64, f64)> = axis
         .iter()
         .zip(amplitude)
@@ -164,16 +164,16 @@ fn line(axis: &[f64], amplitude: &[f64], place: f64, reach: f64) -> (f64, f64, f
     let total: f64 = band.iter().map(|b| b.1).sum();
     let mut sorted = band.clone();
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut held = 0.0;
+    let mut energy = 0.0;
     let bins = sorted.iter().take_while(|b| {
-        let more = held < 0.5 * total;
-        held += b.1;
+        let more = energy < 0.5 * total;
+        energy += b.1;
         more
     });
     (bins.count() as f64 * (axis[1] - axis[0]) / place, sorted[0].0, sorted[0].1.sqrt())
 }
 
-/// In Hz the lines smear over the two seconds' change of speed; over the angle that the pulses tell they are lines.
+/// In Hz the lines are smeared by the speed change of two seconds; resampled over the tacho angle they are sharp.
 #[test]
 fn angle_resampling_sharpens_the_lines() {
     let (Some(model), Some((times, _))) = (machine(&[]), record()) else { return };
@@ -186,29 +186,31 @@ fn angle_resampling_sharpens_the_lines() {
     let rpm = [history.speed[0], *history.speed.last().unwrap()].map(|w| w * 60.0 / TAU);
     println!("{:.0} to {:.0} rpm, BPFO {bpfo:.4}", rpm[0], rpm[1]);
     assert!(rpm[0] < 1500.0 && rpm[1] > 2050.0, "{rpm:?}");
-    // The angle as of a measured record: from the pulses, not from the simulation.
-    let heard: Vec<f64> = times.iter().map(|t| t - FROM).filter(|t| (-0.1..2.1).contains(t)).collect();
-    let train = PulseTrain::new(&heard, 1).unwrap().smoothed(4).unwrap();
+    // The angle as for a measured record: from the tacho pulses, not from the simulation.
+    let pulses: Vec<f64> = times.iter().map(|t| t - FROM).filter(|t| (-0.1..2.1).contains(t)).collect();
+    let train = PulseTrain::new(&pulses, 1).unwrap().smoothed(4).unwrap();
     let (theta, first) = train.angle(rate, history.time.len()).unwrap();
     let tracker = OrderTracker::new(&theta, rate, OrderSettings::new(0.05, 12.0)).unwrap();
     let turns = (theta[theta.len() - 1] - theta[0]) / TAU;
     let mean_hz = turns * rate / (theta.len() - 1) as f64;
-    // About BPFO clear of 3x and 4x.
+    // The band around BPFO excludes 3x and 4x.
     for (channel, order, reach, sharp) in [("x", 1.0, 0.4, 0.03), ("y_acceleration", bpfo, 0.1, 0.01)] {
         let values = &history.channels.iter().find(|c| c.name == channel).unwrap().values;
         let values = &values[first..first + theta.len()];
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let values: Vec<f64> = values.iter().map(|v| v - mean).collect();
         let spectrum = amplitude_spectrum(&values, rate, WindowKind::Hann, Level::Peak).unwrap();
-        let (smeared, _, low) = line(&spectrum.frequencies, &spectrum.values, order * mean_hz, reach);
+        let (smeared, _, low) =
+            half_energy_bandwidth(&spectrum.frequencies, &spectrum.values, order * mean_hz, reach);
         let angle = &tracker.resample(&[&values]).unwrap()[0].parts[0];
         let per_turn = (angle.len() as f64 / turns).round();
         let spectrum = amplitude_spectrum(angle, per_turn, WindowKind::Hann, Level::Peak).unwrap();
-        let (width, place, high) = line(&spectrum.frequencies, &spectrum.values, order, reach);
+        let (width, place, high) =
+            half_energy_bandwidth(&spectrum.frequencies, &spectrum.values, order, reach);
         println!(
             "{channel}: order {place:.4}, {width:.4} wide, {high:.2e}; in Hz {smeared:.4} wide, {low:.2e}"
         );
-        // The fewest bins of a Hann window over some seventy turns are one or two, 0.014 orders each.
+        // With a Hann window over some seventy revolutions the fewest bins are one or two, 0.014 orders each.
         assert!(width < sharp && smeared > 4.0 * width, "{channel}: {width} {smeared}");
         assert!(high > 2.0 * low, "{channel}: {high} {low}");
         assert!((place / order - 1.0).abs() < 0.02, "{channel}: {place} of {order}");

@@ -1,5 +1,4 @@
-//! Balls with coordinates of their own in machines whose housings move: they run, rest at equilibrium, close their energy
-//! account, and carry the machine's weight.
+//! Radial ball bearings with ball degrees of freedom on moving housings: run-up, energy balance, static equilibrium.
 
 use crate::rig::variant;
 use rotordyn::model::study::Integrator;
@@ -19,10 +18,10 @@ fn rig(set: &[(&str, &str)]) -> Machine {
     Machine::new(variant(Some("radial_balls"), &[&quick[..], set].concat())).unwrap()
 }
 
-/// A run-up of the rig: what was lost and what is stored is what was put in, within what a step of Newmark's leaves
-/// (second order), with perfect and with imperfect balls.
+/// Energy balance of a run-up of the rig, within the second-order error of a Newmark step, with perfect and with
+/// imperfect balls.
 #[test]
-fn the_rig_keeps_its_energy_account() {
+fn energy_balance_of_a_run_up_of_the_rig() {
     for imperfect in [false, true] {
         let off = ("bearing.A.off_size", "[{ ball = 2, by = \"1 um\" }]");
         let set = if imperfect { vec![off] } else { vec![] };
@@ -33,32 +32,37 @@ fn the_rig_keeps_its_energy_account() {
         let report = machine.run_up(&study, &reduction, |_| ControlFlow::Continue(()));
         assert_eq!(report.end, rotordyn::transient::run::End::Complete);
         let e = report.energy;
-        println!("left {:.2e} of {:.3e} J; {} halvings; {e:?}", e.residual(), e.turnover(), report.halvings);
-        assert!(e.residual().abs() < 2e-3 * e.turnover(), "{e:?}: {} left", e.residual());
+        println!(
+            "residual {:.2e} of {:.3e} J; {} halvings; {e:?}",
+            e.residual(),
+            e.turnover(),
+            report.halvings
+        );
+        assert!(e.residual().abs() < 2e-3 * e.turnover(), "{e:?}: residual {}", e.residual());
     }
 }
 
-/// At standstill the machine stays where statics put it, housings and balls included: nothing moves beyond round-off of
-/// the equilibrium.
+/// At standstill the static equilibrium of rotor, housings and balls is one of the transient: accelerations are within
+/// the round-off of the equilibrium.
 #[test]
-fn equilibrium_of_statics_is_one_of_the_transient() {
+fn static_equilibrium_is_one_of_the_transient() {
     let still = [("speed.to", "1e-6 rpm")];
     let machine = rig(&still);
     let mut study = machine.model.studies.run_up.clone().unwrap();
-    // Without truncation the statics are in the basis as they are.
+    // Without modal truncation the basis contains the static deflection exactly.
     study.cutoff = f64::INFINITY;
     let reduction = machine.reduce(&study).unwrap();
     let system = &reduction.system;
     let v = &reduction.equilibrium * 0.0;
     let state = system.initial_state(reduction.equilibrium.clone(), v);
     let structure = system.structure();
-    // Accelerations of mass-normalised coordinates: against those of gravity, Σ = g √m.
+    // Accelerations of mass-normalised coordinates, relative to those of gravity, Σ = g √m.
     let gravity = system.static_load.amax();
     // The highest modes of the shaft have ω² of 1e12 1/s² that make round-off large; they are left out.
     let seen = state.a.iter().take(60).chain(state.a.iter().skip(structure));
     let worst = seen.fold(0.0_f64, |m, a| m.max(a.abs()));
     println!(
-        "largest acceleration left {worst:.2e} beside {gravity:.2e}, {} balls",
+        "largest residual acceleration {worst:.2e}, gravity {gravity:.2e}, {} ball DOFs",
         system.size() - structure
     );
     assert!(system.size() - structure == 18);

@@ -1,4 +1,4 @@
-//! The rig's run-up: ridges on the lines that linear theory gives, energy, halved step.
+//! Run-up of the rig: spectrogram ridges on the lines of linear theory, energy balance, halved step.
 
 use std::ops::ControlFlow;
 
@@ -36,7 +36,7 @@ fn spectrogram_study(channel: &str) -> SpectrogramStudy {
 }
 
 #[test]
-fn synchronous_ridge_energy_and_step() {
+fn synchronous_ridge_energy_balance_and_step_size() {
     let machine = Machine::new(variant(None, &[])).unwrap();
     let (history, report) = run(&machine, 2.5e-5);
     let e = report.energy;
@@ -53,7 +53,7 @@ fn synchronous_ridge_energy_and_step() {
             continue;
         }
         let row = shown.spectrogram.row(frame);
-        // BPFO passes through the first bending pair below 500 rpm: look for 1x where it must be.
+        // BPFO passes through the first bending pair below 500 rpm: search 1x near its frequency only.
         let near: Vec<usize> =
             (0..row.len()).filter(|k| (shown.spectrogram.frequencies[*k] - hz).abs() < 0.3 * hz).collect();
         let strongest = near.into_iter().max_by(|a, b| row[*a].total_cmp(&row[*b])).unwrap();
@@ -63,7 +63,7 @@ fn synchronous_ridge_energy_and_step() {
     }
     assert!(frames > 50);
 
-    // Halving the step moves no order cut by 1 %.
+    // Halving the step changes every order cut by less than 1 %.
     let (finer, _) = run(&machine, 1.25e-5);
     let study = OrderStudy {
         channels: vec!["B_ax".into(), "B_ay".into(), "disc_x".into(), "disc_y".into()],
@@ -85,7 +85,7 @@ fn synchronous_ridge_energy_and_step() {
 }
 
 #[test]
-fn second_bending_pair_follows_the_linear_lines() {
+fn second_bending_pair_follows_the_campbell_lines() {
     let machine = Machine::new(variant(Some("wavy"), &[])).unwrap();
     let (history, report) = run(&machine, 2.5e-5);
     let e = report.energy;
@@ -123,15 +123,15 @@ fn second_bending_pair_follows_the_linear_lines() {
             let on_line = within(axis[1]).map(|k| level(&k)).fold(0.0, f64::max);
             along.push((speed / RPM, on_line, (axis[strongest] - hz) / axis[1]));
         }
-        // Excited: where the level along the branch peaks over half a second, well above its usual.
+        // Excited: where the level along the branch peaks over half a second, well above the median.
         let mut levels: Vec<f64> = along.iter().filter(|p| p.0 > 300.0).map(|p| p.1).collect();
         levels.sort_by(f64::total_cmp);
-        let usual = levels[levels.len() / 2];
+        let median = levels[levels.len() / 2];
         let mut excited = 0;
         for k in 10..along.len() - 10 {
             let (rpm, level, off) = along[k];
             let top = along[k - 10..=k + 10].iter().all(|p| p.1 <= level);
-            if top && level > 2.0 * usual && rpm < 1190.0 {
+            if top && level > 2.0 * median && rpm < 1190.0 {
                 println!("{}: {rpm:.0} rpm, {level:.2e} m/s^2, {off:+.2} bins off", branch.label);
                 assert!(off.abs() <= 1.0, "{} at {rpm:.0} rpm: ridge {off} bins off", branch.label);
                 excited += 1;
@@ -140,7 +140,7 @@ fn second_bending_pair_follows_the_linear_lines() {
         assert!(excited >= 2, "{} is excited {excited} times", branch.label);
     }
 
-    // The crossings of 7x, 8x and 9x with the pair stand out of their order cuts.
+    // The crossings of 7x, 8x and 9x with the pair are peaks of their order cuts.
     let study = OrderStudy {
         channels: vec!["B_ax".into()],
         resolution: 0.05,

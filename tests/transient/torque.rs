@@ -1,4 +1,4 @@
-//! A torque drive against the closed form of its equation of rotation.
+//! A torque drive compared with the closed form of its equation of rotation.
 
 use std::ops::ControlFlow;
 
@@ -17,7 +17,7 @@ fn constant_torque_against_drag() {
         let Drive::Prescribed { node: Some(node) } = model.drive else { panic!("the rig is driven") };
         model.drive = Drive::Torque { node, table: vec![[0.0, torque]], drag };
         model.profile = SpeedProfile::Constant { speed: 0.0, duration: 1.5 };
-        // A damper from the disc to ground would be a drag of its own.
+        // A damper from the disc to ground would be an additional drag.
         model.bushings.retain(|b| b.damping[5][5] == 0.0);
         let machine = Machine::new(model).unwrap();
         let inertia = machine.assembly.polar_inertia;
@@ -37,7 +37,7 @@ fn constant_torque_against_drag() {
         });
         println!("{integrator:?}: J {inertia:.4}, worst {worst:?}, {:?}", report.end);
         assert_eq!(report.end, End::Complete);
-        // 40 rad/s and 20 rad at the end; the ringing twist takes part in the drag by 1e-9 of it.
+        // 40 rad/s and 20 rad at the end; torsional vibration contributes 1e-9 of the drag.
         assert!(worst.0 < 1e-7 && worst.1 < 1e-7, "{worst:?}");
     }
 }

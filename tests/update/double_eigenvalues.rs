@@ -1,5 +1,5 @@
-//! A rotor that is the same in all planes, at rest: its modes come in pairs of one frequency, and the planes in which a
-//! test finds their shapes are the test's own.
+//! Isotropic rotor at rest: its modes come in pairs of equal frequency (double eigenvalues), and the planes of the
+//! measured shapes are arbitrary.
 
 use rotordyn::error::Error;
 use rotordyn::linalg::Complex64;
@@ -71,7 +71,7 @@ fn mode(frequency_hz: f64, shape: Vec<Complex64>) -> TargetMode {
     TargetMode { frequency_hz, damping_ratio: None, frequency_error: 0.0, damping_error: 0.0, shape }
 }
 
-/// Modes below 300 Hz of which both of a pair are turned by an angle of their own, with 1 % of noise.
+/// Modes below 300 Hz, both shapes of each pair rotated by an angle that differs between pairs, with 1 % of noise.
 fn measured(model: Model, angle: f64) -> Target {
     let (found, target) = state(model, vec![mode(300.0, vec![Complex64::new(1.0, 0.0); 8]); 6]);
     let bending: Vec<usize> = (0..found.modes.len())
@@ -103,7 +103,7 @@ fn free(name: &str, paths: &[&str], value: f64, unit: &str) -> FreeParameter {
 }
 
 #[test]
-fn bearings_and_shaft_are_found_from_shapes_in_any_planes() {
+fn bearings_and_shaft_from_rotated_shapes_of_mode_pairs() {
     let bearings = ["bearing.A.k_xx", "bearing.A.k_yy", "bearing.B.k_xx", "bearing.B.k_yy"];
     let parameters =
         [free("k", &bearings, 2e6, "N/m"), free("young", &["material.steel.young"], 207.0, "GPa")];

@@ -1,4 +1,4 @@
-//! FRFs of the rig with other housings, with the noise of a test, and the update that starts from the rig as it is.
+//! Model updating with noisy FRFs of the rig with changed housings, starting from the unchanged rig.
 
 use rotordyn::model::{Model, Quantity};
 use rotordyn::signal::record::{Dof, FrfMatrix, NoisyTest};
@@ -12,8 +12,8 @@ use rotordyn::update::{Update, Verdict};
 use crate::rig::variant;
 use crate::rig_as_truth::{TRUTH, fitted, measured, point};
 
-/// Accelerances of both bearings, pulley and disc by hits on disc and bearing B, with 40 dB over the noise.
-fn tested(model: Model, seed: u64) -> TargetFrfs {
+/// Accelerances of both bearings, pulley and disc by hits on disc and bearing B, signal-to-noise ratio 40 dB.
+fn simulated_frfs(model: Model, seed: u64) -> TargetFrfs {
     let dofs = |names: &[(&str, i8)]| -> Vec<Dof> {
         names.iter().map(|(name, way)| Dof::new(point(&model, name), *way)).collect()
     };
@@ -47,19 +47,20 @@ fn tested(model: Model, seed: u64) -> TargetFrfs {
 
 const BAND: [f64; 2] = [5.0, 300.0];
 
-fn alone(complex: bool) -> Fitting {
+fn frf_only(complex: bool) -> Fitting {
     let frf = Some(FrfFitting::new(complex, BAND));
     Fitting { frequency: None, damping: None, shape: None, frf }
 }
 
-/// Modes of the target are there, and are fitted where the fitting says so.
+/// Target with FRFs and modes; `Fitting` selects what is fitted.
 fn target(set: &[(&str, &str)], seed: u64) -> Target {
     let model = variant(None, set);
-    let frfs = Some(tested(model.clone(), seed));
+    let frfs = Some(simulated_frfs(model.clone(), seed));
     Target { frfs, ..measured(model) }
 }
 
-fn off(parameters: &[FreeParameter], found: &Update, j: usize, truth: f64) -> f64 {
+/// Natural logarithm of estimate over truth.
+fn log_error(parameters: &[FreeParameter], found: &Update, j: usize, truth: f64) -> f64 {
     (parameters[j].value(found.outcomes[j].x) / truth).ln()
 }
 
@@ -70,7 +71,7 @@ fn check_housings(parameters: &[FreeParameter], found: &Update, truth: [f64; 2])
     for (j, truth) in truth.into_iter().enumerate() {
         let outcome = &found.outcomes[j];
         assert_eq!(outcome.verdict, Verdict::Found, "{}", parameters[j].name);
-        let off = off(parameters, found, j, truth);
+        let off = log_error(parameters, found, j, truth);
         assert!(off.abs() < 0.02, "{} is off by {off:.4}", parameters[j].name);
         assert!(off.abs() < 2.0 * outcome.error, "off by {off:.4}, stated {:.4}", outcome.error);
     }
@@ -78,40 +79,40 @@ fn check_housings(parameters: &[FreeParameter], found: &Update, truth: [f64; 2])
 
 #[test]
 fn housings_from_magnitudes_alone() {
-    let (parameters, found) = fitted(&HOUSINGS, alone(false), &target(&TRUTH[..4], 1));
+    let (parameters, found) = fitted(&HOUSINGS, frf_only(false), &target(&TRUTH[..4], 1));
     check_housings(&parameters, &found, [4.2e6, 2.1e7]);
 }
 
 #[test]
 fn housings_from_complex_frfs_alone() {
-    let (parameters, found) = fitted(&HOUSINGS, alone(true), &target(&TRUTH[..4], 1));
+    let (parameters, found) = fitted(&HOUSINGS, frf_only(true), &target(&TRUTH[..4], 1));
     check_housings(&parameters, &found, [4.2e6, 2.1e7]);
 }
 
 #[test]
 fn housings_from_frequencies_shapes_and_frfs() {
-    let fitting = Fitting { frf: alone(false).frf, ..Fitting::default() };
+    let fitting = Fitting { frf: frf_only(false).frf, ..Fitting::default() };
     let (parameters, found) = fitted(&HOUSINGS, fitting, &target(&TRUTH[..4], 1));
     check_housings(&parameters, &found, [4.2e6, 2.1e7]);
 }
 
 #[test]
-fn housings_that_are_far_off() {
+fn housings_far_from_their_start_values() {
     let [x, y] = ["1.5e6 N/m", "6e6 N/m"];
     let set = [("housing.A.k_x", x), ("housing.B.k_x", x), ("housing.A.k_y", y), ("housing.B.k_y", y)];
     for complex in [false, true] {
-        let (parameters, found) = fitted(&HOUSINGS, alone(complex), &target(&set, 1));
+        let (parameters, found) = fitted(&HOUSINGS, frf_only(complex), &target(&set, 1));
         check_housings(&parameters, &found, [1.5e6, 6e6]);
     }
 }
 
 #[test]
-fn a_belt_and_a_damping_beside_them() {
+fn housings_belt_and_housing_damping() {
     let paths = ["housing.*.k_x", "housing.*.k_y", "belt.drive.k_x", "housing.*.c_x"];
-    let (parameters, found) = fitted(&paths, alone(false), &target(&TRUTH, 2));
+    let (parameters, found) = fitted(&paths, frf_only(false), &target(&TRUTH, 2));
     check_housings(&parameters, &found, [4.2e6, 2.1e7]);
     for (j, truth) in [(2, 3e5), (3, 400.0)] {
-        let (off, error) = (off(&parameters, &found, j, truth), found.outcomes[j].error);
+        let (off, error) = (log_error(&parameters, &found, j, truth), found.outcomes[j].error);
         assert_ne!(found.outcomes[j].verdict, Verdict::NotTold);
         assert!(off.abs() < 0.1 && off.abs() < 2.0 * error, "{} is off by {off:.4}", paths[j]);
     }
@@ -121,13 +122,13 @@ fn a_belt_and_a_damping_beside_them() {
 fn normalised(fitting: Fitting, set: &[(&str, &str)], seed: u64) -> [f64; 3] {
     let paths = ["housing.*.k_x", "housing.*.k_y", "belt.drive.k_x"];
     let (parameters, found) = fitted(&paths, fitting, &target(set, seed));
-    let of = |j: usize, truth| off(&parameters, &found, j, truth) / found.outcomes[j].error;
+    let of = |j: usize, truth| log_error(&parameters, &found, j, truth) / found.outcomes[j].error;
     [of(0, 4.2e6), of(1, 2.1e7), of(2, 3e5)]
 }
 
 #[test]
-fn the_truth_lies_within_the_stated_errors() {
-    // Of noise alone, and where shaft, pulley and dampings are not what the model has and are not freed.
+fn truth_lies_within_the_standard_errors() {
+    // With noise alone, and with model errors of shaft, pulley and damping that are not free parameters.
     let wrong = [
         ("material.steel.young", "206.5 GPa"),
         ("disc.pulley.mass", "1.02 kg"),
@@ -137,7 +138,7 @@ fn the_truth_lies_within_the_stated_errors() {
     for seed in 1..=2 {
         for complex in [false, true] {
             for set in [&TRUTH[..5], &wrong] {
-                let all = normalised(alone(complex), set, seed);
+                let all = normalised(frf_only(complex), set, seed);
                 println!("seed {seed}, complex {complex}: {all:.2?}");
                 assert!(all.iter().all(|z| z.abs() < 2.0), "seed {seed}, complex {complex}: {all:?}");
             }
@@ -146,13 +147,13 @@ fn the_truth_lies_within_the_stated_errors() {
 }
 
 #[test]
-fn the_bearings_own_stiffness_is_not_found() {
+fn bearing_stiffness_is_not_identifiable() {
     let paths = ["housing.*.k_x", "housing.*.k_y", "belt.drive.k_x", "material.bearing_steel.young"];
-    let all = Fitting { frf: alone(false).frf, ..Fitting::default() };
-    for (fitting, seed) in [(alone(false), 3), (alone(true), 4), (all, 5)] {
+    let all = Fitting { frf: frf_only(false).frf, ..Fitting::default() };
+    for (fitting, seed) in [(frf_only(false), 3), (frf_only(true), 4), (all, 5)] {
         let (parameters, found) = fitted(&paths, fitting, &target(&TRUTH, seed));
         for (j, truth) in [4.2e6, 2.1e7, 3e5, 207.0].into_iter().enumerate() {
-            let (off, error) = (off(&parameters, &found, j, truth), found.outcomes[j].error);
+            let (off, error) = (log_error(&parameters, &found, j, truth), found.outcomes[j].error);
             assert!(off.abs() < 2.0 * error, "{} is off by {off:.4}, stated {error:.4}", paths[j]);
         }
         assert_ne!(found.outcomes[3].verdict, Verdict::Found);

@@ -1,4 +1,4 @@
-//! A model held against measurements: of itself with other numbers, where the truth is known.
+//! Model updating with simulated measurements of the same model with other parameters, so that the truth is known.
 
 #[path = "../common/rig.rs"]
 mod rig;

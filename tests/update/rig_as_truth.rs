@@ -1,4 +1,4 @@
-//! The rig with other housings, belt and damping makes the measurement; the update starts from the rig as it is.
+//! Simulated measurement of the rig with changed housings, belt and damping; the update starts from the unchanged rig.
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ use rotordyn::update::{Job, Update, Verdict, update};
 
 use crate::rig::variant;
 
-/// The rig, with a material of their own for its bearings.
+/// The rig, with a separate material for its bearings.
 static RIG: LazyLock<String> = LazyLock::new(|| {
     let rig = include_str!("../../models/overhung_rig.toml");
     let own =
@@ -26,7 +26,7 @@ static RIG: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// x by -30 %, y by +40 %, the belt softer, air and housings damping more.
+/// Housing stiffness −30 % along x, +40 % along y; softer belt; more damping of air and housings.
 pub const TRUTH: [(&str, &str); 9] = [
     ("housing.A.k_x", "4.2e6 N/m"),
     ("housing.B.k_x", "4.2e6 N/m"),
@@ -39,7 +39,7 @@ pub const TRUTH: [(&str, &str); 9] = [
     ("bushing.disc_air.c_y", "18 N s/m"),
 ];
 
-/// Random numbers in (−1, 1), the same every time.
+/// Deterministic random numbers in (−1, 1).
 struct Noise(u64);
 
 impl Noise {
@@ -80,8 +80,8 @@ pub fn measured(model: Model) -> Target {
         .filter(|(mode, _)| mode.frequency_hz() < 300.0)
         .map(|(mode, shape)| {
             let largest = shape.iter().map(|v| v.norm()).fold(0.0, f64::max);
-            let mut dirt = || Complex64::new(noise.next(), noise.next()) * (0.01 * largest);
-            let shape = shape.iter().map(|v| v + dirt()).collect();
+            let mut perturbation = || Complex64::new(noise.next(), noise.next()) * (0.01 * largest);
+            let shape = shape.iter().map(|v| v + perturbation()).collect();
             TargetMode {
                 frequency_hz: mode.frequency_hz() * (1.0 + 5e-4 * noise.next()),
                 damping_ratio: Some(mode.zeta() * (1.0 + 0.05 * noise.next())),
@@ -114,7 +114,7 @@ fn updated(paths: &[&str], fitting: Fitting) -> (Vec<FreeParameter>, Update) {
     fitted(paths, fitting, &target)
 }
 
-/// The update of the nominal rig, told of.
+/// Updates the nominal rig and prints the result.
 pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreeParameter>, Update) {
     let parameters: Vec<FreeParameter> = paths.iter().map(|path| free(path)).collect();
     let job = Job { parameters: &parameters, target, fitting: &fitting, load: &load_rig, max_iterations: 30 };
@@ -138,8 +138,8 @@ pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreePar
 }
 
 #[test]
-fn housings_are_found_and_the_bearing_is_not() {
-    // Balls and rings press against housings twenty times softer: what they are made of hardly shows.
+fn housings_are_identifiable_and_the_bearing_is_not() {
+    // The housings are twenty times softer than balls and rings, whose material hardly changes the modes.
     let paths = ["housing.*.k_x", "housing.*.k_y", "belt.drive.k_x", "material.bearing_steel.young"];
     let (parameters, found) = updated(&paths, Fitting::default());
     assert!(found.converged);
@@ -152,14 +152,14 @@ fn housings_are_found_and_the_bearing_is_not() {
 }
 
 #[test]
-fn each_housing_alone_and_damping_in_the_fit() {
+fn separate_housings_with_damping_in_the_fit() {
     let paths = ["housing.A.k_x", "housing.A.k_y", "housing.B.k_x", "housing.B.k_y", "belt.drive.k_x"];
     let (parameters, found) = updated(&paths, Fitting { damping: Some(0.1), ..Fitting::default() });
     assert!(found.converged);
     for (j, truth) in [4.2e6, 2.1e7, 4.2e6, 2.1e7, 3e5].into_iter().enumerate() {
         let outcome = &found.outcomes[j];
         assert_ne!(outcome.verdict, Verdict::NotTold, "{}", paths[j]);
-        // Errors state deviations of 0.1 % of a frequency; the noise is half of that.
+        // Standard errors assume deviations of 0.1 % of a frequency; the noise is half of that.
         let off = (parameters[j].value(outcome.x) / truth - 1.0).abs();
         assert!(off < 2.0 * outcome.error, "{} is off by {off:.4}, stated {:.4}", paths[j], outcome.error);
     }

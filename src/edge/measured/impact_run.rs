@@ -25,7 +25,7 @@ pub fn frfs(store: &Store) -> Result<Option<Measured>, Error> {
     frfs_windowed(store, ImpactWindows::default())
 }
 
-/// As [`frfs`], with force window and exponential response window.
+/// As [`frfs`], with a force window and an exponential window.
 ///
 /// # Errors
 /// As [`frfs`].

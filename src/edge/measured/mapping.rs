@@ -322,7 +322,7 @@ fn problems_push(problems: &mut Vec<String>, problem: String) -> Option<f64> {
     None
 }
 
-/// `, but` and the name that may be meant, or the names there are.
+/// `, but` and the nearest known name, or the known names.
 fn but_known(name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(best) => format!(", but `{best}`"),
