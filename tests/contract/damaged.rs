@@ -10,7 +10,7 @@ use rotordyn::bearing::{
 
 /// Something of everything, wide enough to be under several balls at any time.
 pub fn worn(law: DefectLaw) -> Imperfections {
-    let defect = |on, start, width, form| Defect { on, row: None, start, width, form };
+    let defect = |on, start, width, form| Defect { surface: on, row: None, start, width, form };
     let dent = DefectForm::Dent { depth: Some(0.8e-6), shape: Shape::HalfSine };
     let bump = DefectForm::Bump { height: 0.6e-6, shape: Shape::Cap };
     let spall = DefectForm::Spall { depth: 1.5e-6, edge_radius: 0.3e-3 };
@@ -22,8 +22,8 @@ pub fn worn(law: DefectLaw) -> Imperfections {
             BallWave { ball: Some(3), wave: Wave { order: 5, amplitude: 1e-7, phase: 1.1 } },
         ],
         off_size: vec![
-            OffSize { ball: 1, by: 0.4e-6, row: None },
-            OffSize { ball: 4, by: -0.3e-6, row: Some(0) },
+            OffSize { ball: 1, diameter_difference: 0.4e-6, row: None },
+            OffSize { ball: 4, diameter_difference: -0.3e-6, row: Some(0) },
         ],
         defects: vec![
             defect(Surface::Outer, 0.2, 12e-3, dent),
@@ -42,8 +42,8 @@ pub fn worn(law: DefectLaw) -> Imperfections {
 const LAWS: [DefectLaw; 4] = [
     DefectLaw::Displacement,
     DefectLaw::UndampedDisplacement,
-    DefectLaw::Force { stiffness: None, on_loaded: false },
-    DefectLaw::Force { stiffness: Some(5e9), on_loaded: true },
+    DefectLaw::Force { stiffness: None, loaded_only: false },
+    DefectLaw::Force { stiffness: Some(5e9), loaded_only: true },
 ];
 
 /// Every combination that takes the law.
@@ -97,8 +97,10 @@ fn force_laws_are_refused_where_they_say_nothing() {
         let bearing = BallBearing { inertia, preload, imperfections: forced.clone(), ..angular() };
         assert_eq!(bearing.problems().len(), 1);
     }
-    let lost =
-        Imperfections { off_size: vec![OffSize { ball: 9, by: 1e-6, row: None }], ..Default::default() };
+    let lost = Imperfections {
+        off_size: vec![OffSize { ball: 9, diameter_difference: 1e-6, row: None }],
+        ..Default::default()
+    };
     assert_eq!(BallBearing { imperfections: lost, ..rig_6205() }.problems().len(), 1);
 }
 
@@ -120,7 +122,7 @@ fn turning_all_that_is_not_round_turns_the_answer() {
             wave.phase -= f64::from(wave.order) * angle;
         }
         for defect in &mut marks.defects {
-            if !matches!(defect.on, Surface::Ball(_)) {
+            if !matches!(defect.surface, Surface::Ball(_)) {
                 defect.start += angle;
             }
         }
@@ -137,11 +139,11 @@ fn turning_all_that_is_not_round_turns_the_answer() {
 #[test]
 fn defects_of_no_size_change_no_bit() {
     let mut random = Random(12);
-    let defect = |on, width, form| Defect { on, row: None, start: 0.3, width, form };
+    let defect = |on, width, form| Defect { surface: on, row: None, start: 0.3, width, form };
     let nothing = Imperfections {
         inner_waviness: vec![Wave { order: 7, amplitude: 0.0, phase: 0.4 }],
         ball_waviness: vec![BallWave { ball: None, wave: Wave { order: 2, amplitude: 0.0, phase: 0.0 } }],
-        off_size: vec![OffSize { ball: 0, by: 0.0, row: None }],
+        off_size: vec![OffSize { ball: 0, diameter_difference: 0.0, row: None }],
         defects: vec![
             defect(Surface::Outer, 0.0, DefectForm::Dent { depth: None, shape: Shape::HalfSine }),
             defect(Surface::Outer, 1e-3, DefectForm::Dent { depth: Some(0.0), shape: Shape::Cap }),
@@ -193,7 +195,7 @@ fn a_ball_too_large_takes_its_excess_as_approach() {
     let mut bearing = rig_6205();
     let (d, rotation) = ([8e-6, 2e-6, 0.0, 0.0, 0.0, 0.0], Rotation::default());
     let before = BallElement::new(&bearing).ball_loads(&d, &rotation);
-    bearing.imperfections.off_size = vec![OffSize { ball: 1, by: 0.3e-6, row: None }];
+    bearing.imperfections.off_size = vec![OffSize { ball: 1, diameter_difference: 0.3e-6, row: None }];
     let after = BallElement::new(&bearing).ball_loads(&d, &rotation);
     for (j, (a, b)) in before.iter().zip(&after).enumerate() {
         let excess = if j == 1 { 0.3e-6 } else { 0.0 };
@@ -209,8 +211,9 @@ fn a_ball_defect_meets_each_race_once_a_turn_of_its_spin() {
     let mut bearing = rig_6205();
     let form = DefectForm::Bump { height: 1e-6, shape: Shape::HalfSine };
     let width = 0.2e-3;
-    bearing.imperfections.defects = vec![Defect { on: Surface::Ball(0), row: None, start: 1.0, width, form }];
-    let orders = bearing.geometry.orders(0.0);
+    bearing.imperfections.defects =
+        vec![Defect { surface: Surface::Ball(0), row: None, start: 1.0, width, form }];
+    let orders = bearing.geometry.characteristic_orders(0.0);
     for (spin, order) in [(BallSpin::Rolling, orders.bsf), (BallSpin::Shaft, 1.0)] {
         bearing.imperfections.spin = spin;
         let profile =
@@ -228,7 +231,7 @@ fn a_ball_defect_meets_each_race_once_a_turn_of_its_spin() {
                 cage_angle: orders.ftf * shaft,
                 cage_speed: orders.ftf,
             };
-            let at = profile.at(&rotation).ball(0);
+            let at = profile.at_rotation(&rotation).ball(0);
             for contact in 0..2 {
                 if before[contact] > 0.0 && at.rate[contact] < 0.0 {
                     met[contact].push(shaft / std::f64::consts::TAU);

@@ -1,7 +1,7 @@
 //! The numerical film as a contact law: interpolation, tangents, energy, limits, storage.
 
 use crate::lubricated::steel;
-use rotordyn::contact::ehl::{EhlLaw, Failure, Table, TableSpec, geometric};
+use rotordyn::contact::ehl::{EhlError, EhlLaw, Table, TableSpec, geometric};
 use rotordyn::contact::{BallContacts, ContactLaw, EllipticContact, FilmFormula, HertzPair, Lubricant, Race};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -49,10 +49,10 @@ fn load_inverts_approach_with_its_tangent_and_energy() {
             let [approach, slope] = curve.approach(load);
             let found = curve.load(approach);
             // δ cancels to rounding where film and deformation are alike, so the load is known to its tangent.
-            let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.reach()) / slope;
+            let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.zero_load_film()) / slope;
             assert!((found.load - load).abs() < 1e3 * known, "{speed} {load}: {}", found.load);
             assert!((found.slope * slope - 1.0).abs() < 1e-6, "{speed} {load}");
-            let step = 1e-4 * (load * slope).min(approach.abs() + curve.reach());
+            let step = 1e-4 * (load * slope).min(approach.abs() + curve.zero_load_film());
             let [up, down] = [approach + step, approach - step].map(|a| curve.load(a));
             let difference = (up.load - down.load) / (2.0 * step);
             assert!(
@@ -85,9 +85,9 @@ fn two_contacts_in_series_add_their_approaches() {
 #[test]
 fn unloaded_beyond_the_reach_of_the_film() {
     let curve = TABLE.at_speed(5.0);
-    let reach = curve.reach();
+    let reach = curve.zero_load_film();
     assert!(reach > TABLE.central_film[1][0]);
-    assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::Loaded::default());
+    assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::ContactLoad::default());
     let just = curve.load(-reach * (1.0 - 1e-9));
     assert!(just.load > 0.0 && just.load < 1e-6 && just.slope > 0.0 && just.energy > 0.0);
     assert!(curve.load(f64::NAN).load.is_nan());
@@ -110,7 +110,7 @@ fn monotone_in_load_and_speed_and_dry_without_speed() {
         assert_eq!(TABLE.at_speed(0.0).approach(load)[0], dry);
         assert!((TABLE.at_speed(1e-9).approach(load)[0] / dry - 1.0).abs() < 1e-4);
     }
-    assert_eq!(TABLE.at_speed(0.0).reach(), 0.0);
+    assert_eq!(TABLE.at_speed(0.0).zero_load_film(), 0.0);
 }
 
 /// Far outside its loads the film falls as Hamrock and Dowson's.
@@ -158,7 +158,7 @@ fn the_key_tells_every_input() {
 fn a_table_without_order_is_refused() {
     for (loads, speeds) in [(vec![10.0, 5.0], vec![1.0]), (vec![], vec![1.0]), (vec![1.0], vec![0.0, 1.0])] {
         let wrong = TableSpec { loads, speeds, ..spec() };
-        assert!(matches!(wrong.compute(|_, _| ()), Err(Failure::Input { .. })));
+        assert!(matches!(wrong.compute(|_, _| ()), Err(EhlError::Input { .. })));
     }
 }
 

@@ -1,7 +1,7 @@
 //! CSV and VTK files, read back number by number.
 
-use rotordyn::edge::csv::{self, Column};
-use rotordyn::edge::vtk::{Field, Grid, Values, machine_fields, to_vtu, write_pvd, write_vtu};
+use rotordyn::io::csv::{self, Column};
+use rotordyn::io::vtk::{Field, Grid, Values, machine_fields, to_vtu, write_pvd, write_vtu};
 
 #[test]
 fn csv_reads_back_exactly_with_units_in_its_header() {

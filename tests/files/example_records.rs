@@ -2,7 +2,7 @@
 
 use rotordyn::signal::Complex;
 use rotordyn::signal::record::{
-    Analysis, Axis, AxisQuantity, Dof, Element, Geometry, Kind, Measured, Node, Polyline, Record, Shape,
+    Analysis, Axis, AxisQuantity, Dof, Element, Geometry, Kind, MeasuredData, Node, Polyline, Record, Shape,
     Values,
 };
 
@@ -16,7 +16,7 @@ fn complex(count: usize, f: impl Fn(f64) -> Complex<f64>) -> Values {
 
 /// Channels of a run on two bearings: even time axis, names longer than a universal file's ten letters.
 pub fn time_records() -> Vec<Record> {
-    let axis = Axis::even(AxisQuantity::Time, 0.25, 1.0 / 12000.0);
+    let axis = Axis::uniform(AxisQuantity::Time, 0.25, 1.0 / 12000.0);
     let record = |name: &str, node, direction, unit, values| Record {
         response: Dof::new(node, direction),
         speed_rpm: Some(1797.0),
@@ -31,9 +31,9 @@ pub fn time_records() -> Vec<Record> {
 
 /// FRFs, their coherence, a density, a spectrum on an uneven axis.
 pub fn frequency_records() -> Vec<Record> {
-    let axis = Axis::even(AxisQuantity::Frequency, 0.0, 0.125);
+    let axis = Axis::uniform(AxisQuantity::Frequency, 0.0, 0.125);
     let uneven: Vec<f64> = (0..9).map(|k| 1.0 + 0.5 * f64::from(k * k)).collect();
-    let uneven = Axis::through(AxisQuantity::Frequency, uneven);
+    let uneven = Axis::from_points(AxisQuantity::Frequency, uneven);
     let at = |record: Record, node, direction, reference| Record {
         response: Dof::new(node, direction),
         reference,
@@ -120,8 +120,8 @@ pub fn shapes() -> Vec<Shape> {
 }
 
 /// All of it.
-pub fn everything() -> Measured {
-    Measured {
+pub fn everything() -> MeasuredData {
+    MeasuredData {
         title: "overhung rig".into(),
         records: [time_records(), frequency_records()].concat(),
         scalars: Vec::new(),

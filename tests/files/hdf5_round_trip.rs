@@ -1,8 +1,8 @@
 //! What goes into a store comes out again.
 
 use nalgebra::Complex;
-use rotordyn::edge::hdf5::{Attribute, Store};
 use rotordyn::error::Error;
+use rotordyn::io::hdf5::{Attribute, Store};
 
 #[test]
 fn data_sets_and_attributes_come_back_unchanged() {

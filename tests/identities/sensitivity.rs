@@ -81,12 +81,12 @@ fn check_eigenvalues(at: &Linearised, models: &[&dyn Fn(f64) -> Model], modes: u
     for mode in &found {
         let sensitivity = ModeSensitivity::new(&at.system, mode.eigenvalue, &mode.shape).unwrap();
         for (model, by) in models.iter().zip(&by) {
-            let ours = sensitivity.eigenvalue(by);
+            let ours = sensitivity.eigenvalue_derivative(by);
             let value = |factor: f64| nearest(model(factor), at.system.speed, mode.eigenvalue).0;
             let theirs = difference(value, sum, WIDE);
             // Round-off of the stiffest elements leaves some 3e-12 of an eigenvalue uncertain, 5e-9 of it in these
             // differences: a parameter that moves a mode by less than 1e-2 of itself cannot be told to 1e-6.
-            let error = (ours - theirs).norm() / theirs.norm().max(1e-2 * mode.natural());
+            let error = (ours - theirs).norm() / theirs.norm().max(1e-2 * mode.natural_omega());
             worst = worst.max(error);
             if error > 1e-6 {
                 println!("{} at {:.2} Hz: {ours:.6e} against {theirs:.6e}", mode.label, mode.frequency_hz());
@@ -194,7 +194,7 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
     let here = rows(&at);
     for mode in &found {
         let sensitivity = ModeSensitivity::new(&at.system, mode.eigenvalue, &mode.shape).unwrap();
-        let slopes = sensitivity.shapes(&by).unwrap();
+        let slopes = sensitivity.shape_derivatives(&by).unwrap();
         let lead = here[0].dot_complex(&mode.shape);
         if lead.norm() < 1e-2 {
             continue;
@@ -234,7 +234,7 @@ fn shapes_and_frfs_of_the_rig_at_speed() {
                     frf(&there, &[]).values[r][0][k]
                 };
                 let theirs = difference(value, sum, WIDE);
-                let slope = ours.slopes[p][r][0][k];
+                let slope = ours.derivatives[p][r][0][k];
                 // The plane across answers a thousandth of what the plane of the force does, with the latter's round-off.
                 let largest = (0..4).map(|r| ours.values[r][0][k].norm()).fold(0.0, f64::max);
                 let scale = theirs.norm().max(1e-2 * largest);
@@ -279,7 +279,7 @@ fn modal_damping_moves_eigenvalues_and_frfs() {
                 let value =
                     |f: f64| frf(&Linearised::new(model(f), 300.0, None).unwrap(), &[]).values[r][0][k];
                 let theirs = difference(value, sum, WIDE);
-                let slope = ours.slopes[p][r][0][k];
+                let slope = ours.derivatives[p][r][0][k];
                 let scale = theirs.norm().max(1e-2 * ours.values[r][0][k].norm());
                 let error = (slope - theirs).norm() / scale;
                 assert!(error < 1e-6, "{p}, {hz} Hz: {slope} {theirs} {error:.1e}");

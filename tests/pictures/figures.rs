@@ -1,7 +1,7 @@
 //! What every figure must be: equal bytes for equal data, a PNG of twice the size, small even with long data.
 
 use resvg::{tiny_skia, usvg};
-use rotordyn::edge::plot::*;
+use rotordyn::plot::*;
 
 use super::samples::all;
 

@@ -1,6 +1,6 @@
 //! No data may make a figure panic, hang, or write something that is not a picture.
 
-use rotordyn::edge::plot::png;
+use rotordyn::plot::png;
 
 use super::samples::all;
 

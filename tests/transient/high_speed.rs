@@ -71,6 +71,6 @@ fn a_run_up_on_balls_with_inertia_keeps_its_energy_account() {
     let report = machine.run_up(&study, &reduction, |_| ControlFlow::Continue(()));
     let energy = report.energy;
     // The balls' inertia alone puts a tenth of the turnover into the contacts on the way up.
-    assert!(energy.residual().abs() < 5e-3 * energy.turnover(), "{energy:?}: {} left", energy.residual());
+    assert!(energy.residual().abs() < 5e-3 * energy.exchanged(), "{energy:?}: {} left", energy.residual());
     assert!(energy.contact > energy.start);
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use rotordyn::model::study::{Integrator, LyapunovStudy, PoincareStudy};
 use rotordyn::model::{Model, Options, load};
 use rotordyn::results::PoincareResult;
-use rotordyn::signal::period::Motion;
+use rotordyn::signal::motion_classification::Motion;
 use rotordyn::study::Machine;
 
 fn machine(rpm: &str) -> Machine {
@@ -51,12 +51,13 @@ fn sections_are_those_of_the_two_equations() {
         let exact = seen(&machine, |study| {
             let passage = 60.0 / (rpm.parse::<f64>().unwrap() * 8.0 * 0.385_577);
             study.steady.integrator = Integrator::RungeKutta4;
-            (study.steady.step, study.steady.settle, study.steady.periods) = (passage / 200.0, settle, 32);
+            (study.steady.step, study.steady.transient_periods, study.steady.periods) =
+                (passage / 200.0, settle, 32);
         });
         // As the file has it: Newmark's period error (ωh)²/12 at 20 us and motions of 400 Hz is 2e-4, more where a
         // resonance leans on it.
         let plain = seen(&machine, |study| {
-            (study.steady.settle, study.steady.periods) = (settle, 32);
+            (study.steady.transient_periods, study.steady.periods) = (settle, 32);
         });
         let errors = [off(&exact, &points), off(&plain, &points)];
         println!(
