@@ -45,9 +45,9 @@ fn stiffness_map(c: &mut Criterion) {
     let solver = BearingSolver::new("6205", &bearing::rig_6205());
     let at = |angle: usize, load: usize| Condition {
         load: [0.0, -100.0 * (load + 1) as f64, 20.0 * (load + 1) as f64, 0.2, 0.0],
-        held: [None; 5],
+        prescribed: [None; 5],
         speed: 0.0,
-        cage: CageTreatment::AsPlaced,
+        cage: CageTreatment::FixedAngle,
         cage_angle: std::f64::consts::TAU / 9.0 * angle as f64 / 20.0,
     };
     let rows: Vec<Vec<Condition>> = (0..20).map(|a| (0..20).map(|l| at(a, l)).collect()).collect();

@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
-use rotordyn::signal::record::{Dof, FrfMatrix, NoisyTest};
+use rotordyn::signal::record::{Dof, FrfMatrix, MeasurementNoise};
 
 /// Thirteen modes of a plate-like structure from 18 to 170 Hz, with noise 40 dB below and ten averages.
 fn measured() -> FrfMatrix {
@@ -39,8 +39,8 @@ fn measured() -> FrfMatrix {
         coherence: None,
         frequencies,
     };
-    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
-    exact.measured_with(&test).expect("a valid test")
+    let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
+    exact.with_measurement_noise(&test).expect("a valid test")
 }
 
 fn poles(c: &mut Criterion) {

@@ -6,10 +6,10 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::signal::WindowKind;
-use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
+use rotordyn::signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
-use rotordyn::signal::filter_bank::deepest;
+use rotordyn::signal::diagnosis::{BandRule, ShaftRotation, diagnose};
+use rotordyn::signal::filter_bank::max_depth;
 use rotordyn::signal::kurtogram::fast_kurtogram;
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
 use rotordyn::signal::spectrum::Welch;
@@ -52,7 +52,7 @@ fn signal(c: &mut Criterion) {
 }
 
 /// Noise with pulses at BPFO of a 6205 at 1797 rpm, 12 kHz.
-fn faults(c: &mut Criterion) {
+fn bearing_diagnosis(c: &mut Criterion) {
     const N: usize = 120_000;
     let mut state = 1u32;
     let x: Vec<f64> = (0..N)
@@ -62,13 +62,22 @@ fn faults(c: &mut Criterion) {
             f64::from(state) / 2f64.powi(31) - 1.0 + pulse
         })
         .collect();
-    let rates = BearingRates { shaft: 29.95, cage: 11.93, outer: 107.36, inner: 162.19, ball: 70.58 };
+    let rates = DefectFrequencies { shaft: 29.95, cage: 11.93, outer: 107.36, inner: 162.19, ball: 70.58 };
     let mut group = c.benchmark_group("faults");
     group.sample_size(20);
-    let depth = deepest(N);
+    let depth = max_depth(N);
     group.bench_function("fast_kurtogram_120k", |b| b.iter(|| fast_kurtogram(black_box(&x), 12e3, depth)));
     for (name, rule) in [("kurtosis", BandRule::Kurtosis), ("lines", BandRule::Lines)] {
-        let run = || diagnose(black_box(&x), 12e3, Turning::Steady, &rates, rule, &LineSettings::default());
+        let run = || {
+            diagnose(
+                black_box(&x),
+                12e3,
+                ShaftRotation::ConstantSpeed,
+                &rates,
+                rule,
+                &LineSettings::default(),
+            )
+        };
         group.bench_function(format!("diagnosis_by_{name}_120k"), |b| b.iter(run));
     }
     let alphas: Vec<f64> = (1..=100).map(|k| 0.1 * f64::from(k)).collect();
@@ -79,5 +88,5 @@ fn faults(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, signal, faults);
+criterion_group!(benches, signal, bearing_diagnosis);
 criterion_main!(benches);

@@ -1,14 +1,14 @@
 //! Model updating of the rig with four free parameters, including reading the file; limit 5 s.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use rotordyn::model::stated::stated;
+use rotordyn::model::parameter_paths::resolve_parameter_path;
 use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
-use rotordyn::update::parameter::{FreeParameter, Place};
+use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::state::State;
+use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
-use rotordyn::update::{Job, update};
+use rotordyn::update::{UpdateJob, update};
 use std::hint::black_box;
 
 const RIG: &str = include_str!("../models/overhung_rig.toml");
@@ -47,7 +47,7 @@ fn measured() -> Target {
         shape,
     };
     let target = Target { speed: 0.0, sensors, modes: vec![wide.clone(); 6], frfs: None };
-    let state = State::new(model, &target, None).expect("modes of the rig");
+    let state = ModelState::new(model, &target, None).expect("modes of the rig");
     let modes = state
         .modes
         .iter()
@@ -67,8 +67,11 @@ fn four_parameters(c: &mut Criterion) {
     let parameters: Vec<FreeParameter> = FREE
         .iter()
         .map(|path| {
-            let found = stated(RIG.as_bytes(), &Options::default(), path).expect("a path of the rig");
-            let place = |s: &rotordyn::model::stated::Stated| Place::read(&s.path, &s.text, s.quoted);
+            let found =
+                resolve_parameter_path(RIG.as_bytes(), &Options::default(), path).expect("a path of the rig");
+            let place = |s: &rotordyn::model::parameter_paths::ParameterValue| {
+                ModelNumber::read(&s.path, &s.text, s.quoted)
+            };
             let places = found.iter().filter_map(place).collect();
             FreeParameter::new(path, places, true, None).expect("a positive number")
         })
@@ -77,7 +80,7 @@ fn four_parameters(c: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("rig, four parameters", |b| {
         b.iter(|| {
-            let job = Job {
+            let job = UpdateJob {
                 parameters: &parameters,
                 target: &target,
                 fitting: &Fitting::default(),

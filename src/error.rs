@@ -56,9 +56,9 @@ pub enum PhysicsError {
     #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
     Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
     #[error("the clock of the Poincaré section does not advance at {speed_rpm:.1} rpm")]
-    ClockStandsStill { speed_rpm: f64 },
+    SectionClockStopped { speed_rpm: f64 },
     #[error("no steady motion at any value of the parameter: {reason}")]
-    NoMotion { reason: String },
+    NoSteadyMotion { reason: String },
     #[error(
         "bearing {bearing} has no equilibrium under F = ({:.4}, {:.4}, {:.4}) N, M = ({:.4}, {:.4}) N m at {speed_rpm:.1} rpm: residual {residual:.3e} N after {iterations} iterations",
         load[0], load[1], load[2], load[3], load[4]

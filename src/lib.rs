@@ -100,20 +100,22 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
-//! | [`units`], [`material`], [`names`] | quantities as text; material data; names as meant |
+//! | [`units`], [`material`], [`names`] | quantities as text; material data; similar names, file names |
 //! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
 //! | [`signal`] | spectra, STFT, order tracking, envelopes, bearing faults, orbits of sampled records |
 //! | [`contact`] | Hertz contacts |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
 //! | [`bearing`] | linear and ball bearings, healthy or with defects: force, tangent stiffness and damping |
 //! | [`model`] | the model file, read and validated; the machine in SI |
+//! | [`geometry`] | bearings and machine as solids: overlaps, multibody balls and cage, meshes, scenes |
 //! | [`assembly`] | degrees of freedom, system matrices, eliminated joints, rigid-body modes |
 //! | [`analysis`] | equilibrium, modes, Campbell, critical speeds, FRFs, unbalance, stability |
 //! | [`transient`] | model reduction, time integration, energy balance |
 //! | [`identify`] | experimental modal analysis: poles, shapes and residues from FRFs, with standard errors |
 //! | [`update`] | model updating: mode pairing by MAC, sensitivities, least squares, identifiability |
 //! | [`results`], [`study`] | results of the studies; the studies, one method of [`study::Machine`] each |
-//! | [`edge`] | HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF, figures, shapes |
+//! | [`io`] | file formats: HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF |
+//! | [`plot`], [`figures`] | SVG and PNG charts; the figures of every study |
 //! | [`error`] | error types: input, physics, environment |
 //!
 //! Imports go down this table only.
@@ -135,6 +137,8 @@ pub mod element;
 
 pub mod model;
 
+pub mod geometry;
+
 pub mod assembly;
 
 pub mod analysis;
@@ -147,5 +151,9 @@ pub mod update;
 pub mod results;
 pub mod study;
 
-pub mod edge;
+pub mod io;
+
+pub mod figures;
+pub mod plot;
+
 pub mod error;

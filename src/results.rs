@@ -1,17 +1,17 @@
 //! Results of the studies of a model: plain data in SI.
 
 mod bearing;
-mod beside;
+mod run_up_correlation;
 mod signal;
 
 pub use bearing::{
-    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState,
-    PickContact, SolvedFilm,
+    BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState, EhlFilm,
+    PickContact,
 };
-pub use beside::{ChannelPair, CutPair, CutPeak, level_over};
+pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
 pub use signal::{
-    CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult, RatedBearing,
-    ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramOverTime,
+    BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,
+    ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramWithSpeed,
 };
 
 use crate::analysis::Mode;
@@ -23,10 +23,10 @@ use crate::analysis::stability::Threshold;
 use crate::analysis::unbalance::UnbalanceResponse;
 use crate::model::study::Parameter;
 use crate::model::{Probe, Quantity};
-use crate::signal::lyapunov::Exponent;
+use crate::signal::lyapunov::LyapunovExponent;
+use crate::signal::motion_classification::Classification;
 use crate::signal::orbit::FilteredOrbit;
 use crate::signal::order::{OrderCut, OrderSpectrogram};
-use crate::signal::period::Classified;
 use crate::signal::stft::Spectrogram;
 use crate::transient::run::Report;
 
@@ -109,7 +109,7 @@ impl FrfResult {
 
 impl FrfResult {
     /// Whether the FRF is non-zero at any frequency; uncoupled responses have no curve and no peak.
-    pub fn moves(&self, response: usize, excitation: usize) -> bool {
+    pub fn is_coupled(&self, response: usize, excitation: usize) -> bool {
         self.frf.values[response][excitation].iter().any(|h| h.norm_sqr() > 0.0)
     }
 }
@@ -226,7 +226,7 @@ pub struct PoincareResult {
     /// Ω \[rad/s\].
     pub speed: f64,
     pub clock: SectionClock,
-    pub motion: Classified,
+    pub motion: Classification,
     /// Number of clusters of section points, all planes together.
     pub groups: usize,
     /// Shaft angle at every sample of the orbits \[rad\].
@@ -257,7 +257,7 @@ pub struct Whirl {
     /// Area swept forward (from x towards y, with the spin) minus backward, over their sum: 1 is all forward.
     pub forwardness: f64,
     /// The 1x (synchronous) component, by least squares over the orbit.
-    pub once: FilteredOrbit,
+    pub synchronous: FilteredOrbit,
 }
 
 impl Whirl {
@@ -277,7 +277,7 @@ pub struct LyapunovResult {
     /// Ω \[rad/s\].
     pub speed: f64,
     pub clock: SectionClock,
-    pub exponent: Exponent,
+    pub exponent: LyapunovExponent,
 }
 
 /// Poincaré sections over a parameter.
@@ -291,7 +291,7 @@ pub struct BifurcationResult {
     pub sweeps: Vec<BifurcationSweep>,
     /// Number of seams between chunks, and number of chunks rerun because they started on another branch.
     pub seams: usize,
-    pub repaired: usize,
+    pub rerun_chunks: usize,
     /// Whether every value was computed; the others have the reason "stopped".
     pub complete: bool,
 }
@@ -309,7 +309,7 @@ pub struct BifurcationSweep {
 pub struct BifurcationPoint {
     /// In the parameter's unit.
     pub value: f64,
-    pub found: Result<SteadyMotion, String>,
+    pub motion: Result<SteadyMotion, String>,
 }
 
 /// A steady motion: Poincaré sections, extremes and classification.
@@ -321,9 +321,9 @@ pub struct SteadyMotion {
     pub extremes: Vec<[f64; 2]>,
     /// Frequency of the sections \[Hz\].
     pub frequency: f64,
-    pub motion: Classified,
+    pub motion: Classification,
     /// Largest Lyapunov exponent, if requested.
-    pub exponent: Option<Exponent>,
+    pub exponent: Option<LyapunovExponent>,
 }
 
 /// SI unit of a quantity of a translation or rotation.

@@ -159,7 +159,7 @@ pub fn unit_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Size of a named unit in SI and its powers of m, kg, s, rad, K: value · numerator / divisor is in SI.
-pub fn named(name: &str) -> Option<(f64, f64, [i32; 5])> {
+pub fn unit_by_name(name: &str) -> Option<(f64, f64, [i32; 5])> {
     let unit = UNITS.iter().find(|unit| unit.0 == name)?;
     Some((unit.1 * TAU.powi(unit.3), unit.2, unit.4))
 }
@@ -237,7 +237,7 @@ pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitErro
         Angle::Turns => scale.powers[3] == 1,
     };
     if scale.powers[..3] != dimension.base || scale.powers[4] != dimension.kelvin || !angle_fits {
-        let found = describe(scale.powers);
+        let found = dimension_name(scale.powers);
         return Err(UnitError::WrongDimension { unit: unit.into(), found, expected: dimension.name });
     }
     let turns = scale.turns - i32::from(dimension.angle == Angle::Turns);
@@ -331,7 +331,7 @@ fn split_power(factor: &str) -> Result<(&str, i32), UnitError> {
 }
 
 /// Name of a dimension by its powers, or the powers themselves.
-fn describe(powers: [i32; 5]) -> String {
+fn dimension_name(powers: [i32; 5]) -> String {
     const KNOWN: [Dimension; 23] = [
         LENGTH,
         MASS,
@@ -446,7 +446,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_say_why() {
+    fn errors_name_the_cause() {
         assert_eq!(parse("60", LENGTH), Err(UnitError::NoUnit("60".into())));
         assert_eq!(parse("60 umm", LENGTH), Err(UnitError::UnknownUnit("umm".into())));
         assert_eq!(parse("abc", LENGTH), Err(UnitError::NoNumber("abc".into())));

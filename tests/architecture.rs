@@ -4,29 +4,31 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Layers, lowest first; a module may use its own layer and lower ones. `error` may be used anywhere.
-const LAYERS: [&[&str]; 11] = [
+const LAYERS: [&[&str]; 13] = [
     &["units", "conventions", "references", "material", "names"],
     &["linalg", "signal"],
     &["contact"],
     &["element", "bearing"],
     &["model"],
+    &["geometry"],
     &["assembly"],
     &["analysis"],
     &["transient"],
     &["identify", "update"],
     &["results", "study"],
-    &["edge"],
+    &["io", "plot"],
+    &["figures"],
 ];
 
 /// Foreign crates and the modules that may use them.
 const OWNERS: [(&[&str], &[&str]); 8] = [
     (&["faer"], &["linalg/"]),
-    (&["rapier3d", "rapier3d_f64"], &["edge/rapier"]),
-    (&["parry3d", "parry3d_f64"], &["edge/parry"]),
-    (&["hdf5"], &["edge/hdf5"]),
-    (&["flate2"], &["edge/inflate"]),
-    (&["hound"], &["edge/wav"]),
-    (&["resvg", "usvg", "tiny_skia", "png"], &["edge/plot"]),
+    (&["rapier3d", "rapier3d_f64"], &["geometry/rapier"]),
+    (&["parry3d", "parry3d_f64"], &["geometry/parry"]),
+    (&["hdf5"], &["io/hdf5"]),
+    (&["flate2"], &["io/inflate"]),
+    (&["hound"], &["io/wav"]),
+    (&["resvg", "usvg", "tiny_skia", "png"], &["plot"]),
     (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
 ];
 
@@ -200,12 +202,9 @@ fn source_scanner_detects_modules_and_crates() {
     for code in ["use hdf5::File;", "use hdf5;", "let x = hdf5::open();", "use ::hdf5::File;", "f(hdf5::A)"] {
         assert!(uses_crate(code, "hdf5"), "{code}");
     }
-    for code in [
-        "use crate::edge::hdf5::Store;",
-        "edge::hdf5::Store",
-        "use crate::edge::{hdf5::Store};",
-        "my_hdf5::x",
-    ] {
+    for code in
+        ["use crate::io::hdf5::Store;", "io::hdf5::Store", "use crate::io::hdf5::Store;", "my_hdf5::x"]
+    {
         assert!(!uses_crate(code, "hdf5"), "{code}");
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::edge::plot::*;
+use rotordyn::plot::*;
 
-use super::over_speed::{Noise, lorentz, steps};
+use super::over_speed::{Noise, linspace, lorentz};
 
 pub fn response(hz: &[f64], poles: &[(f64, f64, f64)]) -> (Vec<f64>, Vec<f64>) {
     let sum = |f: &f64| {
@@ -17,7 +17,7 @@ pub fn response(hz: &[f64], poles: &[(f64, f64, f64)]) -> (Vec<f64>, Vec<f64>) {
 }
 
 pub fn frf() -> Figure {
-    let hz = steps(1.0, 250.0, 2000);
+    let hz = linspace(1.0, 250.0, 2000);
     let curve = |label: &str, shift: f64| {
         let poles = [
             (27.1 * shift, 0.012, 4e5),
@@ -38,7 +38,7 @@ pub fn frf() -> Figure {
 }
 
 pub fn frf_measured() -> Figure {
-    let hz = steps(1.0, 250.0, 1600);
+    let hz = linspace(1.0, 250.0, 1600);
     let poles = [(27.1, 0.012, 4e5), (131.0, 0.02, 2e6)];
     let scaled = |f: &f64, v: f64| v * -(TAU * f).powi(2);
     let (re, im) = response(&hz, &poles);
@@ -83,7 +83,7 @@ pub fn frf_measured() -> Figure {
 }
 
 pub fn modes() -> Figure {
-    let z = steps(0.0, 0.6, 25);
+    let z = linspace(0.0, 0.6, 25);
     let shape = |f: &dyn Fn(f64) -> f64, way: f64, ratio: f64| -> (Vec<[f64; 2]>, Vec<[f64; 2]>) {
         // u_x = cos, u_y = sin for forward whirl: Re(-i e^{iωt}) = sin ωt.
         (
@@ -136,7 +136,7 @@ pub fn modes() -> Figure {
 
 /// Unbalance response over speed: (rpm, amplitude [µm], phase [deg]).
 pub fn unbalance(critical: f64, zeta: f64, scale: f64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-    let rpm = steps(100.0, 3000.0, 600);
+    let rpm = linspace(100.0, 3000.0, 600);
     let at = |r: &f64| {
         let [re, im] = lorentz(*r, critical, zeta);
         let a = scale * (r / critical).powi(2);
@@ -223,7 +223,7 @@ pub fn ball_loads() -> Figure {
 }
 
 pub fn deflection() -> Figure {
-    let z = steps(0.0, 0.6, 41);
+    let z = linspace(0.0, 0.6, 41);
     let mark = |label: &str, z| Mark { label: label.to_string(), z };
     Figure::Deflection(Deflection {
         title: "Static deflection under gravity and belt pull".to_string(),
@@ -242,7 +242,7 @@ pub fn deflection() -> Figure {
 }
 
 pub fn history() -> Figure {
-    let time = steps(0.0, 13.0, 1_000_000);
+    let time = linspace(0.0, 13.0, 1_000_000);
     let mut noise = Noise(17);
     let ramp = |t: f64| (t - 1.0).clamp(0.0, 10.0);
     let speed: Vec<f64> = time.iter().map(|t| 120.0 * ramp(*t)).collect();
@@ -272,7 +272,7 @@ pub fn history() -> Figure {
 }
 
 pub fn stiffness() -> Figure {
-    let load = steps(5.0, 2000.0, 120);
+    let load = linspace(5.0, 2000.0, 120);
     let curve = |label: &str, factor: f64| Curve {
         label: label.to_string(),
         y: load.iter().map(|f| factor * 1.1e7 * f.powf(0.31)).collect(),
@@ -298,23 +298,23 @@ pub fn stiffness() -> Figure {
 }
 
 pub fn rig() -> Figure {
-    let cylinder = |a: f64, b: f64, r: f64| RigSection { z: [a, b], outer: [r, r], inner: [0.0, 0.0] };
-    let block = |label: &str, z, y, rotating| RigBlock { label: label.to_string(), z, y, rotating };
-    let support = |label: &str, z| RigSupport {
+    let cylinder = |a: f64, b: f64, r: f64| LayoutSection { z: [a, b], outer: [r, r], inner: [0.0, 0.0] };
+    let block = |label: &str, z, y, rotating| LayoutBlock { label: label.to_string(), z, y, rotating };
+    let support = |label: &str, z| LayoutBearing {
         label: label.to_string(),
         z,
         width: 0.015,
         bore: 0.0125,
         outside: 0.026,
     };
-    let spring = |z| RigSpring { from: [z, -0.07], to: [z, -0.12], grounded: true };
-    Figure::Rig(Rig {
+    let spring = |z| LayoutSpring { from: [z, -0.07], to: [z, -0.12], grounded: true };
+    Figure::MachineLayout(MachineLayout {
         title: "Overhung rig: model sketch".to_string(),
         note: "shaft and bodies to scale; rotating parts dark".to_string(),
         sections: vec![
             cylinder(0.0, 0.1, 0.010),
             cylinder(0.1, 0.38, 0.0125),
-            RigSection { z: [0.38, 0.42], outer: [0.0125, 0.009], inner: [0.0, 0.0] },
+            LayoutSection { z: [0.38, 0.42], outer: [0.0125, 0.009], inner: [0.0, 0.0] },
             cylinder(0.42, 0.6, 0.009),
         ],
         blocks: vec![
@@ -324,7 +324,7 @@ pub fn rig() -> Figure {
         ],
         supports: vec![support("bearing A", 0.12), support("bearing B", 0.36)],
         springs: vec![spring(0.1), spring(0.38)],
-        belts: vec![RigBelt {
+        belts: vec![LayoutBelt {
             label: "belt 120 N".to_string(),
             z: 0.0125,
             radius: 0.03,

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use machine::*;
 use over_speed::*;
-use rotordyn::edge::plot::{Figure, write};
+use rotordyn::plot::{Figure, write};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new("out/gallery");

@@ -1,8 +1,8 @@
 //! Figures over speed: Campbell, spectrogram, waterfall, order map and cuts.
 
-use rotordyn::edge::plot::*;
+use rotordyn::plot::*;
 
-pub fn steps(lo: f64, hi: f64, count: usize) -> Vec<f64> {
+pub fn linspace(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| lo + (hi - lo) * k as f64 / (count - 1) as f64).collect()
 }
 
@@ -27,7 +27,7 @@ pub fn branches() -> Vec<Branch> {
         ("2nd bending F", Whirl::Forward, 132.5, 0.0118, 0.13),
         ("pedestal rocking", Whirl::Mixed, 158.0, 0.0005, 0.30),
     ];
-    let rpm = steps(0.0, 3000.0, 41);
+    let rpm = linspace(0.0, 3000.0, 41);
     let branch = |&(label, whirl, hz, slope, damping): &(&str, Whirl, f64, f64, f64)| Branch {
         label: label.to_string(),
         whirl,
@@ -111,7 +111,7 @@ pub fn amplitude(rpm: f64, hz: f64, noise: &mut Noise) -> f64 {
 }
 
 pub fn spectra() -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-    let (rpm, hz) = (steps(20.0, 3000.0, 240), steps(0.0, 200.0, 512));
+    let (rpm, hz) = (linspace(20.0, 3000.0, 240), linspace(0.0, 200.0, 512));
     let mut noise = Noise(7);
     let mut values = Vec::new();
     for &r in &rpm {
@@ -154,7 +154,7 @@ pub fn waterfall() -> Figure {
 }
 
 pub fn order_map() -> Figure {
-    let (rpm, order) = (steps(200.0, 3000.0, 200), steps(0.0, 12.0, 481));
+    let (rpm, order) = (linspace(200.0, 3000.0, 200), linspace(0.0, 12.0, 481));
     let mut noise = Noise(3);
     let mut level_db = Vec::new();
     for &r in &rpm {
@@ -191,7 +191,7 @@ pub fn order_map() -> Figure {
 }
 
 pub fn order_cuts() -> Figure {
-    let rpm = steps(100.0, 3000.0, 400);
+    let rpm = linspace(100.0, 3000.0, 400);
     let cut = |label: &str, order: f64, strength: f64| Curve {
         label: label.to_string(),
         y: rpm

@@ -7,14 +7,14 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use rotordyn::edge::plot::{self, Curve, Figure, Grid, GridPanel};
 use rotordyn::model::{self, Options};
+use rotordyn::plot::{self, Curve, Figure, Grid, GridPanel};
 use rotordyn::study::Machine;
 
 const MODEL: &str = include_str!("../../models/bal_2022.toml");
 const PRELOADS: [f64; 6] = [20.0, 50.0, 100.0, 150.0, 200.0, 500.0];
 /// Duration of the transient \[s\]; the steady motion is evaluated over the same time at the end of the run.
-const START: f64 = 0.1;
+const TRANSIENT: f64 = 0.1;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| "out/preload".into()));
@@ -28,11 +28,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{preload:>5} N   {a:9.4} {b:9.4} {c:9.4}   {d:10.2e} {e:10.2e} {f:10.2e}");
         found.push([start, steady]);
     }
-    let share = |k: usize| (found[0][0][k] - found[0][1][k]) / found[0][0][k];
+    let free_decay_share = |k: usize| (found[0][0][k] - found[0][1][k]) / found[0][0][k];
     let note = format!(
         "1400 rpm, film. At 20 N, {:.0} % of the transient in x and {:.0} % in y are free decay from the initial position",
-        100.0 * share(0),
-        100.0 * share(1)
+        100.0 * free_decay_share(0),
+        100.0 * free_decay_share(1)
     );
     println!("{note}");
     let panel = |k: usize, name: &str| GridPanel {
@@ -82,7 +82,7 @@ fn peak_to_peak(preload: f64) -> Result<[[f64; 3]; 2], Box<dyn std::error::Error
     let mut ranges = [[[f64::INFINITY, f64::NEG_INFINITY]; 3]; 2];
     machine.run_up(&study, &reduction, |sample| {
         let time = sample.state.time;
-        for (which, within) in [time <= START, time >= duration - START].into_iter().enumerate() {
+        for (which, within) in [time <= TRANSIENT, time >= duration - TRANSIENT].into_iter().enumerate() {
             for (range, &value) in ranges[which].iter_mut().zip(sample.channels) {
                 if within {
                     *range = [range[0].min(value), range[1].max(value)];

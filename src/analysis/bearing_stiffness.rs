@@ -1,10 +1,10 @@
 //! Equilibrium and stiffness matrix of a single bearing under a load or a prescribed displacement.
 
-use super::equilibrium::{CAGE_ANGLES, CageTreatment};
+use super::equilibrium::{CAGE_ANGLES_PER_PITCH, CageTreatment};
 use crate::bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
 use crate::error::PhysicsError;
 use crate::linalg::dot;
-use crate::linalg::small::solve_in_place;
+use crate::linalg::small_dense::solve_in_place;
 use rayon::prelude::*;
 
 const MAX_ITERATIONS: usize = 100;
@@ -12,7 +12,7 @@ const MAX_HALVINGS: usize = 80;
 /// Residual at the solution over the largest force.
 const TOLERANCE: f64 = 1e-13;
 /// Residual accepted as equilibrium where round-off or a kink in the contact law prevents full convergence.
-const ACCEPTED: f64 = 1e-8;
+const ACCEPTED_RESIDUAL: f64 = 1e-8;
 
 /// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
 /// or the prescribed displacement.
@@ -21,7 +21,7 @@ pub struct Condition {
     /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; ignored for prescribed motions.
     pub load: [f64; 5],
     /// Prescribed displacements of the inner ring relative to the outer one \[m, rad\]; `None`: free.
-    pub held: [Option<f64>; 5],
+    pub prescribed: [Option<f64>; 5],
     /// Shaft speed Ω \[rad/s\].
     pub speed: f64,
     pub cage: CageTreatment,
@@ -48,7 +48,7 @@ pub struct BearingEquilibrium {
 
 impl BearingEquilibrium {
     /// Stiffness along a direction n with all other motions constrained: nᵀ K n.
-    pub fn stiffness_held(&self, n: &[f64; 5]) -> f64 {
+    pub fn constrained_stiffness(&self, n: &[f64; 5]) -> f64 {
         (0..5).map(|a| n[a] * (0..5).map(|b| self.stiffness[a][b] * n[b]).sum::<f64>()).sum()
     }
 
@@ -56,9 +56,9 @@ impl BearingEquilibrium {
     /// never above the constrained stiffness, 0 where nothing resists.
     ///
     /// `radius`: length \[m\] by which rotations are scaled in the solve.
-    pub fn stiffness_free(&self, n: &[f64; 5], radius: f64) -> f64 {
+    pub fn condensed_stiffness(&self, n: &[f64; 5], radius: f64) -> f64 {
         let unit = [1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius];
-        let free: [bool; 5] = std::array::from_fn(|a| self.condition.held[a].is_none() || n[a] != 0.0);
+        let free: [bool; 5] = std::array::from_fn(|a| self.condition.prescribed[a].is_none() || n[a] != 0.0);
         let scaled = |a: usize, b: usize| unit[a] * self.stiffness[a][b] * unit[b];
         let largest = (0..5).map(|a| scaled(a, a)).fold(0.0, f64::max);
         if largest <= 0.0 {
@@ -117,13 +117,13 @@ impl BearingSolver {
         let d = [d[0], d[1], d[2], d[3], d[4], 0.0];
         let rotation = rotation(condition);
         match condition.cage {
-            CageTreatment::AsPlaced => self.element.reaction(&d, &[0.0; 6], &rotation),
-            CageTreatment::Averaged => self.element.cage_average(&d, &rotation, CAGE_ANGLES),
+            CageTreatment::FixedAngle => self.element.reaction(&d, &[0.0; 6], &rotation),
+            CageTreatment::Averaged => self.element.cage_average(&d, &rotation, CAGE_ANGLES_PER_PITCH),
         }
     }
 
     /// Load of every ball at an equilibrium, at the condition's cage angle.
-    pub fn balls(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
+    pub fn ball_loads(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
         let d = &found.displacement;
         self.element.ball_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
     }
@@ -149,7 +149,7 @@ impl BearingSolver {
 
     fn newton(&self, condition: &Condition, start: &[f64; 5]) -> Result<BearingEquilibrium, PhysicsError> {
         let unit = [1.0, 1.0, 1.0, 1.0 / self.radius, 1.0 / self.radius];
-        let free = condition.held.map(|held| held.is_none());
+        let free = condition.prescribed.map(|held| held.is_none());
         let trial = |x: [f64; 5]| {
             let d: [f64; 5] = std::array::from_fn(|a| unit[a] * x[a]);
             let reaction = self.reaction(condition, &d);
@@ -159,22 +159,22 @@ impl BearingSolver {
             });
             Trial { x, reaction, residual }
         };
-        let mut now = trial(std::array::from_fn(|a| condition.held[a].unwrap_or(start[a]) / unit[a]));
+        let mut now = trial(std::array::from_fn(|a| condition.prescribed[a].unwrap_or(start[a]) / unit[a]));
         let scaled_load: [f64; 5] =
             std::array::from_fn(|a| if free[a] { unit[a] * condition.load[a] } else { 0.0 });
-        let load_size = largest(&scaled_load);
+        let load_size = max_abs(&scaled_load);
         // Reference force: of the load or, under preload, of the balls.
         let size_of = |t: &Trial| {
             let force: [f64; 5] = std::array::from_fn(|a| unit[a] * t.reaction.force[a]);
-            load_size.max(largest(&force)).max(1e-9)
+            load_size.max(max_abs(&force)).max(1e-9)
         };
         let hertz = (self.contact_stiffness.powi(2) * size_of(&now).max(1e-3)).cbrt();
         let mut iterations = 0;
         let mut stalled = 0;
-        while largest(&now.residual) > TOLERANCE * size_of(&now) && iterations < MAX_ITERATIONS && stalled < 3
+        while max_abs(&now.residual) > TOLERANCE * size_of(&now) && iterations < MAX_ITERATIONS && stalled < 3
         {
             iterations += 1;
-            let before = largest(&now.residual);
+            let before = max_abs(&now.residual);
             let shift = hertz * (1e-3 * (before / size_of(&now)).min(1.0) + 1e-12);
             let mut k = [0.0; 25];
             for a in 0..5 {
@@ -199,8 +199,8 @@ impl BearingSolver {
                 let next = trial(std::array::from_fn(|a| now.x[a] + length * step[a]));
                 let force_along = along(&next.residual);
                 if force_along.abs() <= 0.9 * first.abs() || at_solution || halving + 1 == MAX_HALVINGS {
-                    let after = largest(&next.residual);
-                    let near = before <= ACCEPTED * size_of(&now);
+                    let after = max_abs(&next.residual);
+                    let near = before <= ACCEPTED_RESIDUAL * size_of(&now);
                     stalled = if near && after > 0.5 * before { stalled + 1 } else { 0 };
                     // At round-off level: keep the smaller residual.
                     if !(near && after >= before) {
@@ -216,9 +216,9 @@ impl BearingSolver {
                 length = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * length };
             }
         }
-        let residual = largest(&now.residual);
-        let lost = largest(&now.x) > 10.0 * self.radius;
-        if residual > ACCEPTED * size_of(&now) || residual.is_nan() || lost {
+        let residual = max_abs(&now.residual);
+        let lost = max_abs(&now.x) > 10.0 * self.radius;
+        if residual > ACCEPTED_RESIDUAL * size_of(&now) || residual.is_nan() || lost {
             return Err(PhysicsError::NoBearingEquilibrium {
                 bearing: self.name.clone(),
                 load: condition.load,
@@ -268,6 +268,6 @@ fn rotation(condition: &Condition) -> Rotation {
     Rotation { cage_angle: condition.cage_angle, shaft_speed: condition.speed, ..Rotation::default() }
 }
 
-fn largest(v: &[f64; 5]) -> f64 {
+fn max_abs(v: &[f64; 5]) -> f64 {
     v.iter().fold(0.0, |m: f64, x| if x.is_nan() || m.is_nan() { f64::NAN } else { m.max(x.abs()) })
 }

@@ -9,13 +9,13 @@ use crate::linalg::Complex64;
 use rayon::prelude::*;
 
 /// Modes computed in addition to the requested ones, so that a branch continues when others drop below it.
-const SPARE: usize = 4;
+const EXTRA_MODES: usize = 4;
 /// Below this MAC the speed step is halved.
-const SURE: f64 = 0.7;
+const CERTAIN_MAC: f64 = 0.7;
 /// Below this MAC a branch is lost.
-const LOST: f64 = 0.2;
+const LOST_MAC: f64 = 0.2;
 /// Largest number of halvings of a speed step.
-const DEPTH: usize = 4;
+const MAX_HALVINGS: usize = 4;
 
 /// Tangent stiffness and damping of all bearings as a function of speed.
 pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync {}
@@ -60,7 +60,7 @@ pub fn campbell(
     count: usize,
     tangents: &impl Tangents,
 ) -> Result<Campbell, Error> {
-    let tracker = Tracker { assembly, tangents, count: count + SPARE };
+    let tracker = Tracker { assembly, tangents, count: count + EXTRA_MODES };
     let sets: Vec<Vec<Mode>> = speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, Error>>()?;
     // Index of every branch's mode in the mode set of the current speed.
     let mut at: Vec<Option<usize>> =
@@ -68,7 +68,7 @@ pub fn campbell(
     let mut paths: Vec<Vec<Option<usize>>> = vec![at.clone()];
     for k in 1..speeds.len() {
         let (a, b) = ((speeds[k - 1], sets[k - 1].as_slice()), (speeds[k], sets[k].as_slice()));
-        let links = tracker.join(a, b, &at, DEPTH)?;
+        let links = tracker.link_modes(a, b, &at, MAX_HALVINGS)?;
         at.iter_mut().for_each(|i| *i = i.and_then(|i| links[i]));
         paths.push(at.clone());
     }
@@ -81,12 +81,12 @@ pub fn campbell(
             Branch { label, kind, modes }
         })
         .collect();
-    name_apart(&mut branches);
+    make_labels_unique(&mut branches);
     Ok(Campbell { speeds: speeds.to_vec(), branches })
 }
 
 /// Makes labels unique by a number: branches that end at different speeds may have the same label.
-fn name_apart(branches: &mut [Branch]) {
+fn make_labels_unique(branches: &mut [Branch]) {
     for k in 1..branches.len() {
         let same = (0..k).filter(|&i| branches[i].label == branches[k].label).count();
         if same > 0 {
@@ -110,24 +110,24 @@ impl<T: Tangents> Tracker<'_, T> {
     }
 
     /// Continuation of every mode of `a` in `b`; the step is halved until those in `followed` are certain.
-    fn join(
+    fn link_modes(
         &self,
         a: (f64, &[Mode]),
         b: (f64, &[Mode]),
-        followed: &[Option<usize>],
+        tracked: &[Option<usize>],
         depth: usize,
     ) -> Result<Vec<Option<usize>>, Error> {
         let mac = self.mac(a.1, b.1);
-        let links = assign(&mac);
-        let doubtful = |i: usize| links[i].is_none_or(|j| mac[i][j] < SURE);
-        if depth == 0 || !followed.iter().flatten().any(|&i| doubtful(i)) {
+        let links = pair_by_mac(&mac);
+        let uncertain = |i: usize| links[i].is_none_or(|j| mac[i][j] < CERTAIN_MAC);
+        if depth == 0 || !tracked.iter().flatten().any(|&i| uncertain(i)) {
             return Ok(links);
         }
         let speed = 0.5 * (a.0 + b.0);
         let middle = self.modes(speed)?;
-        let first = self.join(a, (speed, &middle), followed, depth - 1)?;
-        let half_way: Vec<Option<usize>> = followed.iter().map(|i| i.and_then(|i| first[i])).collect();
-        let second = self.join((speed, &middle), b, &half_way, depth - 1)?;
+        let first = self.link_modes(a, (speed, &middle), tracked, depth - 1)?;
+        let half_way: Vec<Option<usize>> = tracked.iter().map(|i| i.and_then(|i| first[i])).collect();
+        let second = self.link_modes((speed, &middle), b, &half_way, depth - 1)?;
         Ok(first.into_iter().map(|i| i.and_then(|i| second[i])).collect())
     }
 
@@ -138,7 +138,7 @@ impl<T: Tangents> Tracker<'_, T> {
             b.iter().map(|m| self.assembly.mass.mul_complex(&m.shape)).collect();
         let plain: Vec<Vec<f64>> =
             a.iter().map(|m| momenta.iter().map(|p| inner(&m.shape, p).norm_sqr()).collect()).collect();
-        let same = |p: &Mode, q: &Mode| (p.eigenvalue - q.eigenvalue).norm() < 1e-7 * q.natural();
+        let same = |p: &Mode, q: &Mode| (p.eigenvalue - q.eigenvalue).norm() < 1e-7 * q.natural_omega();
         let mut shared = plain.clone();
         for (i, row) in shared.iter_mut().enumerate() {
             for (j, value) in row.iter_mut().enumerate() {
@@ -152,10 +152,10 @@ impl<T: Tangents> Tracker<'_, T> {
 }
 
 /// Greedy pairing of rows with columns by descending MAC; ties are resolved by list order.
-fn assign(mac: &[Vec<f64>]) -> Vec<Option<usize>> {
+fn pair_by_mac(mac: &[Vec<f64>]) -> Vec<Option<usize>> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, row) in mac.iter().enumerate() {
-        pairs.extend(row.iter().enumerate().filter(|(_, v)| **v > LOST).map(|(j, v)| (*v, i, j)));
+        pairs.extend(row.iter().enumerate().filter(|(_, v)| **v > LOST_MAC).map(|(j, v)| (*v, i, j)));
     }
     // Rounded, so that a degenerate pair with equal MAC is paired in list order.
     let step = |v: f64| (v * 1e4).round() as i64;

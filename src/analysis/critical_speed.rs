@@ -74,8 +74,8 @@ impl<T: Tangents> Tracker<'_, T> {
             let speed = if step % 3 == 2 { 0.5 * (left + right) } else { secant };
             let modes = self.modes(speed)?;
             let mac = self.mac(&ends, &modes);
-            let likeness = |j: usize| mac[0][j] + mac[1][j];
-            let Some(j) = (0..modes.len()).max_by(|&i, &j| likeness(i).total_cmp(&likeness(j))) else {
+            let mac_sum = |j: usize| mac[0][j] + mac[1][j];
+            let Some(j) = (0..modes.len()).max_by(|&i, &j| mac_sum(i).total_cmp(&mac_sum(j))) else {
                 break;
             };
             let g = gap(&modes[j], speed);
@@ -104,7 +104,7 @@ impl<T: Tangents> Tracker<'_, T> {
 ///
 /// # Errors
 /// A structure whose stiffness is not positive semi-definite, or an eigenvalue computation that fails.
-pub fn undamped(
+pub fn undamped_critical_speeds(
     assembly: &Assembly,
     system: &LinearSystem,
     order: f64,
@@ -147,7 +147,7 @@ pub fn undamped(
             let size = super::modal::inner(&all, &system.mass.mul_complex(&all)).re.sqrt();
             all.iter_mut().for_each(|v| *v /= size);
             let speed = square.sqrt();
-            let mode = mode_kind::describe(assembly, Complex64::new(0.0, order * speed), all);
+            let mode = mode_kind::characterise(assembly, Complex64::new(0.0, order * speed), all);
             found.push(CriticalSpeed { speed, order, mode, label: String::new() });
         }
     }

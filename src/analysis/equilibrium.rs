@@ -7,14 +7,14 @@ use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};
 use crate::model::Model;
 
 /// Number of cage angles per ball pitch over which a bearing is averaged.
-pub const CAGE_ANGLES: usize = 12;
+pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
 
-/// Bearing forces at the cage angle of the model (`AsPlaced`), or averaged over one ball pitch.
+/// Bearing forces at the cage angle of the model (`FixedAngle`), or averaged over one ball pitch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CageTreatment {
-    AsPlaced,
+    FixedAngle,
     Averaged,
 }
 
@@ -83,8 +83,8 @@ impl Sites {
     pub(super) fn reaction(&self, k: usize, d: &[f64; 6]) -> Reaction {
         let (element, rotation) = &self.elements[k];
         match self.cage {
-            CageTreatment::AsPlaced => element.reaction(d, &[0.0; 6], rotation),
-            CageTreatment::Averaged => element.cage_average(d, rotation, CAGE_ANGLES),
+            CageTreatment::FixedAngle => element.reaction(d, &[0.0; 6], rotation),
+            CageTreatment::Averaged => element.cage_average(d, rotation, CAGE_ANGLES_PER_PITCH),
         }
     }
 
@@ -112,14 +112,15 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
-    let load = load(assembly);
+    let load = external_load(assembly);
     let load_size = max_abs(&load).max(1e-6);
     let tolerance = 1e-10 * load_size;
-    let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &full_pattern(assembly)]);
+    let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
     let stiffness = layout.scatter(&assembly.stiffness);
     let mass = layout.scatter(&assembly.mass);
 
-    let residual_of = |q: &[f64], reactions: &[Reaction]| force_left(assembly, load.clone(), q, reactions);
+    let residual_of =
+        |q: &[f64], reactions: &[Reaction]| residual_force(assembly, load.clone(), q, reactions);
 
     let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
     let mut reactions = sites.reactions(assembly, &q);
@@ -130,7 +131,7 @@ pub fn equilibrium(
         iterations += 1;
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
         let shift = 350.0 * (max_abs(&residual) / load_size).min(1.0) + 1e-4;
-        let tangent = layout.scatter(&bearing_matrix(assembly, &reactions));
+        let tangent = layout.scatter(&bearing_stiffness_matrix(assembly, &reactions));
         let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
         let lu = layout
             .factor::<f64>(values)
@@ -203,12 +204,12 @@ pub fn equilibrium(
 }
 
 /// Gravity and constant loads.
-pub(super) fn load(assembly: &Assembly) -> Vec<f64> {
+pub(super) fn external_load(assembly: &Assembly) -> Vec<f64> {
     assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect()
 }
 
 /// Residual force (out-of-balance force) f − K q + Σ Rᵀ f_bearing.
-pub(super) fn force_left(
+pub(super) fn residual_force(
     assembly: &Assembly,
     mut load: Vec<f64>,
     q: &[f64],
@@ -221,12 +222,12 @@ pub(super) fn force_left(
     load
 }
 
-/// Largest ball load over [`CAGE_ANGLES`] positions within one ball pitch.
+/// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
 fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
     let balls = element.balls();
-    (0..if balls > 0 { CAGE_ANGLES } else { 0 })
+    (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
         .flat_map(|k| {
-            let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES * balls) as f64;
+            let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES_PER_PITCH * balls) as f64;
             let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };
             element.ball_loads(d, &turned)
         })
@@ -234,7 +235,7 @@ fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation
 }
 
 /// Tangent stiffness of all bearings, Σ Rᵀ K R.
-pub(super) fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
+pub(super) fn bearing_stiffness_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut triplets = Triplets::new(n, n);
     for (site, reaction) in assembly.sites.iter().zip(reactions) {
@@ -244,7 +245,7 @@ pub(super) fn bearing_matrix(assembly: &Assembly, reactions: &[Reaction]) -> Spa
 }
 
 /// Sparsity pattern of the bearings.
-fn full_pattern(assembly: &Assembly) -> SparseMatrix {
+fn bearing_pattern(assembly: &Assembly) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut triplets = Triplets::new(n, n);
     for site in &assembly.sites {

@@ -47,7 +47,7 @@ pub fn frf(
             lu.refactor(|k| Complex64::new(s[k] - square * m[k], omega * d[k])).map_err(|pivot| {
                 PhysicsError::Singular { motion: format!("at {hz} Hz {}", assembly.dofs.name(pivot.unknown)) }
             })?;
-            let scale = derivative(quantity, omega);
+            let scale = derivative_factor(quantity, omega);
             let mut column = Vec::with_capacity(excitations.len() * responses.len());
             let mut q = vec![Complex64::default(); layout.size()];
             for excitation in excitations {
@@ -69,7 +69,7 @@ pub fn frf(
 }
 
 /// (jω)^p of a quantity.
-pub fn derivative(quantity: Quantity, omega: f64) -> Complex64 {
+pub fn derivative_factor(quantity: Quantity, omega: f64) -> Complex64 {
     match quantity {
         Quantity::Displacement => Complex64::new(1.0, 0.0),
         Quantity::Velocity => Complex64::new(0.0, omega),

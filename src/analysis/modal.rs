@@ -41,7 +41,7 @@ impl Mode {
     }
 
     /// Natural angular frequency |λ| \[rad/s\].
-    pub fn natural(&self) -> f64 {
+    pub fn natural_omega(&self) -> f64 {
         self.eigenvalue.norm()
     }
 
@@ -62,16 +62,16 @@ impl Mode {
 /// An eigenvalue computation that fails.
 pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
-    let mut pairs = krylov::lowest(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
+    let mut pairs = krylov::lowest_eigenpairs(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
         .map_err(|e| failed(e.to_string()))?;
     // One more than requested keeps a degenerate pair at the end together.
     pairs.truncate(count + 1);
     let mut shapes: Vec<(Complex64, Vec<Complex64>)> =
-        pairs.into_iter().map(|p| (p.value, normalised(p.vector, &system.mass))).collect();
-    align_planes(assembly, system, &mut shapes);
+        pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &system.mass))).collect();
+    align_double_modes(assembly, system, &mut shapes);
     shapes.truncate(count);
     let mut modes: Vec<Mode> =
-        shapes.into_iter().map(|(value, shape)| mode_kind::describe(assembly, value, shape)).collect();
+        shapes.into_iter().map(|(value, shape)| mode_kind::characterise(assembly, value, shape)).collect();
     mode_kind::label(assembly, &mut modes);
     Ok(modes)
 }
@@ -95,7 +95,7 @@ pub fn undamped(assembly: &Assembly, system: &LinearSystem) -> LinearSystem {
 }
 
 /// φ scaled to φᴴ M φ = 1.
-fn normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) -> Vec<Complex64> {
+fn mass_normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) -> Vec<Complex64> {
     let size = inner(&shape, &mass.mul_complex(&shape)).re.sqrt();
     if size > 0.0 {
         shape.iter_mut().for_each(|v| *v /= size);
@@ -109,18 +109,18 @@ pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
 }
 
 /// Eigenvalues closer than this relative distance may be a repeated (double) eigenvalue split by round-off.
-const NEAR: f64 = 1e-5;
+const MAX_DOUBLE_SPLIT: f64 = 1e-5;
 /// They are if combined shapes solve (λ² M + λ D + S) φ = 0 with one common λ to this fraction of λ² M φ.
-const DOUBLE: f64 = 1e-7;
+const MAX_DOUBLE_RESIDUAL: f64 = 1e-7;
 
 /// Rotates the modes of a double eigenvalue into one with the most and one with the least energy along x.
 ///
 /// An axisymmetric rotor at rest has such pairs; an eigenvalue solver returns arbitrary linear combinations.
-fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Complex64, Vec<Complex64>)]) {
+fn align_double_modes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Complex64, Vec<Complex64>)]) {
     let mut k = 0;
     while k + 1 < pairs.len() {
         let (a, b) = (pairs[k].0, pairs[k + 1].0);
-        if (a - b).norm() > NEAR * a.norm() {
+        if (a - b).norm() > MAX_DOUBLE_SPLIT * a.norm() {
             k += 1;
             continue;
         }
@@ -128,7 +128,7 @@ fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Comple
         let first = pairs[k].1.clone();
         let overlap = inner(&mass.mul_complex(&first), &pairs[k + 1].1);
         let rest = pairs[k + 1].1.iter().zip(&first).map(|(v, f)| v - f * overlap).collect();
-        let second = normalised(rest, mass);
+        let second = mass_normalised(rest, mass);
         // Hermitian 2×2 of the energy along x: turn by its eigenvectors.
         let along_x = |v: &[Complex64]| {
             let mut full = assembly.dofs.expand_complex(v);
@@ -147,7 +147,7 @@ fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Comple
         let (sin, cos) = turn.sin_cos();
         let x: Vec<Complex64> = first.iter().zip(&second).map(|(f, s)| f * cos + s * phase * sin).collect();
         let y: Vec<Complex64> = first.iter().zip(&second).map(|(f, s)| s * phase * cos - f * sin).collect();
-        if projected_residual(system, 0.5 * (a + b), [&x, &y]) > DOUBLE {
+        if projected_residual(system, 0.5 * (a + b), [&x, &y]) > MAX_DOUBLE_RESIDUAL {
             k += 1;
             continue;
         }
@@ -157,13 +157,16 @@ fn align_planes(assembly: &Assembly, system: &LinearSystem, pairs: &mut [(Comple
 }
 
 /// Index of the other mode of each mode's double eigenvalue, if any; modes sorted by natural frequency.
-pub fn doubles(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
+pub fn double_eigenvalue_partners(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
     let mut out = vec![None; modes.len()];
     for k in 1..modes.len() {
         let [a, b] = [&modes[k - 1], &modes[k]];
-        let near = (a.eigenvalue - b.eigenvalue).norm() <= NEAR * a.natural();
+        let near = (a.eigenvalue - b.eigenvalue).norm() <= MAX_DOUBLE_SPLIT * a.natural_omega();
         let value = 0.5 * (a.eigenvalue + b.eigenvalue);
-        if near && out[k - 1].is_none() && projected_residual(system, value, [&a.shape, &b.shape]) <= DOUBLE {
+        if near
+            && out[k - 1].is_none()
+            && projected_residual(system, value, [&a.shape, &b.shape]) <= MAX_DOUBLE_RESIDUAL
+        {
             (out[k - 1], out[k]) = (Some(k), Some(k - 1));
         }
     }
@@ -172,7 +175,7 @@ pub fn doubles(system: &LinearSystem, modes: &[Mode]) -> Vec<Option<usize>> {
 
 /// The mode with another shape of its double eigenvalue; kind and label are kept.
 pub fn with_shape(assembly: &Assembly, mode: &Mode, shape: Vec<Complex64>) -> Mode {
-    let described = mode_kind::describe(assembly, mode.eigenvalue, shape);
+    let described = mode_kind::characterise(assembly, mode.eigenvalue, shape);
     Mode { kind: mode.kind, label: mode.label.clone(), ..described }
 }
 

@@ -6,9 +6,9 @@ use crate::linalg::Complex64;
 use std::collections::HashMap;
 
 /// A mode is planar when its orbits enclose less than this fraction of the area of circular orbits.
-const PLANAR: f64 = 0.01;
+const MAX_PLANAR_AREA: f64 = 0.01;
 /// A mode is mixed when the minority whirl direction encloses more than this fraction of the orbit area.
-const MIXED: f64 = 0.05;
+const MIN_MIXED_AREA: f64 = 0.05;
 
 /// Kind of a mode, by kinetic energy and whirl direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,13 +73,13 @@ impl Energy {
 }
 
 /// The mode with phase-normalised shape, kind, energies and effective modal masses; without label.
-pub(super) fn describe(assembly: &Assembly, eigenvalue: Complex64, mut shape: Vec<Complex64>) -> Mode {
+pub(super) fn characterise(assembly: &Assembly, eigenvalue: Complex64, mut shape: Vec<Complex64>) -> Mode {
     let mut full_shape = assembly.dofs.expand_complex(&shape);
-    turn_to_real(&mut shape, &mut full_shape);
+    normalise_phase(&mut shape, &mut full_shape);
     let momentum = assembly.full_mass.mul_complex(&full_shape);
     let shaft = assembly.dofs.shaft_nodes;
     let energy = energy_shares(&full_shape, &momentum, shaft);
-    let whirl: Vec<f64> = full_shape.chunks(6).take(shaft).map(|n| whirl_of(n[0], n[1])).collect();
+    let whirl: Vec<f64> = full_shape.chunks(6).take(shaft).map(|n| whirl_index(n[0], n[1])).collect();
     let kind = classify(&energy, &full_shape[..6 * shaft], &whirl);
     let total = translation_masses(assembly);
     let effective_mass = std::array::from_fn(|d| {
@@ -101,15 +101,15 @@ fn translation_masses(assembly: &Assembly) -> [f64; 3] {
 }
 
 /// Rotates the phase so that the largest translation (if none, rotation) is real and positive.
-fn turn_to_real(shape: &mut [Complex64], full: &mut [Complex64]) {
+fn normalise_phase(shape: &mut [Complex64], full: &mut [Complex64]) {
     let largest = |translation: bool| {
         let candidates = full.iter().enumerate().filter(move |(i, _)| (i % 6 < 3) == translation);
         // The first of nearly equal values, so that round-off of symmetric nodes rarely changes the choice.
         candidates
             .fold(Complex64::default(), |m, (_, v)| if v.norm() > m.norm() * 1.000_001 { *v } else { m })
     };
-    let (move_, turn) = (largest(true), largest(false));
-    let lead = if move_.norm() > 1e-6 * turn.norm() { move_ } else { turn };
+    let (translation, rotation) = (largest(true), largest(false));
+    let lead = if translation.norm() > 1e-6 * rotation.norm() { translation } else { rotation };
     if lead.norm() > 0.0 {
         let phase = lead.conj() / lead.norm();
         shape.iter_mut().chain(full).for_each(|v| *v *= phase);
@@ -139,7 +139,7 @@ fn energy_shares(full: &[Complex64], momentum: &[Complex64], shaft_nodes: usize)
 }
 
 /// Whirl index (|F|² − |B|²)/(|F|² + |B|²) with x + j y = F e^{jωt} + B e^{−jωt}.
-pub fn whirl_of(x: Complex64, y: Complex64) -> f64 {
+pub fn whirl_index(x: Complex64, y: Complex64) -> f64 {
     // |X + jY|² − |X − jY|² = 4 Im(X* Y) (−1).
     let sum = x.norm_sqr() + y.norm_sqr();
     if sum > 0.0 { -2.0 * (x.conj() * y).im / sum } else { 0.0 }
@@ -166,9 +166,9 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
         backward -= circle * whirl.min(0.0);
     }
     let area: f64 = forward + backward;
-    if area < PLANAR * circles {
+    if area < MAX_PLANAR_AREA * circles {
         if energy.bending_x >= energy.bending_y { ModeKind::PlaneX } else { ModeKind::PlaneY }
-    } else if forward.min(backward) > MIXED * area {
+    } else if forward.min(backward) > MIN_MIXED_AREA * area {
         ModeKind::Mixed
     } else if forward > backward {
         ModeKind::Forward

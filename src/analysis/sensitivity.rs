@@ -7,7 +7,9 @@
 //! tangents are evaluated at q ± h q′. All else is analytic, from left and right eigenvectors; no eigenvalue
 //! is computed twice.
 
-use super::equilibrium::{CageTreatment, Equilibrium, Sites, bearing_matrix, equilibrium, force_left, load};
+use super::equilibrium::{
+    CageTreatment, Equilibrium, Sites, bearing_stiffness_matrix, equilibrium, external_load, residual_force,
+};
 use super::modal::inner;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::bearing::SiteTangent;
@@ -16,7 +18,7 @@ use crate::linalg::{BandLayout, Complex64, SparseMatrix, SparseRow, Triplets};
 use crate::model::{Model, Quantity};
 use std::f64::consts::TAU;
 
-use super::frf::derivative as time_derivative;
+use super::frf::derivative_factor as time_derivative;
 
 /// A machine linearised about its equilibrium at one speed, ball bearings averaged over the cage angle.
 #[derive(Clone, Debug)]
@@ -47,21 +49,25 @@ impl Linearised {
     pub fn derivative(&self, below: &Model, above: &Model, width: f64) -> Result<SystemDerivative, Error> {
         let speed = self.system.speed;
         let q = &self.equilibrium.q;
-        let side = |model: &Model| -> Result<Side, Error> {
+        let side = |model: &Model| -> Result<PerturbedAssembly, Error> {
             let assembly = Assembly::new(model)?;
             let sites = Sites::new(model, speed, CageTreatment::Averaged);
             if assembly.dofs.free != self.assembly.dofs.free {
                 let reason = "it changes the mesh or which motions are free".into();
                 return Err(PhysicsError::NoDerivative { reason }.into());
             }
-            Ok(Side { assembly, sites })
+            Ok(PerturbedAssembly { assembly, sites })
         };
         let (below, above) = (side(below)?, side(above)?);
-        let change: Vec<f64> =
-            above.force_left(q).iter().zip(below.force_left(q)).map(|(a, b)| (a - b) / width).collect();
-        let moved = self.equilibrium_shift(change)?;
-        let at = |side: &Side, way: f64| {
-            let there: Vec<f64> = q.iter().zip(&moved).map(|(q, m)| q + way * 0.5 * width * m).collect();
+        let change: Vec<f64> = above
+            .residual_force(q)
+            .iter()
+            .zip(below.residual_force(q))
+            .map(|(a, b)| (a - b) / width)
+            .collect();
+        let shift = self.equilibrium_derivative(change)?;
+        let at = |side: &PerturbedAssembly, way: f64| {
+            let there: Vec<f64> = q.iter().zip(&shift).map(|(q, m)| q + way * 0.5 * width * m).collect();
             LinearSystem::new(&side.assembly, &side.tangents(&there), speed)
         };
         let (low, high) = (at(&below, -1.0)?, at(&above, 1.0)?);
@@ -75,18 +81,18 @@ impl Linearised {
     }
 
     /// Derivative of the equilibrium, q′ of (K + K_t) q′ = `change`.
-    fn equilibrium_shift(&self, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn equilibrium_derivative(&self, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
         if change.iter().all(|r| *r == 0.0) {
             return Ok(change);
         }
         let sites = Sites::new(&self.model, self.system.speed, CageTreatment::Averaged);
         let reactions = sites.reactions(&self.assembly, &self.equilibrium.q);
-        let bearings = bearing_matrix(&self.assembly, &reactions);
+        let bearings = bearing_stiffness_matrix(&self.assembly, &reactions);
         let (mass, stiffness) = (&self.assembly.mass, &self.assembly.stiffness);
         let layout = BandLayout::new(&[mass, stiffness, &bearings]);
         // (2π · 0.002 Hz)² M regularises rigid-body modes; negligible compared with any spring.
-        const HOLD: f64 = 1e-4;
-        let tangent = SparseMatrix::sum(&[(1.0, stiffness), (1.0, &bearings), (HOLD, mass)]);
+        const MASS_SHIFT: f64 = 1e-4;
+        let tangent = SparseMatrix::sum(&[(1.0, stiffness), (1.0, &bearings), (MASS_SHIFT, mass)]);
         let lu = layout
             .factor::<f64>(layout.scatter(&tangent))
             .map_err(|p| PhysicsError::Singular { motion: self.assembly.dofs.name(p.unknown) })?;
@@ -96,14 +102,19 @@ impl Linearised {
 }
 
 /// The assembly at one of the two perturbed parameter values.
-struct Side {
+struct PerturbedAssembly {
     assembly: Assembly,
     sites: Sites,
 }
 
-impl Side {
-    fn force_left(&self, q: &[f64]) -> Vec<f64> {
-        force_left(&self.assembly, load(&self.assembly), q, &self.sites.reactions(&self.assembly, q))
+impl PerturbedAssembly {
+    fn residual_force(&self, q: &[f64]) -> Vec<f64> {
+        residual_force(
+            &self.assembly,
+            external_load(&self.assembly),
+            q,
+            &self.sites.reactions(&self.assembly, q),
+        )
     }
 
     fn tangents(&self, q: &[f64]) -> Vec<SiteTangent> {
@@ -142,18 +153,18 @@ pub struct ModeSensitivity<'a> {
     norm: Complex64,
     /// (2λ M + D) φ.
     weighted: Vec<Complex64>,
-    other: Option<Other<'a>>,
+    other: Option<DoublePartner<'a>>,
 }
 
 /// The other mode of a double eigenvalue, scaled so that ψ_bᵀ (2λ M + D) φ_a = 0 and ψ_bᵀ (2λ M + D) φ_b = 1.
-struct Other<'a> {
+struct DoublePartner<'a> {
     right: &'a [Complex64],
     left: Vec<Complex64>,
     weighted: Vec<Complex64>,
 }
 
 /// D and S count as symmetric when mirrored entries agree within this fraction of the largest.
-const SYMMETRIC: f64 = 1e-9;
+const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
 impl<'a> ModeSensitivity<'a> {
     /// Computes the left eigenvector of an eigenpair λ, φ of (λ² M + λ D + S) φ = 0: φ itself for symmetric
@@ -165,7 +176,7 @@ impl<'a> ModeSensitivity<'a> {
         let left = left_vector(system, value, right)?;
         let (m, d) = (system.mass.mul_complex(right), system.damping.mul_complex(right));
         let weighted: Vec<Complex64> = m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect();
-        let norm = product(&left, &weighted);
+        let norm = bilinear_product(&left, &weighted);
         let size = inner(&left, &left).re.sqrt() * inner(&weighted, &weighted).re.sqrt();
         if norm.norm() <= 1e-12 * size {
             let reason = format!("the eigenvalue at {:.3} Hz is defective", value.im / TAU);
@@ -183,7 +194,7 @@ impl<'a> ModeSensitivity<'a> {
     ///
     /// # Errors
     /// A defective eigenvalue.
-    pub fn of_double(
+    pub fn of_double_eigenvalue(
         system: &'a LinearSystem,
         value: Complex64,
         right: &'a [Complex64],
@@ -195,7 +206,7 @@ impl<'a> ModeSensitivity<'a> {
             m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect::<Vec<Complex64>>()
         });
         // Ψ = L G⁻ᵀ with G = Lᵀ (2λ M + D) Φ has Ψᵀ (2λ M + D) Φ = 1.
-        let g = [0, 1].map(|i| [0, 1].map(|j| product(&lefts[i], &weighted[j])));
+        let g = [0, 1].map(|i| [0, 1].map(|j| bilinear_product(&lefts[i], &weighted[j])));
         let determinant = g[0][0] * g[1][1] - g[0][1] * g[1][0];
         let size = |v: &[Complex64]| inner(v, v).re;
         let scale = (size(&lefts[0]) * size(&lefts[1]) * size(&weighted[0]) * size(&weighted[1])).sqrt();
@@ -208,20 +219,21 @@ impl<'a> ModeSensitivity<'a> {
         };
         let left = combined(g[1][1], -g[0][1]);
         let across = combined(-g[1][0], g[0][0]);
-        let [weighted, beside] = weighted;
-        let other = Some(Other { right: other, left: across, weighted: beside });
+        let [weighted, other_weighted] = weighted;
+        let other = Some(DoublePartner { right: other, left: across, weighted: other_weighted });
         Ok(Self { system, value, right, left, norm: 1.0.into(), weighted, other })
     }
 
     /// −ψ_bᵀ (λ² dM + λ dD + dS) φ_a / ψ_bᵀ (2λ M + D) φ_b with the other mode b of a double eigenvalue; 0 for a simple one.
     pub fn coupling(&self, by: &SystemDerivative) -> Complex64 {
-        let change = |other: &Other| -product(&other.left, &by.apply(self.value, self.right));
+        let change =
+            |other: &DoublePartner| -bilinear_product(&other.left, &by.apply(self.value, self.right));
         self.other.as_ref().map_or_else(Complex64::default, change)
     }
 
     /// λ′ = −ψᵀ (λ² dM + λ dD + dS) φ / ψᵀ (2λ M + D) φ.
-    pub fn eigenvalue(&self, by: &SystemDerivative) -> Complex64 {
-        -product(&self.left, &by.apply(self.value, self.right)) / self.norm
+    pub fn eigenvalue_derivative(&self, by: &SystemDerivative) -> Complex64 {
+        -bilinear_product(&self.left, &by.apply(self.value, self.right)) / self.norm
     }
 
     /// φ′ for every parameter, its largest component fixed (Nelson's method, one factorisation for all).
@@ -230,17 +242,17 @@ impl<'a> ModeSensitivity<'a> {
     ///
     /// # Errors
     /// A double eigenvalue, whose individual shapes are not unique.
-    pub fn shapes(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
-        let held = self.held();
+    pub fn shape_derivatives(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
+        let fixed = self.fixed_components();
         let without = |a: &SparseMatrix, diagonal: f64| {
             let mut out = Triplets::new(a.rows(), a.cols());
-            let kept = a.iter().filter(|(i, j, _)| !held.contains(i) && !held.contains(j));
+            let kept = a.iter().filter(|(i, j, _)| !fixed.contains(i) && !fixed.contains(j));
             kept.for_each(|(i, j, v)| out.add(i, j, v));
-            held.iter().for_each(|&k| out.add(k, k, diagonal));
+            fixed.iter().for_each(|&k| out.add(k, k, diagonal));
             out.build()
         };
         let system = self.system;
-        let scale = system.stiffness.get(held[0], held[0]).abs().max(f64::MIN_POSITIVE);
+        let scale = system.stiffness.get(fixed[0], fixed[0]).abs().max(f64::MIN_POSITIVE);
         let matrices =
             [without(&system.mass, 0.0), without(&system.damping, 0.0), without(&system.stiffness, scale)];
         let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
@@ -251,7 +263,7 @@ impl<'a> ModeSensitivity<'a> {
             reason: format!("two modes share {:.3} Hz, and their shapes are not unique", value.im / TAU),
         })?;
         let solve = |by: &&SystemDerivative| {
-            let slope = self.eigenvalue(by);
+            let slope = self.eigenvalue_derivative(by);
             let mut b: Vec<Complex64> = by
                 .apply(value, self.right)
                 .iter()
@@ -263,7 +275,7 @@ impl<'a> ModeSensitivity<'a> {
                 let across = self.coupling(by);
                 b.iter_mut().zip(&other.weighted).for_each(|(b, w)| *b -= across * w);
             }
-            held.iter().for_each(|&k| b[k] = Complex64::default());
+            fixed.iter().for_each(|&k| b[k] = Complex64::default());
             lu.solve(&mut b);
             b
         };
@@ -271,7 +283,7 @@ impl<'a> ModeSensitivity<'a> {
     }
 
     /// Fixed components in Nelson's method: where right and left vectors (of both double modes) are large.
-    fn held(&self) -> Vec<usize> {
+    fn fixed_components(&self) -> Vec<usize> {
         let largest = |size: &dyn Fn(usize) -> f64| {
             (0..self.right.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0)
         };
@@ -290,13 +302,13 @@ impl<'a> ModeSensitivity<'a> {
 }
 
 /// aᵀ b, not conjugated.
-fn product(a: &[Complex64], b: &[Complex64]) -> Complex64 {
+fn bilinear_product(a: &[Complex64], b: &[Complex64]) -> Complex64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn symmetric(a: &SparseMatrix) -> bool {
+fn is_symmetric(a: &SparseMatrix) -> bool {
     let largest = a.max_abs();
-    a.iter().all(|(i, j, v)| (v - a.get(j, i)).abs() <= SYMMETRIC * largest)
+    a.iter().all(|(i, j, v)| (v - a.get(j, i)).abs() <= SYMMETRY_TOLERANCE * largest)
 }
 
 /// Left eigenvector ψ of ψᵀ (λ² M + λ D + S) = 0, by inverse iteration.
@@ -305,7 +317,7 @@ fn left_vector(
     value: Complex64,
     right: &[Complex64],
 ) -> Result<Vec<Complex64>, Error> {
-    if symmetric(&system.damping) && symmetric(&system.stiffness) {
+    if is_symmetric(&system.damping) && is_symmetric(&system.stiffness) {
         return Ok(right.to_vec());
     }
     let matrices = [&system.mass, &system.damping, &system.stiffness].map(SparseMatrix::transposed);
@@ -333,7 +345,7 @@ pub struct FrfSensitivity {
     /// H\[response\]\[excitation\]\[frequency\].
     pub values: Vec<Vec<Vec<Complex64>>>,
     /// dH/dp\[parameter\]\[response\]\[excitation\]\[frequency\].
-    pub slopes: Vec<Vec<Vec<Vec<Complex64>>>>,
+    pub derivatives: Vec<Vec<Vec<Vec<Complex64>>>>,
 }
 
 /// H = (jω)^p r A⁻¹ eᵀ and H′ = −(jω)^p r A⁻¹ (dS − ω² dM + jω dD) A⁻¹ eᵀ, A = S − ω² M + jω D.
@@ -355,7 +367,7 @@ pub fn frf_sensitivity(
     let layout = BandLayout::new(&matrices);
     let [m, d, s] = matrices.map(|a| layout.scatter(a));
     let empty = vec![vec![Vec::with_capacity(frequencies.len()); excitations.len()]; responses.len()];
-    let mut out = FrfSensitivity { values: empty.clone(), slopes: vec![empty; by.len()] };
+    let mut out = FrfSensitivity { values: empty.clone(), derivatives: vec![empty; by.len()] };
     let mut lu = layout.workspace::<Complex64>();
     for &hz in frequencies {
         let omega = TAU * hz;
@@ -374,7 +386,7 @@ pub fn frf_sensitivity(
             for (r, values) in out.values.iter_mut().enumerate() {
                 values[e].push(read(&q, r));
             }
-            for (slopes, by) in out.slopes.iter_mut().zip(by) {
+            for (slopes, by) in out.derivatives.iter_mut().zip(by) {
                 let mut change = by.apply(value, &q);
                 change.iter_mut().for_each(|v| *v = -*v);
                 lu.solve(&mut change);

@@ -1,8 +1,8 @@
 //! Steady-state unbalance response (synchronous, 1x) over speed.
 
 use super::campbell::Tangents;
-use super::frf::derivative;
-use super::mode_kind::whirl_of;
+use super::frf::derivative_factor;
+use super::mode_kind::whirl_index;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, Complex64, SparseRow};
@@ -41,15 +41,16 @@ impl Orbit {
             major: forward.norm() + backward.norm(),
             minor: forward.norm() - backward.norm(),
             inclination: 0.5 * (forward * backward).arg(),
-            whirl: whirl_of(x, y),
+            whirl: whirl_index(x, y),
         }
     }
 }
 
 impl UnbalanceResponse {
     /// Complex amplitude of a row (a probe's direction) over speed.
-    pub fn at(&self, row: &SparseRow, quantity: Quantity) -> Vec<Complex64> {
-        let one = |(speed, q): (&f64, &Vec<Complex64>)| derivative(quantity, *speed) * row.dot_complex(q);
+    pub fn amplitude_of(&self, row: &SparseRow, quantity: Quantity) -> Vec<Complex64> {
+        let one =
+            |(speed, q): (&f64, &Vec<Complex64>)| derivative_factor(quantity, *speed) * row.dot_complex(q);
         self.speeds.iter().zip(&self.amplitudes).map(one).collect()
     }
 

@@ -150,9 +150,10 @@ fn rigid_rows(model: &Model) -> Vec<(usize, SparseRow)> {
     let mut solved = Vec::new();
     for (node, z) in model.node_z.iter().enumerate().filter(|(node, _)| *node != rotor.node) {
         let offset = [0.0, 0.0, z - model.node_z[rotor.node]];
-        for (i, held) in full_rows(&Anchor { node: Some(rotor.node), offset }).into_iter().enumerate() {
+        for (i, constrained) in full_rows(&Anchor { node: Some(rotor.node), offset }).into_iter().enumerate()
+        {
             let mut row = SparseRow::unit(6 * node + i);
-            row.add_scaled(-1.0, &held);
+            row.add_scaled(-1.0, &constrained);
             solved.push((6 * node + i, row));
         }
     }

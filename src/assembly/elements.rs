@@ -27,15 +27,15 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         add12(&mut m, e, &mass, 1.0);
         add12(&mut k, e, &elastic, 1.0);
         add12(&mut k, e, &geometric, 1.0);
-        add12(&mut c, e, &mass, element.proportional[0]);
-        add12(&mut c, e, &elastic, element.proportional[1] + element.internal_viscous);
-        add12(&mut c, e, &geometric, element.proportional[1]);
+        add12(&mut c, e, &mass, element.proportional_damping[0]);
+        add12(&mut c, e, &elastic, element.proportional_damping[1] + element.internal_viscous);
+        add12(&mut c, e, &geometric, element.proportional_damping[1]);
         add12(&mut g, e, &element.gyroscopic_matrix(), 1.0);
         if element.internal_viscous != 0.0 {
             add12(&mut kc, e, &element.circulatory_stiffness(), 1.0);
         }
     }
-    for disc in model.spinning() {
+    for disc in model.rotating_inertias() {
         let at = 6 * disc.node;
         let (mass, id, ip) = (disc.mass, disc.diametral_inertia, disc.polar_inertia);
         for (i, v) in [mass, mass, mass, id, id, ip].into_iter().enumerate() {
@@ -54,7 +54,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         }
     }
     for point in &model.masses {
-        let [x, y, z, ..] = full_rows(&point.at);
+        let [x, y, z, ..] = full_rows(&point.anchor);
         for row in [x, y, z] {
             m.add_between_rows(&[row], &[[point.mass]]);
         }
@@ -64,7 +64,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         if let Bearing::RadialBall(radial) = &site.bearing {
             let [x, y, ..] = full_rows(&site.housing);
             for row in [x, y] {
-                m.add_between_rows(&[row], &[[radial.carried_mass()]]);
+                m.add_between_rows(&[row], &[[radial.added_ball_mass()]]);
             }
         }
     }
@@ -121,16 +121,16 @@ pub(super) fn add12(to: &mut Triplets, e: usize, matrix: &Matrix12, factor: f64)
 /// Gravity on every mass, and constant loads with the belts' static pull, over all DOFs.
 pub(super) fn loads(model: &Model, mass: &SparseMatrix) -> (Vec<f64>, Vec<f64>) {
     let n = 6 * model.node_count();
-    let fall: Vec<f64> = (0..n).map(|i| if i % 6 < 3 { model.gravity[i % 6] } else { 0.0 }).collect();
-    let mut steady = vec![0.0; n];
+    let acceleration: Vec<f64> = (0..n).map(|i| if i % 6 < 3 { model.gravity[i % 6] } else { 0.0 }).collect();
+    let mut static_load = vec![0.0; n];
     for load in model.loads.iter().filter(|load| load.history.is_empty()) {
-        add_force(&full_rows(&load.at), &load.force, &mut steady);
+        add_force(&full_rows(&load.at), &load.force, &mut static_load);
     }
     for belt in &model.belts {
-        steady[6 * belt.node] += belt.pull[0];
-        steady[6 * belt.node + 1] += belt.pull[1];
+        static_load[6 * belt.node] += belt.pull[0];
+        static_load[6 * belt.node + 1] += belt.pull[1];
     }
-    (mass.mul(&fall), steady)
+    (mass.mul(&acceleration), static_load)
 }
 
 /// Adds force and moment at the point of `rows`.

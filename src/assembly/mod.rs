@@ -5,8 +5,8 @@
 
 pub mod dofs;
 mod elements;
-pub mod free_motion;
 pub mod linear_system;
+pub mod rigid_body_modes;
 mod spin_up;
 
 pub use dofs::DofMap;
@@ -63,7 +63,7 @@ pub struct Site {
     /// Shaft node minus housing point: u_x u_y u_z θ_x θ_y θ_z as rows over the free DOFs.
     pub rows: [SparseRow; 6],
     /// Housing point: u_x u_y; no entries for ground.
-    pub frame: [SparseRow; 2],
+    pub housing_rows: [SparseRow; 2],
 }
 
 impl Site {
@@ -75,7 +75,7 @@ impl Site {
     /// Adds Rᵀ f: f on the shaft, −f and the additional housing force on the housing.
     pub fn add_force(&self, reaction: &Reaction, to: &mut [f64]) {
         elements::add_force(&self.rows, &reaction.force, to);
-        for (row, force) in self.frame.iter().zip(reaction.carried) {
+        for (row, force) in self.housing_rows.iter().zip(reaction.housing_force) {
             row.add_to(force, to);
         }
     }
@@ -143,7 +143,7 @@ impl Assembly {
                 .map(|b| Site {
                     name: b.name.clone(),
                     rows: dofs.relative_rows(&Anchor::node(b.node), &b.housing),
-                    frame: {
+                    housing_rows: {
                         let [x, y, ..] = dofs.anchor_rows(&b.housing);
                         [x, y]
                     },
@@ -153,7 +153,7 @@ impl Assembly {
             full_mass: full.mass,
             dofs,
         };
-        free_motion::check_mass(&assembly)?;
+        rigid_body_modes::check_mass(&assembly)?;
         Ok(assembly)
     }
 

@@ -53,7 +53,7 @@ pub(super) fn spin_up(model: &Model, form: SpinUpForm, gyroscopic: &SparseMatrix
             for (e, element) in model.shaft.iter().enumerate() {
                 add12(&mut k, e, &element.spin_up_ross(), 1.0);
             }
-            for disc in model.spinning() {
+            for disc in model.rotating_inertias() {
                 k.add(6 * disc.node + 4, 6 * disc.node + 3, disc.polar_inertia);
             }
         }
@@ -61,7 +61,7 @@ pub(super) fn spin_up(model: &Model, form: SpinUpForm, gyroscopic: &SparseMatrix
             let Some(drive) = drive_node(model) else { return k.build() };
             k.add_sparse(0, 0, gyroscopic, 0.5);
             let inertia_at = |node: usize| -> f64 {
-                model.spinning().filter(|d| d.node == node).map(|d| d.polar_inertia).sum()
+                model.rotating_inertias().filter(|d| d.node == node).map(|d| d.polar_inertia).sum()
             };
             let total: f64 = (0..model.node_z.len()).map(inertia_at).sum::<f64>()
                 + model.shaft.iter().map(|e| e.polar_inertia_beyond(0.0)).sum::<f64>();

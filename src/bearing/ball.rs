@@ -3,8 +3,8 @@
 //! Force law of Cakmak & Sanliturk 2010 §2.1 and §3.1 with massless balls: the groove centres of ball j are
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line joining them.
 
-use super::duplex::{motion_at, seen_from_station};
-use super::force::RowForce;
+use super::duplex::{displacement_at_offset, transform_to_station};
+use super::force_kernel::RowForce;
 use super::ring_motion::RingMotion;
 use super::row::Row;
 use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
@@ -115,7 +115,13 @@ impl BallElement {
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all balls unloaded gives zero force and zero tangents; no ball transmits tension.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
-        self.react(&RingMotion { d, v, rotation, cage_speed: rotation.cage_speed, with_defects: true })
+        self.reaction_with(&RingMotion {
+            d,
+            v,
+            rotation,
+            cage_speed: rotation.cage_speed,
+            with_defects: true,
+        })
     }
 
     /// The force of [`BallElement::reaction`] with its energy, powers and mean contact angle, to `out`.
@@ -125,11 +131,15 @@ impl BallElement {
         let station = RingMotion { d, v, rotation, cage_speed: rotation.cage_speed, with_defects: true };
         let mut sum = RowForce::default();
         for (place, row) in &self.rows {
-            let ring = RingMotion { d: &motion_at(*place, d), v: &motion_at(*place, v), ..station };
+            let ring = RingMotion {
+                d: &displacement_at_offset(*place, d),
+                v: &displacement_at_offset(*place, v),
+                ..station
+            };
             match row.force(&ring) {
                 Some(part) => sum.add(&part, *place),
                 None => {
-                    *out = self.react(&station);
+                    *out = self.reaction_with(&station);
                     return;
                 }
             }
@@ -141,14 +151,14 @@ impl BallElement {
         out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.nominal_cos };
     }
 
-    fn react(&self, ring: &RingMotion) -> Reaction {
+    fn reaction_with(&self, ring: &RingMotion) -> Reaction {
         let (mut load, mut load_cos) = (0.0, 0.0);
         let mut row_reaction = |place: f64, row: &Row| {
-            let (d, v) = (motion_at(place, ring.d), motion_at(place, ring.v));
-            let out = row.react(&RingMotion { d: &d, v: &v, ..*ring });
+            let (d, v) = (displacement_at_offset(place, ring.d), displacement_at_offset(place, ring.v));
+            let out = row.row_reaction(&RingMotion { d: &d, v: &v, ..*ring });
             load += out.load;
             load_cos += out.load_cos;
-            seen_from_station(place, &out.reaction)
+            transform_to_station(place, &out.reaction)
         };
         let mut out = Reaction::default();
         match self.rows.as_slice() {
@@ -174,7 +184,7 @@ impl BallElement {
         for k in 0..angles {
             let at =
                 Rotation { cage_angle: rotation.cage_angle + pitch * k as f64 / angles as f64, ..*rotation };
-            out.add(&self.react(&RingMotion::at_rest(d, &at, false)), 1.0 / angles as f64);
+            out.add(&self.reaction_with(&RingMotion::at_rest(d, &at, false)), 1.0 / angles as f64);
         }
         out
     }
@@ -183,7 +193,7 @@ impl BallElement {
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
         let mut out = Vec::with_capacity(self.balls() * self.rows.len());
         for (k, (place, row)) in self.rows.iter().enumerate() {
-            row.ball_loads(&motion_at(*place, d), rotation, k, &mut out);
+            row.ball_loads(&displacement_at_offset(*place, d), rotation, k, &mut out);
         }
         out
     }

@@ -123,7 +123,7 @@ impl BallBearing {
             "a contact stiffness cannot be combined with a fitted power law or an EHL film",
         );
         refuse(
-            self.imperfections.balls().any(|ball| ball >= self.geometry.balls),
+            self.imperfections.ball_numbers().any(|ball| ball >= self.geometry.balls),
             "a wave, a size or a defect is on a ball number that does not exist (balls count from 0)",
         );
         let forced = matches!(self.imperfections.law, DefectLaw::Force { .. });

@@ -17,15 +17,15 @@ impl Duplex {
 }
 
 /// Displacement of the ring at an axial offset h from the station: u_x + h θ_y, u_y − h θ_x.
-pub(super) fn motion_at(place: f64, d: &[f64; 6]) -> [f64; 6] {
+pub(super) fn displacement_at_offset(place: f64, d: &[f64; 6]) -> [f64; 6] {
     let mut out = *d;
     out[0] += place * d[4];
     out[1] -= place * d[3];
     out
 }
 
-/// Reaction of a row at h transformed to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`motion_at`].
-pub(super) fn seen_from_station(place: f64, row: &Reaction) -> Reaction {
+/// Reaction of a row at h transformed to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`displacement_at_offset`].
+pub(super) fn transform_to_station(place: f64, row: &Reaction) -> Reaction {
     let mut out = *row;
     out.force[4] += place * row.force[0];
     out.force[3] -= place * row.force[1];

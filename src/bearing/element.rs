@@ -94,7 +94,7 @@ impl BearingElement {
 
     /// Number of relative degrees of freedom the bearing acts on: 2 for a plane bearing, 5 with free rotation
     /// of the shaft, else 6.
-    pub fn rows(&self) -> usize {
+    pub fn relative_dofs(&self) -> usize {
         match self {
             Self::Linear(_) => 6,
             Self::Ball(_) => 5,

@@ -51,40 +51,42 @@ impl Fit {
     pub fn clearance_change(&self, geometry: &BallGeometry, materials: &FitMaterials, speed: f64) -> f64 {
         let ring = Ring::inner(geometry);
         let pressure = self.shaft_pressure(geometry, materials, speed);
-        let grown = ring.outer_by_inside(pressure, materials.ring);
-        let spun = if self.speed_growth { ring.outer_by_rotation(speed, materials.ring) } else { 0.0 };
-        let squeezed = Ring::outer(geometry)
+        let fit_expansion = ring.outer_by_inside(pressure, materials.ring);
+        let centrifugal_growth =
+            if self.speed_growth { ring.outer_by_rotation(speed, materials.ring) } else { 0.0 };
+        let fit_contraction = Ring::outer(geometry)
             .inner_by_outside(self.housing_pressure(geometry, materials), materials.ring);
-        let warmed = self.expansion
+        let thermal_change = self.expansion
             * geometry.pitch_diameter
             * (self.outer_temperature_rise - self.inner_temperature_rise);
-        warmed - 2.0 * (grown + spun - squeezed)
+        thermal_change - 2.0 * (fit_expansion + centrifugal_growth - fit_contraction)
     }
 
     /// Fit pressure between shaft and bore \[Pa\] at a speed Ω \[rad/s\]; 0 after loosening by rotation.
     pub fn shaft_pressure(&self, geometry: &BallGeometry, materials: &FitMaterials, speed: f64) -> f64 {
         let ring = Ring::inner(geometry);
         let shaft = Ring { inside: 0.5 * self.shaft_bore, outside: ring.inside };
-        let opened = if self.speed_growth {
+        let centrifugal_opening = if self.speed_growth {
             ring.inner_by_rotation(speed, materials.ring) - shaft.outer_by_rotation(speed, materials.shaft)
         } else {
             0.0
         };
         let compliance =
             ring.inner_by_inside(1.0, materials.ring) - shaft.outer_by_outside(1.0, materials.shaft);
-        ((0.5 * self.shaft_interference - opened) / compliance).max(0.0)
+        ((0.5 * self.shaft_interference - centrifugal_opening) / compliance).max(0.0)
     }
 
     /// Fit pressure between outer ring and housing \[Pa\].
     pub fn housing_pressure(&self, geometry: &BallGeometry, materials: &FitMaterials) -> f64 {
         let ring = Ring::outer(geometry);
-        let yields = if self.housing_diameter > geometry.outside_diameter {
+        let housing_compliance = if self.housing_diameter > geometry.outside_diameter {
             let housing = Ring { inside: ring.outside, outside: 0.5 * self.housing_diameter };
             housing.inner_by_inside(1.0, materials.housing)
         } else {
             0.0
         };
-        (0.5 * self.housing_interference / (yields - ring.outer_by_outside(1.0, materials.ring))).max(0.0)
+        (0.5 * self.housing_interference / (housing_compliance - ring.outer_by_outside(1.0, materials.ring)))
+            .max(0.0)
     }
 }
 

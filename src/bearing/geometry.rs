@@ -44,7 +44,7 @@ impl BallGeometry {
 
     /// Bearing characteristic (defect) frequencies in orders of the inner ring speed at contact angle α,
     /// outer ring stationary.
-    pub fn orders(&self, contact_angle: f64) -> CharacteristicOrders {
+    pub fn characteristic_orders(&self, contact_angle: f64) -> CharacteristicOrders {
         let gamma = self.ball_diameter * contact_angle.cos() / self.pitch_diameter;
         let z = self.balls as f64;
         CharacteristicOrders {

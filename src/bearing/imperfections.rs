@@ -55,7 +55,7 @@ pub struct BallWave {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffSize {
     pub ball: usize,
-    pub by: f64,
+    pub diameter_difference: f64,
     /// Row of a matched pair; `None`: both rows.
     pub row: Option<usize>,
 }
@@ -63,7 +63,7 @@ pub struct OffSize {
 /// A local defect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
-    pub on: Surface,
+    pub surface: Surface,
     /// Row of a matched pair; `None`: both rows.
     pub row: Option<usize>,
     /// Angle at which it starts \[rad\].
@@ -125,7 +125,7 @@ pub enum DefectLaw {
         /// K_d \[N/m^1.5\]; `None`: of the ball's dry contacts in series.
         stiffness: Option<f64>,
         /// Only on loaded balls, with no negative load; else on every ball at all times, as published.
-        on_loaded: bool,
+        loaded_only: bool,
     },
 }
 
@@ -170,10 +170,10 @@ impl Imperfections {
     }
 
     /// Ball numbers given for waviness, sizes and defects.
-    pub fn balls(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn ball_numbers(&self) -> impl Iterator<Item = usize> + '_ {
         let waves = self.ball_waviness.iter().filter_map(|w| w.ball);
         let sizes = self.off_size.iter().map(|s| s.ball);
-        let defects = self.defects.iter().filter_map(|d| match d.on {
+        let defects = self.defects.iter().filter_map(|d| match d.surface {
             Surface::Ball(ball) => Some(ball),
             Surface::Inner | Surface::Outer => None,
         });
@@ -184,10 +184,10 @@ impl Imperfections {
 impl Surface {
     /// Radius of the circle along which a defect's width is measured \[m\].
     pub fn radius(self, g: &BallGeometry) -> f64 {
-        let beside = 0.5 * g.ball_diameter * g.contact_angle.cos();
+        let contact_offset = 0.5 * g.ball_diameter * g.contact_angle.cos();
         match self {
-            Self::Inner => 0.5 * g.pitch_diameter - beside,
-            Self::Outer => 0.5 * g.pitch_diameter + beside,
+            Self::Inner => 0.5 * g.pitch_diameter - contact_offset,
+            Self::Outer => 0.5 * g.pitch_diameter + contact_offset,
             Self::Ball(_) => 0.5 * g.ball_diameter,
         }
     }
@@ -201,7 +201,7 @@ impl Defect {
             DefectForm::Bump { .. } => "bump",
             DefectForm::Spall { .. } => "spall",
         };
-        match self.on {
+        match self.surface {
             Surface::Inner => format!("{kind} on inner race"),
             Surface::Outer => format!("{kind} on outer race"),
             Surface::Ball(ball) => format!("{kind} on ball {ball}"),
@@ -210,15 +210,15 @@ impl Defect {
 
     /// Angle Δφ = width / radius of the surface \[rad\].
     pub fn angle(&self, g: &BallGeometry) -> f64 {
-        self.width / self.on.radius(g)
+        self.width / self.surface.radius(g)
     }
 
     /// Maximum depth to which a ball sinks into an opening of this width \[m\]: D/2 − √((D/2)² − (d/2)²),
     /// infinite when the ball falls through (Atef 2022 eq. 4); for a spall from its path over the edges.
-    pub fn reach(&self, g: &BallGeometry) -> f64 {
+    pub fn max_depth(&self, g: &BallGeometry) -> f64 {
         match self.form {
             DefectForm::Spall { edge_radius, .. } => {
-                let paths = SpallPath::on(self.on, g, self.width, f64::INFINITY, edge_radius);
+                let paths = SpallPath::on(self.surface, g, self.width, f64::INFINITY, edge_radius);
                 paths.iter().map(|path| path.at(0.5 * self.width)[0]).fold(0.0, f64::max)
             }
             DefectForm::Dent { .. } | DefectForm::Bump { .. } => {
@@ -237,8 +237,10 @@ impl Defect {
     pub fn height(&self, g: &BallGeometry) -> f64 {
         match self.form {
             DefectForm::Bump { height, .. } => height,
-            DefectForm::Dent { depth, .. } => -depth.map_or(self.reach(g), |depth| depth.min(self.reach(g))),
-            DefectForm::Spall { depth, .. } => -depth.min(self.reach(g)),
+            DefectForm::Dent { depth, .. } => {
+                -depth.map_or(self.max_depth(g), |depth| depth.min(self.max_depth(g)))
+            }
+            DefectForm::Spall { depth, .. } => -depth.min(self.max_depth(g)),
         }
     }
 }

@@ -12,7 +12,7 @@ pub struct LoadRating {
     /// Basic dynamic load rating C_r \[N\].
     pub dynamic: f64,
     /// Basic static load rating C_0r \[N\].
-    pub stationary: f64,
+    pub static_rating: f64,
     /// Fatigue load limit C_u \[N\].
     pub fatigue: f64,
 }
@@ -35,7 +35,7 @@ impl LoadRating {
         let limit = |race| (4.2e9 / hertz.of(race).patch(1.0).maximum_pressure).powi(3);
         let stationary = 0.2 * rows * balls * limit(Race::Inner).min(limit(Race::Outer)) * cos;
         let fatigue = stationary / 22.0 * (0.1 / g.pitch_diameter).sqrt().min(1.0);
-        Self { dynamic, stationary, fatigue }
+        Self { dynamic, static_rating: stationary, fatigue }
     }
 }
 
@@ -87,7 +87,7 @@ fn load_factors(angle: f64, relative: f64) -> [f64; 3] {
         [5.17, 1.04, 0.42],
         [6.89, 1.00, 0.44],
     ];
-    const FIFTEEN: [[f64; 3]; 9] = [
+    const ANGULAR_CONTACT_15: [[f64; 3]; 9] = [
         [0.172, 1.47, 0.38],
         [0.345, 1.40, 0.40],
         [0.689, 1.30, 0.43],
@@ -99,7 +99,7 @@ fn load_factors(angle: f64, relative: f64) -> [f64; 3] {
         [6.89, 1.00, 0.56],
     ];
     let [_, y0, e0] = piecewise(&DEEP_GROOVE, relative, Outside::Constant);
-    let [_, y15, e15] = piecewise(&FIFTEEN, relative, Outside::Constant);
+    let [_, y15, e15] = piecewise(&ANGULAR_CONTACT_15, relative, Outside::Constant);
     // Angle, X, Y, e.
     let table = [
         [0.0, 0.56, y0, e0],
@@ -206,7 +206,7 @@ pub fn reference_life(
     dynamic_rating: f64,
     inner: &[f64],
     outer: &[f64],
-    turning: Race,
+    rotating_ring: Race,
 ) -> ReferenceLife {
     let (balls, size) = (g.balls as f64, g.ball_diameter);
     let gamma = size * g.contact_angle.cos() / g.pitch_diameter;
@@ -219,7 +219,7 @@ pub fn reference_life(
     let mean = |loads: &[f64], power: f64| {
         (loads.iter().map(|q| q.max(0.0).powf(power)).sum::<f64>() / balls).powf(1.0 / power)
     };
-    let (by_inner, by_outer) = match turning {
+    let (by_inner, by_outer) = match rotating_ring {
         Race::Inner => (3.0, 10.0 / 3.0),
         Race::Outer => (10.0 / 3.0, 3.0),
     };

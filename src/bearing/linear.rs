@@ -65,7 +65,7 @@ impl LinearElement {
         let fill = |curves: &[(usize, usize, Pchip)]| {
             let mut m = [[0.0; 6]; 6];
             for (a, b, curve) in curves {
-                m[*a][*b] = curve.at(speed)[0];
+                m[*a][*b] = curve.evaluate(speed)[0];
             }
             m
         };

@@ -1,8 +1,8 @@
 //! Massless ball: both contacts carry the same load along the line joining the groove centres.
 
-use super::ring_sum::PlaneForce;
+use super::ball_sum::PlaneForce;
 use super::row::PlaneMotion;
-use crate::contact::{ContactDamping, Loaded, SpeedContacts};
+use crate::contact::{ContactDamping, ContactLoad, SpeedContacts};
 
 /// Plane force of a massless ball.
 ///
@@ -14,8 +14,8 @@ use crate::contact::{ContactDamping, Loaded, SpeedContacts};
 /// `None` when unloaded. A contact with tensile damped load is set to zero: its elastic energy counts as
 /// dissipated.
 #[inline(always)]
-pub(super) fn react(
-    series: impl Fn(f64) -> Loaded,
+pub(super) fn ball_force(
+    series: impl Fn(f64) -> ContactLoad,
     contacts: &SpeedContacts,
     damping: &ContactDamping,
     centre_distance: f64,
@@ -44,14 +44,14 @@ pub(super) fn react(
         let turn = (n[0] * motion.rate[1] - n[1] * motion.rate[0]) * inverse;
         let bend = load * inverse;
         let nn = [n[0] * n[0], n[0] * n[1], n[1] * n[1]];
-        let swing = damped.by_rate * turn;
+        let damping_rotation = damped.by_rate * turn;
         out.force = [load * n[0], load * n[1]];
         // n nᵀ, t tᵀ and n tᵀ with t = (−n_z, n_r).
         out.by_motion = [
-            damped.by_approach * nn[0] + bend * nn[2] - swing * nn[1],
-            (damped.by_approach - bend) * nn[1] + swing * nn[0],
-            (damped.by_approach - bend) * nn[1] - swing * nn[2],
-            damped.by_approach * nn[2] + bend * nn[0] + swing * nn[1],
+            damped.by_approach * nn[0] + bend * nn[2] - damping_rotation * nn[1],
+            (damped.by_approach - bend) * nn[1] + damping_rotation * nn[0],
+            (damped.by_approach - bend) * nn[1] - damping_rotation * nn[2],
+            damped.by_approach * nn[2] + bend * nn[0] + damping_rotation * nn[1],
         ];
         out.by_rate = nn.map(|v| damped.by_rate * v);
         out.load = load;

@@ -2,15 +2,16 @@
 
 pub mod ball;
 pub mod ball_bearing;
+mod ball_equilibrium;
+mod ball_sum;
 mod defect_force;
 mod duplex;
 pub mod element;
 pub mod fit;
-mod flung;
-mod force;
+mod force_kernel;
 pub mod geometry;
 pub mod imperfections;
-mod jones;
+mod inertial_ball;
 pub mod life;
 pub mod linear;
 mod massless;
@@ -19,8 +20,7 @@ pub mod profile;
 mod raceway;
 pub mod radial;
 mod ring_motion;
-mod ring_sum;
-mod root;
+mod root_finding;
 mod row;
 mod spall;
 
@@ -34,7 +34,7 @@ pub use imperfections::{
 };
 pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;
-pub use profile::{Deviation, Passing, Profile};
+pub use profile::{Deviation, Profile, ProfileState};
 pub use radial::{RadialBallBearing, RadialElement};
 
 /// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
@@ -99,7 +99,7 @@ pub struct Reaction {
     pub force: [f64; 6],
     /// Additional force on the housing, on top of −f, along x and y \[N\]: weight and centrifugal force of
     /// balls with inertia.
-    pub carried: [f64; 2],
+    pub housing_force: [f64; 2],
     /// −∂f/∂d.
     pub stiffness: [[f64; 6]; 6],
     /// −∂f/∂ḋ.
@@ -125,7 +125,7 @@ impl Reaction {
                 self.damping[a][b] += weight * other.damping[a][b];
             }
         }
-        for (own, other) in self.carried.iter_mut().zip(other.carried) {
+        for (own, other) in self.housing_force.iter_mut().zip(other.housing_force) {
             *own += weight * other;
         }
         self.elastic_energy += weight * other.elastic_energy;

@@ -2,7 +2,7 @@
 
 use super::ring_motion::RingMotion;
 use super::row::Row;
-use super::{Preload, Reaction, Rotation, root};
+use super::{Preload, Reaction, Rotation, root_finding};
 use crate::linalg::dot;
 
 /// Preload of a bearing with centred rings at one speed.
@@ -16,22 +16,22 @@ pub struct PreloadState {
 
 /// Preload mechanism of a row, with its speed-independent quantities.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Seat {
+pub(super) enum PreloadMechanism {
     /// Rigid, at this offset.
     Fixed(f64),
     /// Rigid, at the offset where the centred bearing carries this force at speed; `dry`: initial guess, dry
     /// offset.
     Force { force: f64, dry: f64 },
     /// Spring preload; dry centred offset, and the ring's share in an axial displacement there.
-    Spring { stiffness: f64, force: f64, dry: f64, follows: f64 },
+    Spring { stiffness: f64, force: f64, dry: f64, ring_motion_ratio: f64 },
 }
 
-impl Seat {
+impl PreloadMechanism {
     /// Preload mechanism of a row from its dry axial force and stiffness as a function of offset.
     pub fn new(preload: &Preload, dry: impl Fn(f64) -> [f64; 2]) -> Self {
         let guess = 1e-6;
-        let carrying = |force: f64| {
-            root::rising(
+        let offset_at_force = |force: f64| {
+            root_finding::increasing_root(
                 |offset| {
                     let [n, slope] = dry(offset);
                     [n - force, slope]
@@ -42,10 +42,10 @@ impl Seat {
         match *preload {
             Preload::None => Self::Fixed(0.0),
             Preload::Interference(offset) => Self::Fixed(offset),
-            Preload::DryForce(force) => Self::Fixed(carrying(force)),
-            Preload::Force(force) => Self::Force { force, dry: carrying(force) },
+            Preload::DryForce(force) => Self::Fixed(offset_at_force(force)),
+            Preload::Force(force) => Self::Force { force, dry: offset_at_force(force) },
             Preload::Spring { stiffness, force } => {
-                let offset = root::rising(
+                let offset = root_finding::increasing_root(
                     |e| {
                         let [n, slope] = dry(e);
                         [n + stiffness * e - force, slope + stiffness]
@@ -53,7 +53,7 @@ impl Seat {
                     guess,
                 );
                 let slope = dry(offset)[1];
-                Self::Spring { stiffness, force, dry: offset, follows: slope / (slope + stiffness) }
+                Self::Spring { stiffness, force, dry: offset, ring_motion_ratio: slope / (slope + stiffness) }
             }
         }
     }
@@ -69,43 +69,47 @@ pub(super) struct RowReaction {
 
 impl Row {
     /// Force on the inner ring and tangents, for any preload mechanism of the outer ring.
-    pub fn react(&self, ring: &RingMotion) -> RowReaction {
+    pub fn row_reaction(&self, ring: &RingMotion) -> RowReaction {
         let operating = self.operating(ring);
         let evaluate = |ring: &RingMotion| {
             let sum = self.sum(ring, &operating);
             let reaction = sum.reaction(self.arm, ring.cage_speed);
             RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
         };
-        let Seat::Spring { stiffness, force, .. } = self.seat else {
+        let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism else {
             return evaluate(ring);
         };
-        let shift = self.spring_shift(ring);
+        let shift = self.ring_displacement(ring);
         let moved = shifted(ring.d, self.direction * shift);
         let still = RingMotion::at_rest(&moved, ring.rotation, ring.with_defects);
         let sum = self.sum(&still, &self.operating(&still));
         let elastic = sum.reaction(self.arm, still.cage_speed);
         let whole = elastic.stiffness[2][2] + stiffness;
         // Axial ring displacement per shaft displacement; zero for an unloaded ring without spring.
-        let follow: [f64; 6] =
+        let ring_tangent: [f64; 6] =
             std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
-        let slip = dot(&follow, ring.v);
+        let slip = dot(&ring_tangent, ring.v);
         let mut out = if ring.cage_speed == 0.0 && ring.v.iter().all(|v| *v == 0.0) {
             RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
         } else {
             evaluate(&RingMotion { d: &moved, v: &shifted(ring.v, slip), ..*ring })
         };
-        condense(&mut out.reaction, &elastic, &follow);
+        condense(&mut out.reaction, &elastic, &ring_tangent);
         out.reaction.elastic_energy += (0.5 * stiffness * shift - force) * shift;
         out
     }
 
     /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
     /// e.
-    fn spring_shift(&self, ring: &RingMotion) -> f64 {
-        let Seat::Spring { stiffness, force, dry, follows } = self.seat else { return 0.0 };
+    fn ring_displacement(&self, ring: &RingMotion) -> f64 {
+        let PreloadMechanism::Spring { stiffness, force, dry, ring_motion_ratio: follows } =
+            self.preload_mechanism
+        else {
+            return 0.0;
+        };
         let still = RingMotion::at_rest(ring.d, ring.rotation, ring.with_defects);
         let operating = self.operating(&still);
-        root::rising(
+        root_finding::increasing_root(
             |e| {
                 let d = shifted(ring.d, self.direction * e);
                 let (n, slope) = self.sum(&RingMotion { d: &d, ..still }, &operating).axial();
@@ -116,18 +120,18 @@ impl Row {
     }
 
     /// Where a ring on a spring is, added to its displacement.
-    pub fn with_spring(&self, ring: &RingMotion) -> [f64; 6] {
-        shifted(ring.d, self.direction * self.spring_shift(ring))
+    pub fn with_ring_displacement(&self, ring: &RingMotion) -> [f64; 6] {
+        shifted(ring.d, self.direction * self.ring_displacement(ring))
     }
 
     /// Offset and axial force of the centred bearing.
     pub fn preload_state(&self, rotation: &Rotation) -> PreloadState {
         let centred = RingMotion::at_rest(&[0.0; 6], rotation, false);
         let operating = self.operating(&centred);
-        let offset = match self.seat {
-            Seat::Fixed(offset) => offset,
-            Seat::Force { .. } => operating.preload,
-            Seat::Spring { .. } => self.spring_shift(&centred),
+        let offset = match self.preload_mechanism {
+            PreloadMechanism::Fixed(offset) => offset,
+            PreloadMechanism::Force { .. } => operating.preload,
+            PreloadMechanism::Spring { .. } => self.ring_displacement(&centred),
         };
         let d = shifted(centred.d, self.direction * (offset - operating.preload));
         let (axial, _) = self.sum(&RingMotion { d: &d, ..centred }, &operating).axial();
@@ -146,11 +150,14 @@ fn shifted(d: &[f64; 6], by: f64) -> [f64; 6] {
 /// Elastic part: K − k_e k_eᵀ/(K_zz + k). The damping part, force and tangents, is transformed by
 /// T = 1 + e_z followᵀ as Tᵀ f, Tᵀ C T: the ring has no mass and no damper of its own. ∂T/∂d is neglected in
 /// the damping part's stiffness, which vanishes at rest.
-fn condense(out: &mut Reaction, elastic: &Reaction, follow: &[f64; 6]) {
+fn condense(out: &mut Reaction, elastic: &Reaction, ring_tangent: &[f64; 6]) {
     let project = |m: &[[f64; 6]; 6]| -> [[f64; 6]; 6] {
         std::array::from_fn(|a| {
             std::array::from_fn(|b| {
-                m[a][b] + follow[a] * m[2][b] + m[a][2] * follow[b] + follow[a] * m[2][2] * follow[b]
+                m[a][b]
+                    + ring_tangent[a] * m[2][b]
+                    + m[a][2] * ring_tangent[b]
+                    + ring_tangent[a] * m[2][2] * ring_tangent[b]
             })
         })
     };
@@ -159,10 +166,10 @@ fn condense(out: &mut Reaction, elastic: &Reaction, follow: &[f64; 6]) {
         std::array::from_fn(|a| std::array::from_fn(|b| out.stiffness[a][b] - elastic.stiffness[a][b]));
     let damping_stiffness = project(&damping_stiffness);
     for a in 0..6 {
-        out.force[a] = elastic.force[a] + damping_force[a] + follow[a] * damping_force[2];
+        out.force[a] = elastic.force[a] + damping_force[a] + ring_tangent[a] * damping_force[2];
         for b in 0..6 {
             out.stiffness[a][b] =
-                elastic.stiffness[a][b] + elastic.stiffness[a][2] * follow[b] + damping_stiffness[a][b];
+                elastic.stiffness[a][b] + elastic.stiffness[a][2] * ring_tangent[b] + damping_stiffness[a][b];
         }
     }
     out.damping = project(&out.damping);

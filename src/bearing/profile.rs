@@ -21,11 +21,11 @@ pub struct Profile {
     /// One per ball; empty when the balls are perfect.
     balls: Vec<Ball>,
     /// Angular position 2πj/Z of ball j with its cosine and sine.
-    places: Vec<[f64; 3]>,
+    ball_positions: Vec<[f64; 3]>,
     law: Law,
     /// ∂χ/∂ψ, ∂χ/∂θ, and the cage angle ψ₀ at which χ = 0.
     spin: [f64; 2],
-    start: f64,
+    initial_cage_angle: f64,
 }
 
 /// Size and surface of a ball.
@@ -55,7 +55,7 @@ pub struct Deviation {
     /// Rate of the deviation left out of the contact damping \[m/s\].
     pub undamped_rate: [f64; 2],
     /// Defect force by the published force law \[N\], positive where it increases the contact load.
-    pub push: f64,
+    pub defect_force: f64,
 }
 
 impl Deviation {
@@ -72,30 +72,30 @@ impl Deviation {
 
 /// A profile at one kinematic state of cage and shaft.
 #[derive(Clone, Copy, Debug)]
-pub struct Passing<'a> {
+pub struct ProfileState<'a> {
     profile: &'a Profile,
-    inner: Turn,
-    outer: Turn,
-    ball: Turn,
+    inner: SurfaceAngle,
+    outer: SurfaceAngle,
+    ball: SurfaceAngle,
 }
 
 /// Angle of ball 0 on a surface, in [0, 2π), with cosine, sine and rate.
 #[derive(Clone, Copy, Debug, Default)]
-struct Turn {
+struct SurfaceAngle {
     angle: f64,
     cos: f64,
     sin: f64,
     rate: f64,
 }
 
-impl Turn {
+impl SurfaceAngle {
     fn new(angle: f64, rate: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
-        Self { cos, sin, ..Self::on_defects(angle, rate) }
+        Self { cos, sin, ..Self::angle_only(angle, rate) }
     }
 
     /// Without cosine and sine, for a surface without waviness.
-    fn on_defects(angle: f64, rate: f64) -> Self {
+    fn angle_only(angle: f64, rate: f64) -> Self {
         // rem_euclid of a tiny negative angle is 2π itself.
         let angle = angle.rem_euclid(TAU);
         Self { angle: if angle < TAU { angle } else { 0.0 }, rate, ..Self::default() }
@@ -103,7 +103,7 @@ impl Turn {
 
     /// Advanced by an angle in [0, 2π).
     #[inline]
-    fn plus(&self, [angle, cos, sin]: [f64; 3]) -> Self {
+    fn advanced_by(&self, [angle, cos, sin]: [f64; 3]) -> Self {
         let sum = self.angle + angle;
         Self {
             angle: if sum < TAU { sum } else { sum - TAU },
@@ -127,9 +127,9 @@ impl Profile {
         stiffness: f64,
     ) -> Option<Self> {
         let g = geometry;
-        let here = |given: Option<usize>| given.is_none_or(|given| given == row);
+        let in_row = |given: Option<usize>| given.is_none_or(|given| given == row);
         let features = |on: Surface, contact: usize| -> Vec<Feature> {
-            let defects = imperfections.defects.iter().filter(|d| d.on == on && here(d.row));
+            let defects = imperfections.defects.iter().filter(|d| d.surface == on && in_row(d.row));
             defects.filter_map(|defect| feature(defect, g, contact)).collect()
         };
         let ball = |j: usize| {
@@ -139,9 +139,9 @@ impl Profile {
                 .filter(|w| w.ball.is_none_or(|ball| ball == j))
                 .map(|w| w.wave)
                 .collect();
-            let sizes = imperfections.off_size.iter().filter(|s| s.ball == j && here(s.row));
+            let sizes = imperfections.off_size.iter().filter(|s| s.ball == j && in_row(s.row));
             Ball {
-                oversize: 0.5 * sizes.map(|s| s.by).sum::<f64>(),
+                oversize: 0.5 * sizes.map(|s| s.diameter_difference).sum::<f64>(),
                 surface: [0, 1].map(|contact| Raceway::new(&waves, features(Surface::Ball(j), contact))),
             }
         };
@@ -157,11 +157,11 @@ impl Profile {
             inner: Raceway::new(&imperfections.inner_waviness, features(Surface::Inner, 0)),
             outer: Raceway::new(&imperfections.outer_waviness, features(Surface::Outer, 1)),
             balls,
-            places: (0..g.balls).map(place).collect(),
+            ball_positions: (0..g.balls).map(place).collect(),
             law: match imperfections.law {
                 DefectLaw::Displacement => Law::Displacement,
                 DefectLaw::UndampedDisplacement => Law::Undamped,
-                DefectLaw::Force { stiffness: given, on_loaded } => {
+                DefectLaw::Force { stiffness: given, loaded_only: on_loaded } => {
                     Law::Force(given.unwrap_or(stiffness), on_loaded)
                 }
             },
@@ -173,7 +173,7 @@ impl Profile {
                 }
                 BallSpin::Shaft => [0.0, 1.0],
             },
-            start: cage_angle,
+            initial_cage_angle: cage_angle,
         };
         let perfect = out.inner.is_perfect() && out.outer.is_perfect() && out.balls.is_empty();
         (!perfect).then_some(out)
@@ -188,22 +188,22 @@ impl Profile {
     }
 
     /// The profile at the given cage and shaft angles, with rates from their speeds.
-    pub fn at(&self, rotation: &Rotation) -> Passing<'_> {
+    pub fn at_rotation(&self, rotation: &Rotation) -> ProfileState<'_> {
         let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
         let [by_cage, by_shaft] = self.spin;
         let race = |race: &Raceway, angle, rate| match race.has_waves() {
-            true => Turn::new(angle, rate),
-            false => Turn::on_defects(angle, rate),
+            true => SurfaceAngle::new(angle, rate),
+            false => SurfaceAngle::angle_only(angle, rate),
         };
-        Passing {
+        ProfileState {
             profile: self,
             inner: race(&self.inner, cage_angle - shaft_angle, cage_speed - shaft_speed),
             outer: race(&self.outer, cage_angle, cage_speed),
             ball: if self.balls.is_empty() {
-                Turn::default()
+                SurfaceAngle::default()
             } else {
-                Turn::new(
-                    by_cage * (cage_angle - self.start) + by_shaft * shaft_angle,
+                SurfaceAngle::new(
+                    by_cage * (cage_angle - self.initial_cage_angle) + by_shaft * shaft_angle,
                     by_cage * cage_speed + by_shaft * shaft_speed,
                 )
             },
@@ -211,13 +211,13 @@ impl Profile {
     }
 }
 
-impl Passing<'_> {
+impl ProfileState<'_> {
     /// Calls `visit` with every ball that may have a deviation, possibly more than once: with local defects
     /// on the races alone, only the balls at a defect.
     #[inline]
     pub fn each_deviating(&self, mut visit: impl FnMut(usize)) {
         let profile = self.profile;
-        let balls = profile.places.len();
+        let balls = profile.ball_positions.len();
         if !profile.balls.is_empty() || profile.inner.has_waves() || profile.outer.has_waves() {
             (0..balls).for_each(visit);
             return;
@@ -231,14 +231,14 @@ impl Passing<'_> {
     /// Deviation at the contacts of ball j, positive where it narrows the gap.
     #[inline]
     pub fn ball(&self, j: usize) -> Deviation {
-        const HALF: [f64; 3] = [PI, -1.0, 0.0];
+        const HALF_TURN: [f64; 3] = [PI, -1.0, 0.0];
         let profile = self.profile;
         let mut out = Deviation::default();
-        let place = profile.places[j];
-        self.add(&mut out, 0, &profile.inner, &self.inner.plus(place));
-        self.add(&mut out, 1, &profile.outer, &self.outer.plus(place));
+        let place = profile.ball_positions[j];
+        self.add(&mut out, 0, &profile.inner, &self.inner.advanced_by(place));
+        self.add(&mut out, 1, &profile.outer, &self.outer.advanced_by(place));
         if let Some(ball) = profile.balls.get(j) {
-            self.add(&mut out, 0, &ball.surface[0], &self.ball.plus(HALF));
+            self.add(&mut out, 0, &ball.surface[0], &self.ball.advanced_by(HALF_TURN));
             self.add(&mut out, 1, &ball.surface[1], &self.ball);
             out.height.iter_mut().for_each(|height| *height += ball.oversize);
         }
@@ -246,7 +246,7 @@ impl Passing<'_> {
     }
 
     #[inline]
-    fn add(&self, out: &mut Deviation, contact: usize, surface: &Raceway, turn: &Turn) {
+    fn add(&self, out: &mut Deviation, contact: usize, surface: &Raceway, turn: &SurfaceAngle) {
         if surface.has_waves() {
             let [height, slope] = surface.waves(turn.cos, turn.sin);
             out.height[contact] += height;
@@ -256,7 +256,7 @@ impl Passing<'_> {
             return;
         }
         match self.profile.law {
-            Law::Force(stiffness, _) => out.push += stiffness * surface.powers(turn.angle),
+            Law::Force(stiffness, _) => out.defect_force += stiffness * surface.signed_power_sum(turn.angle),
             law => {
                 let [height, slope] = surface.defects(turn.angle);
                 out.height[contact] += height;
@@ -278,10 +278,10 @@ fn feature(defect: &Defect, g: &BallGeometry, contact: usize) -> Option<Feature>
             Path::smooth(shape, height, defect.width)
         }
         DefectForm::Spall { depth, edge_radius } => Path::Spall {
-            path: SpallPath::on(defect.on, g, defect.width, depth, edge_radius)[contact],
+            path: SpallPath::on(defect.surface, g, defect.width, depth, edge_radius)[contact],
             width: defect.width,
         },
     };
-    let start = Turn::new(defect.start, 0.0).angle;
+    let start = SurfaceAngle::new(defect.start, 0.0).angle;
     Some(Feature { start, angle: defect.angle(g), path })
 }

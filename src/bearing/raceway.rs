@@ -96,7 +96,7 @@ impl Raceway {
     }
 
     /// Σ ±|H|^{3/2} over the defects \[m^1.5\].
-    pub fn powers(&self, angle: f64) -> f64 {
+    pub fn signed_power_sum(&self, angle: f64) -> f64 {
         let power = |[h, _]: [f64; 2]| h * h.abs().sqrt();
         self.defects.iter().filter_map(|feature| feature.at(angle)).map(power).sum()
     }

@@ -1,12 +1,12 @@
 //! One row of balls between two rings: ball positions and the sum of the ball forces.
 
-use super::force::Lean;
-use super::jones::{Balls, Fling, Laws, Settled};
-use super::preload::Seat;
+use super::ball_equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaData, BallInertiaLoads};
+use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
+use super::force_kernel::ForceKernel;
+use super::preload::PreloadMechanism;
 use super::ring_motion::RingMotion;
-use super::ring_sum::{PlaneForce, PlaneMoment, RingSum};
-use super::{BallBearing, BallLoad, Deviation, Passing, Profile, Rotation};
-use super::{defect_force, massless, root};
+use super::{BallBearing, BallLoad, Deviation, Profile, ProfileState, Rotation};
+use super::{defect_force, massless, root_finding};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
 /// A row of balls prepared for evaluation: constants and per-ball data laid out as arrays.
@@ -21,15 +21,15 @@ pub(super) struct Row {
     /// at rest.
     offset: [f64; 2],
     /// The bearing, if its clearance changes with speed (centrifugal ring growth).
-    growing: Option<Box<BallBearing>>,
+    speed_dependent_bearing: Option<Box<BallBearing>>,
     pub damping: ContactDamping,
     /// Inertia of the balls; `None` for massless balls.
-    pub inertia: Option<Balls>,
+    pub inertia: Option<BallInertiaData>,
     /// Cage speed over shaft speed at the nominal contact angle, for statics.
     cage_ratio: f64,
     /// ±1: direction of preload (thrust) on the inner ring.
     pub direction: f64,
-    pub seat: Seat,
+    pub preload_mechanism: PreloadMechanism,
     /// Entrainment speed over shaft speed, D_pw/4 (1 − γ²) \[m\].
     entrainment: f64,
     /// cos and sin of 2πj/Z.
@@ -37,19 +37,19 @@ pub(super) struct Row {
     /// Deviations of races and balls; `None` when they are perfect.
     pub profile: Option<Box<Profile>>,
     /// SIMD force-only kernel of the row, if applicable.
-    pub lean: Option<Lean>,
+    pub force_kernel: Option<ForceKernel>,
 }
 
 /// Operating conditions common to all balls of a row during one evaluation.
 #[derive(Clone, Debug)]
-pub(super) struct Operating<'a> {
+pub(super) struct OperatingState<'a> {
     pub contacts: SpeedContacts<'a>,
     /// Groove-centre offset with clearance change and preload \[m\].
     pub offset: [f64; 2],
     /// Rigid preload contained in `offset`, in the direction of thrust \[m\].
     pub preload: f64,
     /// Centrifugal force and gyroscopic moment of the balls; `None` at rest and for massless balls.
-    fling: Option<Fling>,
+    inertial_loads: Option<BallInertiaLoads>,
 }
 
 /// Position of a ball's inner groove centre relative to the outer one, in the plane (radial, axial).
@@ -84,22 +84,23 @@ impl Row {
                 a * g.contact_angle.cos() - 0.5 * (g.radial_clearance + bearing.clearance_change(0.0)),
                 a * g.contact_angle.sin() * thrust_direction,
             ],
-            growing: bearing.fit.speed_growth.then(|| Box::new(bearing.clone())),
+            speed_dependent_bearing: bearing.fit.speed_growth.then(|| Box::new(bearing.clone())),
             damping: bearing.damping,
-            inertia: Balls::new(g, &bearing.ball_material, bearing.inertia),
+            inertia: BallInertiaData::new(g, &bearing.ball_material, bearing.inertia),
             cage_ratio,
             direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
-            seat: Seat::Fixed(0.0),
+            preload_mechanism: PreloadMechanism::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
-            lean: None,
+            force_kernel: None,
             spacing,
             profile: None,
         };
         let pair = bearing.hertz();
         let (imperfections, start) = (&bearing.imperfections, bearing.cage_angle);
         row.profile = Profile::new(g, imperfections, number, start, pair.stiffness).map(Box::new);
-        row.seat = Seat::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
-        row.lean = Lean::new(&row, &row.spacing);
+        row.preload_mechanism =
+            PreloadMechanism::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
+        row.force_kernel = ForceKernel::new(&row, &row.spacing);
         row
     }
 
@@ -110,7 +111,7 @@ impl Row {
             ..Default::default()
         };
         let contacts = SpeedContacts::Hertz(pair);
-        let ball = massless::react(
+        let ball = massless::ball_force(
             |approach| pair.series(approach),
             &contacts,
             &self.damping,
@@ -122,8 +123,8 @@ impl Row {
     }
 
     /// Whether the clearance changes with speed (centrifugal growth of the inner ring).
-    pub fn growing(&self) -> bool {
-        self.growing.is_some()
+    pub fn has_ring_growth(&self) -> bool {
+        self.speed_dependent_bearing.is_some()
     }
 
     pub fn balls(&self) -> usize {
@@ -133,14 +134,14 @@ impl Row {
     /// Whether the force at given displacement and velocity depends on shaft speed.
     pub fn depends_on_speed(&self) -> bool {
         let dry = |contacts| matches!(contacts, SpeedContacts::Hertz(_) | SpeedContacts::Power { .. });
-        !dry(self.contacts.at_speed(1.0)) || self.growing.is_some() || self.inertia.is_some()
+        !dry(self.contacts.at_speed(1.0)) || self.speed_dependent_bearing.is_some() || self.inertia.is_some()
     }
 
     /// Operating conditions of all balls; `turning`: cage speed as motion of the contacts.
     ///
     /// The inertial loads use the cage speed, or if it is zero (statics) the shaft speed times the nominal
     /// cage ratio.
-    pub fn operating(&self, ring: &RingMotion) -> Operating<'_> {
+    pub fn operating(&self, ring: &RingMotion) -> OperatingState<'_> {
         let rotation = ring.rotation;
         let speed = self.entrainment * rotation.shaft_speed.abs();
         let contacts = self.contacts.at_speed(speed);
@@ -151,18 +152,18 @@ impl Row {
         };
         let fling = self.inertia.and_then(|balls| {
             let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
-            balls.fling(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
+            balls.inertial_loads(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
         });
         let mut offset = self.offset;
-        if let Some(bearing) = &self.growing {
+        if let Some(bearing) = &self.speed_dependent_bearing {
             let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
             offset[0] -= 0.5 * change;
         }
-        let mut out = Operating { contacts, offset, preload: 0.0, fling };
-        out.preload = match self.seat {
-            Seat::Fixed(offset) => offset,
-            Seat::Spring { .. } => 0.0,
-            Seat::Force { force, dry } => root::rising(
+        let mut out = OperatingState { contacts, offset, preload: 0.0, inertial_loads: fling };
+        out.preload = match self.preload_mechanism {
+            PreloadMechanism::Fixed(offset) => offset,
+            PreloadMechanism::Spring { .. } => 0.0,
+            PreloadMechanism::Force { force, dry } => root_finding::increasing_root(
                 |offset| {
                     let s = [out.offset[0], out.offset[1] + self.direction * offset];
                     let (n, slope) = self.centred_axial(s, &out);
@@ -176,10 +177,10 @@ impl Row {
     }
 
     /// Axial force and stiffness of a centred row, where all balls carry the same load.
-    fn centred_axial(&self, s: [f64; 2], operating: &Operating) -> (f64, f64) {
+    fn centred_axial(&self, s: [f64; 2], operating: &OperatingState) -> (f64, f64) {
         let motion = PlaneMotion { s, ..PlaneMotion::default() };
-        let ball = match &operating.fling {
-            None => massless::react(
+        let ball = match &operating.inertial_loads {
+            None => massless::ball_force(
                 |approach| operating.contacts.series(approach),
                 &operating.contacts,
                 &self.damping,
@@ -187,30 +188,30 @@ impl Row {
                 &motion,
             )
             .unwrap_or_default(),
-            Some(fling) => self.flung(fling, operating, &motion).0,
+            Some(fling) => self.inertial_ball_reaction(fling, operating, &motion).0,
         };
         let z = self.balls() as f64;
         (z * ball.force[1], z * ball.by_motion[3])
     }
 
     /// Sum over all balls at a motion of the inner ring relative to the outer one.
-    pub fn sum(&self, ring: &RingMotion, operating: &Operating) -> RingSum {
-        if let Some(fling) = &operating.fling {
-            return self.sum_flung(ring, operating, fling);
+    pub fn sum(&self, ring: &RingMotion, operating: &OperatingState) -> BallSum {
+        if let Some(fling) = &operating.inertial_loads {
+            return self.sum_with_inertia(ring, operating, fling);
         }
         let a = self.centre_distance;
         // One loop per contact law (monomorphised), to avoid dispatch per ball.
         let massless = |law: &SpeedContacts, motion: &PlaneMotion| {
-            massless::react(|approach| law.series(approach), law, &self.damping, a, motion)
+            massless::ball_force(|approach| law.series(approach), law, &self.damping, a, motion)
         };
         match (&operating.contacts, self.force_law(ring)) {
-            (law, Some(on_loaded)) => self.sum_of(ring, operating, |motion| {
-                defect_force::pushed(massless(law, motion), on_loaded, motion)
+            (law, Some(on_loaded)) => self.sum_balls(ring, operating, |motion| {
+                defect_force::with_defect_force(massless(law, motion), on_loaded, motion)
             }),
-            (dry @ SpeedContacts::Hertz(pair), None) => self.sum_of(ring, operating, |motion| {
-                massless::react(|approach| pair.series(approach), dry, &self.damping, a, motion)
+            (dry @ SpeedContacts::Hertz(pair), None) => self.sum_balls(ring, operating, |motion| {
+                massless::ball_force(|approach| pair.series(approach), dry, &self.damping, a, motion)
             }),
-            (law, None) => self.sum_of(ring, operating, |motion| massless(law, motion)),
+            (law, None) => self.sum_balls(ring, operating, |motion| massless(law, motion)),
         }
     }
 
@@ -220,14 +221,14 @@ impl Row {
     }
 
     #[inline(always)]
-    fn sum_of(
+    fn sum_balls(
         &self,
         ring: &RingMotion,
-        operating: &Operating,
+        operating: &OperatingState,
         react: impl Fn(&PlaneMotion) -> Option<PlaneForce>,
-    ) -> RingSum {
-        let mut sum = RingSum::default();
-        self.each(ring, operating, |[cos, sin], motion, turn| {
+    ) -> BallSum {
+        let mut sum = BallSum::default();
+        self.for_each_ball(ring, operating, |[cos, sin], motion, turn| {
             if let Some(mut ball) = react(&motion) {
                 // Cage rotation moves the ball past the ring: input power at a fixed ring.
                 ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
@@ -238,14 +239,19 @@ impl Row {
     }
 
     /// Sum over balls with inertial loads (centrifugal force, gyroscopic moment).
-    fn sum_flung(&self, ring: &RingMotion, operating: &Operating, fling: &Fling) -> RingSum {
-        let mut sum = RingSum::default();
-        self.each(ring, operating, |[cos, sin], motion, turn| {
-            let (mut ball, moment) = self.flung(fling, operating, &motion);
+    fn sum_with_inertia(
+        &self,
+        ring: &RingMotion,
+        operating: &OperatingState,
+        fling: &BallInertiaLoads,
+    ) -> BallSum {
+        let mut sum = BallSum::default();
+        self.for_each_ball(ring, operating, |[cos, sin], motion, turn| {
+            let (mut ball, moment) = self.inertial_ball_reaction(fling, operating, &motion);
             ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
             ball.power -= moment.moment * (ring.v[3] * sin - ring.v[4] * cos);
             sum.add(cos, sin, &ball);
-            if fling.on_inner() {
+            if fling.inner_race_has_friction() {
                 sum.add_moment(cos, sin, &moment);
             }
         });
@@ -253,17 +259,27 @@ impl Row {
     }
 
     /// Equilibrium of a ball with inertia, and its reaction on the inner ring.
-    fn flung(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> (PlaneForce, PlaneMoment) {
-        let settled = self.settle(fling, operating, motion);
+    fn inertial_ball_reaction(
+        &self,
+        fling: &BallInertiaLoads,
+        operating: &OperatingState,
+        motion: &PlaneMotion,
+    ) -> (PlaneForce, PlaneMoment) {
+        let settled = self.solve_equilibrium(fling, operating, motion);
         let stiffness = self.contacts.hertz.stiffness;
-        fling.react(&settled, &operating.contacts, &self.damping, stiffness, motion)
+        fling.inner_ring_reaction(&settled, &operating.contacts, &self.damping, stiffness, motion)
     }
 
-    fn settle(&self, fling: &Fling, operating: &Operating, motion: &PlaneMotion) -> Settled {
+    fn solve_equilibrium(
+        &self,
+        fling: &BallInertiaLoads,
+        operating: &OperatingState,
+        motion: &PlaneMotion,
+    ) -> BallEquilibrium {
         let hertz = &self.contacts.hertz;
         match &operating.contacts {
-            SpeedContacts::Hertz(pair) => fling.settle(
-                &Laws {
+            SpeedContacts::Hertz(pair) => fling.solve_equilibrium(
+                &BallContactLaws {
                     series: |x| pair.series(x),
                     single: |race, x| pair.single(race, x),
                     guess: |race, load| dry_approach(hertz, race, load),
@@ -271,8 +287,8 @@ impl Row {
                 },
                 motion,
             ),
-            law => fling.settle(
-                &Laws {
+            law => fling.solve_equilibrium(
+                &BallContactLaws {
                     series: |x| law.series(x),
                     single: |race, x| law.single(race, x),
                     guess: |race, load| dry_approach(hertz, race, load) - law.film(race, load),
@@ -286,16 +302,16 @@ impl Row {
     /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate due to cage
     /// rotation.
     #[inline(always)]
-    fn each(
+    fn for_each_ball(
         &self,
         ring: &RingMotion,
-        operating: &Operating,
+        operating: &OperatingState,
         mut visit: impl FnMut([f64; 2], PlaneMotion, [f64; 2]),
     ) {
         let RingMotion { d, v, rotation, cage_speed, .. } = *ring;
         let r = self.arm;
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
-        let passing = self.passing(ring);
+        let passing = self.profile_state(ring);
         for (j, [cj, sj]) in self.spacing.iter().enumerate() {
             let cos = cage_cos * cj - cage_sin * sj;
             let sin = cage_sin * cj + cage_cos * sj;
@@ -316,21 +332,22 @@ impl Row {
     }
 
     /// Surface profile at the current angles; zero rates in statics.
-    fn passing(&self, ring: &RingMotion) -> Option<Passing<'_>> {
+    fn profile_state(&self, ring: &RingMotion) -> Option<ProfileState<'_>> {
         let profile = self.profile.as_deref().filter(|_| ring.with_defects)?;
-        Some(profile.at(&ring.passing()))
+        Some(profile.at_rotation(&ring.passing()))
     }
 
     /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
         let held = RingMotion::at_rest(d, rotation, true);
         let operating = self.operating(&held);
-        let d = self.with_spring(&held);
+        let d = self.with_ring_displacement(&held);
         let ring = RingMotion { d: &d, ..held };
-        self.each(&ring, &operating, |[cos, sin], motion, _| {
-            let settled = operating.fling.map(|fling| self.settle(&fling, &operating, &motion));
+        self.for_each_ball(&ring, &operating, |[cos, sin], motion, _| {
+            let equilibrium =
+                operating.inertial_loads.map(|fling| self.solve_equilibrium(&fling, &operating, &motion));
             let angle = |n: [f64; 2]| n[1].atan2(n[0]);
-            let (loads, angles, deflection) = match settled {
+            let (loads, angles, deflection) = match equilibrium {
                 Some(ball) => {
                     let (inner, outer) = (ball.inner, ball.outer);
                     let loads = [inner.loaded.load, outer.loaded.load];
@@ -341,8 +358,8 @@ impl Row {
                     let deflection = distance - self.centre_distance + motion.deviation.total();
                     let elastic = operating.contacts.series(deflection).load;
                     let load = match self.force_law(&ring) {
-                        Some(true) if elastic > 0.0 => (elastic + motion.deviation.push).max(0.0),
-                        Some(false) => elastic + motion.deviation.push,
+                        Some(true) if elastic > 0.0 => (elastic + motion.deviation.defect_force).max(0.0),
+                        Some(false) => elastic + motion.deviation.defect_force,
                         _ => elastic,
                     };
                     ([load; 2], [angle(motion.s); 2], deflection)

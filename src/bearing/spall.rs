@@ -23,7 +23,7 @@ pub struct SpallPath {
     surface: f64,
     /// a and T \[m\].
     edge: f64,
-    reach: f64,
+    radius_sum: f64,
 }
 
 impl SpallPath {
@@ -35,7 +35,7 @@ impl SpallPath {
             depth,
             surface: surface.abs(),
             edge: surface - edge_radius,
-            reach: roller + edge_radius,
+            radius_sum: roller + edge_radius,
         }
     }
 
@@ -56,17 +56,17 @@ impl SpallPath {
 
     /// Depth of the body and its slope at a length 0 ≤ p ≤ width into the pit \[m\].
     pub fn at(&self, p: f64) -> [f64; 2] {
-        let entry = self.round(p);
-        let exit = self.round(self.width - p);
+        let entry = self.edge_path(p);
+        let exit = self.edge_path(self.width - p);
         let on_edge = if entry[0] <= exit[0] { entry } else { [exit[0], -exit[1]] };
         if on_edge[0] < self.depth { on_edge } else { [self.depth, 0.0] }
     }
 
     /// The same for one edge alone, at a length past its start; infinite where the body no longer touches it.
-    fn round(&self, length: f64) -> [f64; 2] {
+    fn edge_path(&self, length: f64) -> [f64; 2] {
         let (sin, cos) = (length / self.surface).sin_cos();
         let half = (0.5 * length / self.surface).sin();
-        let (a, t) = (self.edge, self.reach);
+        let (a, t) = (self.edge, self.radius_sum);
         let x = a * sin;
         let square = t * t - x * x;
         if square <= 0.0 {
@@ -83,7 +83,7 @@ mod tests {
 
     /// Depth to which a circle can sink along the ray at p, by bisection against sampled points of the pit's
     /// outline: an independent check of the closed form.
-    fn against_outline(pit: &SpallPath, s: f64, t: f64, rho: f64, p: f64) -> f64 {
+    fn depth_by_outline(pit: &SpallPath, s: f64, t: f64, rho: f64, p: f64) -> f64 {
         // Points of the outline in coordinates along (u) and out of (v) the surface at the ray.
         let turn = |angle: f64, radius: f64| (angle, radius);
         let mut outline: Vec<(f64, f64)> = Vec::new();
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn the_path_touches_the_outline_and_no_more() {
+    fn path_matches_sampled_outline() {
         let (ball, inner, outer) = (3.969e-3, 15.281e-3, -23.219e-3);
         for (surface, roller) in [(inner, ball), (outer, ball), (ball, inner), (ball, outer)] {
             for (width, depth, edge) in [(1e-3, 50e-6, 0.1e-3), (1e-3, 10e-6, 0.3e-3), (2.5e-3, 40e-6, 1e-3)]
@@ -137,7 +137,7 @@ mod tests {
                 for k in 0..=10 {
                     let p = width * f64::from(k) / 10.0;
                     let [sunk, _] = pit.at(p);
-                    let outline = against_outline(&pit, surface, roller, edge, p);
+                    let outline = depth_by_outline(&pit, surface, roller, edge, p);
                     // Points 1.6e-7 m apart on a floor radius of at least 4 mm: chord within 1e-12 m of its
                     // arc.
                     assert!((sunk - outline).abs() < 1e-11, "{surface} {roller} {p}: {sunk} {outline}");
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_those_of_differences() {
+    fn slopes_match_finite_differences() {
         let pit = SpallPath::new(1e-3, 12e-6, 0.2e-3, -23e-3, 4e-3);
         for k in 1..200 {
             let (p, h) = (1e-3 * f64::from(k) / 200.0, 1e-10);

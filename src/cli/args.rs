@@ -12,9 +12,9 @@ use clap::{Args, Parser, Subcommand};
 use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use bearing::BearingArgs;
-use manual::{AFTER, LONG_ABOUT};
+use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
-pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
+pub use update::{FitResidual, MeasuredArgs, UpdateArgs, ValidateArgs};
 
 /// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
 #[derive(Debug, Parser)]
@@ -22,7 +22,7 @@ pub use update::{FitWord, MeasuredArgs, UpdateArgs, ValidateArgs};
     name = "rotordyn",
     version,
     long_about = LONG_ABOUT,
-    after_long_help = AFTER,
+    after_long_help = AFTER_HELP,
     after_help = "See --help for examples, units and exit codes, and COMMAND --help for each command.",
     max_term_width = 100,
     arg_required_else_help = true,
@@ -177,7 +177,7 @@ Examples:
         speed: Option<String>,
         /// Keep the cage angle of the model instead of averaging over it
         #[arg(long)]
-        cage_as_placed: bool,
+        fixed_cage_angle: bool,
     },
 
     /// Natural frequencies, damping and mode shapes at given speeds

@@ -3,37 +3,38 @@
 use std::time::Instant;
 
 use miette::Severity;
-use rotordyn::edge::{figures, json, results_file};
+use rotordyn::figures;
+use rotordyn::io::{json, results_file};
 use rotordyn::model::LoadedBearings;
 use rotordyn::results::Results;
-use rotordyn::study::{Machine, bearings_alone};
+use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
 
 use super::args::BearingArgs;
 use super::failure::Failure;
-use super::machine::Origin;
-use super::store::{self, Text};
+use super::machine::ModelSource;
+use super::store::{self, ModelText};
 use super::terminal::Terminal;
-use super::{Outcome, bearing_tables, diagnostics, films, settings, written};
+use super::{Outcome, bearing_tables, diagnostics, ehl_films, print_written_files, settings};
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
-    let origin = Origin::read(&args.study.model)?;
+    let origin = ModelSource::read(&args.study.model)?;
     let mut loaded = origin.load_bearings(&settings::bearing(args)?.set)?;
-    let folder = origin.folder(args.study.out.as_ref(), &loaded.name);
+    let folder = origin.results_folder(args.study.out.as_ref(), &loaded.name);
     match &mut loaded.model {
-        Some(model) => films::of_machine(model, &folder, terminal)?,
+        Some(model) => ehl_films::prepare_machine_films(model, &folder, terminal)?,
         None => {
             for (name, bearing) in &mut loaded.bearings {
-                films::of_bearing(name, bearing, &folder, terminal)?;
+                ehl_films::prepare_bearing_films(name, bearing, &folder, terminal)?;
             }
         }
     }
-    let text = Text { model: &loaded.text, title: &loaded.title };
+    let text = ModelText { model: &loaded.text, title: &loaded.title };
     let start = Instant::now();
     let spinner = terminal.spinner("bearing");
-    let found = compute(&loaded);
+    let bearings_or_error = compute(&loaded);
     spinner.finish_and_clear();
-    let bearings = found?;
+    let bearings = bearings_or_error?;
     let seconds = start.elapsed().as_secs_f64();
     for bearing in &bearings {
         bearing_tables::bearing(terminal, bearing);
@@ -50,9 +51,9 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
         files.extend(figures::draw_bearings(&results.bearings, &loaded.title, &folder)?);
         spinner.finish_and_clear();
     }
-    written(terminal, &folder, &files);
+    print_written_files(terminal, &folder, &files);
     if files.len() > 1 {
-        terminal.say("  (figures are written as SVG and PNG)");
+        terminal.print("  (figures are written as SVG and PNG)");
     }
     if !loaded.warnings.is_empty() {
         eprint!(
@@ -61,7 +62,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
         );
     }
     for warning in &results.warnings[loaded.warnings.len()..] {
-        terminal.complain("warning", warning);
+        terminal.print_diagnostic("warning", warning);
     }
     let mut document = json::bearings_to_json(&results, &loaded.name, &loaded.title);
     document["command"] = json!("bearing");
@@ -74,6 +75,6 @@ fn compute(loaded: &LoadedBearings) -> Result<Vec<rotordyn::results::BearingResu
     let study = loaded.studies.bearing.clone().unwrap_or_default();
     match &loaded.model {
         Some(model) => Machine::new(model.clone())?.bearings(&study),
-        None => bearings_alone(&loaded.bearings, &study),
+        None => single_bearings(&loaded.bearings, &study),
     }
 }

@@ -2,27 +2,27 @@
 
 use rotordyn::bearing::Preload;
 use rotordyn::bearing::life::hours;
-use rotordyn::model::study::{MOTIONS, Swept};
+use rotordyn::model::study::{DOF_NAMES, SweepVariable};
 use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
 use super::terminal::{Terminal, number, rpm, table};
 
 /// Rows printed of a sweep; results.h5 contains all points.
-const ROWS: usize = 6;
+const MAX_SWEEP_ROWS: usize = 6;
 
 pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     let point = &found.point;
     let state = &point.state;
-    let held: Vec<&str> =
-        MOTIONS.iter().zip(found.held).filter(|(_, held)| *held).map(|(name, _)| *name).collect();
+    let constrained: Vec<&str> =
+        DOF_NAMES.iter().zip(found.prescribed).filter(|(_, held)| *held).map(|(name, _)| *name).collect();
     terminal.heading(&format!("Bearing {} at {:.0} rpm", found.name, rpm(state.condition.speed)));
-    terminal.say(&format!("  load by the shaft: {}", found.load_from));
-    if !held.is_empty() {
-        terminal.say(&format!("  constrained DOFs: {}", held.join(", ")));
+    terminal.print(&format!("  load by the shaft: {}", found.load_source));
+    if !constrained.is_empty() {
+        terminal.print(&format!("  constrained DOFs: {}", constrained.join(", ")));
     }
-    let marks = &found.bearing.imperfections;
-    if !marks.is_empty() {
-        terminal.say(&format!("  imperfections of races and balls: {}", marks.condition()));
+    let imperfections = &found.bearing.imperfections;
+    if !imperfections.is_empty() {
+        terminal.print(&format!("  imperfections of races and balls: {}", imperfections.condition()));
     }
     let arm = 0.5 * found.bearing.geometry.pitch_diameter;
     let size = |a: usize| if a > 2 { arm } else { 1.0 };
@@ -32,28 +32,31 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
             let (unit, factor) = if a > 2 { ("mrad", 1e3) } else { ("um", 1e6) };
             let k = &state.stiffness;
             let mut row = vec![
-                MOTIONS[a].to_string(),
-                number(clean(state.load[a], largest * size(a)), 4),
+                DOF_NAMES[a].to_string(),
+                number(zero_roundoff(state.load[a], largest * size(a)), 4),
                 if a > 2 { "N m" } else { "N" }.to_string(),
-                fixed(factor * state.displacement[a], 3),
+                fixed_decimals(factor * state.displacement[a], 3),
                 unit.to_string(),
             ];
-            row.extend((0..5).map(|b| number(clean(k[a][b], (k[a][a] * k[b][b]).abs().sqrt()), 4)));
+            row.extend((0..5).map(|b| number(zero_roundoff(k[a][b], (k[a][a] * k[b][b]).abs().sqrt()), 4)));
             row
         })
         .collect();
     let header = ["DOF", "load", "", "displacement", "", "K: x", "y", "z", "theta_x", "theta_y"];
-    terminal.say(table(&header, &rows).trim_end());
-    let [[radial, radial_held], [axial, axial_held]] = [point.radial_stiffness, point.axial_stiffness];
-    for (way, [free, all]) in [("radial", [radial, radial_held]), ("axial", [axial, axial_held])] {
-        terminal.say(&format!(
+    terminal.print(table(&header, &rows).trim_end());
+    let [[radial, radial_constrained], [axial, axial_constrained]] =
+        [point.radial_stiffness, point.axial_stiffness];
+    for (way, [free, all]) in
+        [("radial", [radial, radial_constrained]), ("axial", [axial, axial_constrained])]
+    {
+        terminal.print(&format!(
             "  {way} stiffness {} N/m with the unconstrained DOFs free, {} N/m with all other DOFs fixed",
             number(free, 4),
             number(all, 4)
         ));
     }
     if found.bearing.preload != Preload::None {
-        terminal.say(&format!(
+        terminal.print(&format!(
             "  preload at this speed: {} N axial, ring offset {:.3} um from the nominal position",
             number(found.preload.axial_force, 4),
             1e6 * found.preload.offset
@@ -62,10 +65,10 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     balls(terminal, point);
     frequencies(terminal, found);
     life(terminal, found);
-    let matters = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
-    if !matters && !found.sweeps.iter().any(|s| s.of == Swept::Speed) {
+    let speed_dependent = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
+    if !speed_dependent && !found.sweeps.iter().any(|s| s.of == SweepVariable::Speed) {
         terminal
-            .say("\n  No speed sweep: without film and ball inertia the bearing does not depend on speed.");
+            .print("\n  No speed sweep: without film and ball inertia the bearing does not depend on speed.");
     }
     for sweep in &found.sweeps {
         sweep_table(terminal, found, sweep);
@@ -73,12 +76,12 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
 }
 
 /// The value, or 0 if it is below round-off of `size`.
-fn clean(value: f64, size: f64) -> f64 {
+fn zero_roundoff(value: f64, size: f64) -> f64 {
     if value.abs() < 1e-9 * size { 0.0 } else { value }
 }
 
 /// Fixed number of decimals, without a negative zero.
-fn fixed(value: f64, decimals: usize) -> String {
+fn fixed_decimals(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.into(),
@@ -87,7 +90,7 @@ fn fixed(value: f64, decimals: usize) -> String {
 }
 
 fn balls(terminal: &Terminal, point: &BearingPoint) {
-    let filmed = point.least_film() > 0.0;
+    let with_film = point.minimum_film() > 0.0;
     let rows: Vec<Vec<String>> = point
         .balls
         .iter()
@@ -105,7 +108,7 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
             row.extend([i, o].map(|c| format!("{:.2}", c.angle.to_degrees())));
             row.extend([i, o].map(|c| format!("{:.3}", 1e-9 * c.pressure)));
             row.extend([i, o].map(|c| format!("{:.0} x {:.0}", 1e6 * c.semi_major, 1e6 * c.semi_minor)));
-            if filmed {
+            if with_film {
                 row.extend([i, o].map(|c| format!("{:.3}", 1e6 * c.film)));
             }
             row
@@ -126,15 +129,15 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
         "ellipse_i um",
         "ellipse_o um",
     ];
-    if filmed {
+    if with_film {
         header.extend(["h_i um", "h_o um"]);
     }
     let title = format!("Loaded balls ({} of {}), contact ellipse semi-axes", rows.len(), point.balls.len());
     terminal.table(&title, &header, &rows);
-    if filmed {
-        terminal.say(&format!(
+    if with_film {
+        terminal.print(&format!(
             "  minimum film thickness {:.3} um, film ratio lambda {:.2}",
-            1e6 * point.least_film(),
+            1e6 * point.minimum_film(),
             point.film_ratio
         ));
     }
@@ -182,7 +185,7 @@ fn life(terminal: &Terminal, found: &BearingResult) {
     }
     terminal.table("Rating life", &["", "10^6 revolutions", "hours"], &rows);
     let r = &found.rating;
-    let [c, c0, cu] = [r.dynamic, r.stationary, r.fatigue].map(|f| number(f, 4));
+    let [c, c0, cu] = [r.dynamic, r.static_rating, r.fatigue].map(|f| number(f, 4));
     let source = if service.dynamic_rating.is_some() { "as given" } else { "from the internal geometry" };
     let mut line = format!("  C {c} N ({source}), C_0 {c0} N, C_u {cu} N");
     if life.equivalent_load.is_finite() {
@@ -191,7 +194,7 @@ fn life(terminal: &Terminal, found: &BearingResult) {
     if life.viscosity_ratio.is_finite() {
         line += &format!(", kappa {:.2}", life.viscosity_ratio);
     }
-    terminal.say(&line);
+    terminal.print(&line);
 }
 
 fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepResult) {
@@ -200,20 +203,20 @@ fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepR
         return;
     }
     let (name, unit, factor) = match (sweep.of, sweep.unit) {
-        (Swept::Speed, _) => ("speed".to_string(), "rpm", 60.0 / std::f64::consts::TAU),
-        (Swept::CageAngle, _) => ("cage angle".to_string(), "deg", 1f64.to_degrees()),
+        (SweepVariable::Speed, _) => ("speed".to_string(), "rpm", 60.0 / std::f64::consts::TAU),
+        (SweepVariable::CageAngle, _) => ("cage angle".to_string(), "deg", 1f64.to_degrees()),
         (_, "m") => (sweep.label.clone(), "um", 1e6),
         (_, "rad") => (sweep.label.clone(), "mrad", 1e3),
         (_, unit) => (sweep.label.clone(), unit, 1.0),
     };
-    let shown = ROWS.min(n);
+    let shown = MAX_SWEEP_ROWS.min(n);
     let rows: Vec<Vec<String>> = (0..shown)
         .map(|k| if shown > 1 { k * (n - 1) / (shown - 1) } else { 0 })
         .map(|k| {
             let (value, p) = (sweep.values[k], &sweep.points[k]);
             let d = &p.state.displacement;
             let mut row = vec![number(factor * value, 4)];
-            row.extend(d[..3].iter().map(|d| fixed(1e6 * d, 2)));
+            row.extend(d[..3].iter().map(|d| fixed_decimals(1e6 * d, 2)));
             row.push(number(p.radial_stiffness[0], 4));
             row.push(number(p.axial_stiffness[0], 4));
             row.extend((3..5).map(|a| number(p.state.stiffness[a][a], 4)));

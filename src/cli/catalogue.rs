@@ -1,7 +1,7 @@
 //! `catalogue`: the built-in bearing catalogue.
 
 use rotordyn::bearing::BallGeometry;
-use rotordyn::model::catalogue::{CLASSES, CatalogueEntry, clearance, entries, find};
+use rotordyn::model::catalogue::{CLEARANCE_CLASSES, CatalogueEntry, clearance, entries, find};
 use serde_json::{Value, json};
 
 use super::failure::Failure;
@@ -18,7 +18,7 @@ pub fn run(wanted: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> 
             let message = format!("the catalogue has no bearing `{wanted}`; `rotordyn catalogue` lists all");
             return Err(Failure::Input(message));
         }
-        [one] => sheet(terminal, one),
+        [one] => print_data_sheet(terminal, one),
         many => list(terminal, many),
     }
     Ok(json!({ "command": "catalogue", "bearings": found.iter().map(to_json).collect::<Vec<_>>() }))
@@ -51,7 +51,7 @@ fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
     let rows: Vec<Vec<String>> = found
         .iter()
         .map(|e| {
-            let orders = geometry(e).orders(e.contact_angle);
+            let orders = geometry(e).characteristic_orders(e.contact_angle);
             vec![
                 e.designation.to_string(),
                 mm(e.bore),
@@ -85,8 +85,8 @@ fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
     );
 }
 
-fn sheet(terminal: &Terminal, e: &CatalogueEntry) {
-    let orders = geometry(e).orders(e.contact_angle);
+fn print_data_sheet(terminal: &Terminal, e: &CatalogueEntry) {
+    let orders = geometry(e).characteristic_orders(e.contact_angle);
     let row = |name: &str, value: String| vec![name.to_string(), value];
     let mm = |length: f64| format!("{} mm", number(1e3 * length, 5));
     let mut rows = vec![
@@ -102,7 +102,7 @@ fn sheet(terminal: &Terminal, e: &CatalogueEntry) {
         row("BPFI, BSF", format!("{:.4}, {:.4} per revolution", orders.bpfi, orders.bsf)),
     ];
     rows.extend(e.static_rating.map(|c0| row("static load rating", format!("{} kN", number(1e-3 * c0, 4)))));
-    for class in CLASSES {
+    for class in CLEARANCE_CLASSES {
         let range = clearance(class, e.bore).filter(|_| e.contact_angle == 0.0);
         rows.extend(range.map(|[least, most]| {
             let um = |c: f64| format!("{:.0}", 1e6 * c);
@@ -114,8 +114,8 @@ fn sheet(terminal: &Terminal, e: &CatalogueEntry) {
 }
 
 fn to_json(e: &CatalogueEntry) -> Value {
-    let orders = geometry(e).orders(e.contact_angle);
-    let clearances: serde_json::Map<String, Value> = CLASSES
+    let orders = geometry(e).characteristic_orders(e.contact_angle);
+    let clearances: serde_json::Map<String, Value> = CLEARANCE_CLASSES
         .iter()
         .filter_map(|class| Some(((*class).to_string(), json!(clearance(class, e.bore)?))))
         .collect();

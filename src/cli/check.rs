@@ -1,7 +1,7 @@
 //! `check`: validates a model with all its variants and prints a summary.
 
 use rayon::prelude::*;
-use rotordyn::assembly::free_motion;
+use rotordyn::assembly::rigid_body_modes;
 use rotordyn::bearing::Bearing;
 use rotordyn::linalg::dot;
 use rotordyn::model::{Loaded, Model};
@@ -10,22 +10,22 @@ use serde_json::{Value, json};
 
 use super::args::ModelArgs;
 use super::failure::Failure;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
 
 /// Check result of one variant.
-struct Checked {
+struct CheckedVariant {
     name: String,
     loaded: Loaded,
     machine: Machine,
     /// Total mass \[kg\].
     mass: f64,
-    free: Vec<String>,
+    rigid_body_modes: Vec<String>,
 }
 
 pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
-    let origin = Origin::read(args)?;
+    let origin = ModelSource::read(args)?;
     let names: Vec<String> = match &origin.options.variant {
         Some(variant) => vec![variant.clone()],
         None => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
@@ -33,7 +33,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     // The first one separately: its errors usually apply to all variants.
     let (first, others) = names.split_first().ok_or_else(|| Failure::Input("nothing to check".into()))?;
     let first = check(&origin, first)?;
-    let others: Vec<Result<Checked, (String, Failure)>> =
+    let others: Vec<Result<CheckedVariant, (String, Failure)>> =
         others.par_iter().map(|name| check(&origin, name).map_err(|e| (name.clone(), e))).collect();
 
     summary(terminal, &first);
@@ -42,8 +42,8 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         match other {
             Ok(found) => checked.push(found),
             Err((name, failure)) => {
-                terminal.say("");
-                terminal.complain("error", &format!("in variant `{name}`:"));
+                terminal.print("");
+                terminal.print_diagnostic("error", &format!("in variant `{name}`:"));
                 return Err(failure);
             }
         }
@@ -51,7 +51,8 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let rows: Vec<Vec<String>> = checked
         .iter()
         .map(|c| {
-            let free = if c.free.is_empty() { "none".into() } else { c.free.join("; ") };
+            let free =
+                if c.rigid_body_modes.is_empty() { "none".into() } else { c.rigid_body_modes.join("; ") };
             let dofs = c.machine.assembly.dofs.len().to_string();
             vec![c.name.clone(), number(c.mass, 4), dofs, free]
         })
@@ -59,11 +60,11 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     if checked.len() > 1 {
         terminal.table("Variants, all valid", &["variant", "mass kg", "DOFs", "rigid-body modes"], &rows);
     }
-    for (c, motion) in checked.iter().flat_map(|c| c.free.iter().map(move |motion| (c, motion))) {
-        terminal.complain("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
+    for (c, motion) in checked.iter().flat_map(|c| c.rigid_body_modes.iter().map(move |motion| (c, motion))) {
+        terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
-        super::warn(terminal, &c.loaded);
+        super::print_model_warnings(terminal, &c.loaded);
     }
     Ok(json!({
         "command": "check",
@@ -73,19 +74,19 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     }))
 }
 
-fn check(origin: &Origin, variant: &str) -> Result<Checked, Failure> {
+fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure> {
     let loaded = origin.with_variant(variant).load(&[])?;
     let machine = Machine::new(loaded.model.clone())?;
-    let free = free_motion::free_motions_of_machine(&machine.model, &machine.assembly)?;
+    let free = rigid_body_modes::rigid_body_modes_of_machine(&machine.model, &machine.assembly)?;
     let full = &machine.assembly.full_mass;
     // Unit rigid-body translation u along x: uᵀ M u is the total mass.
     let along: Vec<f64> =
         (0..machine.assembly.dofs.full_len()).map(|i| f64::from(u8::from(i % 6 == 0))).collect();
     let mass = dot(&full.mul(&along), &along);
-    Ok(Checked { name: variant.to_string(), loaded, machine, mass, free })
+    Ok(CheckedVariant { name: variant.to_string(), loaded, machine, mass, rigid_body_modes: free })
 }
 
-fn summary(terminal: &Terminal, found: &Checked) {
+fn summary(terminal: &Terminal, found: &CheckedVariant) {
     let model = &found.loaded.model;
     let dofs = &found.machine.assembly.dofs;
     let discs: f64 = model.discs.iter().map(|d| d.mass).sum();
@@ -105,7 +106,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
             number(found.mass - discs - bodies, 4)
         ),
     };
-    terminal.say(&format!(
+    terminal.print(&format!(
         "  {shaft}; {} discs, {} kg; {} bodies and sensors, {} kg;\n  total {} kg",
         model.discs.len(),
         number(discs, 4),
@@ -113,7 +114,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
         number(bodies, 4),
         number(found.mass, 4),
     ));
-    terminal.say(&format!(
+    terminal.print(&format!(
         "  {} degrees of freedom, {} more eliminated by joints and drive; {} bushings, {} joints, {} belts",
         dofs.len(),
         dofs.full_len() - dofs.len(),
@@ -123,16 +124,19 @@ fn summary(terminal: &Terminal, found: &Checked) {
     ));
     let (top, duration) = (rpm(model.profile.top_speed()), model.profile.duration());
     if top > 0.0 {
-        terminal.say(&format!("  speed profile of {duration} s up to {} rpm", number(top, 5)));
+        terminal.print(&format!("  speed profile of {duration} s up to {} rpm", number(top, 5)));
     }
     let asked: Vec<&str> =
-        Study::ALL.iter().filter(|s| s.is_asked(&model.studies)).map(|s| s.name()).collect();
-    terminal.say(&format!("  studies: {}", if asked.is_empty() { "none".into() } else { asked.join(", ") }));
+        Study::ALL.iter().filter(|s| s.is_requested(&model.studies)).map(|s| s.name()).collect();
+    terminal
+        .print(&format!("  studies: {}", if asked.is_empty() { "none".into() } else { asked.join(", ") }));
 
     let rows: Vec<Vec<String>> = model
         .stations
         .iter()
-        .map(|s| vec![s.name.clone(), number(1e3 * s.z, 5), (s.node + 1).to_string(), carried(model, s.node)])
+        .map(|s| {
+            vec![s.name.clone(), number(1e3 * s.z, 5), (s.node + 1).to_string(), components_at(model, s.node)]
+        })
         .collect();
     terminal.table("Stations", &["station", "z mm", "node", "components"], &rows);
 
@@ -149,7 +153,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
                 (_, None) => {}
                 (bearing, Some(ball)) => {
                     let g = &ball.geometry;
-                    let orders = g.orders(g.contact_angle);
+                    let orders = g.characteristic_orders(g.contact_angle);
                     let kind =
                         if matches!(bearing, Bearing::RadialBall(_)) { ", radial ball DOF" } else { "" };
                     row.push(format!("{} balls of {} mm{kind}", g.balls, number(1e3 * g.ball_diameter, 4)));
@@ -173,7 +177,7 @@ fn summary(terminal: &Terminal, found: &Checked) {
 }
 
 /// Names of the components at a shaft node.
-fn carried(model: &Model, node: usize) -> String {
+fn components_at(model: &Model, node: usize) -> String {
     let discs = model.discs.iter().filter(|d| d.node == node).map(|d| format!("disc.{}", d.name));
     let bearings = model.bearings.iter().filter(|b| b.node == node).map(|b| format!("bearing.{}", b.name));
     let unbalances =
@@ -182,7 +186,7 @@ fn carried(model: &Model, node: usize) -> String {
     rotor.chain(discs).chain(bearings).chain(unbalances).collect::<Vec<_>>().join(", ")
 }
 
-fn to_json(found: &Checked) -> Value {
+fn to_json(found: &CheckedVariant) -> Value {
     let bearings: Vec<Value> = found
         .loaded
         .model
@@ -192,7 +196,7 @@ fn to_json(found: &Checked) -> Value {
             None => json!({ "name": site.name, "model": "linear" }),
             Some(ball) => {
                 let g = &ball.geometry;
-                let o = g.orders(g.contact_angle);
+                let o = g.characteristic_orders(g.contact_angle);
                 json!({
                     "name": site.name,
                     "model": if matches!(site.bearing, Bearing::RadialBall(_)) { "radial_ball" } else { "ball" },
@@ -211,7 +215,7 @@ fn to_json(found: &Checked) -> Value {
         "mass": found.mass,
         "dofs": found.machine.assembly.dofs.len(),
         "shaft_elements": found.loaded.model.shaft.len(),
-        "free_motions": found.free,
+        "free_motions": found.rigid_body_modes,
         "bearings": bearings,
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

@@ -1,19 +1,19 @@
 //! `compare`: natural frequencies and FRFs of the variants of one machine.
 
 use rotordyn::analysis::Mode;
-use rotordyn::edge::figures;
+use rotordyn::figures;
 use rotordyn::results::{ModalResult, Results};
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
 
 use super::args::StudyArgs;
 use super::failure::Failure;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::terminal::{Terminal, rpm};
-use super::{Outcome, films, settings, warn, written};
+use super::{Outcome, ehl_films, print_model_warnings, print_written_files, settings};
 
 /// Smallest MAC of a mode pair.
-const PAIR: f64 = 0.3;
+const MIN_PAIR_MAC: f64 = 0.3;
 
 /// A variant with its modes and FRFs.
 struct Variant {
@@ -29,7 +29,7 @@ pub fn run(
     modes: Option<usize>,
     terminal: &Terminal,
 ) -> Result<Outcome, Failure> {
-    let origin = Origin::read(&args.model)?;
+    let origin = ModelSource::read(&args.model)?;
     let names: Vec<String> = match names {
         [] => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
         names => names.to_vec(),
@@ -44,8 +44,8 @@ pub fn run(
         let origin = origin.with_variant(name);
         let base = origin.load(&[])?;
         let mut loaded = origin.load(&settings::modal(&base.model, speed, modes).set)?;
-        let folder = origin.folder(None, &loaded.model.name);
-        films::of_machine(&mut loaded.model, &folder, terminal)?;
+        let folder = origin.results_folder(None, &loaded.model.name);
+        ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
         let machine = Machine::new(loaded.model.clone())?;
         let studies = &machine.model.studies;
         let results = Results {
@@ -54,7 +54,7 @@ pub fn run(
             frf: studies.frf.as_ref().map(|s| machine.frf(s)).transpose()?,
             ..Results::default()
         };
-        warn(terminal, &loaded);
+        print_model_warnings(terminal, &loaded);
         variants.push(Variant { name: name.clone(), machine, results });
     }
     let speeds = variants[0].results.modal.len();
@@ -68,7 +68,7 @@ pub fn run(
     if !args.no_figures {
         let drawn: Vec<(String, &Results)> = variants.iter().map(|v| (v.name.clone(), &v.results)).collect();
         files = figures::draw_comparison(&drawn, &folder)?;
-        written(terminal, &folder, &files);
+        print_written_files(terminal, &folder, &files);
     }
     Ok(json!({ "command": "compare", "model": model_name, "variants": names, "speeds": tables, "files": files })
         .into())
@@ -127,17 +127,18 @@ fn pair<'a>(variants: &'a [Variant], found: &[Option<&'a ModalResult>]) -> Vec<R
         let modes = at.map(|at| at.modes.as_slice()).unwrap_or_default();
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (r, row) in rows.iter().enumerate() {
-            let Some((opened_by, mode)) = row.modes.iter().enumerate().find_map(|(v, m)| Some((v, (*m)?)))
+            let Some((reference_variant, mode)) =
+                row.modes.iter().enumerate().find_map(|(v, m)| Some((v, (*m)?)))
             else {
                 continue;
             };
-            let likeness = |m: &Mode| mac(&variants[opened_by].machine, mode, m);
-            pairs.extend(modes.iter().enumerate().map(|(m, other)| (likeness(other), r, m)));
+            let mac_with = |m: &Mode| mac(&variants[reference_variant].machine, mode, m);
+            pairs.extend(modes.iter().enumerate().map(|(m, other)| (mac_with(other), r, m)));
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         rows.iter_mut().for_each(|row| row.modes.push(None));
         let mut taken = vec![false; modes.len()];
-        for (mac, r, m) in pairs.into_iter().filter(|pair| pair.0 > PAIR) {
+        for (mac, r, m) in pairs.into_iter().filter(|pair| pair.0 > MIN_PAIR_MAC) {
             if rows[r].modes[v].is_none() && !taken[m] {
                 rows[r].modes[v] = Some(&modes[m]);
                 rows[r].mac = rows[r].mac.min(mac);

@@ -8,11 +8,11 @@ use rotordyn::model::{Diagnostic, Source};
 use std::fmt;
 
 /// Largest number of problems shown; the rest is counted.
-const MOST: usize = 25;
+const MAX_PROBLEMS: usize = 25;
 /// Longest snippet shown without truncation \[bytes\]: generated lines can be megabytes long.
-const LONG: usize = 2000;
+const MAX_SNIPPET_BYTES: usize = 2000;
 /// Context kept on each side of the problem in a truncated snippet \[bytes\].
-const MARGIN: usize = 50;
+const SNIPPET_CONTEXT_BYTES: usize = 50;
 
 /// Render errors (or warnings) with their snippets.
 pub fn render(diagnostics: &[Diagnostic], sources: &[Source], severity: Severity, colour: bool) -> String {
@@ -20,15 +20,15 @@ pub fn render(diagnostics: &[Diagnostic], sources: &[Source], severity: Severity
     let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false);
     let snippets: Vec<Snippet> = sources.iter().map(Snippet::new).collect();
     let mut out = String::new();
-    for diagnostic in diagnostics.iter().take(MOST) {
+    for diagnostic in diagnostics.iter().take(MAX_PROBLEMS) {
         let problem = Problem { diagnostic, snippet: snippets.get(diagnostic.source), severity };
         if handler.render_report(&mut out, &problem).is_err() {
             out += &diagnostic.message;
         }
         out.push('\n');
     }
-    if diagnostics.len() > MOST {
-        out += &format!("... and {} more\n", diagnostics.len() - MOST);
+    if diagnostics.len() > MAX_PROBLEMS {
+        out += &format!("... and {} more\n", diagnostics.len() - MAX_PROBLEMS);
     }
     out
 }
@@ -67,7 +67,12 @@ impl Report for Problem<'_> {
         let text = self.diagnostic.expected.as_ref().map_or("here".into(), |e| format!("expected {e}"));
         // only the first line of a long value is underlined
         let shown = self.snippet.and_then(|s| s.text.get(span.clone())).unwrap_or_default();
-        let line = shown.lines().next().unwrap_or_default().len().min(MARGIN.max(shown.len().min(LONG / 20)));
+        let line = shown
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .len()
+            .min(SNIPPET_CONTEXT_BYTES.max(shown.len().min(MAX_SNIPPET_BYTES / 20)));
         Some(Box::new(std::iter::once(LabeledSpan::new(Some(text), span.start, line))))
     }
 }
@@ -96,15 +101,15 @@ impl SourceCode for Snippet {
         let whole = self.text.read_span(span, before, after)?;
         let (mut data, mut start) = (*whole.span(), whole.span().offset());
         let (mut line, mut column, mut lines) = (whole.line(), whole.column(), whole.line_count());
-        if data.len() > LONG {
+        if data.len() > MAX_SNIPPET_BYTES {
             let boundary = |mut at: usize, step: isize| {
                 while !self.text.is_char_boundary(at) {
                     at = at.saturating_add_signed(step);
                 }
                 at
             };
-            start = boundary(span.offset().saturating_sub(MARGIN).max(start), 1);
-            let end = boundary((span.offset() + span.len() + MARGIN).min(self.text.len()), -1);
+            start = boundary(span.offset().saturating_sub(SNIPPET_CONTEXT_BYTES).max(start), 1);
+            let end = boundary((span.offset() + span.len() + SNIPPET_CONTEXT_BYTES).min(self.text.len()), -1);
             // one line only
             let around = &self.text[start..end];
             let offset = span.offset() - start;

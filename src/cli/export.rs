@@ -2,41 +2,41 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::edge::export::{export_geometry, export_modes};
-use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::{exchange, measured, results_file};
 use rotordyn::error::Error;
+use rotordyn::io::export_3d::{export_geometry, export_modes};
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::{machine_records, measured, results_file};
 use rotordyn::results::Results;
-use rotordyn::signal::record::{Measured, RecordError};
+use rotordyn::signal::record::{MeasuredData, RecordError};
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
 
 use super::args::{ChannelFormat, ExportArgs};
 use super::failure::Failure;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::terminal::Terminal;
-use super::{films, settings, store, written};
+use super::{ehl_films, print_written_files, settings, store};
 
 pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
-    let origin = Origin::read(&args.study.model)?;
+    let origin = ModelSource::read(&args.study.model)?;
     let base = origin.load(&[])?;
     let mut loaded = origin.load(&settings::modal(&base.model, None, None).set)?;
-    let folder = origin.folder(args.study.out.as_ref(), &loaded.model.name);
-    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let folder = origin.results_folder(args.study.out.as_ref(), &loaded.model.name);
+    ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let machine = Machine::new(loaded.model)?;
     let mut files = export_geometry(&machine, &folder)?;
     let modal = machine.model.studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?;
     let results = Results { modal: modal.unwrap_or_default(), ..Results::default() };
     files.extend(export_modes(&results, &machine, &folder)?);
     if args.formats.contains(&ChannelFormat::Uff) {
-        let mut write = |name: &str, content: &Measured| {
+        let mut write = |name: &str, content: &MeasuredData| {
             let path = folder.join(name);
             files.push(path.clone());
             measured::write(&path, content)
         };
-        write("modes.uff", &exchange::modes(&results.modal, &machine))?;
+        write("modes.uff", &machine_records::mode_shapes(&results.modal, &machine))?;
         if let Some(study) = &machine.model.studies.frf {
-            write("frf.uff", &exchange::frf(&machine.frf(study)?, &machine))?;
+            write("frf.uff", &machine_records::frf_records(&machine.frf(study)?, &machine))?;
         }
     }
     let stored = folder.join(store::FILE);
@@ -44,19 +44,19 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
         let file = Store::open(&stored)?;
         if file.contains("/time/t") {
             let history = results_file::read_history(&file)?;
-            let run = exchange::run(&history, &machine.model);
+            let run = machine_records::run_records(&history, &machine.model);
             for format in &args.formats {
                 files.extend(channels(&run, *format, args.number, &folder)?);
             }
         }
     }
-    written(terminal, &folder, &files);
+    print_written_files(terminal, &folder, &files);
     Ok(json!({ "command": "export", "files": files }))
 }
 
 /// Writes the channels of a run in one format; WAV has one file per channel.
 fn channels(
-    run: &Measured,
+    run: &MeasuredData,
     format: ChannelFormat,
     number: u32,
     folder: &Path,
@@ -66,16 +66,16 @@ fn channels(
         ChannelFormat::Csv => (named("csv"), run.clone()),
         ChannelFormat::Uff => (named("uff"), run.clone()),
         ChannelFormat::Npz => (named("npz"), run.clone()),
-        ChannelFormat::Mat => (named("mat"), exchange::numbered(run, number)),
+        ChannelFormat::Mat => (named("mat"), machine_records::with_cwru_names(run, number)),
         ChannelFormat::Wav => {
-            let audible: Vec<_> = run.records.iter().filter(|r| exchange::is_audible(r)).collect();
+            let audible: Vec<_> = run.records.iter().filter(|r| machine_records::is_vibration(r)).collect();
             if audible.is_empty() {
                 return Err(RecordError::NoChannel { name: "vibration".into(), known: "none".into() }.into());
             }
             let mut files = Vec::new();
             for record in audible {
                 let path = folder.join(format!("{}.wav", record.name));
-                let one = Measured { records: vec![record.clone()], ..Measured::default() };
+                let one = MeasuredData { records: vec![record.clone()], ..MeasuredData::default() };
                 measured::write(&path, &one)?;
                 files.push(path);
             }

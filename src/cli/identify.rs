@@ -4,33 +4,34 @@ use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::measured::impact_run;
-use rotordyn::edge::measured::mapping::{self, Mapping};
-use rotordyn::edge::{exchange, figures, identified, measured};
 use rotordyn::error::Error;
-use rotordyn::identify::{Identified, Settings, identify, quantity_of};
+use rotordyn::figures;
+use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::measured::impact_run;
+use rotordyn::io::measured::mapping::{self, Mapping};
+use rotordyn::io::{identified_modes, machine_records, measured};
 use rotordyn::model::Quantity;
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
-use rotordyn::signal::record::{FrfMatrix, Kind, Measured, Points, Record, RecordError};
+use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
 use serde_json::json;
 
 use super::args::{EstimatorName, IdentifyArgs};
 use super::failure::Failure;
 use super::identify_tables::tables;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::measured::range;
 use super::store::FILE;
 use super::terminal::Terminal;
-use super::{Outcome, written};
+use super::{Outcome, print_written_files};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let settings = settings(args)?;
     let test = ImpactTest {
         force: args.force.clone(),
-        block: value("--block", args.block.as_ref(), units::TIME)?,
-        time_constant: value("--window", args.window.as_ref(), units::TIME)?,
+        block: parse_positive("--block", args.block.as_ref(), units::TIME)?,
+        time_constant: parse_positive("--window", args.window.as_ref(), units::TIME)?,
         estimator: match args.estimator {
             EstimatorName::H1 => Estimator::H1,
             EstimatorName::H2 => Estimator::H2,
@@ -40,12 +41,12 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let start = Instant::now();
     let spinner = terminal.spinner("identify");
     let mut warnings = Vec::new();
-    let outcome = found(args, &test, &settings, &mut warnings);
+    let outcome = identify_modes(args, &test, &settings, &mut warnings);
     spinner.finish_and_clear();
     let (all, frfs, found) = match outcome {
         Ok(found) => found,
         Err(failure) => {
-            warnings.iter().for_each(|warning| terminal.complain("warning", warning));
+            warnings.iter().for_each(|warning| terminal.print_diagnostic("warning", warning));
             return Err(failure);
         }
     };
@@ -56,11 +57,11 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{name}")));
     let title = if all.title.is_empty() { name } else { all.title.clone() };
     let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
-    written(terminal, &folder, &files);
+    print_written_files(terminal, &folder, &files);
     for warning in &warnings {
-        terminal.complain("warning", warning);
+        terminal.print_diagnostic("warning", warning);
     }
-    let mut document = identified::to_json(&found);
+    let mut document = identified_modes::to_json(&found);
     document["command"] = json!("identify");
     document["warnings"] = json!(warnings);
     document["seconds"] = json!({ "identify": seconds });
@@ -69,21 +70,21 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
 }
 
 /// FRF matrix of the files and its modes; warnings are also collected on failure.
-fn found(
+fn identify_modes(
     args: &IdentifyArgs,
     test: &ImpactTest,
     settings: &Settings,
     warnings: &mut Vec<String>,
-) -> Result<(Measured, FrfMatrix, Identified), Failure> {
-    let (all, from_hits) = read(args, test, warnings)?;
+) -> Result<(MeasuredData, FrfMatrix, ModalIdentification), Failure> {
+    let (all, from_hits) = read_frfs(args, test, warnings)?;
     // With several files the channel names already contain the file name.
-    let at = |error: Error| match &args.files[..] {
-        [only] => in_file(only, error),
+    let with_context = |error: Error| match &args.files[..] {
+        [only] => with_file_name(only, error),
         _ => error.into(),
     };
-    let frfs = all.frf_matrix().map_err(|error| at(error.into()))?;
-    doubts(&frfs, args, from_hits, warnings);
-    let found = identify(&frfs, settings).map_err(|error| at(error.into()))?;
+    let frfs = all.frf_matrix().map_err(|error| with_context(error.into()))?;
+    quality_warnings(&frfs, args, from_hits, warnings);
+    let found = identify(&frfs, settings).map_err(|error| with_context(error.into()))?;
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
             "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: --window \
@@ -92,18 +93,18 @@ fn found(
             100.0 * mode.damping_ratio()
         ));
     }
-    misfits(&found, warnings);
+    fit_error_warnings(&found, warnings);
     Ok((all, frfs, found))
 }
 
 /// Relative fit error of an FRF above which a warning is issued.
-const MISFIT: f64 = 0.5;
+const FIT_ERROR_LIMIT: f64 = 0.5;
 
 /// Warns about FRFs with a large fit error.
-fn misfits(found: &Identified, warnings: &mut Vec<String>) {
+fn fit_error_warnings(found: &ModalIdentification, warnings: &mut Vec<String>) {
     let mut worst: Vec<(f64, String)> = Vec::new();
     for (response, row) in found.responses.iter().zip(&found.errors) {
-        let own = found.references.iter().zip(row).filter(|(_, error)| **error > MISFIT);
+        let own = found.references.iter().zip(row).filter(|(_, error)| **error > FIT_ERROR_LIMIT);
         worst.extend(own.map(|(reference, error)| (*error, format!("{response}/{reference}"))));
     }
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -121,7 +122,7 @@ fn misfits(found: &Identified, warnings: &mut Vec<String>) {
 }
 
 /// Adds the file name to an error.
-fn in_file(path: &Path, error: Error) -> Failure {
+fn with_file_name(path: &Path, error: Error) -> Failure {
     match error {
         error @ (Error::Content { .. } | Error::Environment { .. }) => error.into(),
         Error::Record(RecordError::NoRate { channel }) => Failure::Input(format!(
@@ -135,9 +136,9 @@ fn in_file(path: &Path, error: Error) -> Failure {
 fn write(
     args: &IdentifyArgs,
     terminal: &Terminal,
-    found: &Identified,
+    found: &ModalIdentification,
     frfs: &FrfMatrix,
-    all: &Measured,
+    all: &MeasuredData,
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
@@ -146,20 +147,24 @@ fn write(
     store.set_attribute("/meta", "program", "rotordyn")?;
     store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
     store.set_attribute("/meta", "title", title)?;
-    identified::write_hdf5(&store, found)?;
+    identified_modes::write_hdf5(&store, found)?;
     let shapes = folder.join("modes.uff");
-    measured::write(&shapes, &identified::shapes(found, &all.geometry))?;
+    measured::write(&shapes, &identified_modes::mode_shapes(found, &all.geometry))?;
     let mut files = vec![path, shapes];
     if !args.no_figures {
         let spinner = terminal.spinner("figures");
-        files.extend(figures::identified::draw(found, frfs, &all.geometry, title, folder)?);
+        files.extend(figures::identification::draw(found, frfs, &all.geometry, title, folder)?);
         spinner.finish_and_clear();
     }
     Ok(files)
 }
 
 /// Parses a positive quantity of a flag.
-fn value(name: &str, text: Option<&String>, dimension: units::Dimension) -> Result<Option<f64>, Failure> {
+fn parse_positive(
+    name: &str,
+    text: Option<&String>,
+    dimension: units::Dimension,
+) -> Result<Option<f64>, Failure> {
     let Some(text) = text else { return Ok(None) };
     let example = if dimension == units::TIME { "0.5 s" } else { "12 kHz" };
     match parse(text, dimension) {
@@ -182,7 +187,7 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
             )));
         }
     };
-    let window = value("--window", args.window.as_ref(), units::TIME)?;
+    let window = parse_positive("--window", args.window.as_ref(), units::TIME)?;
     Ok(Settings {
         band,
         max_order: args.max_order,
@@ -193,24 +198,24 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
 }
 
 /// Reads all files, converts time records to FRFs; also returns whether any FRF comes from hits.
-fn read(
+fn read_frfs(
     args: &IdentifyArgs,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
-) -> Result<(Measured, bool), Failure> {
+) -> Result<(MeasuredData, bool), Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
         Some(path) => {
             let args = super::args::ModelArgs { model: path.clone(), variant: None, set: Vec::new() };
-            Some(Origin::read(&args)?.load(&[])?.model)
+            Some(ModelSource::read(&args)?.load(&[])?.model)
         }
         None => None,
     };
-    let rate = value("--rate", args.rate.as_ref(), units::FREQUENCY)?;
+    let rate = parse_positive("--rate", args.rate.as_ref(), units::FREQUENCY)?;
     let names = RefCell::new(Vec::new());
     // Without a model, stations are numbered in order of appearance.
     let place = |name: &str| match (&model, name.parse::<i64>()) {
-        (Some(model), _) => exchange::point(model, name),
+        (Some(model), _) => machine_records::point_number(model, name),
         (None, Ok(number)) => Some(number),
         (None, Err(_)) => {
             let mut names = names.borrow_mut();
@@ -224,11 +229,11 @@ fn read(
             )
         }
     };
-    let mut all = Measured::default();
-    let mut tests: Vec<(&Path, Vec<Measured>)> = Vec::new();
+    let mut all = MeasuredData::default();
+    let mut tests: Vec<(&Path, Vec<MeasuredData>)> = Vec::new();
     let mut simulated = false;
     for path in &args.files {
-        let mut file = match of_run(path, test)? {
+        let mut file = match simulated_test_frfs(path, test)? {
             Some(run) => {
                 simulated = true;
                 run
@@ -241,8 +246,12 @@ fn read(
             warnings.extend(Mapping::apply(mapping, &mut file, &place, of)?);
         }
         // The mapping or --rate may have supplied what the file lacks.
-        let untold = file.records.iter().any(|r| r.axis.points == Points::Unknown);
-        warnings.extend(notes.into_iter().filter(|note| untold || !note.starts_with(measured::UNTOLD)));
+        let abscissa_unknown = file.records.iter().any(|r| r.axis.points == Points::Unknown);
+        warnings.extend(
+            notes
+                .into_iter()
+                .filter(|note| abscissa_unknown || !note.starts_with(measured::MISSING_AXIS_NOTE)),
+        );
         if all.title.is_empty() {
             all.title = std::mem::take(&mut file.title);
         }
@@ -252,7 +261,7 @@ fn read(
         let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
         let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
         if has_frf || !has_time {
-            put(args, path, file.records, &mut all);
+            add_records(args, path, file.records, &mut all);
         } else {
             // Hits of several files are averaged if their points are known to be the same.
             match tests.iter_mut().find(|(_, files)| same_test(&files[0], &file)) {
@@ -268,9 +277,9 @@ fn read(
     }
     let from_hits = simulated || !tests.is_empty();
     for (path, files) in tests {
-        let (records, doubts) = impact::frfs(&files, test).map_err(|error| in_file(path, error))?;
+        let (records, doubts) = impact::frfs(&files, test).map_err(|error| with_file_name(path, error))?;
         warnings.extend(doubts);
-        put(args, path, records, &mut all);
+        add_records(args, path, records, &mut all);
     }
     let named: Vec<String> =
         names.into_inner().iter().enumerate().map(|(k, name)| format!("{} is {name}", k + 1)).collect();
@@ -282,17 +291,17 @@ fn read(
 }
 
 /// FRFs of a simulated impact test.
-fn of_run(path: &Path, test: &ImpactTest) -> Result<Option<Measured>, Failure> {
+fn simulated_test_frfs(path: &Path, test: &ImpactTest) -> Result<Option<MeasuredData>, Failure> {
     if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
         return Ok(None);
     }
     let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
-    Ok(impact_run::frfs_windowed(&Store::open(path)?, windows)?)
+    Ok(impact_run::impact_frfs_windowed(&Store::open(path)?, windows)?)
 }
 
 /// Whether two files contain the same channels, all at known points.
-fn same_test(first: &Measured, other: &Measured) -> bool {
-    let channels = |file: &Measured| -> Vec<_> {
+fn same_test(first: &MeasuredData, other: &MeasuredData) -> bool {
+    let channels = |file: &MeasuredData| -> Vec<_> {
         let time = file.records.iter().filter(|r| r.kind == Kind::Time);
         time.map(|r| (r.name.clone(), r.response, r.unit.clone())).collect()
     };
@@ -301,7 +310,7 @@ fn same_test(first: &Measured, other: &Measured) -> bool {
 }
 
 /// Adds records; with several files their names are prefixed by the file name.
-fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Measured) {
+fn add_records(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut MeasuredData) {
     if args.files.len() > 1 {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         records.iter_mut().for_each(|r| r.name = format!("{file}: {}", r.name));
@@ -309,7 +318,7 @@ fn put(args: &IdentifyArgs, path: &Path, mut records: Vec<Record>, all: &mut Mea
     all.records.extend(records);
 }
 
-fn doubts(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warnings: &mut Vec<String>) {
+fn quality_warnings(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warnings: &mut Vec<String>) {
     if frfs.coherence.is_none() && !from_hits {
         warnings.push(
             "not all FRFs have a coherence function, so noisy frequency ranges are not known; export the coherence with \

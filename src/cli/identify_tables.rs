@@ -1,13 +1,13 @@
 //! Tables of `identify`: modes with standard errors, and single-degree-of-freedom (SDOF) fits for comparison.
 
-use rotordyn::identify::single::{circle_fit, peak_fit};
-use rotordyn::identify::{Identified, quantity_of};
+use rotordyn::identify::sdof::{circle_fit, half_power_fit};
+use rotordyn::identify::{ModalIdentification, quantity_of};
 use rotordyn::signal::record::FrfMatrix;
 
 use super::terminal::{Terminal, number};
 
 /// Table of modes, dropped modes and SDOF fits.
-pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
+pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix) {
     let rows: Vec<Vec<String>> = found
         .modes
         .iter()
@@ -45,21 +45,21 @@ pub fn tables(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
     let header = ["", "Hz", "+-", "zeta %", "+-", "MPC", "response", "reference", "whirl"];
     terminal.table(&title, &header, &rows);
     let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
-    terminal.say(&format!(
+    terminal.print(&format!(
         "  +- is one standard error; MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over all \
          FRFs, {:.2} % for the worst FRF.",
         100.0 * found.total_error,
         100.0 * worst
     ));
     if !found.dropped.is_empty() {
-        terminal.say("\n  Stable poles that were rejected:");
-        found.dropped.iter().for_each(|reason| terminal.say(&format!("    {reason}")));
+        terminal.print("\n  Stable poles that were rejected:");
+        found.dropped.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
     }
-    quick_look(terminal, found, frfs);
+    sdof_table(terminal, found, frfs);
 }
 
 /// SDOF check of each mode: half-power peak fit and circle fit of the FRF with its largest residue.
-fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
+fn sdof_table(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix) {
     let rows: Vec<Vec<String>> = found
         .modes
         .iter()
@@ -81,7 +81,7 @@ fn quick_look(terminal: &Terminal, found: &Identified, frfs: &FrfMatrix) {
             let around = |widths: f64| (widths * zeta * hz).max(3.0 * step);
             let band = |half: f64| [hz - half, hz + half];
             let fits = [
-                peak_fit(&frfs.frequencies, frf, band(around(4.0))),
+                half_power_fit(&frfs.frequencies, frf, band(around(4.0))),
                 circle_fit(&frfs.frequencies, frf, band(around(1.5)), quantity),
             ];
             let mut row = vec![

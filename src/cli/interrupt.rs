@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// Installs the Ctrl-C handler.
-pub fn listen() {
-    let asked = || {
+pub fn install_handler() {
+    let handler = || {
         if REQUESTED.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
     };
     // Without a handler Ctrl-C kills the process; the streamed file stays readable even then.
-    let _ = ctrlc::set_handler(asked);
+    let _ = ctrlc::set_handler(handler);
 }
 
 /// Whether Ctrl-C was pressed.

@@ -4,10 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use rotordyn::bearing::BallBearing;
-use rotordyn::edge::parry::BearingShapes;
-use rotordyn::edge::side_file;
+use rotordyn::geometry::parry::BearingShapes;
+use rotordyn::io::external_file;
 use rotordyn::model::{
-    self, Diagnostic, Kind, Loaded, LoadedBearings, ModelErrors, Options, SideFile, Source,
+    self, Diagnostic, ExternalFile, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source,
 };
 
 use super::args::ModelArgs;
@@ -15,11 +15,11 @@ use super::failure::Failure;
 
 /// Allowed overlap of ball and race as a fraction of the ball diameter: negative clearance overlaps by some
 /// micrometres, a wrong groove radius or clearance by far more.
-const ELASTIC: f64 = 5e-3;
+const MAX_BALL_RACE_OVERLAP: f64 = 5e-3;
 
 /// Text of a model file, with variant and overrides of the user.
 #[derive(Clone, Debug)]
-pub struct Origin {
+pub struct ModelSource {
     /// File name used in messages.
     pub name: String,
     pub text: Vec<u8>,
@@ -27,10 +27,10 @@ pub struct Origin {
     /// Base folder of relative paths in the file.
     pub folder: PathBuf,
     /// Referenced files, if already read (from a stored run).
-    pub files: Option<Vec<SideFile>>,
+    pub files: Option<Vec<ExternalFile>>,
 }
 
-impl Origin {
+impl ModelSource {
     pub fn read(args: &ModelArgs) -> Result<Self, Failure> {
         let text = std::fs::read(&args.model)
             .map_err(|error| Failure::environment("read the model file", &args.model, error))?;
@@ -48,7 +48,7 @@ impl Origin {
         let loaded = model::load_with(&self.name, &self.text, &options, &files)?;
         let balls =
             loaded.model.bearings.iter().filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?)));
-        overlaps(balls, &loaded.text, &loaded.sources)?;
+        check_overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
     }
 
@@ -59,14 +59,15 @@ impl Origin {
         let files = self.side_files(&options);
         let loaded = model::load_bearings_with(&self.name, &self.text, &options, &files)?;
         let balls = loaded.bearings.iter().map(|(name, ball)| (name.as_str(), ball));
-        overlaps(balls, &loaded.text, &loaded.sources)?;
+        check_overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
     }
 
     /// Files referenced by the model with these options.
-    pub fn side_files(&self, options: &Options) -> Vec<SideFile> {
-        let read = || model::side_files(&self.text, options);
-        let named = || read().iter().map(|path| side_file::read(&self.folder, path)).collect();
+    pub fn side_files(&self, options: &Options) -> Vec<ExternalFile> {
+        let read = || model::external_files(&self.text, options);
+        let named =
+            || read().iter().map(|path| external_file::read_external_file(&self.folder, path)).collect();
         self.files.clone().unwrap_or_else(named)
     }
 
@@ -83,7 +84,7 @@ impl Origin {
     }
 
     /// Results folder; default `out/NAME` or `out/NAME_VARIANT`.
-    pub fn folder(&self, out: Option<&PathBuf>, model_name: &str) -> PathBuf {
+    pub fn results_folder(&self, out: Option<&PathBuf>, model_name: &str) -> PathBuf {
         let name = match &self.options.variant {
             Some(variant) => format!("{model_name}_{variant}"),
             None => model_name.to_string(),
@@ -93,7 +94,7 @@ impl Origin {
 }
 
 /// Interference check: balls, cage pockets and rings of every ball bearing must not overlap.
-fn overlaps<'a>(
+fn check_overlaps<'a>(
     bearings: impl Iterator<Item = (&'a str, &'a BallBearing)>,
     text: &str,
     sources: &[Source],
@@ -101,7 +102,8 @@ fn overlaps<'a>(
     let mut diagnostics = Vec::new();
     for (name, ball) in bearings {
         let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
-        let found = shapes.overlaps(&shapes.centred(ball.cage_angle), ELASTIC * ball.geometry.ball_diameter);
+        let found = shapes
+            .overlaps(&shapes.centred(ball.cage_angle), MAX_BALL_RACE_OVERLAP * ball.geometry.ball_diameter);
         let Some(worst) = found.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)) else { continue };
         let more = match found.len() {
             1 => String::new(),
@@ -110,7 +112,7 @@ fn overlaps<'a>(
         diagnostics.push(Diagnostic {
             kind: Kind::Geometry,
             source: 0,
-            span: model::place_of(text, &["bearing", name]),
+            span: model::item_span(text, &["bearing", name]),
             message: format!("bearing.{name}: {worst}{more}"),
             expected: None,
             hint: Some("check ball and pitch diameter, osculation, clearance, pocket, bore and width".into()),

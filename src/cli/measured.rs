@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::edge::measured::target::{self, ReadTarget, Reading};
+use rotordyn::io::measured::test_data::{self, ReadSettings, TestData};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
 use rotordyn::units::{self, FREQUENCY, SPEED};
-use rotordyn::update::state::State;
+use rotordyn::update::state::ModelState;
 use rotordyn::update::target::Target;
 use serde_json::{Value, json};
 
@@ -19,21 +19,21 @@ pub fn read(
     args: &MeasuredArgs,
     model: &Model,
     terminal: &Terminal,
-) -> Result<Vec<Option<ReadTarget>>, Failure> {
+) -> Result<Vec<Option<TestData>>, Failure> {
     let band = args.band.as_deref().map(|text| range(text, "--band")).transpose()?;
     let speed = match &args.speed {
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
         None => None,
     };
-    let reading = Reading { mapping: args.mapping.as_deref(), band, speed };
+    let reading = ReadSettings { mapping: args.mapping.as_deref(), band, speed };
     let mut out = Vec::new();
     for path in &args.measured {
         let bar = terminal.spinner(&format!("reading {}", path.display()));
-        let found = target::read(path, &reading, model);
+        let found = test_data::read(path, &reading, model);
         bar.finish_and_clear();
         let found = found?;
         for warning in found.iter().flat_map(|found| &found.warnings) {
-            terminal.complain("warning", &format!("{}: {warning}", path.display()));
+            terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
         }
         out.push(found);
     }
@@ -59,8 +59,8 @@ pub fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
 }
 
 /// Results folder; default `out/NAME_ending`.
-pub fn folder(out: Option<&PathBuf>, model: &str, ending: &str) -> PathBuf {
-    out.cloned().unwrap_or_else(|| Path::new("out").join(format!("{model}_{ending}")))
+pub fn folder(out: Option<&PathBuf>, model: &str, suffix: &str) -> PathBuf {
+    out.cloned().unwrap_or_else(|| Path::new("out").join(format!("{model}_{suffix}")))
 }
 
 /// File name without folder and extension.
@@ -74,13 +74,13 @@ pub fn stem(path: &Path) -> String {
 }
 
 /// Table of mode pairs and of unpaired measured and computed modes, sorted by frequency.
-pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &State) {
+pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &ModelState) {
     let per_cent = |v: f64| format!("{:.3}", 100.0 * v);
     let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
     for (k, measured) in target.modes.iter().enumerate() {
         let damping = measured.damping_ratio.map_or("-".into(), per_cent);
         let mut row = vec![format!("{:.3}", measured.frequency_hz)];
-        match state.partner(k) {
+        match state.paired_mode(k) {
             Some((mode, mac)) => row.extend([
                 format!("{:.3}", mode.frequency_hz()),
                 format!("{:+.2}", 100.0 * (mode.frequency_hz() / measured.frequency_hz - 1.0)),
@@ -121,15 +121,15 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Sta
 }
 
 /// Relative frequency difference above which a mode pair gets a warning.
-const FAR: f64 = 0.2;
+const FREQUENCY_ERROR_LIMIT: f64 = 0.2;
 
 /// Warns about mode pairs with a large frequency difference.
-pub fn far_pairs(terminal: &Terminal, target: &Target, state: &State) {
+pub fn frequency_error_warnings(terminal: &Terminal, target: &Target, state: &ModelState) {
     for (k, measured) in target.modes.iter().enumerate() {
-        let Some((mode, mac)) = state.partner(k) else { continue };
+        let Some((mode, mac)) = state.paired_mode(k) else { continue };
         let off = mode.frequency_hz() / measured.frequency_hz - 1.0;
-        if off.abs() > FAR {
-            terminal.complain(
+        if off.abs() > FREQUENCY_ERROR_LIMIT {
+            terminal.print_diagnostic(
                 "warning",
                 &format!(
                     "mode pair {:.1} Hz measured, {:.1} Hz computed ({}): frequency error {:+.0} %, MAC {mac:.2}; check \
@@ -151,13 +151,13 @@ pub fn band(target: &Target) -> [f64; 2] {
 }
 
 /// JSON of mode pairs, unpaired modes and MAC matrix.
-pub fn to_json(target: &Target, state: &State) -> Value {
+pub fn to_json(target: &Target, state: &ModelState) -> Value {
     let pairs: Vec<Value> = target
         .modes
         .iter()
         .enumerate()
         .map(|(k, m)| {
-            let partner = state.partner(k);
+            let partner = state.paired_mode(k);
             json!({
                 "measured_hz": m.frequency_hz,
                 "measured_zeta": m.damping_ratio,
@@ -170,11 +170,11 @@ pub fn to_json(target: &Target, state: &State) -> Value {
             })
         })
         .collect();
-    let alone = state.pairing.unpaired_computed.iter().map(|&k| &state.modes[k]);
+    let unpaired = state.pairing.unpaired_computed.iter().map(|&k| &state.modes[k]);
     json!({
         "rpm": rpm(target.speed),
         "modes": pairs,
-        "not_measured": alone
+        "not_measured": unpaired
             .map(|m| json!({ "label": m.label, "computed_hz": m.frequency_hz() }))
             .collect::<Vec<_>>(),
         "mac": state.pairing.mac,
@@ -185,12 +185,12 @@ pub fn to_json(target: &Target, state: &State) -> Value {
 pub fn frac_table(
     terminal: &Terminal,
     target: &Target,
-    state: &State,
+    state: &ModelState,
     computed: &[Vec<Vec<Complex64>>],
 ) -> Vec<Vec<f64>> {
     let Some(measured) = &target.frfs else { return Vec::new() };
-    let model = &state.linear.model;
-    let value = |r: usize, e: usize| match measured.moves(r, e) {
+    let model = &state.linearised.model;
+    let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
         true => rotordyn::identify::mac::frac(&measured.values[r][e], &computed[r][e]),
         false => f64::NAN,
     };

@@ -7,24 +7,24 @@ mod catalogue;
 mod check;
 mod compare;
 mod diagnostics;
+mod ehl_films;
 mod export;
 mod failure;
-mod films;
-mod free;
+mod free_parameters;
 mod identify;
 mod identify_tables;
 mod interrupt;
 mod machine;
 mod measured;
-mod noise;
-mod run_up_pair;
+mod noisy_frf;
+mod run_up_correlation;
 mod settings;
 mod signal;
 mod steady;
 mod steady_args;
 mod steady_tables;
 mod store;
-mod stored;
+mod stored_run;
 mod studies;
 mod tables;
 mod terminal;
@@ -42,7 +42,7 @@ use serde_json::{Value, json};
 
 use args::{Cli, Command, StudyArgs};
 use failure::Failure;
-use machine::Origin;
+use machine::ModelSource;
 use settings::Settings;
 use studies::{Job, Study};
 use terminal::Terminal;
@@ -73,7 +73,7 @@ pub fn run() -> ExitCode {
         // Fails only if the global pool already exists; nothing has created it yet.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    interrupt::listen();
+    interrupt::install_handler();
     let outcome = perform(&cli.command, &terminal)
         .unwrap_or_else(|failure| Outcome { document: json!({}), failures: vec![("", failure)] });
     for (study, failure) in &outcome.failures {
@@ -90,49 +90,51 @@ pub fn run() -> ExitCode {
 }
 
 fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
-    let alone = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
+    let run_one = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
         studies_of(args, terminal, Some(study), settings)
     };
     match command {
         Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
-        Command::Static { study, speed, cage_as_placed } => alone(study, Study::Static, &|model| {
-            settings::equilibrium(model, speed.as_ref(), *cage_as_placed)
-        }),
+        Command::Static { study, speed, fixed_cage_angle: cage_as_placed } => {
+            run_one(study, Study::Static, &|model| {
+                settings::equilibrium(model, speed.as_ref(), *cage_as_placed)
+            })
+        }
         Command::Modal { study, speed, modes } => {
-            alone(study, Study::Modal, &|model| settings::modal(model, speed.as_ref(), *modes))
+            run_one(study, Study::Modal, &|model| settings::modal(model, speed.as_ref(), *modes))
         }
         Command::Campbell { study, max_speed, modes } => {
-            alone(study, Study::Campbell, &|model| settings::campbell(model, max_speed.as_ref(), *modes))
+            run_one(study, Study::Campbell, &|model| settings::campbell(model, max_speed.as_ref(), *modes))
         }
         Command::Critical { study, max_speed, orders } => {
-            alone(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
+            run_one(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
         }
         Command::Frf { study, speed, max_frequency, quantity, test } => {
             let settings = |model: &Model| {
                 settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
             };
-            let outcome = alone(study, Study::Frf, &settings)?;
-            noise::run(study, test, &settings, terminal)?;
+            let outcome = run_one(study, Study::Frf, &settings)?;
+            noisy_frf::run(study, test, &settings, terminal)?;
             Ok(outcome)
         }
         Command::Unbalance { study, max_speed } => {
-            alone(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
+            run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
         }
-        Command::RunUp { study, step, integrator, sample_rate } => alone(study, Study::RunUp, &|model| {
+        Command::RunUp { study, step, integrator, sample_rate } => run_one(study, Study::RunUp, &|model| {
             settings::run_up(model, step.as_ref(), integrator.as_ref(), sample_rate.as_ref())
         }),
         Command::Poincare(args) => {
-            alone(&args.steady.study, Study::Poincare, &|model| steady_args::poincare(model, args))
+            run_one(&args.steady.study, Study::Poincare, &|model| steady_args::poincare(model, args))
         }
         Command::Lyapunov(args) => {
-            alone(&args.study, Study::Lyapunov, &|model| steady_args::lyapunov(model, args))
+            run_one(&args.study, Study::Lyapunov, &|model| steady_args::lyapunov(model, args))
         }
         Command::Bifurcation(args) => {
-            alone(&args.steady.study, Study::Bifurcation, &|model| steady_args::bifurcation(model, args))
+            run_one(&args.steady.study, Study::Bifurcation, &|model| steady_args::bifurcation(model, args))
         }
-        Command::Spectrogram(args) => stored::run(args, terminal, Study::Spectrogram),
-        Command::Orders(args) => stored::run(args, terminal, Study::Orders),
+        Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),
+        Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
         Command::Identify(args) => identify::run(args, terminal),
         Command::Compare { study, variants, speed, modes } => {
@@ -155,62 +157,62 @@ fn studies_of(
     study: Option<Study>,
     settings: &dyn Fn(&Model) -> Settings,
 ) -> Result<Outcome, Failure> {
-    let origin = Origin::read(&args.model)?;
+    let origin = ModelSource::read(&args.model)?;
     let mut loaded = origin.load(&[])?;
     let settings = settings(&loaded.model);
     if !settings.set.is_empty() {
         loaded = origin.load(&settings.set)?;
     }
     if let Some(note) = &settings.note {
-        terminal.say(note);
+        terminal.print(note);
     }
-    let asked = |study: &Study| study.is_asked(&loaded.model.studies);
+    let requested = |study: &Study| study.is_requested(&loaded.model.studies);
     let wanted: Vec<Study> = match study {
         Some(Study::RunUp) => {
-            let also = [Study::Spectrogram, Study::Orders].into_iter().filter(asked);
+            let also = [Study::Spectrogram, Study::Orders].into_iter().filter(requested);
             std::iter::once(Study::RunUp).chain(also).collect()
         }
         Some(study) => vec![study],
-        None => Study::ALL.into_iter().filter(asked).collect(),
+        None => Study::ALL.into_iter().filter(requested).collect(),
     };
     if wanted.is_empty() {
         let message = format!("{} contains no study; add [study.modal] or another", origin.name);
         return Err(Failure::Input(message));
     }
-    let folder = origin.folder(args.out.as_ref(), &loaded.model.name);
-    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    let folder = origin.results_folder(args.out.as_ref(), &loaded.model.name);
+    ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let family = match wanted.contains(&Study::Bifurcation) {
-        true => steady::family(&origin, &settings.set, &loaded, &folder, terminal)?,
+        true => steady::parameter_models(&origin, &settings.set, &loaded, &folder, terminal)?,
         false => Vec::new(),
     };
     let machine = Machine::new(loaded.model.clone())?;
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
-    job.family = family;
+    job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);
     let outcome = finish(job, !args.no_figures, study.map_or("run", Study::name))?;
-    warn(terminal, &loaded);
+    print_model_warnings(terminal, &loaded);
     Ok(outcome)
 }
 
 /// Writes the results and figures of a job, prints the file list and the quality warnings.
 fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
-    doubts(&mut job);
+    quality_warnings(&mut job);
     job.write(draw)?;
     let terminal = job.terminal;
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
     terminal.table("Computing time", &["", "s"], &rows);
-    written(terminal, &job.folder, &job.files);
+    print_written_files(terminal, &job.folder, &job.files);
     if job.files.len() > 1 {
-        terminal.say("  (figures are written as SVG and PNG)");
+        terminal.print("  (figures are written as SVG and PNG)");
     }
     for warning in &job.results.warnings[known..] {
-        terminal.complain("warning", warning);
+        terminal.print_diagnostic("warning", warning);
     }
-    let mut document = rotordyn::edge::json::to_json(&job.results, &job.machine);
+    let mut document = rotordyn::io::json::to_json(&job.results, &job.machine);
     if let Some(object) = document.as_object_mut() {
         object.insert("command".into(), command.into());
         let seconds: serde_json::Map<_, _> =
@@ -222,7 +224,7 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
 }
 
 /// Quality warnings: unstable modes, energy balance of the run-up, error of the reduced model.
-fn doubts(job: &mut Job) {
+fn quality_warnings(job: &mut Job) {
     let mut found = Vec::new();
     for at in &job.results.modal {
         for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
@@ -233,7 +235,7 @@ fn doubts(job: &mut Job) {
     }
     if let Some(run) = &job.results.run_up {
         let energy = &run.report.energy;
-        let open = energy.residual().abs() / energy.turnover().max(f64::MIN_POSITIVE);
+        let open = energy.residual().abs() / energy.exchanged().max(f64::MIN_POSITIVE);
         if open > 1e-3 {
             found.push(format!(
                 "the energy balance of the run-up has a residual of {:.2} %: reduce the time step",
@@ -249,27 +251,27 @@ fn doubts(job: &mut Job) {
 }
 
 /// Prints the list of written files, wrapped to the line width.
-fn written(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
+fn print_written_files(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.heading(&format!("Written to {}", folder.display()));
     let mut line = String::from(" ");
     for file in files {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         if line.len() + name.len() > 98 {
-            terminal.say(&line);
+            terminal.print(&line);
             line = String::from(" ");
         }
         line.push(' ');
         line.push_str(&name);
     }
-    terminal.say(&line);
+    terminal.print(&line);
 }
 
 /// Prints the warnings of the model file.
-fn warn(terminal: &Terminal, loaded: &Loaded) {
+fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
     if !loaded.warnings.is_empty() {
         let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
         eprint!("{text}");
-        loaded.warnings.iter().for_each(|warning| terminal.keep(&warning.message));
+        loaded.warnings.iter().for_each(|warning| terminal.record_warning(&warning.message));
     }
 }
 
@@ -281,7 +283,7 @@ fn report(terminal: &Terminal, study: &str, failure: &Failure) {
         return;
     }
     let place = if study.is_empty() { String::new() } else { format!("{study}: ") };
-    terminal.complain("error", &format!("{place}{}", failure.message()));
+    terminal.print_diagnostic("error", &format!("{place}{}", failure.message()));
 }
 
 /// Prints the JSON document with errors, version and exit code.
@@ -294,7 +296,7 @@ fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
             error
         };
         object.entry("warnings").or_insert_with(|| json!(warnings));
-        object.entry("schema").or_insert_with(|| json!(rotordyn::edge::json::SCHEMA));
+        object.entry("schema").or_insert_with(|| json!(rotordyn::io::json::SCHEMA));
         object.insert("program".into(), "rotordyn".into());
         object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
         object.insert("exit_code".into(), code.into());

@@ -9,17 +9,17 @@ use rotordyn::model::{Loaded, Model};
 use rotordyn::study::bifurcation;
 
 use super::failure::Failure;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::studies::Job;
 use super::terminal::Terminal;
-use super::{films, interrupt, steady_tables};
+use super::{ehl_films, interrupt, steady_tables};
 
 /// Length of the progress bar of a single run.
-const WHOLE: f64 = 1000.0;
+const BAR_LENGTH: f64 = 1000.0;
 
 /// Models of a bifurcation diagram, one per parameter value, with the settings of the command.
-pub fn family(
-    origin: &Origin,
+pub fn parameter_models(
+    origin: &ModelSource,
     settings: &[(String, String)],
     loaded: &Loaded,
     folder: &std::path::Path,
@@ -37,7 +37,7 @@ pub fn family(
         (0..parameter.values.len()).into_par_iter().map(model).collect::<Vec<_>>().into_iter().collect();
     spinner.finish_and_clear();
     let mut models = models?;
-    models.iter_mut().try_for_each(|model| films::of_machine(model, folder, terminal))?;
+    models.iter_mut().try_for_each(|model| ehl_films::prepare_machine_films(model, folder, terminal))?;
     Ok(models)
 }
 
@@ -45,7 +45,7 @@ impl Job<'_> {
     pub fn poincare(&mut self) -> Result<(), Failure> {
         let Some(study) = &self.machine.model.studies.poincare else { return Ok(()) };
         let bar = run_bar(self.terminal, "Poincaré section");
-        let found = self.machine.poincare(study, &mut |share| watch(&bar, share));
+        let found = self.machine.poincare(study, &mut |share| update_bar(&bar, share));
         bar.finish_and_clear();
         let found = found?.ok_or(Failure::Interrupted)?;
         steady_tables::poincare(self.terminal, &found);
@@ -56,7 +56,7 @@ impl Job<'_> {
     pub fn lyapunov(&mut self) -> Result<(), Failure> {
         let Some(study) = &self.machine.model.studies.lyapunov else { return Ok(()) };
         let bar = run_bar(self.terminal, "Lyapunov exponent");
-        let found = self.machine.lyapunov(study, &mut |share| watch(&bar, share));
+        let found = self.machine.lyapunov(study, &mut |share| update_bar(&bar, share));
         bar.finish_and_clear();
         let found = found?.ok_or(Failure::Interrupted)?;
         steady_tables::lyapunov(self.terminal, &found);
@@ -71,9 +71,9 @@ impl Job<'_> {
         let progress = |done: usize, planned: usize| {
             bar.set_length(planned as u64);
             bar.set_position(done as u64);
-            go_on()
+            continue_unless_interrupted()
         };
-        let found = bifurcation(&self.family, &progress);
+        let found = bifurcation(&self.parameter_models, &progress);
         bar.finish_and_clear();
         let found = match found {
             Err(_) if interrupt::requested() => return Err(Failure::Interrupted),
@@ -87,17 +87,17 @@ impl Job<'_> {
 }
 
 fn run_bar(terminal: &Terminal, what: &str) -> ProgressBar {
-    let bar = terminal.share_bar();
-    bar.set_length(WHOLE as u64);
+    let bar = terminal.fraction_bar();
+    bar.set_length(BAR_LENGTH as u64);
     bar.set_message(what.to_string());
     bar
 }
 
-fn watch(bar: &ProgressBar, share: f64) -> ControlFlow<()> {
-    bar.set_position((WHOLE * share) as u64);
-    go_on()
+fn update_bar(bar: &ProgressBar, share: f64) -> ControlFlow<()> {
+    bar.set_position((BAR_LENGTH * share) as u64);
+    continue_unless_interrupted()
 }
 
-fn go_on() -> ControlFlow<()> {
+fn continue_unless_interrupted() -> ControlFlow<()> {
     if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

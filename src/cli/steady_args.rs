@@ -4,7 +4,7 @@ use clap::Args;
 use rotordyn::model::Model;
 
 use super::args::StudyArgs;
-use super::settings::{Draft, Settings, list, quoted, top_speed};
+use super::settings::{Settings, SettingsBuilder, toml_array, toml_string, top_speed};
 
 /// Shown with the long help of `poincare`.
 pub const POINCARE: &str = "\
@@ -99,19 +99,19 @@ pub struct BifurcationArgs {
     pub lyapunov: bool,
 }
 
-fn common(draft: &mut Draft, args: &SteadyArgs) {
-    draft.flag("speed", args.speed.as_ref().map(quoted));
-    draft.flag("section", args.section.as_ref().map(quoted));
-    draft.flag("bearing", args.bearing.as_ref().map(quoted));
-    draft.flag("phase", args.phase.as_ref().map(quoted));
-    draft.flag("settle", args.settle.map(|n| n.to_string()));
-    draft.flag("periods", args.periods.map(|n| n.to_string()));
-    draft.flag("step", args.step.as_ref().map(quoted));
-    draft.flag("integrator", args.integrator.as_ref().map(quoted));
+fn common(draft: &mut SettingsBuilder, args: &SteadyArgs) {
+    draft.set_flag("speed", args.speed.as_ref().map(toml_string));
+    draft.set_flag("section", args.section.as_ref().map(toml_string));
+    draft.set_flag("bearing", args.bearing.as_ref().map(toml_string));
+    draft.set_flag("phase", args.phase.as_ref().map(toml_string));
+    draft.set_flag("settle", args.settle.map(|n| n.to_string()));
+    draft.set_flag("periods", args.periods.map(|n| n.to_string()));
+    draft.set_flag("step", args.step.as_ref().map(toml_string));
+    draft.set_flag("integrator", args.integrator.as_ref().map(toml_string));
 }
 
 /// Note on the defaults used if the file lacks the study.
-fn usual(model: &Model, settle: usize, periods: usize) -> String {
+fn default_note(model: &Model, settle: usize, periods: usize) -> String {
     let speed = match top_speed(model) {
         Some(top) => format!("{top} rpm, "),
         None => String::new(),
@@ -120,40 +120,40 @@ fn usual(model: &Model, settle: usize, periods: usize) -> String {
 }
 
 pub fn poincare(model: &Model, args: &PoincareArgs) -> Settings {
-    let mut draft = Draft::new("poincare");
+    let mut draft = SettingsBuilder::new("poincare");
     common(&mut draft, &args.steady);
-    draft.flag("planes", list(&args.plane));
+    draft.set_flag("planes", toml_array(&args.plane));
     let missing = model.studies.poincare.is_none();
-    draft.defaults(missing, &usual(model, 200, 300), &[("section", quoted("shaft"))])
+    draft.defaults(missing, &default_note(model, 200, 300), &[("section", toml_string("shaft"))])
 }
 
 pub fn lyapunov(model: &Model, args: &SteadyArgs) -> Settings {
-    let mut draft = Draft::new("lyapunov");
+    let mut draft = SettingsBuilder::new("lyapunov");
     common(&mut draft, args);
     let missing = model.studies.lyapunov.is_none();
-    draft.defaults(missing, &usual(model, 200, 1000), &[("section", quoted("shaft"))])
+    draft.defaults(missing, &default_note(model, 200, 1000), &[("section", toml_string("shaft"))])
 }
 
 pub fn bifurcation(model: &Model, args: &BifurcationArgs) -> Settings {
     let missing = model.studies.bifurcation.is_none();
-    let mut draft = Draft::new("bifurcation");
+    let mut draft = SettingsBuilder::new("bifurcation");
     common(&mut draft, &args.steady);
-    draft.flag("parameter", list(&args.parameter));
-    let ends = [("from", args.from.as_ref().map(quoted)), ("to", args.to.as_ref().map(quoted))];
+    draft.set_flag("parameter", toml_array(&args.parameter));
+    let ends = [("from", args.from.as_ref().map(toml_string)), ("to", args.to.as_ref().map(toml_string))];
     let values = ends.into_iter().chain([("count", args.count.map(|n| n.to_string()))]);
     let given: Vec<(&str, String)> = values.filter_map(|(key, value)| Some((key, value?))).collect();
     // A different parameter replaces all values; otherwise a flag replaces a single entry of the file.
     if missing || !args.parameter.is_empty() {
         let table: Vec<String> = given.iter().map(|(key, value)| format!("{key} = {value}")).collect();
-        draft.flag("values", (!given.is_empty()).then(|| format!("{{ {} }}", table.join(", "))));
+        draft.set_flag("values", (!given.is_empty()).then(|| format!("{{ {} }}", table.join(", "))));
     } else {
         for (key, value) in given {
-            draft.flag(&format!("values.{key}"), Some(value));
+            draft.set_flag(&format!("values.{key}"), Some(value));
         }
     }
-    draft.flag("sweep", args.sweep.as_ref().map(quoted));
-    draft.flag("start", args.start.as_ref().map(quoted));
-    draft.flag("channels", list(&args.channels));
-    draft.flag("lyapunov", args.lyapunov.then(|| "true".into()));
-    draft.defaults(missing, &usual(model, 200, 100), &[("section", quoted("shaft"))])
+    draft.set_flag("sweep", args.sweep.as_ref().map(toml_string));
+    draft.set_flag("start", args.start.as_ref().map(toml_string));
+    draft.set_flag("channels", toml_array(&args.channels));
+    draft.set_flag("lyapunov", args.lyapunov.then(|| "true".into()));
+    draft.defaults(missing, &default_note(model, 200, 100), &[("section", toml_string("shaft"))])
 }

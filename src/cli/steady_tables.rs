@@ -4,24 +4,24 @@ use rotordyn::results::{
     BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
     SectionClock, SteadyMotion,
 };
-use rotordyn::signal::lyapunov::Exponent;
+use rotordyn::signal::lyapunov::LyapunovExponent;
 
 use super::terminal::{Terminal, number, rpm};
 
 /// Largest number of rows printed of a sweep; the rest is in results.h5.
-const MOST: usize = 40;
+const MAX_ROWS: usize = 40;
 /// Number of standard errors from zero at which the sign of an exponent is significant.
-const SURE: f64 = 3.0;
+const SIGNIFICANT_STANDARD_ERRORS: f64 = 3.0;
 
 pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     let points = found.planes.first().map_or(0, |p| p.section[0].len());
     let m = &found.motion;
-    let chaos = if m.chaos.is_nan() { "-".into() } else { format!("{:.3}", m.chaos) };
+    let chaos = if m.zero_one_k.is_nan() { "-".into() } else { format!("{:.3}", m.zero_one_k) };
     terminal.table(
         &format!(
             "Motion at {:.1} rpm, {points} section points, one per {}",
             rpm(found.speed),
-            in_words(&found.clock)
+            describe_clock(&found.clock)
         ),
         &["motion", "recurrence", "K of 0-1 test", "clusters"],
         &[vec![m.motion.name(), format!("{:.1e}", m.recurrence), chaos, found.groups.to_string()]],
@@ -38,7 +38,7 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
             row.push(span(&mut p.section[k].iter(), &p.axes[k].unit));
         }
         row.push(p.whirl.as_ref().map_or("-".into(), |w| w.name().to_string()));
-        row.push(p.whirl.as_ref().map_or("-".into(), |w| number(w.once.semi_axes().0, 3)));
+        row.push(p.whirl.as_ref().map_or("-".into(), |w| number(w.synchronous.semi_axes().0, 3)));
         row
     };
     let rows: Vec<Vec<String>> = found.planes.iter().map(row).collect();
@@ -58,23 +58,23 @@ pub fn lyapunov(terminal: &Terminal, found: &LyapunovResult) {
             "Largest Lyapunov exponent at {:.1} rpm over {} periods ({last:.3} s), one per {}",
             rpm(found.speed),
             e.times.len(),
-            in_words(&found.clock)
+            describe_clock(&found.clock)
         ),
         &["1/s", "standard error", "per period", "motion"],
         &[vec![
             number(e.value, 4),
             number(e.standard_error, 2),
             number(e.value / frequency, 3),
-            sign(e).to_string(),
+            classify_exponent(e).to_string(),
         ]],
     );
 }
 
 /// Class of the motion by the sign of the exponent, if significant.
-fn sign(e: &Exponent) -> &'static str {
-    if e.value > SURE * e.standard_error {
+fn classify_exponent(e: &LyapunovExponent) -> &'static str {
+    if e.value > SIGNIFICANT_STANDARD_ERRORS * e.standard_error {
         "divergent: chaotic"
-    } else if e.value < -SURE * e.standard_error {
+    } else if e.value < -SIGNIFICANT_STANDARD_ERRORS * e.standard_error {
         "convergent: regular"
     } else {
         "not significantly different from zero"
@@ -85,10 +85,11 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
     let parameter = &found.parameter;
     let unit = if parameter.unit.is_empty() { String::new() } else { format!(" {}", parameter.unit) };
     for sweep in &found.sweeps {
-        let rows = runs(sweep);
-        let mut shown: Vec<Vec<String>> = rows.iter().take(MOST).map(|run| run.row(&sweep.points)).collect();
-        if rows.len() > MOST {
-            shown.push(vec![format!("and {} more ranges in results.h5", rows.len() - MOST)]);
+        let rows = motion_ranges(sweep);
+        let mut shown: Vec<Vec<String>> =
+            rows.iter().take(MAX_ROWS).map(|run| run.row(&sweep.points)).collect();
+        if rows.len() > MAX_ROWS {
+            shown.push(vec![format!("and {} more ranges in results.h5", rows.len() - MAX_ROWS)]);
         }
         let title = format!(
             "Motion over {}{unit}, sweep {}, one section per {}",
@@ -100,44 +101,44 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
         terminal.table(&title, &header, &shown);
     }
     if found.seams > 0 {
-        terminal.say(&format!(
+        terminal.print(&format!(
             "  {} boundaries between chunks computed in parallel; {} chunks recomputed from the previous one",
-            found.seams, found.repaired
+            found.seams, found.rerun_chunks
         ));
     }
 }
 
 /// Range of successive values with the same kind of motion.
-struct Run {
+struct MotionRange {
     first: usize,
     last: usize,
     kind: String,
 }
 
-fn runs(sweep: &BifurcationSweep) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+fn motion_ranges(sweep: &BifurcationSweep) -> Vec<MotionRange> {
+    let mut runs: Vec<MotionRange> = Vec::new();
     for (k, point) in sweep.points.iter().enumerate() {
         let kind = kind(point);
         match runs.last_mut() {
             Some(run) if run.kind == kind => run.last = k,
-            _ => runs.push(Run { first: k, last: k, kind }),
+            _ => runs.push(MotionRange { first: k, last: k, kind }),
         }
     }
     runs
 }
 
 fn kind(point: &BifurcationPoint) -> String {
-    match &point.found {
+    match &point.motion {
         Ok(SteadyMotion { motion, .. }) => motion.motion.name(),
         Err(reason) => format!("none: {reason}"),
     }
 }
 
-impl Run {
+impl MotionRange {
     fn row(&self, points: &[BifurcationPoint]) -> Vec<String> {
         let exponents: Vec<f64> = points[self.first..=self.last]
             .iter()
-            .filter_map(|p| p.found.as_ref().ok()?.exponent.as_ref().map(|e| e.value))
+            .filter_map(|p| p.motion.as_ref().ok()?.exponent.as_ref().map(|e| e.value))
             .collect();
         let (low, high) =
             exponents.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
@@ -157,7 +158,7 @@ impl Run {
 }
 
 /// "shaft turn at 0 deg (20 Hz)".
-fn in_words(clock: &SectionClock) -> String {
+fn describe_clock(clock: &SectionClock) -> String {
     let phase =
         if clock.phase == 0.0 { String::new() } else { format!(" at {:.1} deg", clock.phase.to_degrees()) };
     format!("{}{phase} ({} Hz)", clock.name, number(clock.frequency, 5))

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use rotordyn::edge::hdf5::{Attribute, Store};
-use rotordyn::edge::results_file::{self, Meta};
+use rotordyn::io::hdf5::{Attribute, Store};
+use rotordyn::io::results_file::{self, Meta};
 use rotordyn::model::{Loaded, Options};
 
 use super::failure::Failure;
-use super::machine::Origin;
+use super::machine::ModelSource;
 use super::terminal::Terminal;
 
 /// Name of the results file.
@@ -15,13 +15,13 @@ pub const FILE: &str = "results.h5";
 
 /// Model text and title stored in a results file.
 #[derive(Clone, Copy)]
-pub struct Text<'a> {
+pub struct ModelText<'a> {
     /// Text of the model file.
     pub model: &'a str,
     pub title: &'a str,
 }
 
-impl<'a> From<&'a Loaded> for Text<'a> {
+impl<'a> From<&'a Loaded> for ModelText<'a> {
     fn from(loaded: &'a Loaded) -> Self {
         Self { model: &loaded.text, title: &loaded.model.title }
     }
@@ -30,13 +30,13 @@ impl<'a> From<&'a Loaded> for Text<'a> {
 /// Opens the results file of a folder; one of a different model version is renamed to results_previous.h5.
 pub fn open(
     folder: &Path,
-    text: Text,
-    origin: &Origin,
-    anew: bool,
+    text: ModelText,
+    origin: &ModelSource,
+    overwrite: bool,
     terminal: &Terminal,
 ) -> Result<Store, Failure> {
     let path = folder.join(FILE);
-    if path.exists() && !anew {
+    if path.exists() && !overwrite {
         let stored = Store::append(&path)?;
         let same = stored_origin(&stored)
             .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
@@ -44,12 +44,12 @@ pub fn open(
             return Ok(stored);
         }
         drop(stored);
-        let aside = folder.join("results_previous.h5");
-        std::fs::rename(&path, &aside).map_err(|e| Failure::environment("rename", &path, e))?;
-        terminal.say(&format!(
+        let previous = folder.join("results_previous.h5");
+        std::fs::rename(&path, &previous).map_err(|e| Failure::environment("rename", &path, e))?;
+        terminal.print(&format!(
             "{} belongs to another version of the model: renamed to {}",
             path.display(),
-            aside.display()
+            previous.display()
         ));
     }
     let store = Store::create(&path)?;
@@ -62,12 +62,12 @@ pub fn open(
         settings: &settings,
     };
     results_file::write_meta(&store, &meta)?;
-    results_file::write_side_files(&store, &origin.side_files(&origin.options))?;
+    results_file::write_external_files(&store, &origin.side_files(&origin.options))?;
     Ok(store)
 }
 
 /// Model text, variant and settings stored in a results file.
-pub fn stored_origin(store: &Store) -> Result<Origin, Failure> {
+pub fn stored_origin(store: &Store) -> Result<ModelSource, Failure> {
     let text = |name: &str| match store.attribute("/meta", name) {
         Ok(Some(Attribute::Text(text))) => Ok(text),
         _ => Err(Failure::Input(format!("{} contains no rotordyn run", store.path().display()))),
@@ -75,11 +75,11 @@ pub fn stored_origin(store: &Store) -> Result<Origin, Failure> {
     let setting = |line: &str| line.split_once(" = ").map(|(path, value)| (path.into(), value.into()));
     let variant = Some(text("variant")?).filter(|name| !name.is_empty());
     let set = text("settings")?.lines().filter_map(setting).collect();
-    Ok(Origin {
+    Ok(ModelSource {
         name: format!("{} /meta model", store.path().display()),
         text: text("model")?.into_bytes(),
         options: Options { variant, set },
         folder: store.path().parent().map(Path::to_path_buf).unwrap_or_default(),
-        files: Some(results_file::read_side_files(store)?),
+        files: Some(results_file::read_external_files(store)?),
     })
 }

@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use rotordyn::edge::hdf5::{ChannelStream, Store};
-use rotordyn::edge::{figures, results_file};
 use rotordyn::error::Error;
+use rotordyn::figures;
+use rotordyn::io::hdf5::{ChannelStream, Store};
+use rotordyn::io::results_file;
 use rotordyn::model::Model;
 use rotordyn::model::study::Studies;
 use rotordyn::results::{Results, RunUpResult};
@@ -72,7 +73,7 @@ impl Study {
     }
 
     /// Whether the model file contains it.
-    pub fn is_asked(self, studies: &Studies) -> bool {
+    pub fn is_requested(self, studies: &Studies) -> bool {
         match self {
             Self::Static => studies.equilibrium.is_some(),
             Self::Modal => studies.modal.is_some(),
@@ -96,7 +97,7 @@ pub struct Job<'a> {
     pub terminal: &'a Terminal,
     pub machine: Machine,
     /// Models of a bifurcation diagram, one per parameter value.
-    pub family: Vec<Model>,
+    pub parameter_models: Vec<Model>,
     pub folder: PathBuf,
     pub store: Store,
     pub results: Results,
@@ -111,7 +112,7 @@ pub struct Job<'a> {
 impl<'a> Job<'a> {
     pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, store: Store) -> Self {
         let (family, results, seconds, files, failures) = Default::default();
-        Self { terminal, machine, family, folder, store, results, seconds, files, failures }
+        Self { terminal, machine, parameter_models: family, folder, store, results, seconds, files, failures }
     }
 
     /// Runs studies in order; a failed study does not stop the others, Ctrl-C does.
@@ -122,7 +123,7 @@ impl<'a> Job<'a> {
                 continue;
             }
             let start = Instant::now();
-            let done = if interrupt::requested() { Err(Failure::Interrupted) } else { self.one(study) };
+            let done = if interrupt::requested() { Err(Failure::Interrupted) } else { self.run_study(study) };
             self.seconds.push((study.name(), start.elapsed().as_secs_f64()));
             if let Err(failure) = done {
                 let interrupted = matches!(failure, Failure::Interrupted);
@@ -134,13 +135,13 @@ impl<'a> Job<'a> {
         }
     }
 
-    fn one(&mut self, study: Study) -> Result<(), Failure> {
+    fn run_study(&mut self, study: Study) -> Result<(), Failure> {
         let (machine, terminal) = (&self.machine, self.terminal);
-        let asked = &machine.model.studies;
+        let studies = &machine.model.studies;
         let spinner = terminal.spinner(study.name());
         match study {
             Study::Static => {
-                if let Some(settings) = &asked.equilibrium {
+                if let Some(settings) = &studies.equilibrium {
                     let found = machine.equilibrium(settings)?;
                     spinner.finish_and_clear();
                     tables::equilibrium(terminal, &found);
@@ -148,7 +149,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Modal => {
-                if let Some(settings) = &asked.modal {
+                if let Some(settings) = &studies.modal {
                     let found = machine.modal(settings)?;
                     spinner.finish_and_clear();
                     tables::modes(terminal, &found, &machine.model);
@@ -156,7 +157,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Campbell => {
-                if let Some(settings) = &asked.campbell {
+                if let Some(settings) = &studies.campbell {
                     let found = machine.campbell(settings)?;
                     spinner.finish_and_clear();
                     tables::campbell(terminal, &found);
@@ -164,7 +165,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Critical => {
-                if let Some(settings) = &asked.critical {
+                if let Some(settings) = &studies.critical {
                     let found = machine.critical(settings)?;
                     spinner.finish_and_clear();
                     tables::critical(terminal, &found);
@@ -172,7 +173,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Frf => {
-                if let Some(settings) = &asked.frf {
+                if let Some(settings) = &studies.frf {
                     let found = machine.frf(settings)?;
                     spinner.finish_and_clear();
                     tables::frf(terminal, &found);
@@ -180,7 +181,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Unbalance => {
-                if let Some(settings) = &asked.unbalance {
+                if let Some(settings) = &studies.unbalance {
                     let found = machine.unbalance(settings)?;
                     spinner.finish_and_clear();
                     tables::unbalance(terminal, &found);
@@ -192,7 +193,7 @@ impl<'a> Job<'a> {
                 self.run_up()?;
             }
             Study::Spectrogram => {
-                if let (Some(settings), Some(run)) = (&asked.spectrogram, &self.results.run_up) {
+                if let (Some(settings), Some(run)) = (&studies.spectrogram, &self.results.run_up) {
                     let found = machine.spectrograms(settings, &run.history)?;
                     spinner.finish_and_clear();
                     tables::spectrograms(terminal, &found);
@@ -200,7 +201,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Orders => {
-                if let (Some(settings), Some(run)) = (&asked.orders, &self.results.run_up) {
+                if let (Some(settings), Some(run)) = (&studies.orders, &self.results.run_up) {
                     let found = machine.orders(settings, &run.history)?;
                     spinner.finish_and_clear();
                     tables::orders(terminal, &found);
@@ -216,7 +217,7 @@ impl<'a> Job<'a> {
                 }
             }
             Study::Bearing => {
-                if let Some(settings) = &asked.bearing {
+                if let Some(settings) = &studies.bearing {
                     let found = machine.bearings(settings)?;
                     spinner.finish_and_clear();
                     found.iter().for_each(|found| bearing_tables::bearing(terminal, found));
@@ -245,7 +246,7 @@ impl<'a> Job<'a> {
         let report = machine.run_up(settings, &reduction, |sample| {
             let (time, spin) = (sample.state.time, &sample.state.spin);
             last = (time, rpm(spin.speed));
-            disk = stream.push(time, spin.angle, spin.speed, recorder.take(sample));
+            disk = stream.push(time, spin.angle, spin.speed, recorder.record(sample));
             if sample.index % 64 == 0 {
                 bar.set_position((1e3 * time) as u64);
                 bar.set_message(format!("{:.0} rpm", last.1));

@@ -14,11 +14,11 @@ use rotordyn::results::{
 use super::terminal::{Terminal, number, rpm};
 
 /// Largest number of rows printed; the rest is in results.h5.
-const MOST: usize = 40;
+const MAX_ROWS: usize = 40;
 
 pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
     let cage = match found.cage {
-        CageTreatment::AsPlaced => "at the cage angle of the model",
+        CageTreatment::FixedAngle => "at the cage angle of the model",
         CageTreatment::Averaged => "averaged over the cage angle",
     };
     if found.bearings.is_empty() {
@@ -94,7 +94,7 @@ pub fn modes(terminal: &Terminal, found: &[ModalResult], model: &Model) {
                     format!("{:.4}", mode.log_dec()),
                     mode.kind.name().to_string(),
                     mode.label.clone(),
-                    shares(mode, model),
+                    energy_shares(mode, model),
                 ]
             })
             .collect();
@@ -104,7 +104,7 @@ pub fn modes(terminal: &Terminal, found: &[ModalResult], model: &Model) {
 }
 
 /// The two largest shares of the kinetic energy of a mode, in per cent.
-fn shares(mode: &Mode, model: &Model) -> String {
+fn energy_shares(mode: &Mode, model: &Model) -> String {
     let e = &mode.energy;
     let shaft = [("x", e.bending_x), ("y", e.bending_y), ("axial", e.axial), ("torsion", e.torsion)];
     let mut all: Vec<(&str, f64)> = shaft.to_vec();
@@ -141,7 +141,7 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
     }
     for threshold in &found.thresholds {
         let side = if threshold.unstable_above { "above" } else { "below" };
-        terminal.say(&format!("  {} is unstable {side} {:.1} rpm", threshold.label, rpm(threshold.speed)));
+        terminal.print(&format!("  {} is unstable {side} {:.1} rpm", threshold.label, rpm(threshold.speed)));
     }
 }
 
@@ -157,7 +157,7 @@ pub fn critical(terminal: &Terminal, found: &CriticalResult) {
 fn crossings(terminal: &Terminal, title: &str, found: &[CriticalSpeed]) {
     let rows: Vec<Vec<String>> = found
         .iter()
-        .take(MOST)
+        .take(MAX_ROWS)
         .map(|c| {
             vec![
                 format!("{:.2}", rpm(c.speed)),
@@ -171,12 +171,12 @@ fn crossings(terminal: &Terminal, title: &str, found: &[CriticalSpeed]) {
         })
         .collect();
     terminal.table(title, &["rpm", "Hz", "order", "whirl", "zeta %", "log dec", "mode"], &rows);
-    more(terminal, found.len());
+    print_omitted_count(terminal, found.len());
 }
 
-fn more(terminal: &Terminal, count: usize) {
-    if count > MOST {
-        terminal.say(&format!("  ... and {} more in results.h5", count - MOST));
+fn print_omitted_count(terminal: &Terminal, count: usize) {
+    if count > MAX_ROWS {
+        terminal.print(&format!("  ... and {} more in results.h5", count - MAX_ROWS));
     }
 }
 
@@ -184,7 +184,7 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
     let frequencies = &found.frf.frequencies;
     let mut rows = Vec::new();
     for (r, response) in found.responses.iter().enumerate() {
-        for (e, excitation) in found.excitations.iter().enumerate().filter(|(e, _)| found.moves(r, *e)) {
+        for (e, excitation) in found.excitations.iter().enumerate().filter(|(e, _)| found.is_coupled(r, *e)) {
             let size = |k: &usize| found.frf.values[r][e][*k].norm();
             let Some(peak) = (0..frequencies.len()).max_by(|a, b| size(a).total_cmp(&size(b))) else {
                 continue;
@@ -199,11 +199,11 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
         }
     }
     let count = rows.len();
-    rows.truncate(MOST);
+    rows.truncate(MAX_ROWS);
     let title =
         format!("{} at {:.0} rpm, {} frequencies: peaks", found.name(), rpm(found.speed), frequencies.len());
     terminal.table(&title, &["excitation", "response", "peak Hz", "peak magnitude", "unit"], &rows);
-    more(terminal, count);
+    print_omitted_count(terminal, count);
 }
 
 pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
@@ -244,7 +244,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         0 => String::new(),
         n => format!(", {:.2} Newton iterations per step", n as f64 / report.steps.max(1) as f64),
     };
-    terminal.say(&format!(
+    terminal.print(&format!(
         "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or rejected steps, {} samples",
         end,
         rpm(*speed),
@@ -252,7 +252,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         report.halvings,
         report.samples
     ));
-    terminal.say(&format!(
+    terminal.print(&format!(
         "  reduced model: {} modes and {} static correction modes; relative error {:.1e} of the static deflection,\n  \
          {:.1e} of the frequencies up to half the cutoff",
         found.modes, found.corrections, found.static_error, found.frequency_error
@@ -328,8 +328,8 @@ pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
         }
     }
     let count = rows.len();
-    rows.truncate(MOST);
+    rows.truncate(MAX_ROWS);
     let header = ["channel", "order line", "order", "peak RMS", "unit", "at rpm"];
     terminal.table("Order cuts: peak levels", &header, &rows);
-    more(terminal, count);
+    print_omitted_count(terminal, count);
 }

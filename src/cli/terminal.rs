@@ -33,7 +33,7 @@ impl Terminal {
     }
 
     /// Prints one or more lines to standard output.
-    pub fn say(&self, text: &str) {
+    pub fn print(&self, text: &str) {
         if self.tables {
             // A closed pipe (EPIPE) must not stop the computation.
             let _ = writeln!(stdout(), "{text}");
@@ -42,19 +42,23 @@ impl Terminal {
 
     /// Prints a heading with a blank line before it.
     pub fn heading(&self, text: &str) {
-        if self.bold { self.say(&format!("\n\x1b[1m{text}\x1b[0m")) } else { self.say(&format!("\n{text}")) }
+        if self.bold {
+            self.print(&format!("\n\x1b[1m{text}\x1b[0m"))
+        } else {
+            self.print(&format!("\n{text}"))
+        }
     }
 
     /// Prints a heading and a table (see [`table`]).
     pub fn table(&self, title: &str, header: &[&str], rows: &[Vec<String>]) {
         self.heading(title);
-        self.say(table(header, rows).trim_end());
+        self.print(table(header, rows).trim_end());
     }
 
     /// Prints a warning or an error to standard error, also with `--quiet`.
-    pub fn complain(&self, word: &str, text: &str) {
+    pub fn print_diagnostic(&self, word: &str, text: &str) {
         if word == "warning" {
-            self.keep(text);
+            self.record_warning(text);
         }
         let code = if word == "error" { 31 } else { 33 };
         let word = if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() };
@@ -62,17 +66,17 @@ impl Terminal {
     }
 
     /// Records a warning that is printed elsewhere.
-    pub fn keep(&self, text: &str) {
-        self.kept().push(text.to_string());
+    pub fn record_warning(&self, text: &str) {
+        self.lock_warnings().push(text.to_string());
     }
 
-    fn kept(&self) -> MutexGuard<'_, Vec<String>> {
+    fn lock_warnings(&self) -> MutexGuard<'_, Vec<String>> {
         self.warnings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Warnings so far.
     pub fn warnings(&self) -> Vec<String> {
-        self.kept().clone()
+        self.lock_warnings().clone()
     }
 
     /// Spinner for work of unknown length.
@@ -107,7 +111,7 @@ impl Terminal {
     }
 
     /// Progress bar over a completed fraction.
-    pub fn share_bar(&self) -> ProgressBar {
+    pub fn fraction_bar(&self) -> ProgressBar {
         let bar = self.bar(Some(0));
         bar.set_style(style("{msg} {wide_bar} {percent} %, {eta} left"));
         bar
@@ -183,13 +187,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_go_right_and_words_left() {
+    fn table_alignment() {
         let rows = vec![vec!["a".into(), "1.5".into()], vec!["long".into(), "-".into()]];
         assert_eq!(table(&["name", "Hz"], &rows), "  name   Hz\n  a     1.5\n  long    -\n");
     }
 
     #[test]
-    fn numbers_keep_their_digits() {
+    fn number_significant_digits() {
         assert_eq!(number(1234.5678, 5), "1234.6");
         assert_eq!(number(0.012_345, 3), "0.0123");
         assert_eq!(number(2.0e7, 3), "2.00e7");

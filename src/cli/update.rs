@@ -2,46 +2,46 @@
 
 use std::path::PathBuf;
 
-use rotordyn::edge::figures::{self, Stage};
-use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::measured::target;
-use rotordyn::edge::{model_file, results_file};
 use rotordyn::error::Error;
+use rotordyn::figures::{self, Stage};
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::measured::test_data;
+use rotordyn::io::{model_file_edit, results_file};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{self, Model, Options};
-use rotordyn::update::frf::{FrfFitting, decibels_apart};
+use rotordyn::update::frf::{FrfFitting, rms_difference_db};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::{Job, Update, Verdict, update};
+use rotordyn::update::{IdentifiabilityClass, Update, UpdateJob, update};
 use serde_json::{Value, json};
 
-use super::args::{FitWord, UpdateArgs};
+use super::args::{FitResidual, UpdateArgs};
 use super::failure::Failure;
-use super::free;
-use super::machine::Origin;
+use super::free_parameters;
+use super::machine::ModelSource;
 use super::measured::{self, band, folder};
 use super::terminal::{Terminal, number};
-use super::{Outcome, films, warn, written};
+use super::{Outcome, ehl_films, print_model_warnings, print_written_files};
 
 pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
-    let origin = Origin::read(&args.study.model)?;
+    let origin = ModelSource::read(&args.study.model)?;
     let mut loaded = origin.load(&[])?;
-    warn(terminal, &loaded);
-    let parameters = free::parameters(args, &origin)?;
+    print_model_warnings(terminal, &loaded);
+    let parameters = free_parameters::parameters(args, &origin)?;
     let name = match &origin.options.variant {
         Some(variant) => format!("{}_{variant}", loaded.model.name),
         None => loaded.model.name.clone(),
     };
     let folder = folder(args.study.out.as_ref(), &name, "updated");
-    films::of_machine(&mut loaded.model, &folder, terminal)?;
+    ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     if args.measured.measured.len() > 1 {
         return Err(Failure::Input(
             "update takes a single measured file; merge the FRFs into one file".into(),
         ));
     }
     let read = measured::read(&args.measured, &loaded.model, terminal)?.remove(0);
-    let read = read.ok_or_else(|| target::nothing(&args.measured.measured[0]))?;
-    terminal.say(&format!("{}: {}", args.measured.measured[0].display(), read.source));
+    let read = read.ok_or_else(|| test_data::no_test_data(&args.measured.measured[0]))?;
+    terminal.print(&format!("{}: {}", args.measured.measured[0].display(), read.source));
     let fitting = fitting(args, band(&read.target));
     if fitting.frf.is_some() && read.target.frfs.is_none() {
         return Err(Failure::Input(if read.source.contains("FRF") {
@@ -63,10 +63,10 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
             advice: "set --bounds that keep the free parameters valid".into(),
         };
         let mut model = model::load(&origin.name, &origin.text, &options).map_err(|e| changed(&e))?.model;
-        films::of_machine(&mut model, &folder, terminal).map_err(|e| changed(&e.message()))?;
+        ehl_films::prepare_machine_films(&mut model, &folder, terminal).map_err(|e| changed(&e.message()))?;
         Ok(model)
     };
-    let job = Job {
+    let job = UpdateJob {
         parameters: &parameters,
         target: &read.target,
         fitting: &fitting,
@@ -82,32 +82,33 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     singular_table(terminal, &parameters, &found);
     measured::mode_table(terminal, "Modes before", &read.target, &found.before);
     measured::mode_table(terminal, "Modes after", &read.target, &found.after);
-    measured::far_pairs(terminal, &read.target, &found.after);
-    let frfs =
-        |state: &rotordyn::update::state::State| read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose();
-    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
-    let apart = |computed: &Option<Frfs>| -> Option<f64> {
-        let (measured, fitted) = (read.target.frfs.as_ref()?, fitting.frf.as_ref()?);
-        Some(decibels_apart(measured, computed.as_ref()?, fitted))
+    measured::frequency_error_warnings(terminal, &read.target, &found.after);
+    let frfs = |state: &rotordyn::update::state::ModelState| {
+        read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose()
     };
-    let apart = apart(&before).zip(apart(&after));
-    if let (Some((before, now)), Some(after)) = (apart, &after) {
+    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
+    let frf_difference_db = |computed: &Option<Frfs>| -> Option<f64> {
+        let (measured, fitted) = (read.target.frfs.as_ref()?, fitting.frf.as_ref()?);
+        Some(rms_difference_db(measured, computed.as_ref()?, fitted))
+    };
+    let frf_difference_db = frf_difference_db(&before).zip(frf_difference_db(&after));
+    if let (Some((before, now)), Some(after)) = (frf_difference_db, &after) {
         measured::frac_table(terminal, &read.target, &found.after, after);
-        terminal.say(&format!(
+        terminal.print(&format!(
             "\nFRF difference {} dB after the update, {} dB before (RMS over the fitted frequency lines)",
             number(now, 2),
             number(before, 2)
         ));
     }
-    let told = &found.identifiability;
-    terminal.say(&format!(
+    let identifiability = &found.identifiability;
+    terminal.print(&format!(
         "\nchi^2 = {} with {} degrees of freedom, {} iterations{}",
-        number(told.chi_squared, 3),
-        number(told.degrees, 3),
+        number(identifiability.chi_squared, 3),
+        number(identifiability.degrees_of_freedom, 3),
         found.iterations.len() - 1,
         if found.converged { "" } else { ", not converged" }
     ));
-    doubts(terminal, &parameters, &found);
+    quality_warnings(terminal, &parameters, &found);
 
     std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
     let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
@@ -131,22 +132,22 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
             &folder,
         )?);
     }
-    written(terminal, &folder, &files);
+    print_written_files(terminal, &folder, &files);
     let mut document = json!({
         "command": "update",
         "model": loaded.model.name,
         "measured": args.measured.measured,
         "source": read.source,
         "parameters": parameters_json(&parameters, &found),
-        "singular_values": told.singular_values,
-        "directions": told.directions,
-        "correlation": told.correlation,
-        "chi_squared": told.chi_squared,
-        "degrees": told.degrees,
+        "singular_values": identifiability.singular_values,
+        "directions": identifiability.directions,
+        "correlation": identifiability.correlation,
+        "chi_squared": identifiability.chi_squared,
+        "degrees": identifiability.degrees_of_freedom,
         "converged": found.converged,
         "steps": found.iterations.len() - 1,
-        "frf_db_before": apart.map(|a| a.0),
-        "frf_db_after": apart.map(|a| a.1),
+        "frf_db_before": frf_difference_db.map(|a| a.0),
+        "frf_db_after": frf_difference_db.map(|a| a.1),
         "before": measured::to_json(&read.target, &found.before),
         "after": measured::to_json(&read.target, &found.after),
     });
@@ -158,17 +159,17 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
 type Frfs = Vec<Vec<Vec<Complex64>>>;
 
 fn fitting(args: &UpdateArgs, band: [f64; 2]) -> Fitting {
-    let wants = |word: FitWord| args.fit.contains(&word);
+    let is_fitted = |word: FitResidual| args.fit.contains(&word);
     let standard = Fitting::default();
     let frf = |complex| FrfFitting { deviation: 0.01 * args.frf_accuracy, ..FrfFitting::new(complex, band) };
     Fitting {
-        frequency: wants(FitWord::Frequency).then_some(0.01 * args.frequency_accuracy),
-        damping: wants(FitWord::Damping).then_some(0.1),
-        shape: wants(FitWord::Mac).then_some(standard.shape.unwrap_or(0.05)),
-        frf: if wants(FitWord::FrfComplex) {
+        frequency: is_fitted(FitResidual::Frequency).then_some(0.01 * args.frequency_accuracy),
+        damping: is_fitted(FitResidual::Damping).then_some(0.1),
+        shape: is_fitted(FitResidual::Mac).then_some(standard.shape.unwrap_or(0.05)),
+        frf: if is_fitted(FitResidual::FrfComplex) {
             Some(frf(true))
         } else {
-            wants(FitWord::Frf).then(|| frf(false))
+            is_fitted(FitResidual::Frf).then(|| frf(false))
         },
     }
 }
@@ -179,7 +180,7 @@ fn value(parameter: &FreeParameter, x: f64) -> String {
 
 /// Standard error of a parameter in per cent of its value.
 fn error_per_cent(parameter: &FreeParameter, x: f64, error: f64) -> f64 {
-    100.0 * (error * parameter.slope(x) / parameter.value(x)).abs()
+    100.0 * (error * parameter.derivative(x) / parameter.value(x)).abs()
 }
 
 fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
@@ -194,7 +195,7 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
                 format!("{:+.1}", 100.0 * (p.value(o.x) / p.value(0.0) - 1.0)),
                 number(error_per_cent(p, o.fitted, o.error), 2),
                 number(100.0 * o.prior_share, 2),
-                o.verdict.words().into(),
+                o.class.label().into(),
             ]
         })
         .collect();
@@ -208,7 +209,7 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
         "identifiability",
     ];
     terminal.table("Free parameters", &header, &rows);
-    terminal.say(
+    terminal.print(
         "  prior variance left = posterior variance / prior variance. Identifiable: at most 10 % left and a standard\n  \
          error of at most 10 %; poorly identifiable: at most 50 % left; otherwise not identifiable, start value kept",
     );
@@ -242,19 +243,19 @@ fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Upd
 }
 
 /// Reduced χ² (χ² per degree of freedom) above which a lack-of-fit warning is issued.
-const MISFIT: f64 = 4.0;
+const LACK_OF_FIT_LIMIT: f64 = 4.0;
 /// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
-const PULL: f64 = 3.0;
+const PRIOR_SHIFT_LIMIT: f64 = 3.0;
 
 /// Quality warnings: strongly correlated parameters, active bounds, lack of fit, no convergence.
-fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
     let correlation = &found.identifiability.correlation;
     for i in 0..parameters.len() {
         for j in 0..i {
             let c = correlation[i][j];
             if c.abs() > 0.95 {
                 let what = if c < 0.0 { "sum" } else { "ratio" };
-                terminal.complain(
+                terminal.print_diagnostic(
                     "warning",
                     &format!(
                         "{} and {} are strongly correlated ({c:.3}): the data determine only their {what}",
@@ -263,18 +264,18 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
                 );
             }
         }
-        if found.outcomes[i].verdict == Verdict::AtBound {
+        if found.outcomes[i].class == IdentifiabilityClass::AtBound {
             let name = &parameters[i].name;
-            terminal.complain(
+            terminal.print_diagnostic(
                 "warning",
                 &format!("{name} is at its bound: it may compensate another model error"),
             );
         }
     }
     let told = &found.identifiability;
-    let misfit = told.chi_squared / told.degrees.max(1.0);
-    if misfit > MISFIT {
-        terminal.complain(
+    let misfit = told.chi_squared / told.degrees_of_freedom.max(1.0);
+    if misfit > LACK_OF_FIT_LIMIT {
+        terminal.print_diagnostic(
             "warning",
             &format!(
                 "the updated model does not fit the data: chi^2 is {} times its degrees of freedom; before using the \
@@ -285,21 +286,21 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
         );
     }
     for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
-        let pull = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
-        if pull > PULL {
-            terminal.complain(
+        let prior_shift = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
+        if prior_shift > PRIOR_SHIFT_LIMIT {
+            terminal.print_diagnostic(
                 "warning",
                 &format!(
                     "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
                      inconsistent",
                     parameter.name,
-                    number(pull, 2)
+                    number(prior_shift, 2)
                 ),
             );
         }
     }
     if !found.converged {
-        terminal.complain(
+        terminal.print_diagnostic(
             "warning",
             "the update did not converge: increase --iterations, or reduce the number of free parameters",
         );
@@ -309,7 +310,7 @@ fn doubts(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
 /// Writes the model file with the updated values; the rest of its text is unchanged.
 fn write_model(
     args: &UpdateArgs,
-    origin: &Origin,
+    origin: &ModelSource,
     parameters: &[FreeParameter],
     found: &Update,
     folder: &std::path::Path,
@@ -320,17 +321,17 @@ fn write_model(
     });
     let mut changes = Vec::new();
     for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
-        if outcome.verdict == Verdict::NotTold {
+        if outcome.class == IdentifiabilityClass::NotIdentifiable {
             continue;
         }
-        for place in &parameter.places {
+        for place in &parameter.numbers {
             let value = parameter.value_of(place, outcome.x);
             let error = if parameter.logarithmic { outcome.error * value.abs() } else { outcome.error };
-            changes.push(model_file::Change { path: place.path.clone(), value, error });
+            changes.push(model_file_edit::Change { path: place.path.clone(), value, error });
         }
     }
     let text = String::from_utf8_lossy(&origin.text);
-    let new = model_file::rewrite(&text, origin.options.variant.as_deref(), &changes)
+    let new = model_file_edit::rewrite(&text, origin.options.variant.as_deref(), &changes)
         .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))?;
     std::fs::write(&path, new).map_err(|e| Failure::environment("write the model file", &path, e))?;
     Ok(path)
@@ -340,14 +341,14 @@ fn parameters_json(parameters: &[FreeParameter], found: &Update) -> Value {
     let one = |(p, o): (&FreeParameter, &rotordyn::update::Outcome)| {
         json!({
             "name": p.name,
-            "paths": p.places.iter().map(|place| &place.path).collect::<Vec<_>>(),
+            "paths": p.numbers.iter().map(|place| &place.path).collect::<Vec<_>>(),
             "unit": p.unit(),
             "start": p.value(0.0),
             "value": p.value(o.x),
             "fitted": p.value(o.fitted),
-            "standard_error": (o.error * p.slope(o.fitted)).abs(),
+            "standard_error": (o.error * p.derivative(o.fitted)).abs(),
             "prior_share": o.prior_share,
-            "verdict": o.verdict.words(),
+            "verdict": o.class.label(),
         })
     };
     parameters.iter().zip(&found.outcomes).map(one).collect()

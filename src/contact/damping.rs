@@ -1,6 +1,6 @@
 //! Contact damping of balls: constant, Hunt-Crossley, lubricant film.
 
-use super::{Loaded, SpeedContacts};
+use super::{ContactLoad, SpeedContacts};
 
 /// Damping law: force against the approach rate of the races along a ball's contact line.
 ///
@@ -40,13 +40,13 @@ impl ContactDamping {
     /// Load of both contacts in series with damping; `elastic`: result of [`SpeedContacts::series`] at the
     /// approach δ \[m\]; `rate`: approach rate δ̇ \[m/s\].
     #[inline(always)]
-    pub fn apply(&self, contacts: &SpeedContacts, elastic: &Loaded, approach: f64, rate: f64) -> Damped {
+    pub fn apply(&self, contacts: &SpeedContacts, elastic: &ContactLoad, approach: f64, rate: f64) -> Damped {
         if elastic.load <= 0.0 {
             return Damped::default();
         }
         let (coefficient, slope) = match *self {
             Self::Constant { coefficient, ramp } => {
-                let (weight, slope) = rise(approach - contacts.onset(), ramp);
+                let (weight, slope) = smoothstep(approach - contacts.onset(), ramp);
                 (coefficient * weight, coefficient * slope)
             }
             Self::HuntCrossley { factor } => (factor * elastic.load, factor * elastic.slope),
@@ -64,7 +64,7 @@ impl ContactDamping {
 }
 
 /// Smoothstep from 0 at x = 0 to 1 at `length`, C¹; returns value and slope.
-fn rise(x: f64, length: f64) -> (f64, f64) {
+fn smoothstep(x: f64, length: f64) -> (f64, f64) {
     if x >= length {
         return (1.0, 0.0);
     }

@@ -1,7 +1,7 @@
 //! Hamrock-Dowson elastohydrodynamic (EHL) film thickness, and the spring of a Hertzian contact in series
 //! with it.
 
-use super::{EllipticContact, Loaded, Lubricant};
+use super::{ContactLoad, EllipticContact, Lubricant};
 use std::sync::LazyLock;
 
 /// EHL film thickness of a rolling contact, fully flooded and isothermal (Hamrock-Dowson).
@@ -85,19 +85,19 @@ pub struct FilmSpring {
 
 /// Exponent of the load in h, and q = 1.5 times it.
 const LOAD_POWER: f64 = 0.067;
-const POWER: f64 = 1.5 * LOAD_POWER;
+const DEFORMATION_POWER: f64 = 1.5 * LOAD_POWER;
 
 /// Scaling of the film springs with entrainment speed u: λ by u^{0.67/(1+q)}.
-pub(super) struct FilmGrowth {
+pub(super) struct FilmSpeedScaling {
     length: f64,
     /// `length` to the power q.
     film: f64,
 }
 
-impl FilmGrowth {
+impl FilmSpeedScaling {
     pub(super) fn new(speed: f64) -> Self {
-        let length = speed.powf(0.67 / (1.0 + POWER));
-        Self { length, film: length.powf(POWER) }
+        let length = speed.powf(0.67 / (1.0 + DEFORMATION_POWER));
+        Self { length, film: length.powf(DEFORMATION_POWER) }
     }
 }
 
@@ -114,13 +114,13 @@ impl FilmSpring {
             .iter()
             .map(|(contact, film)| contact.patch(1.0).semi_minor * stiffness.cbrt() * film.central)
             .sum();
-        let length = (film * stiffness.powf(-LOAD_POWER)).powf(1.0 / (1.0 + POWER));
+        let length = (film * stiffness.powf(-LOAD_POWER)).powf(1.0 / (1.0 + DEFORMATION_POWER));
         let knee = (Self::THRESHOLD / stiffness).powf(2.0 / 3.0) / length;
-        Self { stiffness, length, knee, knee_film: knee.powf(-POWER), width: width / film }
+        Self { stiffness, length, knee, knee_film: knee.powf(-DEFORMATION_POWER), width: width / film }
     }
 
     /// The spring at another speed, scaled from 1 m/s.
-    pub(super) fn grown(&self, growth: &FilmGrowth) -> Self {
+    pub(super) fn scaled(&self, growth: &FilmSpeedScaling) -> Self {
         Self {
             length: self.length * growth.length,
             knee: self.knee / growth.length,
@@ -135,17 +135,17 @@ impl FilmSpring {
     }
 
     /// Film h₀ at zero load \[m\]: no load for δ ≤ −h₀.
-    pub fn reach(&self) -> f64 {
-        self.length * self.knee_film * (1.0 + POWER)
+    pub fn zero_load_film(&self) -> f64 {
+        self.length * self.knee_film * (1.0 + DEFORMATION_POWER)
     }
 
     /// Film under a load Q ≥ 0 \[m\]; h₀ at Q = 0.
     pub fn film(&self, load: f64) -> f64 {
         let deformation = (load.max(0.0) / self.stiffness).powf(2.0 / 3.0) / self.length;
         if deformation > self.knee {
-            self.length * deformation.powf(-POWER)
+            self.length * deformation.powf(-DEFORMATION_POWER)
         } else {
-            self.length * self.knee_film * (1.0 + POWER * (1.0 - deformation / self.knee))
+            self.length * self.knee_film * (1.0 + DEFORMATION_POWER * (1.0 - deformation / self.knee))
         }
     }
 
@@ -153,18 +153,18 @@ impl FilmSpring {
     ///
     /// dQ/dδ = (3/2) K √s/(1 + q h/s); ∫Q dδ = K (2/5 s^{5/2} + q/(3/2 − q) h s^{3/2}) + const, with
     /// zero energy at zero load.
-    pub fn load(&self, approach: f64) -> Loaded {
+    pub fn load(&self, approach: f64) -> ContactLoad {
         let (knee, knee_film) = (self.knee, self.knee_film);
         let reduced = approach / self.length;
         let force = self.stiffness * self.length * self.length.sqrt();
         if reduced < knee - knee_film {
-            let stretch = 1.0 + POWER * knee_film / knee;
-            let s = (reduced + knee_film * (1.0 + POWER)) / stretch;
+            let stretch = 1.0 + DEFORMATION_POWER * knee_film / knee;
+            let s = (reduced + knee_film * (1.0 + DEFORMATION_POWER)) / stretch;
             if s <= 0.0 {
-                return Loaded::default();
+                return ContactLoad::default();
             }
             let load = force * s * s.sqrt();
-            return Loaded {
+            return ContactLoad {
                 load,
                 slope: 1.5 * force * s.sqrt() / (stretch * self.length),
                 energy: 0.4 * load * stretch * s * self.length,
@@ -172,11 +172,14 @@ impl FilmSpring {
         }
         let (s, film) = deformation(reduced);
         let root = s.sqrt();
-        let below = POWER * (0.4 - 1.0 / (1.5 - POWER)) * knee_film * knee * knee.sqrt();
-        Loaded {
+        let below =
+            DEFORMATION_POWER * (0.4 - 1.0 / (1.5 - DEFORMATION_POWER)) * knee_film * knee * knee.sqrt();
+        ContactLoad {
             load: force * s * root,
-            slope: 1.5 * force * root / ((1.0 + POWER * film / s) * self.length),
-            energy: force * self.length * ((0.4 * s + POWER / (1.5 - POWER) * film) * s * root + below),
+            slope: 1.5 * force * root / ((1.0 + DEFORMATION_POWER * film / s) * self.length),
+            energy: force
+                * self.length
+                * ((0.4 * s + DEFORMATION_POWER / (1.5 - DEFORMATION_POWER) * film) * s * root + below),
         }
     }
 
@@ -185,16 +188,16 @@ impl FilmSpring {
     ///
     /// K_e = (3/2) K √s is the stiffness at constant film, K_f = dQ/dδ of `elastic`; with r = K_e/K_f − 1 = q h/s
     /// this is b K_e r/(1 + r)². See [`super::ContactDamping::Film`].
-    pub(super) fn lag(&self, elastic: &Loaded) -> (f64, f64) {
+    pub(super) fn film_damping(&self, elastic: &ContactLoad) -> (f64, f64) {
         if elastic.load <= 0.0 {
             return (0.0, 0.0);
         }
         let root = (elastic.load / self.stiffness).cbrt();
-        let frozen = 1.5 * self.stiffness * root;
-        let r = (frozen / elastic.slope - 1.0).max(0.0);
+        let elastic_stiffness = 1.5 * self.stiffness * root;
+        let r = (elastic_stiffness / elastic.slope - 1.0).max(0.0);
         let value = self.width * root * elastic.slope * r / (1.0 + r);
         // r ∝ s^−(1+q) on the film formula, constant below the threshold.
-        let fall = if elastic.load > Self::THRESHOLD { 1.0 + POWER } else { 0.0 };
+        let fall = if elastic.load > Self::THRESHOLD { 1.0 + DEFORMATION_POWER } else { 0.0 };
         (value, value / (root * root) * (1.0 - fall * (1.0 - r) / (1.0 + r)) / (1.0 + r))
     }
 }
@@ -203,39 +206,40 @@ impl FilmSpring {
 ///
 /// Halley iteration in ln σ from a tabulated initial value: one step for d between −4 and 64, a few outside.
 fn deformation(d: f64) -> (f64, f64) {
-    let mut log = start(d);
+    let mut log = initial_log_deformation(d);
     for _ in 0..60 {
-        let (s, film) = (log.exp(), (-POWER * log).exp());
+        let (s, film) = (log.exp(), (-DEFORMATION_POWER * log).exp());
         let residual = s - film - d;
-        let (first, second) = (s + POWER * film, s - POWER * POWER * film);
+        let (first, second) =
+            (s + DEFORMATION_POWER * film, s - DEFORMATION_POWER * DEFORMATION_POWER * film);
         let newton = -residual / first;
         let step = newton / (1.0 + 0.5 * newton * second / first);
         // The error after a step is of third order in it: series expansion of σ and σ^−q is exact to
         // round-off.
         if step.abs() < 1e-5 {
             let grow = |x: f64| 1.0 + x * (1.0 + 0.5 * x * (1.0 + x / 3.0));
-            return (s * grow(step), film * grow(-POWER * step));
+            return (s * grow(step), film * grow(-DEFORMATION_POWER * step));
         }
         log += step;
     }
-    (log.exp(), (-POWER * log).exp())
+    (log.exp(), (-DEFORMATION_POWER * log).exp())
 }
 
-const LOW: f64 = -4.0;
-const HIGH: f64 = 64.0;
-const PER_UNIT: f64 = 16.0;
+const TABLE_START: f64 = -4.0;
+const TABLE_END: f64 = 64.0;
+const TABLE_NODES_PER_UNIT: f64 = 16.0;
 
-/// Lookup table of ln σ and its slope over d from `LOW` to `HIGH`, the range of nearly all evaluations.
-static CURVE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
+/// Lookup table of ln σ and its slope over d from `TABLE_START` to `HIGH`, the range of nearly all evaluations.
+static DEFORMATION_TABLE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
     let mut log: f64 = -13.8;
-    (0..=((HIGH - LOW) * PER_UNIT) as usize)
+    (0..=((TABLE_END - TABLE_START) * TABLE_NODES_PER_UNIT) as usize)
         .map(|k| {
-            let d = LOW + k as f64 / PER_UNIT;
+            let d = TABLE_START + k as f64 / TABLE_NODES_PER_UNIT;
             // Newton from the previous node.
             let slope = (0..8).fold(0.0, |_, _| {
-                let (s, film) = (log.exp(), (-POWER * log).exp());
-                log -= (s - film - d) / (s + POWER * film);
-                1.0 / (s + POWER * film)
+                let (s, film) = (log.exp(), (-DEFORMATION_POWER * log).exp());
+                log -= (s - film - d) / (s + DEFORMATION_POWER * film);
+                1.0 / (s + DEFORMATION_POWER * film)
             });
             [log, slope]
         })
@@ -243,18 +247,18 @@ static CURVE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
 });
 
 /// Initial value of ln σ, to about 1e-6 by cubic Hermite interpolation of the table; outside it, asymptotes.
-fn start(d: f64) -> f64 {
-    if d >= HIGH {
-        return (d + d.powf(-POWER)).ln();
+fn initial_log_deformation(d: f64) -> f64 {
+    if d >= TABLE_END {
+        return (d + d.powf(-DEFORMATION_POWER)).ln();
     }
-    if d < LOW {
-        return -(-d).ln() / POWER;
+    if d < TABLE_START {
+        return -(-d).ln() / DEFORMATION_POWER;
     }
-    let x = (d - LOW) * PER_UNIT;
+    let x = (d - TABLE_START) * TABLE_NODES_PER_UNIT;
     let k = x as usize;
     let t = x - k as f64;
-    let ([y0, m0], [y1, m1]) = (CURVE[k], CURVE[k + 1]);
-    let (m0, m1) = (m0 / PER_UNIT, m1 / PER_UNIT);
+    let ([y0, m0], [y1, m1]) = (DEFORMATION_TABLE[k], DEFORMATION_TABLE[k + 1]);
+    let (m0, m1) = (m0 / TABLE_NODES_PER_UNIT, m1 / TABLE_NODES_PER_UNIT);
     let rise = y1 - y0;
     y0 + t * (m0 + t * (3.0 * rise - 2.0 * m0 - m1 + t * (m0 + m1 - 2.0 * rise)))
 }
@@ -264,13 +268,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_curve_is_solved_to_rounding_everywhere() {
+    fn deformation_solved_to_round_off() {
         let mut d = -30.0;
         while d < 1e6 {
             let (s, film) = deformation(d);
             let scale = s + film;
-            assert!((s - film - d).abs() <= 4e-16 * scale * (1.0 + (-POWER * s.ln()).abs()), "d = {d}");
-            assert!((film / (-POWER * s.ln()).exp() - 1.0).abs() < 2e-15, "d = {d}");
+            assert!(
+                (s - film - d).abs() <= 4e-16 * scale * (1.0 + (-DEFORMATION_POWER * s.ln()).abs()),
+                "d = {d}"
+            );
+            assert!((film / (-DEFORMATION_POWER * s.ln()).exp() - 1.0).abs() < 2e-15, "d = {d}");
             d += 0.01 * (1.0 + d.abs() / 3.0);
         }
     }

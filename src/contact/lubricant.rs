@@ -34,9 +34,9 @@ const GRADES: [(&str, [f64; 3]); 12] = [
 ];
 
 /// Temperatures of the two viscosities of a grade, and of its density \[K\].
-const WARM: f64 = 313.15;
-const HOT: f64 = 373.15;
-const COOL: f64 = 288.15;
+const VISCOSITY_TEMPERATURE_40: f64 = 313.15;
+const VISCOSITY_TEMPERATURE_100: f64 = 373.15;
+const DENSITY_TEMPERATURE_15: f64 = 288.15;
 
 impl Lubricant {
     /// Temperatures for which a grade's properties hold \[K\]: −10 to 130 °C.
@@ -64,9 +64,12 @@ impl Lubricant {
             return None;
         }
         let line = |viscosity: f64| (viscosity + 0.7).log10().log10();
-        let fall = (line(*warm) - line(*hot)) / (HOT / WARM).log10();
-        let kinematic = 10f64.powf(10f64.powf(line(*warm) - fall * (temperature / WARM).log10())) - 0.7;
-        let density = density * (1.0 - 6.5e-4 * (temperature - COOL));
+        let fall =
+            (line(*warm) - line(*hot)) / (VISCOSITY_TEMPERATURE_100 / VISCOSITY_TEMPERATURE_40).log10();
+        let kinematic = 10f64
+            .powf(10f64.powf(line(*warm) - fall * (temperature / VISCOSITY_TEMPERATURE_40).log10()))
+            - 0.7;
+        let density = density * (1.0 - 6.5e-4 * (temperature - DENSITY_TEMPERATURE_15));
         let viscosity = density * kinematic * 1e-6;
         let pressure_viscosity = (0.6 + 0.965 * (1e3 * viscosity).log10()) * 1e-8;
         Some(Self { name: (*name).into(), viscosity, pressure_viscosity, density })
@@ -78,24 +81,24 @@ impl Lubricant {
     }
 
     /// Roelands' reference pressure p_r \[Pa\].
-    const REFERENCE: f64 = 1.96e8;
+    const ROELANDS_PRESSURE: f64 = 1.96e8;
 
     /// Roelands' exponent z = α p_r / (ln η₀ + 9.67), η₀ in Pa s.
     pub fn roelands_exponent(&self) -> f64 {
-        self.pressure_viscosity * Self::REFERENCE / (self.viscosity.ln() + 9.67)
+        self.pressure_viscosity * Self::ROELANDS_PRESSURE / (self.viscosity.ln() + 9.67)
     }
 
     /// Viscosity ratio η/η₀ at a pressure p ≥ 0 \[Pa\]: exp((ln η₀ + 9.67) (−1 + (1 + p/p_r)^z)).
     ///
     /// Its slope at p = 0 is α. Source: Roelands 1966.
     pub fn viscosity_ratio(&self, pressure: f64) -> f64 {
-        let power = (1.0 + pressure / Self::REFERENCE).powf(self.roelands_exponent());
+        let power = (1.0 + pressure / Self::ROELANDS_PRESSURE).powf(self.roelands_exponent());
         ((self.viscosity.ln() + 9.67) * (power - 1.0)).exp()
     }
 
     /// d ln η/dp \[1/Pa\] at a pressure p ≥ 0 \[Pa\]; α at p = 0.
     pub fn log_viscosity_slope(&self, pressure: f64) -> f64 {
-        let power = (1.0 + pressure / Self::REFERENCE).powf(self.roelands_exponent() - 1.0);
+        let power = (1.0 + pressure / Self::ROELANDS_PRESSURE).powf(self.roelands_exponent() - 1.0);
         self.pressure_viscosity * power
     }
 

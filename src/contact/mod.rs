@@ -17,6 +17,6 @@ pub use film::{FilmFormula, FilmSpring, lambda_ratio};
 pub use hertz::{ContactPatch, ContactStiffness, EllipticContact, HertzPair};
 pub use law::ContactLaw;
 pub use lubricant::Lubricant;
-pub use pair::{BallContacts, Loaded, Race, SpeedContacts};
+pub use pair::{BallContacts, ContactLoad, Race, SpeedContacts};
 pub use power_law::{PowerLaw, PowerSpring, fit_power_law};
 pub use traction::Traction;

@@ -1,7 +1,7 @@
 //! The two contacts of one ball (inner and outer race) under a contact law, at one entrainment speed.
 
 use super::ehl::{EhlLaw, EhlPair};
-use super::film::FilmGrowth;
+use super::film::FilmSpeedScaling;
 use super::{ContactLaw, EllipticContact, FilmFormula, FilmSpring, HertzPair, Lubricant, PowerSpring};
 
 /// One race.
@@ -13,7 +13,7 @@ pub enum Race {
 
 /// Load of a contact or of a pair of contacts at an approach.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Loaded {
+pub struct ContactLoad {
     /// Q \[N\], never negative.
     pub load: f64,
     /// dQ/dδ \[N/m\].
@@ -77,11 +77,11 @@ impl FilmPair {
     }
 
     fn at_speed(&self, speed: f64) -> Self {
-        let growth = FilmGrowth::new(speed);
+        let growth = FilmSpeedScaling::new(speed);
         Self {
-            series: self.series.grown(&growth),
-            inner: self.inner.grown(&growth),
-            outer: self.outer.grown(&growth),
+            series: self.series.scaled(&growth),
+            inner: self.inner.scaled(&growth),
+            outer: self.outer.scaled(&growth),
             formulas: self.formulas,
             speed,
         }
@@ -140,7 +140,7 @@ impl SpeedContacts<'_> {
     /// Both contacts in series under the same load (massless ball) at the total approach δ of the races \[m\].
     ///
     /// Limits: Q = 0 and slope 0 where unloaded; Q and dQ/dδ continuous everywhere.
-    pub fn series(&self, approach: f64) -> Loaded {
+    pub fn series(&self, approach: f64) -> ContactLoad {
         match self {
             Self::Hertz(pair) => pair.series(approach),
             Self::Film(films) => films.series.load(approach),
@@ -150,14 +150,14 @@ impl SpeedContacts<'_> {
     }
 
     /// One contact alone at its own approach \[m\].
-    pub fn single(&self, race: Race, approach: f64) -> Loaded {
+    pub fn single(&self, race: Race, approach: f64) -> ContactLoad {
         match self {
             Self::Hertz(pair) => pair.single(race, approach),
             Self::Film(films) => films.of(race).0.load(approach),
             Self::Power { pair, spring } => {
                 let share = (pair.stiffness / pair.of(race).stiffness).powf(2.0 / 3.0);
                 let both = spring.load(approach / share);
-                Loaded { load: both.load, slope: both.slope / share, energy: both.energy * share }
+                ContactLoad { load: both.load, slope: both.slope / share, energy: both.energy * share }
             }
             Self::Ehl(pair) => pair.single(race, approach),
         }
@@ -186,27 +186,27 @@ impl SpeedContacts<'_> {
     pub fn onset(&self) -> f64 {
         match self {
             Self::Hertz(_) => 0.0,
-            Self::Film(films) => -films.series.reach(),
+            Self::Film(films) => -films.series.zero_load_film(),
             Self::Power { spring, .. } => spring.onset(),
-            Self::Ehl(pair) => -pair.series.reach(),
+            Self::Ehl(pair) => -pair.series.zero_load_film(),
         }
     }
 
     /// Whether a ball's load \[N\] is outside the fitted range of the law.
-    pub fn outside(&self, load: f64) -> bool {
+    pub fn is_outside_range(&self, load: f64) -> bool {
         match self {
             Self::Hertz(_) | Self::Film(_) | Self::Ehl(_) => false,
-            Self::Power { spring, .. } => spring.law.outside(load),
+            Self::Power { spring, .. } => spring.law.is_outside_range(load),
         }
     }
 
     /// Film damping coefficient of both contacts in series per unit of relaxation factor \[N s/m\] and its
     /// slope with δ: (b/u) K_f (1 − K_f/K_e), see [`super::ContactDamping::Film`]; 0 for a dry law.
-    pub(super) fn film_damping(&self, elastic: &Loaded) -> (f64, f64) {
+    pub(super) fn film_damping(&self, elastic: &ContactLoad) -> (f64, f64) {
         match self {
             Self::Hertz(_) | Self::Power { .. } | Self::Ehl(_) => (0.0, 0.0),
             Self::Film(films) => {
-                let (value, slope) = films.series.lag(elastic);
+                let (value, slope) = films.series.film_damping(elastic);
                 (value / films.speed, slope / films.speed)
             }
         }
@@ -216,13 +216,13 @@ impl SpeedContacts<'_> {
 impl HertzPair {
     /// Both contacts in series at the total approach: Q = K δ^{3/2}.
     #[inline]
-    pub fn series(&self, approach: f64) -> Loaded {
+    pub fn series(&self, approach: f64) -> ContactLoad {
         hertz(self.stiffness, approach)
     }
 
     /// One contact alone.
     #[inline]
-    pub fn single(&self, race: Race, approach: f64) -> Loaded {
+    pub fn single(&self, race: Race, approach: f64) -> ContactLoad {
         hertz(self.of(race).stiffness, approach)
     }
 
@@ -237,11 +237,11 @@ impl HertzPair {
 }
 
 #[inline]
-fn hertz(stiffness: f64, approach: f64) -> Loaded {
+fn hertz(stiffness: f64, approach: f64) -> ContactLoad {
     if approach <= 0.0 {
-        return Loaded::default();
+        return ContactLoad::default();
     }
     let root = stiffness * approach.sqrt();
     let load = root * approach;
-    Loaded { load, slope: 1.5 * root, energy: 0.4 * load * approach }
+    ContactLoad { load, slope: 1.5 * root, energy: 0.4 * load * approach }
 }

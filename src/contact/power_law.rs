@@ -1,6 +1,6 @@
 //! Fitted power law of a ball's contacts, smooth down to zero load, and its least-squares fit.
 
-use super::Loaded;
+use super::ContactLoad;
 use nalgebra::{DMatrix, DVector};
 
 /// Q = K δⁿ + ΔQ between the two races, fitted over a range of loads.
@@ -21,7 +21,7 @@ pub struct PowerLaw {
 
 impl PowerLaw {
     /// Whether a ball load is outside the range of the fit.
-    pub fn outside(&self, load: f64) -> bool {
+    pub fn is_outside_range(&self, load: f64) -> bool {
         load > 0.0 && (load < self.range[0] || load > self.range[1])
     }
 
@@ -66,15 +66,15 @@ impl PowerSpring {
     }
 
     /// Load, slope and energy at the total approach δ of the races \[m\].
-    pub fn load(&self, approach: f64) -> Loaded {
+    pub fn load(&self, approach: f64) -> ContactLoad {
         let [knee, knee_load] = self.knee;
         if approach <= self.onset() {
-            return Loaded::default();
+            return ContactLoad::default();
         }
         if approach < knee {
             let x = (approach - self.onset()) / self.length;
             let load = knee_load * x * x.sqrt();
-            return Loaded {
+            return ContactLoad {
                 load,
                 slope: 1.5 * knee_load * x.sqrt() / self.length,
                 energy: 0.4 * load * x * self.length,
@@ -84,7 +84,7 @@ impl PowerSpring {
         let secant = stiffness * approach.powf(n - 1.0);
         let work = |force: f64, x: f64| (force / (n + 1.0) + offset) * x;
         let below = 0.4 * knee_load * self.length - work(knee_load - offset, knee);
-        Loaded {
+        ContactLoad {
             load: secant * approach + offset,
             slope: n * secant,
             energy: work(secant * approach, approach) + below,
@@ -98,9 +98,9 @@ impl PowerSpring {
 /// with distinct positive approaches.
 pub fn fit_power_law(loads: &[f64], approaches: &[f64]) -> Option<PowerLaw> {
     let points = loads.len();
-    let sound = approaches.iter().chain(loads).all(|v| v.is_finite()) && approaches.iter().all(|v| *v > 0.0);
+    let valid = approaches.iter().chain(loads).all(|v| v.is_finite()) && approaches.iter().all(|v| *v > 0.0);
     let reference = approaches.iter().copied().fold(0.0, f64::max);
-    if points < 3 || approaches.len() != points || !sound {
+    if points < 3 || approaches.len() != points || !valid {
         return None;
     }
     let x: Vec<f64> = approaches.iter().map(|d| d / reference).collect();
@@ -131,9 +131,9 @@ pub fn fit_power_law(loads: &[f64], approaches: &[f64]) -> Option<PowerLaw> {
         if next_norm > norm {
             break;
         }
-        let settled = (next[1] - p[1]).abs() < 1e-14;
+        let converged = (next[1] - p[1]).abs() < 1e-14;
         (p, norm) = (next, next_norm);
-        if settled {
+        if converged {
             break;
         }
     }

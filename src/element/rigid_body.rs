@@ -36,7 +36,7 @@ pub struct Disc {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointMass {
     pub name: String,
-    pub at: Anchor,
+    pub anchor: Anchor,
     /// Mass m \[kg\].
     pub mass: f64,
 }

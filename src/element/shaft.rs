@@ -34,7 +34,7 @@ pub struct ShaftElement {
     /// Torque \[N m\] transmitted along +z.
     pub torque: f64,
     /// Proportional (Rayleigh) damping C = α M + β K: α \[1/s\], β \[s\] (non-rotating, of the element).
-    pub proportional: [f64; 2],
+    pub proportional_damping: [f64; 2],
     /// Internal (rotating) viscous damping coefficient η_v \[s\]: C_i = η_v K_e, with circulatory stiffness Ω η_v K_c.
     pub internal_viscous: f64,
 }

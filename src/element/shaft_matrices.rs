@@ -101,8 +101,8 @@ impl ShaftElement {
             add4(&mut plane, &self.rotary(phi));
         }
         let mut m = both_planes(&plane);
-        self.add_bar(&mut m, 2, rule, |x| rho * self.area(x));
-        self.add_bar(&mut m, 5, rule, |x| 2.0 * rho * self.second_moment(x));
+        self.add_bar_mass(&mut m, 2, rule, |x| rho * self.area(x));
+        self.add_bar_mass(&mut m, 5, rule, |x| 2.0 * rho * self.second_moment(x));
         m
     }
 
@@ -112,7 +112,7 @@ impl ShaftElement {
     }
 
     /// Mass of a bar with linear shape functions for DOF `dof` of both nodes.
-    fn add_bar(&self, m: &mut Matrix12, dof: usize, rule: ConeRule, density: impl Fn(f64) -> f64) {
+    fn add_bar_mass(&self, m: &mut Matrix12, dof: usize, rule: ConeRule, density: impl Fn(f64) -> f64) {
         let mean = 0.5 * (density(0.0) + density(1.0));
         let at = |x: f64| if rule == ConeRule::Exact { density(x) } else { mean };
         let [left, both, right] = [

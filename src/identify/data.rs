@@ -28,7 +28,7 @@ pub(super) struct Data {
 }
 
 /// Tolerated deviation from uniform spacing, over the step (rounding of printed digits).
-const JITTER: f64 = 0.02;
+const MAX_JITTER: f64 = 0.02;
 
 impl Data {
     pub fn new(frfs: &FrfMatrix, settings: &Settings) -> Result<Self, IdentifyError> {
@@ -38,21 +38,25 @@ impl Data {
         let step = if f.len() > 1 { (last - first) / (f.len() - 1) as f64 } else { 0.0 };
         if let Some(k) = (0..f.len()).find(|&k| {
             let off = (f[k] - first - step * k as f64).abs();
-            off.is_nan() || off > JITTER * step
+            off.is_nan() || off > MAX_JITTER * step
         }) {
-            return Err(IdentifyError::NotEven { index: k, given: f[k], expected: first + step * k as f64 });
+            return Err(IdentifyError::NonUniform {
+                index: k,
+                given: f[k],
+                expected: first + step * k as f64,
+            });
         }
         // Exclude 0 Hz: no mode is there, and only accelerance is finite for rigid-body motion.
         let lines: Vec<usize> = (0..f.len())
             .filter(|&k| f[k] >= from - 1e-6 * step && f[k] <= to + 1e-6 * step && f[k] > 0.0)
             .collect();
-        if lines.len() < 2 * LEAST_ORDER + 2 || step <= 0.0 {
+        if lines.len() < 2 * MIN_ORDER + 2 || step <= 0.0 {
             return Err(IdentifyError::EmptyBand { from, to, lines: lines.len(), first, last });
         }
         if let Some(order) = settings.max_order {
             let possible = highest_order(lines.len());
-            if order < LEAST_ORDER {
-                let reason = format!("{order} is too low; stable poles need {LEAST_ORDER} or more");
+            if order < MIN_ORDER {
+                let reason = format!("{order} is too low; stable poles need {MIN_ORDER} or more");
                 return Err(IdentifyError::Setting { what: "highest order", reason });
             }
             if order > possible {
@@ -95,7 +99,7 @@ impl Data {
             swapped,
         };
         data.check(frfs)?;
-        data.dead_channels(frfs)?;
+        data.check_dead_channels(frfs)?;
         data.rescale(&data.sizes(frfs));
         Ok(data)
     }
@@ -105,7 +109,7 @@ impl Data {
     /// resonance.
     fn sizes(&self, frfs: &FrfMatrix) -> Vec<Vec<f64>> {
         const NOISE: f64 = 30.0;
-        const LEAST: f64 = 1e-6;
+        const MIN_SIZE: f64 = 1e-6;
         let kind = |o: usize, i: usize| {
             let (r, e) = if self.swapped { (i, o) } else { (o, i) };
             [frfs.responses[r].is_rotation(), frfs.references[e].is_rotation()]
@@ -120,11 +124,11 @@ impl Data {
             all.filter(|(o, i, _)| kind(*o, *i) == of).map(|(_, _, v)| *v).fold(0.0, f64::max)
         };
         let of_kind = [[false, false], [false, true], [true, false], [true, true]].map(|k| (k, largest(k)));
-        let least = |o, i| of_kind.iter().find(|(k, _)| *k == kind(o, i)).map_or(0.0, |(_, v)| LEAST * v);
+        let least = |o, i| of_kind.iter().find(|(k, _)| *k == kind(o, i)).map_or(0.0, |(_, v)| MIN_SIZE * v);
         let size = |o: usize, i: usize| match own[o][i] {
             // An FRF of zeros has no scale.
             0.0 => 0.0,
-            rms => rms.max(NOISE * scatter(&self.values[o][i])).max(least(o, i)),
+            rms => rms.max(NOISE * noise_rms(&self.values[o][i])).max(least(o, i)),
         };
         (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| size(o, i)).collect()).collect()
     }
@@ -152,7 +156,7 @@ impl Data {
     }
 
     /// Error for dead channels: a response that is zero for all references, or a reference without response.
-    fn dead_channels(&self, frfs: &FrfMatrix) -> Result<(), IdentifyError> {
+    fn check_dead_channels(&self, frfs: &FrfMatrix) -> Result<(), IdentifyError> {
         let zero = |o: usize, i: usize| self.values[o][i].iter().all(|h| h.norm_sqr() == 0.0);
         let (no, ni) = (self.outputs(), self.inputs());
         let output = (0..no).find(|&o| (0..ni).all(|i| zero(o, i)));
@@ -217,7 +221,7 @@ impl Data {
 }
 
 /// Minimum model order that separates modes from noise.
-const LEAST_ORDER: usize = 8;
+const MIN_ORDER: usize = 8;
 
 /// The order with as many unknowns as the data of one FRF.
 fn highest_order(lines: usize) -> usize {
@@ -231,7 +235,7 @@ fn rms(frf: &[Complex64]) -> f64 {
 
 /// Noise RMS (scatter from line to line), by the median of third differences: E|n₃ − 3n₂ + 3n₁ − n₀|² = 20
 /// σ², of which the median is ln 2. Robust to resonances, whether wide or sharp.
-fn scatter(frf: &[Complex64]) -> f64 {
+fn noise_rms(frf: &[Complex64]) -> f64 {
     let third = |w: &[Complex64]| (w[3] - w[2] * 3.0 + w[1] * 3.0 - w[0]).norm_sqr();
     let mut all: Vec<f64> = frf.windows(4).map(third).collect();
     if all.is_empty() {

@@ -61,7 +61,7 @@ pub(super) fn thin_qr(mut a: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>, Vec<f
 /// Least squares A x = y by the normal equations of columns scaled to unit length: fast, for candidates.
 ///
 /// `None` if two columns are linearly dependent to round-off.
-pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(super) fn solve_normal_equations(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let sizes: Vec<f64> = a.column_iter().map(|c| c.norm()).collect();
     for (mut column, size) in a.column_iter_mut().zip(&sizes) {
         if *size > 0.0 {
@@ -82,17 +82,17 @@ pub(super) fn quick_solve(mut a: DMatrix<f64>, y: &DMatrix<f64>) -> Option<DMatr
 }
 
 /// Back substitution R⁻¹ z over the lengths of the columns; unknowns determined by round-off alone are zero.
-pub(super) fn back(r: &DMatrix<f64>, sizes: &[f64], mut z: DMatrix<f64>) -> DMatrix<f64> {
-    let mut mended = r.clone();
-    for k in 0..mended.nrows() {
-        if mended[(k, k)].abs() < 1e-14 {
-            mended[(k, k)] = f64::INFINITY;
+pub(super) fn back_substitute(r: &DMatrix<f64>, sizes: &[f64], mut z: DMatrix<f64>) -> DMatrix<f64> {
+    let mut regularised = r.clone();
+    for k in 0..regularised.nrows() {
+        if regularised[(k, k)].abs() < 1e-14 {
+            regularised[(k, k)] = f64::INFINITY;
         }
     }
     for mut column in z.column_iter_mut() {
-        for row in (0..mended.nrows()).rev() {
-            let known: f64 = (row + 1..mended.nrows()).map(|j| mended[(row, j)] * column[j]).sum();
-            column[row] = (column[row] - known) / mended[(row, row)];
+        for row in (0..regularised.nrows()).rev() {
+            let known: f64 = (row + 1..regularised.nrows()).map(|j| regularised[(row, j)] * column[j]).sum();
+            column[row] = (column[row] - known) / regularised[(row, row)];
         }
     }
     for (mut row, size) in z.row_iter_mut().zip(sizes) {

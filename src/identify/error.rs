@@ -6,7 +6,7 @@ pub enum IdentifyError {
     #[error(
         "the frequencies are not uniformly spaced: line {index} is {given:.6} Hz, not {expected:.6} Hz; interpolate the FRFs, or measure with a constant resolution"
     )]
-    NotEven { index: usize, given: f64, expected: f64 },
+    NonUniform { index: usize, given: f64, expected: f64 },
     #[error(
         "the band {from:.3} .. {to:.3} Hz contains {lines} lines of the {first:.3} .. {last:.3} Hz measured; choose a wider band in this range"
     )]

@@ -8,7 +8,7 @@
 use nalgebra::DMatrix;
 
 use super::data::Data;
-use super::dense::{back, thin_qr, tr_mul};
+use super::dense::{back_substitute, thin_qr, tr_mul};
 use super::plscf::Pole;
 use crate::linalg::Complex64;
 
@@ -44,7 +44,7 @@ impl Basis {
 
     /// Writes the columns of Re c and Im c in c g(s) + conj(c) g̃(s), g̃ being g with conjugate constants,
     /// into `matrix` for one input.
-    fn put(
+    fn write_columns(
         &self,
         matrix: &mut DMatrix<f64>,
         columns: [usize; 2],
@@ -70,7 +70,7 @@ impl Basis {
         for (r, pole) in poles.iter().enumerate() {
             for (i, l) in pole.participation.iter().enumerate() {
                 let g = |s: Complex64| [l / (s - pole.value), l.conj() / (s - pole.value.conj())];
-                self.put(&mut a, [2 * r, 2 * r + 1], i, g);
+                self.write_columns(&mut a, [2 * r, 2 * r + 1], i, g);
             }
         }
         let lines = self.s.len();
@@ -87,12 +87,14 @@ impl Basis {
 
     /// Derivatives of the FRFs by λ_r, and by l_ir of every input but the largest: column pairs as in
     /// [`Self::design`], for the products ψ δλ and ψ δl; and the parameter of each pair.
-    pub fn changes(&self, poles: &[Pole]) -> (DMatrix<f64>, Vec<Change>) {
+    pub fn derivative_columns(&self, poles: &[Pole]) -> (DMatrix<f64>, Vec<FitParameter>) {
         let mut list = Vec::new();
         for (r, pole) in poles.iter().enumerate() {
-            list.push(Change { mode: r, input: None });
-            let fixed = fixed_input(pole);
-            list.extend((0..self.inputs).filter(|i| *i != fixed).map(|i| Change { mode: r, input: Some(i) }));
+            list.push(FitParameter { mode: r, input: None });
+            let fixed = normalised_input(pole);
+            list.extend(
+                (0..self.inputs).filter(|i| *i != fixed).map(|i| FitParameter { mode: r, input: Some(i) }),
+            );
         }
         let mut d = DMatrix::zeros(self.rows(), 2 * list.len());
         for (k, change) in list.iter().enumerate() {
@@ -103,11 +105,11 @@ impl Basis {
                     for (i, l) in participation.iter().enumerate() {
                         let square = |s: Complex64, value: Complex64| ((s - value) * (s - value)).inv();
                         let g = |s: Complex64| [l * square(s, *value), l.conj() * square(s, value.conj())];
-                        self.put(&mut d, columns, i, g);
+                        self.write_columns(&mut d, columns, i, g);
                     }
                 }
                 Some(i) => {
-                    self.put(&mut d, columns, i, |s| [(s - value).inv(), (s - value.conj()).inv()]);
+                    self.write_columns(&mut d, columns, i, |s| [(s - value).inv(), (s - value.conj()).inv()]);
                 }
             }
         }
@@ -145,13 +147,13 @@ impl Basis {
 
 /// A complex nonlinear parameter of the fit: λ of a mode, or its participation in an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Change {
+pub(super) struct FitParameter {
     pub mode: usize,
     pub input: Option<usize>,
 }
 
 /// The input with the largest participation, normalised to 1.
-pub(super) fn fixed_input(pole: &Pole) -> usize {
+pub(super) fn normalised_input(pole: &Pole) -> usize {
     let sizes = pole.participation.iter().map(|l| l.norm()).enumerate();
     sizes.fold((0, -1.0), |best, here| if here.1 > best.1 { here } else { best }).0
 }
@@ -166,7 +168,7 @@ pub(super) fn free_residues(data: &Data, values: &[Complex64]) -> Vec<DMatrix<Co
     let each: Vec<Vec<Vec<Complex64>>> = data.values.iter().flatten().map(|frf| vec![frf.clone()]).collect();
     let y = basis.right_side(&each);
     let (q, r, sizes) = thin_qr(basis.design(&poles));
-    let x = back(&r, &sizes, tr_mul(&q, &y));
+    let x = back_substitute(&r, &sizes, tr_mul(&q, &y));
     (0..values.len())
         .map(|m| {
             DMatrix::from_fn(no, ni, |o, i| {

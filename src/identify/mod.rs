@@ -22,12 +22,12 @@ mod dense;
 mod error;
 mod lsfd;
 pub mod mac;
+mod mode_selection;
 mod plscf;
+mod pole_selection;
 mod refine;
-mod select;
-mod settle;
-pub mod single;
-mod stabilise;
+pub mod sdof;
+mod stabilisation;
 mod uncertainty;
 mod whirl;
 
@@ -69,10 +69,10 @@ impl Default for Settings {
 pub struct Mode {
     /// λ \[1/s\], Im λ > 0.
     pub pole: Complex64,
-    /// ψ over [`Identified::responses`]; ψ lᵀ is the residue of the receptance
+    /// ψ over [`ModalIdentification::responses`]; ψ lᵀ is the residue of the receptance
     /// \[m/(N s) for a displacement under a force\].
     pub shape: Vec<Complex64>,
-    /// l over [`Identified::references`].
+    /// l over [`ModalIdentification::references`].
     pub participation: Vec<Complex64>,
     /// Standard error of the damped frequency \[Hz\].
     pub frequency_error: f64,
@@ -116,7 +116,7 @@ pub enum Stability {
 
 impl Stability {
     /// Label.
-    pub fn word(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Stability::New => "new",
             Stability::Frequency => "frequency",
@@ -138,7 +138,7 @@ pub struct DiagramPole {
 
 /// Result of modal identification: identified modes, synthesised FRFs, stabilisation diagram.
 #[derive(Clone, Debug)]
-pub struct Identified {
+pub struct ModalIdentification {
     /// In order of frequency.
     pub modes: Vec<Mode>,
     pub responses: Vec<Dof>,
@@ -164,11 +164,11 @@ pub struct Identified {
     pub dropped: Vec<String>,
 }
 
-impl Identified {
+impl ModalIdentification {
     /// The side of the test with more DOFs, and a mode's vector over it, for display and comparison.
     ///
     /// In a roving-hammer test these are the references.
-    pub fn deflection<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
+    pub fn larger_side_shape<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
         if self.references.len() > self.responses.len() {
             (&self.references, &mode.participation)
         } else {
@@ -178,13 +178,13 @@ impl Identified {
 
     /// AutoMAC: MAC of every mode with every other, over the side with more DOFs.
     pub fn auto_mac(&self) -> Vec<Vec<f64>> {
-        let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.deflection(m).1).collect();
+        let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.larger_side_shape(m).1).collect();
         mac::mac_matrix(&shapes, &shapes)
     }
 }
 
 /// Lowest order tried.
-const FIRST_ORDER: usize = 2;
+const LOWEST_ORDER: usize = 2;
 
 /// Identifies the modes in FRFs.
 ///
@@ -194,27 +194,30 @@ const FIRST_ORDER: usize = 2;
 /// # Errors
 /// Non-uniform frequencies, a band without data, too few lines for the order, values that are not finite, a
 /// dead channel, no mode.
-pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<Identified, IdentifyError> {
+pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<ModalIdentification, IdentifyError> {
     let mut data = Data::new(frfs, settings)?;
     let equations = NormalEquations::new(&data, settings)?;
-    let orders: Vec<usize> = (FIRST_ORDER..=data.max_order(settings)).collect();
-    let candidates = stabilise::candidates(&data, equations.poles(&orders)?)?;
-    let diagram = stabilise::diagram(&candidates, &orders);
-    let poles = select::select(&data, &candidates, orders.len());
+    let orders: Vec<usize> = (LOWEST_ORDER..=data.max_order(settings)).collect();
+    let candidates = stabilisation::candidates(&data, equations.poles(&orders)?)?;
+    let diagram = stabilisation::diagram(&candidates, &orders);
+    let poles = pole_selection::select_poles(&data, &candidates, orders.len());
     let mut dropped = Vec::new();
-    let settled =
-        if poles.is_empty() { None } else { settle::settle(&mut data, poles, settings, &mut dropped) };
+    let settled = if poles.is_empty() {
+        None
+    } else {
+        mode_selection::select_modes(&mut data, poles, settings, &mut dropped)
+    };
     let found = settled.ok_or(IdentifyError::NoMode {
         from: data.frequencies[0],
         to: data.frequencies[data.lines() - 1],
         poles: candidates.len(),
         orders: orders.len(),
     })?;
-    Ok(assembled(frfs, settings, &data, found, diagram, orders, dropped))
+    Ok(assemble_result(frfs, settings, &data, found, diagram, orders, dropped))
 }
 
 /// FRFs of the modal model in the data's scales, `[output][input][line]`.
-fn synthesised(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
+fn synthesise(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
     let s = data.s();
     let one = |o: usize, i: usize| {
         let value = |s: &Complex64| {
@@ -230,16 +233,16 @@ fn synthesised(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>
     (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
 }
 
-fn assembled(
+fn assemble_result(
     frfs: &FrfMatrix,
     settings: &Settings,
     data: &Data,
-    found: settle::Settled,
+    found: mode_selection::SelectedModes,
     diagram: Vec<DiagramPole>,
     orders: Vec<usize>,
     dropped: Vec<String>,
-) -> Identified {
-    let model = synthesised(data, &found.poles, &found.fit);
+) -> ModalIdentification {
+    let model = synthesise(data, &found.poles, &found.fit);
     let scale = |o: usize, i: usize| data.output_scale[o] * data.input_scale[i];
     let (responses, references) = (frfs.responses.len(), frfs.references.len());
     let place = |r: usize, e: usize| if data.swapped { (e, r) } else { (r, e) };
@@ -279,11 +282,12 @@ fn assembled(
             let mut small: Vec<Complex64> =
                 pole.participation.iter().zip(&data.input_scale).map(|(l, b)| l * *b).collect();
             let before = small.clone();
-            small = plscf::unit(small);
-            let k = lsfd::fixed_input(&Pole { value: pole.value, participation: before.clone() });
+            small = plscf::normalise_largest(small);
+            let k = lsfd::normalised_input(&Pole { value: pole.value, participation: before.clone() });
             let large: Vec<Complex64> =
                 found.fit.shapes[m].iter().zip(&data.output_scale).map(|(v, a)| v * *a * before[k]).collect();
-            let (frequency_error, damping_error) = uncertainty::errors(pole.value, found.covariance[m]);
+            let (frequency_error, damping_error) =
+                uncertainty::standard_errors(pole.value, found.covariance[m]);
             let collinearity = mac::phase_collinearity(&large);
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
             let whirl = whirl::whirl(&frfs.responses, &shape)
@@ -301,7 +305,7 @@ fn assembled(
         })
         .collect();
     modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
-    Identified {
+    ModalIdentification {
         modes,
         responses: frfs.responses.clone(),
         references: frfs.references.clone(),

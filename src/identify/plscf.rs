@@ -41,7 +41,7 @@ pub(super) struct NormalEquations {
 }
 
 /// Outputs per parallel chunk; chunk sums are added in order: results do not depend on the number of threads.
-const CHUNK: usize = 4;
+const OUTPUTS_PER_CHUNK: usize = 4;
 
 impl NormalEquations {
     /// Builds M for the highest order; its leading blocks are those of all lower ones.
@@ -69,7 +69,7 @@ impl NormalEquations {
             .collect();
         let toeplitz = |lags: &[f64]| DMatrix::from_fn(n + 1, n + 1, |j, k| lags[n + k - j]);
         let r = toeplitz(&sums(&mut weight.iter().map(|w| Complex64::from(*w))));
-        let r = positive(r).unpack();
+        let r = regularised_cholesky(r).unpack();
         let part = |rows: &[Vec<Vec<Complex64>>]| {
             let mut square = DMatrix::zeros(ni * (n + 1), ni * (n + 1));
             let mut lags = vec![vec![0.0; 2 * n + 1]; ni * ni];
@@ -93,7 +93,7 @@ impl NormalEquations {
             }
             (square, lags)
         };
-        let parts: Vec<_> = data.values.par_chunks(CHUNK).map(part).collect();
+        let parts: Vec<_> = data.values.par_chunks(OUTPUTS_PER_CHUNK).map(part).collect();
         let mut square = DMatrix::zeros(ni * (n + 1), ni * (n + 1));
         let mut lags = vec![vec![0.0; 2 * n + 1]; ni * ni];
         for (own, own_lags) in &parts {
@@ -126,7 +126,7 @@ impl NormalEquations {
         let size = ni * self.order;
         let block = self.matrix.view((ni, ni), (size, size)).into_owned();
         // Leading blocks of the Cholesky factor are those of the leading blocks.
-        let lower = positive(block).unpack();
+        let lower = regularised_cholesky(block).unpack();
         let mut right = -self.matrix.view((ni, 0), (size, ni)).into_owned();
         lower.solve_lower_triangular_mut(&mut right);
         orders.par_iter().map(|&n| self.poles_of(n, &lower, &right)).collect()
@@ -160,16 +160,16 @@ impl NormalEquations {
             if mu.norm_sqr() == 0.0 {
                 continue;
             }
-            let turned = mu.inv().ln() / self.interval;
-            let value = turned + Complex64::new(0.0, self.shift);
+            let unshifted = mu.inv().ln() / self.interval;
+            let value = unshifted + Complex64::new(0.0, self.shift);
             let hz = value.im / TAU;
             let damping = -value.re / value.norm();
             let inside = hz >= self.band[0] && hz <= self.band[1];
-            if turned.im <= 0.0 || !inside || damping <= 0.0 || damping > self.largest_damping {
+            if unshifted.im <= 0.0 || !inside || damping <= 0.0 || damping > self.largest_damping {
                 continue;
             }
             let l: Vec<Complex64> = (0..ni).map(|i| vectors[(size - ni + i, k)]).collect();
-            poles.push(Pole { value, participation: unit(l) });
+            poles.push(Pole { value, participation: normalise_largest(l) });
         }
         poles.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
         Ok(poles)
@@ -177,7 +177,7 @@ impl NormalEquations {
 }
 
 /// Normalises l to a largest entry of 1.
-pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
+pub(super) fn normalise_largest(mut l: Vec<Complex64>) -> Vec<Complex64> {
     let largest =
         l.iter().copied().fold(Complex64::default(), |a, b| if b.norm() > a.norm() { b } else { a });
     if largest.norm_sqr() > 0.0 {
@@ -188,18 +188,18 @@ pub(super) fn unit(mut l: Vec<Complex64>) -> Vec<Complex64> {
 
 /// Cholesky factor of a matrix that is positive definite up to round-off, with the least diagonal
 /// regularisation (jitter) needed: FRFs without noise leave M singular beyond their model order.
-fn positive(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
+fn regularised_cholesky(matrix: DMatrix<f64>) -> Cholesky<f64, nalgebra::Dyn> {
     let size = matrix.diagonal().amax().max(f64::MIN_POSITIVE);
-    let mut grain = 0.0;
+    let mut jitter = 0.0;
     loop {
-        let mut mended = matrix.clone();
-        for k in 0..mended.nrows() {
-            mended[(k, k)] += grain * size;
+        let mut regularised = matrix.clone();
+        for k in 0..regularised.nrows() {
+            regularised[(k, k)] += jitter * size;
         }
-        if let Some(found) = Cholesky::new(mended) {
+        if let Some(found) = Cholesky::new(regularised) {
             return found;
         }
         // Terminates at the latest when the diagonal dominates.
-        grain = if grain == 0.0 { 1e-15 } else { 10.0 * grain };
+        jitter = if jitter == 0.0 { 1e-15 } else { 10.0 * jitter };
     }
 }

@@ -7,13 +7,13 @@
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::data::Data;
-use super::dense::{back, mul, thin_qr, tr_mul};
-use super::lsfd::{Basis, Change, Fit};
-use super::plscf::{Pole, unit};
+use super::dense::{back_substitute, mul, thin_qr, tr_mul};
+use super::lsfd::{Basis, Fit, FitParameter};
+use super::plscf::{Pole, normalise_largest};
 use crate::linalg::Complex64;
 
 /// A fit for given poles and participations.
-pub(super) struct Point {
+pub(super) struct FitPoint {
     pub poles: Vec<Pole>,
     pub q: DMatrix<f64>,
     pub r: DMatrix<f64>,
@@ -21,18 +21,18 @@ pub(super) struct Point {
     pub sizes: Vec<f64>,
     pub x: DMatrix<f64>,
     /// Residuals of the fit.
-    pub rest: DMatrix<f64>,
+    pub residual: DMatrix<f64>,
     pub cost: f64,
 }
 
-impl Point {
+impl FitPoint {
     fn new(basis: &Basis, y: &DMatrix<f64>, poles: Vec<Pole>) -> Self {
         let (q, r, sizes) = thin_qr(basis.design(&poles));
         let z = tr_mul(&q, y);
         let rest = y - mul(&q, &z);
-        let x = back(&r, &sizes, z);
+        let x = back_substitute(&r, &sizes, z);
         let cost = rest.norm_squared();
-        Self { poles, q, r, sizes, x, rest, cost }
+        Self { poles, q, r, sizes, x, residual: rest, cost }
     }
 
     pub fn shape(&self, mode: usize, output: usize) -> Complex64 {
@@ -40,27 +40,27 @@ impl Point {
     }
 
     /// Residual variance: squared residuals over the degrees of freedom (data minus unknowns).
-    pub fn noise(&self) -> f64 {
+    pub fn residual_variance(&self) -> f64 {
         let unknowns = self.x.len() + 2 * self.poles.iter().map(|p| p.participation.len()).sum::<usize>();
-        self.cost / (self.rest.len() as f64 - unknowns as f64).max(1.0)
+        self.cost / (self.residual.len() as f64 - unknowns as f64).max(1.0)
     }
 }
 
 /// Gauss-Newton normal equations in the poles and participations.
-pub(super) struct Step {
-    pub list: Vec<Change>,
+pub(super) struct GaussNewtonStep {
+    pub parameters: Vec<FitParameter>,
     /// Projected Jacobian: derivatives of the FRFs orthogonal to the linear unknowns.
-    pub free: DMatrix<f64>,
-    pub square: DMatrix<f64>,
+    pub projected_jacobian: DMatrix<f64>,
+    pub normal_matrix: DMatrix<f64>,
     gradient: DVector<f64>,
 }
 
-impl Step {
-    fn new(basis: &Basis, at: &Point) -> Self {
-        let (d, list) = basis.changes(&at.poles);
+impl GaussNewtonStep {
+    fn new(basis: &Basis, at: &FitPoint) -> Self {
+        let (d, list) = basis.derivative_columns(&at.poles);
         let free = &d - mul(&at.q, &tr_mul(&at.q, &d));
         let gram = tr_mul(&free, &free);
-        let slope = tr_mul(&free, &at.rest);
+        let slope = tr_mul(&free, &at.residual);
         let (n, outputs) = (list.len(), at.x.ncols());
         let mut square = DMatrix::zeros(2 * n, 2 * n);
         let mut gradient = DVector::zeros(2 * n);
@@ -97,12 +97,12 @@ impl Step {
                 square[(2 * a + 1, 2 * b + 1)] = rr * g(1, 1) - ri * g(1, 0) - ir * g(0, 1) + ii * g(0, 0);
             }
         }
-        Self { list, free, square, gradient }
+        Self { parameters: list, projected_jacobian: free, normal_matrix: square, gradient }
     }
 
     /// A diagonal block of (JᵀJ)⁻¹.
     pub fn inverse_block(&self, first: usize, count: usize) -> DMatrix<f64> {
-        let mut square = self.square.clone();
+        let mut square = self.normal_matrix.clone();
         // Regularised: repeated poles leave the rotation of their participations undetermined.
         (0..square.nrows()).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
         let unit = DMatrix::from_fn(square.nrows(), count, |i, j| f64::from(u8::from(i == first + j)));
@@ -113,14 +113,14 @@ impl Step {
     }
 
     /// Poles after a damped (Levenberg-Marquardt) step, and the cost reduction predicted by the linear model.
-    fn taken(&self, poles: &[Pole], damping: f64) -> Option<(Vec<Pole>, f64)> {
-        let mut square = self.square.clone();
+    fn damped_step(&self, poles: &[Pole], damping: f64) -> Option<(Vec<Pole>, f64)> {
+        let mut square = self.normal_matrix.clone();
         for k in 0..square.nrows() {
             square[(k, k)] *= 1.0 + damping;
         }
         let step = Cholesky::new(square)?.solve(&self.gradient);
         let mut out = poles.to_vec();
-        for (k, change) in self.list.iter().enumerate() {
+        for (k, change) in self.parameters.iter().enumerate() {
             let by = Complex64::new(step[2 * k], step[2 * k + 1]);
             match change.input {
                 None => out[change.mode].value += by,
@@ -132,7 +132,7 @@ impl Step {
 }
 
 /// Convergence: predicted cost reduction over the residual variance (a hundredth of the standard errors).
-const SETTLED: f64 = 1e-4;
+const CONVERGENCE_TOLERANCE: f64 = 1e-4;
 /// Round-off level of the cost over the FRFs' sum of squares.
 const ROUND_OFF: f64 = 1e-28;
 
@@ -155,24 +155,24 @@ impl<'a> Problem<'a> {
     }
 
     /// Minimises the sum of squared residuals of the FRFs, in at most `steps` steps.
-    pub fn refine(&self, poles: Vec<Pole>, steps: usize) -> Point {
-        let mut at = Point::new(&self.basis, &self.y, poles);
+    pub fn refine(&self, poles: Vec<Pole>, steps: usize) -> FitPoint {
+        let mut at = FitPoint::new(&self.basis, &self.y, poles);
         let least = ROUND_OFF * self.y.norm_squared();
         let mut damping = 1e-3;
         'steps: for _ in 0..steps {
-            let step = Step::new(&self.basis, &at);
+            let step = GaussNewtonStep::new(&self.basis, &at);
             while damping < 1e8 {
-                if let Some((poles, expected)) = step.taken(&at.poles, damping) {
-                    let next = Point::new(&self.basis, &self.y, poles);
+                if let Some((poles, expected)) = step.damped_step(&at.poles, damping) {
+                    let next = FitPoint::new(&self.basis, &self.y, poles);
                     if next.cost < at.cost {
                         at = next;
                         damping = (0.1 * damping).max(1e-12);
-                        if at.cost < least || expected < SETTLED * at.noise() {
+                        if at.cost < least || expected < CONVERGENCE_TOLERANCE * at.residual_variance() {
                             break 'steps;
                         }
                         continue 'steps;
                     }
-                    if expected < SETTLED * at.noise() {
+                    if expected < CONVERGENCE_TOLERANCE * at.residual_variance() {
                         break 'steps;
                     }
                 }
@@ -182,31 +182,31 @@ impl<'a> Problem<'a> {
         }
         // Renormalise the largest participation to 1.
         for pole in &mut at.poles {
-            pole.participation = unit(std::mem::take(&mut pole.participation));
+            pole.participation = normalise_largest(std::mem::take(&mut pole.participation));
         }
         let poles = std::mem::take(&mut at.poles);
-        Point::new(&self.basis, &self.y, poles)
+        FitPoint::new(&self.basis, &self.y, poles)
     }
 
-    pub fn step(&self, at: &Point) -> Step {
-        Step::new(&self.basis, at)
+    pub fn step(&self, at: &FitPoint) -> GaussNewtonStep {
+        GaussNewtonStep::new(&self.basis, at)
     }
 
-    pub fn fit(&self, at: &Point) -> Fit {
+    pub fn fit(&self, at: &FitPoint) -> Fit {
         self.basis.fit(&at.x, at.poles.len())
     }
 }
 
 /// Lower limit of the residual variance over the FRFs' mean square.
-const LEAST_NOISE: f64 = 1e-24;
+const MIN_NOISE: f64 = 1e-24;
 
 /// F statistic of leaving a mode out: explained variance per unknown over the residual variance.
-pub(super) fn significance(at: &Point) -> Vec<f64> {
+pub(super) fn significance(at: &FitPoint) -> Vec<f64> {
     let n = at.r.nrows();
     let fitted = DMatrix::from_fn(n, at.x.ncols(), |k, o| at.sizes[k] * at.x[(k, o)]);
     let all = at.cost + (&at.r * fitted).norm_squared();
     // Noise floor, so that a mode fitted to round-off is not significant.
-    let noise = at.noise().max(LEAST_NOISE * all / at.rest.len() as f64).max(f64::MIN_POSITIVE);
+    let noise = at.residual_variance().max(MIN_NOISE * all / at.residual.len() as f64).max(f64::MIN_POSITIVE);
     // Cov(x) = (RᵀR)⁻¹ for columns of unit length.
     let inverse = at.r.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
     let cov = &inverse * inverse.transpose();

@@ -18,21 +18,21 @@ use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
 
 use super::data::Data;
-use super::refine::{Point, Step};
+use super::refine::{FitPoint, GaussNewtonStep};
 use crate::linalg::Complex64;
 
 /// Variances of Re λ and Im λ, and their covariance.
 pub(super) type PoleCovariance = [f64; 3];
 
 /// Rows of (JᵀJ)⁻¹ that belong to poles; `None` if JᵀJ is singular (poles not distinguishable).
-fn pole_rows(step: &Step) -> Option<(Vec<usize>, DMatrix<f64>)> {
-    let mut square = step.square.clone();
+fn pole_rows(step: &GaussNewtonStep) -> Option<(Vec<usize>, DMatrix<f64>)> {
+    let mut square = step.normal_matrix.clone();
     let n = square.nrows();
     // Regularised: repeated poles leave the rotation of their participations undetermined.
     (0..n).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
     let inverse = Cholesky::new(square)?.inverse();
-    let own: Vec<usize> = (0..step.list.len())
-        .filter(|&k| step.list[k].input.is_none())
+    let own: Vec<usize> = (0..step.parameters.len())
+        .filter(|&k| step.parameters[k].input.is_none())
         .flat_map(|k| [2 * k, 2 * k + 1])
         .collect();
     let rows = DMatrix::from_fn(own.len(), n, |i, j| inverse[(own[i], j)]);
@@ -40,9 +40,9 @@ fn pole_rows(step: &Step) -> Option<(Vec<usize>, DMatrix<f64>)> {
 }
 
 /// Covariances assuming white residuals of one variance: fast, for the selection.
-pub(super) fn rough(at: &Point, step: &Step) -> Vec<PoleCovariance> {
-    let Some((own, rows)) = pole_rows(step) else { return unknown(at) };
-    let noise = at.noise();
+pub(super) fn white_noise_covariance(at: &FitPoint, step: &GaussNewtonStep) -> Vec<PoleCovariance> {
+    let Some((own, rows)) = pole_rows(step) else { return infinite_covariance(at) };
+    let noise = at.residual_variance();
     (0..at.poles.len())
         .map(|m| {
             let (a, b) = (2 * m, 2 * m + 1);
@@ -51,20 +51,20 @@ pub(super) fn rough(at: &Point, step: &Step) -> Vec<PoleCovariance> {
         .collect()
 }
 
-fn unknown(at: &Point) -> Vec<PoleCovariance> {
+fn infinite_covariance(at: &FitPoint) -> Vec<PoleCovariance> {
     vec![[f64::INFINITY, f64::INFINITY, 0.0]; at.poles.len()]
 }
 
 /// Covariances by the grouped jackknife (leave one group out).
-pub(super) fn covariance(data: &Data, at: &Point, step: &Step) -> Vec<PoleCovariance> {
-    let Some((_, lambda)) = pole_rows(step) else { return unknown(at) };
-    let groups = Groups::new(at, step, &lambda);
+pub(super) fn covariance(data: &Data, at: &FitPoint, step: &GaussNewtonStep) -> Vec<PoleCovariance> {
+    let Some((_, lambda)) = pole_rows(step) else { return infinite_covariance(at) };
+    let groups = JackknifeGroups::new(at, step, &lambda);
     let (lines, inputs, outputs) = (data.lines(), data.inputs(), data.outputs());
     let all: Vec<usize> = (0..outputs).collect();
     // Hits are at references: if these are the outputs, group the inputs of an output, else vice versa.
-    let sizes = NoiseSizes::new(data, at);
+    let sizes = NoiseVariances::new(data, at);
     let of_line = |k: usize| {
-        let mut sums = vec![Sums::default(); at.poles.len()];
+        let mut sums = vec![JackknifeSums::default(); at.poles.len()];
         let rows = |i: usize| [2 * i * lines + k, (2 * i + 1) * lines + k];
         if data.swapped {
             let rows: Vec<usize> = (0..inputs).flat_map(rows).collect();
@@ -74,58 +74,58 @@ pub(super) fn covariance(data: &Data, at: &Point, step: &Step) -> Vec<PoleCovari
         }
         sums
     };
-    let by_line: Vec<Vec<Sums>> = (0..lines).into_par_iter().map(of_line).collect();
-    let mut total = vec![Sums::default(); at.poles.len()];
+    let by_line: Vec<Vec<JackknifeSums>> = (0..lines).into_par_iter().map(of_line).collect();
+    let mut total = vec![JackknifeSums::default(); at.poles.len()];
     for line in &by_line {
         total.iter_mut().zip(line).for_each(|(sum, own)| sum.add(own));
     }
-    let white = rough(at, step);
-    let share = sizes.response / at.noise().max(f64::MIN_POSITIVE);
+    let white = white_noise_covariance(at, step);
+    let share = sizes.response / at.residual_variance().max(f64::MIN_POSITIVE);
     total.iter().zip(white).map(|(sum, white)| sum.covariance(white, share, sizes.force)).collect()
 }
 
 /// Weight of the noise model, as an equivalent number of groups.
-const PRIOR: f64 = 10.0;
+const PRIOR_GROUPS: f64 = 10.0;
 
 /// Sums over groups for one pole.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct JackknifeSums {
     /// Of δ δᵀ from the residuals, and of its squared trace.
-    found: PoleCovariance,
+    jackknife: PoleCovariance,
     square: f64,
     /// Of δ δᵀ for force noise of mean square 1.
     force: PoleCovariance,
 }
 
-impl Sums {
-    fn add(&mut self, other: &Sums) {
+impl JackknifeSums {
+    fn add(&mut self, other: &JackknifeSums) {
         for p in 0..3 {
-            self.found[p] += other.found[p];
+            self.jackknife[p] += other.jackknife[p];
             self.force[p] += other.force[p];
         }
         self.square += other.square;
     }
 
     fn covariance(&self, white: PoleCovariance, response: f64, force: f64) -> PoleCovariance {
-        let size = self.found[0] + self.found[1];
+        let size = self.jackknife[0] + self.jackknife[1];
         let groups = if self.square > 0.0 { size * size / self.square } else { 0.0 };
-        let part = groups / (groups + PRIOR);
+        let part = groups / (groups + PRIOR_GROUPS);
         let model = |p: usize| response * white[p] + force * self.force[p];
-        [0, 1, 2].map(|p| part * self.found[p] + (1.0 - part) * model(p))
+        [0, 1, 2].map(|p| part * self.jackknife[p] + (1.0 - part) * model(p))
     }
 }
 
 /// Noise variances: of a response datum, and of the force relative to the force.
-struct NoiseSizes {
+struct NoiseVariances {
     response: f64,
     force: f64,
 }
 
-impl NoiseSizes {
+impl NoiseVariances {
     /// Weighted regression of |e|² = 2a + b|H|² over all data except those of high leverage.
-    fn new(data: &Data, at: &Point) -> Self {
+    fn new(data: &Data, at: &FitPoint) -> Self {
         let lines = data.lines();
-        let (mut a, mut b) = (at.noise(), 0.0);
+        let (mut a, mut b) = (at.residual_variance(), 0.0);
         for _ in 0..4 {
             let mut sums = [0.0; 5];
             for i in 0..data.inputs() {
@@ -137,8 +137,8 @@ impl NoiseSizes {
                     }
                     for (o, row) in data.values.iter().enumerate() {
                         let h = row[i][k].norm_sqr();
-                        let e =
-                            at.rest[(rows[0], o)].powi(2) / left[0] + at.rest[(rows[1], o)].powi(2) / left[1];
+                        let e = at.residual[(rows[0], o)].powi(2) / left[0]
+                            + at.residual[(rows[1], o)].powi(2) / left[1];
                         let weight = (2.0 * a + b * h).max(f64::MIN_POSITIVE).powi(-2);
                         sums[0] += weight;
                         sums[1] += weight * h;
@@ -165,38 +165,45 @@ impl NoiseSizes {
 }
 
 /// Influence of groups of rows on the poles.
-struct Groups<'a> {
-    at: &'a Point,
-    step: &'a Step,
+struct JackknifeGroups<'a> {
+    at: &'a FitPoint,
+    step: &'a GaussNewtonStep,
     /// Rows of (JᵀJ)⁻¹ of the poles.
-    lambda: &'a DMatrix<f64>,
+    pole_rows: &'a DMatrix<f64>,
     /// Diagonal block of (JᵀJ)⁻¹ of each mode, its first parameter and their number.
     blocks: Vec<(DMatrix<f64>, usize, usize)>,
     /// Leverage correction: 1 over the fraction of a row's noise that is not absorbed by the linear unknowns.
-    enlarge: Vec<f64>,
+    leverage_correction: Vec<f64>,
 }
 
 /// Leverage of a group on a mode below which the correction for leaving it out is skipped.
-const NO_SHARE: f64 = 0.01;
+const MIN_LEVERAGE: f64 = 0.01;
 
-impl<'a> Groups<'a> {
-    fn new(at: &'a Point, step: &'a Step, lambda: &'a DMatrix<f64>) -> Self {
+impl<'a> JackknifeGroups<'a> {
+    fn new(at: &'a FitPoint, step: &'a GaussNewtonStep, lambda: &'a DMatrix<f64>) -> Self {
         let enlarge = at.q.row_iter().map(|row| 1.0 / (1.0 - row.norm_squared()).max(0.05)).collect();
         let block = |m: usize| {
-            let first = step.list.iter().position(|c| c.mode == m).unwrap_or(0);
-            let count = step.list.iter().filter(|c| c.mode == m).count();
+            let first = step.parameters.iter().position(|c| c.mode == m).unwrap_or(0);
+            let count = step.parameters.iter().filter(|c| c.mode == m).count();
             let own = step.inverse_block(2 * first, 2 * count);
             (own, first, count)
         };
-        Self { at, step, lambda, blocks: (0..at.poles.len()).map(block).collect(), enlarge }
+        Self {
+            at,
+            step,
+            pole_rows: lambda,
+            blocks: (0..at.poles.len()).map(block).collect(),
+            leverage_correction: enlarge,
+        }
     }
 
     /// Adds δ δᵀ of a group of rows of some outputs.
-    fn add(&self, data: &Data, rows: &[usize], outputs: &[usize], sums: &mut [Sums]) {
+    fn add(&self, data: &Data, rows: &[usize], outputs: &[usize], sums: &mut [JackknifeSums]) {
         let lines = data.lines();
-        let mut left = self.gradient(rows, outputs, &|row, o| self.at.rest[(row, o)] * self.enlarge[row]);
+        let mut left = self
+            .gradient(rows, outputs, &|row, o| self.at.residual[(row, o)] * self.leverage_correction[row]);
         for m in 0..self.at.poles.len() {
-            self.without(m, rows, outputs, &mut left);
+            self.leave_out(m, rows, outputs, &mut left);
         }
         // Force noise n changes an FRF by −H n: once for the real, once for the imaginary part of n.
         let force = [0, 1].map(|part| {
@@ -212,7 +219,7 @@ impl<'a> Groups<'a> {
             })
         });
         let change = |row: usize, gradient: &[f64]| {
-            gradient.iter().enumerate().map(|(k, g)| self.lambda[(row, k)] * g).sum::<f64>()
+            gradient.iter().enumerate().map(|(k, g)| self.pole_rows[(row, k)] * g).sum::<f64>()
         };
         for (m, sum) in sums.iter_mut().enumerate() {
             let pair = |gradient: &[f64]| {
@@ -220,7 +227,7 @@ impl<'a> Groups<'a> {
                 [re * re, im * im, re * im]
             };
             let own = pair(&left);
-            sum.found.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+            sum.jackknife.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
             sum.square += (own[0] + own[1]).powi(2);
             for gradient in &force {
                 sum.force.iter_mut().zip(pair(gradient)).for_each(|(sum, own)| *sum += 0.5 * own);
@@ -230,13 +237,16 @@ impl<'a> Groups<'a> {
 
     /// Jᵀ e over a group.
     fn gradient(&self, rows: &[usize], outputs: &[usize], error: &dyn Fn(usize, usize) -> f64) -> Vec<f64> {
-        let mut gradient = vec![0.0; 2 * self.step.list.len()];
+        let mut gradient = vec![0.0; 2 * self.step.parameters.len()];
         for (m, (_, first, count)) in self.blocks.iter().enumerate() {
             for &row in rows {
                 let sum: Complex64 =
                     outputs.iter().map(|&o| self.at.shape(m, o).conj() * error(row, o)).sum();
                 for a in *first..first + count {
-                    let d = Complex64::new(self.step.free[(row, 2 * a)], self.step.free[(row, 2 * a + 1)]);
+                    let d = Complex64::new(
+                        self.step.projected_jacobian[(row, 2 * a)],
+                        self.step.projected_jacobian[(row, 2 * a + 1)],
+                    );
                     let g = d * sum;
                     gradient[2 * a] += g.re;
                     gradient[2 * a + 1] += g.im;
@@ -247,7 +257,7 @@ impl<'a> Groups<'a> {
     }
 
     /// Leave-one-out correction (I − G B)⁻¹ of a mode's part of the gradient, B being its block of (JᵀJ)⁻¹.
-    fn without(&self, m: usize, rows: &[usize], outputs: &[usize], gradient: &mut [f64]) {
+    fn leave_out(&self, m: usize, rows: &[usize], outputs: &[usize], gradient: &mut [f64]) {
         let (inverse, first, count) = &self.blocks[m];
         let (mut rr, mut ri, mut ii) = (0.0, 0.0, 0.0);
         for &o in outputs {
@@ -260,20 +270,20 @@ impl<'a> Groups<'a> {
         // Skip the correction if the leverage on the pole is negligible.
         let reach = |a: usize| {
             let own = rows.iter().map(|&row| {
-                let free = |k: usize| self.step.free[(row, 2 * (first + a) + k)];
-                self.enlarge[row] * (free(0).powi(2) + free(1).powi(2))
+                let free = |k: usize| self.step.projected_jacobian[(row, 2 * (first + a) + k)];
+                self.leverage_correction[row] * (free(0).powi(2) + free(1).powi(2))
             });
             own.sum::<f64>() * (rr + ii) * inverse[(2 * a, 2 * a)].max(inverse[(2 * a + 1, 2 * a + 1)])
         };
-        if (0..*count).map(reach).sum::<f64>() < NO_SHARE {
+        if (0..*count).map(reach).sum::<f64>() < MIN_LEVERAGE {
             return;
         }
         let mut share = DMatrix::zeros(size, size);
         for a in 0..*count {
             for b in 0..*count {
                 for &row in rows {
-                    let d = |c: usize, k: usize| self.step.free[(row, 2 * (first + c) + k)];
-                    let g = |i: usize, j: usize| self.enlarge[row] * d(a, i) * d(b, j);
+                    let d = |c: usize, k: usize| self.step.projected_jacobian[(row, 2 * (first + c) + k)];
+                    let g = |i: usize, j: usize| self.leverage_correction[row] * d(a, i) * d(b, j);
                     share[(2 * a, 2 * b)] += rr * g(0, 0) + ri * (g(0, 1) + g(1, 0)) + ii * g(1, 1);
                     share[(2 * a, 2 * b + 1)] += rr * g(0, 1) + ri * (g(1, 1) - g(0, 0)) - ii * g(1, 0);
                     share[(2 * a + 1, 2 * b)] += rr * g(1, 0) + ri * (g(1, 1) - g(0, 0)) - ii * g(0, 1);
@@ -290,7 +300,7 @@ impl<'a> Groups<'a> {
 }
 
 /// Standard errors of damped frequency \[Hz\] and damping ratio from the pole's covariance.
-pub(super) fn errors(pole: Complex64, [re, im, both]: PoleCovariance) -> (f64, f64) {
+pub(super) fn standard_errors(pole: Complex64, [re, im, both]: PoleCovariance) -> (f64, f64) {
     // ζ = −a/|λ|, λ = a + jb: ∂ζ/∂a = −b²/|λ|³, ∂ζ/∂b = ab/|λ|³.
     let cube = pole.norm().powi(3);
     let (da, db) = (-pole.im * pole.im / cube, pole.re * pole.im / cube);

@@ -97,14 +97,14 @@ pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)
                 let mut z = vec![Complex64::default(); n];
                 (z[k], z[k + 1]) = if b != 0.0 { (b.into(), other - a) } else { (other - d, c.into()) };
                 back_substitute(&t, other, k, &mut z);
-                pairs.push((other, turned(&q, &z)));
+                pairs.push((other, multiply(&q, &z)));
             }
         } else {
             value = t[(k, k)].into();
             y[k] = 1.0.into();
         }
         back_substitute(&t, value, k, &mut y);
-        pairs.push((value, turned(&q, &y)));
+        pairs.push((value, multiply(&q, &y)));
         k += if paired { 2 } else { 1 };
     }
     Ok(pairs)
@@ -152,7 +152,7 @@ fn solve_two(mut rows: [[Complex64; 3]; 2], safe: impl Fn(Complex64) -> Complex6
 }
 
 /// Q y.
-fn turned(q: &DMatrix<f64>, y: &[Complex64]) -> Vec<Complex64> {
+fn multiply(q: &DMatrix<f64>, y: &[Complex64]) -> Vec<Complex64> {
     let mut out = vec![Complex64::default(); q.nrows()];
     for (column, y) in q.column_iter().zip(y) {
         for (o, q) in out.iter_mut().zip(column.iter()) {

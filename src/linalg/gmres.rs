@@ -4,7 +4,7 @@ use super::dot::dot_in_fours as dot;
 
 /// Result of [`gmres`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Krylov {
+pub struct GmresResult {
     /// Best x in the Krylov space.
     pub solution: Vec<f64>,
     /// ‖b − A x‖ / ‖b‖.
@@ -25,12 +25,12 @@ pub fn gmres(
     mut precondition: impl FnMut(&mut [f64]),
     b: &[f64],
     tolerance: f64,
-    space: usize,
-) -> Krylov {
+    max_products: usize,
+) -> GmresResult {
     let n = b.len();
     let norm = dot(b, b).sqrt();
     if norm == 0.0 {
-        return Krylov { solution: vec![0.0; n], residual: 0.0, products: 0 };
+        return GmresResult { solution: vec![0.0; n], residual: 0.0, products: 0 };
     }
     let mut basis = vec![b.iter().map(|v| v / norm).collect::<Vec<_>>()];
     // Columns of the triangular factor of the Hessenberg matrix, rotations, rotated right-hand side.
@@ -38,7 +38,7 @@ pub fn gmres(
     let mut rotations: Vec<[f64; 2]> = Vec::new();
     let mut right = vec![norm];
     let mut preconditioned = vec![0.0; n];
-    while columns.len() < space && right[columns.len()].abs() > tolerance * norm {
+    while columns.len() < max_products && right[columns.len()].abs() > tolerance * norm {
         let k = columns.len();
         preconditioned.copy_from_slice(&basis[k]);
         precondition(&mut preconditioned);
@@ -83,7 +83,7 @@ pub fn gmres(
         solution.iter_mut().zip(v).for_each(|(x, v)| *x += y * v);
     }
     precondition(&mut solution);
-    Krylov { solution, residual: right[k].abs() / norm, products: k }
+    GmresResult { solution, residual: right[k].abs() / norm, products: k }
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 const TOLERANCE: f64 = 1e-11;
 /// Ritz pairs with a larger residual are spurious (the operator is highly non-normal); those converging to a
 /// true eigenvalue fall below it long before higher ones have converged.
-const SPURIOUS: f64 = 1e-3;
+const MAX_RITZ_RESIDUAL: f64 = 1e-3;
 /// Below this many unknowns the dense solver is as fast.
 const DENSE_BELOW: usize = 24;
 
@@ -36,7 +36,7 @@ pub struct QuadraticPair {
 ///
 /// # Errors
 /// A singular shifted matrix, no convergence, or entries that are not finite.
-pub fn lowest(
+pub fn lowest_eigenpairs(
     m: &SparseMatrix,
     c: &SparseMatrix,
     k: &SparseMatrix,
@@ -45,11 +45,12 @@ pub fn lowest(
 ) -> Result<Vec<QuadraticPair>, EigenError> {
     let layout = BandLayout::new(&[m, c, k]);
     let groups: Vec<&[usize]> = layout.groups().collect();
-    let parts: Vec<Part> = groups.iter().map(|unknowns| Part::new([m, c, k], unknowns, shift)).collect();
+    let parts: Vec<CoupledGroup> =
+        groups.iter().map(|unknowns| CoupledGroup::new([m, c, k], unknowns, shift)).collect();
     let mut searches: Vec<Search> = parts.iter().map(Search::new).collect::<Result<_, _>>()?;
     loop {
         let mut sizes: Vec<f64> =
-            searches.iter().flat_map(|s| s.found.iter().map(|(value, _)| value.norm())).collect();
+            searches.iter().flat_map(|s| s.converged.iter().map(|(value, _)| value.norm())).collect();
         sizes.sort_by(f64::total_cmp);
         let limit = sizes.get(count.max(1) - 1).copied().unwrap_or(f64::INFINITY);
         // Extend the group with the lowest reach until all groups reach the last of the wanted pairs.
@@ -60,7 +61,7 @@ pub fn lowest(
     }
     let mut pairs: Vec<QuadraticPair> = Vec::new();
     for (group, (unknowns, search)) in groups.iter().zip(&searches).enumerate() {
-        for (value, coordinates) in &search.found {
+        for (value, coordinates) in &search.converged {
             let mut vector = vec![Complex64::default(); layout.size()];
             for (&i, v) in unknowns.iter().zip(search.expand(coordinates)) {
                 vector[i] = v;
@@ -78,7 +79,7 @@ fn oscillatory(value: Complex64, shift: f64) -> bool {
 }
 
 /// Submatrix of a group of unknowns.
-fn restrict(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
+fn submatrix(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
     let mut place = vec![None; a.rows()];
     for (p, &i) in unknowns.iter().enumerate() {
         place[i] = Some(p);
@@ -95,7 +96,7 @@ fn restrict(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
 }
 
 /// One group of coupled unknowns.
-struct Part {
+struct CoupledGroup {
     m: SparseMatrix,
     c: SparseMatrix,
     k: SparseMatrix,
@@ -107,9 +108,9 @@ struct Part {
     shift: f64,
 }
 
-impl Part {
+impl CoupledGroup {
     fn new(matrices: [&SparseMatrix; 3], unknowns: &[usize], shift: f64) -> Self {
-        let [m, c, k] = matrices.map(|a| restrict(a, unknowns));
+        let [m, c, k] = matrices.map(|a| submatrix(a, unknowns));
         let damp = SparseMatrix::sum(&[(1.0, &c), (shift, &m)]);
         let shifted = SparseMatrix::sum(&[(1.0, &k), (shift, &damp)]);
         let layout = BandLayout::new(&[&shifted]);
@@ -130,24 +131,24 @@ impl Part {
 
 /// The eigenvalue search in one group.
 struct Search<'a> {
-    part: &'a Part,
+    part: &'a CoupledGroup,
     /// Converged oscillatory eigenpairs; vectors in the Arnoldi basis, if any.
-    found: Vec<(Complex64, Vec<Complex64>)>,
+    converged: Vec<(Complex64, Vec<Complex64>)>,
     /// All oscillatory eigenvalues up to this |λ| have converged.
     reach: f64,
     arnoldi: Option<Arnoldi<'a>>,
 }
 
 impl<'a> Search<'a> {
-    fn new(part: &'a Part) -> Result<Self, EigenError> {
+    fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
         if part.order() <= DENSE_BELOW {
             return Self::dense(part);
         }
-        Ok(Self { part, found: Vec::new(), reach: 0.0, arnoldi: Some(Arnoldi::new(part)?) })
+        Ok(Self { part, converged: Vec::new(), reach: 0.0, arnoldi: Some(Arnoldi::new(part)?) })
     }
 
-    fn dense(part: &'a Part) -> Result<Self, EigenError> {
-        Ok(Self { part, found: part.solve_dense()?, reach: f64::INFINITY, arnoldi: None })
+    fn dense(part: &'a CoupledGroup) -> Result<Self, EigenError> {
+        Ok(Self { part, converged: part.solve_dense()?, reach: f64::INFINITY, arnoldi: None })
     }
 
     /// Extends the basis; the first one is sized for `share` pairs.
@@ -165,14 +166,14 @@ impl<'a> Search<'a> {
         arnoldi.grow(size);
         let mut ritz = ritz_pairs(&arnoldi.columns, &arnoldi.basis, size, self.part.shift)?;
         // Overdamped eigenvalues accumulate at −1/β under damping β K and converge slowly: they are ignored.
-        ritz.retain(|r| r.residual < SPURIOUS && oscillatory(r.value, self.part.shift));
+        ritz.retain(|r| r.residual < MAX_RITZ_RESIDUAL && oscillatory(r.value, self.part.shift));
         let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
         let last = ritz[..converged].last().map_or(0.0, |r| r.value.norm());
         // The next one is accurate enough to exclude any other below half of it.
         let next = ritz.get(converged).map_or(0.0, |r| 0.5 * r.value.norm());
         self.reach = last.max(next);
         ritz.truncate(converged);
-        self.found = ritz.into_iter().map(|r| (r.value, r.vector)).collect();
+        self.converged = ritz.into_iter().map(|r| (r.value, r.vector)).collect();
         Ok(())
     }
 
@@ -189,25 +190,25 @@ impl<'a> Search<'a> {
 ///
 /// The factor 1/σ balances the two halves of the wanted vectors.
 struct Arnoldi<'a> {
-    part: &'a Part,
+    part: &'a CoupledGroup,
     lu: BandLu<'a, f64>,
     /// Block size: number of start vectors.
     block: usize,
     basis: Vec<Vec<f64>>,
     /// Hessenberg matrix: column j is the image of basis vector j in the basis.
     columns: Vec<Vec<f64>>,
-    noise: Noise,
+    noise: PseudoRandom,
 }
 
 impl<'a> Arnoldi<'a> {
-    fn new(part: &'a Part) -> Result<Self, EigenError> {
+    fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
         let lu = part.layout.factor(part.layout.scatter(&part.shifted));
         let lu = lu.map_err(|_| EigenError::SingularShift)?;
         let largest = part.c.iter().map(|(_, _, v)| v.abs()).fold(0.0, f64::max);
         // Above the round-off of modal damping.
         let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
         let block = if rotating { 1 } else { 2 };
-        let noise = Noise(0x9E37_79B9_7F4A_7C15);
+        let noise = PseudoRandom(0x9E37_79B9_7F4A_7C15);
         let mut new = Self { part, lu, block, basis: Vec::new(), columns: Vec::new(), noise };
         for _ in 0..block {
             let random: Vec<f64> = (0..2 * part.order()).map(|_| new.noise.next()).collect();
@@ -288,7 +289,7 @@ fn expand(y: &[Complex64], basis: &[Vec<f64>], n: usize) -> Vec<Complex64> {
 
 /// Appends x, orthonormalised against the basis (Gram-Schmidt); returns its coordinates (the last is its
 /// remaining length).
-fn orthonormalise(mut x: Vec<f64>, basis: &mut Vec<Vec<f64>>, noise: &mut Noise) -> Vec<f64> {
+fn orthonormalise(mut x: Vec<f64>, basis: &mut Vec<Vec<f64>>, noise: &mut PseudoRandom) -> Vec<f64> {
     let mut h = vec![0.0; basis.len() + 1];
     let before = norm(&x);
     // Twice is enough (Parlett & Kahan).
@@ -333,9 +334,9 @@ fn norm(x: &[f64]) -> f64 {
 }
 
 /// Fixed pseudo-random numbers in (−1, 1) (xorshift64), for bitwise reproducible runs.
-struct Noise(u64);
+struct PseudoRandom(u64);
 
-impl Noise {
+impl PseudoRandom {
     fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

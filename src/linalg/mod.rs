@@ -14,8 +14,8 @@
 //! | [`small`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 
-pub mod band;
-pub mod banded;
+pub mod band_lu;
+pub mod band_matrix;
 pub mod dot;
 pub mod eigen;
 pub mod fft_length;
@@ -24,12 +24,12 @@ pub mod krylov;
 pub mod panel;
 pub mod pchip;
 pub mod piecewise;
-pub mod small;
+pub mod small_dense;
 pub mod sparse;
 pub mod spline;
 
-pub use band::{BandLayout, BandLu, ZeroPivot};
-pub use banded::BandMatrix;
+pub use band_lu::{BandLayout, BandLu, ZeroPivot};
+pub use band_matrix::BandMatrix;
 pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;

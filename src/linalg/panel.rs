@@ -18,9 +18,9 @@ pub struct Panel {
 }
 
 /// Columns processed together: y is loaded and stored once for all of them.
-const COLUMNS: usize = 4;
+const COLUMN_BLOCK: usize = 4;
 /// Largest number of rows for which y stays in registers over all columns.
-const SMALL: usize = 2 * LANES;
+const MAX_REGISTER_ROWS: usize = 2 * LANES;
 const LANES: usize = 4;
 
 impl Panel {
@@ -28,13 +28,13 @@ impl Panel {
     pub fn new(blocks: &[&DMatrix<f64>]) -> Self {
         let rows = blocks.first().map_or(0, |b| b.nrows());
         let columns = blocks.iter().map(|b| b.ncols()).sum::<usize>();
-        let stride = if rows <= SMALL { rows.next_multiple_of(LANES) } else { rows };
-        let mut data = Vec::with_capacity(stride * columns.next_multiple_of(COLUMNS));
+        let stride = if rows <= MAX_REGISTER_ROWS { rows.next_multiple_of(LANES) } else { rows };
+        let mut data = Vec::with_capacity(stride * columns.next_multiple_of(COLUMN_BLOCK));
         for column in blocks.iter().flat_map(|block| block.column_iter()) {
             data.extend(column.iter());
             data.resize(data.len().next_multiple_of(stride.max(1)), 0.0);
         }
-        data.resize(stride * columns.next_multiple_of(COLUMNS), 0.0);
+        data.resize(stride * columns.next_multiple_of(COLUMN_BLOCK), 0.0);
         Self { rows, data, columns, stride, arch: Arch::new() }
     }
 
@@ -65,7 +65,7 @@ impl NullaryFnOnce for Product<'_> {
         let Panel { rows, data, stride, .. } = self.panel;
         match *stride {
             LANES => in_registers::<LANES>(*rows, data, self.x, self.y),
-            SMALL => in_registers::<SMALL>(*rows, data, self.x, self.y),
+            MAX_REGISTER_ROWS => in_registers::<MAX_REGISTER_ROWS>(*rows, data, self.x, self.y),
             _ => column_by_column(*rows, data, self.x, self.y),
         }
     }
@@ -88,9 +88,9 @@ fn column_by_column(rows: usize, data: &[f64], x: &[f64], y: &mut [f64]) {
     if rows == 0 {
         return;
     }
-    for (k, columns) in data.chunks_exact(COLUMNS * rows).enumerate() {
-        let factor = |c: usize| x.get(COLUMNS * k + c).copied().unwrap_or(0.0);
-        let f: [f64; COLUMNS] = [factor(0), factor(1), factor(2), factor(3)];
+    for (k, columns) in data.chunks_exact(COLUMN_BLOCK * rows).enumerate() {
+        let factor = |c: usize| x.get(COLUMN_BLOCK * k + c).copied().unwrap_or(0.0);
+        let f: [f64; COLUMN_BLOCK] = [factor(0), factor(1), factor(2), factor(3)];
         let (a, rest) = columns.split_at(rows);
         let (b, rest) = rest.split_at(rows);
         let (c, d) = rest.split_at(rows);

@@ -56,7 +56,7 @@ impl Pchip {
     }
 
     /// Value, slope and integral from the first point, at `x`.
-    pub fn at(&self, x: f64) -> [f64; 3] {
+    pub fn evaluate(&self, x: f64) -> [f64; 3] {
         let last = self.x.len() - 1;
         for (end, outside) in [(0, x <= self.x[0]), (last, x >= self.x[last])] {
             if outside {
@@ -100,13 +100,13 @@ mod tests {
     fn reproduces_lines_and_stays_within_data() {
         let p = Pchip::new(&[0.0, 1.0, 3.0], &[1.0, 3.0, 7.0]).unwrap();
         for x in [-1.0, 0.2, 1.0, 2.9, 5.0] {
-            let [v, s, i] = p.at(x);
+            let [v, s, i] = p.evaluate(x);
             assert!((v - (1.0 + 2.0 * x)).abs() < 1e-14 && (s - 2.0).abs() < 1e-14);
             assert!((i - (x + x * x)).abs() < 1e-13);
         }
         let step = Pchip::new(&[0.0, 1.0, 2.0, 3.0], &[0.0, 0.0, 1.0, 1.0]).unwrap();
         for k in 0..=300 {
-            let v = step.at(k as f64 / 100.0)[0];
+            let v = step.evaluate(k as f64 / 100.0)[0];
             assert!((0.0..=1.0).contains(&v));
         }
     }
@@ -116,7 +116,7 @@ mod tests {
         // scipy.interpolate.PchipInterpolator([0,1,2.5,4],[1,3,2,5]) at 0.5, 1.7, 3 (scipy 1.17.1).
         let p = Pchip::new(&[0.0, 1.0, 2.5, 4.0], &[1.0, 3.0, 2.0, 5.0]).unwrap();
         for (x, v) in SCIPY {
-            assert!((p.at(x)[0] - v).abs() < 1e-14, "{x}: {} {v}", p.at(x)[0]);
+            assert!((p.evaluate(x)[0] - v).abs() < 1e-14, "{x}: {} {v}", p.evaluate(x)[0]);
         }
     }
     const SCIPY: [(f64, f64); 3] =

@@ -79,7 +79,7 @@ impl Spline {
     }
 
     /// Value, first and second derivative at `x`.
-    pub fn at(&self, x: f64) -> [f64; 3] {
+    pub fn evaluate(&self, x: f64) -> [f64; 3] {
         let last = self.x.len() - 1;
         let inside = x.clamp(self.x[0], self.x[last]);
         let k = self.x.partition_point(|&p| p <= inside).clamp(1, last) - 1;
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cubic_is_reproduced() {
+    fn reproduces_a_cubic() {
         let f =
             |x: f64| [1.0 - x + 2.0 * x * x - 0.3 * x.powi(3), -1.0 + 4.0 * x - 0.9 * x * x, 4.0 - 1.8 * x];
         for n in [4, 5, 9] {
@@ -107,23 +107,23 @@ mod tests {
             let y: Vec<f64> = x.iter().map(|x| f(*x)[0]).collect();
             let spline = Spline::new(&x, &y).unwrap();
             for at in [0.0, 0.1, 0.77, x[x.len() - 1]] {
-                for (a, b) in spline.at(at).iter().zip(f(at)) {
+                for (a, b) in spline.evaluate(at).iter().zip(f(at)) {
                     assert!((a - b).abs() < 1e-11, "{n} {at}: {a} {b}");
                 }
             }
-            assert_eq!(spline.at(-1.0)[2], 0.0);
+            assert_eq!(spline.evaluate(-1.0)[2], 0.0);
         }
     }
 
     #[test]
     fn a_natural_spline_is_straight_at_the_ends() {
         let line = Spline::natural(&[1.0, 3.0], &[2.0, 6.0]).unwrap();
-        assert_eq!(line.at(2.5), [5.0, 2.0, 0.0]);
+        assert_eq!(line.evaluate(2.5), [5.0, 2.0, 0.0]);
         // By hand: the inner second derivatives are −120/27.75 and 104/27.75.
         let spline = Spline::natural(&[0.0, 1.0, 2.5, 4.0], &[1.0, 3.0, 2.0, 5.0]).unwrap();
-        assert!(spline.at(0.0)[2] == 0.0 && spline.at(4.0)[2].abs() < 1e-14);
+        assert!(spline.evaluate(0.0)[2] == 0.0 && spline.evaluate(4.0)[2].abs() < 1e-14);
         for (x, y) in [(0.5, 2.0 + 7.5 / 27.75), (3.0, 3.0 - 390.0 / 749.25)] {
-            assert!((spline.at(x)[0] - y).abs() < 1e-14, "{x}: {} {y}", spline.at(x)[0]);
+            assert!((spline.evaluate(x)[0] - y).abs() < 1e-14, "{x}: {} {y}", spline.evaluate(x)[0]);
         }
     }
 
@@ -133,7 +133,7 @@ mod tests {
         let y: Vec<f64> = x.iter().map(|x| (1.3 * x).sin()).collect();
         let spline = Spline::new(&x, &y).unwrap();
         for (x, y) in x[1..11].iter().zip(&y[1..]) {
-            let (before, at) = (spline.at(x - 1e-9), spline.at(*x));
+            let (before, at) = (spline.evaluate(x - 1e-9), spline.evaluate(*x));
             assert!((at[0] - y).abs() < 1e-14);
             assert!((before[1] - at[1]).abs() < 1e-8 && (before[2] - at[2]).abs() < 1e-8);
         }

@@ -1,14 +1,14 @@
 //! Loading: from the text of a model file to the validated model.
 
-mod family;
+mod parameter_range;
 
-use super::check;
+use super::build;
 use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::tree::{Table, Value};
 use super::file::{Diagnostic, Kind, ModelErrors, Source};
 use super::study::Studies;
-use super::{Model, SideFile};
+use super::{ExternalFile, Model};
 use crate::bearing::{BallBearing, Bearing};
 use std::ops::Range;
 
@@ -35,13 +35,13 @@ pub struct Loaded {
 impl Loaded {
     /// Span of an item's definition, such as `["bearing", "B"]`: in the model itself, else in a variant; 0..0
     /// if the file does not contain it (set by `--set`).
-    pub fn place_of(&self, path: &[&str]) -> Range<usize> {
-        place_of(&self.text, path)
+    pub fn item_span(&self, path: &[&str]) -> Range<usize> {
+        item_span(&self.text, path)
     }
 }
 
 /// Span of an item's definition in the text of a model file, see [`Loaded::place_of`].
-pub fn place_of(text: &str, path: &[&str]) -> Range<usize> {
+pub fn item_span(text: &str, path: &[&str]) -> Range<usize> {
     let root = Table::parse(text, 0).unwrap_or_default();
     let variants = match root.get("variant").map(|e| &e.node.value) {
         Some(Value::Table(variants)) => variants.entries.as_slice(),
@@ -51,15 +51,15 @@ pub fn place_of(text: &str, path: &[&str]) -> Range<usize> {
         Value::Table(table) => Some(table),
         _ => None,
     });
-    std::iter::once(&root).chain(tables).find_map(|table| place_in(table, path)).unwrap_or(0..0)
+    std::iter::once(&root).chain(tables).find_map(|table| find_item_span(table, path)).unwrap_or(0..0)
 }
 
-fn place_in(table: &Table, path: &[&str]) -> Option<Range<usize>> {
+fn find_item_span(table: &Table, path: &[&str]) -> Option<Range<usize>> {
     let (first, rest) = path.split_first()?;
     let entry = table.get(first)?;
     match (rest, &entry.node.value) {
         ([], _) => Some(entry.key_span.clone()),
-        (_, Value::Table(inner)) => place_in(inner, rest),
+        (_, Value::Table(inner)) => find_item_span(inner, rest),
         _ => None,
     }
 }
@@ -104,14 +104,14 @@ pub fn load_with(
     name: &str,
     text: impl AsRef<[u8]>,
     options: &Options,
-    files: &[SideFile],
+    files: &[ExternalFile],
 ) -> Result<Loaded, ModelErrors> {
     let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
-    let model = check::build(&root, files, &log);
-    if log.count() == 0 {
-        family::check(&root, files, &model, &log);
+    let model = build::build_model(&root, files, &log);
+    if log.error_count() == 0 {
+        parameter_range::check(&root, files, &model, &log);
     }
-    let (sources, warnings) = passed(sources, log)?;
+    let (sources, warnings) = sources_and_warnings(sources, log)?;
     Ok(Loaded { model, warnings, sources, text })
 }
 
@@ -169,18 +169,18 @@ pub fn load_bearings_with(
     name: &str,
     text: impl AsRef<[u8]>,
     options: &Options,
-    files: &[SideFile],
+    files: &[ExternalFile],
 ) -> Result<LoadedBearings, ModelErrors> {
     let Document { root, sources, log, text } = Document::read(name, text.as_ref(), options)?;
     let is_machine = ["shaft", "rotor", "station"].iter().any(|key| root.get(key).is_some());
     let (sites, name, title, studies, model);
     if is_machine {
-        let machine = check::build(&root, files, &log);
+        let machine = build::build_model(&root, files, &log);
         sites = machine.bearings.iter().map(|b| (b.name.clone(), b.bearing.clone())).collect();
         (name, title, studies) = (machine.name.clone(), machine.title.clone(), machine.studies.clone());
         model = Some(machine);
     } else {
-        (name, title, sites, studies) = check::build_bearings(&root, &log);
+        (name, title, sites, studies) = build::build_bearings(&root, &log);
         model = None;
     }
     let radial = sites.iter().any(|(_, bearing)| matches!(bearing, Bearing::RadialBall(_)));
@@ -189,7 +189,7 @@ pub fn load_bearings_with(
         Bearing::Linear(_) | Bearing::RadialBall(_) => None,
     };
     let bearings: Vec<_> = Vec::into_iter(sites).filter_map(ball).collect();
-    if bearings.is_empty() && log.count() == 0 {
+    if bearings.is_empty() && log.error_count() == 0 {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
         log.error(match radial {
             true => problem
@@ -198,7 +198,7 @@ pub fn load_bearings_with(
             false => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
         });
     }
-    let (sources, warnings) = passed(sources, log)?;
+    let (sources, warnings) = sources_and_warnings(sources, log)?;
     Ok(LoadedBearings { name, title, bearings, studies, model, warnings, sources, text })
 }
 
@@ -225,7 +225,7 @@ impl Document {
                     format!("not valid UTF-8 at byte {at}"),
                 );
                 log.error(problem.hint("a model file is TOML, saved as UTF-8"));
-                return Err(failed(sources, log));
+                return Err(model_errors(sources, log));
             }
         };
         // skip a UTF-8 byte order mark (BOM)
@@ -234,7 +234,7 @@ impl Document {
         if text.trim().is_empty() {
             let problem = Problem::new(Kind::Syntax, &(0..0), "the file is empty");
             log.error(problem.hint("start from one of models/*.toml"));
-            return Err(failed(sources, log));
+            return Err(model_errors(sources, log));
         }
         let mut root = match Table::parse(text, 0) {
             Ok(root) => root,
@@ -248,30 +248,30 @@ impl Document {
                     }
                     _ => "TOML is described at https://toml.io",
                 }));
-                return Err(failed(sources, log));
+                return Err(model_errors(sources, log));
             }
         };
         apply_variant(&mut root, options.variant.as_deref(), &log);
         for (path, value) in &options.set {
             apply_set(&mut root, path, value, &mut sources, &log);
         }
-        if log.count() > 0 {
-            return Err(failed(sources, log));
+        if log.error_count() > 0 {
+            return Err(model_errors(sources, log));
         }
         Ok(Self { root, sources, log, text: text.to_string() })
     }
 }
 
 /// Sources and warnings of a file without errors, otherwise its errors.
-fn passed(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), ModelErrors> {
-    if log.count() > 0 {
-        return Err(failed(sources, log));
+fn sources_and_warnings(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), ModelErrors> {
+    if log.error_count() > 0 {
+        return Err(model_errors(sources, log));
     }
     let warnings = sources.locate(log.into_parts().1);
     Ok((sources.into_vec(), warnings))
 }
 
-fn failed(sources: Sources, log: Log) -> ModelErrors {
+fn model_errors(sources: Sources, log: Log) -> ModelErrors {
     let diagnostics = sources.locate(log.into_parts().0);
     ModelErrors { sources: sources.into_vec(), diagnostics }
 }
@@ -279,7 +279,7 @@ fn failed(sources: Sources, log: Log) -> ModelErrors {
 /// Paths of the external data files that a model refers to, as written in it; empty if it cannot be parsed.
 ///
 /// The caller reads them, relative to the model file, and passes them to [`load_with`].
-pub fn side_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> {
+pub fn external_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> {
     let Ok(document) = Document::read("", text.as_ref(), options) else { return Vec::new() };
     let speed = document.root.get("speed").map(|e| &e.node.value);
     match speed {

@@ -1,21 +1,21 @@
 //! The machine model: immutable, in SI units, read from its file and validated.
 
-pub mod check;
+pub mod build;
+mod external_file;
 pub mod file;
 pub mod load;
-mod side_file;
+pub mod parameter_paths;
 pub mod speed_profile;
-pub mod stated;
 mod steady_study;
 pub mod study;
 
-pub use check::catalogue;
+pub use build::catalogue;
+pub use external_file::{ExternalColumn, ExternalFile};
 pub use file::{Diagnostic, Kind, ModelErrors, Source};
 pub use load::{
-    Loaded, LoadedBearings, Options, load, load_bearings, load_bearings_with, load_with, place_of,
-    side_files, variants,
+    Loaded, LoadedBearings, Options, external_files, item_span, load, load_bearings, load_bearings_with,
+    load_with, variants,
 };
-pub use side_file::{SideColumn, SideFile};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;
@@ -61,7 +61,7 @@ impl Model {
     }
 
     /// Rigid rotating inertias: discs, then the rigid rotor.
-    pub fn spinning(&self) -> impl Iterator<Item = &Disc> {
+    pub fn rotating_inertias(&self) -> impl Iterator<Item = &Disc> {
         self.discs.iter().chain(&self.rigid_rotor)
     }
 }

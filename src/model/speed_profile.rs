@@ -145,7 +145,7 @@ impl SpeedCurve {
                 }
             }
             SpeedProfile::Pulses { .. } => {
-                let [angle, speed, acceleration] = self.pulses.as_ref().map_or([0.0; 3], |s| s.at(t));
+                let [angle, speed, acceleration] = self.pulses.as_ref().map_or([0.0; 3], |s| s.evaluate(t));
                 Spin { angle, speed, acceleration }
             }
             SpeedProfile::Table { points } => {
@@ -154,7 +154,7 @@ impl SpeedCurve {
                 };
                 let (first, last) = (points[0][0], points[points.len() - 1][0]);
                 let inside = t.clamp(first, last);
-                let [speed, slope, area] = table.at(inside);
+                let [speed, slope, area] = table.evaluate(inside);
                 Spin {
                     // Constant first speed from t = 0 to the first time.
                     angle: area + speed * (t - inside) + points[0][1] * first.max(0.0),
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angle_speed_and_acceleration_belong_together() {
+    fn angle_speed_and_acceleration_are_consistent() {
         let profiles = [
             SpeedProfile::Constant { speed: 30.0, duration: 5.0 },
             SpeedProfile::Ramp { from: 5.0, to: 125.0, settle: 1.0, ramp: 2.0, hold: 2.0 },

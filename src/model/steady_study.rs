@@ -6,7 +6,7 @@ use super::study::Integrator;
 /// Sampling event of a stroboscopic Poincaré section: once per revolution of the shaft or of a cage, or per
 /// ball passage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Clock {
+pub enum SectionTrigger {
     Shaft,
     /// Cage of this bearing of the model.
     Cage {
@@ -21,7 +21,7 @@ pub enum Clock {
 
 /// A run at constant speed: transient discarded, then steady motion recorded.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Steady {
+pub struct SteadyRunSettings {
     /// Speed Ω \[rad/s\], above zero.
     pub speed: f64,
     pub integrator: Integrator,
@@ -29,12 +29,12 @@ pub struct Steady {
     pub step: f64,
     /// Cut-off frequency of modal truncation of the linear parts \[Hz\]; infinity keeps all modes.
     pub cutoff: f64,
-    pub clock: Clock,
+    pub trigger: SectionTrigger,
     /// Phase at which sections are taken \[rad\]: shaft or cage angle from +x towards +y, or for ball
     /// passages Z times the cage angle.
     pub phase: f64,
     /// Transient section periods discarded before recording.
-    pub settle: usize,
+    pub transient_periods: usize,
     /// Section periods recorded: number of points of a section.
     pub periods: usize,
 }
@@ -50,7 +50,7 @@ pub struct Plane {
 /// Orbits and Poincaré sections.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoincareStudy {
-    pub steady: Steady,
+    pub steady: SteadyRunSettings,
     pub planes: Vec<Plane>,
     /// Tolerance of period detection: difference of sections one period apart, relative to the orbit's size.
     pub tolerance: f64,
@@ -61,7 +61,7 @@ pub struct PoincareStudy {
 /// Largest Lyapunov exponent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovStudy {
-    pub steady: Steady,
+    pub steady: SteadyRunSettings,
     /// Size of the perturbation, to which it is renormalised: its largest displacement in a bearing \[m\].
     pub perturbation: f64,
 }
@@ -111,13 +111,13 @@ pub enum Continuation {
     Equilibrium,
     /// Final state of the previous value (continuation), so that a sweep stays on its branch. The sweep is
     /// split into chunks run in parallel, each starting with the last `overlap` values of the previous chunk.
-    Carried { chunks: usize, overlap: usize },
+    PreviousState { chunks: usize, overlap: usize },
 }
 
 /// Bifurcation diagram: Poincaré sections over a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BifurcationStudy {
-    pub steady: Steady,
+    pub steady: SteadyRunSettings,
     pub parameter: Parameter,
     pub channels: Vec<Probe>,
     pub tolerance: f64,

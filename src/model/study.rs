@@ -51,7 +51,7 @@ pub struct CampbellStudy {
     pub orders: Vec<f64>,
     /// Speed-dependent ball bearings: linearised at every speed, with film and ball inertia, instead of at
     /// standstill.
-    pub follow_bearings: bool,
+    pub speed_dependent_bearings: bool,
 }
 
 /// Critical speeds.
@@ -163,7 +163,7 @@ pub struct BearingStudy {
     pub moment: Option<[f64; 2]>,
     /// DOFs u_x u_y u_z θ_x θ_y constrained to zero (bearing centred and aligned); `None`: with a given force
     /// the tilts unless a moment is given, and u_z of a preloaded single row unless an axial force is given.
-    pub held: Option<[bool; 5]>,
+    pub constrained: Option<[bool; 5]>,
     /// Speed of the operating point \[rad/s\]; `None`: the highest of the speed profile.
     pub speed: Option<f64>,
     /// Average over one ball pitch of cage angles instead of using the model's cage angle.
@@ -171,7 +171,7 @@ pub struct BearingStudy {
     /// Composite roughness of ball and race √(R_q1² + R_q2²) \[m\], for the film ratio λ.
     pub roughness: f64,
     /// Direction of the sweeps of load and of displacement.
-    pub along: Along,
+    pub sweep_direction: SweepDirection,
     /// The sweeps; if none is given those of load, of speed if it has an effect, and of cage angle, over
     /// default ranges.
     pub sweeps: Vec<BearingSweep>,
@@ -183,12 +183,12 @@ impl Default for BearingStudy {
             bearings: Vec::new(),
             force: None,
             moment: None,
-            held: None,
+            constrained: None,
             speed: None,
             cage_average: false,
             // ground races of a bearing of normal precision; the roughness of the balls is negligible
             roughness: 0.1e-6,
-            along: Along::default(),
+            sweep_direction: SweepDirection::default(),
             sweeps: Vec::new(),
         }
     }
@@ -197,7 +197,7 @@ impl Default for BearingStudy {
 /// One sweep of a bearing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingSweep {
-    pub of: Swept,
+    pub variable: SweepVariable,
     /// Loads \[N, N m\], displacements \[m, rad\], speeds \[rad/s\] or cage angles \[rad\], increasing; empty means a
     /// default range for the bearing.
     pub values: Vec<f64>,
@@ -205,14 +205,14 @@ pub struct BearingSweep {
 
 /// Quantity varied in a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Swept {
+pub enum SweepVariable {
     Load,
     Displacement,
     Speed,
     CageAngle,
 }
 
-impl Swept {
+impl SweepVariable {
     /// Every kind, with the key of its values in the model file.
     pub const ALL: [(Self, &'static str); 4] = [
         (Self::Load, "loads"),
@@ -234,7 +234,7 @@ impl Swept {
 
 /// Direction of a sweep of load or displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Along {
+pub enum SweepDirection {
     /// Along the operating load, all its components in proportion; a displacement along its largest force.
     #[default]
     Load,
@@ -243,4 +243,4 @@ pub enum Along {
 }
 
 /// Names of a bearing's five degrees of freedom.
-pub const MOTIONS: [&str; 5] = ["x", "y", "z", "theta_x", "theta_y"];
+pub const DOF_NAMES: [&str; 5] = ["x", "y", "z", "theta_x", "theta_y"];

@@ -4,7 +4,7 @@ use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::bearing::life::LoadRating;
 use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
 use crate::contact::ehl::Solution;
-use crate::model::study::Swept;
+use crate::model::study::SweepVariable;
 
 /// Results of one ball bearing.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,9 +12,9 @@ pub struct BearingResult {
     pub name: String,
     pub bearing: BallBearing,
     /// Description of the operating load's source.
-    pub load_from: String,
+    pub load_source: String,
     /// Motions u_x u_y u_z θ_x θ_y with prescribed displacement.
-    pub held: [bool; 5],
+    pub prescribed: [bool; 5],
     /// Preload of the centred bearing at the operating speed.
     pub preload: PreloadState,
     /// Ratings of all rows together.
@@ -25,13 +25,13 @@ pub struct BearingResult {
     pub point: BearingPoint,
     pub sweeps: Vec<BearingSweepResult>,
     /// EHL solutions of the most heavily loaded contacts, for a bearing with the EHL contact law.
-    pub films: Vec<SolvedFilm>,
+    pub films: Vec<EhlFilm>,
     pub warnings: Vec<String>,
 }
 
 /// EHL (elastohydrodynamic) solution of one contact: pressure and film thickness.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SolvedFilm {
+pub struct EhlFilm {
     /// "inner" or "outer".
     pub race: &'static str,
     /// Load \[N\] and entrainment speed \[m/s\].
@@ -101,7 +101,7 @@ pub struct ContactState {
     pub pressure: f64,
     /// Central and minimum film thickness \[m\]; 0 where dry or unloaded.
     pub film: f64,
-    pub least_film: f64,
+    pub minimum_film: f64,
 }
 
 /// A named value of a record type, with its SI unit, for tables and files.
@@ -116,7 +116,7 @@ impl ContactState {
         ("semi_minor", "m", |c| c.semi_minor),
         ("pressure", "Pa", |c| c.pressure),
         ("film", "m", |c| c.film),
-        ("minimum_film", "m", |c| c.least_film),
+        ("minimum_film", "m", |c| c.minimum_film),
     ];
 }
 
@@ -132,7 +132,7 @@ impl BearingPoint {
         ("loaded_balls", "1", |p| p.loaded() as f64),
         ("largest_ball_load", "N", Self::largest_load),
         ("largest_pressure", "Pa", Self::largest_pressure),
-        ("minimum_film", "m", Self::least_film),
+        ("minimum_film", "m", Self::minimum_film),
         ("film_ratio", "1", |p| p.film_ratio),
         ("preload_force", "N", |p| p.preload_force),
         ("equivalent_load", "N", |p| p.life.equivalent_load),
@@ -157,8 +157,8 @@ impl BearingPoint {
     }
 
     /// Smallest film thickness of a loaded contact \[m\]; 0 without film.
-    pub fn least_film(&self) -> f64 {
-        let films = self.contacts().filter(|c| c.load > 0.0).map(|c| c.least_film);
+    pub fn minimum_film(&self) -> f64 {
+        let films = self.contacts().filter(|c| c.load > 0.0).map(|c| c.minimum_film);
         films.reduce(f64::min).unwrap_or(0.0)
     }
 
@@ -175,7 +175,7 @@ impl BearingPoint {
 /// One sweep: the varied quantity, and the bearing at every value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingSweepResult {
-    pub of: Swept,
+    pub of: SweepVariable,
     /// Name of the varied quantity, such as "load along the operating load", and its SI unit.
     pub label: String,
     pub unit: &'static str,

@@ -29,13 +29,13 @@ pub struct SignalResult {
     pub shaft: Option<ShaftSummary>,
     /// Times \[s\] and speeds \[rpm\] at some 200 instants; empty if only the mean is known.
     pub speed: [Vec<f64>; 2],
-    pub bearing: Option<RatedBearing>,
+    pub bearing: Option<BearingWithOrders>,
     pub statistics: Statistics,
     /// Amplitude spectrum of the whole record (Hann, peak).
     pub spectrum: Option<Spectrum>,
     /// Power spectral density \[unit²/Hz\].
     pub density: Option<Spectrum>,
-    pub spectrogram: Option<SpectrogramOverTime>,
+    pub spectrogram: Option<SpectrogramWithSpeed>,
     pub envelope: Option<EnvelopeResult>,
     pub kurtogram: Option<KurtogramResult>,
     /// Real cepstrum.
@@ -55,15 +55,15 @@ pub struct ShaftSummary {
     pub source: String,
     /// Speeds \[rev/s\].
     pub mean: f64,
-    pub least: f64,
-    pub most: f64,
+    pub min: f64,
+    pub max: f64,
     /// Whether the speed is constant within the tolerance: frequencies in Hz instead of orders.
     pub steady: bool,
 }
 
 /// A bearing with its characteristic orders (per shaft revolution).
 #[derive(Clone, Debug, PartialEq)]
-pub struct RatedBearing {
+pub struct BearingWithOrders {
     pub name: String,
     /// Description of the orders' source.
     pub source: String,
@@ -76,7 +76,7 @@ pub struct RatedBearing {
 
 /// Amplitudes over time and frequency, with the speed at each time if known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SpectrogramOverTime {
+pub struct SpectrogramWithSpeed {
     pub map: Spectrogram,
     /// \[rpm\]; empty if unknown.
     pub rpm: Vec<f64>,
@@ -92,7 +92,7 @@ pub struct EnvelopeResult {
     pub spectrum: Spectrum,
     pub over_orders: bool,
     /// Score of every candidate band.
-    pub compared: Option<Kurtogram>,
+    pub band_scores: Option<Kurtogram>,
     /// Lines and diagnosis if a bearing is known.
     pub lines: Option<BearingLines>,
 }
@@ -124,7 +124,7 @@ pub struct RaceResult {
     /// Radius of the raceway \[m\].
     pub radius: Option<f64>,
     /// Whether two directions were given, so that angles are known over the full circumference.
-    pub all_round: bool,
+    pub full_circumference: bool,
     pub fold: FoldedJerk,
     pub defects: Vec<RaceDefect>,
 }

@@ -10,16 +10,16 @@ use super::ridge::interpolate_peak;
 use super::spectrum::{Spectrum, decibel};
 
 /// Half-width of the peak search about an expected frequency in bins, and half the width of a line.
-const REACH: usize = 2;
+const SEARCH_HALF_WIDTH: usize = 2;
 /// Highest side band orders (shaft, cage) of the strongest family that are not attributed to another part.
-const SHAFT_TURNS: i32 = 6;
-const CAGE_TURNS: i32 = 3;
+const MAX_SHAFT_SIDE_BANDS: i32 = 6;
+const MAX_CAGE_SIDE_BANDS: i32 = 3;
 /// Highest shaft harmonic that is excluded from the bearing lines.
-const SHAFT_HARMONICS: usize = 100;
+const MAX_SHAFT_HARMONIC: usize = 100;
 
 /// Bearing defect frequencies (characteristic frequencies) at one shaft speed \[Hz\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BearingRates {
+pub struct DefectFrequencies {
     /// Shaft speed.
     pub shaft: f64,
     /// FTF, fundamental train (cage) frequency.
@@ -66,7 +66,7 @@ impl BearingPart {
     }
 
     /// Its defect frequency: repetition rate of the impulses \[Hz\].
-    pub fn rate(self, rates: &BearingRates) -> f64 {
+    pub fn defect_frequency(self, rates: &DefectFrequencies) -> f64 {
         match self {
             BearingPart::OuterRace => rates.outer,
             BearingPart::InnerRace => rates.inner,
@@ -121,7 +121,7 @@ pub struct LineFamily {
     /// Root sum of squares of its significant harmonics that are not shared.
     pub strength: f64,
     /// Whether its first or second harmonic is significant and not shared.
-    pub found: bool,
+    pub detected: bool,
 }
 
 /// All lines of a bearing, the strongest family first, and the diagnosis.
@@ -129,13 +129,13 @@ pub struct LineFamily {
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
     /// Diagnosed (damaged) part: that of the strongest detected family; `None`: no bearing line.
-    pub verdict: Option<BearingPart>,
+    pub diagnosis: Option<BearingPart>,
 }
 
 impl BearingLines {
     /// "inner race", "outer race", "ball", "cage" or "no bearing line".
-    pub fn verdict_name(&self) -> &'static str {
-        self.verdict.map_or("no bearing line", BearingPart::name)
+    pub fn diagnosis_name(&self) -> &'static str {
+        self.diagnosis.map_or("no bearing line", BearingPart::name)
     }
 
     /// One part's lines.
@@ -182,28 +182,28 @@ impl Default for LineSettings {
 /// positive, a spectrum too short or too coarse, settings out of range.
 pub fn bearing_lines(
     spectrum: &Spectrum,
-    rates: &BearingRates,
+    rates: &DefectFrequencies,
     settings: &LineSettings,
 ) -> Result<BearingLines, SignalError> {
-    let search = Search::new(spectrum, rates, settings)?;
+    let search = LineSearch::new(spectrum, rates, settings)?;
     let mut open: Vec<LineFamily> = BearingPart::ALL.map(|part| search.family(part)).into();
     let mut families: Vec<LineFamily> = Vec::new();
     // Greedy: the strongest family claims its lines, then the next strongest of those left, and so on.
     while !open.is_empty() {
         for family in &mut open {
-            search.settle(family, families.iter().filter(|f| f.found));
+            search.mark_shared_lines(family, families.iter().filter(|f| f.detected));
         }
         let strongest = (0..open.len())
             .max_by(|&a, &b| {
-                let rank = |f: &LineFamily| (f.found, f.strength);
+                let rank = |f: &LineFamily| (f.detected, f.strength);
                 let ((found_a, a), (found_b, b)) = (rank(&open[a]), rank(&open[b]));
                 found_a.cmp(&found_b).then(a.total_cmp(&b))
             })
             .expect("at least one family remains");
         families.push(open.remove(strongest));
     }
-    let verdict = families.first().filter(|f| f.found).map(|f| f.part);
-    Ok(BearingLines { families, verdict })
+    let verdict = families.first().filter(|f| f.detected).map(|f| f.part);
+    Ok(BearingLines { families, diagnosis: verdict })
 }
 
 /// Score of a band by its bearing lines: level of the best fitting part over the background \[dB\].
@@ -212,12 +212,12 @@ pub fn bearing_lines(
 /// as [`bearing_lines`].
 pub fn line_score(
     spectrum: &Spectrum,
-    rates: &BearingRates,
+    rates: &DefectFrequencies,
     settings: &LineSettings,
 ) -> Result<f64, SignalError> {
-    let search = Search::new(spectrum, rates, settings)?;
+    let search = LineSearch::new(spectrum, rates, settings)?;
     let score = |part: BearingPart| {
-        let base = search.base(part);
+        let base = search.fitted_frequency(part);
         let ratios = (1..=settings.harmonics).map(|h| {
             let (_, amplitude, background) = search.peak(h as f64 * base);
             (amplitude / background).powi(2)
@@ -227,9 +227,9 @@ pub fn line_score(
     Ok(BearingPart::ALL.map(score).into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
-struct Search<'a> {
+struct LineSearch<'a> {
     spectrum: &'a Spectrum,
-    rates: &'a BearingRates,
+    rates: &'a DefectFrequencies,
     settings: &'a LineSettings,
     /// Spacing of the bins \[Hz\].
     step: f64,
@@ -237,15 +237,15 @@ struct Search<'a> {
     background: Vec<f64>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> LineSearch<'a> {
     fn new(
         spectrum: &'a Spectrum,
-        rates: &'a BearingRates,
+        rates: &'a DefectFrequencies,
         settings: &'a LineSettings,
     ) -> Result<Self, SignalError> {
         check_record("spectrum", &spectrum.values)?;
         check_same_length("frequencies", spectrum.frequencies.len(), "spectrum", spectrum.values.len())?;
-        let BearingRates { shaft, cage, outer, inner, ball } = *rates;
+        let DefectFrequencies { shaft, cage, outer, inner, ball } = *rates;
         for (name, rate) in
             [("shaft speed", shaft), ("FTF", cage), ("BPFO", outer), ("BPFI", inner), ("BSF", ball)]
         {
@@ -269,12 +269,12 @@ impl<'a> Search<'a> {
         // Wide enough that a few lines do not raise the median, narrow enough for a sloping noise floor.
         let half_width = ((0.75 * shaft / step).round() as usize).max(24);
         let background = running_median(&spectrum.values, half_width);
-        Ok(Search { spectrum, rates, settings, step, background })
+        Ok(LineSearch { spectrum, rates, settings, step, background })
     }
 
     /// The defect frequency within ± slip that fits a part's harmonics best.
-    fn base(&self, part: BearingPart) -> f64 {
-        let expected = part.rate(self.rates);
+    fn fitted_frequency(&self, part: BearingPart) -> f64 {
+        let expected = part.defect_frequency(self.rates);
         let LineSettings { slip, harmonics, .. } = *self.settings;
         // Half a bin of the highest harmonic from trial to trial.
         let trial_step = 0.5 * self.step / harmonics as f64;
@@ -303,16 +303,16 @@ impl<'a> Search<'a> {
     fn peak(&self, frequency: f64) -> (f64, f64, f64) {
         let values = &self.spectrum.values;
         let middle = (frequency / self.step).round() as usize;
-        let first = middle.saturating_sub(REACH).max(1).min(values.len() - 1);
-        let bins = first..(middle + REACH + 1).clamp(first + 1, values.len());
+        let first = middle.saturating_sub(SEARCH_HALF_WIDTH).max(1).min(values.len() - 1);
+        let bins = first..(middle + SEARCH_HALF_WIDTH + 1).clamp(first + 1, values.len());
         let bin = bins.max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("the range contains a bin");
         let peak = interpolate_peak(&self.spectrum.frequencies, values, bin);
         (peak.position, peak.amplitude, self.background[bin])
     }
 
     fn family(&self, part: BearingPart) -> LineFamily {
-        let base = self.base(part);
-        let expected = part.rate(self.rates);
+        let base = self.fitted_frequency(part);
+        let expected = part.defect_frequency(self.rates);
         let mut lines = Vec::new();
         let end = self.spectrum.frequencies[self.spectrum.frequencies.len() - 1];
         for harmonic in 1..=self.settings.harmonics {
@@ -332,15 +332,15 @@ impl<'a> Search<'a> {
                     Some(Modulation::Cage(n)) => f64::from(n) * self.rates.cage,
                 };
                 let place = harmonic as f64 * base + shift;
-                if place <= self.step * REACH as f64 || place >= end {
+                if place <= self.step * SEARCH_HALF_WIDTH as f64 || place >= end {
                     continue;
                 }
                 let (frequency, amplitude, background) = self.peak(place);
                 let ratio = amplitude / background;
                 // Bins searched at this harmonic by the fit of the defect frequency.
                 let range = 2.0 * self.settings.slip * harmonic as f64 * expected / self.step;
-                let bins = range + (2 * REACH + 1) as f64;
-                let probability = chance_of_peak(ratio, bins);
+                let bins = range + (2 * SEARCH_HALF_WIDTH + 1) as f64;
+                let probability = false_alarm_probability(ratio, bins);
                 lines.push(BearingLine {
                     part,
                     harmonic,
@@ -356,49 +356,55 @@ impl<'a> Search<'a> {
                 });
             }
         }
-        LineFamily { part, expected, frequency: base, lines, strength: 0.0, found: false }
+        LineFamily { part, expected, frequency: base, lines, strength: 0.0, detected: false }
     }
 
     /// Marks lines shared with shaft harmonics or with families already ranked; strength of the others.
-    fn settle<'f>(&self, family: &mut LineFamily, settled: impl Iterator<Item = &'f LineFamily> + Clone) {
+    fn mark_shared_lines<'f>(
+        &self,
+        family: &mut LineFamily,
+        ranked: impl Iterator<Item = &'f LineFamily> + Clone,
+    ) {
         for line in &mut family.lines {
-            line.shared =
-                self.is_of_shaft(line.frequency) || settled.clone().any(|f| self.is_of(f, line.frequency));
+            line.shared = self.is_shaft_harmonic(line.frequency)
+                || ranked.clone().any(|f| self.belongs_to_family(f, line.frequency));
         }
         let own = family.lines.iter().filter(|l| l.modulation.is_none() && l.significant && !l.shared);
         family.strength = own.clone().map(|l| l.amplitude * l.amplitude).sum::<f64>().sqrt();
-        family.found = own.clone().any(|l| l.harmonic <= 2);
+        family.detected = own.clone().any(|l| l.harmonic <= 2);
     }
 
     /// Whether a line is a multiple of the shaft speed, with a tolerance of 0.1 % on the stated speed.
-    fn is_of_shaft(&self, frequency: f64) -> bool {
+    fn is_shaft_harmonic(&self, frequency: f64) -> bool {
         let multiple = (frequency / self.rates.shaft).round();
         let tolerance = 1.5 * self.step + 1e-3 * frequency;
         multiple >= 1.0
-            && multiple <= SHAFT_HARMONICS as f64
+            && multiple <= MAX_SHAFT_HARMONIC as f64
             && (frequency - multiple * self.rates.shaft).abs() < tolerance
     }
 
     /// Whether a line is a harmonic of another family or one of its side bands.
-    fn is_of(&self, family: &LineFamily, frequency: f64) -> bool {
+    fn belongs_to_family(&self, family: &LineFamily, frequency: f64) -> bool {
         let tolerance = 1.5 * self.step + 2e-4 * frequency;
         let harmonics = 1..=2 * self.settings.harmonics as i32;
-        harmonics.flat_map(|h| (-SHAFT_TURNS..=SHAFT_TURNS).map(move |m| (h, m))).any(|(h, m)| {
-            (-CAGE_TURNS..=CAGE_TURNS).any(|c| {
-                // Combined shaft and cage side bands are too weak to be mistaken for lines of another part.
-                let place = f64::from(h) * family.frequency
-                    + f64::from(m) * self.rates.shaft
-                    + f64::from(c) * self.rates.cage;
-                (m == 0 || c == 0) && (frequency - place).abs() < tolerance
-            })
-        })
+        harmonics.flat_map(|h| (-MAX_SHAFT_SIDE_BANDS..=MAX_SHAFT_SIDE_BANDS).map(move |m| (h, m))).any(
+            |(h, m)| {
+                (-MAX_CAGE_SIDE_BANDS..=MAX_CAGE_SIDE_BANDS).any(|c| {
+                    // Combined shaft and cage side bands are too weak to be mistaken for lines of another part.
+                    let place = f64::from(h) * family.frequency
+                        + f64::from(m) * self.rates.shaft
+                        + f64::from(c) * self.rates.cage;
+                    (m == 0 || c == 0) && (frequency - place).abs() < tolerance
+                })
+            },
+        )
     }
 }
 
 /// False-alarm probability: the maximum of n noise bins is ≥ r times the median, 1 − (1 − 2^{−r²})ⁿ.
-fn chance_of_peak(ratio: f64, bins: f64) -> f64 {
-    let one = (-LN_2 * ratio * ratio).exp();
-    -(bins * (-one).ln_1p()).exp_m1()
+fn false_alarm_probability(ratio: f64, bins: f64) -> f64 {
+    let single_bin = (-LN_2 * ratio * ratio).exp();
+    -(bins * (-single_bin).ln_1p()).exp_m1()
 }
 
 /// Running median over ± `half_width` bins, truncated at the ends; the bin at 0 Hz is excluded.

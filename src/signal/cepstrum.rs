@@ -62,7 +62,7 @@ impl Lifter {
 /// Errors: NaN, a record of zeros. Source: Randall, Mech. Syst. Signal Process. 97 (2017).
 pub fn real_cepstrum(record: &[f64], sample_rate: f64) -> Result<Cepstrum, SignalError> {
     let (_, cepstrum) = spectrum_and_cepstrum(record, sample_rate)?;
-    Ok(one_sided(&cepstrum, sample_rate))
+    Ok(positive_quefrencies(&cepstrum, sample_rate))
 }
 
 /// Power cepstrum |F⁻¹{ln |F{x}|²}|², that is 4 c²; arguments and errors as [`real_cepstrum`].
@@ -142,7 +142,7 @@ fn spectrum_and_cepstrum(
     Ok((spectrum, data.iter().map(|z| z.re / n as f64).collect()))
 }
 
-fn one_sided(cepstrum: &[f64], sample_rate: f64) -> Cepstrum {
+fn positive_quefrencies(cepstrum: &[f64], sample_rate: f64) -> Cepstrum {
     let half = cepstrum.len() / 2 + 1;
     Cepstrum {
         quefrencies: (0..half).map(|k| k as f64 / sample_rate).collect(),

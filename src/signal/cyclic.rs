@@ -22,7 +22,7 @@ pub struct CyclicCoherence {
     /// |γ(α, f)|² in 0..1, row-major: a row for each α.
     pub squared: Vec<f64>,
     /// Significance threshold: value exceeded by stationary noise with probability 1 % at one (α, f).
-    pub one_percent: f64,
+    pub one_percent_threshold: f64,
 }
 
 /// Cyclic spectral coherence by the averaged cyclic periodogram.
@@ -95,14 +95,15 @@ pub fn cyclic_coherence(
         cyclic_frequencies: cyclic_frequencies.to_vec(),
         frequencies: bin_axis(bins, length, sample_rate),
         squared: rows.concat(),
-        one_percent: 1.0 - 0.01f64.powf(1.0 / (independent_segments(&window, hop, segments) - 1.0).max(1.0)),
+        one_percent_threshold: 1.0
+            - 0.01f64.powf(1.0 / (equivalent_segments(&window, hop, segments) - 1.0).max(1.0)),
     })
 }
 
 /// Equivalent number of independent segments (without overlap): K / (1 + 2 Σ_q (1 − q/K) r_q²).
 ///
 /// r_q is the window's autocorrelation at q hops over Σw². Source: Welch (1967).
-fn independent_segments(window: &[f64], hop: usize, segments: usize) -> f64 {
+fn equivalent_segments(window: &[f64], hop: usize, segments: usize) -> f64 {
     let power: f64 = window.iter().map(|w| w * w).sum();
     let count = segments as f64;
     let mut spread = 1.0;

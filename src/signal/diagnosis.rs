@@ -4,18 +4,18 @@ use rayon::prelude::*;
 
 use super::SignalError;
 use super::bearing_lines::{
-    BearingLines, BearingPart, BearingRates, LineSettings, bearing_lines, line_score,
+    BearingLines, BearingPart, DefectFrequencies, LineSettings, bearing_lines, line_score,
 };
 use super::envelope::{analytic_signal, band_analytic_signal};
 use super::error::{check_length, check_rate, check_record, check_same_length};
-use super::filter_bank::{BankLevel, deepest};
+use super::filter_bank::{BankLevel, max_depth};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
 use super::window::WindowKind;
 
 /// Speed below which the shaft counts as at standstill \[rev/s\].
-const LEAST_SPEED: f64 = 0.1;
+const MIN_SPEED: f64 = 0.1;
 
 /// Demodulation band: how the band of the envelope is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,9 +32,9 @@ pub enum BandRule {
 
 /// Shaft rotation during the record.
 #[derive(Clone, Copy, Debug)]
-pub enum Turning<'a> {
+pub enum ShaftRotation<'a> {
     /// Constant speed: defect frequencies are in Hz.
-    Steady,
+    ConstantSpeed,
     /// Shaft angle sampled like the record \[rad\]: defect frequencies are in orders (shaft 1).
     Angle(&'a [f64]),
 }
@@ -55,7 +55,7 @@ pub struct Diagnosis {
 ///
 /// With a shaft angle the envelope, not the record, is resampled in angle: resonances stay in their band and
 /// lines do not smear; the longest segment without standstill is used. `record` \[any unit\], `sample_rate`
-/// \[Hz\], `rates` in the unit given by [`Turning`]. Bands are those of the binary-ternary filter bank, at
+/// \[Hz\], `rates` in the unit given by [`ShaftRotation`]. Bands are those of the binary-ternary filter bank, at
 /// least 2.5 times the highest defect frequency wide; the significance level is divided by the number of
 /// bands compared (Bonferroni correction).
 /// Errors: NaN; less than ten revolutions of the cage; a sampling rate below twice the highest harmonic
@@ -63,25 +63,25 @@ pub struct Diagnosis {
 pub fn diagnose(
     record: &[f64],
     sample_rate: f64,
-    turning: Turning,
-    rates: &BearingRates,
+    rotation: ShaftRotation,
+    rates: &DefectFrequencies,
     rule: BandRule,
     settings: &LineSettings,
 ) -> Result<Diagnosis, SignalError> {
     check_record("record", record)?;
     check_rate(sample_rate)?;
-    let highest = BearingPart::ALL.map(|part| part.rate(rates)).into_iter().fold(0.0, f64::max);
+    let highest = BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
     let top = settings.harmonics as f64 * highest * (1.0 + settings.slip) * 1.01;
-    let clock = Clock::new(record.len(), sample_rate, turning, top)?;
-    let fastest = clock.fastest();
+    let clock = SpectrumDomain::new(record.len(), sample_rate, rotation, top)?;
+    let fastest = clock.max_hz_per_unit();
     if sample_rate < 2.0 * top * fastest {
         let (needed, purpose) = (2.0 * top * fastest, "the highest bearing line requested");
         return Err(SignalError::RateTooLow { given: sample_rate, needed, purpose });
     }
-    clock.check_cage_turns(record.len(), rates.cage)?;
+    clock.check_cage_revolutions(record.len(), rates.cage)?;
     // A band of width B contains modulation frequencies up to B.
     let by_width = (0.5 * sample_rate / (2.5 * highest * fastest)).log2().floor();
-    let depth = (by_width.max(0.0) as usize).min(deepest(record.len()));
+    let depth = (by_width.max(0.0) as usize).min(max_depth(record.len()));
     let half = 0.5 * sample_rate;
     let kurtogram = match rule {
         BandRule::Given(..) | BandRule::Whole => None,
@@ -120,7 +120,7 @@ pub struct BandEnvelope {
 }
 
 /// Filter bank depth when the pulse rate is unknown: bands of a 128th of the sampling rate and wider.
-const PLAIN_DEPTH: usize = 6;
+const DEFAULT_DEPTH: usize = 6;
 
 /// Band by `rule` and its envelope spectrum, without bearing data.
 ///
@@ -129,14 +129,14 @@ const PLAIN_DEPTH: usize = 6;
 pub fn band_envelope(
     record: &[f64],
     sample_rate: f64,
-    turning: Turning,
+    turning: ShaftRotation,
     rule: BandRule,
     top_order: f64,
 ) -> Result<BandEnvelope, SignalError> {
     check_record("record", record)?;
     check_rate(sample_rate)?;
-    let clock = Clock::new(record.len(), sample_rate, turning, top_order)?;
-    let depth = deepest(record.len()).min(PLAIN_DEPTH);
+    let clock = SpectrumDomain::new(record.len(), sample_rate, turning, top_order)?;
+    let depth = max_depth(record.len()).min(DEFAULT_DEPTH);
     let (band, kurtogram) = match rule {
         BandRule::Given(low, high) => ((low, high), None),
         BandRule::Kurtosis | BandRule::Lines if depth > 0 => {
@@ -178,42 +178,42 @@ fn score_bank(
 }
 
 /// Domain of the envelope spectrum: time (Hz) or shaft angle (orders).
-enum Clock {
+enum SpectrumDomain {
     Time { rate: f64 },
-    Shaft { resampler: AngleResampler, longest: usize, fastest: f64 },
+    Angle { resampler: AngleResampler, longest: usize, fastest: f64 },
 }
 
-impl Clock {
-    fn new(samples: usize, rate: f64, turning: Turning, top_order: f64) -> Result<Self, SignalError> {
-        let Turning::Angle(theta) = turning else { return Ok(Clock::Time { rate }) };
+impl SpectrumDomain {
+    fn new(samples: usize, rate: f64, turning: ShaftRotation, top_order: f64) -> Result<Self, SignalError> {
+        let ShaftRotation::Angle(theta) = turning else { return Ok(SpectrumDomain::Time { rate }) };
         check_same_length("shaft angle", theta.len(), "the record", samples)?;
         let per_turn = (SAMPLES_PER_ORDER * top_order).ceil().clamp(16.0, 1e5) as usize;
-        let resampler = AngleResampler::new(theta, rate, per_turn, LEAST_SPEED)?;
+        let resampler = AngleResampler::new(theta, rate, per_turn, MIN_SPEED)?;
         let parts = resampler.parts();
         let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).expect("at least one part");
         // Averaged over whole revolutions, so that jitter of the angle does not raise the speed.
         let turns = parts[longest].times.windows(per_turn + 1).step_by(per_turn);
         let fastest = turns.map(|w| 1.0 / (w[per_turn] - w[0])).fold(0.0, f64::max);
-        Ok(Clock::Shaft { resampler, longest, fastest })
+        Ok(SpectrumDomain::Angle { resampler, longest, fastest })
     }
 
     /// Maximum Hz per unit of the defect frequencies: 1, or the highest shaft speed \[rev/s\].
-    fn fastest(&self) -> f64 {
+    fn max_hz_per_unit(&self) -> f64 {
         match self {
-            Clock::Time { .. } => 1.0,
-            Clock::Shaft { fastest, .. } => *fastest,
+            SpectrumDomain::Time { .. } => 1.0,
+            SpectrumDomain::Angle { fastest, .. } => *fastest,
         }
     }
 
     /// Error for a record too short to resolve cage side bands.
-    fn check_cage_turns(&self, samples: usize, cage: f64) -> Result<(), SignalError> {
+    fn check_cage_revolutions(&self, samples: usize, cage: f64) -> Result<(), SignalError> {
         const TURNS: f64 = 10.0;
         match self {
-            Clock::Time { rate } if cage > 0.0 => {
+            SpectrumDomain::Time { rate } if cage > 0.0 => {
                 let needed = (TURNS * rate / cage).ceil() as usize;
                 check_length("record", samples, needed, "ten revolutions of the cage, to resolve its lines")
             }
-            Clock::Shaft { resampler, longest, .. } => {
+            SpectrumDomain::Angle { resampler, longest, .. } => {
                 let given = resampler.parts()[*longest].times.len() as f64
                     / resampler.samples_per_revolution() as f64;
                 let needed = TURNS / cage;
@@ -223,15 +223,15 @@ impl Clock {
                 }
                 Ok(())
             }
-            Clock::Time { .. } => Ok(()),
+            SpectrumDomain::Time { .. } => Ok(()),
         }
     }
 
     /// Amplitude spectrum of an envelope minus its mean (Hann, peak).
     fn spectrum(&self, envelope: &[f64]) -> Result<Spectrum, SignalError> {
         let (mut values, rate) = match self {
-            Clock::Time { rate } => (envelope.to_vec(), *rate),
-            Clock::Shaft { resampler, longest, .. } => {
+            SpectrumDomain::Time { rate } => (envelope.to_vec(), *rate),
+            SpectrumDomain::Angle { resampler, longest, .. } => {
                 let mut parts = resampler.resample(&[envelope])?;
                 let channel = parts.swap_remove(*longest).swap_remove(0);
                 (channel, resampler.samples_per_revolution() as f64)

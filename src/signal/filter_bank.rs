@@ -14,7 +14,7 @@ const TERNARY_ORDER: usize = 24;
 /// Cut-off of the half-band low-pass over Nyquist; 0.25 would be the nominal band, so that filters overlap.
 const CUTOFF: f64 = 0.4;
 /// Outputs computed together; their sums stay in registers.
-const BLOCK: usize = 8;
+const OUTPUTS_PER_BLOCK: usize = 8;
 
 /// One sub-band of a record.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ pub struct BankLevel {
 }
 
 /// Maximum depth (number of halvings) with 128 samples or more per band: ⌊log₂ N⌋ − 7.
-pub fn deepest(samples: usize) -> usize {
+pub fn max_depth(samples: usize) -> usize {
     (samples.max(1).ilog2() as usize).saturating_sub(7)
 }
 
@@ -116,7 +116,7 @@ fn split(signal: &[Complex<f64>], taps: &[f64], parts: usize, part: usize) -> Ve
     let outputs = signal.len() / parts;
     // Zero padding: `lead` zeros before each phase (record zero before its start), whole blocks at its end.
     let lead = taps.len() / parts + 1;
-    let length = lead + outputs.next_multiple_of(BLOCK);
+    let length = lead + outputs.next_multiple_of(OUTPUTS_PER_BLOCK);
     let mut phases = vec![vec![Complex::ZERO; length]; parts];
     for (p, phase) in phases.iter_mut().enumerate() {
         for (m, value) in phase[lead..lead + outputs].iter_mut().enumerate() {
@@ -125,13 +125,13 @@ fn split(signal: &[Complex<f64>], taps: &[f64], parts: usize, part: usize) -> Ve
         }
     }
     let mut out = Vec::with_capacity(length);
-    for first in (0..outputs).step_by(BLOCK) {
-        let mut sums = [Complex::ZERO; BLOCK];
+    for first in (0..outputs).step_by(OUTPUTS_PER_BLOCK) {
+        let mut sums = [Complex::ZERO; OUTPUTS_PER_BLOCK];
         for (n, h) in taps.iter().enumerate() {
             // Sample Dm + D − 1 − n is number m − shift of phase p.
             let (p, shift) = (parts - 1 - n % parts, n / parts);
             let from = lead + first - shift;
-            for (sum, x) in sums.iter_mut().zip(&phases[p][from..from + BLOCK]) {
+            for (sum, x) in sums.iter_mut().zip(&phases[p][from..from + OUTPUTS_PER_BLOCK]) {
                 *sum += x * h;
             }
         }

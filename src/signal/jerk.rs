@@ -5,12 +5,12 @@ use rustfft::num_complex::Complex;
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
 
-/// A jump spans one bin on either side of its middle; the bin at distance `FLANK` is its flank, and the bins
+/// A jump spans one bin on either side of its middle; the bin at distance `FLANK_DISTANCE` is its flank, and the bins
 /// beyond, up to `REACH`, give the baseline level of that side.
-const FLANK: isize = 2;
-const REACH: isize = 6;
+const FLANK_DISTANCE: isize = 2;
+const BASELINE_DISTANCE: isize = 6;
 /// Maximum deviation of a jump's flanks from the baselines, relative to the jump's mean.
-const MOST_STRAY: f64 = 0.3;
+const MAX_FLANK_DEVIATION: f64 = 0.3;
 
 /// Jerk \[unit/s\] (derivative of acceleration) by central differences, one-sided at the ends.
 ///
@@ -79,13 +79,13 @@ pub(crate) fn find_jumps(
 ) -> Result<Vec<Jump>, SignalError> {
     check(threshold > 0.0 && threshold.is_finite(), "threshold", "a positive number", threshold)?;
     let n = profile.len() as isize;
-    let margin = if periodic { 0 } else { REACH };
-    let spikes: Vec<Spike> = (margin..n - margin).map(|k| Spike::at(profile, k)).collect();
+    let margin = if periodic { 0 } else { BASELINE_DISTANCE };
+    let spikes: Vec<Spike> = (margin..n - margin).map(|k| Spike::around(profile, k)).collect();
     let spread = 1.4826 * median(spikes.iter().map(|s| s.size.norm()).collect());
     let largest = spikes.iter().map(|s| s.size.norm()).fold(0.0, f64::max);
     // Exclude rounding errors of the largest values.
     let least = (threshold * spread).max(1e-9 * largest);
-    let stands_out = |spike: &Spike| spike.size.norm() > least && spike.flanks < MOST_STRAY;
+    let stands_out = |spike: &Spike| spike.size.norm() > least && spike.flanks < MAX_FLANK_DEVIATION;
     let count = spikes.len() as isize;
     let place_of =
         |i: isize| if periodic { Some(i.rem_euclid(count)) } else { (0..count).contains(&i).then_some(i) };
@@ -99,7 +99,7 @@ pub(crate) fn find_jumps(
             })
         };
         stands_out(&spikes[*i as usize])
-            && !(1..=FLANK + 1).any(|d| beaten_by(i - d, true) || beaten_by(i + d, false))
+            && !(1..=FLANK_DISTANCE + 1).any(|d| beaten_by(i - d, true) || beaten_by(i + d, false))
     };
     let jump = |i: isize| {
         let spike = &spikes[i as usize];
@@ -118,10 +118,10 @@ struct Spike {
 }
 
 impl Spike {
-    fn at(profile: &[Complex<f64>], middle: isize) -> Self {
+    fn around(profile: &[Complex<f64>], middle: isize) -> Self {
         let bin = |k: isize| profile[(middle + k).rem_euclid(profile.len() as isize) as usize];
         let level = |sign: isize| {
-            let values: Vec<_> = (FLANK + 1..=REACH).map(|k| bin(sign * k)).collect();
+            let values: Vec<_> = (FLANK_DISTANCE + 1..=BASELINE_DISTANCE).map(|k| bin(sign * k)).collect();
             let re = median(values.iter().map(|v| v.re).collect());
             Complex::new(re, median(values.iter().map(|v| v.im).collect()))
         };
@@ -130,7 +130,7 @@ impl Spike {
         let above = [bin(-1) - left, bin(0) - 0.5 * (left + right), bin(1) - right];
         let size: Complex<f64> = above.iter().sum();
         let power = size.norm_sqr();
-        let stray = (bin(-FLANK) - left).norm() + (bin(FLANK) - right).norm();
+        let stray = (bin(-FLANK_DISTANCE) - left).norm() + (bin(FLANK_DISTANCE) - right).norm();
         Spike {
             size,
             shift: if power > 0.0 { ((above[2] - above[0]) * size.conj()).re / power } else { 0.0 },

@@ -51,13 +51,13 @@ impl Kurtogram {
 ///
 /// 0 for Gaussian noise, −1 for a tone, large for impulsive bands; the whole record (level 0) is real and has
 /// −3 in place of −2. A band without any signal has 0. `record` \[any unit\], `sample_rate` \[Hz\], `depth`
-/// halvings (see [`super::filter_bank::deepest`]); a band must be wider than the repetition rate of the
+/// halvings (see [`super::filter_bank::max_depth`]); a band must be wider than the repetition rate of the
 /// pulses to resolve them.
 /// Errors: NaN, record too short for the depth. Source: Antoni, Mech. Syst. Signal Process. 21 (2007).
 pub fn fast_kurtogram(record: &[f64], sample_rate: f64, depth: usize) -> Result<Kurtogram, SignalError> {
     let bands = filter_bank(record, sample_rate, depth, |band| envelope_kurtosis(band.signal))?;
     let whole: Vec<Complex<f64>> = record.iter().map(|x| Complex::from(*x)).collect();
-    Ok(with_whole(envelope_kurtosis(&whole) - 1.0, bands, sample_rate))
+    Ok(prepend_full_band(envelope_kurtosis(&whole) - 1.0, bands, sample_rate))
 }
 
 /// The filter bank of [`fast_kurtogram`] with another score, such as the level of bearing lines.
@@ -73,10 +73,10 @@ pub fn scored_bands(
     let bands = filter_bank(record, sample_rate, depth, &value)?;
     let whole = super::envelope::analytic_signal(record)?;
     let whole = value(SubBand { low: 0.0, high: 0.5 * sample_rate, signal: &whole, rate: sample_rate });
-    Ok(with_whole(whole, bands, sample_rate))
+    Ok(prepend_full_band(whole, bands, sample_rate))
 }
 
-fn with_whole(value: f64, bands: Vec<BankLevel>, sample_rate: f64) -> Kurtogram {
+fn prepend_full_band(value: f64, bands: Vec<BankLevel>, sample_rate: f64) -> Kurtogram {
     let mut levels = vec![BankLevel { level: 0.0, values: vec![value] }];
     levels.extend(bands);
     Kurtogram { levels, max_frequency: 0.5 * sample_rate }
@@ -113,7 +113,7 @@ pub fn spectral_kurtosis(record: &[f64], sample_rate: f64, welch: &Welch) -> Res
     for segment in 0..segments {
         let samples = &record[segment * hop..segment * hop + welch.segment];
         let mean = if welch.remove_mean { samples.iter().sum::<f64>() / samples.len() as f64 } else { 0.0 };
-        for (k, x) in transform.run(samples, mean).iter().enumerate() {
+        for (k, x) in transform.transform(samples, mean).iter().enumerate() {
             let power = x.norm_sqr();
             square[k] += power;
             fourth[k] += power * power;
@@ -143,5 +143,5 @@ pub fn depth_for_width(samples: usize, sample_rate: f64, width: f64) -> Result<u
     )?;
     check_length("record", samples, 256, "a filter bank")?;
     let by_width = (0.5 * sample_rate / width).log2().floor() as usize;
-    Ok(by_width.min(super::filter_bank::deepest(samples)).max(1))
+    Ok(by_width.min(super::filter_bank::max_depth(samples)).max(1))
 }

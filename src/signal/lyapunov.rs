@@ -4,11 +4,11 @@ use super::SignalError;
 use super::error::{check_length, check_record, check_same_length};
 
 /// Maximum number of batches for the standard error.
-const BATCHES: usize = 20;
+const MAX_BATCHES: usize = 20;
 
 /// Largest Lyapunov exponent with its standard error and convergence history.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exponent {
+pub struct LyapunovExponent {
     /// λ \[1/s\].
     pub value: f64,
     /// Standard error of λ by batch means \[1/s\].
@@ -27,7 +27,7 @@ pub struct Exponent {
 /// correlation over less than a batch; with fewer than four intervals it is NaN.
 /// Source: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980).
 /// Errors: NaN (a perturbation that vanished), unequal lengths, no interval.
-pub fn exponent(log_growth: &[f64], intervals: &[f64]) -> Result<Exponent, SignalError> {
+pub fn lyapunov_exponent(log_growth: &[f64], intervals: &[f64]) -> Result<LyapunovExponent, SignalError> {
     check_record("growth", log_growth)?;
     check_record("intervals", intervals)?;
     check_same_length("intervals", intervals.len(), "growth", log_growth.len())?;
@@ -42,7 +42,7 @@ pub fn exponent(log_growth: &[f64], intervals: &[f64]) -> Result<Exponent, Signa
     }
     let value = sum / time;
     let n = log_growth.len();
-    let batches = BATCHES.min(n / 2);
+    let batches = MAX_BATCHES.min(n / 2);
     let rate = |b: usize| {
         let range = b * n / batches..(b + 1) * n / batches;
         log_growth[range.clone()].iter().sum::<f64>() / intervals[range].iter().sum::<f64>()
@@ -53,5 +53,5 @@ pub fn exponent(log_growth: &[f64], intervals: &[f64]) -> Result<Exponent, Signa
         let spread: f64 = (0..batches).map(|b| (rate(b) - value).powi(2)).sum();
         (spread / (batches * (batches - 1)) as f64).sqrt()
     };
-    Ok(Exponent { value, standard_error, times, history })
+    Ok(LyapunovExponent { value, standard_error, times, history })
 }

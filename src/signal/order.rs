@@ -8,7 +8,7 @@ use super::SignalError;
 use super::error::check;
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER, Skipped, speed_rpm};
 use super::segment::{Level, SegmentTransform};
-use super::stft::sample_at;
+use super::stft::interpolate_at;
 use super::window::WindowKind;
 use crate::linalg::fft_length;
 
@@ -24,7 +24,7 @@ pub struct OrderSettings {
     pub window: WindowKind,
     pub level: Level,
     /// Speed \[rev/s\] below which the shaft counts as at standstill.
-    pub least_speed: f64,
+    pub min_speed: f64,
 }
 
 impl OrderSettings {
@@ -36,7 +36,7 @@ impl OrderSettings {
             overlap: 0.75,
             window: WindowKind::Hann,
             level: Level::Peak,
-            least_speed: 0.05,
+            min_speed: 0.05,
         }
     }
 }
@@ -110,7 +110,7 @@ impl OrderTracker {
         )?;
         check((0.0..1.0).contains(&overlap), "overlap", "a fraction from 0 to below 1", overlap)?;
         let per_revolution = fft_length(((SAMPLES_PER_ORDER * max_order).ceil() as usize).max(4), 2);
-        let resampler = AngleResampler::new(theta, sample_rate, per_revolution, settings.least_speed)?;
+        let resampler = AngleResampler::new(theta, sample_rate, per_revolution, settings.min_speed)?;
         let length = (per_revolution as f64 / resolution).round() as usize;
         let hop = ((length as f64 * (1.0 - overlap)).round() as usize).max(1);
         let (mut windows, mut times, mut rpm) = (Vec::new(), Vec::new(), Vec::new());
@@ -125,7 +125,7 @@ impl OrderTracker {
             while first + length <= part.times.len() {
                 let centre = first as f64 + length as f64 / 2.0;
                 windows.push((index, first));
-                times.push(sample_at(&part.times, centre));
+                times.push(interpolate_at(&part.times, centre));
                 rpm.push(speed_rpm(part, centre, per_revolution));
                 first += hop;
             }

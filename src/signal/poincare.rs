@@ -4,11 +4,11 @@ use super::SignalError;
 use super::error::{check, check_length, check_record, check_same_length};
 
 /// Points of the interpolating polynomial.
-const POINTS: usize = 6;
+const INTERPOLATION_POINTS: usize = 6;
 
 /// Stroboscopic sampling instants at which a phase passes `start`, `start + period`, `start + 2 period`, ...
 #[derive(Clone, Debug, PartialEq)]
-pub struct Strobe {
+pub struct StroboscopicSampling {
     /// Fractional sample index of every instant.
     pub positions: Vec<f64>,
     /// Number of the first passage: the phase there is start + first · period.
@@ -16,7 +16,7 @@ pub struct Strobe {
     length: usize,
 }
 
-impl Strobe {
+impl StroboscopicSampling {
     /// Finds the instants in a phase sampled evenly in time, increasing throughout.
     ///
     /// `phase` (N) \[rad or any unit\], `start` and `period` in its unit. Instants up to 1e-9 of a sample
@@ -24,7 +24,7 @@ impl Strobe {
     /// Errors: NaN, fewer than six samples, a phase that does not increase, a period that is not positive.
     pub fn new(phase: &[f64], start: f64, period: f64) -> Result<Self, SignalError> {
         check_record("phase", phase)?;
-        check_length("phase", phase.len(), POINTS, "a section")?;
+        check_length("phase", phase.len(), INTERPOLATION_POINTS, "a section")?;
         check(period > 0.0 && period.is_finite(), "section period", "a positive number", period)?;
         check(start.is_finite(), "section phase", "a finite number", start)?;
         if let Some(k) = phase.windows(2).position(|p| p[1] <= p[0]) {
@@ -76,15 +76,16 @@ impl Strobe {
 
 /// Lagrange interpolation through the six samples around `at`; exact at a sample.
 fn interpolate(record: &[f64], at: f64) -> f64 {
-    let lowest = (at.floor() as isize - POINTS as isize / 2 + 1).clamp(0, (record.len() - POINTS) as isize);
-    let samples = &record[lowest as usize..lowest as usize + POINTS];
+    let lowest = (at.floor() as isize - INTERPOLATION_POINTS as isize / 2 + 1)
+        .clamp(0, (record.len() - INTERPOLATION_POINTS) as isize);
+    let samples = &record[lowest as usize..lowest as usize + INTERPOLATION_POINTS];
     let x = at - lowest as f64;
     let near = x.round();
     if x == near {
-        return samples[(near as usize).min(POINTS - 1)];
+        return samples[(near as usize).min(INTERPOLATION_POINTS - 1)];
     }
     // Barycentric form on the nodes 0..5: weights (−1)ᵏ C(5, k).
-    const WEIGHTS: [f64; POINTS] = [1.0, -5.0, 10.0, -10.0, 5.0, -1.0];
+    const WEIGHTS: [f64; INTERPOLATION_POINTS] = [1.0, -5.0, 10.0, -10.0, 5.0, -1.0];
     let (mut above, mut below) = (0.0, 0.0);
     for (k, (weight, value)) in WEIGHTS.iter().zip(samples).enumerate() {
         let share = weight / (x - k as f64);
@@ -112,7 +113,7 @@ pub struct Cluster {
 /// centres. A period-k motion gives k clusters; a densely sampled closed curve or chaotic attractor gives
 /// few.
 /// Errors: NaN, unequal lengths, not one reach per channel.
-pub fn clusters(channels: &[&[f64]], reach: &[f64]) -> Result<Vec<Cluster>, SignalError> {
+pub fn cluster_points(channels: &[&[f64]], reach: &[f64]) -> Result<Vec<Cluster>, SignalError> {
     check_same_length("reach", reach.len(), "the list of channels", channels.len())?;
     let Some(leading) = channels.first() else { return Ok(Vec::new()) };
     for channel in channels {
@@ -123,7 +124,7 @@ pub fn clusters(channels: &[&[f64]], reach: &[f64]) -> Result<Vec<Cluster>, Sign
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| leading[a].total_cmp(&leading[b]));
     let mut group: Vec<usize> = (0..n).collect();
-    fn root(group: &mut [usize], mut k: usize) -> usize {
+    fn cluster_root(group: &mut [usize], mut k: usize) -> usize {
         while group[k] != k {
             group[k] = group[group[k]];
             k = group[k];
@@ -133,14 +134,14 @@ pub fn clusters(channels: &[&[f64]], reach: &[f64]) -> Result<Vec<Cluster>, Sign
     for (i, &a) in order.iter().enumerate() {
         for &b in order[i + 1..].iter().take_while(|&&b| leading[b] - leading[a] <= reach[0]) {
             if channels.iter().zip(reach).all(|(c, r)| (c[a] - c[b]).abs() <= *r) {
-                let (a, b) = (root(&mut group, a), root(&mut group, b));
+                let (a, b) = (cluster_root(&mut group, a), cluster_root(&mut group, b));
                 group[a.max(b)] = a.min(b);
             }
         }
     }
     let mut members = vec![Vec::new(); n];
     for k in 0..n {
-        members[root(&mut group, k)].push(k);
+        members[cluster_root(&mut group, k)].push(k);
     }
     let describe = |members: &[usize]| {
         let mean = |c: &&[f64]| members.iter().map(|&k| c[k]).sum::<f64>() / members.len() as f64;

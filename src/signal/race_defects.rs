@@ -141,14 +141,14 @@ pub fn race_defects(
 ) -> Result<Vec<RaceDefect>, SignalError> {
     let fold = fold_jerk(x, y, sample_rate, passage)?;
     let spacing = TAU / passage.balls as f64;
-    let mut defects: Vec<RaceDefect> = pairs(&fold)
+    let mut defects: Vec<RaceDefect> = pair_jumps(&fold)
         .into_iter()
         .map(|(entry, exit)| {
             let ((begin, first), (end, second)) = (fold.jumps[entry], fold.jumps[exit]);
             let width = (end - begin).rem_euclid(spacing);
             let (turns, kind) = match y {
                 Some(_) => place_and_kind(begin, width, first + second, passage.balls),
-                None => (0, kind_of(first.re + second.re)),
+                None => (0, defect_kind(first.re + second.re)),
             };
             RaceDefect {
                 angle: begin + turns as f64 * spacing,
@@ -165,7 +165,7 @@ pub fn race_defects(
     Ok(defects)
 }
 
-fn kind_of(outward: f64) -> DefectKind {
+fn defect_kind(outward: f64) -> DefectKind {
     if outward > 0.0 { DefectKind::Bump } else { DefectKind::Dent }
 }
 
@@ -187,13 +187,13 @@ fn place_and_kind(begin: f64, width: f64, kinks: Complex<f64>, balls: usize) -> 
 ///
 /// Greedy, in order of the returned fraction: between the jumps of one defect the jerk returns by about their
 /// sum, between two adjacent defects of one kind it does not.
-fn pairs(fold: &FoldedJerk) -> Vec<(usize, usize)> {
+fn pair_jumps(fold: &FoldedJerk) -> Vec<(usize, usize)> {
     let count = fold.jumps.len();
     if count < 2 {
         return Vec::new();
     }
     // Fraction of two jumps that the smooth profile between them reverses, 0..1 or more.
-    let undone = |i: usize| {
+    let reversed_fraction = |i: usize| {
         let ((from, first), (to, second)) = (fold.jumps[i], fold.jumps[(i + 1) % count]);
         let total = first + second;
         let same_way = (first * second.conj()).re > 0.5 * first.norm() * second.norm();
@@ -201,9 +201,9 @@ fn pairs(fold: &FoldedJerk) -> Vec<(usize, usize)> {
         {
             return 0.0;
         }
-        -(fold.smooth_between(from, to) * total.conj()).re / total.norm_sqr()
+        -(fold.smooth_change_between(from, to) * total.conj()).re / total.norm_sqr()
     };
-    let strength: Vec<f64> = (0..count).map(undone).collect();
+    let strength: Vec<f64> = (0..count).map(reversed_fraction).collect();
     let mut order: Vec<usize> = (0..count).filter(|i| strength[*i] > 0.5).collect();
     order.sort_by(|a, b| strength[*b].min(1.0).total_cmp(&strength[*a].min(1.0)).then(a.cmp(b)));
     let mut taken = vec![false; count];
@@ -226,7 +226,7 @@ impl FoldedJerk {
 
     /// Change of the jerk between two angles; bins of the jumps at its ends are set to the mean of the
     /// others.
-    fn smooth_between(&self, from: f64, to: f64) -> Complex<f64> {
+    fn smooth_change_between(&self, from: f64, to: f64) -> Complex<f64> {
         let bins = self.changes.len();
         let step = self.angles[1];
         let length = ((to - from).rem_euclid(self.spacing()) / step).round() as usize;

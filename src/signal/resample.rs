@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
-use super::stft::sample_at;
+use super::stft::interpolate_at;
 use crate::linalg::spline::Spline;
 
 /// Zero crossings of the interpolating sinc on each side.
@@ -286,7 +286,7 @@ pub fn to_uniform_time(time: &[f64], record: &[f64], sample_rate: f64) -> Result
         return Err(SignalError::NonUniform { index, expected, given: time[index + 1] - time[index] });
     };
     let count = ((time[n - 1] - time[0]) * sample_rate * (1.0 + 1e-12)).floor() as usize + 1;
-    Ok((0..count).map(|k| spline.at(time[0] + k as f64 / sample_rate)[0]).collect())
+    Ok((0..count).map(|k| spline.evaluate(time[0] + k as f64 / sample_rate)[0]).collect())
 }
 
 /// Speed \[rpm\] at the centre of a stretch of outputs, over the revolution (or what there is) about it.
@@ -294,6 +294,6 @@ pub(crate) fn speed_rpm(part: &AnglePart, centre: f64, samples_per_revolution: u
     let last = (part.times.len() - 1) as f64;
     let half = 0.5 * samples_per_revolution as f64;
     let (from, to) = ((centre - half).max(0.0), (centre + half).min(last));
-    let seconds = sample_at(&part.times, to) - sample_at(&part.times, from);
+    let seconds = interpolate_at(&part.times, to) - interpolate_at(&part.times, from);
     60.0 * (to - from) / (samples_per_revolution as f64 * seconds)
 }

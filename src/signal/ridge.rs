@@ -60,7 +60,7 @@ pub fn find_peaks(axis: &[f64], amplitude: &[f64], threshold: f64) -> Result<Vec
 /// `axis` (bins) uniform, `amplitude` (frames × bins) row-major, `line` (frames) in the axis' unit. A maximum
 /// at the edge of the search band counts only if it is a local maximum of the row.
 /// Errors: NaN, sizes that do not match.
-pub fn follow_line(
+pub fn trace_line(
     axis: &[f64],
     amplitude: &[f64],
     line: &[f64],
@@ -71,10 +71,10 @@ pub fn follow_line(
     check(half_width > 0.0, "half width", "a positive width", half_width)?;
     check_same_length("amplitude", amplitude.len(), "line times axis", line.len() * axis.len())?;
     let rows = amplitude.chunks_exact(axis.len());
-    Ok(rows.zip(line).map(|(row, &centre)| highest_near(axis, row, centre, half_width)).collect())
+    Ok(rows.zip(line).map(|(row, &centre)| peak_near(axis, row, centre, half_width)).collect())
 }
 
-fn highest_near(axis: &[f64], row: &[f64], centre: f64, half_width: f64) -> Option<Peak> {
+fn peak_near(axis: &[f64], row: &[f64], centre: f64, half_width: f64) -> Option<Peak> {
     let first = axis.partition_point(|&f| f < centre - half_width);
     let end = axis.partition_point(|&f| f <= centre + half_width);
     let bin = (first..end).max_by(|&a, &b| row[a].total_cmp(&row[b]))?;

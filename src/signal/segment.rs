@@ -62,7 +62,7 @@ impl SegmentTransform {
     }
 
     /// X_k = Σ_n w_n (x_n − offset) e^{−2πjkn/N_fft}; `segment` has [`Self::length`] samples.
-    pub fn run(&mut self, segment: &[f64], offset: f64) -> &[Complex<f64>] {
+    pub fn transform(&mut self, segment: &[f64], offset: f64) -> &[Complex<f64>] {
         let length = self.window.len();
         for ((value, x), w) in self.input[..length].iter_mut().zip(segment).zip(&self.window) {
             *value = w * (x - offset);
@@ -85,7 +85,7 @@ impl SegmentTransform {
             Level::Rms => 2.0_f64.sqrt() / sum,
         };
         let length = self.fft_length();
-        for (k, (a, x)) in out.iter_mut().zip(self.run(segment, 0.0)).enumerate() {
+        for (k, (a, x)) in out.iter_mut().zip(self.transform(segment, 0.0)).enumerate() {
             let scale = if has_mirror(k, length) { both } else { 1.0 / sum };
             *a = scale * x.norm();
         }

@@ -156,14 +156,14 @@ pub(crate) fn densities(
     for segment in 0..segments {
         let range = segment * hop..segment * hop + length;
         let (sx, sy) = (&x[range.clone()], &y[range]);
-        first.copy_from_slice(transform.run(sx, offset(sx)));
+        first.copy_from_slice(transform.transform(sx, offset(sx)));
         for (sum, a) in xx.iter_mut().zip(&first) {
             *sum += a.norm_sqr();
         }
         if same {
             continue;
         }
-        let second = transform.run(sy, offset(sy));
+        let second = transform.transform(sy, offset(sy));
         for (k, (a, b)) in first.iter().zip(second).enumerate() {
             yy[k] += b.norm_sqr();
             xy[k] += a.conj() * b;

@@ -59,12 +59,12 @@ impl Spectrogram {
         check_rate(sample_rate)?;
         let last = self.times.last().map_or(0, |t| (t * sample_rate).ceil() as usize);
         check_length("speed", speed.len(), last, "the last frame's centre")?;
-        Ok(self.times.iter().map(|t| sample_at(speed, t * sample_rate)).collect())
+        Ok(self.times.iter().map(|t| interpolate_at(speed, t * sample_rate)).collect())
     }
 }
 
 /// Linear interpolation at a fractional index, constant beyond the ends; `values` is not empty.
-pub(crate) fn sample_at(values: &[f64], position: f64) -> f64 {
+pub(crate) fn interpolate_at(values: &[f64], position: f64) -> f64 {
     let position = position.clamp(0.0, (values.len() - 1) as f64);
     let low = position as usize;
     let high = (low + 1).min(values.len() - 1);

@@ -139,7 +139,7 @@ impl PulseTrain {
             return Err(SignalError::TooShort { name: "record", needed: from + 2, given: samples, purpose });
         }
         let turns = Pchip::new(&self.times, &self.revolutions).expect("the times of a train increase");
-        let angle = (from..end).map(|n| std::f64::consts::TAU * turns.at(n as f64 / sample_rate)[0]);
+        let angle = (from..end).map(|n| std::f64::consts::TAU * turns.evaluate(n as f64 / sample_rate)[0]);
         Ok((angle.collect(), from))
     }
 }

@@ -1,6 +1,6 @@
 //! Single ball bearings: operating point, sweeps, contacts, film, rating life, characteristic frequencies.
 
-use super::{Machine, solved_film};
+use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::bearing::life::{
@@ -10,15 +10,15 @@ use crate::bearing::life::{
 use crate::bearing::{Arrangement, BallBearing, BallLoad, Bearing, Preload, PreloadState};
 use crate::contact::{BallContacts, ContactLaw, EllipticContact, Race};
 use crate::error::Error;
-use crate::model::study::{Along, BearingStudy, MOTIONS, Swept};
+use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState};
 
 /// Points of a sweep over a default range.
-const POINTS: usize = 41;
+const SWEEP_POINTS: usize = 41;
 /// Default speed parameter n·d_m (speed times pitch diameter) \[mm/min\]: half the limit for grease.
-const MEAN_SPEED: f64 = 2.5e5;
+const DEFAULT_NDM: f64 = 2.5e5;
 /// Contact stress of the static load rating \[Pa\] (ISO 76): permanent dent of 1e-4 of the ball diameter.
-const STATIC_LIMIT: f64 = 4.2e9;
+const STATIC_CONTACT_STRESS: f64 = 4.2e9;
 
 impl Machine {
     /// Every requested ball bearing, under its load in the machine or the given load.
@@ -37,22 +37,23 @@ impl Machine {
             study.speed = None;
         }
         if study.force.is_some() || study.moment.is_some() {
-            return bearings_alone(&balls, &study);
+            return single_bearings(&balls, &study);
         }
-        let cage = treatment(&study);
-        let found = equilibrium(&self.model, &self.assembly, speed, cage, Some(&self.base.q))?;
+        let cage = cage_treatment(&study);
+        let found =
+            equilibrium(&self.model, &self.assembly, speed, cage, Some(&self.standstill_equilibrium.q))?;
         let one = |(name, ball): &(String, BallBearing)| {
             let state = found.bearings.iter().find(|b| b.name == *name);
             let load = state.map_or([0.0; 5], |b| std::array::from_fn(|k| -b.force[k]));
             let words = format!("static equilibrium of the machine at {:.0} rpm", speed * TO_RPM);
             // In the machine, axial position and tilt of the shaft are prescribed in all sweeps.
-            let keeps = study.held.unwrap_or([false, false, true, true, true]);
+            let is_prescribed = study.constrained.unwrap_or([false, false, true, true, true]);
             let place = state.map_or([0.0; 6], |b| b.displacement);
-            let held = std::array::from_fn(|k| keeps[k].then_some(place[k]));
-            let operating = Operating { load, held, words };
-            Work::new(name, ball, &study).study(operating)
+            let held = std::array::from_fn(|k| is_prescribed[k].then_some(place[k]));
+            let operating = OperatingPoint { load, prescribed: held, load_source: words };
+            SingleBearingStudy::new(name, ball, &study).study(operating)
         };
-        balls.iter().filter(|(name, _)| is_asked(&study, name)).map(one).collect()
+        balls.iter().filter(|(name, _)| is_requested(&study, name)).map(one).collect()
     }
 }
 
@@ -60,38 +61,38 @@ impl Machine {
 ///
 /// # Errors
 /// No equilibrium of a bearing at its operating point.
-pub fn bearings_alone(
+pub fn single_bearings(
     bearings: &[(String, BallBearing)],
     study: &BearingStudy,
 ) -> Result<Vec<BearingResult>, Error> {
     let one = |(name, ball): &(String, BallBearing)| {
-        let work = Work::new(name, ball, study);
+        let work = SingleBearingStudy::new(name, ball, study);
         let operating = work.operating();
         work.study(operating)
     };
-    bearings.iter().filter(|(name, _)| is_asked(study, name)).map(one).collect()
+    bearings.iter().filter(|(name, _)| is_requested(study, name)).map(one).collect()
 }
 
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
-fn is_asked(study: &BearingStudy, name: &String) -> bool {
+fn is_requested(study: &BearingStudy, name: &String) -> bool {
     study.bearings.is_empty() || study.bearings.contains(name)
 }
 
-fn treatment(study: &BearingStudy) -> CageTreatment {
-    if study.cage_average { CageTreatment::Averaged } else { CageTreatment::AsPlaced }
+fn cage_treatment(study: &BearingStudy) -> CageTreatment {
+    if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle }
 }
 
 /// Operating point: load and prescribed displacements.
-struct Operating {
+struct OperatingPoint {
     load: [f64; 5],
-    held: [Option<f64>; 5],
+    prescribed: [Option<f64>; 5],
     /// Description of the load's source.
-    words: String,
+    load_source: String,
 }
 
 /// Study of one bearing.
-struct Work<'a> {
+struct SingleBearingStudy<'a> {
     name: &'a str,
     bearing: &'a BallBearing,
     study: &'a BearingStudy,
@@ -101,21 +102,21 @@ struct Work<'a> {
     speed: f64,
 }
 
-impl<'a> Work<'a> {
+impl<'a> SingleBearingStudy<'a> {
     fn new(name: &'a str, bearing: &'a BallBearing, study: &'a BearingStudy) -> Self {
-        let mean = MEAN_SPEED / (1e3 * bearing.geometry.pitch_diameter);
+        let mean = DEFAULT_NDM / (1e3 * bearing.geometry.pitch_diameter);
         Self {
             name,
             bearing,
             study,
             solver: BearingSolver::new(name, bearing),
-            contacts: BallContacts::new(bearing.hertz(), filmed(bearing)),
-            speed: study.speed.unwrap_or(two_digits(mean) / TO_RPM),
+            contacts: BallContacts::new(bearing.hertz(), film_law(bearing)),
+            speed: study.speed.unwrap_or(round_to_two_digits(mean) / TO_RPM),
         }
     }
 
     /// Load and prescribed displacements of a bearing without a machine.
-    fn operating(&self) -> Operating {
+    fn operating(&self) -> OperatingPoint {
         let g = &self.bearing.geometry;
         let single = self.bearing.duplex.is_none();
         let preloaded = single && self.bearing.preload != Preload::None;
@@ -139,12 +140,12 @@ impl<'a> Work<'a> {
         let default = [false, false, preloaded && force[2] == 0.0, tilts, tilts];
         let [m_x, m_y] = self.study.moment.unwrap_or_default();
         let [x, y, z] = force;
-        let held = self.study.held.unwrap_or(default).map(|held| held.then_some(0.0));
-        Operating { load: [x, y, z, m_x, m_y], held, words }
+        let held = self.study.constrained.unwrap_or(default).map(|held| held.then_some(0.0));
+        OperatingPoint { load: [x, y, z, m_x, m_y], prescribed: held, load_source: words }
     }
 
     /// Number of rows that carry thrust in the same direction; `None` for opposed rows.
-    fn alike_rows(&self) -> Option<usize> {
+    fn tandem_rows(&self) -> Option<usize> {
         match self.bearing.duplex.map(|pair| pair.arrangement) {
             None => Some(1),
             Some(Arrangement::Tandem) => Some(2),
@@ -159,7 +160,7 @@ impl<'a> Work<'a> {
         let service = &self.bearing.service;
         LoadRating {
             dynamic: service.dynamic_rating.unwrap_or(found.dynamic),
-            stationary: service.static_rating.unwrap_or(found.stationary),
+            static_rating: service.static_rating.unwrap_or(found.static_rating),
             fatigue: service.fatigue_limit.unwrap_or(found.fatigue),
         }
     }
@@ -171,7 +172,7 @@ impl<'a> Work<'a> {
         let [x, y, z, ..] = state.load;
         let speed = state.condition.speed.abs();
         let equivalent_load =
-            self.alike_rows().map_or(f64::NAN, |rows| equivalent_load(g, rows, x.hypot(y), z));
+            self.tandem_rows().map_or(f64::NAN, |rows| equivalent_load(g, rows, x.hypot(y), z));
         let rating = self.rating();
         let rows = balls.iter().map(|ball| ball.row + 1).max().unwrap_or(0);
         // C of i rows is i^0.7 times that of one (ISO 281).
@@ -202,38 +203,39 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn study(&self, operating: Operating) -> Result<BearingResult, Error> {
+    fn study(&self, operating: OperatingPoint) -> Result<BearingResult, Error> {
         let condition = Condition {
             load: operating.load,
-            held: operating.held,
+            prescribed: operating.prescribed,
             speed: self.speed,
-            cage: treatment(self.study),
+            cage: cage_treatment(self.study),
             cage_angle: self.bearing.cage_angle,
         };
         let state = self.solver.solve(&condition, None)?;
         let point = self.point(state);
-        let mut warnings = self.doubts(&point);
-        let matters = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
-        let speed = matters.then_some(Swept::Speed);
-        let defaults = [Some(Swept::Load), speed, Some(Swept::CageAngle)].into_iter().flatten();
-        let asked: Vec<(Swept, &[f64])> = match self.study.sweeps.as_slice() {
+        let mut warnings = self.quality_warnings(&point);
+        let depends_on_speed = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
+        let speed = depends_on_speed.then_some(SweepVariable::Speed);
+        let defaults =
+            [Some(SweepVariable::Load), speed, Some(SweepVariable::CageAngle)].into_iter().flatten();
+        let asked: Vec<(SweepVariable, &[f64])> = match self.study.sweeps.as_slice() {
             [] => defaults.map(|of| (of, &[][..])).collect(),
-            sweeps => sweeps.iter().map(|sweep| (sweep.of, sweep.values.as_slice())).collect(),
+            sweeps => sweeps.iter().map(|sweep| (sweep.variable, sweep.values.as_slice())).collect(),
         };
         let mut sweeps = Vec::new();
         for (of, values) in asked {
             sweeps.extend(self.sweep(of, values, &point, &mut warnings));
         }
         let g = &self.bearing.geometry;
-        let films = solved_film::fields(self.name, self.bearing, &point, &mut warnings);
+        let films = ehl_film::ehl_films(self.name, self.bearing, &point, &mut warnings);
         Ok(BearingResult {
             name: self.name.to_string(),
             bearing: self.bearing.clone(),
-            load_from: operating.words,
-            held: operating.held.map(|held| held.is_some()),
+            load_source: operating.load_source,
+            prescribed: operating.prescribed.map(|held| held.is_some()),
             preload: self.preload(self.speed),
             rating: self.rating(),
-            nominal_orders: g.orders(g.contact_angle),
+            nominal_orders: g.characteristic_orders(g.contact_angle),
             point,
             sweeps,
             films,
@@ -244,46 +246,58 @@ impl<'a> Work<'a> {
     /// One sweep about an operating point; `None` if there is nothing to vary.
     fn sweep(
         &self,
-        of: Swept,
+        of: SweepVariable,
         values: &[f64],
         point: &BearingPoint,
         warnings: &mut Vec<String>,
     ) -> Option<BearingSweepResult> {
         let base = point.state.condition;
         let load = base.load;
-        let size = size(point);
+        let size = free_force(point);
         let values = match values {
             [] => self.range(of, point),
             given => given.to_vec(),
         };
         let largest = (0..3).max_by(|&a, &b| load[a].abs().total_cmp(&load[b].abs()).then(b.cmp(&a)))?;
-        let (label, unit) = match (of, self.study.along) {
-            (Swept::Load, Along::Load) => ("load along the operating load".into(), "N"),
-            (Swept::Load, Along::Axis(k @ (3 | 4))) => (format!("moment about {}", &MOTIONS[k][6..]), "N m"),
-            (Swept::Load, Along::Axis(k)) => (format!("load along {}", MOTIONS[k]), "N"),
-            (Swept::Displacement, Along::Axis(k @ (3 | 4))) => {
-                (format!("tilt about {}", &MOTIONS[k][6..]), "rad")
+        let (label, unit) = match (of, self.study.sweep_direction) {
+            (SweepVariable::Load, SweepDirection::Load) => ("load along the operating load".into(), "N"),
+            (SweepVariable::Load, SweepDirection::Axis(k @ (3 | 4))) => {
+                (format!("moment about {}", &DOF_NAMES[k][6..]), "N m")
             }
-            (Swept::Displacement, Along::Axis(k)) => (format!("displacement along {}", MOTIONS[k]), "m"),
-            (Swept::Displacement, Along::Load) => (format!("displacement along {}", MOTIONS[largest]), "m"),
-            (Swept::Speed, _) => ("shaft speed".into(), "rad/s"),
-            (Swept::CageAngle, _) => ("cage angle".into(), "rad"),
+            (SweepVariable::Load, SweepDirection::Axis(k)) => (format!("load along {}", DOF_NAMES[k]), "N"),
+            (SweepVariable::Displacement, SweepDirection::Axis(k @ (3 | 4))) => {
+                (format!("tilt about {}", &DOF_NAMES[k][6..]), "rad")
+            }
+            (SweepVariable::Displacement, SweepDirection::Axis(k)) => {
+                (format!("displacement along {}", DOF_NAMES[k]), "m")
+            }
+            (SweepVariable::Displacement, SweepDirection::Load) => {
+                (format!("displacement along {}", DOF_NAMES[largest]), "m")
+            }
+            (SweepVariable::Speed, _) => ("shaft speed".into(), "rad/s"),
+            (SweepVariable::CageAngle, _) => ("cage angle".into(), "rad"),
         };
         let at = |value: f64| {
             let mut condition = base;
-            match (of, self.study.along) {
-                (Swept::Load, Along::Load) if size > 0.0 => condition.load = load.map(|f| f * value / size),
-                (Swept::Load, Along::Load) => condition.load[1] = -value,
-                (Swept::Load, Along::Axis(k)) => {
-                    condition.load[k] = value;
-                    condition.held[k] = None;
+            match (of, self.study.sweep_direction) {
+                (SweepVariable::Load, SweepDirection::Load) if size > 0.0 => {
+                    condition.load = load.map(|f| f * value / size)
                 }
-                (Swept::Displacement, Along::Load) => condition.held[largest] = Some(value),
-                (Swept::Displacement, Along::Axis(k)) => condition.held[k] = Some(value),
-                (Swept::Speed, _) => condition.speed = value,
-                (Swept::CageAngle, _) => {
+                (SweepVariable::Load, SweepDirection::Load) => condition.load[1] = -value,
+                (SweepVariable::Load, SweepDirection::Axis(k)) => {
+                    condition.load[k] = value;
+                    condition.prescribed[k] = None;
+                }
+                (SweepVariable::Displacement, SweepDirection::Load) => {
+                    condition.prescribed[largest] = Some(value)
+                }
+                (SweepVariable::Displacement, SweepDirection::Axis(k)) => {
+                    condition.prescribed[k] = Some(value)
+                }
+                (SweepVariable::Speed, _) => condition.speed = value,
+                (SweepVariable::CageAngle, _) => {
                     condition.cage_angle = value;
-                    condition.cage = CageTreatment::AsPlaced;
+                    condition.cage = CageTreatment::FixedAngle;
                 }
             }
             condition
@@ -304,42 +318,49 @@ impl<'a> Work<'a> {
     }
 
     /// Default range of values about the operating point.
-    fn range(&self, of: Swept, point: &BearingPoint) -> Vec<f64> {
+    fn range(&self, of: SweepVariable, point: &BearingPoint) -> Vec<f64> {
         let state = &point.state;
         let load = &state.load;
-        let up_to =
-            |top: f64| -> Vec<f64> { (1..POINTS).map(|k| top * k as f64 / (POINTS - 1) as f64).collect() };
+        let up_to = |top: f64| -> Vec<f64> {
+            (1..SWEEP_POINTS).map(|k| top * k as f64 / (SWEEP_POINTS - 1) as f64).collect()
+        };
         let about = |value: f64, least: f64| up_to(2.0 * if value.abs() > 0.0 { value } else { least });
         // Increasing for either sign of the operating point.
         let rising = |mut values: Vec<f64>| {
             values.sort_by(f64::total_cmp);
             values
         };
-        match (of, self.study.along) {
-            (Swept::Load, Along::Load) => up_to((2.0 * size(point)).max(0.1 * self.rating().dynamic)),
-            (Swept::Load, Along::Axis(k @ (3 | 4))) => {
+        match (of, self.study.sweep_direction) {
+            (SweepVariable::Load, SweepDirection::Load) => {
+                up_to((2.0 * free_force(point)).max(0.1 * self.rating().dynamic))
+            }
+            (SweepVariable::Load, SweepDirection::Axis(k @ (3 | 4))) => {
                 rising(about(load[k], 0.005 * self.rating().dynamic * self.solver.radius))
             }
-            (Swept::Load, Along::Axis(k)) => rising(about(load[k], 0.05 * self.rating().dynamic)),
-            (Swept::Displacement, Along::Axis(k @ (3 | 4))) => rising(about(state.displacement[k], 1e-3)),
-            (Swept::Displacement, along) => {
+            (SweepVariable::Load, SweepDirection::Axis(k)) => {
+                rising(about(load[k], 0.05 * self.rating().dynamic))
+            }
+            (SweepVariable::Displacement, SweepDirection::Axis(k @ (3 | 4))) => {
+                rising(about(state.displacement[k], 1e-3))
+            }
+            (SweepVariable::Displacement, along) => {
                 let largest = (0..3).max_by(|&a, &b| load[a].abs().total_cmp(&load[b].abs()).then(b.cmp(&a)));
-                let k = if let Along::Axis(k) = along { k } else { largest.unwrap_or(0) };
+                let k = if let SweepDirection::Axis(k) = along { k } else { largest.unwrap_or(0) };
                 rising(about(state.displacement[k], 10e-6))
             }
-            (Swept::Speed, _) => {
+            (SweepVariable::Speed, _) => {
                 let top = if self.study.speed.is_some() { self.speed } else { 2.0 * self.speed };
                 let top = if top > 0.0 {
                     top
                 } else {
-                    two_digits(2.0 * MEAN_SPEED / (2e3 * self.solver.radius)) / TO_RPM
+                    round_to_two_digits(2.0 * DEFAULT_NDM / (2e3 * self.solver.radius)) / TO_RPM
                 };
-                (0..POINTS).map(|k| top * k as f64 / (POINTS - 1) as f64).collect()
+                (0..SWEEP_POINTS).map(|k| top * k as f64 / (SWEEP_POINTS - 1) as f64).collect()
             }
-            (Swept::CageAngle, _) => {
+            (SweepVariable::CageAngle, _) => {
                 let pitch = std::f64::consts::TAU / self.bearing.geometry.balls as f64;
                 let start = self.bearing.cage_angle;
-                (0..POINTS).map(|k| start + pitch * k as f64 / (POINTS - 1) as f64).collect()
+                (0..SWEEP_POINTS).map(|k| start + pitch * k as f64 / (SWEEP_POINTS - 1) as f64).collect()
             }
         }
     }
@@ -366,7 +387,7 @@ impl<'a> Work<'a> {
                         semi_minor: patch.semi_minor,
                         pressure: patch.maximum_pressure,
                         film: contacts.film(race, load),
-                        least_film: contacts.minimum_film(race, load),
+                        minimum_film: contacts.minimum_film(race, load),
                     }
                 }
                 false => ContactState { angle, ..ContactState::default() },
@@ -378,17 +399,17 @@ impl<'a> Work<'a> {
                 outer: contact(Race::Outer, &pair.outer, ball.outer_load, ball.outer_contact_angle),
             }
         };
-        let balls: Vec<BallState> = self.solver.balls(&state).iter().map(ball).collect();
+        let balls: Vec<BallState> = self.solver.ball_loads(&state).iter().map(ball).collect();
         let [x, y, ..] = state.load;
         let radial = x.hypot(y);
         let along =
             if radial > 0.0 { [x / radial, y / radial, 0.0, 0.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0, 0.0] };
         let axis = [0.0, 0.0, 1.0, 0.0, 0.0];
-        let both = |n| [state.stiffness_free(n, self.solver.radius), state.stiffness_held(n)];
+        let both = |n| [state.condensed_stiffness(n, self.solver.radius), state.constrained_stiffness(n)];
         let mut point = BearingPoint {
             radial_stiffness: both(&along),
             axial_stiffness: both(&axis),
-            orders: g.orders(state.mean_cos.clamp(-1.0, 1.0).acos()),
+            orders: g.characteristic_orders(state.mean_cos.clamp(-1.0, 1.0).acos()),
             preload_force: self.preload(state.condition.speed).axial_force,
             life: self.life(&state, &balls),
             film_ratio: 0.0,
@@ -397,13 +418,13 @@ impl<'a> Work<'a> {
         };
         point.film_ratio = match point.loaded() {
             0 => f64::INFINITY,
-            _ => point.least_film() / self.study.roughness,
+            _ => point.minimum_film() / self.study.roughness,
         };
         point
     }
 
     /// Quality warnings at the operating point.
-    fn doubts(&self, point: &BearingPoint) -> Vec<String> {
+    fn quality_warnings(&self, point: &BearingPoint) -> Vec<String> {
         let name = self.name;
         let mut found = Vec::new();
         let loads = || point.balls.iter().map(|b| b.inner.load).filter(|load| *load > 0.0);
@@ -417,22 +438,22 @@ impl<'a> Work<'a> {
                 ));
             }
         }
-        let marks = &self.bearing.imperfections;
-        if self.study.cage_average && !marks.is_empty() {
+        let imperfections = &self.bearing.imperfections;
+        if self.study.cage_average && !imperfections.is_empty() {
             found.push(format!(
                 "bearing {name} ({}) is averaged over the cage angle as if it had no defects; ball loads are those at the cage angle of the model",
-                marks.condition()
+                imperfections.condition()
             ));
         }
         let pressure = point.largest_pressure();
-        if pressure > STATIC_LIMIT {
+        if pressure > STATIC_CONTACT_STRESS {
             found.push(format!(
                 "bearing {name}: contact pressure {:.2} GPa, above the 4.2 GPa of the static load rating (ISO 76)",
                 1e-9 * pressure
             ));
         }
-        let turning = point.state.condition.speed > 0.0;
-        if turning && self.bearing.lubricant().is_some() && point.film_ratio < 1.0 {
+        let rotating = point.state.condition.speed > 0.0;
+        if rotating && self.bearing.lubricant().is_some() && point.film_ratio < 1.0 {
             found.push(format!(
                 "bearing {name}: film ratio {:.2} at {:.0} rpm below 1: asperity contact (roughness {:.2} um)",
                 point.film_ratio,
@@ -441,10 +462,11 @@ impl<'a> Work<'a> {
             ));
         }
         let g = &self.bearing.geometry;
-        let wrong = |ball: &&BallState| ball.outer.load > 0.0 && ball.outer.angle * g.thrust_direction < 0.0;
+        let on_open_side =
+            |ball: &&BallState| ball.outer.load > 0.0 && ball.outer.angle * g.thrust_direction < 0.0;
         if g.contact_angle > 0.0
             && self.bearing.duplex.is_none()
-            && point.balls.iter().filter(wrong).count() > 0
+            && point.balls.iter().filter(on_open_side).count() > 0
         {
             found.push(format!("bearing {name}: the load presses balls onto the open side (no shoulder)"));
         }
@@ -456,13 +478,13 @@ impl<'a> Work<'a> {
 }
 
 /// Magnitude of the force \[N\] along the free motions.
-fn size(point: &BearingPoint) -> f64 {
-    let Condition { load, held, .. } = &point.state.condition;
+fn free_force(point: &BearingPoint) -> f64 {
+    let Condition { load, prescribed: held, .. } = &point.state.condition;
     (0..3).filter(|k| held[*k].is_none()).map(|k| load[k].powi(2)).sum::<f64>().sqrt()
 }
 
 /// Contact law for the film thickness: the bearing's own, or with the film of its lubricant.
-fn filmed(bearing: &BallBearing) -> ContactLaw {
+fn film_law(bearing: &BallBearing) -> ContactLaw {
     match (&bearing.contact, bearing.lubricant()) {
         (ContactLaw::Hertz | ContactLaw::PowerLaw(_), Some(oil)) => {
             ContactLaw::Film { lubricant: oil.clone(), speed_factor: 1.0 }
@@ -472,7 +494,7 @@ fn filmed(bearing: &BallBearing) -> ContactLaw {
 }
 
 /// Rounded to two significant digits.
-fn two_digits(value: f64) -> f64 {
+fn round_to_two_digits(value: f64) -> f64 {
     let step = 10f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 1.0);
     (value / step).round() * step
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::Machine;
-use super::attractor::{CarriedState, clock_name, described, sections};
+use super::steady_motion::{RestartState, clock_name, section_channel, sections};
 use crate::error::Error;
 use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};
@@ -19,7 +19,7 @@ const SAME_BRANCH: f64 = 0.05;
 const STOPPED: &str = "stopped";
 
 /// Result of one parameter value, and the restart state of its run.
-type Outcome = (Result<SteadyMotion, String>, Option<CarriedState>);
+type Outcome = (Result<SteadyMotion, String>, Option<RestartState>);
 
 /// Bifurcation diagram of a family of machines, one model per value of the study's parameter.
 ///
@@ -50,13 +50,13 @@ pub fn bifurcation(
     };
     let (chunks, overlap) = match study.continuation {
         Continuation::Equilibrium => (n, 0),
-        Continuation::Carried { chunks, overlap } => (chunks.clamp(1, n), overlap),
+        Continuation::PreviousState { chunks, overlap } => (chunks.clamp(1, n), overlap),
     };
     // Boundaries of the chunks along a sweep.
     let bounds: Vec<[usize; 2]> = (0..chunks).map(|c| [c * n / chunks, (c + 1) * n / chunks]).collect();
     let early = |start: usize| overlap.min(start);
     let runs: usize = bounds.iter().map(|[a, b]| b - a + early(*a)).sum();
-    let work = Work {
+    let work = ChunkRunner {
         models,
         progress,
         done: AtomicUsize::new(0),
@@ -64,73 +64,73 @@ pub fn bifurcation(
     };
     let tasks: Vec<(&'static str, [usize; 2])> =
         directions.iter().flat_map(|d| bounds.iter().map(move |b| (*d, *b))).collect();
-    let carry = study.continuation != Continuation::Equilibrium;
+    let restart = study.continuation != Continuation::Equilibrium;
     let found: Vec<Vec<Outcome>> = tasks
         .par_iter()
-        .map(|(direction, [a, b])| work.chunk(direction, [a - early(*a), *b], None, carry))
+        .map(|(direction, [a, b])| work.run_chunk(direction, [a - early(*a), *b], None, restart))
         .collect();
     let joined: Vec<(Vec<Outcome>, usize)> = directions
         .par_iter()
         .zip(found.into_par_iter().chunks(chunks))
-        .map(|(direction, parts)| work.join(direction, &bounds, overlap, parts))
+        .map(|(direction, parts)| work.join_chunks(direction, &bounds, overlap, parts))
         .collect();
 
     let repaired = joined.iter().map(|(_, repaired)| repaired).sum();
     let values = &study.parameter.values;
     let sweep = |(name, outcomes): (&'static str, Vec<Outcome>)| {
         let point = |(step, (found, _)): (usize, Outcome)| BifurcationPoint {
-            value: values[place(name, step, n)],
-            found,
+            value: values[value_index(name, step, n)],
+            motion: found,
         };
         BifurcationSweep { name, points: outcomes.into_iter().enumerate().map(point).collect() }
     };
     let sweeps: Vec<BifurcationSweep> =
         directions.iter().copied().zip(joined.into_iter().map(|(o, _)| o)).map(sweep).collect();
     let all = || sweeps.iter().flat_map(|s| &s.points);
-    if all().all(|p| p.found.is_err())
-        && let Some(Err(reason)) = all().next().map(|p| &p.found)
+    if all().all(|p| p.motion.is_err())
+        && let Some(Err(reason)) = all().next().map(|p| &p.motion)
     {
-        return Err(crate::error::PhysicsError::NoMotion { reason: reason.clone() }.into());
+        return Err(crate::error::PhysicsError::NoSteadyMotion { reason: reason.clone() }.into());
     }
-    let complete = !all().any(|p| p.found.as_ref().is_err_and(|reason| reason == STOPPED));
+    let complete = !all().any(|p| p.motion.as_ref().is_err_and(|reason| reason == STOPPED));
     Ok(BifurcationResult {
         complete,
         parameter: study.parameter.clone(),
-        clock: clock_name(&models[0], study.steady.clock),
-        channels: study.channels.iter().map(described).collect(),
-        seams: if carry { (chunks - 1) * directions.len() } else { 0 },
-        repaired,
+        clock: clock_name(&models[0], study.steady.trigger),
+        channels: study.channels.iter().map(section_channel).collect(),
+        seams: if restart { (chunks - 1) * directions.len() } else { 0 },
+        rerun_chunks: repaired,
         sweeps,
     })
 }
 
 /// Index of the parameter value at a step of a sweep.
-fn place(direction: &str, step: usize, n: usize) -> usize {
+fn value_index(direction: &str, step: usize, n: usize) -> usize {
     if direction == "down" { n - 1 - step } else { step }
 }
 
 /// Data shared by all chunks.
-struct Work<'a> {
+struct ChunkRunner<'a> {
     models: &'a [Model],
     progress: &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
     done: AtomicUsize,
     planned: AtomicUsize,
 }
 
-impl Work<'_> {
+impl ChunkRunner<'_> {
     /// Runs the values of one chunk in sequence, each restarted from the final state of the previous one.
-    fn chunk(
+    fn run_chunk(
         &self,
         direction: &str,
         [from, to]: [usize; 2],
-        start: Option<CarriedState>,
+        start: Option<RestartState>,
         carry: bool,
     ) -> Vec<Outcome> {
         let mut carried = start;
         let mut outcomes = Vec::with_capacity(to - from);
         for step in from..to {
-            let model = &self.models[place(direction, step, self.models.len())];
-            let outcome = self.value(model, carried.as_ref());
+            let model = &self.models[value_index(direction, step, self.models.len())];
+            let outcome = self.run_value(model, carried.as_ref());
             // After a failed value the next one starts from equilibrium.
             carried = outcome.1.clone().filter(|_| carry);
             outcomes.push(outcome);
@@ -138,13 +138,13 @@ impl Work<'_> {
         outcomes
     }
 
-    fn value(&self, model: &Model, carried: Option<&CarriedState>) -> Outcome {
-        let told =
+    fn run_value(&self, model: &Model, carried: Option<&RestartState>) -> Outcome {
+        let report_progress =
             || (self.progress)(self.done.load(Ordering::Relaxed), self.planned.load(Ordering::Relaxed));
         let outcome = match &model.studies.bifurcation {
-            _ if told().is_break() => (Err(STOPPED.to_string()), None),
+            _ if report_progress().is_break() => (Err(STOPPED.to_string()), None),
             None => (Err("the model has no bifurcation study".to_string()), None),
-            Some(study) => match motion(model, study, carried, &mut |_| told()) {
+            Some(study) => match steady_motion(model, study, carried, &mut |_| report_progress()) {
                 Ok(Some((found, state))) => (Ok(found), Some(state)),
                 Ok(None) => (Err(STOPPED.to_string()), None),
                 Err(error) => (Err(error.to_string()), None),
@@ -156,7 +156,7 @@ impl Work<'_> {
 
     /// Joins the chunks of a sweep, rerunning those that start on another branch than the previous chunk
     /// ended on.
-    fn join(
+    fn join_chunks(
         &self,
         direction: &str,
         bounds: &[[usize; 2]],
@@ -173,7 +173,7 @@ impl Work<'_> {
             {
                 repaired += 1;
                 self.planned.fetch_add(to - from, Ordering::Relaxed);
-                part = self.chunk(direction, [from, to], Some(state.clone()), true);
+                part = self.run_chunk(direction, [from, to], Some(state.clone()), true);
             } else {
                 part.drain(..early);
             }
@@ -184,20 +184,20 @@ impl Work<'_> {
 }
 
 /// The steady motion of one model.
-fn motion(
+fn steady_motion(
     model: &Model,
     study: &BifurcationStudy,
-    carried: Option<&CarriedState>,
-    progress: super::attractor::Progress,
-) -> Result<Option<(SteadyMotion, CarriedState)>, Error> {
+    carried: Option<&RestartState>,
+    progress: super::steady_motion::Progress,
+) -> Result<Option<(SteadyMotion, RestartState)>, Error> {
     let machine = Machine::new(model.clone())?;
-    let (reduction, state) = machine.steady_start(&study.steady, carried)?;
+    let (reduction, state) = machine.steady_initial_state(&study.steady, carried)?;
     let probes: Vec<_> = study.channels.iter().collect();
     let run = machine.steady_run(&reduction, state, &study.steady, &probes, study.perturbation, progress)?;
     let Some(run) = run else { return Ok(None) };
-    let channels: Vec<_> = study.channels.iter().map(described).collect();
+    let channels: Vec<_> = study.channels.iter().map(section_channel).collect();
     let (_, found) = sections(&run, &channels, &study.steady, study.tolerance, study.longest_period)?;
-    Ok(Some((found, CarriedState::new(&reduction, &run.state))))
+    Ok(Some((found, RestartState::new(&reduction, &run.state))))
 }
 
 /// Whether two motions are on the same branch: every section point of one has a near point of the other, and

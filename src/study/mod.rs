@@ -1,19 +1,19 @@
 //! The studies: each computes results from a model, one method of [`Machine`] each.
 
-mod attractor;
 mod bearing;
-mod beside;
 mod bifurcation;
+mod ehl_film;
+mod order_tracking;
 mod record;
+mod run_up_correlation;
 pub mod signal;
-mod solved_film;
-mod tracking;
+mod steady_motion;
 
-pub use attractor::{CarriedState, Progress};
-pub use bearing::bearings_alone;
-pub use beside::MeasuredRun;
+pub use bearing::single_bearings;
 pub use bifurcation::bifurcation;
 pub use record::Recorder;
+pub use run_up_correlation::MeasuredRun;
+pub use steady_motion::{Progress, RestartState};
 
 use std::ops::ControlFlow;
 
@@ -21,7 +21,7 @@ use crate::analysis::campbell::{self, Campbell};
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::analysis::{frf, modal, stability, unbalance};
-use crate::assembly::{Assembly, LinearSystem, free_motion};
+use crate::assembly::{Assembly, LinearSystem, rigid_body_modes};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
 use crate::element::Anchor;
 use crate::error::{Error, PhysicsError};
@@ -43,7 +43,7 @@ pub struct Machine {
     pub model: Model,
     pub assembly: Assembly,
     /// Equilibrium with cage-averaged bearings at standstill.
-    base: Equilibrium,
+    standstill_equilibrium: Equilibrium,
     bearings: Vec<BearingElement>,
 }
 
@@ -55,9 +55,9 @@ impl Machine {
     pub fn new(model: Model) -> Result<Self, Error> {
         let assembly = Assembly::new(&model)?;
         let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
-            .map_err(|error| name_free_motion(error, &model, &assembly))?;
+            .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
         let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
-        Ok(Self { model, assembly, base, bearings })
+        Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
     }
 
     /// Static equilibrium with the settings of the study.
@@ -65,8 +65,8 @@ impl Machine {
     /// # Errors
     /// No equilibrium.
     pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, Error> {
-        let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::AsPlaced };
-        equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.base.q))
+        let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
+        equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
     }
 
     /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)
@@ -77,22 +77,27 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium at that speed.
-    pub fn tangents(&self, speed: f64, follow: bool) -> Result<Vec<SiteTangent>, Error> {
-        if follow && speed != 0.0 && self.bearings_follow_speed() {
-            let found =
-                equilibrium(&self.model, &self.assembly, speed, CageTreatment::Averaged, Some(&self.base.q))?;
+    pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, Error> {
+        if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
+            let found = equilibrium(
+                &self.model,
+                &self.assembly,
+                speed,
+                CageTreatment::Averaged,
+                Some(&self.standstill_equilibrium.q),
+            )?;
             return Ok(found.tangents());
         }
         let tangent = |(element, state): (&BearingElement, _)| match element {
             BearingElement::Linear(linear) => linear.tangent(speed),
             BearingElement::Ball(_) | BearingElement::RadialBall(_) => state,
         };
-        Ok(self.bearings.iter().zip(self.base.tangents()).map(tangent).collect())
+        Ok(self.bearings.iter().zip(self.standstill_equilibrium.tangents()).map(tangent).collect())
     }
 
     /// Whether the ball bearings' tangents depend on speed: directly, or because a speed-dependent linear
     /// bearing redistributes the load.
-    fn bearings_follow_speed(&self) -> bool {
+    fn bearings_depend_on_speed(&self) -> bool {
         let sites = &self.model.bearings;
         let any_ball = sites.iter().any(|site| site.bearing.ball().is_some());
         any_ball
@@ -128,7 +133,7 @@ impl Machine {
     /// # Errors
     /// As [`campbell::campbell`].
     pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, Error> {
-        let tangents = |speed| self.tangents(speed, study.follow_bearings);
+        let tangents = |speed| self.tangents(speed, study.speed_dependent_bearings);
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
         let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
         let thresholds = stability::thresholds(&self.assembly, &diagram, &tangents)?;
@@ -193,16 +198,16 @@ impl Machine {
             .iter()
             .map(|probe| {
                 let row = self.assembly.direction_row(&probe.at, &probe.direction);
-                let amplitude = plain(response.at(&row, probe.quantity));
+                let amplitude = plain(response.amplitude_of(&row, probe.quantity));
                 UnbalanceChannel { probe: probe.clone(), amplitude }
             })
             .collect();
         let orbits = self
             .model
-            .spinning()
+            .rotating_inertias()
             .map(|disc| {
                 let [x, y, ..] = self.assembly.anchor_rows(&Anchor::node(disc.node));
-                let along = |row| plain(response.at(row, crate::model::Quantity::Displacement));
+                let along = |row| plain(response.amplitude_of(row, crate::model::Quantity::Displacement));
                 DiscOrbit { name: disc.name.clone(), x: along(&x), y: along(&y) }
             })
             .collect();
@@ -218,8 +223,8 @@ impl Machine {
             &self.model,
             &self.assembly,
             self.model.profile.curve().at(0.0).speed,
-            CageTreatment::AsPlaced,
-            Some(&self.base.q),
+            CageTreatment::FixedAngle,
+            Some(&self.standstill_equilibrium.q),
         )?;
         reduce(&self.model, &self.assembly, &start, study.cutoff)
     }
@@ -237,7 +242,7 @@ impl Machine {
             |m: &SparseMatrix| SparseMatrix::from_dense(&(basis.transpose() * m.to_dense() * basis));
         let (m, c, k) = (project(&system.mass), project(&system.damping), project(&system.stiffness));
         let count = MODES.min(basis.ncols());
-        let reduced = krylov::lowest(&m, &c, &k, count, modal::SHIFT)
+        let reduced = krylov::lowest_eigenpairs(&m, &c, &k, count, modal::SHIFT)
             .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
         let limit = std::f64::consts::PI * cutoff;
         Ok(full
@@ -246,7 +251,7 @@ impl Machine {
             .map(|mode| {
                 let nearest =
                     reduced.iter().map(|r| (r.value - mode.eigenvalue).norm()).fold(f64::INFINITY, f64::min);
-                nearest / mode.natural()
+                nearest / mode.natural_omega()
             })
             .fold(0.0, f64::max))
     }
@@ -273,12 +278,12 @@ impl Machine {
 
     /// Order lines with labels: "2x", or for multiples of a bearing's characteristic orders "BPFO", "2 BPFI".
     pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
-        let mut known: Vec<(String, f64)> = Vec::new();
+        let mut characteristic_orders: Vec<(String, f64)> = Vec::new();
         for site in &self.model.bearings {
             if let Some(ball) = site.bearing.ball() {
-                let c = ball.geometry.orders(ball.geometry.contact_angle);
+                let c = ball.geometry.characteristic_orders(ball.geometry.contact_angle);
                 let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
-                known.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
+                characteristic_orders.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
             }
         }
         orders
@@ -289,7 +294,7 @@ impl Machine {
                     (n >= 1.0 && (order / base - n).abs() < 1e-6 * n).then_some(n)
                 };
                 // Integer orders are always shaft orders.
-                let bearing = known.iter().find_map(|(name, base)| {
+                let bearing = characteristic_orders.iter().find_map(|(name, base)| {
                     let n = multiple(*base).filter(|n| *n <= 5.0 && multiple(1.0).is_none())?;
                     Some(if n == 1.0 { name.clone() } else { format!("{n} {name}") })
                 });
@@ -304,8 +309,8 @@ impl Machine {
 }
 
 /// Replaces a failed equilibrium by the rigid-body mode that causes it, if there is one.
-fn name_free_motion(error: Error, model: &Model, assembly: &Assembly) -> Error {
-    let free = free_motion::free_motions_of_machine(model, assembly).unwrap_or_default();
+fn name_rigid_body_mode(error: Error, model: &Model, assembly: &Assembly) -> Error {
+    let free = rigid_body_modes::rigid_body_modes_of_machine(model, assembly).unwrap_or_default();
     match free.into_iter().next() {
         Some(motion) => PhysicsError::Singular { motion }.into(),
         None => error,

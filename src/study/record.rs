@@ -17,7 +17,8 @@ impl Recorder {
     /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
     /// angle; the terms of the energy balance.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
-        let mut channels: Vec<HistoryChannel> = model.probes.iter().map(|p| describe(model, p)).collect();
+        let mut channels: Vec<HistoryChannel> =
+            model.probes.iter().map(|p| probe_channel(model, p)).collect();
         let plain =
             |name: String, unit: &str, quantity: &str, station: &str, direction: &str| HistoryChannel {
                 name,
@@ -39,13 +40,13 @@ impl Recorder {
         }
         Self {
             row: Vec::with_capacity(channels.len()),
-            directions: system.interfaces.iter().map(|i| i.element.rows().min(3)).collect(),
+            directions: system.interfaces.iter().map(|i| i.element.relative_dofs().min(3)).collect(),
             history: History { sample_rate, channels, ..History::default() },
         }
     }
 
     /// Records one sample; returns its values in the order of the channels.
-    pub fn take(&mut self, sample: &Sample) -> &[f64] {
+    pub fn record(&mut self, sample: &Sample) -> &[f64] {
         let state = sample.state;
         self.row.clear();
         self.row.extend_from_slice(sample.channels);
@@ -80,7 +81,7 @@ const ENERGIES: [&str; 8] =
     ["kinetic", "strain", "contact", "work", "parametric", "damping_loss", "contact_loss", "residual"];
 
 /// Channel with name, unit, station and direction of a probe, without values.
-pub(super) fn describe(model: &Model, probe: &Probe) -> HistoryChannel {
+pub(super) fn probe_channel(model: &Model, probe: &Probe) -> HistoryChannel {
     let rotation = probe.direction[3..].iter().any(|d| *d != 0.0);
     let names = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];
     let single = (0..6)

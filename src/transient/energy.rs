@@ -36,13 +36,13 @@ impl Energy {
     }
 
     /// Reference for the residual \[J\]: losses plus change of stored energy.
-    pub fn turnover(&self) -> f64 {
+    pub fn exchanged(&self) -> f64 {
         self.damping_loss + self.contact_loss + (self.kinetic + self.strain + self.contact - self.start).abs()
     }
 }
 
 /// Updates the energy balance step by step; allocation-free after construction.
-pub struct EnergyLedger {
+pub struct EnergyBalance {
     pub energy: Energy,
     load: DVector<f64>,
     previous_load: DVector<f64>,
@@ -57,10 +57,10 @@ pub struct EnergyLedger {
     time: f64,
 }
 
-impl EnergyLedger {
+impl EnergyBalance {
     pub fn new(system: &System, state: &State) -> Self {
         let zero = || DVector::zeros(system.size());
-        let mut ledger = Self {
+        let mut balance = Self {
             energy: Energy::default(),
             load: zero(),
             previous_load: zero(),
@@ -73,15 +73,15 @@ impl EnergyLedger {
             rotations: state.rotations.clone(),
             time: state.time,
         };
-        effective_load(system, state, &mut ledger.scratch, &mut ledger.previous_load);
-        ledger.stored(system, state);
-        let e = &mut ledger.energy;
+        effective_load(system, state, &mut balance.scratch, &mut balance.previous_load);
+        balance.update_stored_energy(system, state);
+        let e = &mut balance.energy;
         e.start = e.kinetic + e.strain + e.contact;
-        ledger
+        balance
     }
 
     /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
-    pub fn book(&mut self, system: &System, state: &State) {
+    pub fn update(&mut self, system: &System, state: &State) {
         let step = state.time - self.time;
         self.moved.copy_from(&state.x);
         self.moved -= &self.x;
@@ -98,7 +98,7 @@ impl EnergyLedger {
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
-        e.parametric += by_speed(system, state, &self.rotations);
+        e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
         self.powers = now;
         self.rotations.copy_from_slice(&state.rotations);
@@ -108,14 +108,14 @@ impl EnergyLedger {
     }
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
-    pub fn start_from(&mut self, system: &System, state: &State) {
+    pub fn restart_from(&mut self, system: &System, state: &State) {
         effective_load(system, state, &mut self.scratch, &mut self.previous_load);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
     }
 
     /// Updates the stored energies (kinetic, strain, contact); needed before reading [`Self::energy`] only.
-    pub fn stored(&mut self, system: &System, state: &State) {
+    pub fn update_stored_energy(&mut self, system: &System, state: &State) {
         let e = &mut self.energy;
         e.kinetic = 0.5 * state.v.norm_squared();
         let x = state.x.rows(0, system.structure());
@@ -133,7 +133,7 @@ fn powers(state: &State) -> [f64; 2] {
 
 /// Change of the bearings' energy by the change of speed alone since `before` \[J\]: film, ball inertia,
 /// preload and clearance depend on speed. (The stored energy of balls with own degrees of freedom does not.)
-fn by_speed(system: &System, state: &State, before: &[Rotation]) -> f64 {
+fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -> f64 {
     let mut sum = 0.0;
     for ((interface, reaction), (now, before)) in
         system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))

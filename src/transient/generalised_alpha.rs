@@ -14,7 +14,7 @@ use nalgebra::DVector;
 use super::cage;
 use super::system::{State, System};
 use crate::bearing::Rotation;
-use crate::bearing::radial::StepGain;
+use crate::bearing::radial::NewmarkGain;
 use crate::model::Spin;
 use effective_matrix::EffectiveMatrices;
 use interface_newton::InterfaceNewton;
@@ -48,9 +48,9 @@ impl Scheme {
 
     /// How displacement, velocity and ball acceleration at the end of a step of length h follow from the end's forces:
     /// β h², γ h and (1−α_f)/(1−α_m).
-    fn gain(&self, step: f64) -> StepGain {
+    fn gain(&self, step: f64) -> NewmarkGain {
         let ball = (1.0 - self.alpha_f) / (1.0 - self.alpha_m);
-        StepGain { place: self.beta * step * step, rate: self.gamma * step, ball }
+        NewmarkGain { position: self.beta * step * step, velocity: self.gamma * step, inverse_mass: ball }
     }
 }
 
@@ -87,7 +87,7 @@ pub struct GeneralisedAlpha {
 
 impl GeneralisedAlpha {
     pub fn new(system: &System, scheme: Scheme) -> Self {
-        let (n, places) = (system.size(), system.places());
+        let (n, places) = (system.size(), system.interface_size());
         let zero = || DVector::zeros(n);
         Self {
             scheme,
@@ -184,7 +184,7 @@ impl GeneralisedAlpha {
         for (a, right) in balls.iter_mut().zip(on_balls) {
             *a = right / (1.0 - alpha_m);
         }
-        if system.places() == 0 {
+        if system.interface_size() == 0 {
             return Ok(());
         }
 
@@ -204,7 +204,7 @@ impl GeneralisedAlpha {
         let (a, balls) = self.a.as_mut_slice().split_at_mut(system.structure());
         matrix.add_response(spin.speed, weight, force, &mut self.scratch, a);
         for ((a, force), mass) in balls.iter_mut().zip(on_balls).zip(&system.ball_masses) {
-            *a += gain.ball * force / mass.sqrt();
+            *a += gain.inverse_mass * force / mass.sqrt();
         }
         Ok(())
     }
@@ -213,9 +213,9 @@ impl GeneralisedAlpha {
     fn update(&mut self, state: &mut State, step: f64, spin: Spin) {
         let gain = self.scheme.gain(step);
         state.x.copy_from(&self.x);
-        state.x.axpy(gain.place, &self.a, 1.0);
+        state.x.axpy(gain.position, &self.a, 1.0);
         state.v.copy_from(&self.v);
-        state.v.axpy(gain.rate, &self.a, 1.0);
+        state.v.axpy(gain.velocity, &self.a, 1.0);
         state.a.copy_from(&self.a);
         state.time += step;
         state.spin = spin;

@@ -2,9 +2,9 @@
 //! constant speed.
 
 pub mod cage;
-pub mod companion;
 pub mod energy;
 pub mod generalised_alpha;
+pub mod perturbed_trajectory;
 pub mod reduction;
 pub mod run;
 pub mod runge_kutta;

@@ -19,7 +19,7 @@ use crate::model::{Drive, Model};
 
 /// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
 /// shaft in unstable equilibrium on one ball.
-const SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
+const MASS_SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
 
 /// A reduced machine with the basis for expansion to all DOFs.
 #[derive(Clone, Debug)]
@@ -71,24 +71,25 @@ pub fn reduce(
         let symmetric = std::array::from_fn(|a| std::array::from_fn(|b| 0.5 * (k[a][b] + k[b][a])));
         tangent.add_between_rows(&site.rows, &symmetric);
     }
-    let held = SparseMatrix::sum(&[
+    let tangent_stiffness = SparseMatrix::sum(&[
         (1.0, &assembly.stiffness),
         (1.0, &assembly.belt_stiffness),
         (1.0, &tangent.build()),
     ]);
     let mass = assembly.mass.to_dense();
-    let stiffness = held.to_dense();
+    let stiffness = tangent_stiffness.to_dense();
     let modes_at = |shift: &f64| eigen::undamped(&stiffness, &mass, *shift);
-    let (squares, shapes) = SHIFTS[1..]
+    let (squares, shapes) = MASS_SHIFTS[1..]
         .iter()
-        .fold(modes_at(&SHIFTS[0]), |found, shift| found.or_else(|_| modes_at(shift)))
+        .fold(modes_at(&MASS_SHIFTS[0]), |found, shift| found.or_else(|_| modes_at(shift)))
         .map_err(|e| failed(e.to_string()))?;
     let limit = (std::f64::consts::TAU * cutoff).powi(2);
     let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
 
     // The belt resists deviation from equilibrium: its force is k (q₀ − q).
-    let belt_rest = assembly.belt_stiffness.mul(&equilibrium.q);
-    let mut steady: Vec<f64> = (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
+    let belt_preload = assembly.belt_stiffness.mul(&equilibrium.q);
+    let mut static_load: Vec<f64> =
+        (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
     let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
         .loads
         .iter()
@@ -107,17 +108,18 @@ pub fn reduce(
         row.add_to(1.0, &mut v);
         v
     };
-    let mut forces: Vec<Vec<f64>> = vec![steady.clone(), belt_rest.clone(), assembly.spin_momentum.clone()];
+    let mut forces: Vec<Vec<f64>> =
+        vec![static_load.clone(), belt_preload.clone(), assembly.spin_momentum.clone()];
     let mut interfaces: Vec<Interface> = Vec::new();
     let mut map: Vec<&SparseRow> = Vec::new();
     let mut ball_masses = Vec::new();
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
         let element = BearingElement::new(&site.bearing);
-        let mut rows: Vec<&SparseRow> = place.rows[..element.rows()].iter().collect();
+        let mut rows: Vec<&SparseRow> = place.rows[..element.relative_dofs()].iter().collect();
         let first_ball = ball_masses.len();
         if let Some(radial) = element.radial() {
             if site.housing.node.is_some() {
-                rows.extend(&place.frame);
+                rows.extend(&place.housing_rows);
             }
             ball_masses.extend(std::iter::repeat_n(radial.ball_mass(), radial.balls()));
             forces.extend(rows.iter().map(|row| dense(row)));
@@ -140,7 +142,7 @@ pub fn reduce(
     let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
         .ok_or_else(|| failed("the stiffness at equilibrium is not positive definite".into()))?;
 
-    for (s, b) in steady.iter_mut().zip(&belt_rest) {
+    for (s, b) in static_load.iter_mut().zip(&belt_preload) {
         *s += b;
     }
     let momentum = basis.transpose() * &mass;
@@ -148,8 +150,9 @@ pub fn reduce(
     let size = basis.ncols() + ball_masses.len();
     let vector = |v: &[f64]| padded(basis.transpose() * DVector::from_column_slice(v), size);
     let row = |r: &SparseRow| vector(&dense(r));
-    let held_structure = SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
-    let modal = linear_system::modal_damping(assembly, &held)?;
+    let structure_stiffness =
+        SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
+    let modal = linear_system::modal_damping(assembly, &tangent_stiffness)?;
     let damping = SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &modal)]);
 
     let mut unbalance = [DVector::zeros(size), DVector::zeros(size)];
@@ -180,8 +183,8 @@ pub fn reduce(
     for ((interface, place), state) in interfaces.iter().zip(&assembly.sites).zip(&equilibrium.bearings) {
         let Some(radial) = interface.element.radial() else { continue };
         let rings = Rings {
-            shift: [state.displacement[0], state.displacement[1]],
-            frame: [0, 1].map(|k| place.frame[k].dot(&equilibrium.q)),
+            relative_displacement: [state.displacement[0], state.displacement[1]],
+            housing_displacement: [0, 1].map(|k| place.housing_rows[k].dot(&equilibrium.q)),
             ..Rings::default()
         };
         let rotation = Rotation {
@@ -189,13 +192,13 @@ pub fn reduce(
             shaft_speed: equilibrium.speed,
             ..Rotation::default()
         };
-        for (ball, place) in interface.ball_range().zip(radial.settled_places(&rings, &rotation)) {
+        for (ball, place) in interface.ball_range().zip(radial.equilibrium_positions(&rings, &rotation)) {
             x0[basis.ncols() + ball] = ball_masses[ball].sqrt() * place;
         }
     }
     let matrices = [
         &project(&damping),
-        &project(&held_structure),
+        &project(&structure_stiffness),
         &project(&assembly.gyroscopic),
         &project(&assembly.spin_up),
         &project(&assembly.circulatory),
@@ -211,7 +214,7 @@ pub fn reduce(
         gyroscopic: matrices[2].clone(),
         spin_up: matrices[3].clone(),
         circulatory: matrices[4].clone(),
-        static_load: vector(&steady),
+        static_load: vector(&static_load),
         unbalance,
         spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
         histories: histories
@@ -247,7 +250,7 @@ fn basis(
 ) -> Option<DMatrix<f64>> {
     let n = stiffness.nrows();
     // Rigid-body rotation makes K singular; a shift of (0.16 Hz)² hardly changes the static responses.
-    let shifted = || SHIFTS.iter().find_map(|shift| nalgebra::Cholesky::new(stiffness + mass * *shift));
+    let shifted = || MASS_SHIFTS.iter().find_map(|shift| nalgebra::Cholesky::new(stiffness + mass * *shift));
     let factor = nalgebra::Cholesky::new(stiffness.clone()).or_else(shifted)?;
     let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();
     let mut momenta: Vec<DVector<f64>> = columns.iter().map(|c| mass * c).collect();

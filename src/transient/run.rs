@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::energy::{Energy, EnergyLedger};
-use super::stepper::{Stepper, check};
+use super::energy::{Energy, EnergyBalance};
+use super::stepper::{Stepper, check_divergence};
 use super::system::{State, System};
 use crate::error::PhysicsError;
 use crate::model::study::Integrator;
@@ -71,7 +71,7 @@ pub fn run(
     let mut stepper = Stepper::new(system, settings.integrator, step);
     // Error control chooses the steps between two samples.
     let (calls, step) = if stepper.is_adaptive() { (1, interval) } else { (substeps, step) };
-    let mut ledger = EnergyLedger::new(system, &state);
+    let mut balance = EnergyBalance::new(system, &state);
     let mut channels = vec![0.0; system.channels.len()];
     let mut report = Report {
         samples: 0,
@@ -79,7 +79,7 @@ pub fn run(
         iterations: 0,
         refactored: 0,
         halvings: 0,
-        energy: ledger.energy,
+        energy: balance.energy,
         end: End::Complete,
     };
     for index in 0..=samples {
@@ -87,34 +87,34 @@ pub fn run(
             let advanced = (0..calls).try_for_each(|k| {
                 let end = ((index - 1) * calls + k + 1) as f64 * step;
                 stepper.advance(system, &mut state, step, end, &mut |state, _| {
-                    finish_step(system, state, &mut ledger);
+                    finish_step(system, state, &mut balance);
                     Ok(())
                 })
             });
-            if let Err(error) = advanced.and_then(|()| check(system, &state)) {
+            if let Err(error) = advanced.and_then(|()| check_divergence(system, &state)) {
                 report.end = End::Failed(error);
                 break;
             }
         }
-        ledger.stored(system, &state);
+        balance.update_stored_energy(system, &state);
         system.read_channels(&state, &mut channels);
         report.samples = index + 1;
-        let sample = Sample { index, state: &state, channels: &channels, energy: &ledger.energy };
+        let sample = Sample { index, state: &state, channels: &channels, energy: &balance.energy };
         if observe(&sample).is_break() {
             report.end = End::Stopped;
             break;
         }
     }
-    (report.iterations, report.refactored) = stepper.work();
+    (report.iterations, report.refactored) = stepper.iteration_counts();
     (report.steps, report.halvings) = (stepper.steps, stepper.halvings);
-    report.energy = ledger.energy;
+    report.energy = balance.energy;
     report
 }
 
-fn finish_step(system: &System, state: &mut State, ledger: &mut EnergyLedger) {
-    ledger.book(system, state);
+fn finish_step(system: &System, state: &mut State, balance: &mut EnergyBalance) {
+    balance.update(system, state);
     if let Some(drive) = &system.drive {
         drive.recentre(state);
-        ledger.start_from(system, state);
+        balance.restart_from(system, state);
     }
 }

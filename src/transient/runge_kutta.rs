@@ -80,7 +80,7 @@ impl RungeKutta {
     }
 
     fn new(system: &System, tableau: &'static Tableau) -> Self {
-        let (n, m) = (system.size(), system.places());
+        let (n, m) = (system.size(), system.interface_size());
         let zero = || DVector::zeros(n);
         Self {
             tableau,
@@ -105,7 +105,7 @@ impl RungeKutta {
         cage::advance(system, state, spin, &mut self.rotations);
         system.to_interface(&self.x, &mut self.d);
         system.to_interface(&self.v, &mut self.d_rate);
-        system.push(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
+        system.bearing_forces(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
         system.load(time, spin, acceleration);
@@ -137,12 +137,12 @@ impl RungeKutta {
     ) -> f64 {
         let Tableau { c, a, b, error, last_is_end } = *self.tableau;
         // The first stage is the state's own rate, unless a torque drive has recentred the frame.
-        let known = usize::from(system.drive.is_none());
-        if known > 0 {
+        let reused_stages = usize::from(system.drive.is_none());
+        if reused_stages > 0 {
             self.stages[0].0.copy_from(&state.v);
             self.stages[0].1.copy_from(&state.a);
         }
-        for stage in known..c.len() {
+        for stage in reused_stages..c.len() {
             self.combine(state, step, a[stage]);
             let offset = c[stage] * step;
             let at = if offset == 0.0 { state.spin } else { spin(offset) };

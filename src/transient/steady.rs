@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use super::companion::Companion;
-use super::stepper::{Stepper, check};
+use super::perturbed_trajectory::PerturbedTrajectory;
+use super::stepper::{Stepper, check_divergence};
 use super::system::{Channel, State, System};
 use crate::error::PhysicsError;
-use crate::model::study::{Clock, Steady};
+use crate::model::study::{SectionTrigger, SteadyRunSettings};
 
 /// Samples recorded before the first and after the last Poincaré section, for interpolation between samples.
-const MARGIN: f64 = 3.5;
+const MARGIN_SAMPLES: f64 = 3.5;
 /// Round-off of a phase, as a fraction of its period.
 const ROUND_OFF: f64 = 1e-9;
 
@@ -36,19 +36,19 @@ pub struct SteadyRun {
 }
 
 /// Phase of a clock \[rad\]; a Poincaré section is taken every 2π.
-pub fn phase(clock: Clock, state: &State) -> f64 {
+pub fn phase(clock: SectionTrigger, state: &State) -> f64 {
     match clock {
-        Clock::Shaft => state.spin.angle,
-        Clock::Cage { bearing } => state.rotations[bearing].cage_angle,
-        Clock::BallPass { bearing, balls } => balls as f64 * state.rotations[bearing].cage_angle,
+        SectionTrigger::Shaft => state.spin.angle,
+        SectionTrigger::Cage { bearing } => state.rotations[bearing].cage_angle,
+        SectionTrigger::BallPass { bearing, balls } => balls as f64 * state.rotations[bearing].cage_angle,
     }
 }
 
-fn phase_rate(clock: Clock, state: &State) -> f64 {
+fn phase_rate(clock: SectionTrigger, state: &State) -> f64 {
     match clock {
-        Clock::Shaft => state.spin.speed,
-        Clock::Cage { bearing } => state.rotations[bearing].cage_speed,
-        Clock::BallPass { bearing, balls } => balls as f64 * state.rotations[bearing].cage_speed,
+        SectionTrigger::Shaft => state.spin.speed,
+        SectionTrigger::Cage { bearing } => state.rotations[bearing].cage_speed,
+        SectionTrigger::BallPass { bearing, balls } => balls as f64 * state.rotations[bearing].cage_speed,
     }
 }
 
@@ -63,28 +63,28 @@ fn phase_rate(clock: Clock, state: &State) -> f64 {
 pub fn run_steady(
     system: &System,
     mut state: State,
-    settings: &Steady,
+    settings: &SteadyRunSettings,
     channels: &[Channel],
     perturbation: Option<f64>,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Option<SteadyRun>, PhysicsError> {
-    let rate = phase_rate(settings.clock, &state);
+    let rate = phase_rate(settings.trigger, &state);
     let nominal = TAU / rate;
     if !(nominal > 0.0 && nominal.is_finite()) {
-        return Err(PhysicsError::ClockStandsStill { speed_rpm: state.spin.speed * 60.0 / TAU });
+        return Err(PhysicsError::SectionClockStopped { speed_rpm: state.spin.speed * 60.0 / TAU });
     }
     let per_period = (nominal / settings.step * (1.0 - 1e-12)).ceil().max(1.0);
     let step = nominal / per_period;
     // Phase in clock periods relative to the section; sections lie at integers.
-    let turns = |state: &State| (phase(settings.clock, state) - settings.phase) / TAU;
+    let turns = |state: &State| (phase(settings.trigger, state) - settings.phase) / TAU;
     let start = (turns(&state) - ROUND_OFF).ceil();
-    let first = start + settings.settle as f64;
+    let first = start + settings.transient_periods as f64;
     let last = first + settings.periods as f64;
-    let paired = start + (settings.settle / 2) as f64;
-    let margin = MARGIN / per_period;
+    let perturbed_from = start + (settings.transient_periods / 2) as f64;
+    let margin = MARGIN_SAMPLES / per_period;
 
     let mut stepper = Stepper::new(system, settings.integrator, step);
-    let mut companion: Option<Companion> = None;
+    let mut perturbed: Option<PerturbedTrajectory> = None;
     let mut run = SteadyRun {
         step,
         phase: Vec::new(),
@@ -96,11 +96,11 @@ pub fn run_steady(
         steps: 0,
     };
     let begin = state.time;
-    let (mut passed, mut passed_at) = ((turns(&state) + ROUND_OFF).floor(), state.time);
+    let (mut last_section, mut last_section_time) = ((turns(&state) + ROUND_OFF).floor(), state.time);
     for count in 1u64.. {
         let at = turns(&state);
         if at >= first - margin {
-            run.phase.push(phase(settings.clock, &state));
+            run.phase.push(phase(settings.trigger, &state));
             run.shaft_angle.push(state.spin.angle);
             for (channel, values) in channels.iter().zip(&mut run.channels) {
                 values.push(channel.read(&state));
@@ -109,31 +109,32 @@ pub fn run_steady(
         if at > last + margin {
             break;
         }
-        if perturbation.is_some_and(|_| companion.is_none() && at >= paired - ROUND_OFF) {
+        if perturbation.is_some_and(|_| perturbed.is_none() && at >= perturbed_from - ROUND_OFF) {
             let displacement = perturbation.unwrap_or_default();
-            companion = Some(Companion::new(system, &state, settings.integrator, step, displacement));
-            passed_at = state.time;
+            perturbed =
+                Some(PerturbedTrajectory::new(system, &state, settings.integrator, step, displacement));
+            last_section_time = state.time;
         }
         let end = begin + count as f64 * step;
-        stepper.advance(system, &mut state, step, end, &mut |state, step| match &mut companion {
-            Some(companion) => companion.follow(system, state, step),
+        stepper.advance(system, &mut state, step, end, &mut |state, step| match &mut perturbed {
+            Some(companion) => companion.repeat_step(system, state, step),
             None => Ok(()),
         })?;
-        check(system, &state)?;
+        check_divergence(system, &state)?;
         let now = (turns(&state) + ROUND_OFF).floor();
-        if let Some(companion) = &mut companion {
+        if let Some(companion) = &mut perturbed {
             companion.sync(&state);
-            if now > passed {
+            if now > last_section {
                 let growth = companion.renormalise(system, &state);
                 if now > first && now <= last {
                     run.log_growth.push(growth);
-                    run.intervals.push(state.time - passed_at);
+                    run.intervals.push(state.time - last_section_time);
                 }
-                passed_at = state.time;
+                last_section_time = state.time;
             }
         }
-        if now > passed {
-            passed = now;
+        if now > last_section {
+            last_section = now;
             if progress((now - start).max(0.0) as usize).is_break() {
                 return Ok(None);
             }

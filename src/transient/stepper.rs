@@ -9,7 +9,7 @@ use crate::model::study::Integrator;
 /// Largest number of halvings of a step: 2⁻¹² of its length.
 const MAX_HALVINGS: u32 = 12;
 /// Bearing displacement above which the run counts as diverged \[m\].
-const DIVERGED: f64 = 0.1;
+const MAX_DISPLACEMENT: f64 = 0.1;
 
 /// A time integrator for one system.
 pub struct Stepper {
@@ -33,7 +33,7 @@ enum Method {
 }
 
 /// Called after every accepted step with its length.
-pub type Taken<'a> = &'a mut dyn FnMut(&mut State, f64) -> Result<(), PhysicsError>;
+pub type OnStep<'a> = &'a mut dyn FnMut(&mut State, f64) -> Result<(), PhysicsError>;
 
 impl Stepper {
     /// `step`: the initial step under error control, else unused.
@@ -60,7 +60,7 @@ impl Stepper {
     }
 
     /// Newton iterations spent and effective matrices inverted by an implicit method.
-    pub fn work(&self) -> (u64, u64) {
+    pub fn iteration_counts(&self) -> (u64, u64) {
         match &self.method {
             Method::Implicit(method) => (method.iterations(), method.inverted()),
             _ => (0, 0),
@@ -77,15 +77,15 @@ impl Stepper {
         state: &mut State,
         step: f64,
         end: f64,
-        taken: Taken,
+        taken: OnStep,
     ) -> Result<(), PhysicsError> {
         match &self.method {
             Method::Implicit(_) => self.implicit(system, state, step, 0, taken)?,
             Method::Fixed(_) => {
-                self.follow(system, state, step)?;
+                self.exact_step(system, state, step)?;
                 taken(state, step)?;
             }
-            Method::Adaptive { .. } => self.controlled(system, state, end, taken)?,
+            Method::Adaptive { .. } => self.adaptive_steps(system, state, end, taken)?,
         }
         state.time = end;
         Ok(())
@@ -95,7 +95,7 @@ impl Stepper {
     ///
     /// # Errors
     /// An implicit step that does not converge.
-    pub fn follow(&mut self, system: &System, state: &mut State, step: f64) -> Result<(), PhysicsError> {
+    pub fn exact_step(&mut self, system: &System, state: &mut State, step: f64) -> Result<(), PhysicsError> {
         match &mut self.method {
             Method::Implicit(method) => {
                 let spin = system.spin_ahead(state.time, &state.spin, step);
@@ -118,9 +118,9 @@ impl Stepper {
         state: &mut State,
         step: f64,
         depth: u32,
-        taken: Taken,
+        taken: OnStep,
     ) -> Result<(), PhysicsError> {
-        match self.follow(system, state, step) {
+        match self.exact_step(system, state, step) {
             Ok(()) => taken(state, step),
             Err(_) if depth < MAX_HALVINGS => {
                 self.halvings += 1;
@@ -132,12 +132,12 @@ impl Stepper {
     }
 
     /// Steps to `end` exactly, adapting the step on the way.
-    fn controlled(
+    fn adaptive_steps(
         &mut self,
         system: &System,
         state: &mut State,
         end: f64,
-        taken: Taken,
+        taken: OnStep,
     ) -> Result<(), PhysicsError> {
         let Method::Adaptive { method, tolerance, step: next } = &mut self.method else { return Ok(()) };
         let smallest = 1e-12 * end.max(1e-3);
@@ -206,11 +206,11 @@ fn no_convergence(
 ///
 /// # Errors
 /// [`PhysicsError::Diverged`] naming the largest displacement.
-pub fn check(system: &System, state: &State) -> Result<(), PhysicsError> {
+pub fn check_divergence(system: &System, state: &State) -> Result<(), PhysicsError> {
     let finite = state.x.iter().chain(state.v.iter()).all(|v| v.is_finite());
     let worst = state.d.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let (row, value) = worst.map_or((0, 0.0), |(r, v)| (r, *v));
-    if finite && value.abs() < DIVERGED {
+    if finite && value.abs() < MAX_DISPLACEMENT {
         return Ok(());
     }
     Err(PhysicsError::Diverged {

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::torque::TorqueDrive;
-use crate::bearing::radial::{Rings, StepGain};
+use crate::bearing::radial::{NewmarkGain, Rings};
 use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::linalg::panel::Panel;
 use crate::linalg::{Outside, piecewise};
@@ -47,7 +47,7 @@ impl Interface {
     }
 
     /// Ring motions of a planar bearing.
-    pub fn rings(&self, d: &[f64], d_rate: &[f64]) -> Rings {
+    pub fn ring_motions(&self, d: &[f64], d_rate: &[f64]) -> Rings {
         Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
     }
 
@@ -119,7 +119,7 @@ pub struct System {
 pub struct Panels {
     /// The non-zero ones of \[C K G K_s K_c\].
     linear: Panel,
-    is_there: [bool; 5],
+    is_nonzero: [bool; 5],
     /// C alone.
     pub damping: Panel,
     /// \[K_s K_c\]: the left-hand terms that are neither elastic, damping nor gyroscopic.
@@ -138,14 +138,15 @@ impl Panels {
     ) -> Self {
         let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
         // The stiffness is always kept: it defines the number of rows.
-        let is_there: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
-        let there: Vec<_> = all.iter().zip(is_there).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
+        let is_nonzero: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
+        let nonzero: Vec<_> =
+            all.iter().zip(is_nonzero).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
         Self {
-            linear: Panel::new(&there),
-            is_there,
+            linear: Panel::new(&nonzero),
+            is_nonzero,
             damping: Panel::new(&[damping]),
             effective: Panel::new(&[spin_up, circulatory]),
-            has_effective: is_there[3] || is_there[4],
+            has_effective: is_nonzero[3] || is_nonzero[4],
             to_interface: Panel::new(&[interface_map]),
             from_interface: Panel::new(&[&interface_map.transpose()]),
         }
@@ -188,7 +189,7 @@ impl System {
     }
 
     /// Number of interface displacements: rows of W and balls.
-    pub fn places(&self) -> usize {
+    pub fn interface_size(&self) -> usize {
         self.rows() + self.ball_masses.len()
     }
 
@@ -260,7 +261,7 @@ impl System {
         let factors = [(v, 1.0), (x, 1.0), (v, speed), (x, acceleration), (x, speed)];
         scratch.resize(self.panels.linear.columns(), 0.0);
         let mut parts = scratch.chunks_exact_mut(n.max(1));
-        for ((y, factor), _) in factors.iter().zip(self.panels.is_there).filter(|(_, there)| *there) {
+        for ((y, factor), _) in factors.iter().zip(self.panels.is_nonzero).filter(|(_, there)| *there) {
             let factor = weight * factor;
             if let Some(part) = parts.next() {
                 part.iter_mut().zip(*y).for_each(|(part, y)| *part = factor * y);
@@ -293,7 +294,7 @@ impl System {
     /// Bearing forces with tangent stiffness and damping at displacements and velocities.
     ///
     /// No tangents for bearings whose balls have their own degrees of freedom.
-    pub fn react(
+    pub fn bearing_reactions(
         &self,
         d: &[f64],
         d_rate: &[f64],
@@ -305,7 +306,7 @@ impl System {
     }
 
     /// Bearing forces without tangents (those in `reactions` are stale): for explicit steps.
-    pub fn push(
+    pub fn bearing_forces(
         &self,
         d: &[f64],
         d_rate: &[f64],
@@ -333,10 +334,10 @@ impl System {
                     interface.element.force(&at, &rate, rotation, reaction);
                 }
                 Some(radial) => {
-                    let rings = interface.rings(d, d_rate);
+                    let rings = interface.ring_motions(d, d_rate);
                     let balls = interface.ball_range();
                     let places = [d, d_rate].map(|y| &y[rows.len()..][balls.clone()]);
-                    *reaction = radial.act(&rings, places, rotation, &mut on_balls[balls]);
+                    *reaction = radial.forces(&rings, places, rotation, &mut on_balls[balls]);
                 }
             }
             rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
@@ -348,27 +349,34 @@ impl System {
     /// `d`, `d_rate`: displacements and velocities of the rows, and the force-free prediction of the balls,
     /// replaced by the values at the step's end. `force`: initial guess for the balls, replaced by the
     /// solution. `follow`: −∂(force on every ball)/∂(rows).
-    pub fn react_in_step(
+    pub fn bearing_reactions_in_step(
         &self,
         [d, d_rate]: [&mut [f64]; 2],
         rotations: &[Rotation],
-        gain: &StepGain,
+        gain: &NewmarkGain,
         reactions: &mut [Reaction],
         force: &mut [f64],
-        follow: &mut [[f64; 4]],
+        ball_force_tangent: &mut [[f64; 4]],
     ) {
         let (rows, on_balls) = force.split_at_mut(self.rows());
         for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
             *reaction = match interface.element.radial() {
                 None => interface.reaction(d, d_rate, rotation),
                 Some(radial) => {
-                    let rings = interface.rings(d, d_rate);
+                    let rings = interface.ring_motions(d, d_rate);
                     let balls = interface.ball_range();
-                    let gain = StepGain { ball: gain.ball / radial.ball_mass(), ..*gain };
+                    let gain = NewmarkGain { inverse_mass: gain.inverse_mass / radial.ball_mass(), ..*gain };
                     let (_, places) = d.split_at_mut(rows.len());
                     let (_, rates) = d_rate.split_at_mut(rows.len());
                     let at = [&mut places[balls.clone()], &mut rates[balls.clone()]];
-                    radial.step(&rings, at, rotation, &gain, &mut on_balls[balls.clone()], &mut follow[balls])
+                    radial.step(
+                        &rings,
+                        at,
+                        rotation,
+                        &gain,
+                        &mut on_balls[balls.clone()],
+                        &mut ball_force_tangent[balls],
+                    )
                 }
             };
             rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
@@ -381,7 +389,7 @@ impl System {
         if self.drive.is_some() {
             spin.acceleration = 0.0;
         }
-        let (n, places) = (self.size(), self.places());
+        let (n, places) = (self.size(), self.interface_size());
         let rotations = self
             .interfaces
             .iter()
@@ -427,7 +435,7 @@ impl System {
         self.to_interface(&x, &mut state.d);
         self.to_interface(&v, &mut state.d_rate);
         let State { d, d_rate, rotations, reactions, force, .. } = state;
-        self.react(d, d_rate, rotations, reactions, force);
+        self.bearing_reactions(d, d_rate, rotations, reactions, force);
         let mut a = DVector::zeros(self.size());
         self.load(state.time, &state.spin, &mut a);
         self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::residual::Rows;
-use super::state::State;
+use super::residual::ResidualRows;
+use super::state::ModelState;
 use super::target::{Sensor, TargetFrfs};
 use crate::analysis::sensitivity::{FrfSensitivity, SystemDerivative, frf_sensitivity};
 use crate::error::Error;
@@ -42,42 +42,43 @@ impl FrfFitting {
 }
 
 /// Minimum coherence of a fitted line; below it the noise floor dominates the FRF.
-const LEAST_COHERENCE: f64 = 0.5;
+const MIN_COHERENCE: f64 = 0.5;
 /// Cross-axis floor of all responses, relative to the largest one.
-const ACROSS: f64 = 0.02;
+const CROSS_AXIS_FLOOR: f64 = 0.02;
 /// Relative bandwidth over which the model error is correlated.
-const SHARED: f64 = 0.2;
+const MODEL_ERROR_BANDWIDTH: f64 = 0.2;
 /// Maximum number of fitted lines.
-const MOST_LINES: usize = 300;
+const MAX_LINES: usize = 300;
 
 /// FRF residuals with their derivatives.
 ///
 /// # Errors
 /// A singular dynamic stiffness.
 pub(super) fn frf_rows(
-    state: &State,
+    state: &ModelState,
     measured: &TargetFrfs,
     fitting: &FrfFitting,
     by: &[&SystemDerivative],
-    rows: &mut Rows,
+    rows: &mut ResidualRows,
 ) -> Result<(), Error> {
-    let lines = lines(measured, fitting.band);
+    let lines = selected_lines(measured, fitting.band);
     let found = computed(state, measured, &lines, by)?;
-    let shared = shared(measured, &lines, fitting.complex);
-    for (r, e) in pairs(measured) {
-        for (k, &line) in lines.iter().enumerate().filter(|(_, line)| tells(measured, r, e, **line)) {
-            let seen = Seen::new(found.values[r][e][k], measured.values[r][e][line], {
-                ACROSS * largest(measured, r, e, line)
+    let shared = correlated_counts(measured, &lines, fitting.complex);
+    for (r, e) in frf_indices(measured) {
+        for (k, &line) in lines.iter().enumerate().filter(|(_, line)| is_usable_line(measured, r, e, **line))
+        {
+            let seen = LineResidual::new(found.values[r][e][k], measured.values[r][e][line], {
+                CROSS_AXIS_FLOOR * largest_response(measured, r, e, line)
             });
             let model = fitting.deviation.powi(2);
-            let noise = scatter(measured, r, e, line) * seen.share;
+            let noise = random_error_variance(measured, r, e, line) * seen.share;
             let variance = shared[k] * model + noise;
             let size = variance.sqrt();
             rows.data += (model + noise) / variance * if fitting.complex { 2.0 } else { 1.0 };
-            let slopes = || found.slopes.iter().map(|s| s[r][e][k]);
-            rows.push(seen.magnitude() / size, slopes().map(|s| seen.magnitude_slope(s) / size));
+            let slopes = || found.derivatives.iter().map(|s| s[r][e][k]);
+            rows.push(seen.magnitude() / size, slopes().map(|s| seen.magnitude_derivative(s) / size));
             if fitting.complex {
-                let (apart, slope) = (seen.apart() / size, |s| seen.apart_slope(s) / size);
+                let (apart, slope) = (seen.phase_residual() / size, |s| seen.phase_derivative(s) / size);
                 rows.push(apart.re, slopes().map(|s| slope(s).re));
                 rows.push(apart.im, slopes().map(|s| slope(s).im));
             }
@@ -87,7 +88,7 @@ pub(super) fn frf_rows(
 }
 
 /// Computed h and measured m at a line, with the cross-axis floor a.
-struct Seen {
+struct LineResidual {
     h: Complex64,
     /// √(|h|² + a²).
     size: f64,
@@ -99,7 +100,7 @@ struct Seen {
     share: f64,
 }
 
-impl Seen {
+impl LineResidual {
     fn new(h: Complex64, m: Complex64, a: f64) -> Self {
         let [size, measured_size] = [h, m].map(|v| v.norm().hypot(a));
         let measured = m / measured_size;
@@ -111,39 +112,43 @@ impl Seen {
         (self.size / self.measured_size).ln()
     }
 
-    fn magnitude_slope(&self, slope: Complex64) -> f64 {
+    fn magnitude_derivative(&self, slope: Complex64) -> f64 {
         (self.h.conj() * slope).re / self.size.powi(2)
     }
 
     /// Phase residual h/√(|h|² + a²) − m/√(|m|² + a²), relative to arg m; 2 sin Δφ/2 if both exceed a.
-    fn apart(&self) -> Complex64 {
-        (self.h / self.size - self.measured) * self.turn()
+    fn phase_residual(&self) -> Complex64 {
+        (self.h / self.size - self.measured) * self.phase_reference()
     }
 
-    fn apart_slope(&self, slope: Complex64) -> Complex64 {
-        (slope - self.h * self.magnitude_slope(slope)) / self.size * self.turn()
+    fn phase_derivative(&self, slope: Complex64) -> Complex64 {
+        (slope - self.h * self.magnitude_derivative(slope)) / self.size * self.phase_reference()
     }
 
-    fn turn(&self) -> Complex64 {
+    fn phase_reference(&self) -> Complex64 {
         self.measured.conj() / self.measured.norm()
     }
 }
 
 /// Number of FRF data in the fit.
-pub(super) fn count(measured: &TargetFrfs, fitting: &FrfFitting) -> usize {
-    let lines = lines(measured, fitting.band);
-    let of = |k: &usize| pairs(measured).filter(|&(r, e)| tells(measured, r, e, *k)).count();
+pub(super) fn data_count(measured: &TargetFrfs, fitting: &FrfFitting) -> usize {
+    let lines = selected_lines(measured, fitting.band);
+    let of = |k: &usize| frf_indices(measured).filter(|&(r, e)| is_usable_line(measured, r, e, *k)).count();
     lines.iter().map(of).sum::<usize>() * if fitting.complex { 2 } else { 1 }
 }
 
 /// RMS of 20 log(|H_computed|/|H_measured|) \[dB\] over the fitted lines; `computed` contains all lines.
-pub fn decibels_apart(measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], fitting: &FrfFitting) -> f64 {
-    let lines = lines(measured, fitting.band);
+pub fn rms_difference_db(
+    measured: &TargetFrfs,
+    computed: &[Vec<Vec<Complex64>>],
+    fitting: &FrfFitting,
+) -> f64 {
+    let lines = selected_lines(measured, fitting.band);
     let (mut sum, mut count) = (0.0, 0);
-    for (r, e, &line) in pairs(measured).flat_map(|(r, e)| lines.iter().map(move |line| (r, e, line))) {
-        if tells(measured, r, e, line) {
-            let a = ACROSS * largest(measured, r, e, line);
-            let apart = Seen::new(computed[r][e][line], measured.values[r][e][line], a).magnitude();
+    for (r, e, &line) in frf_indices(measured).flat_map(|(r, e)| lines.iter().map(move |line| (r, e, line))) {
+        if is_usable_line(measured, r, e, line) {
+            let a = CROSS_AXIS_FLOOR * largest_response(measured, r, e, line);
+            let apart = LineResidual::new(computed[r][e][line], measured.values[r][e][line], a).magnitude();
             sum += (20.0 * std::f64::consts::LOG10_E * apart).powi(2);
             count += 1;
         }
@@ -152,27 +157,27 @@ pub fn decibels_apart(measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], f
 }
 
 /// Every response with every reference.
-fn pairs(measured: &TargetFrfs) -> impl Iterator<Item = (usize, usize)> + use<> {
+fn frf_indices(measured: &TargetFrfs) -> impl Iterator<Item = (usize, usize)> + use<> {
     let references = measured.references.len();
     (0..measured.responses.len()).flat_map(move |r| (0..references).map(move |e| (r, e)))
 }
 
 /// The model's FRFs at some of the measured lines, chunk by chunk.
 fn computed(
-    state: &State,
+    state: &ModelState,
     measured: &TargetFrfs,
     lines: &[usize],
     by: &[&SystemDerivative],
 ) -> Result<FrfSensitivity, Error> {
     const CHUNK: usize = 32;
     let of = |sensors: &[Sensor]| -> Vec<SparseRow> {
-        sensors.iter().map(|s| s.row(&state.linear.assembly)).collect()
+        sensors.iter().map(|s| s.row(&state.linearised.assembly)).collect()
     };
     let (responses, references) = (of(&measured.responses), of(&measured.references));
     let frequencies: Vec<f64> = lines.iter().map(|&k| measured.frequencies[k]).collect();
     let parts: Vec<FrfSensitivity> = frequencies
         .par_chunks(CHUNK)
-        .map(|f| frf_sensitivity(&state.linear, f, &references, &responses, &measured.quantities, by))
+        .map(|f| frf_sensitivity(&state.linearised, f, &references, &responses, &measured.quantities, by))
         .collect::<Result<_, _>>()?;
     let joined = |of: &dyn Fn(&FrfSensitivity, usize, usize) -> Vec<Complex64>| -> Vec<Vec<Vec<Complex64>>> {
         let one = |r: usize, e: usize| parts.iter().flat_map(|p| of(p, r, e)).collect();
@@ -180,18 +185,18 @@ fn computed(
     };
     Ok(FrfSensitivity {
         values: joined(&|p, r, e| p.values[r][e].clone()),
-        slopes: (0..by.len()).map(|k| joined(&|p, r, e| p.slopes[k][r][e].clone())).collect(),
+        derivatives: (0..by.len()).map(|k| joined(&|p, r, e| p.derivatives[k][r][e].clone())).collect(),
     })
 }
 
 /// Whether a line of an FRF is usable: nonzero and of sufficient coherence.
-fn tells(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> bool {
-    let clear = measured.coherence.as_ref().is_none_or(|c| c[r][e][line] >= LEAST_COHERENCE);
+fn is_usable_line(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> bool {
+    let clear = measured.coherence.as_ref().is_none_or(|c| c[r][e][line] >= MIN_COHERENCE);
     clear && measured.values[r][e][line].norm_sqr() > 0.0
 }
 
 /// Largest |H| at a line for the same reference, over responses of the same kind.
-fn largest(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
+fn largest_response(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     let turns = |r: usize| measured.responses[r].direction[3..].iter().any(|d| *d != 0.0);
     let kind = |r: usize| (measured.quantities[r], turns(r));
     let alike = (0..measured.responses.len()).filter(|&other| kind(other) == kind(r));
@@ -199,24 +204,24 @@ fn largest(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
 }
 
 /// Random error variance of ln|H| and of the phase by the coherence, for one average; 0 without coherence.
-fn scatter(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
+fn random_error_variance(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     measured.coherence.as_ref().map_or(0.0, |c| {
-        let coherence = c[r][e][line].clamp(LEAST_COHERENCE, 1.0);
+        let coherence = c[r][e][line].clamp(MIN_COHERENCE, 1.0);
         (1.0 - coherence) / (2.0 * coherence)
     })
 }
 
 /// Number of data within a fifth of every line's frequency (correlated model error).
-fn shared(measured: &TargetFrfs, lines: &[usize], complex: bool) -> Vec<f64> {
+fn correlated_counts(measured: &TargetFrfs, lines: &[usize], complex: bool) -> Vec<f64> {
     let at = |line: usize| {
-        pairs(measured).filter(|&(r, e)| tells(measured, r, e, line)).count() as f64
+        frf_indices(measured).filter(|&(r, e)| is_usable_line(measured, r, e, line)).count() as f64
             * if complex { 2.0 } else { 1.0 }
     };
     let counts: Vec<f64> = lines.iter().map(|&line| at(line)).collect();
     let log: Vec<f64> = lines.iter().map(|&line| measured.frequencies[line].ln()).collect();
     log.iter()
         .map(|centre| {
-            let near = |other: &f64| (other - centre).abs() <= 0.5 * SHARED;
+            let near = |other: &f64| (other - centre).abs() <= 0.5 * MODEL_ERROR_BANDWIDTH;
             let sum: f64 = log.iter().zip(&counts).filter(|(l, _)| near(l)).map(|(_, n)| n).sum();
             sum.max(1.0)
         })
@@ -225,16 +230,18 @@ fn shared(measured: &TargetFrfs, lines: &[usize], complex: bool) -> Vec<f64> {
 
 /// Lines within the band: all, or if too many, half of them uniformly and half where magnitudes change most,
 /// near resonances and antiresonances.
-fn lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
+fn selected_lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
     let all: Vec<usize> = (0..measured.frequencies.len())
         .filter(|&k| (from..=to).contains(&measured.frequencies[k]) && measured.frequencies[k] > 0.0)
         .collect();
-    if all.len() <= MOST_LINES {
+    if all.len() <= MAX_LINES {
         return all;
     }
     let change = |pair: &[usize]| {
         let mut sum = 0.0;
-        for (r, e) in pairs(measured).filter(|&(r, e)| pair.iter().all(|&k| tells(measured, r, e, k))) {
+        for (r, e) in
+            frf_indices(measured).filter(|&(r, e)| pair.iter().all(|&k| is_usable_line(measured, r, e, k)))
+        {
             let [a, b] = [pair[0], pair[1]].map(|k| measured.values[r][e][k].norm());
             sum += (b / a).ln().abs();
         }
@@ -246,7 +253,7 @@ fn lines(measured: &TargetFrfs, [from, to]: [f64; 2]) -> Vec<usize> {
     let mut out = vec![all[0]];
     let (mut passed, mut next) = (0.0, 1.0);
     for (change, &line) in changes.iter().zip(&all[1..]) {
-        passed += 0.5 * (even + change / total) * (MOST_LINES - 1) as f64;
+        passed += 0.5 * (even + change / total) * (MAX_LINES - 1) as f64;
         if passed >= next - 1e-9 {
             out.push(line);
             next = passed.floor() + 1.0;
@@ -260,28 +267,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slopes_are_those_of_differences_at_a_zero_too() {
+    fn derivatives_match_differences_also_at_a_zero() {
         let c = Complex64::new;
         for h in [c(3.0, -2.0), c(1e-3, 2e-3), c(0.0, 0.0)] {
             let (m, a, slope, step) = (c(-0.2, 0.5), 0.1, c(0.7, -0.4), 1e-6);
-            let [low, here, high] = [-step, 0.0, step].map(|x| Seen::new(h + slope * x, m, a));
+            let [low, here, high] = [-step, 0.0, step].map(|x| LineResidual::new(h + slope * x, m, a));
             let magnitude = (high.magnitude() - low.magnitude()) / (2.0 * step);
-            assert!((here.magnitude_slope(slope) - magnitude).abs() < 1e-7);
-            let apart = (high.apart() - low.apart()) / (2.0 * step);
-            assert!((here.apart_slope(slope) - apart).norm() < 1e-7);
+            assert!((here.magnitude_derivative(slope) - magnitude).abs() < 1e-7);
+            let apart = (high.phase_residual() - low.phase_residual()) / (2.0 * step);
+            assert!((here.phase_derivative(slope) - apart).norm() < 1e-7);
         }
         let (seen, turned) =
-            (Seen::new(c(0.0, 2.0), c(2.0, 0.0), 1e-9), 2.0 * (0.25 * std::f64::consts::PI).sin());
-        assert!((seen.apart().norm() - turned).abs() < 1e-12 && seen.magnitude().abs() < 1e-12);
+            (LineResidual::new(c(0.0, 2.0), c(2.0, 0.0), 1e-9), 2.0 * (0.25 * std::f64::consts::PI).sin());
+        assert!((seen.phase_residual().norm() - turned).abs() < 1e-12 && seen.magnitude().abs() < 1e-12);
     }
 
     #[test]
-    fn many_lines_are_thinned_about_resonances() {
+    fn line_selection_concentrates_at_resonances() {
         let frequencies: Vec<f64> = (0..4000).map(|k| 0.1 * f64::from(k)).collect();
         let h = |f: f64| 1.0 / Complex64::new(2500.0 - f * f, 2.0 * 0.005 * 50.0 * f);
         let point = |direction| Sensor {
             dof: crate::signal::record::Dof::new(1, direction),
-            at: crate::element::Anchor::node(0),
+            anchor: crate::element::Anchor::node(0),
             direction: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         };
         let measured = TargetFrfs {
@@ -292,14 +299,14 @@ mod tests {
             coherence: None,
             frequencies,
         };
-        let chosen = lines(&measured, [5.0, 300.0]);
-        assert!((250..=MOST_LINES).contains(&chosen.len()), "{}", chosen.len());
+        let chosen = selected_lines(&measured, [5.0, 300.0]);
+        assert!((250..=MAX_LINES).contains(&chosen.len()), "{}", chosen.len());
         let within = |low: f64, high: f64| {
             chosen.iter().filter(|&&k| (low..=high).contains(&measured.frequencies[k])).count()
         };
         // The upper half of the peak has a sixth of the total variation of ln|H|; 1 Hz elsewhere half a line.
         assert!(within(49.5, 50.5) >= 10 && within(200.0, 210.0) >= 5, "{chosen:?}");
         let few = TargetFrfs { frequencies: measured.frequencies[..200].to_vec(), ..measured.clone() };
-        assert_eq!(lines(&few, [5.0, 300.0]).len(), 150);
+        assert_eq!(selected_lines(&few, [5.0, 300.0]).len(), 150);
     }
 }

@@ -5,11 +5,11 @@ use nalgebra::DMatrix;
 use super::least_squares::{Evaluation, Prior};
 
 /// Maximum ratio of posterior to prior variance of an identifiable parameter.
-pub const LARGEST_PRIOR_SHARE: f64 = 0.1;
+pub const MAX_PRIOR_SHARE: f64 = 0.1;
 /// Maximum relative standard error of an identifiable parameter (additive: over the prior's deviation).
-pub const LARGEST_ERROR: f64 = 0.1;
+pub const MAX_RELATIVE_ERROR: f64 = 0.1;
 /// Ratio of posterior to prior variance above which a parameter is not identifiable (dominated by the prior).
-pub const MOSTLY_PRIOR: f64 = 0.5;
+pub const PRIOR_DOMINATED_SHARE: f64 = 0.5;
 
 /// Standard errors and their correlation, from the Gauss-Newton Hessian at the solution.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Identifiability {
     pub correlation: Vec<Vec<f64>>,
     /// χ² = |r|² of the data, and the degrees of freedom ν: data minus the effective number of parameters.
     pub chi_squared: f64,
-    pub degrees: f64,
+    pub degrees_of_freedom: f64,
     /// Scale factor of the standard errors, √(χ²/ν), at least 1.
     pub inflation: f64,
 }
@@ -45,9 +45,9 @@ pub fn identifiability(at: &Evaluation, prior: &Prior) -> Identifiability {
     let covariance = |i: usize, j: usize| -> f64 {
         values.iter().zip(&directions).map(|(s, v)| v[i] * v[j] / (1.0 + s)).sum()
     };
-    let told: f64 = values.iter().map(|s| s / (1.0 + s)).sum();
+    let effective_parameters: f64 = values.iter().map(|s| s / (1.0 + s)).sum();
     let chi_squared = at.residual.norm_squared();
-    let degrees = at.data - told;
+    let degrees = at.data - effective_parameters;
     let inflation = if degrees > 0.5 { (chi_squared / degrees).sqrt().max(1.0) } else { 1.0 };
     let prior_share: Vec<f64> = (0..n).map(|i| covariance(i, i)).collect();
     Identifiability {
@@ -59,7 +59,7 @@ pub fn identifiability(at: &Evaluation, prior: &Prior) -> Identifiability {
         directions,
         prior_share,
         chi_squared,
-        degrees,
+        degrees_of_freedom: degrees,
         inflation,
     }
 }
@@ -70,7 +70,7 @@ mod tests {
     use nalgebra::DVector;
 
     #[test]
-    fn a_sum_is_told_and_a_difference_is_not() {
+    fn sum_is_identifiable_difference_is_not() {
         // One datum determines x + y to 0.01; none determines x − y.
         let at = Evaluation {
             residual: DVector::from_vec(vec![0.0]),

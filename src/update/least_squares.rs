@@ -38,16 +38,16 @@ pub struct Iteration {
 #[derive(Clone, Debug)]
 pub struct Solution {
     pub x: Vec<f64>,
-    pub at: Evaluation,
+    pub evaluation: Evaluation,
     /// The start, then every step taken.
     pub iterations: Vec<Iteration>,
     pub converged: bool,
 }
 
 /// Convergence: largest step over the conditional standard error of a parameter (others fixed).
-const LAST_STEP: f64 = 1e-8;
+const STEP_TOLERANCE: f64 = 1e-8;
 /// Convergence: relative reduction of the cost.
-const LAST_FALL: f64 = 1e-10;
+const COST_TOLERANCE: f64 = 1e-10;
 const MAX_REJECTED: usize = 12;
 
 /// Minimises ½ |r(x)|² + ½ Σ ((x − mean)/deviation)² within the bounds, from `start`.
@@ -66,8 +66,8 @@ pub fn minimise(
 ) -> Result<Solution, Error> {
     let n = start.len();
     let cost = |x: &[f64], at: &Evaluation| {
-        let held: f64 = (0..n).map(|j| ((x[j] - prior.mean[j]) / prior.deviation[j]).powi(2)).sum();
-        0.5 * (at.residual.norm_squared() + held)
+        let penalty: f64 = (0..n).map(|j| ((x[j] - prior.mean[j]) / prior.deviation[j]).powi(2)).sum();
+        0.5 * (at.residual.norm_squared() + penalty)
     };
     let mut x = start.to_vec();
     let mut at = evaluate(&x)?;
@@ -85,19 +85,19 @@ pub fn minimise(
         let error =
             |j: usize| (at.jacobian.column(j).norm_squared() + prior.deviation[j].powi(-2)).sqrt().recip();
         let size = largest(&|j| prior.deviation[j]);
-        if largest(&error) < LAST_STEP {
+        if largest(&error) < STEP_TOLERANCE {
             converged = true;
             break;
         }
         let taken = evaluate(&trial).ok().map(|there| (cost(&trial, &there), there));
         match taken {
             Some((then, there)) if then < now => {
-                let expected = predicted_fall(&x, &trial, &at, prior);
+                let expected = predicted_reduction(&x, &trial, &at, prior);
                 let gain = if expected > 0.0 { (now - then) / expected } else { 1.0 };
                 damping *= (1.0 - (2.0 * gain - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
                 growth = 2.0;
                 rejected = 0;
-                converged = now - then < LAST_FALL * now;
+                converged = now - then < COST_TOLERANCE * now;
                 (x, at, now) = (trial, there, then);
                 iterations.push(Iteration { x: x.clone(), cost: now, step: size });
             }
@@ -110,7 +110,7 @@ pub fn minimise(
     }
     // No shorter step reduces the cost: round-off is reached.
     let converged = converged || rejected == MAX_REJECTED;
-    Ok(Solution { x, at, iterations, converged })
+    Ok(Solution { x, evaluation: at, iterations, converged })
 }
 
 /// Gradient Jᵀ r + P (x − mean) and Gauss-Newton matrix Jᵀ J + P of the cost.
@@ -149,7 +149,7 @@ fn damped_step(x: &[f64], at: &Evaluation, prior: &Prior, damping: f64) -> Optio
 }
 
 /// Cost reduction between two points predicted by the linear model.
-fn predicted_fall(x: &[f64], trial: &[f64], at: &Evaluation, prior: &Prior) -> f64 {
+fn predicted_reduction(x: &[f64], trial: &[f64], at: &Evaluation, prior: &Prior) -> f64 {
     let (gradient, matrix) = normal_equations(x, at, prior);
     let step = DVector::from_iterator(x.len(), trial.iter().zip(x).map(|(t, x)| t - x));
     -(gradient.dot(&step) + 0.5 * step.dot(&(matrix * &step)))
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn stops_at_a_bound_and_slides_along_it() {
+    fn minimum_on_an_active_bound() {
         let found = minimise(&[-1.2, 1.0], &prior(1e6, 0.5), 100, &mut rosenbrock).unwrap();
         // At x = 0.5 the valley's floor is y = 0.25.
         assert!(found.converged && found.x[0] == 0.5, "{:?}", found.x);
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_prior_weighs_like_a_datum() {
+    fn prior_weighted_like_a_datum() {
         // One datum x = 1 ± 0.5 against the prior 0 ± 1: the mean weighted by 4 to 1.
         let mut datum = |x: &[f64]| {
             Ok(Evaluation {

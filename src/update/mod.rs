@@ -12,12 +12,12 @@
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 
-mod double;
 pub mod frf;
 pub mod identifiability;
 pub mod least_squares;
 pub mod pairing;
 pub mod parameter;
+mod repeated;
 pub mod residual;
 pub mod state;
 pub mod target;
@@ -27,11 +27,11 @@ use rayon::prelude::*;
 use crate::analysis::sensitivity::SystemDerivative;
 use crate::error::Error;
 use crate::model::Model;
-use identifiability::{Identifiability, LARGEST_ERROR, LARGEST_PRIOR_SHARE, MOSTLY_PRIOR};
+use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
 use least_squares::{Evaluation, Iteration, Prior, minimise};
 use parameter::FreeParameter;
-use residual::{Fitting, evaluation};
-use state::State;
+use residual::{Fitting, evaluate_residuals};
+use state::ModelState;
 use target::Target;
 
 /// Error of a comparison or update with measurements: what is wrong, and what to do.
@@ -49,38 +49,38 @@ impl UpdateError {
 }
 
 /// Builds the model with parameter values (path, value) overridden.
-pub type Load<'a> = dyn Fn(&[(String, String)]) -> Result<Model, Error> + Sync + 'a;
+pub type ModelLoader<'a> = dyn Fn(&[(String, String)]) -> Result<Model, Error> + Sync + 'a;
 
 /// Input of a model update.
-pub struct Job<'a> {
+pub struct UpdateJob<'a> {
     pub parameters: &'a [FreeParameter],
     pub target: &'a Target,
     pub fitting: &'a Fitting,
-    pub load: &'a Load<'a>,
+    pub load: &'a ModelLoader<'a>,
     pub max_iterations: usize,
 }
 
 /// Identifiability class of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum IdentifiabilityClass {
     /// Identifiable: at most 10 % of its prior variance is left, and its standard error is at most 10 %.
-    Found,
+    Identifiable,
     /// Poorly identifiable: at most half of its prior variance is left. It is fitted with the others.
-    Poor,
+    PoorlyIdentifiable,
     /// Not identifiable: more than half of its prior variance is left. It is reset to its start.
-    NotTold,
+    NotIdentifiable,
     /// The fit ended at a bound.
     AtBound,
 }
 
-impl Verdict {
+impl IdentifiabilityClass {
     /// Label.
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
-            Verdict::Found => "found",
-            Verdict::Poor => "poorly determined",
-            Verdict::NotTold => "not told by the data",
-            Verdict::AtBound => "at its bound",
+            IdentifiabilityClass::Identifiable => "found",
+            IdentifiabilityClass::PoorlyIdentifiable => "poorly determined",
+            IdentifiabilityClass::NotIdentifiable => "not told by the data",
+            IdentifiabilityClass::AtBound => "at its bound",
         }
     }
 }
@@ -88,7 +88,7 @@ impl Verdict {
 /// A parameter after the update.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    pub verdict: Verdict,
+    pub class: IdentifiabilityClass,
     /// Final coordinate: the fitted one, or the prior's mean if not identifiable.
     pub x: f64,
     /// Coordinate from the fit of all parameters.
@@ -106,10 +106,10 @@ pub struct Update {
     pub identifiability: Identifiability,
     pub iterations: Vec<Iteration>,
     pub converged: bool,
-    pub before: State,
-    pub after: State,
+    pub before: ModelState,
+    pub after: ModelState,
     /// Fitted measured modes.
-    pub kept: Vec<usize>,
+    pub fitted_modes: Vec<usize>,
     /// Number of data.
     pub data: usize,
 }
@@ -118,20 +118,20 @@ pub struct Update {
 ///
 /// # Errors
 /// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
-pub fn update(job: &Job) -> Result<Update, Error> {
+pub fn update(job: &UpdateJob) -> Result<Update, Error> {
     let prior = parameter::prior(job.parameters);
     let start: Vec<f64> = prior.mean.clone();
-    let before = State::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;
-    let mut kept: Vec<usize> = before.pairing.pairs.iter().map(|p| p.measured).collect();
+    let before = ModelState::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;
+    let mut fitted_modes: Vec<usize> = before.pairing.pairs.iter().map(|p| p.measured).collect();
     let frfs = job.fitting.frf.is_some() && job.target.frfs.is_some();
-    if kept.is_empty() && !frfs {
+    if fitted_modes.is_empty() && !frfs {
         return Err(UpdateError::new(
             "no measured mode is paired with a computed mode",
             "check the MAC and the mapping with `rotordyn validate`, or start from a closer model",
         )
         .into());
     }
-    let data = data_count(job, &kept);
+    let data = data_count(job, &fitted_modes);
     if job.parameters.len() > data {
         return Err(UpdateError::new(
             format!("there are {} free parameters, but only {data} data", job.parameters.len()),
@@ -139,28 +139,29 @@ pub fn update(job: &Job) -> Result<Update, Error> {
         )
         .into());
     }
-    let mut fit = fit(job, &prior, &start, &kept)?;
+    let mut fit = fit(job, &prior, &start, &fitted_modes)?;
     // With the improved model more measured modes may be paired.
     let mut state = job.state(&fit.x)?;
     let now: Vec<usize> = state.pairing.pairs.iter().map(|p| p.measured).collect();
-    if now.len() > kept.len() {
-        kept = now;
-        fit = self::fit(job, &prior, &fit.x.clone(), &kept)?;
+    if now.len() > fitted_modes.len() {
+        fitted_modes = now;
+        fit = self::fit(job, &prior, &fit.x.clone(), &fitted_modes)?;
         state = job.state(&fit.x)?;
     }
-    let told = identifiability::identifiability(&fit.at, &prior);
-    let verdicts: Vec<Verdict> = (0..job.parameters.len()).map(|j| verdict(job, &fit.x, &told, j)).collect();
+    let estimate = identifiability::identifiability(&fit.evaluation, &prior);
+    let classes: Vec<IdentifiabilityClass> =
+        (0..job.parameters.len()).map(|j| classify(job, &fit.x, &estimate, j)).collect();
     let mut x = fit.x.clone();
     let mut iterations = fit.iterations;
     let mut converged = fit.converged;
-    if verdicts.contains(&Verdict::NotTold) {
-        let mut held = prior.clone();
-        for j in (0..x.len()).filter(|&j| verdicts[j] == Verdict::NotTold) {
+    if classes.contains(&IdentifiabilityClass::NotIdentifiable) {
+        let mut constrained = prior.clone();
+        for j in (0..x.len()).filter(|&j| classes[j] == IdentifiabilityClass::NotIdentifiable) {
             x[j] = prior.mean[j];
-            (held.lower[j], held.upper[j]) = (x[j], x[j]);
+            (constrained.lower[j], constrained.upper[j]) = (x[j], x[j]);
         }
-        if verdicts.iter().any(|v| *v != Verdict::NotTold) {
-            let again = self::fit(job, &held, &x, &kept)?;
+        if classes.iter().any(|v| *v != IdentifiabilityClass::NotIdentifiable) {
+            let again = self::fit(job, &constrained, &x, &fitted_modes)?;
             x = again.x;
             iterations.extend(again.iterations);
             converged &= again.converged;
@@ -169,14 +170,23 @@ pub fn update(job: &Job) -> Result<Update, Error> {
     }
     let outcomes = (0..x.len())
         .map(|j| Outcome {
-            verdict: verdicts[j],
+            class: classes[j],
             x: x[j],
             fitted: fit.x[j],
-            error: told.errors[j],
-            prior_share: told.prior_share[j],
+            error: estimate.errors[j],
+            prior_share: estimate.prior_share[j],
         })
         .collect();
-    Ok(Update { outcomes, identifiability: told, iterations, converged, before, after: state, kept, data })
+    Ok(Update {
+        outcomes,
+        identifiability: estimate,
+        iterations,
+        converged,
+        before,
+        after: state,
+        fitted_modes,
+        data,
+    })
 }
 
 /// Paths and values of all parameters.
@@ -184,33 +194,38 @@ pub fn settings(parameters: &[FreeParameter], x: &[f64]) -> Vec<(String, String)
     parameters.iter().zip(x).flat_map(|(p, x)| p.settings(*x)).collect()
 }
 
-impl Job<'_> {
-    fn state(&self, x: &[f64]) -> Result<State, Error> {
-        State::new((self.load)(&settings(self.parameters, x))?, self.target, None)
+impl UpdateJob<'_> {
+    fn state(&self, x: &[f64]) -> Result<ModelState, Error> {
+        ModelState::new((self.load)(&settings(self.parameters, x))?, self.target, None)
     }
 
     /// Derivatives dM, dD and dS by every coordinate at x.
-    fn derivatives(&self, x: &[f64], state: &State) -> Result<Vec<SystemDerivative>, Error> {
+    fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, Error> {
         let all = settings(self.parameters, x);
         let one = |parameter: &FreeParameter, x: f64| {
-            let (sides, width) = parameter.neighbours(x);
+            let (sides, width) = parameter.difference_settings(x);
             let model = |own: &Vec<(String, String)>| {
                 let mut set = all.clone();
                 set.extend_from_slice(own);
                 (self.load)(&set)
             };
-            state.linear.derivative(&model(&sides[0])?, &model(&sides[1])?, width)
+            state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)
         };
         self.parameters.par_iter().zip(x).map(|(p, x)| one(p, *x)).collect()
     }
 }
 
-fn fit(job: &Job, prior: &Prior, start: &[f64], kept: &[usize]) -> Result<least_squares::Solution, Error> {
+fn fit(
+    job: &UpdateJob,
+    prior: &Prior,
+    start: &[f64],
+    kept: &[usize],
+) -> Result<least_squares::Solution, Error> {
     let mut first = true;
     let mut evaluate = |x: &[f64]| -> Result<Evaluation, Error> {
         let state = job.state(x)?;
         let by = job.derivatives(x, &state)?;
-        let found = evaluation(&state, job.target, job.fitting, kept, &by)?;
+        let found = evaluate_residuals(&state, job.target, job.fitting, kept, &by)?;
         if std::mem::take(&mut first) {
             check_influence(job, &found, prior)?;
         }
@@ -220,12 +235,12 @@ fn fit(job: &Job, prior: &Prior, start: &[f64], kept: &[usize]) -> Result<least_
 }
 
 /// Minimum influence: change of the weighted residuals per prior standard deviation of a parameter.
-const NO_INFLUENCE: f64 = 1e-4;
+const MIN_INFLUENCE: f64 = 1e-4;
 
 /// Error if no parameter influences the data; single ones without influence stay at their start.
-fn check_influence(job: &Job, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
+fn check_influence(job: &UpdateJob, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
     let without: Vec<&str> = (0..job.parameters.len())
-        .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < NO_INFLUENCE)
+        .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < MIN_INFLUENCE)
         .map(|j| job.parameters[j].name.as_str())
         .collect();
     if without.len() < job.parameters.len() {
@@ -239,7 +254,7 @@ fn check_influence(job: &Job, at: &Evaluation, prior: &Prior) -> Result<(), Upda
 }
 
 /// Number of independent data: frequencies, damping ratios, shapes except for their scale, FRF lines.
-fn data_count(job: &Job, kept: &[usize]) -> usize {
+fn data_count(job: &UpdateJob, kept: &[usize]) -> usize {
     let fitting = job.fitting;
     let mut count = 0;
     for mode in kept.iter().map(|&k| &job.target.modes[k]) {
@@ -250,23 +265,24 @@ fn data_count(job: &Job, kept: &[usize]) -> usize {
         }
     }
     if let (Some(frf), Some(measured)) = (&fitting.frf, &job.target.frfs) {
-        count += frf::count(measured, frf);
+        count += frf::data_count(measured, frf);
     }
     count
 }
 
-fn verdict(job: &Job, x: &[f64], told: &Identifiability, j: usize) -> Verdict {
+fn classify(job: &UpdateJob, x: &[f64], estimate: &Identifiability, j: usize) -> IdentifiabilityClass {
     let parameter = &job.parameters[j];
     // Additive parameters: relative to the prior's deviation.
-    let relative = if parameter.logarithmic { told.errors[j] } else { told.errors[j] / parameter.deviation };
+    let relative =
+        if parameter.logarithmic { estimate.errors[j] } else { estimate.errors[j] / parameter.deviation };
     let near = 1e-9 * parameter.deviation;
     if x[j] <= parameter.lower + near || x[j] >= parameter.upper - near {
-        Verdict::AtBound
-    } else if told.prior_share[j] <= LARGEST_PRIOR_SHARE && relative <= LARGEST_ERROR {
-        Verdict::Found
-    } else if told.prior_share[j] <= MOSTLY_PRIOR {
-        Verdict::Poor
+        IdentifiabilityClass::AtBound
+    } else if estimate.prior_share[j] <= MAX_PRIOR_SHARE && relative <= MAX_RELATIVE_ERROR {
+        IdentifiabilityClass::Identifiable
+    } else if estimate.prior_share[j] <= PRIOR_DOMINATED_SHARE {
+        IdentifiabilityClass::PoorlyIdentifiable
     } else {
-        Verdict::NotTold
+        IdentifiabilityClass::NotIdentifiable
     }
 }

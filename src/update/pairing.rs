@@ -4,7 +4,7 @@ use crate::identify::mac::mac_matrix;
 use crate::linalg::Complex64;
 
 /// Minimum MAC of a mode pair.
-pub const LEAST_MAC: f64 = 0.3;
+pub const MIN_MAC: f64 = 0.3;
 /// Standard deviation of ln(f_computed/f_measured) in the pair score.
 const FREQUENCY_SPREAD: f64 = 0.25;
 
@@ -35,18 +35,19 @@ pub struct Candidate<'a> {
 }
 
 /// Pair score MAC · exp(−½ (ln(f_c/f_m)/0.25)²); 0 for a MAC < 0.3 or frequencies a factor ≥ 2 apart.
-pub fn likeness(mac: f64, computed_hz: f64, measured_hz: f64) -> f64 {
+pub fn pair_score(mac: f64, computed_hz: f64, measured_hz: f64) -> f64 {
     let apart = (computed_hz / measured_hz).ln();
     let near = apart.abs() < std::f64::consts::LN_2;
-    if near && mac >= LEAST_MAC { mac * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp() } else { 0.0 }
+    if near && mac >= MIN_MAC { mac * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp() } else { 0.0 }
 }
 
 /// Optimal pairing: the assignment with the largest sum of [`likeness`]; modes of zero score are not paired.
-pub fn pair(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
+pub fn pair_modes(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
     let measured_shapes: Vec<&[Complex64]> = measured.iter().map(|c| c.shape).collect();
     let computed_shapes: Vec<&[Complex64]> = computed.iter().map(|c| c.shape).collect();
     let mac = mac_matrix(&measured_shapes, &computed_shapes);
-    let score = |m: usize, c: usize| likeness(mac[m][c], computed[c].frequency_hz, measured[m].frequency_hz);
+    let score =
+        |m: usize, c: usize| pair_score(mac[m][c], computed[c].frequency_hz, measured[m].frequency_hz);
     let scores: Vec<Vec<f64>> =
         (0..measured.len()).map(|m| (0..computed.len()).map(|c| score(m, c)).collect()).collect();
     let chosen = assign(&scores);
@@ -135,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_assignment_is_the_best_of_all() {
+    fn assignment_is_optimal() {
         // Compared with every permutation, on pseudo-random numbers.
         let mut seed = 12345_u64;
         let mut number = || {
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn more_rows_than_columns_leave_the_worst_out() {
+    fn more_rows_than_columns_leave_the_lowest_score_out() {
         assert_eq!(assign(&[vec![0.1], vec![0.9], vec![0.5]]), [None, Some(0), None]);
         assert_eq!(assign(&[]), Vec::<Option<usize>>::new());
     }
@@ -169,7 +170,7 @@ mod tests {
         let c = |re: f64| Complex64::new(re, 0.0);
         let (x, y) = (vec![c(1.0), c(0.1)], vec![c(0.1), c(-1.0)]);
         let at = |hz, shape| Candidate { frequency_hz: hz, shape };
-        let found = pair(&[at(10.0, &x), at(12.0, &y)], &[at(10.5, &y), at(11.5, &x), at(40.0, &x)]);
+        let found = pair_modes(&[at(10.0, &x), at(12.0, &y)], &[at(10.5, &y), at(11.5, &x), at(40.0, &x)]);
         let pairs: Vec<(usize, usize)> = found.pairs.iter().map(|p| (p.measured, p.computed)).collect();
         assert_eq!(pairs, [(0, 1), (1, 0)]);
         assert_eq!((found.unpaired_measured, found.unpaired_computed), (vec![], vec![2]));

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::frf::{FrfFitting, frf_rows};
 use super::least_squares::Evaluation;
-use super::state::State;
+use super::state::ModelState;
 use super::target::{Target, TargetMode};
 use crate::analysis::modal::Mode;
 use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative};
@@ -38,14 +38,14 @@ impl Default for Fitting {
 }
 
 /// Residual rows and their derivatives by every parameter, under construction.
-pub(super) struct Rows {
+pub(super) struct ResidualRows {
     residual: Vec<f64>,
     slopes: Vec<Vec<f64>>,
     /// Effective number of data.
     pub data: f64,
 }
 
-impl Rows {
+impl ResidualRows {
     pub fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
         self.residual.push(residual);
         self.slopes.push(slopes.collect());
@@ -59,16 +59,16 @@ impl Rows {
 ///
 /// # Errors
 /// A mode of `kept` that is not paired, or without derivative.
-pub fn evaluation(
-    state: &State,
+pub fn evaluate_residuals(
+    state: &ModelState,
     target: &Target,
     fitting: &Fitting,
-    kept: &[usize],
+    fitted_modes: &[usize],
     by: &[SystemDerivative],
 ) -> Result<Evaluation, Error> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
-    let mut rows = Rows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
-    for &k in kept.iter().filter(|_| fitting.modes()) {
+    let mut rows = ResidualRows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
+    for &k in fitted_modes.iter().filter(|_| fitting.modes()) {
         let measured = &target.modes[k];
         let found = state.pairing.pairs.iter().find(|p| p.measured == k);
         let Some(place) = found.map(|p| p.computed) else {
@@ -89,21 +89,23 @@ pub fn evaluation(
 }
 
 fn mode_rows(
-    state: &State,
+    state: &ModelState,
     mode: &Mode,
     place: usize,
     measured: &TargetMode,
     fitting: &Fitting,
     by: &[&SystemDerivative],
-    rows: &mut Rows,
+    rows: &mut ResidualRows,
 ) -> Result<(), Error> {
     let value = mode.eigenvalue;
-    let system = &state.linear.system;
-    let sensitivity = match state.doubles[place] {
-        Some(other) => ModeSensitivity::of_double(system, value, &mode.shape, &state.modes[other].shape)?,
+    let system = &state.linearised.system;
+    let sensitivity = match state.repeated[place] {
+        Some(other) => {
+            ModeSensitivity::of_double_eigenvalue(system, value, &mode.shape, &state.modes[other].shape)?
+        }
         None => ModeSensitivity::new(system, value, &mode.shape)?,
     };
-    let slopes: Vec<Complex64> = by.iter().map(|by| sensitivity.eigenvalue(by)).collect();
+    let slopes: Vec<Complex64> = by.iter().map(|by| sensitivity.eigenvalue_derivative(by)).collect();
     if let Some(least) = fitting.frequency {
         let deviation = least.max(measured.frequency_error / measured.frequency_hz);
         let residual = (mode.frequency_hz() / measured.frequency_hz).ln() / deviation;
@@ -125,8 +127,8 @@ fn mode_rows(
         && measured.shape.len() > 1
     {
         // All points together count as one datum, √(1 − MAC)/σ.
-        let changes = sensitivity.shapes(by)?;
-        shape_rows(&state.rows, &state.shapes[place], &measured.shape, &changes, least, rows);
+        let changes = sensitivity.shape_derivatives(by)?;
+        shape_rows(&state.sensor_rows, &state.shapes[place], &measured.shape, &changes, least, rows);
         rows.data += 1.0;
     }
     Ok(())
@@ -138,7 +140,7 @@ fn shape_rows(
     measured: &[Complex64],
     changes: &[Vec<Complex64>],
     deviation: f64,
-    rows: &mut Rows,
+    rows: &mut ResidualRows,
 ) {
     let size = dot(measured, measured).re.sqrt();
     let own = dot(computed, computed).re;

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::double;
-use super::pairing::{Candidate, Pairing, pair};
+use super::pairing::{Candidate, Pairing, pair_modes};
+use super::repeated;
 use super::target::{Target, TargetFrfs};
 use crate::analysis::modal::{self, Mode};
 use crate::analysis::sensitivity::{Linearised, frf_sensitivity};
@@ -13,22 +13,22 @@ use crate::model::Model;
 
 /// Linearised model with its modes at the sensors, paired with the measured modes.
 #[derive(Clone, Debug)]
-pub struct State {
-    pub linear: Linearised,
+pub struct ModelState {
+    pub linearised: Linearised,
     pub modes: Vec<Mode>,
     /// `shapes[mode][sensor]`.
     pub shapes: Vec<Vec<Complex64>>,
     /// The other mode of a repeated (double) eigenvalue, aligned together with it to the measured shapes.
-    pub doubles: Vec<Option<usize>>,
+    pub repeated: Vec<Option<usize>>,
     /// Output matrix: sensors as rows over the free DOFs.
-    pub rows: Vec<SparseRow>,
+    pub sensor_rows: Vec<SparseRow>,
     pub pairing: Pairing,
 }
 
 /// Number of modes computed in addition to twice the measured ones.
-const SPARE: usize = 8;
+const EXTRA_MODES: usize = 8;
 
-impl State {
+impl ModelState {
     /// Linearises the model at the speed of the measurement, computes its modes and pairs them; the
     /// equilibrium iteration starts from `start` or from zero.
     ///
@@ -36,14 +36,14 @@ impl State {
     /// No equilibrium, or failure of the eigenvalue computation.
     pub fn new(model: Model, target: &Target, start: Option<&[f64]>) -> Result<Self, Error> {
         let linear = Linearised::new(model, target.speed, start)?;
-        let count = 2 * target.modes.len() + SPARE;
+        let count = 2 * target.modes.len() + EXTRA_MODES;
         let mut modes = modal::modes(&linear.assembly, &linear.system, count)?;
         // Modes far above the last measured one cannot be paired.
         let top = target.modes.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
         modes.retain(|m| m.frequency_hz() < 2.0 * top);
         let rows: Vec<SparseRow> = target.sensors.iter().map(|s| s.row(&linear.assembly)).collect();
-        let doubles = modal::doubles(&linear.system, &modes);
-        double::align(&linear.assembly, &mut modes, &doubles, &rows, &target.modes);
+        let doubles = modal::double_eigenvalue_partners(&linear.system, &modes);
+        repeated::align_repeated_modes(&linear.assembly, &mut modes, &doubles, &rows, &target.modes);
         let shapes: Vec<Vec<Complex64>> =
             modes.iter().map(|m| rows.iter().map(|r| r.dot_complex(&m.shape)).collect()).collect();
         let measured: Vec<Candidate> = target
@@ -56,12 +56,12 @@ impl State {
             .zip(&shapes)
             .map(|(m, shape)| Candidate { frequency_hz: m.frequency_hz(), shape })
             .collect();
-        let pairing = pair(&measured, &computed);
-        Ok(Self { linear, modes, shapes, doubles, rows, pairing })
+        let pairing = pair_modes(&measured, &computed);
+        Ok(Self { linearised: linear, modes, shapes, repeated: doubles, sensor_rows: rows, pairing })
     }
 
     /// The computed mode paired with a measured mode, and their MAC.
-    pub fn partner(&self, measured: usize) -> Option<(&Mode, f64)> {
+    pub fn paired_mode(&self, measured: usize) -> Option<(&Mode, f64)> {
         let pair = self.pairing.pairs.iter().find(|p| p.measured == measured)?;
         Some((&self.modes[pair.computed], pair.mac))
     }
@@ -73,13 +73,13 @@ impl State {
     pub fn frfs(&self, measured: &TargetFrfs) -> Result<Vec<Vec<Vec<Complex64>>>, Error> {
         const CHUNK: usize = 64;
         let rows = |sensors: &[super::target::Sensor]| -> Vec<SparseRow> {
-            sensors.iter().map(|s| s.row(&self.linear.assembly)).collect()
+            sensors.iter().map(|s| s.row(&self.linearised.assembly)).collect()
         };
         let (responses, references) = (rows(&measured.responses), rows(&measured.references));
         let parts: Vec<_> = measured
             .frequencies
             .par_chunks(CHUNK)
-            .map(|f| frf_sensitivity(&self.linear, f, &references, &responses, &measured.quantities, &[]))
+            .map(|f| frf_sensitivity(&self.linearised, f, &references, &responses, &measured.quantities, &[]))
             .collect::<Result<_, _>>()?;
         let joined = |r: usize, e: usize| parts.iter().flat_map(|p| p.values[r][e].iter().copied()).collect();
         Ok((0..responses.len()).map(|r| (0..references.len()).map(|e| joined(r, e)).collect()).collect())

@@ -7,14 +7,14 @@ use crate::assembly::Assembly;
 use crate::element::Anchor;
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::{Model, Quantity};
-use crate::signal::record::{Analysis, Dof, Geometry, Measured, Shape};
+use crate::signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
 /// A measured DOF (sensor or excitation) in the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// Measured point and direction: node k of the model is point k + 1.
     pub dof: Dof,
-    pub at: Anchor,
+    pub anchor: Anchor,
     /// Weights on u_x u_y u_z θ_x θ_y θ_z.
     pub direction: [f64; 6],
 }
@@ -22,7 +22,7 @@ pub struct Sensor {
 impl Sensor {
     /// Output row: the point's motion over the free DOFs.
     pub fn row(&self, assembly: &Assembly) -> SparseRow {
-        assembly.direction_row(&self.at, &self.direction)
+        assembly.direction_row(&self.anchor, &self.direction)
     }
 
     /// Station or body with the direction, such as "disc x".
@@ -31,7 +31,7 @@ impl Sensor {
             [usize::from(self.dof.direction.unsigned_abs()).min(6)];
         let sign = if self.dof.direction < 0 { "-" } else { "" };
         let shaft = model.node_z.len();
-        let place = match self.at.node {
+        let place = match self.anchor.node {
             None => "ground".into(),
             Some(node) if node >= shaft => model.bodies[node - shaft].name.clone(),
             Some(node) => model
@@ -40,9 +40,9 @@ impl Sensor {
                 .find(|s| s.node == node)
                 .map_or_else(|| format!("z = {:.3} m", model.node_z[node]), |s| s.name.clone()),
         };
-        let [x, y, z] = self.at.offset.map(|v| (1e4 * v).round() / 10.0);
-        let beside = if [x, y, z] == [0.0; 3] { String::new() } else { format!(" ({x}, {y}, {z} mm)") };
-        format!("{place}{beside} {sign}{axis}")
+        let [x, y, z] = self.anchor.offset.map(|v| (1e4 * v).round() / 10.0);
+        let offset = if [x, y, z] == [0.0; 3] { String::new() } else { format!(" ({x}, {y}, {z} mm)") };
+        format!("{place}{offset} {sign}{axis}")
     }
 }
 
@@ -77,7 +77,7 @@ pub struct TargetFrfs {
 
 impl TargetFrfs {
     /// Whether an FRF is nonzero; zero FRFs (uncoupled directions) cannot be compared.
-    pub fn moves(&self, response: usize, reference: usize) -> bool {
+    pub fn is_nonzero(&self, response: usize, reference: usize) -> bool {
         self.values[response][reference].iter().any(|h| h.norm_sqr() > 0.0)
     }
 }
@@ -104,20 +104,22 @@ pub struct Target {
 /// once.
 pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<Sensor>, UpdateError> {
     let nodes = model.node_count();
-    let mut lost: Vec<String> = Vec::new();
-    let mut aimless = false;
+    let mut unmapped: Vec<String> = Vec::new();
+    let mut missing_direction = false;
     let radius = rotation_radius(model);
     let place = |number: i64| -> Option<Anchor> {
         let own = usize::try_from(number - 1).ok().filter(|k| *k < nodes);
-        if let Some(mount) = geometry.mounts.iter().find(|m| m.number == number) {
-            let on = usize::try_from(mount.on - 1).ok().filter(|k| *k < nodes)?;
+        if let Some(mount) = geometry.attached_points.iter().find(|m| m.number == number) {
+            let on = usize::try_from(mount.carrier - 1).ok().filter(|k| *k < nodes)?;
             return Some(Anchor { node: Some(on), offset: mount.offset });
         }
         let stated = geometry.nodes.iter().find(|n| n.number == number).map(|n| n.position);
         match (own, stated) {
             (Some(node), None) => Some(Anchor::node(node)),
             (Some(node), Some(position)) if is_at(model, node, position) => Some(Anchor::node(node)),
-            (_, Some(position)) => known(model, position).or_else(|| near_shaft(model, position)),
+            (_, Some(position)) => {
+                model_point(model, position).or_else(|| nearest_shaft_node(model, position))
+            }
             (None, None) => None,
         }
     };
@@ -125,34 +127,37 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
     for &dof in dofs {
         let axis = usize::from(dof.direction.unsigned_abs());
         if dof.node == 0 || !(1..=6).contains(&axis) {
-            aimless = true;
+            missing_direction = true;
             continue;
         }
         let Some(at) = place(dof.node) else {
             let name = dof.node.to_string();
-            if !lost.contains(&name) {
-                lost.push(name);
+            if !unmapped.contains(&name) {
+                unmapped.push(name);
             }
             continue;
         };
         let mut direction = [0.0; 6];
         direction[axis - 1] = f64::from(dof.direction.signum()) * if axis > 3 { radius } else { 1.0 };
-        out.push(Sensor { dof, at, direction });
+        out.push(Sensor { dof, anchor: at, direction });
     }
-    if aimless {
+    if missing_direction {
         return Err(UpdateError::new(
             "the measured file does not state point and direction of all its records",
             "give the station and direction of each channel with --mapping",
         ));
     }
-    if !lost.is_empty() {
-        let more = if lost.len() > 8 { ", ..." } else { "" };
-        lost.truncate(8);
+    if !unmapped.is_empty() {
+        let more = if unmapped.len() > 8 { ", ..." } else { "" };
+        unmapped.truncate(8);
         return Err(UpdateError::new(
             {
-                let (are, points) =
-                    if lost.len() == 1 { ("is not a point", "point") } else { ("are not points", "points") };
-                format!("the measured {points} {}{more} {are} of the model", lost.join(", "))
+                let (are, points) = if unmapped.len() == 1 {
+                    ("is not a point", "point")
+                } else {
+                    ("are not points", "points")
+                };
+                format!("the measured {points} {}{more} {are} of the model", unmapped.join(", "))
             },
             "give the station of each point with --mapping",
         ));
@@ -168,28 +173,28 @@ pub fn rotation_radius(model: &Model) -> f64 {
 }
 
 /// Tolerance for coordinates with the digits of a universal file \[m\].
-const NEAR: f64 = 1e-5;
+const POSITION_TOLERANCE: f64 = 1e-5;
 
 fn is_at(model: &Model, node: usize, position: [f64; 3]) -> bool {
-    is_near(place_of(model, node), position)
+    is_near(node_position(model, node), position)
 }
 
 /// A point defined in the model at this position: a probe, or a response or excitation of its FRF study.
-fn known(model: &Model, position: [f64; 3]) -> Option<Anchor> {
+fn model_point(model: &Model, position: [f64; 3]) -> Option<Anchor> {
     let frf = model.studies.frf.iter();
     let ends = frf.flat_map(|f| f.responses.iter().map(|p| p.at).chain(f.excitations.iter().map(|e| e.at)));
     let mut places = model.probes.iter().map(|p| p.at).chain(ends);
     places.find(|at| {
         at.node.is_some_and(|node| {
             let [a, b, c] = at.offset;
-            let [x, y, z] = place_of(model, node);
+            let [x, y, z] = node_position(model, node);
             is_near([x + a, y + b, z + c], position)
         })
     })
 }
 
 /// Position of a node of the shaft or of a body.
-pub fn place_of(model: &Model, node: usize) -> [f64; 3] {
+pub fn node_position(model: &Model, node: usize) -> [f64; 3] {
     match node.checked_sub(model.node_z.len()) {
         None => [0.0, 0.0, model.node_z[node]],
         Some(body) => model.bodies[body].position,
@@ -197,11 +202,11 @@ pub fn place_of(model: &Model, node: usize) -> [f64; 3] {
 }
 
 fn is_near(a: [f64; 3], b: [f64; 3]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < NEAR)
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < POSITION_TOLERANCE)
 }
 
 /// The shaft node nearest along z, with the offset to the position; `None` beyond the shaft's ends.
-fn near_shaft(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
+fn nearest_shaft_node(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
     let distance = |k: &usize| (model.node_z[*k] - z).abs();
     let node = (0..model.node_z.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let reach = model.node_z.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
@@ -213,7 +218,10 @@ fn near_shaft(model: &Model, [x, y, z]: [f64; 3]) -> Option<Anchor> {
 ///
 /// Directions with zero motion are omitted. Of several speeds, given by names such as "1200 rpm 1st bending",
 /// the one nearest to `rpm`, else the first, is taken and returned.
-pub fn modes_of(measured: &Measured, rpm: Option<f64>) -> Option<(Vec<Dof>, Vec<TargetMode>, Option<f64>)> {
+pub fn modes_of(
+    measured: &MeasuredData,
+    rpm: Option<f64>,
+) -> Option<(Vec<Dof>, Vec<TargetMode>, Option<f64>)> {
     let speed = |s: &Shape| s.name.split_once(" rpm").and_then(|(n, _)| n.trim().parse::<f64>().ok());
     let is_mode =
         |s: &&Shape| matches!(s.analysis, Analysis::NormalMode { .. } | Analysis::ComplexMode { .. });

@@ -40,7 +40,7 @@ fn rig_contact_constants() {
     assert!((pair.inner.stiffness / 28162882888.95517 - 1.0).abs() < 1e-9);
     assert!((pair.outer.stiffness / 25018667553.86848 - 1.0).abs() < 1e-9);
     assert!((pair.stiffness / 9373862544.95941 - 1.0).abs() < 1e-9);
-    let orders = rig_6205().geometry.orders(0.0);
+    let orders = rig_6205().geometry.characteristic_orders(0.0);
     assert!((orders.bpfo - 3.5722).abs() < 5e-5 && (orders.bpfi - 5.4278).abs() < 5e-5);
     assert!((orders.ftf - 0.3969).abs() < 5e-5 && (orders.bsf - 2.322).abs() < 5e-4);
 }

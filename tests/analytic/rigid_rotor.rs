@@ -1,7 +1,7 @@
 //! Rigid rotor: rigid-body modes, free precession, two springs in closed form, unbalance response.
 
 use rotordyn::analysis::{ModeKind, modal};
-use rotordyn::assembly::{Assembly, LinearSystem, free_motion};
+use rotordyn::assembly::{Assembly, LinearSystem, rigid_body_modes};
 use rotordyn::model::{self, Model};
 use rotordyn::study::{Machine, Recorder};
 use rotordyn::transient::run::End;
@@ -41,7 +41,7 @@ fn free_rotor_mass_matrix_and_six_rigid_body_modes() {
     }
     assert!((assembly.polar_inertia - polar).abs() < 1e-18);
     let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
-    assert_eq!(free_motion::free_motions_of(&assembly, &system).unwrap().len(), 6);
+    assert_eq!(rigid_body_modes::rigid_body_modes_of(&assembly, &system).unwrap().len(), 6);
     // Displacements of the ends as a rigid body: u_x = x + (z - z_c) θ_y, u_y = y - (z - z_c) θ_x.
     let q = assembly.dofs.expand(&[1.0, 2.0, 3.0, 0.01, 0.02, 0.03]);
     for (node, arm) in [(0, -0.2), (1, 0.0), (2, 0.25)] {
@@ -188,7 +188,7 @@ speeds = "500 rad/s"
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
-        recorder.take(sample);
+        recorder.record(sample);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);

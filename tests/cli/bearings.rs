@@ -42,7 +42,7 @@ fn all_bearings_of_a_machine_at_their_static_loads() {
             assert!(folder.path().join(format!("bearing_B_{figure}.{extension}")).exists(), "{figure}");
         }
     }
-    let store = rotordyn::edge::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
     assert!(store.contains("/bearings/A/operating/stiffness") && store.contains("/meta"));
     let stored = store.read("/bearings/B/over_load/stiffness").unwrap();
     assert_eq!(stored.shape, [40, 5, 5]);
@@ -171,8 +171,7 @@ fn ehl_film_is_solved_once_and_cached() {
         assert!(film["minimum_film"].as_f64().unwrap() < central);
         let path = folder.path().join("first").join(format!("bearing_front_film_{race}.png"));
         assert!(path.exists(), "{}", path.display());
-        let store =
-            rotordyn::edge::hdf5::Store::open(folder.path().join("first").join("results.h5")).unwrap();
+        let store = rotordyn::io::hdf5::Store::open(folder.path().join("first").join("results.h5")).unwrap();
         let pressure = store.read(&format!("/bearings/front/film_{race}/pressure")).unwrap();
         assert!(pressure.shape.len() == 2 && pressure.data.iter().copied().fold(0.0, f64::max) > 5e8);
     }

@@ -85,7 +85,7 @@ fn studies_print_tables_and_write_files() {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     // All commands add their results to one file; each writes its figures.
-    let store = rotordyn::edge::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
     for group in ["/equilibrium", "/modes", "/campbell", "/critical_speeds", "/frf", "/unbalance"] {
         assert!(store.contains(group), "{group}");
     }

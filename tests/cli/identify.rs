@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use crate::{json_of, rotordyn};
-use rotordyn::edge::{measured, uff};
+use rotordyn::io::{measured, uff};
 use rotordyn::linalg::Complex64;
-use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, Values};
+use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
 
 /// Natural frequency \[Hz\], damping ratio, shape of unit modal mass.
 pub type Mode = (f64, f64, [f64; 4]);
@@ -40,7 +40,7 @@ fn frfs(references: &[usize]) -> Vec<Record> {
     for &e in references {
         for r in 0..3 {
             let values = lines.iter().map(|f| accelerance(r, e, *f)).collect();
-            let axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.25);
+            let axis = Axis::uniform(AxisQuantity::Frequency, 5.0, 0.25);
             let name = format!("y{}/f{}", r + 1, e + 1);
             let mut record = Record::new(&name, Kind::Frf, axis, Values::Complex(values), "(m/s^2)/N");
             record.response = Dof::new(r as i64 + 1, 2);
@@ -76,7 +76,7 @@ fn complex(record: &mut Record) -> &mut Vec<Complex64> {
 }
 
 pub fn write(folder: &Path, name: &str, records: Vec<Record>) {
-    measured::write(&folder.join(name), &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&folder.join(name), &MeasuredData { records, ..MeasuredData::default() }).unwrap();
 }
 
 /// Uniform random numbers in −1..1.
@@ -123,16 +123,16 @@ fn frf_files(folder: &Path) {
     write(folder, "bare.uff", frfs(&[0, 2]));
     write(folder, "half.uff", changed(good(), |r| drop(r.pop())));
     write(folder, "one.npz", frfs(&[1]).into_iter().take(1).collect());
-    let other_axis = |r: &mut Vec<Record>| r[4].axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.5);
+    let other_axis = |r: &mut Vec<Record>| r[4].axis = Axis::uniform(AxisQuantity::Frequency, 5.0, 0.5);
     write(folder, "axes.uff", changed(good(), other_axis));
     write(folder, "missing.uff", changed(frfs(&[0, 2]), |r| drop(r.remove(4))));
     write(folder, "double.uff", changed(frfs(&[0]), |r| r[1].response = r[0].response));
-    let bare = |r: &mut Record| (r.unit, r.stated_unit) = (String::new(), String::new());
+    let bare = |r: &mut Record| (r.unit, r.file_unit) = (String::new(), String::new());
     write(folder, "no_unit.npz", changed(frfs(&[0]), |r| r.iter_mut().for_each(bare)));
     write(folder, "unit_of_one.npz", changed(with_coherence(frfs(&[0])), |r| bare(&mut r[0])));
     let strange = |r: &mut Vec<Record>| {
         r[1].unit = String::new();
-        r[1].stated_unit = "counts/EU".into();
+        r[1].file_unit = "counts/EU".into();
     };
     write(folder, "strange_unit.npz", changed(frfs(&[0]), strange));
     write(folder, "nan.npz", changed(frfs(&[0]), |r| complex(&mut r[2])[130].re = f64::NAN));
@@ -153,8 +153,12 @@ fn frf_files(folder: &Path) {
     cut(folder, "good.mat", "cut.mat", 0.6);
     cut(folder, "good.uff", "cut.uff", 0.33);
     let binary = uff::Options { binary: true, ..uff::Options::default() };
-    uff::write(&folder.join("binary.uff"), &Measured { records: good(), ..Measured::default() }, binary)
-        .unwrap();
+    uff::write(
+        &folder.join("binary.uff"),
+        &MeasuredData { records: good(), ..MeasuredData::default() },
+        binary,
+    )
+    .unwrap();
     cut(folder, "binary.uff", "cut_binary.uff", 0.36);
     let psd = Record::new("A", Kind::Psd, frfs(&[0])[0].axis.clone(), Values::Real(vec![1.0; 421]), "");
     write(folder, "psd.uff", vec![psd]);
@@ -259,7 +263,7 @@ fn results_do_not_depend_on_threads() {
         for r in 0..4 {
             let value = |f: &f64| accelerance(r, e, *f) + 0.02 * Complex64::new(random(), random());
             let values = Values::Complex(lines.iter().map(value).collect());
-            let axis = Axis::even(AxisQuantity::Frequency, 5.0, 0.25);
+            let axis = Axis::uniform(AxisQuantity::Frequency, 5.0, 0.25);
             let mut record = Record::new(&format!("y{r}/f{e}"), Kind::Frf, axis, values, "(m/s^2)/N");
             (record.response, record.reference) = (Dof::new(r as i64 + 1, 2), Dof::new(e as i64 + 1, 2));
             records.push(record);

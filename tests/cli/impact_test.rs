@@ -11,7 +11,7 @@ use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{self, Options};
 use rotordyn::signal::impact::{self, Estimator, ImpactTest};
-use rotordyn::signal::record::{Axis, AxisQuantity, Kind, Measured, Points, Record, Values};
+use rotordyn::signal::record::{Axis, AxisQuantity, Kind, MeasuredData, Points, Record, Values};
 
 /// Samples a second of the records of hits.
 const RATE: f64 = 4096.0;
@@ -164,7 +164,7 @@ fn impact_test_of_eight_hits() {
 
     // The same FRFs without a word on their window are damped by 1/(tau omega) more.
     let test = ImpactTest { block: Some(2.0), time_constant: Some(0.4), ..ImpactTest::default() };
-    let measured = Measured { records, ..Measured::default() };
+    let measured = MeasuredData { records, ..MeasuredData::default() };
     let (windowed, _) = impact::frfs(&[measured], &test).unwrap();
     write(folder, "windowed.uff", windowed);
     let told =
@@ -191,7 +191,7 @@ fn estimators() {
     }
     let records = channels(force, &responses);
     write(folder, "test.npz", records.clone());
-    let measured = Measured { records, ..Measured::default() };
+    let measured = MeasuredData { records, ..MeasuredData::default() };
     for (estimator, name, expected) in [
         (Estimator::H1, "h1", 1.0 / 1.04),
         (Estimator::Hv, "hv", 1.0 / 1.04_f64.sqrt()),
@@ -277,7 +277,7 @@ fn bad_hits_are_reported() {
     };
     write(folder, "good.npz", good());
     write(folder, "no_force.npz", good().split_off(1));
-    let volts = |r: &mut Vec<Record>| (r[0].unit, r[0].stated_unit) = ("V".into(), "V".into());
+    let volts = |r: &mut Vec<Record>| (r[0].unit, r[0].file_unit) = ("V".into(), "V".into());
     write(folder, "volts.npz", changed(good(), volts));
     let two = |r: &mut Vec<Record>| r.push(Record { name: "cell".into(), ..r[0].clone() });
     write(folder, "two_forces.npz", changed(good(), two));
@@ -290,7 +290,7 @@ fn bad_hits_are_reported() {
         }
     };
     write(folder, "nan.npz", changed(good(), spoilt));
-    let slow = |r: &mut Vec<Record>| r[2].axis = Axis::even(AxisQuantity::Time, 0.0, 1.0 / 2048.0);
+    let slow = |r: &mut Vec<Record>| r[2].axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 2048.0);
     write(folder, "rates.npz", changed(good(), slow));
     let untold = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
     write(folder, "no_rate.npz", changed(good(), untold));
@@ -353,7 +353,7 @@ fn simulated_impact_test() {
     // The cage stands where it was placed; `modal` averages over its places, which is 0.4 % at most.
     let machine = model::load("hammer.toml", text, &Options::default()).unwrap().model;
     let assembly = Assembly::new(&machine).unwrap();
-    let rest = equilibrium(&machine, &assembly, 0.0, CageTreatment::AsPlaced, None).unwrap();
+    let rest = equilibrium(&machine, &assembly, 0.0, CageTreatment::FixedAngle, None).unwrap();
     let system = LinearSystem::new(&assembly, &rest.tangents(), 0.0).unwrap();
     let own: Vec<Complex64> =
         modal::modes(&assembly, &system, 9).unwrap().iter().map(|m| m.eigenvalue).collect();

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use rotordyn::edge::measured;
-use rotordyn::signal::record::{Measured, Record, Values};
+use rotordyn::io::measured;
+use rotordyn::signal::record::{MeasuredData, Record, Values};
 use serde_json::Value;
 
 use crate::{json_of, output_of, rotordyn};
@@ -48,7 +48,7 @@ fn record_run_up(folder: &Path, name: &str, settings: &[&str], floor: f64) -> Pa
         Record::samples("ch8", rate, 0.0, tacho, "V"),
     ];
     let path = folder.join(format!("{name}.mat"));
-    measured::write(&path, &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&path, &MeasuredData { records, ..MeasuredData::default() }).unwrap();
     path
 }
 
@@ -154,7 +154,7 @@ fn run_ups_with_coarse_tacho_or_speed_without_unit() {
     let records =
         vec![record("x", values("disc_x"), "m"), record("pulses", square, "V"), record("speed", speed, "")];
     let path = folder.path().join("record.npz");
-    measured::write(&path, &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&path, &MeasuredData { records, ..MeasuredData::default() }).unwrap();
     let mapping = folder.path().join("map.toml");
     let text = "[channel.x]\nstation = \"disc\"\ndirection = \"x\"\n[channel.speed]\nunit = \"rpm\"\n";
     std::fs::write(&mapping, text).unwrap();
@@ -244,7 +244,7 @@ fn bad_run_ups() {
     let tacho = || Record::samples("tacho", 1000.0, 0.0, (0..n).map(|k| angle(k).sin()).collect(), "V");
     let channel = |name: &str, unit: &str| Record::samples(name, 1000.0, 0.0, x(), unit);
     let write = |name: &str, records: Vec<Record>| {
-        measured::write(&folder.join(name), &Measured { records, ..Measured::default() }).unwrap();
+        measured::write(&folder.join(name), &MeasuredData { records, ..MeasuredData::default() }).unwrap();
     };
     write("good.h5", vec![channel("disc_x", "m"), tacho()]);
     write("elsewhere.h5", vec![channel("ch1", "m"), channel("ch2", "m"), tacho()]);

@@ -1,8 +1,8 @@
 //! Run-ups: streaming to the file, interruption, divergence, post-processing, reproducibility.
 
 use crate::{json_of, output_of, rotordyn};
-use rotordyn::edge::hdf5::{Attribute, Store};
-use rotordyn::edge::measured;
+use rotordyn::io::hdf5::{Attribute, Store};
+use rotordyn::io::measured;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use crate::{json_of, output_of, rotordyn};
-use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::measured;
-use rotordyn::signal::record::{Measured, Record};
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::measured;
+use rotordyn::signal::record::{MeasuredData, Record};
 use serde_json::Value;
 
 #[path = "../common/measured_data.rs"]
@@ -50,7 +50,7 @@ pub fn faulty_bearing_file(folder: &Path, name: &str, rate: f64, unit: &str) -> 
     );
     record.speed_rpm = Some(1800.0);
     let path = folder.join(name);
-    measured::write(&path, &Measured { records: vec![record], ..Measured::default() }).unwrap();
+    measured::write(&path, &MeasuredData { records: vec![record], ..MeasuredData::default() }).unwrap();
     path
 }
 
@@ -151,7 +151,7 @@ fn run_up_file(folder: &Path) -> (PathBuf, f64) {
     let record = |name: &str, values: Vec<f64>, unit: &str| Record::samples(name, rate, 0.0, values, unit);
     let records = vec![record("A_ax", x, "m/s^2"), record("tacho", tacho, "V")];
     let path = folder.join("run_up.h5");
-    measured::write(&path, &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&path, &MeasuredData { records, ..MeasuredData::default() }).unwrap();
     (path, bpfo)
 }
 
@@ -239,7 +239,7 @@ fn order_tracking_with_measured_tacho_pulses() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.h5");
     let records = vec![Record::samples("A_ax", rate, 0.0, x.collect(), "m/s^2")];
-    measured::write(&path, &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&path, &MeasuredData { records, ..MeasuredData::default() }).unwrap();
     let out = folder.path().join("out");
     let flags = ["--tacho", times.to_str().unwrap(), "--no-figures", "--max-order", "8"];
     let document = signal(&path, &out, &flags);

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use crate::rotordyn;
 use crate::signal::faulty_bearing_file;
-use rotordyn::edge::measured;
-use rotordyn::signal::record::{Measured, Record};
+use rotordyn::io::measured;
+use rotordyn::signal::record::{MeasuredData, Record};
 
 /// Standard error of a command that must fail, run inside the folder.
 fn refusal(folder: &Path, file: &str, flags: &[&str]) -> String {
@@ -18,7 +18,7 @@ fn refusal(folder: &Path, file: &str, flags: &[&str]) -> String {
 }
 
 fn write(folder: &Path, name: &str, records: Vec<Record>) {
-    measured::write(&folder.join(name), &Measured { records, ..Measured::default() }).unwrap();
+    measured::write(&folder.join(name), &MeasuredData { records, ..MeasuredData::default() }).unwrap();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Steady motions of the varying-compliance machine: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use crate::{json_of, output_of, rotordyn};
-use rotordyn::edge::hdf5::{Attribute, Store};
+use rotordyn::io::hdf5::{Attribute, Store};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 

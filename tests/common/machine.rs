@@ -18,7 +18,7 @@ pub fn element(length: f64, left: f64, right: f64) -> ShaftElement {
         rotary_inertia: true,
         axial_force: 0.0,
         torque: 0.0,
-        proportional: [0.0, 0.0],
+        proportional_damping: [0.0, 0.0],
         internal_viscous: 0.0,
     }
 }

@@ -54,7 +54,7 @@ pub fn element(value: &Value, steel: &Value) -> ShaftElement {
         rotary_inertia: flag("rotary_inertia"),
         axial_force: at("axial_force").unwrap_or(0.0),
         torque: at("torque").unwrap_or(0.0),
-        proportional: [at("alpha").unwrap_or(0.0), at("beta").unwrap_or(0.0)],
+        proportional_damping: [at("alpha").unwrap_or(0.0), at("beta").unwrap_or(0.0)],
         internal_viscous: 0.0,
     }
 }

@@ -7,7 +7,7 @@ use rotordyn::analysis::equilibrium::CageTreatment;
 use rotordyn::bearing::{BallBearing, BallGeometry};
 
 fn condition(load: [f64; 5], cage: CageTreatment) -> Condition {
-    Condition { load, held: [None; 5], speed: 0.0, cage, cage_angle: 0.3 }
+    Condition { load, prescribed: [None; 5], speed: 0.0, cage, cage_angle: 0.3 }
 }
 
 fn angular_contact() -> BallBearing {
@@ -29,9 +29,9 @@ proptest! {
         let solver = BearingSolver::new("any", &rig_6205());
         let scale = 10f64.powf(size);
         let load = [force[0], force[1], force[2], moment[0], moment[1]].map(|f| f * scale);
-        for cage in [CageTreatment::AsPlaced, CageTreatment::Averaged] {
+        for cage in [CageTreatment::FixedAngle, CageTreatment::Averaged] {
             let found = solver.solve(&condition(load, cage), None).unwrap();
-            let held = Condition { held: found.displacement.map(Some), ..condition([0.0; 5], cage) };
+            let held = Condition { prescribed: found.displacement.map(Some), ..condition([0.0; 5], cage) };
             let back = solver.solve(&held, None).unwrap();
             for k in 0..5 {
                 let arm = if k > 2 { solver.radius } else { 1.0 };
@@ -67,18 +67,18 @@ proptest! {
 fn condensed_stiffness_is_slope_of_load() {
     let solver = BearingSolver::new("slope", &angular_contact());
     let load = [200.0, -400.0, 900.0, 1.0, -2.0];
-    let at = solver.solve(&condition(load, CageTreatment::AsPlaced), None).unwrap();
+    let at = solver.solve(&condition(load, CageTreatment::FixedAngle), None).unwrap();
     for (n, step) in [([1.0, 0.0, 0.0, 0.0, 0.0], 1e-2), ([0.0, 0.6, 0.8, 0.0, 0.0], 1e-2)] {
         let moved = |sign: f64| {
             let load = std::array::from_fn(|k| load[k] + sign * step * n[k]);
             let found =
-                solver.solve(&condition(load, CageTreatment::AsPlaced), Some(&at.displacement)).unwrap();
+                solver.solve(&condition(load, CageTreatment::FixedAngle), Some(&at.displacement)).unwrap();
             found.displacement.iter().zip(&n).map(|(d, n)| d * n).sum::<f64>()
         };
         let slope = 2.0 * step / (moved(1.0) - moved(-1.0));
-        let free = at.stiffness_free(&n, solver.radius);
+        let free = at.condensed_stiffness(&n, solver.radius);
         assert!((free / slope - 1.0).abs() < 1e-5, "{free} {slope}");
-        assert!(free < at.stiffness_held(&n));
+        assert!(free < at.constrained_stiffness(&n));
     }
 }
 
@@ -86,11 +86,11 @@ fn condensed_stiffness_is_slope_of_load() {
 #[test]
 fn any_dofs_can_be_constrained() {
     let solver = BearingSolver::new("constrained", &angular_contact());
-    let base = condition([0.0, -500.0, 700.0, 0.0, 0.0], CageTreatment::AsPlaced);
+    let base = condition([0.0, -500.0, 700.0, 0.0, 0.0], CageTreatment::FixedAngle);
     for mask in 0..32usize {
         let held: [Option<f64>; 5] =
             std::array::from_fn(|k| (mask >> k & 1 == 1).then_some([2e-6, -3e-6, 8e-6, 1e-4, -2e-4][k]));
-        let found = solver.solve(&Condition { held, ..base }, None).unwrap();
+        let found = solver.solve(&Condition { prescribed: held, ..base }, None).unwrap();
         for (k, held) in held.into_iter().enumerate() {
             match held {
                 Some(d) => assert_eq!(found.displacement[k], d),
@@ -106,12 +106,12 @@ fn any_dofs_can_be_constrained() {
 fn load_sweep_from_zero() {
     let solver = BearingSolver::new("loose", &rig_6205());
     let loads: Vec<Condition> = (0..20)
-        .map(|k| condition([0.0, -50.0 * f64::from(k), 0.0, 0.0, 0.0], CageTreatment::AsPlaced))
+        .map(|k| condition([0.0, -50.0 * f64::from(k), 0.0, 0.0, 0.0], CageTreatment::FixedAngle))
         .collect();
     let (found, failure) = solver.sweep(&loads);
     assert!(failure.is_none() && found.len() == 20);
     assert_eq!(found[0].displacement, [0.0; 5]);
-    assert_eq!(found[0].stiffness_free(&[0.0, 1.0, 0.0, 0.0, 0.0], solver.radius), 0.0);
+    assert_eq!(found[0].condensed_stiffness(&[0.0, 1.0, 0.0, 0.0, 0.0], solver.radius), 0.0);
     assert!(found.windows(2).all(|w| w[1].displacement[1] < w[0].displacement[1]));
     // Contact starts after at least half the diametral clearance.
     assert!(found[1].displacement[1] < -5e-6);
@@ -123,7 +123,7 @@ fn map_equals_single_solutions() {
     let solver = BearingSolver::new("map", &rig_6205());
     let at = |angle: usize, load: usize| Condition {
         cage_angle: 0.03 * angle as f64,
-        ..condition([30.0 * load as f64, -60.0 * load as f64, 20.0, 0.0, 0.0], CageTreatment::AsPlaced)
+        ..condition([30.0 * load as f64, -60.0 * load as f64, 20.0, 0.0, 0.0], CageTreatment::FixedAngle)
     };
     let rows: Vec<Vec<Condition>> = (0..6).map(|a| (1..6).map(|l| at(a, l)).collect()).collect();
     let map = solver.map(&rows).unwrap();
@@ -146,7 +146,8 @@ fn map_equals_single_solutions() {
 fn no_equilibrium_error_message() {
     let solver = BearingSolver::new("front", &rig_6205());
     let load = [f64::NAN, 0.0, 0.0, 0.0, 0.0];
-    let error = solver.solve(&Condition { speed: 104.72, ..condition(load, CageTreatment::AsPlaced) }, None);
+    let error =
+        solver.solve(&Condition { speed: 104.72, ..condition(load, CageTreatment::FixedAngle) }, None);
     let text = error.unwrap_err().to_string();
     for part in ["bearing front", "NaN", "1000.0 rpm", "residual"] {
         assert!(text.contains(part), "{text}");

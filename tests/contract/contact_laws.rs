@@ -4,7 +4,7 @@
 use crate::bearing::steel;
 use crate::ehl_table::tabulated;
 use rotordyn::contact::{
-    BallContacts, ContactDamping, ContactLaw, FilmSpring, HertzPair, Loaded, Lubricant, PowerLaw, Race,
+    BallContacts, ContactDamping, ContactLaw, ContactLoad, FilmSpring, HertzPair, Lubricant, PowerLaw, Race,
     SpeedContacts, fit_power_law,
 };
 
@@ -50,7 +50,7 @@ fn approaches(contacts: &SpeedContacts) -> Vec<f64> {
 fn slope_and_energy_match_finite_differences() {
     for (contacts, speed) in laws() {
         let at = contacts.at_speed(speed);
-        let pieces: [&dyn Fn(f64) -> Loaded; 3] =
+        let pieces: [&dyn Fn(f64) -> ContactLoad; 3] =
             [&|x| at.series(x), &|x| at.single(Race::Inner, x), &|x| at.single(Race::Outer, x)];
         for law in pieces {
             for x in approaches(&at) {
@@ -79,9 +79,9 @@ fn load_rises_continuously_from_onset() {
     for (contacts, speed) in laws() {
         let at = contacts.at_speed(speed);
         let onset = at.onset();
-        assert_eq!(at.series(onset), Loaded::default());
-        assert_eq!(at.series(onset - 1e-6), Loaded::default());
-        let mut before = Loaded::default();
+        assert_eq!(at.series(onset), ContactLoad::default());
+        assert_eq!(at.series(onset - 1e-6), ContactLoad::default());
+        let mut before = ContactLoad::default();
         for x in approaches(&at) {
             let here = at.series(x);
             assert!(here.load > before.load && here.slope > before.slope && here.energy > before.energy);
@@ -245,7 +245,12 @@ fn power_law_is_exact_above_smoothed_onset() {
             let inner = at.single(Race::Inner, x * share(Race::Inner)).load;
             assert!((inner / load - 1.0).abs() < 1e-13);
         }
-        assert!(at.outside(599.0) && at.outside(2001.0) && !at.outside(600.0) && !at.outside(0.0));
+        assert!(
+            at.is_outside_range(599.0)
+                && at.is_outside_range(2001.0)
+                && !at.is_outside_range(600.0)
+                && !at.is_outside_range(0.0)
+        );
     }
     // Without an offset and n = 3/2 the smoothed onset equals the law.
     let law = PowerLaw { stiffness: 1e10, exponent: 1.5, offset: 0.0, range: [600.0, 2000.0] };
@@ -256,7 +261,7 @@ fn power_law_is_exact_above_smoothed_onset() {
     }
     let anywhere = PowerLaw { range: [0.0, f64::INFINITY], ..law };
     let contacts = BallContacts::new(pair(), ContactLaw::PowerLaw(anywhere));
-    assert_eq!(contacts.at_speed(0.0).series(0.0), Loaded::default());
+    assert_eq!(contacts.at_speed(0.0).series(0.0), ContactLoad::default());
     assert!((contacts.at_speed(0.0).series(1e-6).load / (1e10 * 1e-9) - 1.0).abs() < 1e-12);
 }
 

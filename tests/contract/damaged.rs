@@ -12,7 +12,7 @@ use rotordyn::bearing::{
 
 /// Imperfections of every kind; defects wide enough to be under several balls at any time.
 pub fn all_imperfections(law: DefectLaw) -> Imperfections {
-    let defect = |on, start, width, form| Defect { on, row: None, start, width, form };
+    let defect = |on, start, width, form| Defect { surface: on, row: None, start, width, form };
     let dent = DefectForm::Dent { depth: Some(0.8e-6), shape: Shape::HalfSine };
     let bump = DefectForm::Bump { height: 0.6e-6, shape: Shape::Cap };
     let spall = DefectForm::Spall { depth: 1.5e-6, edge_radius: 0.3e-3 };
@@ -24,8 +24,8 @@ pub fn all_imperfections(law: DefectLaw) -> Imperfections {
             BallWave { ball: Some(3), wave: Wave { order: 5, amplitude: 1e-7, phase: 1.1 } },
         ],
         off_size: vec![
-            OffSize { ball: 1, by: 0.4e-6, row: None },
-            OffSize { ball: 4, by: -0.3e-6, row: Some(0) },
+            OffSize { ball: 1, diameter_difference: 0.4e-6, row: None },
+            OffSize { ball: 4, diameter_difference: -0.3e-6, row: Some(0) },
         ],
         defects: vec![
             defect(Surface::Outer, 0.2, 12e-3, dent),
@@ -44,8 +44,8 @@ pub fn all_imperfections(law: DefectLaw) -> Imperfections {
 const LAWS: [DefectLaw; 4] = [
     DefectLaw::Displacement,
     DefectLaw::UndampedDisplacement,
-    DefectLaw::Force { stiffness: None, on_loaded: false },
-    DefectLaw::Force { stiffness: Some(5e9), on_loaded: true },
+    DefectLaw::Force { stiffness: None, loaded_only: false },
+    DefectLaw::Force { stiffness: Some(5e9), loaded_only: true },
 ];
 
 /// Calls `visit` with every combination that permits the defect law.
@@ -99,8 +99,10 @@ fn force_laws_are_rejected_where_undefined() {
         let bearing = BallBearing { inertia, preload, imperfections: forced.clone(), ..angular() };
         assert_eq!(bearing.problems().len(), 1);
     }
-    let lost =
-        Imperfections { off_size: vec![OffSize { ball: 9, by: 1e-6, row: None }], ..Default::default() };
+    let lost = Imperfections {
+        off_size: vec![OffSize { ball: 9, diameter_difference: 1e-6, row: None }],
+        ..Default::default()
+    };
     assert_eq!(BallBearing { imperfections: lost, ..rig_6205() }.problems().len(), 1);
 }
 
@@ -122,7 +124,7 @@ fn rotating_bearing_and_imperfections_rotates_force() {
             wave.phase -= f64::from(wave.order) * angle;
         }
         for defect in &mut marks.defects {
-            if !matches!(defect.on, Surface::Ball(_)) {
+            if !matches!(defect.surface, Surface::Ball(_)) {
                 defect.start += angle;
             }
         }
@@ -139,11 +141,11 @@ fn rotating_bearing_and_imperfections_rotates_force() {
 #[test]
 fn zero_size_imperfections_have_no_effect() {
     let mut random = Random(12);
-    let defect = |on, width, form| Defect { on, row: None, start: 0.3, width, form };
+    let defect = |on, width, form| Defect { surface: on, row: None, start: 0.3, width, form };
     let nothing = Imperfections {
         inner_waviness: vec![Wave { order: 7, amplitude: 0.0, phase: 0.4 }],
         ball_waviness: vec![BallWave { ball: None, wave: Wave { order: 2, amplitude: 0.0, phase: 0.0 } }],
-        off_size: vec![OffSize { ball: 0, by: 0.0, row: None }],
+        off_size: vec![OffSize { ball: 0, diameter_difference: 0.0, row: None }],
         defects: vec![
             defect(Surface::Outer, 0.0, DefectForm::Dent { depth: None, shape: Shape::HalfSine }),
             defect(Surface::Outer, 1e-3, DefectForm::Dent { depth: Some(0.0), shape: Shape::Cap }),
@@ -195,7 +197,7 @@ fn oversize_ball_increases_approach() {
     let mut bearing = rig_6205();
     let (d, rotation) = ([8e-6, 2e-6, 0.0, 0.0, 0.0, 0.0], Rotation::default());
     let before = BallElement::new(&bearing).ball_loads(&d, &rotation);
-    bearing.imperfections.off_size = vec![OffSize { ball: 1, by: 0.3e-6, row: None }];
+    bearing.imperfections.off_size = vec![OffSize { ball: 1, diameter_difference: 0.3e-6, row: None }];
     let after = BallElement::new(&bearing).ball_loads(&d, &rotation);
     for (j, (a, b)) in before.iter().zip(&after).enumerate() {
         let excess = if j == 1 { 0.3e-6 } else { 0.0 };
@@ -211,8 +213,9 @@ fn ball_defect_passes_each_race_once_per_spin_revolution() {
     let mut bearing = rig_6205();
     let form = DefectForm::Bump { height: 1e-6, shape: Shape::HalfSine };
     let width = 0.2e-3;
-    bearing.imperfections.defects = vec![Defect { on: Surface::Ball(0), row: None, start: 1.0, width, form }];
-    let orders = bearing.geometry.orders(0.0);
+    bearing.imperfections.defects =
+        vec![Defect { surface: Surface::Ball(0), row: None, start: 1.0, width, form }];
+    let orders = bearing.geometry.characteristic_orders(0.0);
     for (spin, order) in [(BallSpin::Rolling, orders.bsf), (BallSpin::Shaft, 1.0)] {
         bearing.imperfections.spin = spin;
         let profile =
@@ -230,7 +233,7 @@ fn ball_defect_passes_each_race_once_per_spin_revolution() {
                 cage_angle: orders.ftf * shaft,
                 cage_speed: orders.ftf,
             };
-            let at = profile.at(&rotation).ball(0);
+            let at = profile.at_rotation(&rotation).ball(0);
             for contact in 0..2 {
                 if before[contact] > 0.0 && at.rate[contact] < 0.0 {
                     passages[contact].push(shaft / std::f64::consts::TAU);

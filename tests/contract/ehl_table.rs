@@ -1,7 +1,7 @@
 //! Tabulated EHL solution as a contact law: interpolation, tangents, energy, limits, storage.
 
 use crate::lubricated::steel;
-use rotordyn::contact::ehl::{EhlLaw, Failure, Table, TableSpec, geometric};
+use rotordyn::contact::ehl::{EhlError, EhlLaw, Table, TableSpec, geometric};
 use rotordyn::contact::{BallContacts, ContactLaw, EllipticContact, FilmFormula, HertzPair, Lubricant, Race};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -50,10 +50,10 @@ fn load_inverts_approach_with_slope_and_energy() {
             let [approach, slope] = curve.approach(load);
             let found = curve.load(approach);
             // Film and deformation cancel in δ; the load is accurate to the round-off of δ over the slope.
-            let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.reach()) / slope;
+            let known = 1e-12 * load + 1e-15 * (approach.abs() + curve.zero_load_film()) / slope;
             assert!((found.load - load).abs() < 1e3 * known, "{speed} {load}: {}", found.load);
             assert!((found.slope * slope - 1.0).abs() < 1e-6, "{speed} {load}");
-            let step = 1e-4 * (load * slope).min(approach.abs() + curve.reach());
+            let step = 1e-4 * (load * slope).min(approach.abs() + curve.zero_load_film());
             let [up, down] = [approach + step, approach - step].map(|a| curve.load(a));
             let difference = (up.load - down.load) / (2.0 * step);
             assert!(
@@ -86,9 +86,9 @@ fn curves_in_series_add_approaches() {
 #[test]
 fn no_load_beyond_film_reach() {
     let curve = TABLE.at_speed(5.0);
-    let reach = curve.reach();
+    let reach = curve.zero_load_film();
     assert!(reach > TABLE.central_film[1][0]);
-    assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::Loaded::default());
+    assert_eq!(curve.load(-reach * (1.0 + 1e-12)), rotordyn::contact::ContactLoad::default());
     let just = curve.load(-reach * (1.0 - 1e-9));
     assert!(just.load > 0.0 && just.load < 1e-6 && just.slope > 0.0 && just.energy > 0.0);
     assert!(curve.load(f64::NAN).load.is_nan());
@@ -111,7 +111,7 @@ fn approach_is_monotone_and_dry_at_zero_speed() {
         assert_eq!(TABLE.at_speed(0.0).approach(load)[0], dry);
         assert!((TABLE.at_speed(1e-9).approach(load)[0] / dry - 1.0).abs() < 1e-4);
     }
-    assert_eq!(TABLE.at_speed(0.0).reach(), 0.0);
+    assert_eq!(TABLE.at_speed(0.0).zero_load_film(), 0.0);
 }
 
 /// Far outside the tabulated loads the film has the load exponent of Hamrock and Dowson.
@@ -159,7 +159,7 @@ fn cache_key_depends_on_every_input() {
 fn unsorted_table_axes_are_rejected() {
     for (loads, speeds) in [(vec![10.0, 5.0], vec![1.0]), (vec![], vec![1.0]), (vec![1.0], vec![0.0, 1.0])] {
         let wrong = TableSpec { loads, speeds, ..spec() };
-        assert!(matches!(wrong.compute(|_, _| ()), Err(Failure::Input { .. })));
+        assert!(matches!(wrong.compute(|_, _| ()), Err(EhlError::Input { .. })));
     }
 }
 

@@ -58,11 +58,11 @@ fn force_only_for_any_number_of_balls() {
 fn force_only_for_races_with_defects() {
     let dent = DefectForm::Dent { depth: None, shape: Shape::HalfSine };
     let bump = DefectForm::Bump { height: 3e-7, shape: Shape::Cap };
-    let on = |on, start: f64, width, form| Defect { on, row: None, start, width, form };
+    let on = |on, start: f64, width, form| Defect { surface: on, row: None, start, width, form };
     let laws = [
         DefectLaw::Displacement,
         DefectLaw::UndampedDisplacement,
-        DefectLaw::Force { stiffness: None, on_loaded: true },
+        DefectLaw::Force { stiffness: None, loaded_only: true },
     ];
     let mut random = Random(19);
     let mut seen = 0;
@@ -80,7 +80,8 @@ fn force_only_for_races_with_defects() {
                     on(Surface::Inner, 0.3, 1e-3, dent),
                 ];
                 if sized {
-                    bearing.imperfections.off_size = vec![OffSize { ball: 1, by: 1e-7, row: None }];
+                    bearing.imperfections.off_size =
+                        vec![OffSize { ball: 1, diameter_difference: 1e-7, row: None }];
                 }
                 let perfect = {
                     let mut bearing = bearing.clone();

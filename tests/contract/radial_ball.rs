@@ -3,13 +3,18 @@
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
-use rotordyn::bearing::radial::{Rings, StepGain};
+use rotordyn::bearing::radial::{NewmarkGain, Rings};
 use rotordyn::bearing::{BallElement, BallWave, OffSize, RadialBallBearing, RadialElement, Rotation, Wave};
 
 const GRAVITY: [f64; 2] = [2.0, -9.0];
 
 fn bearing() -> RadialBallBearing {
-    RadialBallBearing { ball: rig_6205(), stiffness_damping: [1e-4, 0.7e-4], pulls: false, gravity: GRAVITY }
+    RadialBallBearing {
+        ball: rig_6205(),
+        stiffness_damping: [1e-4, 0.7e-4],
+        tensile_contact: false,
+        gravity: GRAVITY,
+    }
 }
 
 /// With waviness of races and balls, and an oversize ball.
@@ -19,7 +24,7 @@ fn with_defects() -> RadialBallBearing {
     out.ball.imperfections.inner_waviness = vec![wave(7, 1e-6)];
     out.ball.imperfections.outer_waviness = vec![wave(5, 0.7e-6), wave(11, 0.2e-6)];
     out.ball.imperfections.ball_waviness = vec![BallWave { ball: None, wave: wave(6, 0.5e-6) }];
-    out.ball.imperfections.off_size = vec![OffSize { ball: 2, by: 1e-6, row: None }];
+    out.ball.imperfections.off_size = vec![OffSize { ball: 2, diameter_difference: 1e-6, row: None }];
     out
 }
 
@@ -46,7 +51,8 @@ impl State {
     /// Forces on all coordinates.
     fn forces(&self, element: &RadialElement, rotation: &Rotation) -> Vec<f64> {
         let mut on_balls = vec![0.0; element.balls()];
-        let reaction = element.act(&self.rings(), [&self.q[4..], &self.rate[4..]], rotation, &mut on_balls);
+        let reaction =
+            element.forces(&self.rings(), [&self.q[4..], &self.rate[4..]], rotation, &mut on_balls);
         [reaction.force[..4].to_vec(), on_balls].concat()
     }
 }
@@ -73,9 +79,13 @@ fn nearest_kink(
         .flat_map(|j| {
             let angle = rotation.cage_angle + std::f64::consts::TAU * j as f64 / g.balls as f64;
             let (sin, cos) = angle.sin_cos();
-            let lift = state.q[4 + j] - rings.frame[0] * cos - rings.frame[1] * sin;
+            let lift =
+                state.q[4 + j] - rings.housing_displacement[0] * cos - rings.housing_displacement[1] * sin;
             let radius = 0.5 * g.pitch_diameter + 0.25 * g.radial_clearance + lift;
-            let to = [radius * cos - rings.shift[0], radius * sin - rings.shift[1]];
+            let to = [
+                radius * cos - rings.relative_displacement[0],
+                radius * sin - rings.relative_displacement[1],
+            ];
             [lift, 0.5 * g.pitch_diameter - 0.25 * g.radial_clearance - to[0].hypot(to[1])]
         })
         .fold(f64::INFINITY, |least, depth| depth.abs().min(least))
@@ -85,7 +95,7 @@ fn nearest_kink(
 fn tangents_match_finite_differences() {
     let mut random = Random(11);
     for pulls in [false, true] {
-        let bearing = RadialBallBearing { pulls, ..bearing() };
+        let bearing = RadialBallBearing { tensile_contact: pulls, ..bearing() };
         let element = RadialElement::new(&bearing);
         let mut compared = 0;
         for _ in 0..60 {
@@ -133,9 +143,10 @@ fn tangents_match_finite_differences() {
 #[test]
 fn implicit_step_solves_balls_and_gives_ring_tangents() {
     let mut random = Random(5);
-    let gain = |ball: f64| StepGain { place: 0.25 * 1e-5_f64.powi(2), rate: 0.5e-5, ball };
+    let gain =
+        |ball: f64| NewmarkGain { position: 0.25 * 1e-5_f64.powi(2), velocity: 0.5e-5, inverse_mass: ball };
     for pulls in [false, true] {
-        let bearing = RadialBallBearing { pulls, ..bearing() };
+        let bearing = RadialBallBearing { tensile_contact: pulls, ..bearing() };
         let element = RadialElement::new(&bearing);
         let gain = gain(1.0 / element.ball_mass());
         for _ in 0..200 {
@@ -158,9 +169,9 @@ fn implicit_step_solves_balls_and_gives_ring_tangents() {
             let (reaction, end, force, tangents) = step(&start);
             let found = end.forces(&element, &rotation);
             for j in 0..element.balls() {
-                let acceleration = gain.ball * force[j];
-                assert!((end.q[4 + j] - start.q[4 + j] - gain.place * acceleration).abs() < 1e-19);
-                assert!((end.rate[4 + j] - start.rate[4 + j] - gain.rate * acceleration).abs() < 1e-15);
+                let acceleration = gain.inverse_mass * force[j];
+                assert!((end.q[4 + j] - start.q[4 + j] - gain.position * acceleration).abs() < 1e-19);
+                assert!((end.rate[4 + j] - start.rate[4 + j] - gain.velocity * acceleration).abs() < 1e-15);
                 // Q satisfies its equation to round-off: forces from coordinate errors of 1e-22 m.
                 assert!(
                     (found[4 + j] - force[j]).abs() < 2e-10 * (1.0 + force[j].abs()),
@@ -181,7 +192,7 @@ fn implicit_step_solves_balls_and_gives_ring_tangents() {
                 let moved = |sign: f64| {
                     let mut state = start.clone();
                     state.q[column] += sign * by;
-                    state.rate[column] += sign * by * gain.rate / gain.place;
+                    state.rate[column] += sign * by * gain.velocity / gain.position;
                     let (reaction, _, force, _) = step(&state);
                     [reaction.force[..4].to_vec(), force].concat()
                 };
@@ -232,7 +243,7 @@ fn linear_momentum_balance_closes() {
         for k in 0..2 {
             // Force on the rings: Q_d − Q_d + Q_h, minus inertia and plus weight of the carried ball mass Z
             // m/2.
-            let rings = forces[2 + k] - bearing.carried_mass() * (h_accel[k] - GRAVITY[k]);
+            let rings = forces[2 + k] - bearing.added_ball_mass() * (h_accel[k] - GRAVITY[k]);
             let left = total[k] + rings - weight * GRAVITY[k];
             assert!(left.abs() < 1e-9, "{left} N of {}", forces[k]);
         }
@@ -255,12 +266,12 @@ fn power_balance_closes() {
             };
             let rings = Rings::from_rows(&q[..4], &state.rate[..4]);
             let mut on_balls = vec![0.0; element.balls()];
-            element.act(&rings, [&q[4..], &state.rate[4..]], &rotation, &mut on_balls).elastic_energy
+            element.forces(&rings, [&q[4..], &state.rate[4..]], &rotation, &mut on_balls).elastic_energy
         };
         let step = 1e-7;
         let stored = (energy(step) - energy(-step)) / (2.0 * step);
         let mut on_balls = vec![0.0; element.balls()];
-        let out = element.act(&state.rings(), [&state.q[4..], &state.rate[4..]], &rotation, &mut on_balls);
+        let out = element.forces(&state.rings(), [&state.q[4..], &state.rate[4..]], &rotation, &mut on_balls);
         let given: f64 = out.force[..4].iter().chain(&on_balls).zip(&state.rate).map(|(f, v)| f * v).sum();
         let left = given + stored + out.dissipated_power - out.parametric_power;
         let size = given.abs() + stored.abs() + out.dissipated_power.abs();
@@ -359,9 +370,9 @@ fn ball_equilibrium_and_its_stiffness() {
             loads.iter().map(|b| b.load / (0.5 * bearing.ball.geometry.pitch_diameter) * 1.01).sum();
         let here = element.reaction(&d, &[0.0; 6], &rotation);
         for k in 0..2 {
-            assert!((here.carried[k] - carried[k]).abs() < 1e-4);
+            assert!((here.housing_force[k] - carried[k]).abs() < 1e-4);
             // The weight of half the balls crosses the contacts; the cage carries the other half.
-            assert!((carried[k] - bearing.carried_mass() * GRAVITY[k]).abs() < 0.02);
+            assert!((carried[k] - bearing.added_ball_mass() * GRAVITY[k]).abs() < 0.02);
         }
         for column in 0..2 {
             let at = |by: f64| {

@@ -1,7 +1,8 @@
 //! The .glb export read back by an independent minimal reader of the glTF specification.
 
-use rotordyn::edge::gltf::{Scene, to_glb};
-use rotordyn::edge::parry::BearingShapes;
+use rotordyn::geometry::parry::BearingShapes;
+use rotordyn::geometry::scene_graph::Scene;
+use rotordyn::io::gltf::to_glb;
 use serde_json::Value;
 
 use crate::bearing::rig_6205;

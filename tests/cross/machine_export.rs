@@ -2,9 +2,10 @@
 //! VTK.
 
 use rotordyn::bearing::Bearing;
-use rotordyn::edge::gltf::{self, Scene};
-use rotordyn::edge::vtk::{Grid, machine_fields, to_vtu};
 use rotordyn::element::{Anchor, Disc, RigidBody, ShaftElement, ShearCoefficient};
+use rotordyn::geometry::scene_graph::Scene;
+use rotordyn::io::gltf;
+use rotordyn::io::vtk::{Grid, machine_fields, to_vtu};
 use rotordyn::model::{BearingSite, Damping, Drive, Model, SpeedProfile};
 
 use crate::bearing::{rig_6205, steel};
@@ -20,7 +21,7 @@ fn rig() -> Model {
         rotary_inertia: true,
         axial_force: 0.0,
         torque: 0.0,
-        proportional: [0.0; 2],
+        proportional_damping: [0.0; 2],
         internal_viscous: 0.0,
     };
     let disc = |name: &str, node, mass, polar_inertia, diametral_inertia, size: [f64; 2]| Disc {

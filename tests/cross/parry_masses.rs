@@ -5,8 +5,8 @@
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
-use rotordyn::edge::mesh::Mesh;
-use rotordyn::edge::parry::{BearingShapes, Solid};
+use rotordyn::geometry::mesh::Mesh;
+use rotordyn::geometry::parry::{BearingShapes, RevolvedSolid};
 
 use crate::bearing::rig_6205;
 
@@ -21,7 +21,7 @@ fn by_mesh(mesh: &Mesh) -> [f64; 4] {
     [p.mass(), p.local_com.z, inertia.z_axis.z, 0.5 * (inertia.x_axis.x + inertia.y_axis.y)]
 }
 
-fn check(name: &str, solid: &Solid, mesh: impl Fn(usize) -> Mesh, tolerance: f64) {
+fn check(name: &str, solid: &RevolvedSolid, mesh: impl Fn(usize) -> Mesh, tolerance: f64) {
     let exact = [solid.mass, solid.centre_z, solid.polar, solid.diametral];
     let (coarse, fine) = (by_mesh(&mesh(1)), by_mesh(&mesh(2)));
     for k in [0, 2, 3] {

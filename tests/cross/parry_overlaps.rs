@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Vector3};
 use rotordyn::bearing::BallBearing;
-use rotordyn::edge::parry::{BearingShapes, Overlap, Part, Race};
+use rotordyn::geometry::parry::{BearingShapes, Overlap, Part, Race};
 
 use crate::bearing::rig_6205;
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use rotordyn::bearing::{BallBearing, BallElement};
 use rotordyn::contact::Traction;
-use rotordyn::edge::rapier::{FreeBallBearing, FreeBallSettings};
+use rotordyn::geometry::rapier::{FreeBallBearing, FreeBallSettings};
 
 use crate::bearing::rig_6205;
 

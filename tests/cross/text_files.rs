@@ -1,7 +1,7 @@
 //! Round trips of CSV and VTK files, number by number.
 
-use rotordyn::edge::csv::{self, Column};
-use rotordyn::edge::vtk::{Field, Grid, Values, machine_fields, to_vtu, write_pvd, write_vtu};
+use rotordyn::io::csv::{self, Column};
+use rotordyn::io::vtk::{Field, Grid, Values, machine_fields, to_vtu, write_pvd, write_vtu};
 
 #[test]
 fn csv_round_trip_is_exact_with_units_in_header() {

@@ -1,7 +1,7 @@
 //! Messages about measured speed profiles.
 
 use crate::render::render;
-use rotordyn::model::{self, Loaded, ModelErrors, Options, SideColumn, SideFile};
+use rotordyn::model::{self, ExternalColumn, ExternalFile, Loaded, ModelErrors, Options};
 
 const MACHINE: &str = r#"[model]
 name = "measured"
@@ -36,16 +36,16 @@ k_yy = "1e7 N/m"
 profile = "measured"
 "#;
 
-fn column(name: &str, unit: &str, values: &[f64]) -> SideColumn {
-    SideColumn { name: name.into(), unit: unit.into(), values: values.to_vec() }
+fn column(name: &str, unit: &str, values: &[f64]) -> ExternalColumn {
+    ExternalColumn { name: name.into(), unit: unit.into(), values: values.to_vec() }
 }
 
-fn load(keys: &str, content: Result<Vec<SideColumn>, String>) -> Result<Loaded, ModelErrors> {
-    let files = [SideFile { path: "tacho.csv".into(), content }];
+fn load(keys: &str, content: Result<Vec<ExternalColumn>, String>) -> Result<Loaded, ModelErrors> {
+    let files = [ExternalFile { path: "tacho.csv".into(), content }];
     model::load_with("measured.toml", format!("{MACHINE}{keys}\n"), &Options::default(), &files)
 }
 
-fn refused(keys: &str, content: Result<Vec<SideColumn>, String>) -> String {
+fn refused(keys: &str, content: Result<Vec<ExternalColumn>, String>) -> String {
     let errors = load(keys, content).expect_err("the input is bad");
     render(&errors.diagnostics, &errors.sources, miette::Severity::Error, false)
 }

@@ -4,28 +4,28 @@
 //! all hits: G (auto-spectra as peak amplitudes, cross spectra as half products), H and C, all in single
 //! precision, 6e-8 of the largest value of each kind.
 
-use rotordyn::edge::measured::read;
+use rotordyn::io::measured::read;
 use rotordyn::signal::Complex;
 use rotordyn::signal::impact::{Hit, ImpactWindows, Limits, frf_from_hits, frf_from_spectra, inspect};
-use rotordyn::signal::record::{Measured, Values};
+use rotordyn::signal::record::{MeasuredData, Values};
 
 use crate::measured_data::measured;
 
 /// Round-off of single precision after a few operations.
 const SINGLE: f64 = 3e-7;
 
-fn file() -> Option<Measured> {
+fn file() -> Option<MeasuredData> {
     measured("plane_ema/lab1_DPsv00001.mat").map(|path| read(&path).unwrap())
 }
 
-fn real<'a>(file: &'a Measured, name: &str) -> &'a [f64] {
+fn real<'a>(file: &'a MeasuredData, name: &str) -> &'a [f64] {
     match &file.record(name).unwrap().values {
         Values::Real(values) => values,
         Values::Complex(_) => panic!("{name} is complex"),
     }
 }
 
-fn complex<'a>(file: &'a Measured, name: &str) -> &'a [Complex<f64>] {
+fn complex<'a>(file: &'a MeasuredData, name: &str) -> &'a [Complex<f64>] {
     match &file.record(name).unwrap().values {
         Values::Complex(values) => values,
         Values::Real(_) => panic!("{name} is real"),

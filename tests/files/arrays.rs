@@ -6,8 +6,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rotordyn::edge::{measured, uff, wav};
-use rotordyn::signal::record::{Kind, Measured, Record, Values};
+use rotordyn::io::{measured, uff, wav};
+use rotordyn::signal::record::{Kind, MeasuredData, Record, Values};
 use serde_json::Value;
 
 use crate::example_records::{everything, time_records};
@@ -16,7 +16,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/arrays")
 }
 
-fn example() -> Measured {
+fn example() -> MeasuredData {
     let mut all = everything();
     all.scalars.push(("X105RPM".into(), 1797.0));
     all
@@ -76,7 +76,7 @@ fn numpy_output_matches_stored_output() {
     );
 }
 
-fn real(found: &Measured, name: &str) -> Vec<f64> {
+fn real(found: &MeasuredData, name: &str) -> Vec<f64> {
     match &found.record(name).unwrap().values {
         Values::Real(values) => values.clone(),
         Values::Complex(_) => panic!("{name}"),
@@ -122,14 +122,14 @@ fn damaged_files_do_not_panic() {
     wav::write(
         &wav_file,
         &records.iter().collect::<Vec<_>>(),
-        wav::Samples::Pcm { bits: 24, full_scale: 300.0 },
+        wav::SampleFormat::Pcm { bits: 24, full_scale: 300.0 },
     )
     .unwrap();
-    let small = Measured { records: example().records[..5].to_vec(), ..example() };
+    let small = MeasuredData { records: example().records[..5].to_vec(), ..example() };
     let binary = uff::to_bytes(&small, uff::Options { binary: true, ..uff::Options::default() }).unwrap();
     let ascii = uff::to_bytes(
         &small,
-        uff::Options { single: true, geometry: uff::Geometries::Modern, binary: false },
+        uff::Options { single: true, geometry: uff::GeometrySets::Modern, binary: false },
     );
     let mut refused = 0;
     for bytes in [

@@ -2,7 +2,7 @@
 
 use rotordyn::signal::Complex;
 use rotordyn::signal::record::{
-    Analysis, Axis, AxisQuantity, Dof, Element, Geometry, Kind, Measured, Node, Polyline, Record, Shape,
+    Analysis, Axis, AxisQuantity, Dof, Element, Geometry, Kind, MeasuredData, Node, Polyline, Record, Shape,
     Values,
 };
 
@@ -17,7 +17,7 @@ fn complex(count: usize, f: impl Fn(f64) -> Complex<f64>) -> Values {
 /// Channels of a run on two bearings: uniform time axis, names longer than the ten characters of a universal
 /// file.
 pub fn time_records() -> Vec<Record> {
-    let axis = Axis::even(AxisQuantity::Time, 0.25, 1.0 / 12000.0);
+    let axis = Axis::uniform(AxisQuantity::Time, 0.25, 1.0 / 12000.0);
     let record = |name: &str, node, direction, unit, values| Record {
         response: Dof::new(node, direction),
         speed_rpm: Some(1797.0),
@@ -32,9 +32,9 @@ pub fn time_records() -> Vec<Record> {
 
 /// FRFs, their coherence, a spectral density, spectra on a non-uniform axis.
 pub fn frequency_records() -> Vec<Record> {
-    let axis = Axis::even(AxisQuantity::Frequency, 0.0, 0.125);
+    let axis = Axis::uniform(AxisQuantity::Frequency, 0.0, 0.125);
     let uneven: Vec<f64> = (0..9).map(|k| 1.0 + 0.5 * f64::from(k * k)).collect();
-    let uneven = Axis::through(AxisQuantity::Frequency, uneven);
+    let uneven = Axis::from_points(AxisQuantity::Frequency, uneven);
     let at = |record: Record, node, direction, reference| Record {
         response: Dof::new(node, direction),
         reference,
@@ -121,8 +121,8 @@ pub fn shapes() -> Vec<Shape> {
 }
 
 /// All records, geometry and shapes.
-pub fn everything() -> Measured {
-    Measured {
+pub fn everything() -> MeasuredData {
+    MeasuredData {
         title: "overhung rig".into(),
         records: [time_records(), frequency_records()].concat(),
         scalars: Vec::new(),

@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use rotordyn::edge::measured::{self, Format};
-use rotordyn::edge::{csv, uff, wav};
 use rotordyn::error::Error;
-use rotordyn::signal::record::{Kind, Measured, Record, Values};
+use rotordyn::io::measured::{self, Format};
+use rotordyn::io::{csv, uff, wav};
+use rotordyn::signal::record::{Kind, MeasuredData, Record, Values};
 
 use crate::example_records::{assert_record, everything, frequency_records, time_records};
 
-fn measured_of(records: Vec<Record>) -> Measured {
-    Measured { records, ..Measured::default() }
+fn measured_of(records: Vec<Record>) -> MeasuredData {
+    MeasuredData { records, ..MeasuredData::default() }
 }
 
-fn round_trip(measured: &Measured, file: &str) -> Measured {
+fn round_trip(measured: &MeasuredData, file: &str) -> MeasuredData {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(file);
     measured::write(&path, measured).unwrap();
@@ -24,7 +24,7 @@ fn round_trip(measured: &Measured, file: &str) -> Measured {
 }
 
 /// Compares in the order of the records or, with `names`, sorted by name (HDF5 sorts by name).
-fn assert_same(got: &Measured, want: &Measured, relative: f64, names: bool) {
+fn assert_same(got: &MeasuredData, want: &MeasuredData, relative: f64, names: bool) {
     assert_eq!(got.records.len(), want.records.len());
     let (mut got, mut want) = (got.clone(), want.clone());
     if names {
@@ -106,10 +106,10 @@ fn wav_round_trip_within_sample_precision() {
     let records = time_records();
     let channels: Vec<&Record> = records.iter().collect();
     for (samples, step) in [
-        (wav::Samples::Float, None),
-        (wav::Samples::Pcm { bits: 16, full_scale: 256.0 }, Some(256.0 / 32768.0)),
-        (wav::Samples::Pcm { bits: 24, full_scale: 256.0 }, Some(256.0 / 8_388_608.0)),
-        (wav::Samples::Pcm { bits: 32, full_scale: 256.0 }, Some(256.0 / 2_147_483_648.0)),
+        (wav::SampleFormat::Float, None),
+        (wav::SampleFormat::Pcm { bits: 16, full_scale: 256.0 }, Some(256.0 / 32768.0)),
+        (wav::SampleFormat::Pcm { bits: 24, full_scale: 256.0 }, Some(256.0 / 8_388_608.0)),
+        (wav::SampleFormat::Pcm { bits: 32, full_scale: 256.0 }, Some(256.0 / 2_147_483_648.0)),
     ] {
         wav::write(&path, &channels, samples).unwrap();
         let back = measured::read(&path).unwrap();
@@ -124,18 +124,18 @@ fn wav_round_trip_within_sample_precision() {
             }
         }
     }
-    let too_loud = wav::write(&path, &channels, wav::Samples::Pcm { bits: 16, full_scale: 100.0 });
+    let too_loud = wav::write(&path, &channels, wav::SampleFormat::Pcm { bits: 16, full_scale: 100.0 });
     let text = too_loud.unwrap_err().to_string();
     assert!(
         text.contains("`A_fy` reaches 250 at sample 0, full scale is 100; choose a larger full scale"),
         "{text}"
     );
     // One channel is named after the file.
-    wav::write(&path, &channels[..1], wav::Samples::Float).unwrap();
+    wav::write(&path, &channels[..1], wav::SampleFormat::Float).unwrap();
     assert_eq!(measured::read(&path).unwrap().records[0].name, "run");
     let mut odd = records[0].clone();
-    odd.axis = rotordyn::signal::record::Axis::even(odd.axis.quantity, 0.0, 0.003);
-    let text = wav::write(&path, &[&odd], wav::Samples::Float).unwrap_err().to_string();
+    odd.axis = rotordyn::signal::record::Axis::uniform(odd.axis.quantity, 0.0, 0.003);
+    let text = wav::write(&path, &[&odd], wav::SampleFormat::Float).unwrap_err().to_string();
     assert!(text.contains("a WAV file needs an integer sampling rate in Hz, not 333.3"), "{text}");
 }
 

@@ -1,7 +1,7 @@
 //! HDF5 files read by h5py, with the types that a Python user expects.
 
 use nalgebra::Complex;
-use rotordyn::edge::hdf5::{Channel, ChannelStream, Store};
+use rotordyn::io::hdf5::{Channel, ChannelStream, Store};
 use std::path::Path;
 use std::process::Command;
 

@@ -1,8 +1,8 @@
 //! Round trips of data sets and attributes through an HDF5 store.
 
 use nalgebra::Complex;
-use rotordyn::edge::hdf5::{Attribute, Store};
 use rotordyn::error::Error;
+use rotordyn::io::hdf5::{Attribute, Store};
 
 #[test]
 fn data_sets_and_attributes_round_trip() {

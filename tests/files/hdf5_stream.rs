@@ -1,6 +1,6 @@
 //! Streamed channels stay readable after complete, killed and failed runs.
 
-use rotordyn::edge::hdf5::{Channel, ChannelStream, Recording, Store, read_recording};
+use rotordyn::io::hdf5::{Channel, ChannelStream, Recording, Store, read_recording};
 use std::path::Path;
 
 const SAMPLE_RATE: f64 = 5000.0;

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::edge::measured::mapping::{self, Mapping, direction};
 use rotordyn::error::Error;
+use rotordyn::io::measured::mapping::{self, Mapping, direction};
 use rotordyn::signal::Complex;
-use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Points, Record, Values};
+use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
 
 use crate::example_records::{frequency_records, time_records};
 
@@ -21,8 +21,8 @@ fn station(name: &str) -> Option<i64> {
     ["A", "disc", "B"].iter().position(|n| *n == name).map(|k| 10 * (k as i64 + 1))
 }
 
-fn apply(text: &str, records: &[Record]) -> Result<(Measured, Vec<String>), String> {
-    let mut measured = Measured { records: records.to_vec(), ..Measured::default() };
+fn apply(text: &str, records: &[Record]) -> Result<(MeasuredData, Vec<String>), String> {
+    let mut measured = MeasuredData { records: records.to_vec(), ..MeasuredData::default() };
     let path = PathBuf::from("mapping.toml");
     match mapping(text).unwrap().apply(&mut measured, &station, &path) {
         Ok(warnings) => Ok((measured, warnings)),
@@ -60,7 +60,7 @@ fn channels_are_mapped_by_name_and_others_dropped() {
 fn offset_sensors_and_hits_are_separate_points() {
     let frf = |name: &str, kind: Kind| {
         let values = Values::Complex(vec![Complex::new(1.0, 0.0); 4]);
-        Record::new(name, kind, Axis::even(AxisQuantity::Frequency, 0.0, 1.0), values, "")
+        Record::new(name, kind, Axis::uniform(AxisQuantity::Frequency, 0.0, 1.0), values, "")
     };
     let records = [frf("a", Kind::Frf), frf("b", Kind::Frf), frf("coherence a", Kind::Coherence)];
     let text = r#"
@@ -77,10 +77,10 @@ fn offset_sensors_and_hits_are_separate_points() {
         reference = { station = "disc", offset = "150 0 0 mm", direction = "-y" }
     "#;
     let (found, _) = apply(text, &records).unwrap();
-    let mounts = &found.geometry.mounts;
+    let mounts = &found.geometry.attached_points;
     assert_eq!(mounts.len(), 2, "{mounts:?}");
-    assert_eq!((mounts[0].on, mounts[0].offset), (30, [0.0, 0.04, 0.0]));
-    assert_eq!((mounts[1].on, mounts[1].offset), (20, [0.15, 0.0, 0.0]));
+    assert_eq!((mounts[0].carrier, mounts[0].offset), (30, [0.0, 0.04, 0.0]));
+    assert_eq!((mounts[1].carrier, mounts[1].offset), (20, [0.15, 0.0, 0.0]));
     let [a, b, coherence] = &found.records[..] else { panic!() };
     assert_eq!((a.response, a.reference), (Dof::new(mounts[0].number, 1), Dof::new(mounts[1].number, 2)));
     assert_eq!((b.response, b.reference), (Dof::new(10, 1), Dof::new(mounts[1].number, -2)));

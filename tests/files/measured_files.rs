@@ -1,7 +1,7 @@
 //! Third-party measured records: CWRU bearings, modal test of a plane, tacho pulses of a run-up, beam FRFs.
 
-use rotordyn::edge::measured::read;
-use rotordyn::signal::record::{Dof, Kind, Measured, Points, Values};
+use rotordyn::io::measured::read;
+use rotordyn::signal::record::{Dof, Kind, MeasuredData, Points, Values};
 use rotordyn::signal::statistics::statistics;
 
 use crate::measured_data::measured;
@@ -42,7 +42,7 @@ fn analyser_file_with_blocks_spectra_and_frfs() {
     assert_eq!(found.records.len(), 35);
     let force = found.record("X1").unwrap();
     assert_eq!((force.kind, force.unit.as_str(), force.values.len()), (Kind::Time, "N", 8192));
-    assert_eq!(force.axis.points, Points::Even { start: -0.009765625, step: 1.0 / 512.0 });
+    assert_eq!(force.axis.points, Points::Uniform { start: -0.009765625, step: 1.0 / 512.0 });
     let response = found.record("X2").unwrap();
     assert_eq!((response.unit.as_str(), response.response), ("m/s^2", Dof::new(2, 0)));
     // g in the file.
@@ -50,7 +50,7 @@ fn analyser_file_with_blocks_spectra_and_frfs() {
     let frf = found.record("H1_2").unwrap();
     assert_eq!((frf.kind, frf.unit.as_str()), (Kind::Frf, "(m/s^2)/N"));
     assert_eq!((frf.response, frf.reference), (Dof::new(2, 0), Dof::new(1, 0)));
-    assert_eq!((frf.stated_unit.as_str(), frf.axis.points(3201).unwrap()[3200]), ("g / N", 200.0));
+    assert_eq!((frf.file_unit.as_str(), frf.axis.points(3201).unwrap()[3200]), ("g / N", 200.0));
     let matrix = found.frf_matrix().unwrap();
     assert_eq!((matrix.responses.len(), matrix.references.len()), (3, 1));
     let coherence = matrix.coherence.unwrap();
@@ -77,7 +77,7 @@ fn tacho_pulses_of_a_run_up() {
     else {
         return;
     };
-    let one = |found: &Measured| match &found.records[0].values {
+    let one = |found: &MeasuredData| match &found.records[0].values {
         Values::Real(values) => values.clone(),
         Values::Complex(_) => panic!(),
     };

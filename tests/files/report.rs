@@ -1,8 +1,8 @@
 //! Figures, JSON and viewer files (glTF, VTK) of the rig's results.
 
-use rotordyn::edge::export::{export_geometry, export_modes};
-use rotordyn::edge::figures::{draw, draw_comparison};
-use rotordyn::edge::json::to_json;
+use rotordyn::figures::{draw, draw_comparison};
+use rotordyn::io::export_3d::{export_geometry, export_modes};
+use rotordyn::io::json::to_json;
 use serde_json::Value;
 
 use crate::rig_results::RIG;

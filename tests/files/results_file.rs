@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
-use rotordyn::edge::hdf5::{Attribute, ChannelStream, Store};
-use rotordyn::edge::json::to_json;
-use rotordyn::edge::results_file::{Meta, channels_of, read_history, remove_run, write_meta, write_study};
+use rotordyn::io::hdf5::{Attribute, ChannelStream, Store};
+use rotordyn::io::json::to_json;
+use rotordyn::io::results_file::{Meta, channels_of, read_history, remove_run, write_meta, write_study};
 
 use crate::rig_results::RIG;
 

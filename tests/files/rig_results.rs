@@ -28,7 +28,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
-        recorder.take(sample);
+        recorder.record(sample);
         ControlFlow::Continue(())
     });
     let history = recorder.history;

@@ -1,22 +1,22 @@
 //! Tables of other programs: separators, decimal commas, units, complex cells, error messages.
 
-use rotordyn::edge::measured;
 use rotordyn::error::Error;
+use rotordyn::io::measured;
 use rotordyn::signal::Complex;
-use rotordyn::signal::record::{AxisQuantity, Kind, Measured, Points, Values};
+use rotordyn::signal::record::{AxisQuantity, Kind, MeasuredData, Points, Values};
 
-fn try_read(name: &str, bytes: &[u8]) -> Result<Measured, Error> {
+fn try_read(name: &str, bytes: &[u8]) -> Result<MeasuredData, Error> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
     measured::read(&path)
 }
 
-fn read(text: &str) -> Measured {
+fn read(text: &str) -> MeasuredData {
     try_read("table.csv", text.as_bytes()).unwrap()
 }
 
-fn real(measured: &Measured, name: &str) -> Vec<f64> {
+fn real(measured: &MeasuredData, name: &str) -> Vec<f64> {
     match &measured.record(name).unwrap().values {
         Values::Real(values) => values.clone(),
         Values::Complex(_) => panic!("{name} is complex"),
@@ -53,7 +53,7 @@ fn units_are_converted_and_unknown_ones_kept() {
     assert_eq!(real(&back, "x")[0], 2e-6);
     assert!((real(&back, "force")[0] - 3.0 * 4.4482216152605).abs() < 1e-14);
     let level = back.record("level").unwrap();
-    assert_eq!((level.unit.as_str(), level.stated_unit.as_str()), ("", "dB"));
+    assert_eq!((level.unit.as_str(), level.file_unit.as_str()), ("", "dB"));
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use rotordyn::edge::uff::{self, Geometries, Options};
 use rotordyn::error::Error;
+use rotordyn::io::uff::{self, GeometrySets, Options};
 use rotordyn::signal::Complex;
-use rotordyn::signal::record::{Analysis, AxisQuantity, Kind, Measured, Points, Values};
+use rotordyn::signal::record::{Analysis, AxisQuantity, Kind, MeasuredData, Points, Values};
 
 use crate::example_records::{assert_record, everything, time_records};
 
@@ -16,14 +16,14 @@ const THIRTEEN_DIGITS: f64 = 5e-13;
 /// Half a unit of the last of 24 bits.
 const F32: f64 = 6e-8;
 
-fn read_bytes(bytes: &[u8]) -> Result<Measured, Error> {
+fn read_bytes(bytes: &[u8]) -> Result<MeasuredData, Error> {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = folder.path().join("file.uff");
     std::fs::write(&path, bytes).unwrap();
     uff::read(&path)
 }
 
-fn read(bytes: &[u8]) -> Measured {
+fn read(bytes: &[u8]) -> MeasuredData {
     read_bytes(bytes).unwrap()
 }
 
@@ -37,7 +37,7 @@ fn message(bytes: &[u8]) -> String {
 #[test]
 fn every_variant_round_trips_to_its_precision() {
     let all = everything();
-    for geometry in [Geometries::Classic, Geometries::Modern] {
+    for geometry in [GeometrySets::Classic, GeometrySets::Modern] {
         for (binary, single, precision) in [
             (false, true, SIX_DIGITS),
             (false, false, THIRTEEN_DIGITS),
@@ -53,7 +53,7 @@ fn every_variant_round_trips_to_its_precision() {
             for (got, want) in back.records.iter().zip(&all.records) {
                 assert_eq!(got.name, want.name);
                 // Uniform axes are exact: the steps are inverse integers.
-                let even = matches!(want.axis.points, Points::Even { .. });
+                let even = matches!(want.axis.points, Points::Uniform { .. });
                 let axis = if even {
                     0.0
                 } else if binary {
@@ -71,10 +71,10 @@ fn every_variant_round_trips_to_its_precision() {
 fn geometry_and_shapes_round_trip() {
     let all = everything();
     let write = |geometry| uff::to_bytes(&all, Options { geometry, ..Options::default() }).unwrap();
-    let classic = read(&write(Geometries::Classic));
+    let classic = read(&write(GeometrySets::Classic));
     assert_eq!(classic.geometry.lines, all.geometry.lines);
     assert_eq!(classic.geometry.elements, all.geometry.elements);
-    let modern = read(&write(Geometries::Modern));
+    let modern = read(&write(GeometrySets::Modern));
     let rods: Vec<_> = modern.geometry.elements[1..].iter().map(|e| (e.descriptor, &e.nodes[..])).collect();
     assert_eq!(rods, [(11, &[3, 12][..]), (11, &[12, 5]), (11, &[3, 7])]);
     assert_eq!(modern.geometry.elements[0], all.geometry.elements[0]);
@@ -105,14 +105,14 @@ fn geometry_and_shapes_round_trip() {
 
 /// A binary file of one record, and where its data begins and ends.
 fn binary_example(options: Options) -> (Vec<u8>, usize, usize) {
-    let one = Measured { records: time_records()[..1].to_vec(), ..Measured::default() };
+    let one = MeasuredData { records: time_records()[..1].to_vec(), ..MeasuredData::default() };
     let bytes = uff::to_bytes(&one, Options { binary: true, ..options }).unwrap();
     let end = bytes.len() - b"    -1\n".len();
     let size = 25 * if options.single { 4 } else { 8 };
     (bytes, end - size, end)
 }
 
-fn values(measured: &Measured) -> &[f64] {
+fn values(measured: &MeasuredData) -> &[f64] {
     match &measured.records[0].values {
         Values::Real(values) => values,
         Values::Complex(_) => panic!(),
@@ -275,7 +275,7 @@ fn units_are_converted_to_si_by_label_or_set_164() {
     // Neither: the value is kept, and `si_unit` returns an error with a hint.
     let unknown = record("", &label(12, "EU"));
     check(&unknown, 2.0, "");
-    assert_eq!(unknown.stated_unit, "EU");
+    assert_eq!(unknown.file_unit, "EU");
     let text = unknown.si_unit().unwrap_err().to_string();
     assert_eq!(text, "the unit of `ch` is unknown (the file gives \"EU\"); state it, such as \"m/s^2\"");
     let zero = "    -1\n   164\n         5mm\n  0.0D+00  1.0D+03  1.0D+00\n  2.7315D+02\n    -1\n";
@@ -286,7 +286,7 @@ fn units_are_converted_to_si_by_label_or_set_164() {
 
 #[test]
 fn unwritable_values_are_rejected() {
-    let mut one = Measured { records: time_records()[..1].to_vec(), ..Measured::default() };
+    let mut one = MeasuredData { records: time_records()[..1].to_vec(), ..MeasuredData::default() };
     one.records[0].values = Values::Real(vec![1.0, f64::NAN]);
     let text = uff::to_bytes(&one, Options::default()).unwrap_err().to_string();
     assert!(text.contains("`housing_B_ax` is NaN or infinite at value 1"), "{text}");

@@ -1,11 +1,11 @@
 //! Universal files of other programs (from pyuff's test data).
 
-use rotordyn::edge::uff;
-use rotordyn::signal::record::{Analysis, AxisQuantity, Kind, Measured, Values};
+use rotordyn::io::uff;
+use rotordyn::signal::record::{Analysis, AxisQuantity, Kind, MeasuredData, Values};
 
 use crate::measured_data::measured;
 
-fn read(file: &str) -> Option<Measured> {
+fn read(file: &str) -> Option<MeasuredData> {
     measured(&format!("uff/{file}")).map(|path| uff::read(&path).unwrap())
 }
 
@@ -38,7 +38,7 @@ fn psd_with_latin1_characters_in_its_unit() {
     let Some(file) = read("sample_dataset58_psd.uff") else { return };
     let record = &file.records[0];
     assert_eq!((record.name.as_str(), record.kind), ("Pilot 1", Kind::Psd));
-    assert_eq!((record.stated_unit.as_str(), record.unit.as_str()), ("g²/Hz", "(m/s^2)^2/Hz"));
+    assert_eq!((record.file_unit.as_str(), record.unit.as_str()), ("g²/Hz", "(m/s^2)^2/Hz"));
     assert_eq!(record.axis.quantity, AxisQuantity::Frequency);
     let frequencies = record.axis.points(3201).unwrap();
     assert_eq!((frequencies[1], frequencies[3200]), (1.0, 3200.0));

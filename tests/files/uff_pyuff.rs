@@ -6,8 +6,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use rotordyn::edge::uff::{self, Geometries, Options};
-use rotordyn::signal::record::{AxisQuantity, Kind, Measured, Points, Values};
+use rotordyn::io::uff::{self, GeometrySets, Options};
+use rotordyn::signal::record::{AxisQuantity, Kind, MeasuredData, Points, Values};
 use serde_json::Value;
 
 use crate::example_records::{assert_record, everything};
@@ -24,15 +24,15 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
     let mut readable = everything();
     readable.shapes.retain(|shape| shape.components == 3);
     readable.records.retain(|record| record.axis.quantity == AxisQuantity::Time || record.name != "phasors");
-    let mut even = Measured { records: readable.records.clone(), ..Measured::default() };
+    let mut even = MeasuredData { records: readable.records.clone(), ..MeasuredData::default() };
     even.records.retain(|record| record.name != "lines");
     let write = |measured, binary, geometry| {
         uff::to_bytes(measured, Options { binary, single: false, geometry }).unwrap()
     };
     vec![
-        ("ascii_classic.uff", write(&readable, false, Geometries::Classic)),
-        ("ascii_modern.uff", write(&readable, false, Geometries::Modern)),
-        ("binary.uff", write(&even, true, Geometries::Classic)),
+        ("ascii_classic.uff", write(&readable, false, GeometrySets::Classic)),
+        ("ascii_modern.uff", write(&readable, false, GeometrySets::Modern)),
+        ("binary.uff", write(&even, true, GeometrySets::Classic)),
     ]
 }
 
@@ -101,7 +101,7 @@ fn pyuff_files_are_read() {
             // Python's division and exp differ in the last bit; pyuff's ASCII has 12 digits, 6 for
             // non-uniform abscissae.
             let (values, axis) = if name == "pyuff_binary.uff" { (4e-16, 0.0) } else { (5e-12, 5e-6) };
-            let even = matches!(want.axis.points, Points::Even { .. });
+            let even = matches!(want.axis.points, Points::Uniform { .. });
             assert_record(got, &want, values, if even { 1e-15 } else { axis });
         }
         assert_eq!(file.geometry.nodes.len(), 4);

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::edge::exchange;
 use rotordyn::element::Anchor;
-use rotordyn::identify::{Identified, Settings, identify};
+use rotordyn::identify::{ModalIdentification, Settings, identify};
+use rotordyn::io::machine_records;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::study::{Excitation, FrfStudy, ModalStudy};
 use rotordyn::model::{Probe, Quantity};
-use rotordyn::signal::record::{FrfMatrix, NoisyTest};
+use rotordyn::signal::record::{FrfMatrix, MeasurementNoise};
 use rotordyn::study::Machine;
 
 use crate::made::lines;
@@ -35,7 +35,7 @@ const TWIST: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 /// rim (y and torsion), and at housing B along y.
 fn simulated_test(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (Machine, FrfMatrix) {
     let mut model = variant(None, set);
-    let place = |name: &str| Anchor::node(exchange::point(&model, name).unwrap() as usize - 1);
+    let place = |name: &str| Anchor::node(machine_records::point_number(&model, name).unwrap() as usize - 1);
     let disc = place("disc");
     let housing = |name: &str| model.probes.iter().find(|p| p.name == name).unwrap().at;
     let rim = Anchor { offset: [0.15, 0.0, 0.0], ..disc };
@@ -71,7 +71,7 @@ fn simulated_test(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (M
     };
     model.studies.frf = Some(study.clone());
     let machine = Machine::new(model).unwrap();
-    let measured = exchange::frf(&machine.frf(&study).unwrap(), &machine);
+    let measured = machine_records::frf_records(&machine.frf(&study).unwrap(), &machine);
     (machine, measured.frf_matrix().unwrap())
 }
 
@@ -81,7 +81,7 @@ fn modes(machine: &Machine, speed: f64, below: f64) -> Vec<(Complex64, String)> 
     modes.map(|m| (m.eigenvalue, m.label.clone())).collect()
 }
 
-fn print(found: &Identified) {
+fn print(found: &ModalIdentification) {
     for m in &found.modes {
         println!(
             "{:9.4} ± {:.4} Hz  {:.4} ± {:.4} %  whirl {:+.3}  F {:.0}",
@@ -99,8 +99,8 @@ fn print(found: &Identified) {
 #[test]
 fn all_modes_of_a_changed_rig() {
     let (machine, exact) = simulated_test(&CHANGED, 0.0, lines(4.0, 340.0, 0.25));
-    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
-    let found = identify(&exact.measured_with(&test).unwrap(), &Settings::default()).unwrap();
+    let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed: 1 };
+    let found = identify(&exact.with_measurement_noise(&test).unwrap(), &Settings::default()).unwrap();
     print(&found);
     let truth = modes(&machine, 0.0, 300.0);
     for (value, label) in &truth {
@@ -138,8 +138,8 @@ fn gyroscopic_pairs_whirl_in_opposite_directions() {
         ("belt.drive.c_x", "0 N s/m"),
     ];
     let (machine, exact) = simulated_test(&round, speed, lines(4.0, 240.0, 0.125));
-    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 2 };
-    let found = identify(&exact.measured_with(&test).unwrap(), &Settings::default()).unwrap();
+    let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed: 2 };
+    let found = identify(&exact.with_measurement_noise(&test).unwrap(), &Settings::default()).unwrap();
     print(&found);
     let computed = machine.modal(&ModalStudy { speeds: vec![speed], modes: 12 }).unwrap();
     let mut pairs = 0;

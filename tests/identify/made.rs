@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rotordyn::identify::Identified;
+use rotordyn::identify::ModalIdentification;
 use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::{Dof, FrfMatrix};
 
@@ -82,7 +82,7 @@ pub fn bending_shape(k: usize, n: usize) -> Vec<f64> {
 }
 
 /// Largest relative error of the poles, and of the residues over the largest of each mode; modes in order.
-pub fn largest_errors(found: &Identified, known: &[KnownMode]) -> (f64, f64) {
+pub fn largest_errors(found: &ModalIdentification, known: &[KnownMode]) -> (f64, f64) {
     let list: Vec<_> =
         found.modes.iter().map(|m| (m.frequency_hz(), m.damping_ratio(), m.significance)).collect();
     let made: Vec<_> = known.iter().map(|k| (k.hz(), k.zeta())).collect();

@@ -2,7 +2,7 @@
 
 use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
-use rotordyn::signal::record::{Dof, NoisyTest};
+use rotordyn::signal::record::{Dof, MeasurementNoise};
 
 use crate::made::{KnownMode, bending_shape, frfs, lines};
 
@@ -24,8 +24,8 @@ fn pulls(references: &[usize], power: i32, db: f64, step: f64, seeds: u64) -> Ve
     let mut sums = vec![[0.0; 2]; known.len()];
     let mut bias = vec![[0.0; 2]; known.len()];
     for seed in 0..seeds {
-        let test = NoisyTest { signal_to_noise_db: db, averages: 10, seed };
-        let found = identify(&exact.measured_with(&test).unwrap(), &settings).unwrap();
+        let test = MeasurementNoise { signal_to_noise_db: db, averages: 10, seed };
+        let found = identify(&exact.with_measurement_noise(&test).unwrap(), &settings).unwrap();
         let list: Vec<f64> = found.modes.iter().map(|m| m.frequency_hz()).collect();
         assert_eq!(found.modes.len(), known.len(), "seed {seed}: {list:?}, dropped {:?}", found.dropped);
         for (k, (m, truth)) in found.modes.iter().zip(&known).enumerate() {
@@ -72,10 +72,10 @@ fn standard_errors_match_the_scatter_with_few_lines() {
 #[test]
 fn same_seed_same_frfs() {
     let exact = frfs(&known(&[0, 4]), &lines(2.0, 110.0, 0.5), 2);
-    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
-    let noisy = exact.measured_with(&test).unwrap();
-    assert_eq!(noisy, exact.measured_with(&test).unwrap());
-    assert_ne!(noisy, exact.measured_with(&NoisyTest { seed: 4, ..test }).unwrap());
+    let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
+    let noisy = exact.with_measurement_noise(&test).unwrap();
+    assert_eq!(noisy, exact.with_measurement_noise(&test).unwrap());
+    assert_ne!(noisy, exact.with_measurement_noise(&MeasurementNoise { seed: 4, ..test }).unwrap());
     // 40 dB, ten averages: the response noise alone is 1e-2/√10 of the RMS.
     let (mut off, mut size) = (0.0, 0.0);
     for (a, b) in noisy.values.iter().flatten().flatten().zip(exact.values.iter().flatten().flatten()) {
@@ -94,9 +94,9 @@ fn same_seed_same_frfs() {
 fn noise_only_responses_do_not_change_the_modes() {
     let known = known(&[0, 4]);
     let exact = frfs(&known, &lines(2.0, 110.0, 0.1), 2);
-    let test = NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
+    let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed: 3 };
     let settings = Settings { max_order: Some(30), ..Settings::default() };
-    let good = exact.measured_with(&test).unwrap();
+    let good = exact.with_measurement_noise(&test).unwrap();
     let alone = identify(&good, &settings).unwrap();
     let largest = good.values[0][0].iter().map(|h| h.norm()).fold(0.0, f64::max);
     // Sensor noise floor, a thousandth of the largest response, and round-off.

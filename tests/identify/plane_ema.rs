@@ -2,8 +2,8 @@
 //!
 //! University of Liege, MECA0062 2024 (github QUICKguils/VibTest, MIT); FRFs over 0 to 200 Hz by 0.125 Hz.
 
-use rotordyn::edge::measured::read;
 use rotordyn::identify::{Settings, identify};
+use rotordyn::io::measured::read;
 
 use crate::measured_data::measured;
 

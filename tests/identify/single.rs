@@ -1,6 +1,6 @@
 //! Circle fit and peak fit (half-power method) of one mode of one FRF, compared with the known mode.
 
-use rotordyn::identify::single::{circle_fit, peak_fit};
+use rotordyn::identify::sdof::{circle_fit, half_power_fit};
 use rotordyn::model::Quantity;
 
 use crate::made::{KnownMode, bending_shape, frfs, lines};
@@ -20,7 +20,7 @@ fn circle_fit_and_peak_fit_of_one_mode() {
         let residue = known[0].residue(1, 0);
         assert!((circle.residue - residue).norm() < 1e-2 * residue.norm(), "{circle:?} for {residue}");
         // Half-power points are interpolated between lines 0.05 Hz apart; the half-power bandwidth is 0.8 Hz.
-        let peak = peak_fit(&made.frequencies, &made.values[1][0], [36.0, 44.0]).unwrap();
+        let peak = half_power_fit(&made.frequencies, &made.values[1][0], [36.0, 44.0]).unwrap();
         assert!((peak.frequency_hz / natural - 1.0).abs() < 5e-4, "{peak:?}");
         assert!((peak.damping_ratio / 0.01 - 1.0).abs() < 0.03, "{peak:?}");
     }
@@ -30,7 +30,7 @@ fn circle_fit_and_peak_fit_of_one_mode() {
 fn no_mode_without_a_peak() {
     let known = [KnownMode::real(40.0, 0.01, &bending_shape(1, 3), &[1])];
     let made = frfs(&known, &lines(20.0, 60.0, 0.05), 2);
-    assert_eq!(peak_fit(&made.frequencies, &made.values[1][0], [50.0, 55.0]), None);
+    assert_eq!(half_power_fit(&made.frequencies, &made.values[1][0], [50.0, 55.0]), None);
     // Too few lines; the flank of a mode outside the band.
     for band in [[40.0, 40.1], [50.0, 55.0]] {
         assert_eq!(circle_fit(&made.frequencies, &made.values[1][0], band, Quantity::Acceleration), None);

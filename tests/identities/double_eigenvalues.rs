@@ -69,7 +69,7 @@ fn pair_near(modes: &[Mode], value: Complex64) -> [&Mode; 2] {
 /// Every double eigenvalue of the rotor with its two shapes rotated by 0.6 rad.
 fn rotated_doubles(at: &Linearised) -> Vec<(Complex64, [Vec<Complex64>; 2])> {
     let found = modal::modes(&at.assembly, &at.system, COUNT).unwrap();
-    let doubles = modal::doubles(&at.system, &found);
+    let doubles = modal::double_eigenvalue_partners(&at.system, &found);
     let (sin, cos) = 0.6_f64.sin_cos();
     let mix = |k: usize, o: usize, a: f64, b: f64| -> Vec<Complex64> {
         found[k].shape.iter().zip(&found[o].shape).map(|(x, y)| x * a + y * b).collect()
@@ -93,12 +93,12 @@ fn eigenvalue_derivatives_from_projected_problem() {
     let ways: [&dyn Fn(f64) -> [f64; 3]; 3] = [&|f| [f, 1.0, 1.0], &|f| [f, f, 1.0], &|f| [1.0, 1.0, f]];
     for (value, [u, v]) in &all {
         let sensitivities = [
-            ModeSensitivity::of_double(&at.system, *value, u, v).unwrap(),
-            ModeSensitivity::of_double(&at.system, *value, v, u).unwrap(),
+            ModeSensitivity::of_double_eigenvalue(&at.system, *value, u, v).unwrap(),
+            ModeSensitivity::of_double_eigenvalue(&at.system, *value, v, u).unwrap(),
         ];
         for (splits, way) in ways.iter().enumerate().map(|(k, way)| (k == 0, way)) {
             let by = derivative(&at, way);
-            let [a, d] = sensitivities.each_ref().map(|s| s.eigenvalue(&by));
+            let [a, d] = sensitivities.each_ref().map(|s| s.eigenvalue_derivative(&by));
             let [c, b] = sensitivities.each_ref().map(|s| s.coupling(&by));
             // The sum and the squared difference of both eigenvalues are smooth in the parameter.
             let (trace, split) = (a + d, (a - d) * (a - d) + 4.0 * b * c);
@@ -131,7 +131,10 @@ fn shape_derivatives_stay_in_plane() {
     let way = |f: f64| [1.0, 1.0, f];
     let by = derivative(&at, &way);
     for (value, [u, v]) in &rotated_doubles(&at) {
-        let slope = ModeSensitivity::of_double(&at.system, *value, u, v).unwrap().shapes(&[&by]).unwrap();
+        let slope = ModeSensitivity::of_double_eigenvalue(&at.system, *value, u, v)
+            .unwrap()
+            .shape_derivatives(&[&by])
+            .unwrap();
         for direction in [0, 1] {
             let [disc, end] = ["disc", "B"].map(|name| row(&at, name, direction));
             let [d, e, dd, de] = [

@@ -1,7 +1,7 @@
 //! Elastohydrodynamic point contact: load and mass balance, symmetry, dry limit, film shape, failures.
 
 use crate::lubricated::circular;
-use rotordyn::contact::ehl::{self, Failure, Problem, Solution};
+use rotordyn::contact::ehl::{self, EhlError, Problem, Solution};
 
 fn solved() -> (Problem, Solution) {
     let problem = circular(20.0, 10.0, 61);
@@ -123,17 +123,17 @@ fn continuation_from_nearby_solution() {
 fn unsolvable_contacts_are_reported() {
     let mut problem = circular(20.0, 10.0, 41);
     problem.load = -1.0;
-    assert!(matches!(ehl::solve(&problem, None), Err(Failure::Input { quantity: "load", .. })));
+    assert!(matches!(ehl::solve(&problem, None), Err(EhlError::Input { quantity: "load", .. })));
     let mut problem = circular(20.0, 10.0, 40);
     problem.grid.ny = 40;
-    assert!(matches!(ehl::solve(&problem, None), Err(Failure::Input { .. })));
+    assert!(matches!(ehl::solve(&problem, None), Err(EhlError::Input { .. })));
     // A film far thinner than the grid can resolve.
     let mut problem = circular(20.0, 10.0, 41);
     problem.speed *= 1e-4;
     problem.load *= 1e3;
     let failure = ehl::solve(&problem, None).unwrap_err();
     let text = failure.to_string();
-    let Failure::NoConvergence { load, speed, residual, last, .. } = failure else { panic!("{text}") };
+    let EhlError::NoConvergence { load, speed, residual, last, .. } = failure else { panic!("{text}") };
     assert_eq!((load, speed), (problem.load, problem.speed));
     assert!(residual > 0.0 && last.pressure.len() == 41 * 41);
     assert!(text.contains(&format!("{load:.4} N")) && text.contains("residual"), "{text}");

@@ -30,7 +30,12 @@ fn spindle(extra: &str) -> Model {
 /// Frequencies \[Hz\] of the lowest branches at standstill and at 20 000 rpm.
 fn branches(machine: &Machine, follow_bearings: bool) -> Vec<[f64; 2]> {
     let speeds = (0..5).map(|k| TAU * 5000.0 / 60.0 * f64::from(k)).collect();
-    let study = study::CampbellStudy { speeds, modes: 5, orders: vec![1.0], follow_bearings };
+    let study = study::CampbellStudy {
+        speeds,
+        modes: 5,
+        orders: vec![1.0],
+        speed_dependent_bearings: follow_bearings,
+    };
     let found = machine.campbell(&study).unwrap();
     let ends = |b: &rotordyn::analysis::campbell::Branch| {
         [b.omega(0).unwrap() / TAU, b.omega(4).unwrap_or(f64::NAN) / TAU]

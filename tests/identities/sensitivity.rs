@@ -82,12 +82,12 @@ fn check_eigenvalues(at: &Linearised, models: &[&dyn Fn(f64) -> Model], modes: u
     for mode in &found {
         let sensitivity = ModeSensitivity::new(&at.system, mode.eigenvalue, &mode.shape).unwrap();
         for (model, by) in models.iter().zip(&by) {
-            let ours = sensitivity.eigenvalue(by);
+            let ours = sensitivity.eigenvalue_derivative(by);
             let value = |factor: f64| nearest(model(factor), at.system.speed, mode.eigenvalue).0;
             let theirs = difference(value, sum, CHECK_STEP);
             // Round-off of the stiffest elements leaves some 3e-12 of an eigenvalue uncertain, 5e-9 of it in
             // these differences: smaller derivatives than 1e-2 of the eigenvalue cannot be checked to 1e-6.
-            let error = (ours - theirs).norm() / theirs.norm().max(1e-2 * mode.natural());
+            let error = (ours - theirs).norm() / theirs.norm().max(1e-2 * mode.natural_omega());
             worst = worst.max(error);
             if error > 1e-6 {
                 println!(
@@ -199,7 +199,7 @@ fn shape_and_frf_sensitivities_of_the_rig_at_speed() {
     let here = rows(&at);
     for mode in &found {
         let sensitivity = ModeSensitivity::new(&at.system, mode.eigenvalue, &mode.shape).unwrap();
-        let slopes = sensitivity.shapes(&by).unwrap();
+        let slopes = sensitivity.shape_derivatives(&by).unwrap();
         let lead = here[0].dot_complex(&mode.shape);
         if lead.norm() < 1e-2 {
             continue;
@@ -240,7 +240,7 @@ fn shape_and_frf_sensitivities_of_the_rig_at_speed() {
                     frf(&there, &[]).values[r][0][k]
                 };
                 let theirs = difference(value, sum, CHECK_STEP);
-                let slope = ours.slopes[p][r][0][k];
+                let slope = ours.derivatives[p][r][0][k];
                 // The response across the force plane is a thousandth of that in it, with the latter's
                 // round-off.
                 let largest = (0..4).map(|r| ours.values[r][0][k].norm()).fold(0.0, f64::max);
@@ -286,7 +286,7 @@ fn sensitivities_to_modal_damping() {
                 let value =
                     |f: f64| frf(&Linearised::new(model(f), 300.0, None).unwrap(), &[]).values[r][0][k];
                 let theirs = difference(value, sum, CHECK_STEP);
-                let slope = ours.slopes[p][r][0][k];
+                let slope = ours.derivatives[p][r][0][k];
                 let scale = theirs.norm().max(1e-2 * ours.values[r][0][k].norm());
                 let error = (slope - theirs).norm() / scale;
                 assert!(error < 1e-6, "{p}, {hz} Hz: {slope} {theirs} {error:.1e}");

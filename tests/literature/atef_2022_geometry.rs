@@ -23,7 +23,7 @@ fn row(id: &str) -> serde_json::Value {
 
 fn dent(on: Surface, degrees: f64, width: f64) -> Defect {
     let form = DefectForm::Dent { depth: None, shape: Shape::HalfSine };
-    Defect { on, row: None, start: degrees.to_radians(), width, form }
+    Defect { surface: on, row: None, start: degrees.to_radians(), width, form }
 }
 
 /// The paper's bearing with dents of 0.17 mm at these angles \[deg\].
@@ -40,12 +40,12 @@ fn bearing(on: Surface, angles: &[f64]) -> BallBearing {
 fn passages(bearing: &BallBearing, duration: f64) -> [Vec<f64>; 2] {
     let profile = Profile::new(&bearing.geometry, &bearing.imperfections, 0, 0.0, 0.0).unwrap();
     let speed = TAU * 1797.0 / 60.0;
-    let ratio = bearing.geometry.orders(0.0).ftf;
+    let ratio = bearing.geometry.characteristic_orders(0.0).ftf;
     let deep = |ball: usize, t: f64| {
         // Ball 0 starts a little before the first dent.
         let cage_angle = ratio * speed * t - 0.01;
         let rotation = Rotation { shaft_angle: speed * t, cage_angle, ..Rotation::default() };
-        profile.at(&rotation).ball(ball).total() < 0.0
+        profile.at_rotation(&rotation).ball(ball).total() < 0.0
     };
     let mut out = [Vec::new(), Vec::new()];
     let step = 2e-6;
@@ -119,7 +119,8 @@ fn dent_angle_and_ball_depth() {
         wide.imperfections.defects = vec![dent(Surface::Outer, 0.0, width)];
         let middle = 0.5 * wide.imperfections.defects[0].angle(g);
         let profile = Profile::new(g, &wide.imperfections, 0, 0.0, 0.0).unwrap();
-        let depth = -profile.at(&Rotation { cage_angle: middle, ..Rotation::default() }).ball(0).total();
+        let depth =
+            -profile.at_rotation(&Rotation { cage_angle: middle, ..Rotation::default() }).ball(0).total();
         assert!((depth * 1e6 / expected - 1.0).abs() < 1e-5, "{depth}");
     }
 }

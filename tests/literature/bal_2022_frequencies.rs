@@ -29,7 +29,7 @@ fn frequencies_of_table_a3() {
     let text = include_str!("../../models/bal_2022.toml");
     let model = model::load("bal_2022.toml", text, &Default::default()).unwrap().model;
     let Bearing::Ball(ball) = &model.bearings[0].bearing else { panic!("a ball bearing") };
-    let orders = ball.geometry.orders(40.018_f64.to_radians());
+    let orders = ball.geometry.characteristic_orders(40.018_f64.to_radians());
     for [rpm, cage, bsf, bpfo, bpfi] in TABLE {
         let turns = rpm.parse::<f64>().unwrap() / 60.0;
         // Its spin frequency, eq. A3, is D_pw/(2 D_w)(1 − γ²) times n/60.

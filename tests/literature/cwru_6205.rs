@@ -3,8 +3,8 @@
 
 use rotordyn::bearing::Bearing;
 use rotordyn::model::{self, Options};
-use rotordyn::signal::bearing_lines::{BearingPart, BearingRates, LineSettings};
-use rotordyn::signal::diagnosis::{BandRule, Diagnosis, Turning, diagnose};
+use rotordyn::signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
+use rotordyn::signal::diagnosis::{BandRule, Diagnosis, ShaftRotation, diagnose};
 use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
 use std::ops::ControlFlow;
@@ -31,8 +31,8 @@ fn diagnosis(variant: &str, rule: BandRule) -> (f64, Diagnosis) {
     assert_eq!(report.end, End::Complete);
     let Bearing::Ball(ball) = &machine.model.bearings[0].bearing else { panic!() };
     let shaft = 1797.0 / 60.0;
-    let orders = ball.geometry.orders(0.0);
-    let rates = BearingRates {
+    let orders = ball.geometry.characteristic_orders(0.0);
+    let rates = DefectFrequencies {
         shaft,
         cage: orders.ftf * shaft,
         outer: orders.bpfo * shaft,
@@ -40,7 +40,8 @@ fn diagnosis(variant: &str, rule: BandRule) -> (f64, Diagnosis) {
         ball: orders.bsf * shaft,
     };
     let settings = LineSettings::default();
-    let found = diagnose(&record, study.sample_rate, Turning::Steady, &rates, rule, &settings).unwrap();
+    let found =
+        diagnose(&record, study.sample_rate, ShaftRotation::ConstantSpeed, &rates, rule, &settings).unwrap();
     (shaft, found)
 }
 
@@ -56,7 +57,7 @@ fn diagnosis_of_race_faults() {
             let lines = &found.lines;
             let strongest = lines.strongest_line().unwrap();
             let what = format!("{variant}, {:.0} to {:.0} Hz: {strongest:?}", found.band.0, found.band.1);
-            assert_eq!(lines.verdict, Some(part), "{what}");
+            assert_eq!(lines.diagnosis, Some(part), "{what}");
             let off = lines.family(part).frequency / (order * shaft) - 1.0;
             assert!(off.abs() < 0.005, "{what}: {off}");
             assert_eq!((strongest.part, strongest.harmonic), (part, 1), "{what}");

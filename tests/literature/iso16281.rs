@@ -39,9 +39,9 @@ fn loaded(case: &Value) -> BearingEquilibrium {
     let solver = BearingSolver::new("case", &bearing(1e-3 * number("s_mm")));
     let condition = Condition {
         load: [number("Fr"), 0.0, number("Fa"), 0.0, 1e-3 * number("Mz_Nmm")],
-        held: [None; 5],
+        prescribed: [None; 5],
         speed: 0.0,
-        cage: CageTreatment::AsPlaced,
+        cage: CageTreatment::FixedAngle,
         cage_angle: 0.0,
     };
     solver.solve(&condition, None).unwrap()
@@ -79,9 +79,9 @@ fn axial_free_play_under_vanishing_load() {
     let solver = BearingSolver::new("case", &bearing(10e-6));
     let condition = Condition {
         load: [0.0, 0.0, 1e-9, 0.0, 0.0],
-        held: [Some(0.0), Some(0.0), None, Some(0.0), Some(0.0)],
+        prescribed: [Some(0.0), Some(0.0), None, Some(0.0), Some(0.0)],
         speed: 0.0,
-        cage: CageTreatment::AsPlaced,
+        cage: CageTreatment::FixedAngle,
         cage_angle: 0.0,
     };
     let found = solver.solve(&condition, None).unwrap();

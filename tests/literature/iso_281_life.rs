@@ -76,11 +76,11 @@ fn catalogue_ratings() {
     assert!((here.dynamic / 14.0e3 - 1.0).abs() < 0.01, "{here:?}");
     let standard_grooves = bearing(9, 7.938, 38.5, [0.52, 0.52], 0.0);
     assert!(
-        (rating(&standard_grooves, 1).stationary / 7.8e3 - 1.0).abs() < 0.03,
+        (rating(&standard_grooves, 1).static_rating / 7.8e3 - 1.0).abs() < 0.03,
         "{:?}",
         rating(&standard_grooves, 1)
     );
-    assert!((here.fatigue / (here.stationary / 22.0) - 1.0).abs() < 1e-12);
+    assert!((here.fatigue / (here.static_rating / 22.0) - 1.0).abs() < 1e-12);
     let angular = bearing(13, 9.528, 46.0, [0.512, 0.531], 40.0);
     assert!(
         (rating(&BallGeometry { outer_groove_radius: 0.53 * 9.528e-3, ..angular }, 1).dynamic / 20.5e3 - 1.0)

@@ -32,7 +32,8 @@ fn critical_speeds_for_three_whirl_ratios() {
         [("whirl_ratio_1", 1.0), ("whirl_ratio_1/2 (spin speed)", 2.0), ("whirl_ratio_1/4 (spin speed)", 4.0)]
     {
         let theirs = numbers(&figures["critical_speeds_rpm"][name]);
-        let ours = critical_speed::undamped(&assembly, &system, order, 1.2e5 / 60.0 * TAU).unwrap();
+        let ours =
+            critical_speed::undamped_critical_speeds(&assembly, &system, order, 1.2e5 / 60.0 * TAU).unwrap();
         let bending: Vec<_> = ours.iter().filter(|c| c.mode.kind.is_bending()).collect();
         for (k, theirs) in theirs.iter().enumerate() {
             // Their list alternates backward and forward: the k-th of its kind.

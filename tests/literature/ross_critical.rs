@@ -3,7 +3,7 @@
 use crate::ross::{self, numbers, read};
 use rotordyn::analysis::ModeKind;
 use rotordyn::analysis::campbell::campbell;
-use rotordyn::analysis::critical_speed::{crossings, undamped};
+use rotordyn::analysis::critical_speed::{crossings, undamped_critical_speeds};
 use rotordyn::assembly::{Assembly, LinearSystem};
 
 const CASES: [&str; 6] = [
@@ -24,7 +24,8 @@ fn undamped_critical_speeds_and_their_whirl_agree() {
         let reference = &case["results"]["critical_speeds_exact_undamped"];
         let theirs = numbers(&reference["speed"]);
         let system = LinearSystem::new(&assembly, &ross::tangents(&model, 0.0), 0.0).unwrap();
-        let ours = undamped(&assembly, &system, 1.0, theirs.last().unwrap() * 1.000_001).unwrap();
+        let ours =
+            undamped_critical_speeds(&assembly, &system, 1.0, theirs.last().unwrap() * 1.000_001).unwrap();
         assert_eq!(ours.len(), theirs.len(), "{name}");
         for (k, (ours, theirs)) in ours.iter().zip(&theirs).enumerate() {
             let deviation = (ours.speed / theirs - 1.0).abs();

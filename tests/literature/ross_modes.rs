@@ -42,8 +42,14 @@ fn complex_eigenvalues_agree() {
                 .zip(numbers(&reference["im"]))
                 .map(|(re, im)| Complex64::new(re, im))
                 .collect();
-            let found =
-                krylov::lowest(&system.mass, &system.damping, &system.stiffness, theirs.len(), 30.0).unwrap();
+            let found = krylov::lowest_eigenpairs(
+                &system.mass,
+                &system.damping,
+                &system.stiffness,
+                theirs.len(),
+                30.0,
+            )
+            .unwrap();
             let ours: Vec<Complex64> = found.iter().map(|p| p.value).collect();
             let krylov = worst_distance(&ours, &theirs);
             let dense: Vec<Complex64> = eigen::quadratic(

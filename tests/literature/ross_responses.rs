@@ -47,7 +47,7 @@ fn unbalance_responses_agree() {
             let rows = assembly.anchor_rows(&Anchor::node(probe["node"].as_u64().unwrap() as usize));
             let (x, y) = (complex(probe, "x"), complex(probe, "y"));
             for (row, theirs) in [(&rows[0], &x), (&rows[1], &y)] {
-                let worst = deviation(&response.at(row, Quantity::Displacement), theirs);
+                let worst = deviation(&response.amplitude_of(row, Quantity::Displacement), theirs);
                 println!("{name} node {}: {worst:.1e}", probe["node"]);
                 assert!(worst < 1e-6, "{name}: {worst:e}");
             }

@@ -2,14 +2,14 @@
 //! program of tests/data/upadhyay_2009.json and with the classes of motion in Table II.
 
 use crate::ross::{number, read};
-use rotordyn::model::study::{Clock, EquilibriumStudy, Integrator, Steady};
+use rotordyn::model::study::{EquilibriumStudy, Integrator, SectionTrigger, SteadyRunSettings};
 use rotordyn::model::{self, Options, SpeedProfile};
 use rotordyn::signal::spectrum::{Level, Spectrum, amplitude_spectrum};
 use rotordyn::signal::window::WindowKind;
 use rotordyn::study::Machine;
 use rotordyn::transient::reduction::{Reduction, reduce};
 use rotordyn::transient::steady::run_steady;
-use rotordyn::transient::stepper::{Stepper, check};
+use rotordyn::transient::stepper::{Stepper, check_divergence};
 use std::ops::ControlFlow;
 
 const SPEED: f64 = 5000.0 * std::f64::consts::PI / 30.0;
@@ -52,7 +52,7 @@ fn motion(
     for k in 1..=skip + count {
         stepper.advance(system, &mut state, step, k as f64 * step, &mut |_, _| Ok(())).unwrap();
         if k > skip && (k - skip).is_multiple_of(thin) {
-            check(system, &state).unwrap();
+            check_divergence(system, &state).unwrap();
             out.iter_mut().zip(&system.channels).for_each(|(out, channel)| out.push(channel.read(&state)));
         }
     }
@@ -128,7 +128,11 @@ fn cage_and_ball_pass_frequencies_and_ball_mass() {
         close(balls * cage, theirs, 1e-4);
     }
     let ball = machine.model.bearings[0].bearing.ball().unwrap();
-    close(ball.geometry.orders(0.0).bsf * 5000.0 / 60.0, number(&row(&reference, "U03")["value"]), 1e-4);
+    close(
+        ball.geometry.characteristic_orders(0.0).bsf * 5000.0 / 60.0,
+        number(&row(&reference, "U03")["value"]),
+        1e-4,
+    );
     let theirs = numbers(&row(&reference, "U04")["value"]);
     close(radial.ball_mass(), theirs[0], 2e-3);
     let cage_speed = std::f64::consts::TAU * cage;
@@ -312,14 +316,14 @@ fn largest_lyapunov_exponents() {
         let reduction = ready(&machine(&format!("balls_{balls}"), &[]));
         let zero = &reduction.equilibrium * 0.0;
         let start = reduction.system.initial_state(zero.clone(), zero);
-        let steady = Steady {
+        let steady = SteadyRunSettings {
             speed: SPEED,
             integrator: Integrator::Newmark,
             step: STEP,
             cutoff: f64::INFINITY,
-            clock: Clock::BallPass { bearing: 0, balls },
+            trigger: SectionTrigger::BallPass { bearing: 0, balls },
             phase: 0.0,
-            settle: 150,
+            transient_periods: 150,
             // The chaotic one needs an average.
             periods: if expected.is_none() { 600 } else { 100 },
         };

@@ -55,7 +55,7 @@ fn solver(row: &str) -> BearingSolver {
 fn loaded(row: &str, load: [f64; 5], cage_angle: f64) -> (BearingSolver, BearingEquilibrium) {
     let solver = solver(row);
     let condition =
-        Condition { load, held: [None; 5], speed: 0.0, cage: CageTreatment::AsPlaced, cage_angle };
+        Condition { load, prescribed: [None; 5], speed: 0.0, cage: CageTreatment::FixedAngle, cage_angle };
     let found = solver.solve(&condition, None).unwrap();
     (solver, found)
 }
@@ -82,7 +82,7 @@ fn radial_load_of_section_5_1() {
             assert!((found.displacement[0] / expected - 1.0).abs() < 1e-9, "{row} {force}");
             assert!(found.displacement[1..].iter().all(|d| d.abs() < 1e-15), "{:?}", found.displacement);
             same_matrix(&found.stiffness, &case["K"], 1e-9, &format!("{row} {force}"));
-            for (ball, load) in solver.balls(&found).iter().zip(numbers(&case["Q"])) {
+            for (ball, load) in solver.ball_loads(&found).iter().zip(numbers(&case["Q"])) {
                 assert!((ball.load - load).abs() < 1e-6, "{row} {force}: {} for {load}", ball.load);
             }
         }
@@ -103,7 +103,7 @@ fn combined_load_of_section_5_2() {
                 );
             }
             same_matrix(&found.stiffness, &case["K"], 1e-9, &format!("{row} {moment}"));
-            for (ball, angle) in solver.balls(&found).iter().zip(numbers(&case["alpha_deg"])) {
+            for (ball, angle) in solver.ball_loads(&found).iter().zip(numbers(&case["alpha_deg"])) {
                 assert!((ball.contact_angle.to_degrees() - angle).abs() < 1e-7);
             }
         }

@@ -71,7 +71,7 @@ fn static_load_ratings_follow_iso_76() {
 fn clearance_classes_grow_with_class_and_bore() {
     let mut before = [0.0; 5];
     for bore_mm in [10.0, 12.0, 20.0, 25.0, 35.0, 45.0, 60.0, 75.0, 90.0, 110.0, 130.0] {
-        let middle = catalogue::CLASSES.map(|class| {
+        let middle = catalogue::CLEARANCE_CLASSES.map(|class| {
             let [least, greatest] = catalogue::clearance(class, bore_mm / 1e3).unwrap();
             assert!(least < greatest);
             0.5 * (least + greatest)

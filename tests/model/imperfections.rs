@@ -60,13 +60,13 @@ edge_radius = "0.1 mm"
     let form = DefectForm::Dent { depth: None, shape: Shape::HalfSine };
     assert_eq!(
         dent,
-        Defect { on: Surface::Outer, row: None, start: 15.0 * PI / 180.0, width: 0.17e-3, form }
+        Defect { surface: Surface::Outer, row: None, start: 15.0 * PI / 180.0, width: 0.17e-3, form }
     );
-    assert_eq!((bump.on, bump.width), (Surface::Inner, 0.2e-3));
+    assert_eq!((bump.surface, bump.width), (Surface::Inner, 0.2e-3));
     assert_eq!(bump.form, DefectForm::Bump { height: 0.25e-6, shape: Shape::Cap });
     let race = 0.5 * (g.pitch_diameter - g.ball_diameter);
     near(bump.start, 1.5 * PI - 0.1e-3 / race);
-    assert_eq!((spall.on, spall.start), (Surface::Ball(3), 0.0));
+    assert_eq!((spall.surface, spall.start), (Surface::Ball(3), 0.0));
     assert_eq!(spall.form, DefectForm::Spall { depth: 20e-6, edge_radius: 0.1e-3 });
     assert_eq!(found.imperfections.condition(), "dent on outer race, bump on inner race, spall on ball 3");
 }
@@ -90,9 +90,9 @@ fn defect_laws() {
     let law = |line: &str| imperfections(line).law;
     assert_eq!(law(""), DefectLaw::Displacement);
     assert_eq!(law("defect_law = \"undamped_displacement\""), DefectLaw::UndampedDisplacement);
-    assert_eq!(law("defect_law = \"force\""), DefectLaw::Force { stiffness: None, on_loaded: false });
+    assert_eq!(law("defect_law = \"force\""), DefectLaw::Force { stiffness: None, loaded_only: false });
     let given = "defect_law = \"force_on_loaded\"\ndefect_stiffness = \"1.58e10 N/m^1.5\"";
-    assert_eq!(law(given), DefectLaw::Force { stiffness: Some(1.58e10), on_loaded: true });
+    assert_eq!(law(given), DefectLaw::Force { stiffness: Some(1.58e10), loaded_only: true });
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn sizes_eccentric_races_and_spin() {
          inner_eccentricity = { amount = \"2 um\", angle = \"30 deg\" }\nouter_eccentricity = { amount = \"1 um\" }",
     );
     // Micrometres are converted by division by 10⁶.
-    let size = |ball, by| OffSize { ball, by, row: None };
+    let size = |ball, by| OffSize { ball, diameter_difference: by, row: None };
     assert_eq!(found.off_size, [size(0, 0.2 / 1e6), size(4, -0.1 / 1e6)]);
     assert_eq!(found.spin, BallSpin::Shaft);
     assert_eq!(found.inner_waviness, [Wave { order: 1, amplitude: 2e-6, phase: -PI / 6.0 }]);

@@ -51,7 +51,7 @@ fn shaft_stations_and_discs() {
         same(e.outer_diameter[0], get(&json, "/shaft/sections/0/od"));
         assert_eq!(e.inner_diameter, [0.0; 2]);
         assert_eq!(e.shear, ShearCoefficient::Cowper);
-        same(e.proportional[1], get(&json, "/damping/shaft_stiffness_proportional_beta"));
+        same(e.proportional_damping[1], get(&json, "/damping/shaft_stiffness_proportional_beta"));
     }
     for (name, path) in [("A", "bearing_A"), ("pulley", "pulley"), ("B", "bearing_B"), ("disc", "disc_cg")] {
         let station = model.stations.iter().find(|s| s.name == name).unwrap();

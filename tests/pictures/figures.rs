@@ -1,7 +1,7 @@
 //! Properties of every figure: equal bytes for equal data, a PNG of twice the SVG's size, small even with long data.
 
 use resvg::{tiny_skia, usvg};
-use rotordyn::edge::plot::*;
+use rotordyn::plot::*;
 
 use super::samples::all;
 

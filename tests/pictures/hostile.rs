@@ -1,6 +1,6 @@
 //! Degenerate data must not make a figure panic, hang or write an invalid image.
 
-use rotordyn::edge::plot::png;
+use rotordyn::plot::png;
 
 use super::samples::all;
 

@@ -1,9 +1,9 @@
 //! Ticks, ranges, label placement and clipping.
 
 use proptest::prelude::*;
-use rotordyn::edge::plot::axes::{Frame, clip};
-use rotordyn::edge::plot::labels::spread;
-use rotordyn::edge::plot::scale::{Range, Scale, linear_ticks, log_ticks, nice_step, power};
+use rotordyn::plot::axes::{Frame, clip};
+use rotordyn::plot::labels::place_without_overlap;
+use rotordyn::plot::scale::{Range, Scale, linear_ticks, log_ticks, nice_step, power};
 
 #[test]
 fn steps_are_one_two_or_five() {
@@ -84,7 +84,7 @@ proptest! {
     #[test]
     fn spread_labels_do_not_overlap(wanted in prop::collection::vec(-50.0..350.0f64, 0..40), size in 1.0..30.0f64) {
         let sizes = vec![size; wanted.len()];
-        let placed = spread(&wanted, &sizes, 0.0, 300.0);
+        let placed = place_without_overlap(&wanted, &sizes, 0.0, 300.0);
         let mut kept: Vec<f64> = placed.iter().flatten().copied().collect();
         prop_assert_eq!(kept.len(), wanted.len().min((300.0 / size).floor() as usize));
         kept.sort_by(f64::total_cmp);
@@ -104,11 +104,11 @@ proptest! {
 
 #[test]
 fn labels_without_overlap_keep_their_position() {
-    assert_eq!(spread(&[100.0, 50.0], &[10.0, 10.0], 0.0, 200.0), [Some(100.0), Some(50.0)]);
+    assert_eq!(place_without_overlap(&[100.0, 50.0], &[10.0, 10.0], 0.0, 200.0), [Some(100.0), Some(50.0)]);
     // Two labels at one position are shifted equally.
-    assert_eq!(spread(&[100.0, 100.0], &[10.0, 10.0], 0.0, 200.0), [Some(95.0), Some(105.0)]);
+    assert_eq!(place_without_overlap(&[100.0, 100.0], &[10.0, 10.0], 0.0, 200.0), [Some(95.0), Some(105.0)]);
     // No room for the third: the last in the list is dropped.
-    assert_eq!(spread(&[1.0, 2.0, 3.0], &[10.0; 3], 0.0, 20.0), [Some(5.0), Some(15.0), None]);
+    assert_eq!(place_without_overlap(&[1.0, 2.0, 3.0], &[10.0; 3], 0.0, 20.0), [Some(5.0), Some(15.0), None]);
 }
 
 #[test]

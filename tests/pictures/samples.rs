@@ -1,6 +1,6 @@
 //! One figure of each kind, with the same data in every field.
 
-use rotordyn::edge::plot::*;
+use rotordyn::plot::*;
 
 /// Every kind of figure from the given abscissae and ordinates (lengths may differ) and a name.
 pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
@@ -149,7 +149,11 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             value: x.iter().flat_map(|a| y.iter().map(move |b| a - b)).collect(),
             quantity: labelled("kurtosis"),
             y_ticks: vec![(value(0), name.clone())],
-            marked: Some(Field { x: [first(0), first(1)], y: [value(1), value(0)], label: name.clone() }),
+            marked: Some(MarkedRegion {
+                x: [first(0), first(1)],
+                y: [value(1), value(0)],
+                label: name.clone(),
+            }),
             ..Default::default()
         }),
         Figure::Polar(Polar {
@@ -271,28 +275,32 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 })
                 .collect(),
         }),
-        Figure::Rig(Rig {
+        Figure::MachineLayout(MachineLayout {
             title: name.clone(),
-            sections: vec![RigSection {
+            sections: vec![LayoutSection {
                 z: [first(0), first(1)],
                 outer: [value(0), value(1)],
                 inner: [value(1), value(0)],
             }],
-            blocks: vec![RigBlock {
+            blocks: vec![LayoutBlock {
                 label: name.clone(),
                 z: [first(0), first(1)],
                 y: [value(0), value(1)],
                 rotating: true,
             }],
-            supports: vec![RigSupport {
+            supports: vec![LayoutBearing {
                 label: name.clone(),
                 z: first(0),
                 width: value(0),
                 bore: value(0),
                 outside: value(1),
             }],
-            springs: vec![RigSpring { from: [first(0), value(0)], to: [first(1), value(1)], grounded: true }],
-            belts: vec![RigBelt {
+            springs: vec![LayoutSpring {
+                from: [first(0), value(0)],
+                to: [first(1), value(1)],
+                grounded: true,
+            }],
+            belts: vec![LayoutBelt {
                 label: name.clone(),
                 z: first(0),
                 radius: value(0),
@@ -307,11 +315,11 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             poles: x
                 .iter()
                 .enumerate()
-                .map(|(k, hz)| (*hz, k, if k % 2 == 0 { Settled::Stable } else { Settled::New }))
+                .map(|(k, hz)| (*hz, k, if k % 2 == 0 { PoleStability::Stable } else { PoleStability::New }))
                 .collect(),
             hz: x.clone(),
             curves: vec![y.clone(), x.clone()],
-            chosen: vec![first(1), first(2)],
+            selected: vec![first(1), first(2)],
         }),
         Figure::Matrix(Matrix {
             title: name.clone(),

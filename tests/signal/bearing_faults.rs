@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use rotordyn::signal::WindowKind;
-use rotordyn::signal::bearing_lines::{BearingPart, BearingRates, LineSettings, Modulation};
+use rotordyn::signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings, Modulation};
 use rotordyn::signal::cepstrum::{Lifter, lifter, real_cepstrum};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
+use rotordyn::signal::diagnosis::{BandRule, ShaftRotation, diagnose};
 use rotordyn::signal::envelope::{analytic_signal, band_analytic_signal, squared_envelope_spectrum};
 use rotordyn::signal::jerk::jerk;
 use rotordyn::signal::kurtogram::{depth_for_width, fast_kurtogram, scored_bands, spectral_kurtosis};
@@ -19,9 +19,9 @@ const RATE: f64 = 12_000.0;
 const SHAFT: f64 = 29.95;
 
 /// A 6205-2RS at 1797 rpm.
-fn rates() -> BearingRates {
+fn rates() -> DefectFrequencies {
     let ratio = 7.94004 / 39.0398;
-    BearingRates {
+    DefectFrequencies {
         shaft: SHAFT,
         cage: 0.5 * SHAFT * (1.0 - ratio),
         outer: 4.5 * SHAFT * (1.0 - ratio),
@@ -189,16 +189,18 @@ fn band_selection_by_fault_lines_with_interfering_impacts() {
     let knocks = jittered_impulse_train(n, 2.3, 0.5, 1300.0, 900.0, 7, |_| 60.0);
     let x = sum(&sum(&gaussian(11, n), &bearing, 1.0), &knocks, 1.0);
     let settings = LineSettings::default();
-    let by_kurtosis = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Kurtosis, &settings).unwrap();
+    let by_kurtosis =
+        diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &rates(), BandRule::Kurtosis, &settings).unwrap();
     assert!(by_kurtosis.band.0 <= 1300.0 && by_kurtosis.band.1 <= 3000.0, "{:?}", by_kurtosis.band);
-    assert_eq!(by_kurtosis.lines.verdict, None, "{:?}", by_kurtosis.lines.strongest_line());
-    let by_lines = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Lines, &settings).unwrap();
+    assert_eq!(by_kurtosis.lines.diagnosis, None, "{:?}", by_kurtosis.lines.strongest_line());
+    let by_lines =
+        diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &rates(), BandRule::Lines, &settings).unwrap();
     assert!(
         by_lines.band.0 >= 3000.0 && (by_lines.band.0..by_lines.band.1).contains(&4200.0),
         "{:?}",
         by_lines.band
     );
-    assert_eq!(by_lines.lines.verdict, Some(BearingPart::OuterRace));
+    assert_eq!(by_lines.lines.diagnosis, Some(BearingPart::OuterRace));
 }
 
 /// The score is evaluated for every band of the filter bank, the whole record first.
@@ -232,8 +234,8 @@ fn diagnosis_of_each_part() {
     ] {
         let x = sum(&back, &record, 1.0);
         for rule in [BandRule::Given(2000.0, 5000.0), BandRule::Whole, BandRule::Kurtosis, BandRule::Lines] {
-            let got = diagnose(&x, RATE, Turning::Steady, &r, rule, &settings).unwrap();
-            assert_eq!(got.lines.verdict, Some(part), "{rule:?} {:?}", got.lines.strongest_line());
+            let got = diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &r, rule, &settings).unwrap();
+            assert_eq!(got.lines.diagnosis, Some(part), "{rule:?} {:?}", got.lines.strongest_line());
             let strongest = got.lines.strongest_line().unwrap();
             assert_eq!((strongest.part, strongest.modulation), (part, None));
             let line = &got.lines.family(part).lines[0];
@@ -246,7 +248,8 @@ fn diagnosis_of_each_part() {
             _ => None,
         };
         if let Some(modulation) = expected {
-            let got = diagnose(&x, RATE, Turning::Steady, &r, BandRule::Whole, &settings).unwrap();
+            let got =
+                diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &r, BandRule::Whole, &settings).unwrap();
             let family = got.lines.family(part);
             let band = family.lines.iter().find(|l| l.modulation == Some(modulation)).unwrap();
             assert!(band.significant, "{band:?}");
@@ -270,9 +273,11 @@ fn healthy_machine_has_no_bearing_line() {
         });
         let x = sum(&back, &gear, f64::from(seed % 2));
         for rule in [BandRule::Whole, BandRule::Kurtosis, BandRule::Lines] {
-            let got = diagnose(&x, RATE, Turning::Steady, &rates(), rule, &LineSettings::default()).unwrap();
+            let got =
+                diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &rates(), rule, &LineSettings::default())
+                    .unwrap();
             assert_eq!(
-                got.lines.verdict_name(),
+                got.lines.diagnosis_name(),
                 "no bearing line",
                 "{seed} {rule:?} {:?}",
                 got.lines.strongest_line()
@@ -287,8 +292,8 @@ fn diagnosis_of_a_run_up_by_shaft_angle() {
     let n = 120_000;
     let turns = |t: f64| 10.0 * t + t * t;
     let theta = sampled(n, RATE, |t| TAU * turns(t));
-    let order = BearingRates { shaft: 1.0, ..rates() };
-    let orders = BearingRates {
+    let order = DefectFrequencies { shaft: 1.0, ..rates() };
+    let orders = DefectFrequencies {
         cage: order.cage / SHAFT,
         outer: order.outer / SHAFT,
         inner: order.inner / SHAFT,
@@ -309,14 +314,14 @@ fn diagnosis_of_a_run_up_by_shaft_angle() {
     }
     let settings = LineSettings::default();
     for rule in [BandRule::Given(2500.0, 4500.0), BandRule::Kurtosis, BandRule::Lines] {
-        let got = diagnose(&x, RATE, Turning::Angle(&theta), &orders, rule, &settings).unwrap();
-        assert_eq!(got.lines.verdict, Some(BearingPart::InnerRace), "{rule:?}");
+        let got = diagnose(&x, RATE, ShaftRotation::Angle(&theta), &orders, rule, &settings).unwrap();
+        assert_eq!(got.lines.diagnosis, Some(BearingPart::InnerRace), "{rule:?}");
         let line = got.lines.strongest_line().unwrap();
         assert_close("order", line.frequency, line.harmonic as f64 * orders.inner, 0.005);
         assert!((got.band.0..got.band.1).contains(&3500.0), "{rule:?} {:?}", got.band);
     }
     let text =
-        diagnose(&x[..9000], RATE, Turning::Angle(&theta[..9000]), &orders, BandRule::Whole, &settings)
+        diagnose(&x[..9000], RATE, ShaftRotation::Angle(&theta[..9000]), &orders, BandRule::Whole, &settings)
             .unwrap_err()
             .to_string();
     assert!(text.contains("25.10") && text.contains("ten revolutions of the cage"), "{text}");
@@ -328,7 +333,7 @@ fn invalid_input_of_a_diagnosis() {
     let x = noise(1, 4000);
     let settings = LineSettings::default();
     let message = |rate: f64, rule: BandRule| {
-        diagnose(&x, rate, Turning::Steady, &rates(), rule, &settings).unwrap_err().to_string()
+        diagnose(&x, rate, ShaftRotation::ConstantSpeed, &rates(), rule, &settings).unwrap_err().to_string()
     };
     assert_eq!(
         message(RATE, BandRule::Whole),
@@ -340,12 +345,15 @@ fn invalid_input_of_a_diagnosis() {
         "{text}"
     );
     let x = noise(1, 12_000);
-    let text = diagnose(&x, RATE, Turning::Steady, &rates(), BandRule::Given(500.0, 7000.0), &settings)
+    let text =
+        diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &rates(), BandRule::Given(500.0, 7000.0), &settings)
+            .unwrap_err()
+            .to_string();
+    assert!(text.starts_with("upper end of the band = 7000 is out of range"), "{text}");
+    let bad = DefectFrequencies { inner: f64::NAN, ..rates() };
+    let text = diagnose(&x, RATE, ShaftRotation::ConstantSpeed, &bad, BandRule::Whole, &settings)
         .unwrap_err()
         .to_string();
-    assert!(text.starts_with("upper end of the band = 7000 is out of range"), "{text}");
-    let bad = BearingRates { inner: f64::NAN, ..rates() };
-    let text = diagnose(&x, RATE, Turning::Steady, &bad, BandRule::Whole, &settings).unwrap_err().to_string();
     assert!(text.starts_with("BPFI = NaN is out of range"), "{text}");
 }
 
@@ -377,7 +385,8 @@ fn cyclic_coherence_of_modulated_noise() {
     // About one (α, f) in a hundred of those without modulation lies above the limit.
     let rows = alphas.iter().enumerate().filter(|(_, a)| **a % alpha != 0.0);
     let values: Vec<f64> = rows.flat_map(|(k, _)| got.row(k)[5..60].to_vec()).collect();
-    let above = values.iter().filter(|v| **v > got.one_percent).count() as f64 / values.len() as f64;
+    let above =
+        values.iter().filter(|v| **v > got.one_percent_threshold).count() as f64 / values.len() as f64;
     assert!((0.002..0.03).contains(&above), "{above}");
 }
 

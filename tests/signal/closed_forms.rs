@@ -5,7 +5,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use rotordyn::signal::WindowKind;
 use rotordyn::signal::envelope::{envelope, envelope_spectrum};
 use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
-use rotordyn::signal::ridge::{find_peaks, follow_line, interpolate_peak};
+use rotordyn::signal::ridge::{find_peaks, interpolate_peak, trace_line};
 use rotordyn::signal::spectrum::{Level, Welch, amplitude_spectrum, decibel, power_spectral_density};
 use rotordyn::signal::statistics::statistics;
 use rotordyn::signal::stft::{Stft, StftSettings};
@@ -89,7 +89,7 @@ fn chirp_through_the_stft() {
     let settings = StftSettings::new(WindowKind::Hann, 256, 0.75).unwrap();
     let map = Stft::new(settings, rate).unwrap().spectrogram(&x).unwrap();
     let line: Vec<f64> = map.times.iter().map(|t| 50.0 + 40.0 * t).collect();
-    let ridge = follow_line(&map.frequencies, &map.amplitude, &line, 20.0).unwrap();
+    let ridge = trace_line(&map.frequencies, &map.amplitude, &line, 20.0).unwrap();
     let bin = map.frequencies[1];
     for (peak, f) in ridge.iter().zip(&line) {
         let peak = peak.expect("a peak in every frame");
@@ -137,8 +137,8 @@ fn peak_between_bins() {
 fn flank_is_not_a_ridge() {
     let axis: Vec<f64> = (0..20).map(f64::from).collect();
     let lobe: Vec<f64> = axis.iter().map(|f| (-(f - 10.0f64).powi(2) / 8.0).exp()).collect();
-    assert_eq!(follow_line(&axis, &lobe, &[5.0], 2.0).unwrap(), vec![None]);
-    assert!(follow_line(&axis, &lobe, &[9.0], 2.0).unwrap()[0].is_some());
+    assert_eq!(trace_line(&axis, &lobe, &[5.0], 2.0).unwrap(), vec![None]);
+    assert!(trace_line(&axis, &lobe, &[9.0], 2.0).unwrap()[0].is_some());
 }
 
 /// (1 + m cos ω_m t) cos ω_c t has the envelope 1 + m cos ω_m t.

@@ -1,16 +1,18 @@
 //! Records of the Case Western Reserve University Bearing Data Center: the damaged race is diagnosed.
 
-use rotordyn::edge::measured;
-use rotordyn::results::RatedBearing;
+use rotordyn::io::measured;
+use rotordyn::results::BearingWithOrders;
 use rotordyn::signal::bearing_lines::BearingPart;
 use rotordyn::signal::diagnosis::BandRule;
-use rotordyn::study::signal::{Analysis, ShaftMotion, SignalChannel, SignalSettings, Wanted, analyse};
+use rotordyn::study::signal::{
+    Analysis, AnalysisSelection, ShaftMotion, SignalChannel, SignalSettings, analyse,
+};
 
 #[path = "../common/measured_data.rs"]
 mod measured_data;
 
 /// 6205-2RS JEM as the centre states it: nine balls of 7.94 mm on 39.04 mm.
-fn drive_end() -> RatedBearing {
+fn drive_end() -> BearingWithOrders {
     let gamma = 7.94004 / 39.0398;
     let orders = rotordyn::bearing::CharacteristicOrders {
         ftf: 0.5 * (1.0 - gamma),
@@ -18,7 +20,13 @@ fn drive_end() -> RatedBearing {
         bpfi: 4.5 * (1.0 + gamma),
         bsf: 0.5 / gamma * (1.0 - gamma * gamma),
     };
-    RatedBearing { name: "6205-2RS".into(), source: "stated".into(), orders, balls: 9, raceway_radii: None }
+    BearingWithOrders {
+        name: "6205-2RS".into(),
+        source: "stated".into(),
+        orders,
+        balls: 9,
+        raceway_radii: None,
+    }
 }
 
 #[test]
@@ -37,12 +45,12 @@ fn faults_of_inner_and_outer_race() {
             sample_rate: 12_000.0,
             start: 0.0,
             samples: record.time_samples().unwrap().to_vec(),
-            beside: None,
+            orthogonal: None,
         };
-        let shaft = ShaftMotion::steady(speed, "the file".into());
+        let shaft = ShaftMotion::constant(speed, "the file".into());
         for rule in [BandRule::Lines, BandRule::Kurtosis, BandRule::Whole, BandRule::Given(500.0, 5500.0)] {
             let settings = SignalSettings {
-                analyses: Wanted::These(vec![Analysis::Envelope]),
+                analyses: AnalysisSelection::Only(vec![Analysis::Envelope]),
                 band: Some(rule),
                 ..SignalSettings::default()
             };
@@ -50,7 +58,7 @@ fn faults_of_inner_and_outer_race() {
             assert!((found.statistics.rms - rms).abs() < 5e-6, "{file}");
             assert!((found.statistics.kurtosis.unwrap() - kurtosis).abs() < 5e-4, "{file}");
             let lines = found.envelope.unwrap().lines.unwrap();
-            assert_eq!(lines.verdict, Some(part), "{file} {rule:?}");
+            assert_eq!(lines.diagnosis, Some(part), "{file} {rule:?}");
             let strongest = lines.strongest_line().unwrap();
             assert_eq!((strongest.part, strongest.modulation), (part, None), "{file} {rule:?}");
             // Within 0.5 % of the catalogue.
@@ -68,17 +76,17 @@ fn order_analyses_need_the_shaft_angle() {
         sample_rate: 1000.0,
         start: 0.0,
         samples: crate::noise(3, 4000),
-        beside: None,
+        orthogonal: None,
     };
     for (analysis, words) in [
         (Analysis::Orders, "order tracking needs the shaft's angle"),
         (Analysis::Average, "an average over the shaft's turns needs the shaft's angle"),
     ] {
         let settings =
-            SignalSettings { analyses: Wanted::These(vec![analysis]), ..SignalSettings::default() };
+            SignalSettings { analyses: AnalysisSelection::Only(vec![analysis]), ..SignalSettings::default() };
         let error = analyse(&channel, None, None, &settings).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
-        let all = SignalSettings { analyses: Wanted::All, ..settings };
+        let all = SignalSettings { analyses: AnalysisSelection::All, ..settings };
         let found = analyse(&channel, None, None, &all).unwrap();
         assert!(found.orders.is_none() && found.envelope.is_some() && found.cyclic.is_some());
         assert!(found.warnings.iter().any(|w| w.contains(words)), "{:?}", found.warnings);

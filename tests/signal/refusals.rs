@@ -1,9 +1,9 @@
 //! Unusable records and settings: an error with the expected and the given value, never a panic.
 
-use rotordyn::signal::bearing_lines::{BearingRates, LineSettings};
+use rotordyn::signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
 use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, Turning, diagnose};
+use rotordyn::signal::diagnosis::{BandRule, ShaftRotation, diagnose};
 use rotordyn::signal::envelope::{
     analytic_signal, band_analytic_signal, envelope_spectrum, squared_envelope_spectrum,
 };
@@ -15,7 +15,7 @@ use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
 use rotordyn::signal::race_defects::{BallPassage, race_defects};
 use rotordyn::signal::resample::{AngleResampler, integrate_speed, to_uniform_time, uniform_rate};
-use rotordyn::signal::ridge::{find_peaks, follow_line};
+use rotordyn::signal::ridge::{find_peaks, trace_line};
 use rotordyn::signal::spectrum::{
     Level, Welch, amplitude_spectrum, coherence, cross_spectral_density, power_spectral_density,
 };
@@ -33,7 +33,7 @@ fn errors_of_all_functions(x: &[f64], rate: f64) -> Vec<(&'static str, Option<Si
     let stft = || Stft::new(StftSettings::new(hann, 16, 0.5)?, rate)?.spectrogram(x);
     let filter = || butterworth(2, Band::LowPass(0.1 * rate), rate)?.filter_zero_phase(x);
     let once = || butterworth(2, Band::LowPass(0.1 * rate), rate)?.filter(x);
-    let rates = BearingRates { shaft: 1.0, cage: 0.4, outer: 3.6, inner: 5.4, ball: 2.4 };
+    let rates = DefectFrequencies { shaft: 1.0, cage: 0.4, outer: 3.6, inner: 5.4, ball: 2.4 };
     let passage = BallPassage { frequency: 3.6, balls: 9, race_speed: 0.0, datum: 0.0 };
     let hit = [Hit { force: x, response: x }];
     vec![
@@ -56,7 +56,7 @@ fn errors_of_all_functions(x: &[f64], rate: f64) -> Vec<(&'static str, Option<Si
         ("rate", uniform_rate(x).err()),
         ("spline", to_uniform_time(x, x, rate).err()),
         ("peaks", find_peaks(x, x, 0.0).err()),
-        ("ridge", follow_line(x, x, &[1.0], 1.0).err()),
+        ("ridge", trace_line(x, x, &[1.0], 1.0).err()),
         ("waterfall", waterfall(x, x, &[1.0], &[1.0], 1.0).err()),
         ("band", band_analytic_signal(x, rate, (0.1 * rate, 0.2 * rate)).err()),
         (
@@ -79,7 +79,15 @@ fn errors_of_all_functions(x: &[f64], rate: f64) -> Vec<(&'static str, Option<Si
         ("defects", race_defects(x, Some(x), rate, &passage).err()),
         (
             "diagnosis",
-            diagnose(x, rate, Turning::Steady, &rates, BandRule::Lines, &LineSettings::default()).err(),
+            diagnose(
+                x,
+                rate,
+                ShaftRotation::ConstantSpeed,
+                &rates,
+                BandRule::Lines,
+                &LineSettings::default(),
+            )
+            .err(),
         ),
     ]
 }
@@ -177,7 +185,7 @@ fn settings_out_of_range() {
         OrderSettings { max_order: 0.0, ..base },
         OrderSettings { max_order: f64::INFINITY, ..base },
         OrderSettings { overlap: 1.0, ..base },
-        OrderSettings { least_speed: 0.0, ..base },
+        OrderSettings { min_speed: 0.0, ..base },
     ] {
         let error = OrderTracker::new(&theta, 100.0, settings).err().unwrap();
         assert!(matches!(error, SignalError::OutOfRange { .. }), "{settings:?}: {error}");

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use rotordyn::signal::SignalError;
-use rotordyn::signal::lyapunov::exponent;
-use rotordyn::signal::period::{Motion, classify, zero_one};
-use rotordyn::signal::poincare::{Strobe, clusters};
+use rotordyn::signal::lyapunov::lyapunov_exponent;
+use rotordyn::signal::motion_classification::{Motion, classify_motion, zero_one_test};
+use rotordyn::signal::poincare::{StroboscopicSampling, cluster_points};
 
 use crate::assert_close;
 
@@ -41,7 +41,7 @@ fn logistic(r: f64, skip: usize, n: usize) -> Vec<f64> {
 }
 
 fn motion(section: &[f64]) -> Motion {
-    classify(&[section], &[1.0], 1e-3, 32).unwrap().motion
+    classify_motion(&[section], &[1.0], 1e-3, 32).unwrap().motion
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn section_values_at_the_section_phase() {
     let phase: Vec<f64> =
         (0..4000).map(|n| 0.37 + n as f64 * TAU / 24.3 + 0.4 * (n as f64 * 0.013).sin()).collect();
     for start in [0.0, 1.0, -17.3] {
-        let strobe = Strobe::new(&phase, start, TAU).unwrap();
+        let strobe = StroboscopicSampling::new(&phase, start, TAU).unwrap();
         assert!((163..=166).contains(&strobe.positions.len()), "{}", strobe.positions.len());
         for order in [1.0, 2.0] {
             let record: Vec<f64> = phase.iter().map(|p| (order * p).sin()).collect();
@@ -75,7 +75,7 @@ fn samples_on_the_section_are_exact() {
     // 20 samples per revolution: every 20th sample, including the first and the last.
     let phase: Vec<f64> = (0..=200).map(|n| n as f64 / 20.0).collect();
     let record: Vec<f64> = (0..=200).map(|n| f64::from(n * n % 37)).collect();
-    let strobe = Strobe::new(&phase, 0.0, 1.0).unwrap();
+    let strobe = StroboscopicSampling::new(&phase, 0.0, 1.0).unwrap();
     let expected: Vec<f64> = record.iter().step_by(20).copied().collect();
     let found = strobe.section(&record).unwrap();
     assert_eq!(strobe.first, 0);
@@ -93,12 +93,16 @@ fn sines_are_periodic_or_quasi_periodic() {
     assert_eq!(motion(&section(&|t| (TAU * t * 3.0 / 7.0).cos())), Motion::Periodic(7));
     // Golden mean and √2: incommensurate frequencies.
     for ratio in [0.5 * (5f64.sqrt() - 1.0), 2f64.sqrt()] {
-        let found =
-            classify(&[&section(&|t| (TAU * t * ratio).cos() + 0.5 * (TAU * t).cos())], &[3.0], 1e-3, 32)
-                .unwrap();
+        let found = classify_motion(
+            &[&section(&|t| (TAU * t * ratio).cos() + 0.5 * (TAU * t).cos())],
+            &[3.0],
+            1e-3,
+            32,
+        )
+        .unwrap();
         println!("{ratio}: {found:?}");
         assert_eq!(found.motion, Motion::QuasiPeriodic);
-        assert!(found.chaos.abs() < 0.2, "{found:?}");
+        assert!(found.zero_one_k.abs() < 0.2, "{found:?}");
     }
 }
 
@@ -109,10 +113,10 @@ fn logistic_map_period_doubling_to_chaos() {
         assert_eq!(motion(&logistic(r, 2000, 300)), Motion::Periodic(period), "r = {r}");
     }
     for r in [3.7, 3.9, 4.0] {
-        let found = classify(&[&logistic(r, 1000, 300)], &[1.0], 1e-3, 32).unwrap();
+        let found = classify_motion(&[&logistic(r, 1000, 300)], &[1.0], 1e-3, 32).unwrap();
         println!("r = {r}: {found:?}");
         assert_eq!(found.motion, Motion::Chaotic);
-        assert!(found.chaos > 0.9, "r = {r}: {found:?}");
+        assert!(found.zero_one_k > 0.9, "r = {r}: {found:?}");
     }
     // At r = 2.9 the distance to the fixed point is multiplied by −0.9 per step: 60 steps are too few to settle.
     assert_eq!(motion(&logistic(2.9, 0, 60)), Motion::Settling(1));
@@ -152,12 +156,12 @@ fn duffing_oscillator_period_doubling_to_chaos() {
         let [phase, x, v] = duffing(gamma, 0.3, 1.2, 400, 200);
         // The motion does not depend on the section phase.
         for start in [0.0, 2.0] {
-            let strobe = Strobe::new(&phase, start, TAU).unwrap();
+            let strobe = StroboscopicSampling::new(&phase, start, TAU).unwrap();
             let sections = [strobe.section(&x).unwrap(), strobe.section(&v).unwrap()];
             let both = [&sections[0][..], &sections[1][..]];
             let sizes = [size(&x), size(&v)];
-            let found = classify(&both, &sizes, 1e-3, 32).unwrap();
-            let groups = clusters(&both, &sizes.map(|s| 1e-3 * s)).unwrap();
+            let found = classify_motion(&both, &sizes, 1e-3, 32).unwrap();
+            let groups = cluster_points(&both, &sizes.map(|s| 1e-3 * s)).unwrap();
             println!("gamma {gamma}: {found:?}, {} groups", groups.len());
             assert_eq!(found.motion, expected, "gamma = {gamma}");
             if let Motion::Periodic(k) = expected {
@@ -205,7 +209,7 @@ fn growth(
 fn lyapunov_exponents_of_known_systems() {
     // The logistic map at r = 4 has λ = ln 2 exactly: growth |4 − 8x| per step.
     let logs: Vec<f64> = logistic(4.0, 100, 20_000).iter().map(|x| (4.0 - 8.0 * x).abs().ln()).collect();
-    let found = exponent(&logs, &vec![1.0; logs.len()]).unwrap();
+    let found = lyapunov_exponent(&logs, &vec![1.0; logs.len()]).unwrap();
     println!("logistic: {} ± {}", found.value, found.standard_error);
     assert_close("ln 2", found.value, 2f64.ln(), 4.0 * found.standard_error);
     assert!(found.standard_error < 0.01);
@@ -217,7 +221,7 @@ fn lyapunov_exponents_of_known_systems() {
     let ueda = growth(|x| -x.powi(3), 0.05, 7.5, 100, 4000);
     let wells = growth(|x| x - x.powi(3), 0.25, 0.4, 100, 4000);
     for (name, (logs, intervals), published) in [("Ueda", ueda, 0.1034), ("two wells", wells, 0.1571)] {
-        let found = exponent(&logs, &intervals).unwrap();
+        let found = lyapunov_exponent(&logs, &intervals).unwrap();
         println!("{name}: {:.4} ± {:.4}, published {published}", found.value, found.standard_error);
         assert!(found.standard_error < 0.003);
         assert_close(name, found.value, published, 4.0 * found.standard_error);
@@ -225,7 +229,7 @@ fn lyapunov_exponents_of_known_systems() {
     // A damped linear oscillator has λ = −δ/2; its perturbation rotates in the phase plane, so that the growth
     // differs between periods.
     let (logs, intervals) = growth(|x| -1.7 * x, 0.1, 1.0, 50, 400);
-    let found = exponent(&logs, &intervals).unwrap();
+    let found = lyapunov_exponent(&logs, &intervals).unwrap();
     println!("linear: {:.6} ± {:.6}", found.value, found.standard_error);
     assert_close("linear", found.value, -0.05, 2e-4);
 }
@@ -236,7 +240,8 @@ fn zero_one_test_is_invariant_to_offset_and_scale() {
     let chaotic = logistic(3.97, 100, 500);
     for (shift, factor) in [(0.0, 1.0), (0.0, 1e-6), (10.0, 1.0), (-1e-3, 1e-6)] {
         let moved = |x: &[f64]| -> Vec<f64> { x.iter().map(|x| shift + factor * x).collect() };
-        let (low, high) = (zero_one(&moved(&regular)).unwrap(), zero_one(&moved(&chaotic)).unwrap());
+        let (low, high) =
+            (zero_one_test(&moved(&regular)).unwrap(), zero_one_test(&moved(&chaotic)).unwrap());
         println!("{shift} {factor}: {low:.3} {high:.3}");
         assert!(low < 0.2 && high > 0.8, "{low} {high} at {shift}, {factor}");
     }
@@ -263,13 +268,13 @@ fn zero_one_test_separates_tori_from_chaos_with_a_hundred_points() {
                     _ => turn.cos() * (1.0 + 0.5 * (TAU * 0.0031 * n as f64).cos()),
                 }
             };
-            let chaos = zero_one(&(0..points).map(at).collect::<Vec<_>>()).unwrap();
+            let chaos = zero_one_test(&(0..points).map(at).collect::<Vec<_>>()).unwrap();
             worst[0] = worst[0].max(chaos);
             assert!(chaos < 0.5, "{points} points, rotation {rotation}, kind {}: {chaos}", k % 4);
         }
         // Outside the periodic windows of the logistic map.
         for r in [3.68, 3.7, 3.72, 3.76, 3.78, 3.8, 3.82, 3.87, 3.9, 3.93, 3.97, 4.0] {
-            let chaos = zero_one(&logistic(r, 1000, points)).unwrap();
+            let chaos = zero_one_test(&logistic(r, 1000, points)).unwrap();
             worst[1] = worst[1].min(chaos);
             assert!(chaos > 0.5, "{points} points, r = {r}: {chaos}");
         }
@@ -282,34 +287,34 @@ fn clusters_are_chains_of_neighbouring_points() {
     // Two groups in the plane that overlap in either channel alone.
     let x = [0.0, 0.1, 0.2, 0.05, 0.15, 0.25];
     let y = [0.0, 0.1, 0.2, 1.0, 1.1, 1.2];
-    let found = clusters(&[&x, &y], &[0.11, 0.11]).unwrap();
+    let found = cluster_points(&[&x, &y], &[0.11, 0.11]).unwrap();
     assert_eq!(found.iter().map(|c| c.points).collect::<Vec<_>>(), [3, 3]);
     assert_close("centre", found[0].centre[1], 0.1, 1e-12);
     assert_close("radius", found[1].radius, 0.1, 1e-12);
-    assert_eq!(clusters(&[&x, &y], &[0.09, 0.09]).unwrap().len(), 6);
-    assert!(clusters(&[], &[]).unwrap().is_empty());
+    assert_eq!(cluster_points(&[&x, &y], &[0.09, 0.09]).unwrap().len(), 6);
+    assert!(cluster_points(&[], &[]).unwrap().is_empty());
 }
 
 #[test]
 fn invalid_sections_are_rejected() {
     let phase: Vec<f64> = (0..50).map(f64::from).collect();
-    let bad = |result: Result<Strobe, SignalError>, words: &str| {
+    let bad = |result: Result<StroboscopicSampling, SignalError>, words: &str| {
         let text = result.unwrap_err().to_string();
         assert!(text.contains(words), "{text}");
     };
-    bad(Strobe::new(&[], 0.0, 1.0), "phase is empty");
-    bad(Strobe::new(&phase[..5], 0.0, 1.0), "at least 6");
-    bad(Strobe::new(&phase, 0.0, 0.0), "section period = 0");
-    bad(Strobe::new(&phase, f64::NAN, 1.0), "section phase");
+    bad(StroboscopicSampling::new(&[], 0.0, 1.0), "phase is empty");
+    bad(StroboscopicSampling::new(&phase[..5], 0.0, 1.0), "at least 6");
+    bad(StroboscopicSampling::new(&phase, 0.0, 0.0), "section period = 0");
+    bad(StroboscopicSampling::new(&phase, f64::NAN, 1.0), "section phase");
     let mut back = phase.clone();
     back[20] = 18.5;
-    bad(Strobe::new(&back, 0.0, 7.0), "step of the phase = -0.5");
-    let strobe = Strobe::new(&phase, 0.0, 7.0).unwrap();
+    bad(StroboscopicSampling::new(&back, 0.0, 7.0), "step of the phase = -0.5");
+    let strobe = StroboscopicSampling::new(&phase, 0.0, 7.0).unwrap();
     assert!(matches!(strobe.section(&phase[1..]), Err(SignalError::LengthMismatch { .. })));
-    assert!(matches!(classify(&[&phase[..7]], &[1.0], 1e-3, 3), Err(SignalError::TooShort { .. })));
-    assert!(matches!(classify(&[], &[], 1e-3, 3), Err(SignalError::TooShort { .. })));
-    assert!(matches!(classify(&[&phase], &[1.0], 0.0, 3), Err(SignalError::OutOfRange { .. })));
-    assert!(matches!(exponent(&[f64::NAN], &[1.0]), Err(SignalError::NotFinite { .. })));
+    assert!(matches!(classify_motion(&[&phase[..7]], &[1.0], 1e-3, 3), Err(SignalError::TooShort { .. })));
+    assert!(matches!(classify_motion(&[], &[], 1e-3, 3), Err(SignalError::TooShort { .. })));
+    assert!(matches!(classify_motion(&[&phase], &[1.0], 0.0, 3), Err(SignalError::OutOfRange { .. })));
+    assert!(matches!(lyapunov_exponent(&[f64::NAN], &[1.0]), Err(SignalError::NotFinite { .. })));
     // A constant motion has period 1.
-    assert_eq!(classify(&[&[2.0; 20]], &[0.0], 1e-3, 5).unwrap().motion, Motion::Periodic(1));
+    assert_eq!(classify_motion(&[&[2.0; 20]], &[0.0], 1e-3, 5).unwrap().motion, Motion::Periodic(1));
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rotordyn::signal::order::{OrderSettings, OrderTracker};
 use rotordyn::signal::ridge::find_peaks;
-use rotordyn::signal::speed_line::{LineSettings, follow_ridge, speed_from_line};
+use rotordyn::signal::tacholess::{SpeedLineSettings, extract_ridge, speed_from_line};
 
 use crate::{assert_close, noise, sampled};
 
@@ -19,8 +19,8 @@ fn speed(t: f64) -> f64 {
     10.0 + 3.0 * t + 0.5 * (TAU * 0.7 * t).sin()
 }
 
-const LINE: LineSettings =
-    LineSettings { order: 4.0, low: 30.0, high: 150.0, most_change: 40.0, frame: 1024 };
+const LINE: SpeedLineSettings =
+    SpeedLineSettings { order: 4.0, low: 30.0, high: 150.0, max_sweep_rate: 40.0, frame: 1024 };
 
 /// A run-up with orders 4 and 7.14 and a fixed resonance line that crosses order 4; noise as strong as the tone.
 fn record() -> Vec<f64> {
@@ -84,7 +84,7 @@ fn ridge_by_dynamic_programming() {
     // Twice as high, but too far away for so short a time.
     map[20 * 60 + 50] = 2.0;
     map[21 * 60 + 50] = 2.0;
-    let path = follow_ridge(&axis, &map, (5.0, 58.0), 1).unwrap();
+    let path = extract_ridge(&axis, &map, (5.0, 58.0), 1).unwrap();
     for (row, peak) in path.iter().enumerate() {
         assert_eq!(peak.bin, place(row), "row {row}");
     }
@@ -93,11 +93,13 @@ fn ridge_by_dynamic_programming() {
 #[test]
 fn invalid_input_is_rejected() {
     let x = record();
-    let message = |settings: LineSettings| speed_from_line(&x, RATE, &settings).unwrap_err().to_string();
-    assert!(message(LineSettings { order: 0.0, ..LINE }).starts_with("order = 0 is out of range"));
-    assert!(message(LineSettings { high: 20.0, ..LINE }).starts_with("upper end of the line [Hz] = 20"));
-    assert!(message(LineSettings { low: f64::NAN, ..LINE }).starts_with("lower end of the line [Hz] = NaN"));
-    assert!(message(LineSettings { frame: 50_000, ..LINE }).starts_with("record has 32000 samples"));
+    let message = |settings: SpeedLineSettings| speed_from_line(&x, RATE, &settings).unwrap_err().to_string();
+    assert!(message(SpeedLineSettings { order: 0.0, ..LINE }).starts_with("order = 0 is out of range"));
+    assert!(message(SpeedLineSettings { high: 20.0, ..LINE }).starts_with("upper end of the line [Hz] = 20"));
+    assert!(
+        message(SpeedLineSettings { low: f64::NAN, ..LINE }).starts_with("lower end of the line [Hz] = NaN")
+    );
+    assert!(message(SpeedLineSettings { frame: 50_000, ..LINE }).starts_with("record has 32000 samples"));
     let mut bad = x.clone();
     bad[7] = f64::NAN;
     assert!(speed_from_line(&bad, RATE, &LINE).is_err());

@@ -8,10 +8,11 @@ use nalgebra::DMatrix;
 use rotordyn::bearing::{Bearing, Cage};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::study::{
-    Clock, Integrator, LyapunovStudy, ModalStudy, Plane, PoincareStudy, Steady, UnbalanceStudy,
+    Integrator, LyapunovStudy, ModalStudy, Plane, PoincareStudy, SectionTrigger, SteadyRunSettings,
+    UnbalanceStudy,
 };
 use rotordyn::model::{Model, Options, Probe, Quantity, load};
-use rotordyn::signal::period::Motion;
+use rotordyn::signal::motion_classification::Motion;
 use rotordyn::study::Machine;
 use rotordyn::transient::steady::run_steady;
 
@@ -29,9 +30,18 @@ fn jeffcott(set: &[(&str, &str)]) -> Model {
     load("jeffcott.toml", include_str!("../../models/jeffcott.toml"), &options).unwrap().model
 }
 
-fn steady(speed: f64, clock: Clock, step: f64, [settle, periods]: [usize; 2]) -> Steady {
+fn steady(speed: f64, clock: SectionTrigger, step: f64, [settle, periods]: [usize; 2]) -> SteadyRunSettings {
     let integrator = Integrator::Newmark;
-    Steady { speed, integrator, step, cutoff: 400.0, clock, phase: 0.0, settle, periods }
+    SteadyRunSettings {
+        speed,
+        integrator,
+        step,
+        cutoff: 400.0,
+        trigger: clock,
+        phase: 0.0,
+        transient_periods: settle,
+        periods,
+    }
 }
 
 fn go(_: f64) -> ControlFlow<()> {
@@ -54,7 +64,7 @@ fn lyapunov_exponent_of_a_linear_rotor_is_its_decay_rate() {
         // Explicit methods must resolve the highest mode, the shaft's ends on their bearings.
         let explicit = matches!(integrator, Integrator::RungeKutta4 | Integrator::DormandPrince { .. });
         let step = if explicit { 1.5e-5 } else { 1e-4 };
-        let mut steady = steady(speed, Clock::Shaft, step, [160, 160]);
+        let mut steady = steady(speed, SectionTrigger::Shaft, step, [160, 160]);
         steady.cutoff = 150.0;
         steady.integrator = integrator;
         let study = LyapunovStudy { steady, perturbation: 1e-9 };
@@ -81,7 +91,7 @@ fn section_of_a_linear_rotor_is_its_unbalance_response() {
         .equilibrium(&rotordyn::model::study::EquilibriumStudy { speed, cage_average: false })
         .unwrap();
     for phase in [0.0, 1.3] {
-        let mut steady = steady(speed, Clock::Shaft, 5e-5, [150, 40]);
+        let mut steady = steady(speed, SectionTrigger::Shaft, 5e-5, [150, 40]);
         steady.cutoff = f64::INFINITY;
         steady.phase = phase;
         let study = PoincareStudy { steady, planes: vec![plane.clone()], tolerance: 1e-5, longest_period: 8 };
@@ -134,7 +144,7 @@ fn preloaded() -> Machine {
 fn lyapunov_exponent_of_a_periodic_motion_is_its_floquet_exponent() {
     let machine = preloaded();
     let Bearing::Ball(ball) = &machine.model.bearings[0].bearing else { panic!("a ball bearing") };
-    let clock = Clock::BallPass { bearing: 0, balls: ball.geometry.balls };
+    let clock = SectionTrigger::BallPass { bearing: 0, balls: ball.geometry.balls };
     let mut settings = steady(1200.0 * RPM, clock, 5e-5, [360, 12]);
     settings.cutoff = 100.0;
     let plane = plane(&machine.model, "disc_x", "disc_y");
@@ -146,10 +156,10 @@ fn lyapunov_exponent_of_a_periodic_motion_is_its_floquet_exponent() {
     assert!((section.clock.frequency / (20.0 * 0.4 * ball.geometry.balls as f64) - 1.0).abs() < 1e-6);
 
     // The settled state, then one period from it and from perturbed states.
-    let (reduction, start) = machine.steady_start(&settings, None).unwrap();
+    let (reduction, start) = machine.steady_initial_state(&settings, None).unwrap();
     let mut on = |_: usize| ControlFlow::Continue(());
     let run = |state, [settle, periods]: [usize; 2], on: &mut dyn FnMut(usize) -> ControlFlow<()>| {
-        let settings = Steady { settle, periods, ..settings.clone() };
+        let settings = SteadyRunSettings { transient_periods: settle, periods, ..settings.clone() };
         run_steady(&reduction.system, state, &settings, &[], None, on).unwrap().unwrap()
     };
     let settled = run(start, [360, 1], &mut on).state;
@@ -213,7 +223,7 @@ fn rig_with_clearance() {
     };
     let at_b = machine.model.bearings[1].node;
     let plane = Plane { name: "B".into(), x: probe("x", at_b, 0), y: probe("y", at_b, 1) };
-    let steady = steady(900.0 * RPM, Clock::Cage { bearing: 1 }, 5e-5, [40, 40]);
+    let steady = steady(900.0 * RPM, SectionTrigger::Cage { bearing: 1 }, 5e-5, [40, 40]);
     let study = PoincareStudy { steady, planes: vec![plane], tolerance: 1e-3, longest_period: 8 };
     let found = machine.poincare(&study, &mut go).unwrap().unwrap();
     println!("{:?}, {} groups, {:.4} Hz", found.motion, found.groups, found.clock.frequency);

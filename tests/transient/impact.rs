@@ -64,7 +64,7 @@ fn small_hit_gives_the_linear_frf() {
         history: vec![[0.0, 0.0], [PULSE, 1.0], [2.0 * PULSE, 0.0]],
     });
     let assembly = Assembly::new(&model).unwrap();
-    let start = equilibrium(&model, &assembly, 0.0, CageTreatment::AsPlaced, None).unwrap();
+    let start = equilibrium(&model, &assembly, 0.0, CageTreatment::FixedAngle, None).unwrap();
     let reduction = reduce(&model, &assembly, &start, 1500.0).unwrap();
     let probes: Vec<usize> = ["disc_x", "disc_y"]
         .map(|name| model.probes.iter().position(|p| p.name == name).expect("a probe of the rig"))

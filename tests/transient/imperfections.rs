@@ -67,7 +67,7 @@ fn run(inertia: bool, step: f64, bearing_a: &str) -> (History, Report) {
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
-        recorder.take(sample);
+        recorder.record(sample);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
@@ -115,7 +115,7 @@ fn energy_balance_closes_with_defects() {
             let lines = format!("defect_law = \"{law}\"\n{DAMAGED}");
             let [coarse, fine] = [5.0, 0.3125].map(|step| {
                 let energy = run(inertia, step, &lines).1.energy;
-                energy.residual().abs() / energy.turnover()
+                energy.residual().abs() / energy.exchanged()
             });
             println!("{law} {inertia}: residual {coarse:.1e} {fine:.1e}");
             // The rate of a deviation jumps at the edges of dents and the middle of pits, 80 mm/s under 20 N here: within

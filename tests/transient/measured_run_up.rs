@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use rotordyn::edge::side_file;
+use rotordyn::io::external_file;
 use rotordyn::model::{Model, Options, load_with};
 use rotordyn::results::History;
 use rotordyn::signal::WindowKind;
@@ -80,7 +80,7 @@ const FROM: f64 = 3.5;
 
 fn machine(set: &[(&str, &str)]) -> Option<Model> {
     let file = measured("tacho_run_up/time_s.csv")?;
-    let files = [side_file::read(file.parent()?, "time_s.csv")];
+    let files = [external_file::read_external_file(file.parent()?, "time_s.csv")];
     let set = set.iter().map(|(path, value)| ((*path).to_string(), (*value).to_string())).collect();
     let options = Options { set, ..Options::default() };
     let loaded = load_with("run_up.toml", MACHINE, &options, &files).unwrap_or_else(|e| panic!("{e}"));
@@ -143,7 +143,7 @@ fn run(model: Model) -> History {
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
-        recorder.take(sample);
+        recorder.record(sample);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, rotordyn::transient::run::End::Complete);
@@ -179,7 +179,7 @@ fn angle_resampling_sharpens_the_lines() {
     let (Some(model), Some((times, _))) = (machine(&[]), record()) else { return };
     let bpfo = {
         let ball = model.bearings[0].bearing.ball().unwrap();
-        ball.geometry.orders(0.0).bpfo
+        ball.geometry.characteristic_orders(0.0).bpfo
     };
     let history = run(model);
     let rate = history.sample_rate;

@@ -16,7 +16,7 @@ fn run(machine: &Machine, step: f64) -> (History, Report) {
     let reduction = machine.reduce(&study).unwrap();
     let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
     let report = machine.run_up(&study, &reduction, |sample| {
-        recorder.take(sample);
+        recorder.record(sample);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
@@ -40,8 +40,8 @@ fn synchronous_ridge_energy_balance_and_step_size() {
     let machine = Machine::new(variant(None, &[])).unwrap();
     let (history, report) = run(&machine, 2.5e-5);
     let e = report.energy;
-    println!("{report:?} {}", e.residual() / e.turnover());
-    assert!(e.residual().abs() < 1e-4 * e.turnover(), "{} of {}", e.residual(), e.turnover());
+    println!("{report:?} {}", e.residual() / e.exchanged());
+    assert!(e.residual().abs() < 1e-4 * e.exchanged(), "{} of {}", e.residual(), e.exchanged());
 
     // 1x of the disc: the strongest line at every speed above the noise of the start, within one bin.
     let shown = &machine.spectrograms(&spectrogram_study("disc_x"), &history).unwrap()[0];
@@ -89,13 +89,13 @@ fn second_bending_pair_follows_the_campbell_lines() {
     let machine = Machine::new(variant(Some("wavy"), &[])).unwrap();
     let (history, report) = run(&machine, 2.5e-5);
     let e = report.energy;
-    println!("{} {}", e.residual(), e.turnover());
-    assert!(e.residual().abs() < 1e-4 * e.turnover(), "{} of {}", e.residual(), e.turnover());
+    println!("{} {}", e.residual(), e.exchanged());
+    assert!(e.residual().abs() < 1e-4 * e.exchanged(), "{} of {}", e.residual(), e.exchanged());
     let study = CampbellStudy {
         speeds: (0..=24).map(|k| 50.0 * RPM * f64::from(k)).collect(),
         modes: 8,
         orders: vec![7.0, 8.0, 9.0],
-        follow_bearings: false,
+        speed_dependent_bearings: false,
     };
     let campbell = machine.campbell(&study).unwrap();
     let pair: Vec<_> = campbell

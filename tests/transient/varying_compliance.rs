@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use rotordyn::model::study::{Integrator, LyapunovStudy, PoincareStudy};
 use rotordyn::model::{Model, Options, load};
 use rotordyn::results::PoincareResult;
-use rotordyn::signal::period::Motion;
+use rotordyn::signal::motion_classification::Motion;
 use rotordyn::study::Machine;
 
 fn machine(rpm: &str) -> Machine {
@@ -51,12 +51,13 @@ fn sections_match_the_reference_equations() {
         let exact = poincare_result(&machine, |study| {
             let passage = 60.0 / (rpm.parse::<f64>().unwrap() * 8.0 * 0.385_577);
             study.steady.integrator = Integrator::RungeKutta4;
-            (study.steady.step, study.steady.settle, study.steady.periods) = (passage / 200.0, settle, 32);
+            (study.steady.step, study.steady.transient_periods, study.steady.periods) =
+                (passage / 200.0, settle, 32);
         });
         // Settings of the file: Newmark's period error (ωh)²/12 at 20 us and motions of 400 Hz is 2e-4, more near a
         // resonance.
         let plain = poincare_result(&machine, |study| {
-            (study.steady.settle, study.steady.periods) = (settle, 32);
+            (study.steady.transient_periods, study.steady.periods) = (settle, 32);
         });
         let errors = [section_error(&exact, &points), section_error(&plain, &points)];
         println!(

@@ -5,11 +5,11 @@ use rotordyn::error::Error;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
-use rotordyn::update::parameter::{FreeParameter, Place};
+use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::state::State;
+use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
-use rotordyn::update::{Job, Verdict, update};
+use rotordyn::update::{IdentifiabilityClass, UpdateJob, update};
 
 const ROTOR: &str = r#"
     [model]
@@ -58,13 +58,13 @@ fn rotor(set: &[(String, String)]) -> Result<Model, Error> {
     Ok(load("two_discs.toml", ROTOR, &options).unwrap_or_else(|errors| panic!("{errors:?}")).model)
 }
 
-fn state(model: Model, modes: Vec<TargetMode>) -> (State, Target) {
+fn state(model: Model, modes: Vec<TargetMode>) -> (ModelState, Target) {
     let point = |name: &str| model.stations.iter().find(|s| s.name == name).unwrap().node as i64 + 1;
     let dofs: Vec<Dof> =
         ["A", "left", "right", "B"].iter().flat_map(|n| [1, 2].map(|d| Dof::new(point(n), d))).collect();
     let sensors = sensors(&dofs, &Default::default(), &model).unwrap();
     let target = Target { speed: 0.0, sensors, modes, frfs: None };
-    (State::new(model, &target, None).unwrap(), target)
+    (ModelState::new(model, &target, None).unwrap(), target)
 }
 
 fn mode(frequency_hz: f64, shape: Vec<Complex64>) -> TargetMode {
@@ -97,8 +97,10 @@ fn measured(model: Model, angle: f64) -> Target {
 }
 
 fn free(name: &str, paths: &[&str], value: f64, unit: &str) -> FreeParameter {
-    let places =
-        paths.iter().map(|p| Place { path: (*p).into(), value, unit: unit.into(), quoted: true }).collect();
+    let places = paths
+        .iter()
+        .map(|p| ModelNumber { path: (*p).into(), value, unit: unit.into(), quoted: true })
+        .collect();
     FreeParameter::new(name, places, true, None).unwrap()
 }
 
@@ -113,7 +115,7 @@ fn bearings_and_shaft_from_rotated_shapes_of_mode_pairs() {
     for angle in [0.0, 0.4, std::f64::consts::FRAC_PI_4] {
         let target = measured(rotor(&truth).unwrap(), angle);
         let fitting = Fitting::default();
-        let job = Job {
+        let job = UpdateJob {
             parameters: &parameters,
             target: &target,
             fitting: &fitting,
@@ -123,9 +125,9 @@ fn bearings_and_shaft_from_rotated_shapes_of_mode_pairs() {
         let found = update(&job).unwrap();
         println!("{angle}: {:?}", found.outcomes);
         assert!(found.converged);
-        assert_eq!(found.kept.len(), target.modes.len());
+        assert_eq!(found.fitted_modes.len(), target.modes.len());
         for (j, truth) in [3.2e6, 190.0].into_iter().enumerate() {
-            assert_eq!(found.outcomes[j].verdict, Verdict::Found);
+            assert_eq!(found.outcomes[j].class, IdentifiabilityClass::Identifiable);
             let off = (parameters[j].value(found.outcomes[j].x) / truth).ln();
             assert!(off.abs() < 2.0 * found.outcomes[j].error, "{angle}: off by {off:.5}");
             assert!(off.abs() < 5e-3, "{angle}: off by {off:.5}");

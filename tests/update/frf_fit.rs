@@ -1,13 +1,13 @@
 //! Model updating with noisy FRFs of the rig with changed housings, starting from the unchanged rig.
 
 use rotordyn::model::{Model, Quantity};
-use rotordyn::signal::record::{Dof, FrfMatrix, NoisyTest};
+use rotordyn::signal::record::{Dof, FrfMatrix, MeasurementNoise};
 use rotordyn::update::frf::FrfFitting;
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::state::State;
+use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetFrfs, sensors};
-use rotordyn::update::{Update, Verdict};
+use rotordyn::update::{IdentifiabilityClass, Update};
 
 use crate::rig::variant;
 use crate::rig_as_truth::{TRUTH, fitted, measured, point};
@@ -31,7 +31,7 @@ fn simulated_frfs(model: Model, seed: u64) -> TargetFrfs {
         values: Vec::new(),
         coherence: None,
     };
-    let state = State::new(model.clone(), &Target::default(), None).unwrap();
+    let state = ModelState::new(model.clone(), &Target::default(), None).unwrap();
     let exact = FrfMatrix {
         frequencies,
         units: vec![vec!["m/(s^2 N)".into(); references.len()]; responses.len()],
@@ -40,7 +40,9 @@ fn simulated_frfs(model: Model, seed: u64) -> TargetFrfs {
         values: state.frfs(&out).unwrap(),
         coherence: None,
     };
-    let noisy = exact.measured_with(&NoisyTest { signal_to_noise_db: 40.0, averages: 10, seed }).unwrap();
+    let noisy = exact
+        .with_measurement_noise(&MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed })
+        .unwrap();
     (out.values, out.coherence) = (noisy.values, noisy.coherence);
     out
 }
@@ -70,7 +72,7 @@ fn check_housings(parameters: &[FreeParameter], found: &Update, truth: [f64; 2])
     assert!(found.converged);
     for (j, truth) in truth.into_iter().enumerate() {
         let outcome = &found.outcomes[j];
-        assert_eq!(outcome.verdict, Verdict::Found, "{}", parameters[j].name);
+        assert_eq!(outcome.class, IdentifiabilityClass::Identifiable, "{}", parameters[j].name);
         let off = log_error(parameters, found, j, truth);
         assert!(off.abs() < 0.02, "{} is off by {off:.4}", parameters[j].name);
         assert!(off.abs() < 2.0 * outcome.error, "off by {off:.4}, stated {:.4}", outcome.error);
@@ -113,7 +115,7 @@ fn housings_belt_and_housing_damping() {
     check_housings(&parameters, &found, [4.2e6, 2.1e7]);
     for (j, truth) in [(2, 3e5), (3, 400.0)] {
         let (off, error) = (log_error(&parameters, &found, j, truth), found.outcomes[j].error);
-        assert_ne!(found.outcomes[j].verdict, Verdict::NotTold);
+        assert_ne!(found.outcomes[j].class, IdentifiabilityClass::NotIdentifiable);
         assert!(off.abs() < 0.1 && off.abs() < 2.0 * error, "{} is off by {off:.4}", paths[j]);
     }
 }
@@ -156,6 +158,6 @@ fn bearing_stiffness_is_not_identifiable() {
             let (off, error) = (log_error(&parameters, &found, j, truth), found.outcomes[j].error);
             assert!(off.abs() < 2.0 * error, "{} is off by {off:.4}, stated {error:.4}", paths[j]);
         }
-        assert_ne!(found.outcomes[3].verdict, Verdict::Found);
+        assert_ne!(found.outcomes[3].class, IdentifiabilityClass::Identifiable);
     }
 }

@@ -4,13 +4,13 @@ use std::sync::LazyLock;
 
 use rotordyn::error::Error;
 use rotordyn::linalg::Complex64;
-use rotordyn::model::{Model, Options, load, stated::stated};
+use rotordyn::model::{Model, Options, load, parameter_paths::resolve_parameter_path};
 use rotordyn::signal::record::Dof;
-use rotordyn::update::parameter::{FreeParameter, Place};
+use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::state::State;
+use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
-use rotordyn::update::{Job, Update, Verdict, update};
+use rotordyn::update::{IdentifiabilityClass, Update, UpdateJob, update};
 
 use crate::rig::variant;
 
@@ -71,7 +71,7 @@ pub fn measured(model: Model) -> Target {
         damping_error: 0.0,
         shape: vec![Complex64::new(1.0, 0.0); sensors.len()],
     };
-    let state = State::new(model, &Target { modes: vec![wide; 6], ..empty.clone() }, None).unwrap();
+    let state = ModelState::new(model, &Target { modes: vec![wide; 6], ..empty.clone() }, None).unwrap();
     let mut noise = Noise(2010);
     let modes = state
         .modes
@@ -97,8 +97,8 @@ pub fn measured(model: Model) -> Target {
 pub fn free(path: &str) -> FreeParameter {
     let places = path
         .split('+')
-        .flat_map(|path| stated(RIG.as_bytes(), &Options::default(), path).unwrap())
-        .map(|s| Place::read(&s.path, &s.text, s.quoted).unwrap())
+        .flat_map(|path| resolve_parameter_path(RIG.as_bytes(), &Options::default(), path).unwrap())
+        .map(|s| ModelNumber::read(&s.path, &s.text, s.quoted).unwrap())
         .collect();
     FreeParameter::new(path, places, true, None).unwrap()
 }
@@ -117,7 +117,8 @@ fn updated(paths: &[&str], fitting: Fitting) -> (Vec<FreeParameter>, Update) {
 /// Updates the nominal rig and prints the result.
 pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreeParameter>, Update) {
     let parameters: Vec<FreeParameter> = paths.iter().map(|path| free(path)).collect();
-    let job = Job { parameters: &parameters, target, fitting: &fitting, load: &load_rig, max_iterations: 30 };
+    let job =
+        UpdateJob { parameters: &parameters, target, fitting: &fitting, load: &load_rig, max_iterations: 30 };
     let found = update(&job).unwrap();
     for (p, o) in parameters.iter().zip(&found.outcomes) {
         println!(
@@ -128,11 +129,11 @@ pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreePar
             p.value(o.fitted),
             100.0 * o.error,
             o.prior_share,
-            o.verdict.words()
+            o.class.label()
         );
     }
     println!("sigma {:?}", found.identifiability.singular_values);
-    println!("chi2 {} of {}", found.identifiability.chi_squared, found.identifiability.degrees);
+    println!("chi2 {} of {}", found.identifiability.chi_squared, found.identifiability.degrees_of_freedom);
     println!("iterations {}, converged {}", found.iterations.len(), found.converged);
     (parameters, found)
 }
@@ -145,10 +146,10 @@ fn housings_are_identifiable_and_the_bearing_is_not() {
     assert!(found.converged);
     for (j, truth) in [(0, 4.2e6), (1, 2.1e7)] {
         let value = parameters[j].value(found.outcomes[j].x);
-        assert_eq!(found.outcomes[j].verdict, Verdict::Found);
+        assert_eq!(found.outcomes[j].class, IdentifiabilityClass::Identifiable);
         assert!((value / truth - 1.0).abs() < 0.02, "{} = {value:e}", paths[j]);
     }
-    assert_ne!(found.outcomes[3].verdict, Verdict::Found);
+    assert_ne!(found.outcomes[3].class, IdentifiabilityClass::Identifiable);
 }
 
 #[test]
@@ -158,7 +159,7 @@ fn separate_housings_with_damping_in_the_fit() {
     assert!(found.converged);
     for (j, truth) in [4.2e6, 2.1e7, 4.2e6, 2.1e7, 3e5].into_iter().enumerate() {
         let outcome = &found.outcomes[j];
-        assert_ne!(outcome.verdict, Verdict::NotTold, "{}", paths[j]);
+        assert_ne!(outcome.class, IdentifiabilityClass::NotIdentifiable, "{}", paths[j]);
         // Standard errors assume deviations of 0.1 % of a frequency; the noise is half of that.
         let off = (parameters[j].value(outcome.x) / truth - 1.0).abs();
         assert!(off < 2.0 * outcome.error, "{} is off by {off:.4}, stated {:.4}", paths[j], outcome.error);

@@ -18,14 +18,14 @@
 //! terms d(k)/dρ, which count the contact force twice; the paper's housing is fixed.
 
 mod ball;
-mod settled;
+mod quasi_static;
 mod step;
 mod tangent;
 
 use std::f64::consts::{PI, TAU};
 
-use ball::{Acting, Seen};
-pub use step::StepGain;
+use ball::{BallState, LocalMotion};
+pub use step::NewmarkGain;
 pub use tangent::RadialTangent;
 
 use super::{BallBearing, Cage, Deviation, Profile, Reaction, Rotation};
@@ -41,7 +41,7 @@ pub struct RadialBallBearing {
     pub stiffness_damping: [f64; 2],
     /// Whether the damped contact force may become tensile during separation while δ > 0, as in the paper;
     /// else it is cut off at zero.
-    pub pulls: bool,
+    pub tensile_contact: bool,
     /// Gravity in the bearing's plane \[m/s²\].
     pub gravity: [f64; 2],
 }
@@ -53,7 +53,7 @@ impl RadialBallBearing {
     }
 
     /// Added mass of the balls on the housing, Z m/2 (motion tangential to each ball's line) \[kg\].
-    pub fn carried_mass(&self) -> f64 {
+    pub fn added_ball_mass(&self) -> f64 {
         0.5 * self.ball.geometry.balls as f64 * self.ball_mass()
     }
 }
@@ -63,10 +63,10 @@ impl RadialBallBearing {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rings {
     /// d and h along x and y \[m\]; ḋ and ḣ \[m/s\].
-    pub shift: [f64; 2],
-    pub frame: [f64; 2],
-    pub shift_rate: [f64; 2],
-    pub frame_rate: [f64; 2],
+    pub relative_displacement: [f64; 2],
+    pub housing_displacement: [f64; 2],
+    pub relative_velocity: [f64; 2],
+    pub housing_velocity: [f64; 2],
 }
 
 impl Rings {
@@ -76,7 +76,12 @@ impl Rings {
             Some(&[x, y]) => [x, y],
             _ => [0.0; 2],
         };
-        Self { shift: pair(d, 0), frame: pair(d, 2), shift_rate: pair(rate, 0), frame_rate: pair(rate, 2) }
+        Self {
+            relative_displacement: pair(d, 0),
+            housing_displacement: pair(d, 2),
+            relative_velocity: pair(rate, 0),
+            housing_velocity: pair(rate, 2),
+        }
     }
 }
 
@@ -85,13 +90,13 @@ impl Rings {
 pub struct RadialElement {
     stiffness: [f64; 2],
     damping: [f64; 2],
-    pulls: bool,
+    tensile_contact: bool,
     mass: f64,
     gravity: [f64; 2],
     /// Radius ρ₀ of the ball centre in zero-load contact with the outer race, and ρ_i with the inner race
     /// \[m\].
-    outer_reach: f64,
-    inner_reach: f64,
+    outer_contact_radius: f64,
+    inner_contact_radius: f64,
     cage: Cage,
     ball_to_pitch: f64,
     /// cos and sin of 2πj/Z.
@@ -112,11 +117,11 @@ impl RadialElement {
         Self {
             stiffness: [pair.inner.stiffness, pair.outer.stiffness],
             damping: bearing.stiffness_damping,
-            pulls: bearing.pulls,
+            tensile_contact: bearing.tensile_contact,
             mass: bearing.ball_mass(),
             gravity: bearing.gravity,
-            outer_reach: 0.5 * g.pitch_diameter + 0.25 * g.radial_clearance,
-            inner_reach: 0.5 * g.pitch_diameter - 0.25 * g.radial_clearance,
+            outer_contact_radius: 0.5 * g.pitch_diameter + 0.25 * g.radial_clearance,
+            inner_contact_radius: 0.5 * g.pitch_diameter - 0.25 * g.radial_clearance,
             cage: bearing.ball.cage,
             ball_to_pitch: g.ball_diameter / g.pitch_diameter,
             spacing: spacing.collect(),
@@ -145,16 +150,16 @@ impl RadialElement {
 
     /// Forces at ball positions y \[m\] and velocities ẏ \[m/s\]: on d and h in the reaction (rows
     /// d_x d_y h_x h_y), on y in `force`; no tangents.
-    pub fn act(
+    pub fn forces(
         &self,
         rings: &Rings,
         [places, rates]: [&[f64]; 2],
         rotation: &Rotation,
         force: &mut [f64],
     ) -> Reaction {
-        let mut sum = Sum::default();
-        self.each(rings, rotation, |j, seen| {
-            let acting = self.ball(&seen, places[j], rates[j]);
+        let mut sum = RingForceSum::default();
+        self.for_each_ball(rings, rotation, |j, seen| {
+            let acting = self.ball_state(&seen, places[j], rates[j]);
             force[j] = acting.force;
             sum.add(&seen, &acting, rates[j], self.mass);
         });
@@ -163,8 +168,8 @@ impl RadialElement {
 
     /// Calls `visit` with every ball's number and its local ring and cage motion.
     #[inline(always)]
-    fn each(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(usize, Seen)) {
-        let passing = self.profile.as_ref().map(|profile| profile.at(rotation));
+    fn for_each_ball(&self, rings: &Rings, rotation: &Rotation, mut visit: impl FnMut(usize, LocalMotion)) {
+        let passing = self.profile.as_ref().map(|profile| profile.at_rotation(rotation));
         let (sin, cos) = rotation.cage_angle.sin_cos();
         for (j, [cj, sj]) in self.spacing.iter().enumerate() {
             let (c, s) = (cos * cj - sin * sj, sin * cj + cos * sj);
@@ -172,13 +177,13 @@ impl RadialElement {
             let deviation = passing.map_or(Deviation::default(), |passing| passing.ball(j));
             visit(
                 j,
-                Seen {
+                LocalMotion {
                     cos: c,
                     sin: s,
-                    shift: local(&rings.shift),
-                    frame: local(&rings.frame),
-                    shift_rate: local(&rings.shift_rate),
-                    frame_rate: local(&rings.frame_rate),
+                    relative_displacement: local(&rings.relative_displacement),
+                    housing_displacement: local(&rings.housing_displacement),
+                    relative_velocity: local(&rings.relative_velocity),
+                    housing_velocity: local(&rings.housing_velocity),
                     cage_speed: rotation.cage_speed,
                     weight: self.mass * local(&self.gravity)[0],
                     deviation: deviation.height,
@@ -191,7 +196,7 @@ impl RadialElement {
 
 /// Sum of ball forces on the rings, with energy and powers.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sum {
+struct RingForceSum {
     /// On d_x d_y h_x h_y.
     force: [f64; 4],
     energy: f64,
@@ -199,10 +204,10 @@ struct Sum {
     power: f64,
 }
 
-impl Sum {
+impl RingForceSum {
     /// Adds a ball with velocity ẏ.
-    fn add(&mut self, seen: &Seen, acting: &Acting, rate: f64, mass: f64) {
-        let [dr, dt, hr, ht] = acting.on_rings(seen, mass);
+    fn add(&mut self, seen: &LocalMotion, acting: &BallState, rate: f64, mass: f64) {
+        let [dr, dt, hr, ht] = acting.ring_forces(seen, mass);
         let (c, s) = (seen.cos, seen.sin);
         for (sum, f) in
             self.force.iter_mut().zip([dr * c - dt * s, dr * s + dt * c, hr * c - ht * s, hr * s + ht * c])
@@ -210,11 +215,12 @@ impl Sum {
             *sum += f;
         }
         let [inner, outer] = &acting.contacts;
-        let closing = inner.force * acting.closing[0] + outer.force * acting.closing[1];
-        let [v, h] = [seen.shift_rate, seen.frame_rate];
+        let closing = inner.force * acting.deformation_rate[0] + outer.force * acting.deformation_rate[1];
+        let [v, h] = [seen.relative_velocity, seen.housing_velocity];
         let work = dr * v[0] + dt * v[1] + hr * h[0] + ht * h[1] + acting.force * rate;
         self.energy += inner.energy + outer.energy;
-        self.dissipated += closing - inner.elastic * acting.closing[0] - outer.elastic * acting.closing[1];
+        self.dissipated +=
+            closing - inner.elastic * acting.deformation_rate[0] - outer.elastic * acting.deformation_rate[1];
         // Input power: power delivered to rings and balls beyond that of the contacts comes from the cage,
         // passing waves and gravity on the balls.
         self.power += work + closing;

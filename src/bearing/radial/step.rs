@@ -1,24 +1,24 @@
 //! Implicit time step: each ball's scalar equation solved inside the step (nested Newton, ball by ball).
 
-use super::ball::{Acting, Seen};
-use super::tangent::Y;
-use super::{RadialElement, Rings, Sum};
+use super::ball::{BallState, LocalMotion};
+use super::tangent::BALL_COORDINATE;
+use super::{RadialElement, RingForceSum, Rings};
 use crate::bearing::{Reaction, Rotation};
 
 /// Convergence of a ball's equation: force residual \[N\], or position increment \[m\].
-const FORCE: f64 = 1e-12;
-const PLACE: f64 = 1e-19;
+const FORCE_TOLERANCE: f64 = 1e-12;
+const POSITION_TOLERANCE: f64 = 1e-19;
 const MAX_ITERATIONS: usize = 200;
 
 /// Newmark coefficients of a step: positions x̄ + `place` a and velocities v̄ + `rate` a with accelerations a
 /// at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepGain {
+pub struct NewmarkGain {
     /// β h² \[s²\] and γ h \[s\].
-    pub place: f64,
-    pub rate: f64,
+    pub position: f64,
+    pub velocity: f64,
     /// Inverse effective mass of a ball, 1/m′ \[1/kg\].
-    pub ball: f64,
+    pub inverse_mass: f64,
 }
 
 impl RadialElement {
@@ -39,32 +39,32 @@ impl RadialElement {
         rings: &Rings,
         [places, rates]: [&mut [f64]; 2],
         rotation: &Rotation,
-        gain: &StepGain,
+        gain: &NewmarkGain,
         force: &mut [f64],
-        follow: &mut [[f64; 4]],
+        ball_force_tangent: &mut [[f64; 4]],
     ) -> Reaction {
-        let mut sum = Sum::default();
+        let mut sum = RingForceSum::default();
         let mut stiffness = [[0.0; 4]; 4];
-        let ratio = gain.rate / gain.place;
-        self.each(rings, rotation, |j, seen| {
+        let ratio = gain.velocity / gain.position;
+        self.for_each_ball(rings, rotation, |j, seen| {
             let (load, acting) = self.solve(&seen, [places[j], rates[j]], gain, force[j]);
             force[j] = load;
-            places[j] += gain.place * gain.ball * load;
-            rates[j] += gain.rate * gain.ball * load;
+            places[j] += gain.position * gain.inverse_mass * load;
+            rates[j] += gain.velocity * gain.inverse_mass * load;
             sum.add(&seen, &acting, rates[j], self.mass);
 
             let tangent = acting.tangent(&seen, self.mass);
             let both = |a: usize, b: usize| tangent.stiffness[a][b] + ratio * tangent.damping[a][b];
-            let own = 1.0 + gain.place * gain.ball * both(Y, Y);
+            let own = 1.0 + gain.position * gain.inverse_mass * both(BALL_COORDINATE, BALL_COORDINATE);
             let (c, s) = (seen.cos, seen.sin);
             let global = |v: [f64; 4]| {
                 [v[0] * c - v[1] * s, v[0] * s + v[1] * c, v[2] * c - v[3] * s, v[2] * s + v[3] * c]
             };
-            let taken: [f64; 4] = std::array::from_fn(|b| both(Y, b) / own);
-            follow[j] = global(taken);
+            let tangent_row: [f64; 4] = std::array::from_fn(|b| both(BALL_COORDINATE, b) / own);
+            ball_force_tangent[j] = global(tangent_row);
             let rows: [[f64; 4]; 4] = std::array::from_fn(|a| {
-                let back = gain.place * gain.ball * both(a, Y);
-                global(std::array::from_fn(|b| both(a, b) - back * taken[b]))
+                let back = gain.position * gain.inverse_mass * both(a, BALL_COORDINATE);
+                global(std::array::from_fn(|b| both(a, b) - back * tangent_row[b]))
             });
             for b in 0..4 {
                 for (row, value) in
@@ -83,20 +83,26 @@ impl RadialElement {
 
     /// Solution Q and the ball's state under it.
     #[inline(always)]
-    fn solve(&self, seen: &Seen, [place, rate]: [f64; 2], gain: &StepGain, guess: f64) -> (f64, Acting) {
-        let [by_place, by_rate] = [gain.place * gain.ball, gain.rate * gain.ball];
+    fn solve(
+        &self,
+        seen: &LocalMotion,
+        [place, rate]: [f64; 2],
+        gain: &NewmarkGain,
+        guess: f64,
+    ) -> (f64, BallState) {
+        let [by_place, by_rate] = [gain.position * gain.inverse_mass, gain.velocity * gain.inverse_mass];
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut load = guess;
-        let mut acting = self.ball(seen, place + by_place * load, rate + by_rate * load);
+        let mut acting = self.ball_state(seen, place + by_place * load, rate + by_rate * load);
         for _ in 0..MAX_ITERATIONS {
             let left = load - acting.force;
-            if left.abs() <= FORCE {
+            if left.abs() <= FORCE_TOLERANCE {
                 break;
             }
             let [inner, outer] = &acting.contacts;
             let n = acting.n[0] * acting.n[0];
             let slope = 1.0
-                + by_place * (inner.by_depth * n + outer.by_depth)
+                + by_place * (inner.by_deformation * n + outer.by_deformation)
                 + by_rate * (inner.by_rate * n + outer.by_rate);
             if left > 0.0 {
                 high = load;
@@ -113,8 +119,8 @@ impl RadialElement {
             }
             let moved = by_place * (next - load).abs();
             load = next;
-            acting = self.ball(seen, place + by_place * load, rate + by_rate * load);
-            if moved <= PLACE {
+            acting = self.ball_state(seen, place + by_place * load, rate + by_rate * load);
+            if moved <= POSITION_TOLERANCE {
                 break;
             }
         }

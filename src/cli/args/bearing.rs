@@ -23,7 +23,7 @@ pub struct BearingArgs {
     pub speed: Option<String>,
     /// DOFs constrained at the centred position, such as z,theta_x,theta_y
     #[arg(long, value_name = "MOTIONS", value_delimiter = ',')]
-    pub hold: Vec<String>,
+    pub constrain: Vec<String>,
     /// Quantity to sweep: load, displacement, speed or cage_angle, with a range or with its default range,
     /// such as load="0 N .. 2 kN" or speed; can be repeated
     #[arg(long, value_name = "NAME[=RANGE]")]
@@ -34,5 +34,5 @@ pub struct BearingArgs {
     pub along: Option<String>,
     /// Average over the cage angle instead of using the cage angle of the model
     #[arg(long)]
-    pub averaged: bool,
+    pub cage_average: bool,
 }

@@ -7,7 +7,7 @@ One TOML file describes the machine and the studies: static equilibrium, natural
 Campbell diagrams, critical speeds, FRFs, unbalance responses, nonlinear run-ups with one Hertz contact per ball, and \
 the spectrograms and order spectra of those run-ups.";
 
-pub const AFTER: &str = "\
+pub const AFTER_HELP: &str = "\
 Examples:
   rotordyn run models/overhung_rig.toml                        all studies of the file
   rotordyn check my_machine.toml                               validate and summarise the model

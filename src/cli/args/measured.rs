@@ -27,7 +27,7 @@ pub struct ShaftArgs {
     pub tacho: Option<String>,
     /// Tachometer pulses per revolution
     #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
-    pub pulses_per_turn: usize,
+    pub pulses_per_rev: usize,
     /// Remove the jitter of the tachometer pulses (always on in validate)
     #[arg(long, help_heading = "Shaft")]
     pub smooth_tacho: bool,

@@ -91,7 +91,7 @@ pub struct UpdateArgs {
     pub prior: Vec<(String, String)>,
     /// Residuals to fit, separated by commas
     #[arg(long, value_name = "WHAT", value_delimiter = ',', default_values = ["frequency", "mac"])]
-    pub fit: Vec<FitWord>,
+    pub fit: Vec<FitResidual>,
     /// Standard deviation of frequencies (model error) \[%\]
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1, value_parser = positive)]
     pub frequency_accuracy: f64,
@@ -108,7 +108,7 @@ pub struct UpdateArgs {
 
 /// Residual of a model update.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FitWord {
+pub enum FitResidual {
     /// Natural frequencies
     Frequency,
     /// Damping ratios

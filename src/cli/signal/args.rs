@@ -67,7 +67,7 @@ pub struct SignalArgs {
         help_heading = "Bearing",
         conflicts_with = "bearing"
     )]
-    pub rates: Vec<String>,
+    pub bearing_orders: Vec<String>,
     /// Demodulation band of the envelope: lines (highest bearing lines above the background), kurtosis (from
     /// the kurtogram), whole, or "500 Hz .. 5.5 kHz" [default: lines; without a bearing, kurtosis]
     #[arg(long, value_name = "BAND", help_heading = "Bearing")]
@@ -83,7 +83,7 @@ pub struct SignalArgs {
     pub race: String,
     /// Channel 90 deg from the first, from x to y, to locate defects over the full circumference
     #[arg(long, value_name = "CHANNEL", help_heading = "Bearing")]
-    pub beside: Option<String>,
+    pub quadrature_channel: Option<String>,
     /// Reference time at which a ball is at angle 0 of the race and that angle points along x
     #[arg(
         long,
@@ -92,7 +92,7 @@ pub struct SignalArgs {
         help_heading = "Bearing",
         allow_hyphen_values = true
     )]
-    pub datum: String,
+    pub reference_time: String,
 
     /// Frequency resolution of the PSD, such as "1 Hz" [default: about fifteen segments]
     #[arg(long, value_name = "FREQUENCY", help_heading = "Figures and files")]
@@ -102,10 +102,10 @@ pub struct SignalArgs {
     pub max_frequency: Option<String>,
     /// Second record whose envelope spectrum is compared with the first, such as measured and simulated
     #[arg(long, value_name = "FILE", help_heading = "Comparison with a second record")]
-    pub against: Option<PathBuf>,
+    pub compare_with: Option<PathBuf>,
     /// Channel of the second record [default: the first vibration channel]
     #[arg(long, value_name = "NAME", help_heading = "Comparison with a second record", requires = "against")]
-    pub against_channel: Option<String>,
+    pub compare_channel: Option<String>,
     /// Sampling rate of the second record, if its file does not state it
     #[arg(
         long,
@@ -113,10 +113,10 @@ pub struct SignalArgs {
         help_heading = "Comparison with a second record",
         requires = "against"
     )]
-    pub against_rate: Option<String>,
+    pub compare_rate: Option<String>,
     /// Unit of the second record, if its file does not state it
     #[arg(long, value_name = "UNIT", help_heading = "Comparison with a second record", requires = "against")]
-    pub against_unit: Option<String>,
+    pub compare_unit: Option<String>,
     /// Shaft speed of the second record [default: as stated in its file, else that of the first]
     #[arg(
         long,
@@ -124,7 +124,7 @@ pub struct SignalArgs {
         help_heading = "Comparison with a second record",
         requires = "against"
     )]
-    pub against_speed: Option<String>,
+    pub compare_speed: Option<String>,
     /// Time range of the second record, such as "0.5 s .."
     #[arg(
         long,
@@ -132,7 +132,7 @@ pub struct SignalArgs {
         help_heading = "Comparison with a second record",
         requires = "against"
     )]
-    pub against_time: Option<String>,
+    pub compare_time: Option<String>,
     /// Results folder [default: out/NAME, or the folder of the stored run]
     #[arg(long, value_name = "DIR", help_heading = "Figures and files")]
     pub out: Option<PathBuf>,

@@ -1,33 +1,33 @@
 //! Bearing of the diagnosis: from the catalogue, from a model, or by its defect frequencies (orders).
 
 use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
-use rotordyn::edge::hdf5::Store;
+use rotordyn::io::hdf5::Store;
 use rotordyn::model::catalogue;
 use rotordyn::names::nearest;
-use rotordyn::results::RatedBearing;
+use rotordyn::results::BearingWithOrders;
 
 use super::super::args::ModelArgs;
 use super::super::catalogue::geometry as catalogue_geometry;
 use super::super::failure::Failure;
-use super::super::machine::Origin;
+use super::super::machine::ModelSource;
 use super::super::store::stored_origin;
 use super::args::SignalArgs;
-use super::input::{File, Findings};
+use super::input::{File, InputProblems};
 
 /// The bearing given by the flags.
 pub fn find(
     args: &SignalArgs,
     file: &File,
-    findings: &mut Findings,
-) -> Result<Option<RatedBearing>, Failure> {
-    if !args.rates.is_empty() {
-        return Ok(of_rates(&args.rates, findings));
+    findings: &mut InputProblems,
+) -> Result<Option<BearingWithOrders>, Failure> {
+    if !args.bearing_orders.is_empty() {
+        return Ok(from_orders(&args.bearing_orders, findings));
     }
     let Some(name) = &args.bearing else { return Ok(None) };
     let origin = match &args.model {
         Some(model) => {
             let model = ModelArgs { model: model.clone(), variant: None, set: Vec::new() };
-            Some(Origin::read(&model)?)
+            Some(ModelSource::read(&model)?)
         }
         None if file.stored_run => stored_origin(&Store::open(&file.path)?).ok(),
         None => None,
@@ -54,11 +54,11 @@ pub fn find(
     Ok(None)
 }
 
-fn of_geometry(name: &str, source: String, g: &BallGeometry) -> RatedBearing {
-    RatedBearing {
+fn of_geometry(name: &str, source: String, g: &BallGeometry) -> BearingWithOrders {
+    BearingWithOrders {
         name: name.into(),
         source,
-        orders: g.orders(g.contact_angle),
+        orders: g.characteristic_orders(g.contact_angle),
         balls: g.balls,
         raceway_radii: Some(radii(g.pitch_diameter, g.ball_diameter, g.contact_angle)),
     }
@@ -71,7 +71,7 @@ fn radii(pitch: f64, ball: f64, angle: f64) -> [f64; 2] {
 
 /// Parses `FTF=..., BPFO=..., BPFI=..., BSF=...`; the number of balls is Z = BPFO + BPFI, missing FTF and BSF
 /// are computed for a contact angle of zero.
-fn of_rates(rates: &[String], findings: &mut Findings) -> Option<RatedBearing> {
+fn from_orders(rates: &[String], findings: &mut InputProblems) -> Option<BearingWithOrders> {
     const NAMES: [&str; 4] = ["FTF", "BPFO", "BPFI", "BSF"];
     let mut found: [Option<f64>; 4] = [None; 4];
     for text in rates {
@@ -108,7 +108,7 @@ fn of_rates(rates: &[String], findings: &mut Findings) -> Option<RatedBearing> {
         bsf: found[3].unwrap_or(0.5 / gamma * (1.0 - gamma * gamma)),
     };
     let balls = z as usize;
-    Some(RatedBearing {
+    Some(BearingWithOrders {
         name: format!("{balls} balls"),
         source: "rates given".into(),
         orders,

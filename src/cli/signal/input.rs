@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::edge::measured::run_up::is_clock;
-use rotordyn::edge::measured::{self, unit};
+use rotordyn::io::measured::run_up::is_rotation_signal;
+use rotordyn::io::measured::{self, unit_label};
 use rotordyn::names::nearest;
-use rotordyn::signal::record::{Measured, Points, Record, RecordError, Values};
+use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
 
@@ -14,25 +14,32 @@ use super::super::store;
 
 /// All errors of the flags and the file, and warnings.
 #[derive(Default)]
-pub struct Findings {
+pub struct InputProblems {
     pub problems: Vec<String>,
     pub warnings: Vec<String>,
 }
 
-impl Findings {
+impl InputProblems {
     pub fn problem(&mut self, text: impl Into<String>) {
         self.problems.push(text.into());
     }
 
     /// The value; an error is added to the problems.
-    pub fn keep<T, E: std::fmt::Display>(&mut self, what: &str, found: Result<T, E>) -> Option<T> {
+    pub fn value_or_problem<T, E: std::fmt::Display>(
+        &mut self,
+        what: &str,
+        found: Result<T, E>,
+    ) -> Option<T> {
         found.map_err(|error| self.problem(format!("{what}{error}"))).ok()
     }
 
     /// Parses a quantity of a flag.
     pub fn quantity(&mut self, flag: &str, text: &str, dimension: Dimension) -> Option<f64> {
         let found = units::parse(text, dimension);
-        self.keep("", found.map_err(|error| format!("{flag}: {error}; such as \"{}\"", dimension.example)))
+        self.value_or_problem(
+            "",
+            found.map_err(|error| format!("{flag}: {error}; such as \"{}\"", dimension.example)),
+        )
     }
 
     /// Parses a positive quantity of a flag.
@@ -74,7 +81,7 @@ impl Findings {
     }
 
     /// Returns all problems as one error.
-    pub fn settle(&self) -> Result<(), Failure> {
+    pub fn into_result(&self) -> Result<(), Failure> {
         match self.problems.as_slice() {
             [] => Ok(()),
             [one] => Err(Failure::Input(one.clone())),
@@ -88,7 +95,7 @@ pub struct File {
     pub path: PathBuf,
     /// File name without folder and extension; the folder name for a stored run.
     pub stem: String,
-    pub measured: Measured,
+    pub measured: MeasuredData,
     /// Whether it is a stored run of rotordyn; results then go to its folder.
     pub stored_run: bool,
 }
@@ -122,7 +129,7 @@ impl File {
     }
 
     /// The first vibration record: by unit, accelerations before velocities before displacements.
-    fn usual(&self, without: &[&str]) -> Option<&Record> {
+    fn default_record(&self, without: &[&str]) -> Option<&Record> {
         let rank = |r: &Record| match r.unit.as_str() {
             "m/s^2" => 0,
             "m/s" => 1,
@@ -130,31 +137,31 @@ impl File {
             "" | "1" | "V" => 3,
             _ => 4,
         };
-        let vibrates = |r: &&Record| !without.contains(&r.name.as_str()) && !is_clock(r);
+        let vibrates = |r: &&Record| !without.contains(&r.name.as_str()) && !is_rotation_signal(r);
         self.time_records().filter(vibrates).min_by_key(|r| rank(r))
     }
 }
 
 /// Selection of channels, and overrides of rate, unit and time range.
-pub struct Choice<'a> {
+pub struct ChannelSelection<'a> {
     pub names: &'a [String],
     /// Channels used otherwise (tacho, quadrature channel).
-    pub without: &'a [&'a str],
-    pub beside: Option<&'a str>,
+    pub excluded: &'a [&'a str],
+    pub quadrature: Option<&'a str>,
     pub rate: Option<&'a str>,
     pub unit: Option<&'a str>,
     pub time: Option<&'a str>,
     /// Flag prefix in messages, "--" or "--against-".
-    pub flag: &'a str,
+    pub flag_prefix: &'a str,
 }
 
 /// The selected channels.
-pub fn channels(file: &File, choice: &Choice, findings: &mut Findings) -> Vec<SignalChannel> {
+pub fn channels(file: &File, choice: &ChannelSelection, findings: &mut InputProblems) -> Vec<SignalChannel> {
     let chosen: Vec<&Record> = match choice.names {
         [] => {
-            let usual = file.usual(choice.without);
+            let usual = file.default_record(choice.excluded);
             if usual.is_none() {
-                let kinds: Vec<&str> = file.measured.records.iter().map(|r| r.kind.word()).take(6).collect();
+                let kinds: Vec<&str> = file.measured.records.iter().map(|r| r.kind.label()).take(6).collect();
                 findings.problem(format!(
                     "{} contains no time record ({})",
                     file.path.display(),
@@ -163,31 +170,32 @@ pub fn channels(file: &File, choice: &Choice, findings: &mut Findings) -> Vec<Si
             }
             usual.into_iter().collect()
         }
-        [all] if all == "all" => file.time_records().filter(|r| !is_clock(r)).collect(),
-        names => names.iter().filter_map(|name| findings.keep("", file.record(name))).collect(),
+        [all] if all == "all" => file.time_records().filter(|r| !is_rotation_signal(r)).collect(),
+        names => names.iter().filter_map(|name| findings.value_or_problem("", file.record(name))).collect(),
     };
-    let beside = choice.beside.and_then(|name| findings.keep("--beside: ", file.record(name)));
-    chosen.into_iter().filter_map(|record| channel(record, beside, choice, findings)).collect()
+    let quadrature =
+        choice.quadrature.and_then(|name| findings.value_or_problem("--beside: ", file.record(name)));
+    chosen.into_iter().filter_map(|record| channel(record, quadrature, choice, findings)).collect()
 }
 
 fn channel(
     record: &Record,
-    beside: Option<&Record>,
-    choice: &Choice,
-    findings: &mut Findings,
+    quadrature: Option<&Record>,
+    choice: &ChannelSelection,
+    findings: &mut InputProblems,
 ) -> Option<SignalChannel> {
     let sample_rate = rate(record, choice, findings);
-    let samples = findings.keep("", record.time_samples());
+    let samples = findings.value_or_problem("", record.time_samples());
     let (sample_rate, samples) = (sample_rate?, samples?);
     let start = match record.axis.points {
-        Points::Even { start, .. } => start,
+        Points::Uniform { start, .. } => start,
         _ => 0.0,
     };
     let range = match choice.time {
         Some(text) => {
             let end = start + samples.len() as f64 / sample_rate;
-            let flag = format!("{}time", choice.flag);
-            stretch(findings.range(&flag, text, TIME, [start, end])?, start, sample_rate, samples.len())
+            let flag = format!("{}time", choice.flag_prefix);
+            sample_range(findings.range(&flag, text, TIME, [start, end])?, start, sample_rate, samples.len())
         }
         None => 0..samples.len(),
     };
@@ -202,17 +210,17 @@ fn channel(
     let mut values = samples[range.clone()].to_vec();
     if let Some(index) = values.iter().position(|v| !v.is_finite()) {
         let error = RecordError::NotFinite { channel: record.name.clone(), index: range.start + index };
-        findings.problem(format!("{error}, such as with {}time", choice.flag));
+        findings.problem(format!("{error}, such as with {}time", choice.flag_prefix));
         return None;
     }
     let mut unit_name = record.unit.clone();
     if let Some(label) = choice.unit {
-        match unit::si(label) {
+        match unit_label::si(label) {
             None => findings
                 .problem(format!("--unit {label}: unknown unit; expected such as g, \"m/s^2\", \"mm/s\"")),
             Some(_) if !unit_name.is_empty() => findings.warnings.push(format!(
                 "the file states the unit {1} for `{0}`: --unit {label} is ignored",
-                record.name, record.stated_unit
+                record.name, record.file_unit
             )),
             Some(si) => {
                 let mut scaled = Values::Real(values);
@@ -223,9 +231,9 @@ fn channel(
             }
         }
     }
-    let beside = beside.and_then(|other| {
+    let quadrature = quadrature.and_then(|other| {
         let same = other.axis == record.axis && other.values.len() == record.values.len();
-        let given = findings.keep("--beside: ", other.time_samples())?;
+        let given = findings.value_or_problem("--beside: ", other.time_samples())?;
         if !same {
             findings.problem(RecordError::axes_differ(record, other).to_string());
             return None;
@@ -239,16 +247,21 @@ fn channel(
         sample_rate,
         start,
         samples: values,
-        beside,
+        orthogonal: quadrature,
     })
 }
 
 /// Cuts a channel to a time range.
-pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings: &mut Findings) {
+pub fn cut_time_range(
+    channel: &mut SignalChannel,
+    time: Option<&str>,
+    flag: &str,
+    findings: &mut InputProblems,
+) {
     let (rate, start, samples) = (channel.sample_rate, channel.start, channel.samples.len());
     let whole = [start, start + samples as f64 / rate];
     let Some(ends) = time.and_then(|text| findings.range(flag, text, TIME, whole)) else { return };
-    let range = stretch(ends, start, rate, samples);
+    let range = sample_range(ends, start, rate, samples);
     if range.len() < 2 {
         findings.problem(format!(
             "`{}` has {} samples in that range; at least 2 needed",
@@ -262,7 +275,7 @@ pub fn cut(channel: &mut SignalChannel, time: Option<&str>, flag: &str, findings
 }
 
 /// Sample range between two times.
-fn stretch([from, to]: [f64; 2], start: f64, rate: f64, samples: usize) -> std::ops::Range<usize> {
+fn sample_range([from, to]: [f64; 2], start: f64, rate: f64, samples: usize) -> std::ops::Range<usize> {
     // A time on a sample, within rounding, includes that sample.
     let at = |t: f64| ((t - start) * rate - 1e-6).ceil().clamp(0.0, samples as f64) as usize;
     let (a, b) = (at(from), at(to));
@@ -270,8 +283,8 @@ fn stretch([from, to]: [f64; 2], start: f64, rate: f64, samples: usize) -> std::
 }
 
 /// Sampling rate \[Hz\]: from the flag, else from the file.
-fn rate(record: &Record, choice: &Choice, findings: &mut Findings) -> Option<f64> {
-    let flag = format!("{}rate", choice.flag);
+fn rate(record: &Record, choice: &ChannelSelection, findings: &mut InputProblems) -> Option<f64> {
+    let flag = format!("{}rate", choice.flag_prefix);
     let given = match choice.rate {
         Some(text) => Some(findings.positive(&flag, text, FREQUENCY)?),
         None => None,

@@ -6,7 +6,7 @@ use rotordyn::signal::diagnosis::BandRule;
 use rotordyn::signal::ridge::find_peaks;
 
 use super::super::terminal::{Terminal, number};
-use super::tables::{MOST, band, level};
+use super::tables::{MAX_LINES, band, level};
 
 /// Demodulation band, bearing lines in the envelope spectrum, and diagnosis.
 pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
@@ -16,16 +16,19 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         BandRule::Kurtosis => "maximum of the kurtogram",
         BandRule::Lines => "highest bearing lines above the background",
     };
-    let place = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
+    let title_suffix = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
     let Some(found) = &envelope.lines else {
         let unit = if envelope.over_orders { "order" } else { "Hz" };
         let mut highest =
             find_peaks(&envelope.spectrum.frequencies, &envelope.spectrum.values, 0.0).unwrap_or_default();
         highest.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-        let rows: Vec<Vec<String>> =
-            highest.iter().take(MOST).map(|p| vec![number(p.position, 5), number(p.amplitude, 4)]).collect();
-        terminal.table(&format!("Highest lines, {place}"), &[unit, &level("peak", result)], &rows);
-        terminal.say("  no bearing diagnosis: give the bearing with --bearing, or its orders with --rates");
+        let rows: Vec<Vec<String>> = highest
+            .iter()
+            .take(MAX_LINES)
+            .map(|p| vec![number(p.position, 5), number(p.amplitude, 4)])
+            .collect();
+        terminal.table(&format!("Highest lines, {title_suffix}"), &[unit, &level("peak", result)], &rows);
+        terminal.print("  no bearing diagnosis: give the bearing with --bearing, or its orders with --rates");
         return;
     };
     let unit = if envelope.over_orders { "order" } else { "Hz" };
@@ -35,26 +38,26 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         .flat_map(|family| {
             let harmonic = |n: usize| family.lines.iter().find(|l| l.harmonic == n && l.modulation.is_none());
             // The first harmonic of every part, three of detected parts.
-            (1..=if family.found { 3 } else { 1 }).filter_map(harmonic)
+            (1..=if family.detected { 3 } else { 1 }).filter_map(harmonic)
         })
         .map(row)
         .collect();
     let [expected, at] = ["expected", "measured"].map(|name| format!("{name} {unit}"));
     let amplitude = level("peak", result);
     let header = ["line", &expected, &at, "deviation %", &amplitude, "above background dB", ""];
-    terminal.table(&format!("Bearing lines, {place}"), &header, &rows);
+    terminal.table(&format!("Bearing lines, {title_suffix}"), &header, &rows);
     let bands: Vec<Vec<String>> = found
-        .verdict
+        .diagnosis
         .map(|part| found.family(part))
         .into_iter()
         .flat_map(|family| family.lines.iter().filter(|l| l.modulation.is_some() && l.significant))
-        .take(MOST)
+        .take(MAX_LINES)
         .map(row)
         .collect();
     if !bands.is_empty() {
         terminal.table("Sidebands", &header, &bands);
     }
-    verdict(terminal, result, found);
+    print_diagnosis(terminal, result, found);
 }
 
 fn row(line: &BearingLine) -> Vec<String> {
@@ -81,10 +84,10 @@ fn row(line: &BearingLine) -> Vec<String> {
     ]
 }
 
-fn verdict(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
-    let name = found.verdict_name();
+fn print_diagnosis(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
+    let name = found.diagnosis_name();
     terminal.heading(&match found.strongest_line() {
-        Some(line) if found.verdict.is_some() => {
+        Some(line) if found.diagnosis.is_some() => {
             format!(
                 "Bearing diagnosis of {}: {name} ({:.1} dB above background at {})",
                 result.channel,

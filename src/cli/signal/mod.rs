@@ -1,24 +1,24 @@
 //! `signal`: signal analysis of a measured or simulated record and bearing diagnosis.
 
-mod against;
 pub mod args;
 mod bearing;
+mod compare_records;
 pub mod input;
 mod line_tables;
 mod settings;
-pub mod shaft;
+pub mod shaft_source;
 mod tables;
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use rotordyn::edge::figures;
-use rotordyn::edge::hdf5::Store;
-use rotordyn::edge::json::signal_to_json;
-use rotordyn::edge::results_file::{self, SignalMeta};
 use rotordyn::error::Error;
-use rotordyn::results::{RatedBearing, SignalResult};
+use rotordyn::figures;
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::json::signal_to_json;
+use rotordyn::io::results_file::{self, SignalMeta};
+use rotordyn::results::{BearingWithOrders, SignalResult};
 use rotordyn::signal::SignalError;
 use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
 use rotordyn::units::SPEED;
@@ -26,10 +26,10 @@ use serde_json::json;
 
 use super::failure::Failure;
 use super::terminal::Terminal;
-use super::{Outcome, written};
+use super::{Outcome, print_written_files};
 use args::SignalArgs;
-use input::{Choice, File, Findings};
-use shaft::Shaft;
+use input::{ChannelSelection, File, InputProblems};
+use shaft_source::ShaftSource;
 
 /// Name of the results file.
 const RESULTS: &str = "signal.h5";
@@ -37,69 +37,70 @@ const RESULTS: &str = "signal.h5";
 pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let file = File::read(&args.file)?;
-    let mut findings = Findings::default();
-    let without: Vec<&str> = args.shaft.tacho.as_deref().into_iter().chain(args.beside.as_deref()).collect();
-    let choice = Choice {
+    let mut findings = InputProblems::default();
+    let without: Vec<&str> =
+        args.shaft.tacho.as_deref().into_iter().chain(args.quadrature_channel.as_deref()).collect();
+    let choice = ChannelSelection {
         names: &args.channel,
-        without: &without,
-        beside: args.beside.as_deref(),
+        excluded: &without,
+        quadrature: args.quadrature_channel.as_deref(),
         rate: args.rate.as_deref(),
         unit: args.unit.as_deref(),
         time: args.time.as_deref(),
-        flag: "--",
+        flag_prefix: "--",
     };
     let channels = input::channels(&file, &choice, &mut findings);
     let shaft = match &args.speed {
         Some(text) => findings
             .positive("--speed", text, SPEED)
-            .map_or(Shaft::Unknown, |speed| Shaft::Steady(speed / TAU, "as given".into())),
-        None => Shaft::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
+            .map_or(ShaftSource::Unknown, |speed| ShaftSource::Steady(speed / TAU, "as given".into())),
+        None => ShaftSource::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
     };
     let rated = bearing::find(args, &file, &mut findings)?;
-    let settings = settings::of(args, rated.is_some(), &mut findings);
+    let settings = settings::from_flags(args, rated.is_some(), &mut findings);
     if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {
         findings.problem(
             "bearing defect frequencies need the shaft speed, which the file does not state; give --speed \"1797 rpm\", \
              --tacho CHANNEL or --track 1=\"5 Hz .. 50 Hz\"",
         );
     }
-    findings.settle()?;
+    findings.into_result()?;
 
     let spinner = terminal.spinner("signal");
     let results: Result<Vec<SignalResult>, Failure> =
-        channels.iter().map(|channel| look(channel, &shaft, rated.as_ref(), &settings)).collect();
+        channels.iter().map(|channel| analyse_channel(channel, &shaft, rated.as_ref(), &settings)).collect();
     let results = results?;
     let other = match results.first() {
-        Some(first) => against::find(args, first, &settings, &mut findings.warnings)?,
+        Some(first) => compare_records::second_record(args, first, &settings, &mut findings.warnings)?,
         None => None,
     };
     spinner.finish_and_clear();
     let names: Vec<&str> = channels.iter().map(|c| c.name.as_str()).collect();
     tables::channels(terminal, &file, &names);
     if let Some(first) = results.first() {
-        tables::known(terminal, first);
+        tables::shaft_and_bearing(terminal, first);
     }
     tables::statistics(terminal, &results);
     results.iter().for_each(|result| tables::channel(terminal, result));
     if let Some((other, title)) = &other {
         terminal.heading(&format!("Second record: {title}"));
-        tables::known(terminal, other);
+        tables::shaft_and_bearing(terminal, other);
         tables::channel(terminal, other);
     }
 
     let folder = folder(args, &file);
     let files = write(args, &file, &results, other.as_ref(), &folder, terminal)?;
     let seconds = start.elapsed().as_secs_f64();
-    written(terminal, &folder, &files);
+    print_written_files(terminal, &folder, &files);
     if files.len() > 1 {
-        terminal.say("  (figures are written as SVG and PNG)");
+        terminal.print("  (figures are written as SVG and PNG)");
     }
     let mut warnings = file.measured.notes.clone();
     // A rate given by a flag is no longer missing.
     warnings.retain(|note| args.rate.is_none() || !note.starts_with("no sampling rate"));
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
-    warnings.iter().for_each(|text| terminal.complain("warning", text));
+    warnings.iter().for_each(|text| terminal.print_diagnostic("warning", text));
 
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");
@@ -111,10 +112,10 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
 }
 
 /// The analyses of one channel.
-fn look(
+fn analyse_channel(
     channel: &SignalChannel,
-    shaft: &Shaft,
-    bearing: Option<&RatedBearing>,
+    shaft: &ShaftSource,
+    bearing: Option<&BearingWithOrders>,
     settings: &SignalSettings,
 ) -> Result<SignalResult, Failure> {
     let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
@@ -163,7 +164,10 @@ fn write(
         let spinner = terminal.spinner("figures");
         files.extend(figures::draw_signal(results, &file.stem, folder)?);
         if let (Some(first), Some((other, other_title))) = (results.first(), other) {
-            files.extend(figures::draw_against([(first, &file.stem), (other, other_title)], folder)?);
+            files.extend(figures::draw_envelope_comparison(
+                [(first, &file.stem), (other, other_title)],
+                folder,
+            )?);
         }
         spinner.finish_and_clear();
     }

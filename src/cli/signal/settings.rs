@@ -3,19 +3,21 @@
 use rotordyn::names::nearest;
 use rotordyn::signal::bearing_lines::LineSettings;
 use rotordyn::signal::diagnosis::BandRule;
-use rotordyn::study::signal::{Analysis, Race, SignalSettings, Wanted};
+use rotordyn::study::signal::{Analysis, AnalysisSelection, Race, SignalSettings};
 use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
 
 use super::args::SignalArgs;
-use super::input::Findings;
+use super::input::InputProblems;
 
 /// Settings from the flags; `bearing` is whether a bearing is known.
-pub fn of(args: &SignalArgs, bearing: bool, findings: &mut Findings) -> SignalSettings {
-    let usual = SignalSettings::default();
-    let frequency = |findings: &mut Findings, flag: &str, text: &Option<String>| {
+pub fn from_flags(args: &SignalArgs, bearing: bool, findings: &mut InputProblems) -> SignalSettings {
+    let defaults = SignalSettings::default();
+    let frequency = |findings: &mut InputProblems, flag: &str, text: &Option<String>| {
         text.as_ref().and_then(|text| findings.positive(flag, text, FREQUENCY))
     };
-    let slip = findings.keep("--slip: ", units::parse(&args.slip, NUMBER)).unwrap_or(usual.lines.slip);
+    let slip = findings
+        .value_or_problem("--slip: ", units::parse(&args.slip, NUMBER))
+        .unwrap_or(defaults.lines.slip);
     let race = match args.race.to_lowercase().as_str() {
         "outer" => Race::Outer,
         "inner" => Race::Inner,
@@ -31,16 +33,16 @@ pub fn of(args: &SignalArgs, bearing: bool, findings: &mut Findings) -> SignalSe
         max_frequency: frequency(findings, "--max-frequency", &args.max_frequency),
         order_resolution: args.order_resolution,
         max_order: args.max_order,
-        lines: LineSettings { slip, harmonics: args.harmonics, ..usual.lines },
+        lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
         race,
-        datum: findings.quantity("--datum", &args.datum, TIME).unwrap_or(0.0),
+        datum: findings.quantity("--datum", &args.reference_time, TIME).unwrap_or(0.0),
     }
 }
 
-fn analyses(words: &[String], findings: &mut Findings) -> Wanted {
+fn analyses(words: &[String], findings: &mut InputProblems) -> AnalysisSelection {
     match words {
-        [] => return Wanted::Usual,
-        [all] if all == "all" => return Wanted::All,
+        [] => return AnalysisSelection::Suitable,
+        [all] if all == "all" => return AnalysisSelection::All,
         _ => {}
     }
     let known = || Analysis::ALL.iter().map(|(_, word)| *word);
@@ -58,10 +60,10 @@ fn analyses(words: &[String], findings: &mut Findings) -> Wanted {
             }
         }
     }
-    Wanted::These(wanted)
+    AnalysisSelection::Only(wanted)
 }
 
-fn band(text: &str, bearing: bool, findings: &mut Findings) -> Option<BandRule> {
+fn band(text: &str, bearing: bool, findings: &mut InputProblems) -> Option<BandRule> {
     match text.trim() {
         "lines" if !bearing => {
             findings.problem(

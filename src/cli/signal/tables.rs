@@ -1,6 +1,6 @@
 //! Tables of the signal analyses.
 
-use rotordyn::edge::measured::run_up::is_clock;
+use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
@@ -12,27 +12,27 @@ use super::input::File;
 use super::line_tables;
 
 /// Largest number of rows of a list of lines.
-pub const MOST: usize = 8;
+pub const MAX_LINES: usize = 8;
 /// Largest number of rows of the channel list.
-const CHANNELS: usize = 24;
+const MAX_CHANNELS: usize = 24;
 
 /// Channels of a file.
 pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
     let records = &file.measured.records;
     let rows: Vec<Vec<String>> = records
         .iter()
-        .take(CHANNELS)
+        .take(MAX_CHANNELS)
         .map(|r| {
             let rate = r.sample_rate().map_or("-".into(), |rate| number(rate, 6));
-            let unit = if r.unit.is_empty() { &r.stated_unit } else { &r.unit };
+            let unit = if r.unit.is_empty() { &r.file_unit } else { &r.unit };
             let role = match chosen.contains(&r.name.as_str()) {
                 true => "analysed",
-                false if is_clock(r) => "shaft",
+                false if is_rotation_signal(r) => "shaft",
                 false => "",
             };
             vec![
                 r.name.clone(),
-                r.kind.word().into(),
+                r.kind.label().into(),
                 r.values.len().to_string(),
                 rate,
                 if unit.is_empty() { "-".into() } else { unit.clone() },
@@ -40,7 +40,7 @@ pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
             ]
         })
         .collect();
-    let more = match records.len().saturating_sub(CHANNELS) {
+    let more = match records.len().saturating_sub(MAX_CHANNELS) {
         0 => String::new(),
         n => format!(" (and {n} more)"),
     };
@@ -49,18 +49,18 @@ pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
 }
 
 /// Shaft speed and bearing defect frequencies.
-pub fn known(terminal: &Terminal, result: &SignalResult) {
+pub fn shaft_and_bearing(terminal: &Terminal, result: &SignalResult) {
     if let Some(s) = &result.shaft {
         let rpm = |rev: f64| number(60.0 * rev, 6);
         let speed = match s.steady {
             true => format!("{} rpm ({} Hz)", rpm(s.mean), number(s.mean, 6)),
-            false => format!("{} to {} rpm, mean {}", rpm(s.least), rpm(s.most), rpm(s.mean)),
+            false => format!("{} to {} rpm, mean {}", rpm(s.min), rpm(s.max), rpm(s.mean)),
         };
-        terminal.say(&format!("\nShaft: {speed}, {}", s.source));
+        terminal.print(&format!("\nShaft: {speed}, {}", s.source));
     }
     if let Some(b) = &result.bearing {
         let o = &b.orders;
-        terminal.say(&format!(
+        terminal.print(&format!(
             "Bearing {} ({}): FTF {:.4}, BPFO {:.4}, BPFI {:.4}, BSF {:.4} per revolution",
             b.name, b.source, o.ftf, o.bpfo, o.bpfi, o.bsf
         ));
@@ -103,7 +103,7 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
             best.map_or((0.0, 0.0), |k| (s.frequencies[k], s.values[k]))
         };
         let (at, most) = top(&k.spectral);
-        terminal.say(&format!(
+        terminal.print(&format!(
             "\nKurtogram of {}: maximum {value:.2} in {}; maximum spectral kurtosis {most:.2} at {} Hz",
             result.channel,
             band((low, high)),
@@ -114,10 +114,10 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
         cuts(terminal, result, orders);
     }
     if let Some(average) = &result.average {
-        turn(terminal, result, average);
+        synchronous_average(terminal, result, average);
     }
     if let Some(jerk) = &result.jerk {
-        jumps(terminal, result, jerk);
+        jerk_jumps(terminal, result, jerk);
     }
     if let Some(found) = &result.cyclic {
         cyclic(terminal, result, found);
@@ -134,7 +134,7 @@ fn peaks(terminal: &Terminal, result: &SignalResult, spectrum: &Spectrum) {
     let steady = result.shaft.as_ref().filter(|s| s.steady);
     let rows: Vec<Vec<String>> = found
         .iter()
-        .take(MOST)
+        .take(MAX_LINES)
         .map(|p| {
             let order = steady.map_or("-".into(), |s| format!("{:.3}", p.position / s.mean));
             vec![number(p.position, 6), order, number(p.amplitude, 4)]
@@ -178,10 +178,10 @@ fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {
     );
 }
 
-fn turn(terminal: &Terminal, result: &SignalResult, found: &ShaftAverage) {
+fn synchronous_average(terminal: &Terminal, result: &SignalResult, found: &ShaftAverage) {
     let [all, periodic, rest] = found.rms;
     let share = if all > 0.0 { 100.0 * (periodic / all).powi(2) } else { 0.0 };
-    terminal.say(&format!(
+    terminal.print(&format!(
         "\nTime synchronous average of {} over {} revolutions: RMS {} of {} ({share:.1} % of the power is synchronous), \
          residual {}",
         result.channel,
@@ -192,8 +192,8 @@ fn turn(terminal: &Terminal, result: &SignalResult, found: &ShaftAverage) {
     ));
 }
 
-fn jumps(terminal: &Terminal, result: &SignalResult, found: &JerkResult) {
-    terminal.say(&format!("\nJerk of {}: {} jumps in the record", result.channel, found.jumps.len()));
+fn jerk_jumps(terminal: &Terminal, result: &SignalResult, found: &JerkResult) {
+    terminal.print(&format!("\nJerk of {}: {} jumps in the record", result.channel, found.jumps.len()));
     if let Some(race) = &found.race {
         defects(terminal, race);
     }
@@ -220,8 +220,8 @@ fn defects(terminal: &Terminal, race: &RaceResult) {
     let title = format!("Defects of the {} from jumps of the jerk", race.race);
     let header = ["kind", "start deg", "width deg", "width um", "entry jump", "exit jump"];
     terminal.table(&title, &header, &rows);
-    if !race.all_round {
-        terminal.say(
+    if !race.full_circumference {
+        terminal.print(
             "  angles are modulo one ball spacing; --beside gives the channel at 90 deg that resolves them",
         );
     }

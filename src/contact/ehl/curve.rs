@@ -1,6 +1,6 @@
 //! EHL contact law at one speed, interpolated over the load.
 
-use crate::contact::Loaded;
+use crate::contact::ContactLoad;
 use crate::linalg::pchip::Pchip;
 
 /// Load and approach of a lubricated contact at one speed: δ = D − s(Q), Q = K D^{3/2}.
@@ -91,7 +91,7 @@ impl Curve {
         // The two outermost knots on either side belong to the power law and are added again by `new`.
         let knots = &first.knots[2..first.knots.len() - 2];
         let sum = |of: fn(&Film) -> &Pchip| -> Vec<f64> {
-            let value = |film: &Film, knot: f64| of(film).at(knot)[0].exp();
+            let value = |film: &Film, knot: f64| of(film).evaluate(knot)[0].exp();
             knots
                 .iter()
                 .map(|&t| (value(first, t) + second.map_or(0.0, |film| value(film, t))).ln())
@@ -110,21 +110,21 @@ impl Curve {
 
     /// Central film h_c \[m\] under a load Q > 0 \[N\]; 0 when dry.
     pub fn central_film(&self, load: f64) -> f64 {
-        self.film.as_ref().map_or(0.0, |film| film.central.at(load.max(Self::THRESHOLD).ln())[0].exp())
+        self.film.as_ref().map_or(0.0, |film| film.central.evaluate(load.max(Self::THRESHOLD).ln())[0].exp())
     }
 
     /// Film thickness s(0) at zero load \[m\]: no load for δ ≤ −s(0).
-    pub fn reach(&self) -> f64 {
+    pub fn zero_load_film(&self) -> f64 {
         self.shift(0.0)[0]
     }
 
     /// Load, slope and energy at the approach δ \[m\].
     ///
     /// Newton's method in D, bracketed; dQ/dδ = (3/2) K √D/(1 − ds/dD), ∫Q dδ = (2/5) K D^{5/2} − ∫Q ds.
-    pub fn load(&self, approach: f64) -> Loaded {
-        let reach = self.reach();
+    pub fn load(&self, approach: f64) -> ContactLoad {
+        let reach = self.zero_load_film();
         if approach <= -reach {
-            return Loaded::default();
+            return ContactLoad::default();
         }
         // δ(0) = −s(0) < δ, and s ≤ s(0) where s decreases with load.
         let (mut low, mut high) = (0.0, approach + reach);
@@ -149,7 +149,7 @@ impl Curve {
         }
         let root = self.stiffness * deformation.sqrt();
         let load = root * deformation;
-        Loaded {
+        ContactLoad {
             load,
             slope: 1.5 * root / (1.0 - slope),
             energy: 0.4 * load * deformation - self.work(deformation, load),
@@ -182,7 +182,7 @@ impl Curve {
 impl Film {
     /// s and d ln s/d ln Q at ln Q.
     fn shift_at(&self, log_load: f64) -> [f64; 2] {
-        let [value, slope, _] = self.shift.at(log_load);
+        let [value, slope, _] = self.shift.evaluate(log_load);
         [value.exp(), slope]
     }
 

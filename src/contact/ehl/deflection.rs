@@ -13,7 +13,7 @@ use super::scaled::Scaled;
 use crate::linalg::fft_length;
 
 /// Columns on either side kept in real space, for the preconditioner.
-pub(super) const NEAR: usize = 2;
+pub(super) const PRECONDITIONER_COLUMNS: usize = 2;
 
 /// The operator from pressure P to deflection, both on the half domain, index i·ny + j.
 pub(super) struct Deflection {
@@ -46,7 +46,7 @@ impl Deflection {
         let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
         let frequencies = padded / 2 + 1;
         let kernels: Vec<Vec<f64>> = (0..nx).map(kernel).collect();
-        let near = kernels.iter().take(NEAR + 1).flatten().copied().collect();
+        let near = kernels.iter().take(PRECONDITIONER_COLUMNS + 1).flatten().copied().collect();
         let mut spectra = vec![0.0; frequencies * ny * ny];
         let mut line = vec![0.0; padded];
         let mut spectrum = forward.make_output_vec();

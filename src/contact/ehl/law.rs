@@ -1,7 +1,7 @@
 //! EHL film as the contact law of a ball.
 
 use super::{Curve, Table, TableSpec, geometric};
-use crate::contact::{EllipticContact, FilmFormula, HertzPair, Loaded, Lubricant, Race};
+use crate::contact::{ContactLoad, EllipticContact, FilmFormula, HertzPair, Lubricant, Race};
 use std::sync::Arc;
 
 /// EHL contact law of a ball: specification of the film tables, and the tables once computed.
@@ -29,7 +29,7 @@ pub struct EhlPair {
     inner: Curve,
     outer: Curve,
     /// h_min/h_c of Hamrock and Dowson, inner and outer, at Q = 1 N: proportional to Q^−0.006.
-    least: [f64; 2],
+    minimum_film_ratio: [f64; 2],
 }
 
 impl EhlLaw {
@@ -57,7 +57,7 @@ impl EhlLaw {
             series: inner.in_series(&outer),
             inner,
             outer,
-            least: [least(&hertz.inner), least(&hertz.outer)],
+            minimum_film_ratio: [least(&hertz.inner), least(&hertz.outer)],
         }
     }
 }
@@ -65,12 +65,12 @@ impl EhlLaw {
 impl EhlPair {
     fn of(&self, race: Race) -> (&Curve, f64) {
         match race {
-            Race::Inner => (&self.inner, self.least[0]),
-            Race::Outer => (&self.outer, self.least[1]),
+            Race::Inner => (&self.inner, self.minimum_film_ratio[0]),
+            Race::Outer => (&self.outer, self.minimum_film_ratio[1]),
         }
     }
 
-    pub(in crate::contact) fn single(&self, race: Race, approach: f64) -> Loaded {
+    pub(in crate::contact) fn single(&self, race: Race, approach: f64) -> ContactLoad {
         self.of(race).0.load(approach)
     }
 

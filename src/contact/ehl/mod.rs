@@ -15,7 +15,7 @@
 
 mod curve;
 mod deflection;
-mod guess;
+mod initial_guess;
 mod law;
 mod newton;
 mod reynolds;
@@ -66,7 +66,7 @@ pub struct Domain {
 
 /// Errors of the EHL solver.
 #[derive(Clone, Debug, thiserror::Error)]
-pub enum Failure {
+pub enum EhlError {
     #[error("{quantity} of a lubricated contact must be {range}, not {value}")]
     Input { quantity: &'static str, range: &'static str, value: f64 },
     #[error(
@@ -87,10 +87,10 @@ pub enum Failure {
 }
 
 /// Coarsest nested grid: nodes along rolling, and rows of the half domain.
-const COARSEST: [usize; 2] = [25, 7];
+const COARSEST_GRID: [usize; 2] = [25, 7];
 
 /// Smallest length in semi-axes that [`Grid::flooded`] resolves, to limit the grid size.
-const THINNEST: f64 = 0.08;
+const MIN_RESOLVED_LENGTH: f64 = 0.08;
 
 /// Solves the EHL film on nested grids from coarse to fine.
 ///
@@ -104,28 +104,28 @@ const THINNEST: f64 = 0.08;
 /// [`Failure::Input`] for invalid input values; [`Failure::NoConvergence`] with the last fields.
 ///
 /// Validity: fully flooded inlet, Newtonian fluid, isothermal, half-spaces. Source: Venner & Lubrecht 2000.
-pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
-    let found = nested(problem, start)?;
-    if found.minimum_film > 0.0 { Ok(found) } else { Err(Failure::new(problem, found)) }
+pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, EhlError> {
+    let found = solve_nested_grids(problem, start)?;
+    if found.minimum_film > 0.0 { Ok(found) } else { Err(EhlError::new(problem, found)) }
 }
 
 /// As [`solve`], but accepts a negative film at the edges of the ellipse, as occurs on too coarse grids.
-fn nested(problem: &Problem, start: Option<&Solution>) -> Result<Solution, Failure> {
+fn solve_nested_grids(problem: &Problem, start: Option<&Solution>) -> Result<Solution, EhlError> {
     problem.check()?;
-    if let Some(found) = start.and_then(|near| attempt(problem, &problem.grid, Some(near)).ok()) {
+    if let Some(found) = start.and_then(|near| solve_on_grid(problem, &problem.grid, Some(near)).ok()) {
         return Ok(found);
     }
     let mut coarse = Vec::new();
     let mut grid = problem.grid.coarser();
-    while grid.nx >= COARSEST[0] && grid.rows() >= COARSEST[1] {
+    while grid.nx >= COARSEST_GRID[0] && grid.rows() >= COARSEST_GRID[1] {
         coarse.push(grid);
         grid = grid.coarser();
     }
     let near = coarse
         .iter()
         .rev()
-        .fold(None, |near: Option<Solution>, grid| attempt(problem, grid, near.as_ref()).ok());
-    attempt(problem, &problem.grid, near.as_ref())
+        .fold(None, |near: Option<Solution>, grid| solve_on_grid(problem, grid, near.as_ref()).ok());
+    solve_on_grid(problem, &problem.grid, near.as_ref())
 }
 
 /// Scalar results extrapolated to zero mesh width (Richardson), and the fields on the fine grid.
@@ -158,11 +158,11 @@ impl Extrapolated {
 ///
 /// # Errors
 /// As [`solve`], except that only the central film must be positive.
-pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, Failure> {
-    let coarse = nested(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
-    let fine = nested(problem, coarse.as_ref().or(start))?;
+pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, EhlError> {
+    let coarse = solve_nested_grids(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
+    let fine = solve_nested_grids(problem, coarse.as_ref().or(start))?;
     if fine.central_film <= 0.0 {
-        return Err(Failure::new(problem, fine));
+        return Err(EhlError::new(problem, fine));
     }
     let limit = |figure: fn(&Solution) -> f64| {
         let f = figure(&fine);
@@ -176,11 +176,11 @@ pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrap
     })
 }
 
-fn attempt(problem: &Problem, grid: &Grid, near: Option<&Solution>) -> Result<Solution, Failure> {
+fn solve_on_grid(problem: &Problem, grid: &Grid, near: Option<&Solution>) -> Result<Solution, EhlError> {
     let s = Scaled::new(problem, grid);
     let start = match near {
         Some(near) => near.on_grid(problem, &s),
-        None => guess::ellipse(problem, &s),
+        None => initial_guess::ellipse(problem, &s),
     };
     let field = newton::solve(&s, &problem.lubricant, start);
     let converged = field.converged;
@@ -188,10 +188,10 @@ fn attempt(problem: &Problem, grid: &Grid, near: Option<&Solution>) -> Result<So
     if converged {
         return Ok(solution);
     }
-    Err(Failure::new(problem, solution))
+    Err(EhlError::new(problem, solution))
 }
 
-impl Failure {
+impl EhlError {
     fn new(problem: &Problem, last: Solution) -> Self {
         Self::NoConvergence {
             load: problem.load,
@@ -239,7 +239,7 @@ impl Grid {
         let scaled_film = 0.5 * along(1.0).powi(2);
         let intervals =
             |length: f64, unit: f64, points: usize| (length / unit * points as f64).ceil() as usize;
-        let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(THINNEST);
+        let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(MIN_RESOLVED_LENGTH);
         // Even numbers of intervals, halved on the coarser grid.
         let nx = intervals(domain.inlet + domain.outlet, inlet, points).next_multiple_of(2) + 1;
         let rows = intervals(domain.side, across(1.0).hypot(1.0), 2 * points).next_multiple_of(2).max(8);
@@ -248,10 +248,10 @@ impl Grid {
 }
 
 impl Problem {
-    fn check(&self) -> Result<(), Failure> {
+    fn check(&self) -> Result<(), EhlError> {
         let positive = |quantity, value: f64| match value > 0.0 && value.is_finite() {
             true => Ok(()),
-            false => Err(Failure::Input { quantity, range: "positive and finite", value }),
+            false => Err(EhlError::Input { quantity, range: "positive and finite", value }),
         };
         positive("load", self.load)?;
         positive("entrainment speed", self.speed)?;
@@ -263,7 +263,7 @@ impl Problem {
         let Domain { inlet, outlet, side } = self.grid.domain;
         for (quantity, value) in [("inlet", inlet), ("outlet", outlet), ("side", side)] {
             if !(value > 1.0 && value.is_finite()) {
-                return Err(Failure::Input { quantity, range: "beyond the dry ellipse (above 1)", value });
+                return Err(EhlError::Input { quantity, range: "beyond the dry ellipse (above 1)", value });
             }
         }
         for (quantity, value, range, allowed) in [
@@ -271,12 +271,12 @@ impl Problem {
             ("number of nodes across rolling", self.grid.ny, "7 to 2049", 7..=2049),
         ] {
             if !allowed.contains(&value) {
-                return Err(Failure::Input { quantity, range, value: value as f64 });
+                return Err(EhlError::Input { quantity, range, value: value as f64 });
             }
         }
         if self.grid.ny.is_multiple_of(2) {
             let value = self.grid.ny as f64;
-            return Err(Failure::Input { quantity: "number of nodes across rolling", range: "odd", value });
+            return Err(EhlError::Input { quantity: "number of nodes across rolling", range: "odd", value });
         }
         Ok(())
     }

@@ -4,8 +4,8 @@
 //! rigid separation H₀ closing Σ w P = 1. The linear systems are dense because of the deflection: GMRES, with
 //! a banded preconditioner that truncates the deflection after [`NEAR`] columns.
 
-use super::deflection::{Deflection, NEAR};
-use super::reynolds::{self, POINTS, Row, neighbour};
+use super::deflection::{Deflection, PRECONDITIONER_COLUMNS};
+use super::reynolds::{self, Row, STENCIL_POINTS, neighbour};
 use super::scaled::Scaled;
 use crate::contact::Lubricant;
 use crate::linalg::{BandMatrix, dot, gmres};
@@ -15,7 +15,7 @@ const TOLERANCE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 60;
 const KRYLOV_TOLERANCE: f64 = 1e-2;
 const KRYLOV_SPACE: usize = 200;
-const HALVINGS: usize = 8;
+const MAX_HALVINGS: usize = 8;
 
 /// Pressure, film and separation on a grid, with residual and convergence.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub(super) struct Field {
 }
 
 /// Initial guess of the iteration.
-pub(super) struct Start {
+pub(super) struct InitialGuess {
     pub pressure: Vec<f64>,
     /// H₀, raised if the film were thinner than `least_film` anywhere.
     pub separation: f64,
@@ -39,10 +39,10 @@ pub(super) struct Start {
 }
 
 /// Iterates until convergence or stagnation.
-pub(super) fn solve(s: &Scaled, lubricant: &Lubricant, start: Start) -> Field {
+pub(super) fn solve(s: &Scaled, lubricant: &Lubricant, start: InitialGuess) -> Field {
     let mut newton = Newton::new(s, lubricant);
-    let touching = newton.film(&start.pressure, 0.0).into_iter().fold(f64::INFINITY, f64::min);
-    let separation = start.separation.max(start.least_film - touching);
+    let minimum_gap = newton.film(&start.pressure, 0.0).into_iter().fold(f64::INFINITY, f64::min);
+    let separation = start.separation.max(start.least_film - minimum_gap);
     let film = newton.film(&start.pressure, separation);
     let pressure = start.pressure;
     let mut field =
@@ -51,7 +51,7 @@ pub(super) fn solve(s: &Scaled, lubricant: &Lubricant, start: Start) -> Field {
         field.iterations = iteration;
         reynolds::rows(s, lubricant, &field.pressure, &field.film, &mut newton.rows);
         newton.rescale();
-        newton.divide(&field.pressure);
+        newton.update_active_set(&field.pressure);
         field.residual = newton.merit(&field.pressure, &newton.rows);
         let imbalance = 1.0 - dot(&s.weights, &field.pressure);
         field.converged = field.residual <= TOLERANCE && imbalance.abs() <= 1e-10;
@@ -59,7 +59,7 @@ pub(super) fn solve(s: &Scaled, lubricant: &Lubricant, start: Start) -> Field {
             break;
         }
         let Some(step) = newton.step(&field.pressure, imbalance) else { break };
-        match newton.search(&field, &step) {
+        match newton.line_search(&field, &step) {
             Some(next) => field = next,
             None => break,
         }
@@ -82,7 +82,8 @@ struct Newton<'a> {
 impl<'a> Newton<'a> {
     fn new(s: &'a Scaled, lubricant: &'a Lubricant) -> Self {
         let n = s.nx * s.ny;
-        let (lower, upper) = ((NEAR + 3) * s.ny - 1, (NEAR + 2) * s.ny - 1);
+        let (lower, upper) =
+            ((PRECONDITIONER_COLUMNS + 3) * s.ny - 1, (PRECONDITIONER_COLUMNS + 2) * s.ny - 1);
         Self {
             s,
             lubricant,
@@ -112,7 +113,7 @@ impl<'a> Newton<'a> {
     }
 
     /// Active set: divides the nodes into full film and cavitation.
-    fn divide(&mut self, pressure: &[f64]) {
+    fn update_active_set(&mut self, pressure: &[f64]) {
         for (node, full) in self.full.iter_mut().enumerate() {
             *full = self.s.is_inner(node) && self.rows[node].residual / self.scale[node] < pressure[node];
         }
@@ -154,7 +155,7 @@ impl<'a> Newton<'a> {
                 if full[node] {
                     let row = &rows[node];
                     let mut sum = 0.0;
-                    for point in 0..POINTS {
+                    for point in 0..STENCIL_POINTS {
                         let (a, b) = (row.by_pressure[point], row.by_film[point]);
                         if a != 0.0 || b != 0.0 {
                             let other = neighbour(node, point, ny);
@@ -180,7 +181,7 @@ impl<'a> Newton<'a> {
     fn fill_band(&mut self) {
         let Self { s, deflection, rows, scale, full, band, .. } = self;
         let (nx, ny) = (s.nx, s.ny);
-        let lower = (NEAR + 3) * ny - 1;
+        let lower = (PRECONDITIONER_COLUMNS + 3) * ny - 1;
         band.clear();
         for node in 0..rows.len() {
             let line = band.row_mut(node);
@@ -188,7 +189,7 @@ impl<'a> Newton<'a> {
                 line[lower] = 1.0;
                 continue;
             }
-            for point in 0..POINTS {
+            for point in 0..STENCIL_POINTS {
                 let (a, b) = (rows[node].by_pressure[point], rows[node].by_film[point]);
                 if a == 0.0 && b == 0.0 {
                     continue;
@@ -196,7 +197,9 @@ impl<'a> Newton<'a> {
                 let other = neighbour(node, point, ny);
                 line[other + lower - node] += a / scale[node];
                 let (i, j) = (other / ny, other % ny);
-                for column in i.saturating_sub(NEAR)..=(i + NEAR).min(nx - 1) {
+                for column in
+                    i.saturating_sub(PRECONDITIONER_COLUMNS)..=(i + PRECONDITIONER_COLUMNS).min(nx - 1)
+                {
                     let near = deflection.near(i.abs_diff(column), j);
                     let start = column * ny + lower - node;
                     for (value, k) in line[start..start + ny].iter_mut().zip(near) {
@@ -208,13 +211,13 @@ impl<'a> Newton<'a> {
     }
 
     /// Line search: first step length of 1, 1/2, 1/4 … that decreases the residual, else the best of them.
-    fn search(&mut self, field: &Field, step: &[f64]) -> Option<Field> {
+    fn line_search(&mut self, field: &Field, step: &[f64]) -> Option<Field> {
         let n = field.pressure.len();
         let (by_pressure, by_separation) = (&step[..n], step[n]);
         let mut best: Option<Field> = None;
         let mut rows = Vec::with_capacity(n);
         let mut length = 1.0;
-        for _ in 0..HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let pressure: Vec<f64> =
                 field.pressure.iter().zip(by_pressure).map(|(p, d)| (p + length * d).max(0.0)).collect();
             let separation = field.separation + length * by_separation;

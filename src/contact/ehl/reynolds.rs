@@ -11,14 +11,14 @@ use super::scaled::Scaled;
 use crate::contact::Lubricant;
 
 /// Stencil of a node's equation: itself, west, east, south, north, west of west.
-pub(super) const POINTS: usize = 6;
+pub(super) const STENCIL_POINTS: usize = 6;
 
 /// Equation of one node: R and its derivatives by P and by H at the [`POINTS`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Row {
     pub residual: f64,
-    pub by_pressure: [f64; POINTS],
-    pub by_film: [f64; POINTS],
+    pub by_pressure: [f64; STENCIL_POINTS],
+    pub by_film: [f64; STENCIL_POINTS],
 }
 
 /// Fluid properties at one node.

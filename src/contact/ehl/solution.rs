@@ -1,7 +1,7 @@
 //! Fields and scalar results of a solved EHL contact, in SI.
 
 use super::Problem;
-use super::newton::{Field, Start};
+use super::newton::{Field, InitialGuess};
 use super::scaled::Scaled;
 
 /// EHL solution: fields over the whole domain, index i·ny + j at (xᵢ, yⱼ), and scalar results.
@@ -72,7 +72,7 @@ impl Solution {
     }
 
     /// This solution interpolated as initial guess for another grid, load or speed.
-    pub(super) fn on_grid(&self, problem: &Problem, s: &Scaled) -> Start {
+    pub(super) fn on_grid(&self, problem: &Problem, s: &Scaled) -> InitialGuess {
         let ny = self.y.len();
         let half = &self.y[ny / 2..];
         let interval = |nodes: &[f64], at: f64| {
@@ -99,7 +99,7 @@ impl Solution {
             )
             .collect();
         let dry_approach = problem.contact.patch(problem.load).deflection;
-        Start {
+        InitialGuess {
             pressure,
             separation: (self.film_shift() - dry_approach) / s.film,
             least_film: 0.3 * self.minimum_film / s.film,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::curve::Curve;
-use super::{Failure, Grid, Problem, Solution, extrapolate};
+use super::{EhlError, Grid, Problem, Solution, extrapolate};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::linalg::pchip::Pchip;
 
@@ -41,7 +41,7 @@ pub struct Table {
 /// Smallest h R_x/b_x² (Hamrock and Dowson's h) that is solved: a thinner film is scaled from the speed at
 /// which it has this thickness, by their speed exponent. Such a film changes the approach by 5 % or less,
 /// known to a tenth of that.
-const THINNEST_FILM: f64 = 0.05;
+const MIN_SOLVED_FILM: f64 = 0.05;
 
 /// Exponent of the speed in Hamrock and Dowson's central film.
 const SPEED_POWER: f64 = 0.67;
@@ -74,12 +74,12 @@ impl TableSpec {
     /// # Errors
     /// [`Failure::Input`] for loads or speeds that are not positive and increasing; else the first contact in
     /// table order that does not converge.
-    pub fn compute(&self, progress: impl Fn(usize, usize) + Sync) -> Result<Table, Failure> {
+    pub fn compute(&self, progress: impl Fn(usize, usize) + Sync) -> Result<Table, EhlError> {
         for (quantity, values) in [("first load", &self.loads), ("first entrainment speed", &self.speeds)] {
             let increasing = values.windows(2).all(|pair| pair[0] < pair[1]);
             let value = values.first().copied().unwrap_or(f64::NAN);
             if !(increasing && value > 0.0) {
-                return Err(Failure::Input {
+                return Err(EhlError::Input {
                     quantity,
                     range: "positive, with increasing values after it",
                     value,
@@ -89,7 +89,7 @@ impl TableSpec {
         let done = AtomicUsize::new(0);
         let total = self.loads.len() * self.speeds.len();
         let count = || progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
-        let rows: Vec<Result<Vec<[f64; 2]>, Failure>> =
+        let rows: Vec<Result<Vec<[f64; 2]>, EhlError>> =
             self.speeds.par_iter().map(|&speed| self.row(speed, &count)).collect();
         let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
         let figure = |k: usize| rows.iter().map(|row| row.iter().map(|pair| pair[k]).collect()).collect();
@@ -104,7 +104,7 @@ impl TableSpec {
     }
 
     /// Film shift and central film at all loads and one speed, each started from the next higher load.
-    fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<[f64; 2]>, Failure> {
+    fn row(&self, speed: f64, count: &impl Fn()) -> Result<Vec<[f64; 2]>, EhlError> {
         let Self { contact, lubricant, points, .. } = self;
         let formula = FilmFormula::new(contact, lubricant);
         let mut near: Option<Solution> = None;
@@ -112,7 +112,7 @@ impl TableSpec {
         for &load in self.loads.iter().rev() {
             let depth = contact.semi_axes(load)[0].powi(2) / contact.rolling_radius;
             // Ratio to the thinnest film solved; h ~ u^SPEED_POWER below it.
-            let share = (formula.central(speed, load) / (THINNEST_FILM * depth)).min(1.0);
+            let share = (formula.central(speed, load) / (MIN_SOLVED_FILM * depth)).min(1.0);
             let speed = speed * share.powf(-1.0 / SPEED_POWER);
             let grid = Grid::flooded(contact, lubricant, speed, load, *points);
             let problem = Problem { contact: *contact, lubricant: lubricant.clone(), speed, load, grid };
@@ -144,7 +144,7 @@ impl Table {
                     let single =
                         values.first().map_or(f64::NAN, |v| v + SPEED_POWER * (speed.ln() - logs[0]));
                     match Pchip::new(&logs, &values) {
-                        Some(curve) if logs.len() > 1 => curve.at(speed.ln())[0],
+                        Some(curve) if logs.len() > 1 => curve.evaluate(speed.ln())[0],
                         _ => single,
                     }
                 })

@@ -175,7 +175,7 @@ impl Log {
     }
 
     /// Number of errors so far; a check that needs valid values compares it with the number before.
-    pub fn count(&self) -> usize {
+    pub fn error_count(&self) -> usize {
         self.errors.borrow().len()
     }
 

@@ -174,7 +174,7 @@ struct Part<'p> {
     span: Range<usize>,
 }
 
-fn bad(part: &Part, message: String) -> Problem {
+fn bad_path(part: &Part, message: String) -> Problem {
     Problem::new(Kind::BadPath, &part.span, message)
 }
 
@@ -187,7 +187,9 @@ fn set_in_table(
 ) -> Result<(), Problem> {
     let part = &parts[depth];
     if part.name.is_empty() {
-        return Err(bad(part, format!("`{path}` is not a path")).hint("such as bearing.B.radial_clearance"));
+        return Err(
+            bad_path(part, format!("`{path}` is not a path")).hint("such as bearing.B.radial_clearance")
+        );
     }
     let last = depth + 1 == parts.len();
     if table.get(part.name).is_none() {
@@ -195,7 +197,7 @@ fn set_in_table(
         let item = depth == 1 && !last && COLLECTIONS.contains(&parts[0].name);
         if depth == 0 && COLLECTIONS.contains(&part.name) || item {
             let what = parts[..=depth].iter().map(|p| p.name).collect::<Vec<_>>().join(".");
-            return Err(bad(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
+            return Err(bad_path(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
         }
         let empty = Node { span: part.span.clone(), value: Value::Table(Table::default()) };
         table.entries.push(Entry { key: part.name.into(), key_span: part.span.clone(), node: empty });
@@ -219,7 +221,7 @@ fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: 
             let Some(item) = part.name.parse::<usize>().ok().and_then(|i| items.get_mut(i)) else {
                 let message =
                     format!("`{}` is not one of the {count} items of `{}`", part.name, parts[depth - 1].name);
-                return Err(bad(part, message).hint("items are counted from 0"));
+                return Err(bad_path(part, message).hint("items are counted from 0"));
             };
             if depth + 1 == parts.len() {
                 *item = node;
@@ -229,7 +231,7 @@ fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: 
         }
         _ => {
             let owner = &parts[depth - 1];
-            Err(bad(owner, format!("`{}` is a single value, so `{path}` cannot be set", owner.name)))
+            Err(bad_path(owner, format!("`{}` is a single value, so `{path}` cannot be set", owner.name)))
         }
     }
 }

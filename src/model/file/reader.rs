@@ -46,24 +46,31 @@ pub(crate) struct Reader<'a> {
     pub path: String,
     pub log: &'a Log,
     errors_before: usize,
-    asked: RefCell<Vec<String>>,
+    requested_keys: RefCell<Vec<String>>,
 }
 
-static NOTHING: Table = Table { entries: Vec::new() };
+static EMPTY_TABLE: Table = Table { entries: Vec::new() };
 
 impl<'a> Reader<'a> {
     pub fn new(table: &'a Table, path: impl Into<String>, span: Range<usize>, log: &'a Log) -> Self {
-        Self { table, span, path: path.into(), log, errors_before: log.count(), asked: RefCell::default() }
+        Self {
+            table,
+            span,
+            path: path.into(),
+            log,
+            errors_before: log.error_count(),
+            requested_keys: RefCell::default(),
+        }
     }
 
     /// Whether no error has been logged since this table was opened.
-    pub fn sound(&self) -> bool {
-        self.log.count() == self.errors_before
+    pub fn has_no_errors(&self) -> bool {
+        self.log.error_count() == self.errors_before
     }
 
     pub fn entry(&self, key: &str) -> Option<&'a Entry> {
-        if !self.asked.borrow().iter().any(|k| k == key) {
-            self.asked.borrow_mut().push(key.into());
+        if !self.requested_keys.borrow().iter().any(|k| k == key) {
+            self.requested_keys.borrow_mut().push(key.into());
         }
         self.table.get(key)
     }
@@ -130,7 +137,7 @@ impl<'a> Reader<'a> {
 
     pub fn need(&self, key: &str, spec: Spec) -> f64 {
         if !self.has(key) {
-            self.missing(key, &quoted(spec.dimension));
+            self.missing(key, &quoted_example(spec.dimension));
         }
         self.get(key, spec).unwrap_or(1.0)
     }
@@ -143,7 +150,7 @@ impl<'a> Reader<'a> {
 
     pub fn need_list(&self, key: &str, spec: Spec) -> Vec<f64> {
         if !self.has(key) {
-            self.missing(key, &quoted(spec.dimension));
+            self.missing(key, &quoted_example(spec.dimension));
         }
         self.list(key, spec).unwrap_or_else(|| vec![1.0])
     }
@@ -184,10 +191,10 @@ impl<'a> Reader<'a> {
                 }
             },
             #[allow(clippy::cast_precision_loss)] // integers in a model file are small
-            Value::Integer(i) => vec![self.bare(key, node, spec.dimension, *i as f64)?],
-            Value::Float(f) => vec![self.bare(key, node, spec.dimension, *f)?],
+            Value::Integer(i) => vec![self.bare_number(key, node, spec.dimension, *i as f64)?],
+            Value::Float(f) => vec![self.bare_number(key, node, spec.dimension, *f)?],
             _ => {
-                self.wrong_type(key, node, &such_as(spec.dimension));
+                self.wrong_type(key, node, &expected_quantity(spec.dimension));
                 return None;
             }
         };
@@ -208,16 +215,16 @@ impl<'a> Reader<'a> {
         Some(values)
     }
 
-    fn bare(&self, key: &str, node: &Node, dimension: Dimension, value: f64) -> Option<f64> {
+    fn bare_number(&self, key: &str, node: &Node, dimension: Dimension, value: f64) -> Option<f64> {
         let name = self.name(key);
         let problem = if !value.is_finite() {
             Problem::new(Kind::OutOfRange, &node.span, format!("{name} is not a finite number"))
-                .expected(such_as(dimension))
+                .expected(expected_quantity(dimension))
         } else if dimension == NUMBER {
             return Some(value);
         } else {
             Problem::new(Kind::MissingUnit, &node.span, format!("{name} has no unit"))
-                .expected(such_as(dimension))
+                .expected(expected_quantity(dimension))
                 .hint(format!("if {} is meant, write \"{value} {}\"", dimension.unit, dimension.unit))
         };
         self.log.error(problem);
@@ -226,7 +233,7 @@ impl<'a> Reader<'a> {
 
     fn unit_problem(&self, key: &str, node: &Node, dimension: Dimension, error: &UnitError) -> Problem {
         let name = self.name(key);
-        let expected = such_as(dimension);
+        let expected = expected_quantity(dimension);
         let problem = |kind, message: String| Problem::new(kind, &node.span, message).expected(&expected);
         match error {
             UnitError::NoUnit(text) => problem(Kind::MissingUnit, format!("{name} has no unit"))
@@ -280,17 +287,17 @@ impl<'a> Reader<'a> {
                 2
             }
         };
-        if to <= from && r.sound() {
+        if to <= from && r.has_no_errors() {
             r.error(Kind::OutOfRange, "to", format!("{} must be above {}", r.name("to"), r.name("from")));
         }
-        if logarithmic && from <= 0.0 && r.sound() {
+        if logarithmic && from <= 0.0 && r.has_no_errors() {
             r.error(
                 Kind::OutOfRange,
                 "from",
                 format!("{} must be above zero for equal ratios", r.name("from")),
             );
         }
-        let sound = r.sound();
+        let sound = r.has_no_errors();
         r.finish();
         let part = |k: usize| k as f64 / (count - 1) as f64;
         let value = |k| match k {
@@ -396,7 +403,8 @@ impl<'a> Reader<'a> {
 
     /// The table of this key, or an empty one.
     pub fn table_or_empty(&self, key: &str) -> Reader<'a> {
-        self.table(key).unwrap_or_else(|| Reader::new(&NOTHING, self.name(key), self.span.clone(), self.log))
+        self.table(key)
+            .unwrap_or_else(|| Reader::new(&EMPTY_TABLE, self.name(key), self.span.clone(), self.log))
     }
 
     /// The named tables under a key, `[disc.a]`, `[disc.b]`, in file order.
@@ -446,7 +454,7 @@ impl<'a> Reader<'a> {
 
     /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
     pub fn finish(self) {
-        let asked = self.asked.borrow();
+        let asked = self.requested_keys.borrow();
         let known: Vec<&str> = asked.iter().map(String::as_str).collect();
         for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
             if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
@@ -460,12 +468,12 @@ impl<'a> Reader<'a> {
 }
 
 /// Example of a quantity as it is written in the file.
-fn quoted(dimension: Dimension) -> String {
+fn quoted_example(dimension: Dimension) -> String {
     if dimension == NUMBER { dimension.example.into() } else { format!("\"{}\"", dimension.example) }
 }
 
-fn such_as(dimension: Dimension) -> String {
-    format!("{} such as {}", with_article(dimension.name), quoted(dimension))
+fn expected_quantity(dimension: Dimension) -> String {
+    format!("{} such as {}", with_article(dimension.name), quoted_example(dimension))
 }
 
 fn with_article(noun: &str) -> String {

@@ -119,8 +119,8 @@ pub fn frf_from_hits(
             force[n] = force_window[n] * hit.force[n];
             response[n] = response_window[n] * hit.response[n];
         }
-        force_spectrum.copy_from_slice(transform.run(&force, 0.0));
-        for (k, (f, x)) in force_spectrum.iter().zip(transform.run(&response, 0.0)).enumerate() {
+        force_spectrum.copy_from_slice(transform.transform(&force, 0.0));
+        for (k, (f, x)) in force_spectrum.iter().zip(transform.transform(&response, 0.0)).enumerate() {
             sums.xx[k] += f.norm_sqr();
             sums.yy[k] += x.norm_sqr();
             sums.xy[k] += f.conj() * x;

@@ -6,7 +6,7 @@ use super::frf::{Estimator, FrfEstimate, ImpactWindows, frf_from_hits};
 use super::quality::{HitQuality, Limits, inspect};
 use super::{Hit, Trigger};
 use crate::error::Error;
-use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, Measured, Record, RecordError, Values};
+use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, RecordError, Values};
 
 /// How the records are cut.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ const AFTER: f64 = 0.01;
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no good hit, NaN.
-pub fn frfs(files: &[Measured], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), Error> {
+pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), Error> {
     let Some(first) = files.first() else { return Ok((Vec::new(), Vec::new())) };
     let time = time_records(first);
     let force = force(first, &time, test)?;
@@ -128,7 +128,7 @@ struct HitSet<'a> {
 }
 
 fn inspect_all<'a>(
-    files: &'a [Measured],
+    files: &'a [MeasuredData],
     blocks: &[Vec<Range<usize>>],
     force: &Record,
     response: &'a Record,
@@ -200,7 +200,7 @@ impl Inspected<'_> {
     }
 }
 
-fn time_records(measured: &Measured) -> Vec<&Record> {
+fn time_records(measured: &MeasuredData) -> Vec<&Record> {
     measured.records.iter().filter(|r| r.kind == Kind::Time).collect()
 }
 
@@ -220,7 +220,7 @@ fn finite(record: &Record) -> Result<(), RecordError> {
 }
 
 fn force<'a>(
-    measured: &'a Measured,
+    measured: &'a MeasuredData,
     time: &[&'a Record],
     test: &ImpactTest,
 ) -> Result<&'a Record, RecordError> {
@@ -324,7 +324,7 @@ fn records(
     estimator: Estimator,
 ) -> Vec<Record> {
     let step = found.frequencies.get(1).copied().unwrap_or(1.0);
-    let axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
+    let axis = Axis::uniform(AxisQuantity::Frequency, 0.0, step);
     let name = format!("{}/{}", response.name, force.name);
     let unit = match (response.unit.as_str(), force.unit.as_str()) {
         ("", _) | (_, "") => String::new(),

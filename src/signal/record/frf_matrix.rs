@@ -1,6 +1,6 @@
 //! FRF matrix of a test over responses, references and frequencies.
 
-use super::{Dof, Kind, Measured, Record, RecordError, Values};
+use super::{Dof, Kind, MeasuredData, Record, RecordError, Values};
 use crate::signal::Complex;
 
 /// FRFs between every response and every reference, over one frequency axis.
@@ -20,7 +20,7 @@ pub struct FrfMatrix {
     pub coherence: Option<Vec<Vec<Vec<f64>>>>,
 }
 
-impl Measured {
+impl MeasuredData {
     /// All FRFs of the file as one matrix, with coherence if present for all.
     ///
     /// # Errors
@@ -35,7 +35,7 @@ impl Measured {
         for (k, other) in frfs.iter().enumerate() {
             let place = |r: &Record| (r.response, r.reference);
             if let Some(before) = frfs[..k].iter().find(|before| place(before) == place(other)) {
-                return Err(RecordError::DoubleFrf {
+                return Err(RecordError::DuplicateFrf {
                     first: before.name.clone(),
                     second: other.name.clone(),
                     between: format!("response {} to reference {}", other.response, other.reference),
@@ -94,7 +94,7 @@ impl Measured {
     /// Number of records of each kind, "3 time, 1 PSD".
     fn kinds(&self) -> String {
         let count = |kind: Kind| self.records.iter().filter(|r| r.kind == kind).count();
-        let found: Vec<String> = Kind::WORDS
+        let found: Vec<String> = Kind::LABELS
             .iter()
             .filter(|(kind, _)| count(*kind) > 0)
             .map(|(kind, word)| format!("{} {word}", count(*kind)))

@@ -10,14 +10,14 @@ mod shape;
 
 pub use axis::{Axis, AxisQuantity, Points};
 pub use frf_matrix::FrfMatrix;
-pub use noisy::NoisyTest;
-pub use shape::{Analysis, Element, Geometry, Mount, Node, Polyline, Shape};
+pub use noisy::MeasurementNoise;
+pub use shape::{Analysis, AttachedPoint, Element, Geometry, Node, Polyline, Shape};
 
 use super::Complex;
 
 /// Contents of a measured file.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Measured {
+pub struct MeasuredData {
     /// Title of the file; empty if it has none.
     pub title: String,
     /// Time records, spectra and FRFs in the file's order; no two have the same name.
@@ -41,7 +41,7 @@ pub struct Record {
     /// Rotational speeds may be in "rpm".
     pub unit: String,
     /// Unit in the file; values were converted from it if `unit` is not empty.
-    pub stated_unit: String,
+    pub file_unit: String,
     /// Response DOF: point and direction of the measurement.
     pub response: Dof,
     /// Reference DOF: point and direction of the excitation (force); [`Dof::NONE`] without one.
@@ -70,7 +70,7 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind with its label.
-    pub const WORDS: [(Kind, &'static str); 9] = [
+    pub const LABELS: [(Kind, &'static str); 9] = [
         (Kind::General, "general"),
         (Kind::Time, "time"),
         (Kind::AutoSpectrum, "auto-spectrum"),
@@ -83,8 +83,8 @@ impl Kind {
     ];
 
     /// Label of the kind, such as "FRF".
-    pub fn word(self) -> &'static str {
-        Self::WORDS[self as usize].1
+    pub fn label(self) -> &'static str {
+        Self::LABELS[self as usize].1
     }
 }
 
@@ -180,7 +180,7 @@ pub enum RecordError {
     #[error(
         "`{channel}` is not sampled uniformly: the step after value {index} is {given:.6e}, the mean step is {mean:.6e}; resample it at a constant rate first"
     )]
-    NotEven { channel: String, index: usize, given: f64, mean: f64 },
+    NonUniform { channel: String, index: usize, given: f64, mean: f64 },
     #[error("`{channel}` is {given}, not a time record; choose a channel of samples over time")]
     NotTime { channel: String, given: &'static str },
     #[error("`{channel}` is {given}, not an FRF over frequency; choose channels with complex values over Hz")]
@@ -202,7 +202,7 @@ pub enum RecordError {
     #[error(
         "`{first}` and `{second}` are both the FRF of {between}; leave one out, or state their points in a mapping (hits at the same point are averaged)"
     )]
-    DoubleFrf { first: String, second: String, between: String },
+    DuplicateFrf { first: String, second: String, between: String },
     #[error("`{channel}` is NaN or infinite at value {index}; cut that part out of the record")]
     NotFinite { channel: String, index: usize },
     #[error(
@@ -248,7 +248,7 @@ impl Record {
             axis,
             values,
             unit: unit.into(),
-            stated_unit: unit.into(),
+            file_unit: unit.into(),
             response: Dof::NONE,
             reference: Dof::NONE,
             speed_rpm: None,
@@ -258,7 +258,7 @@ impl Record {
 
     /// Time record sampled at a constant rate \[Hz\] from `start` \[s\].
     pub fn samples(name: &str, rate: f64, start: f64, values: Vec<f64>, unit: &str) -> Self {
-        let axis = Axis { quantity: AxisQuantity::Time, points: Points::Even { start, step: 1.0 / rate } };
+        let axis = Axis { quantity: AxisQuantity::Time, points: Points::Uniform { start, step: 1.0 / rate } };
         Record::new(name, Kind::Time, axis, Values::Real(values), unit)
     }
 
@@ -269,7 +269,7 @@ impl Record {
     pub fn time_samples(&self) -> Result<&[f64], RecordError> {
         match (&self.values, self.axis.quantity) {
             (Values::Real(values), AxisQuantity::Time | AxisQuantity::Unknown) => Ok(values),
-            _ => Err(RecordError::NotTime { channel: self.name.clone(), given: self.kind.word() }),
+            _ => Err(RecordError::NotTime { channel: self.name.clone(), given: self.kind.label() }),
         }
     }
 
@@ -280,11 +280,11 @@ impl Record {
     pub fn sample_rate(&self) -> Result<f64, RecordError> {
         self.time_samples()?;
         match &self.axis.points {
-            Points::Even { step, .. } => Ok(1.0 / step),
+            Points::Uniform { step, .. } => Ok(1.0 / step),
             Points::Unknown => Err(RecordError::NoRate { channel: self.name.clone() }),
-            Points::Listed(points) => {
-                let (index, given, mean) = axis::worst_step(points);
-                Err(RecordError::NotEven { channel: self.name.clone(), index, given, mean })
+            Points::NonUniform(points) => {
+                let (index, given, mean) = axis::largest_step_deviation(points);
+                Err(RecordError::NonUniform { channel: self.name.clone(), index, given, mean })
             }
         }
     }
@@ -299,7 +299,7 @@ impl Record {
             (Values::Complex(_), _) if self.axis.points == Points::Unknown => {
                 Err(RecordError::NoFrequencies { channel: self.name.clone() })
             }
-            _ => Err(RecordError::NotFrf { channel: self.name.clone(), given: self.kind.word() }),
+            _ => Err(RecordError::NotFrf { channel: self.name.clone(), given: self.kind.label() }),
         }
     }
 
@@ -310,14 +310,14 @@ impl Record {
     pub fn si_unit(&self) -> Result<&str, RecordError> {
         match self.unit.as_str() {
             "" => {
-                Err(RecordError::UnknownUnit { channel: self.name.clone(), stated: self.stated_unit.clone() })
+                Err(RecordError::UnknownUnit { channel: self.name.clone(), stated: self.file_unit.clone() })
             }
             unit => Ok(unit),
         }
     }
 }
 
-impl Measured {
+impl MeasuredData {
     /// The record of this name.
     ///
     /// # Errors
@@ -335,7 +335,7 @@ impl Measured {
         let unknown =
             |r: &&mut Record| r.axis.points == Points::Unknown && matches!(r.values, Values::Complex(_));
         for record in self.records.iter_mut().filter(unknown) {
-            record.axis = Axis::even(AxisQuantity::Frequency, 0.0, step);
+            record.axis = Axis::uniform(AxisQuantity::Frequency, 0.0, step);
             if record.kind == Kind::General {
                 record.kind = Kind::Frf;
             }
@@ -348,7 +348,7 @@ impl Measured {
             r.axis.points == Points::Unknown && matches!(r.values, Values::Real(_)) && r.kind == Kind::Time
         };
         for record in self.records.iter_mut().filter(unknown) {
-            let points = Points::Even { start: 0.0, step: 1.0 / rate };
+            let points = Points::Uniform { start: 0.0, step: 1.0 / rate };
             record.axis = Axis { quantity: AxisQuantity::Time, points };
         }
     }

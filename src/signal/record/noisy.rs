@@ -8,7 +8,7 @@ use crate::signal::error::{SignalError, check};
 
 /// Settings of a simulated test with a flat force spectrum, such as an impact test.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoisyTest {
+pub struct MeasurementNoise {
     /// Signal-to-noise ratio (SNR) of a single block \[dB\]: 20 log of the RMS ratio over the lines, for
     /// every response and the force.
     pub signal_to_noise_db: f64,
@@ -25,7 +25,7 @@ impl FrfMatrix {
     ///
     /// # Errors
     /// No average, a signal-to-noise ratio that is not finite.
-    pub fn measured_with(&self, test: &NoisyTest) -> Result<FrfMatrix, SignalError> {
+    pub fn with_measurement_noise(&self, test: &MeasurementNoise) -> Result<FrfMatrix, SignalError> {
         check(test.averages > 0, "averages", "one or more", test.averages as f64)?;
         let db = test.signal_to_noise_db;
         check(db.is_finite(), "signal-to-noise ratio", "a finite number of dB", db)?;
@@ -34,13 +34,13 @@ impl FrfMatrix {
         let mut out = self.clone();
         let mut coherence = vec![vec![vec![0.0; lines]; self.references.len()]; self.responses.len()];
         for e in 0..self.references.len() {
-            let mut force = Stream::new(test.seed, e as u64, 0);
+            let mut force = GaussianStream::new(test.seed, e as u64, 0);
             let forces: Vec<Complex<f64>> =
                 (0..lines * test.averages).map(|_| force.next() * noise + 1.0).collect();
             for (r, row) in self.values.iter().enumerate() {
                 let exact = &row[e];
                 let rms = (exact.iter().map(|h| h.norm_sqr()).sum::<f64>() / lines as f64).sqrt();
-                let mut own = Stream::new(test.seed, e as u64, r as u64 + 1);
+                let mut own = GaussianStream::new(test.seed, e as u64, r as u64 + 1);
                 for k in 0..lines {
                     let (mut ff, mut xx, mut fx) = (0.0, 0.0, Complex::new(0.0, 0.0));
                     for f in &forces[k * test.averages..(k + 1) * test.averages] {
@@ -60,12 +60,12 @@ impl FrfMatrix {
 }
 
 /// Complex Gaussian random numbers of mean square 1 (splitmix64, Box-Muller).
-struct Stream(u64);
+struct GaussianStream(u64);
 
-impl Stream {
+impl GaussianStream {
     fn new(seed: u64, reference: u64, response: u64) -> Self {
         // Independent streams: each number of the key is mixed into the state in turn.
-        let mut stream = Stream(seed);
+        let mut stream = GaussianStream(seed);
         for key in [reference, response] {
             stream.0 = stream.bits() ^ key.wrapping_mul(0xd134_2543_de82_ef95);
         }

@@ -9,15 +9,15 @@ pub struct Geometry {
     pub lines: Vec<Polyline>,
     pub elements: Vec<Element>,
     /// Points with an offset from others, defined by a mapping.
-    pub mounts: Vec<Mount>,
+    pub attached_points: Vec<AttachedPoint>,
 }
 
 /// A point rigidly attached to another with an offset, such as a sensor on a housing or a hit on a disc rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mount {
+pub struct AttachedPoint {
     pub number: i64,
     /// The point that carries it.
-    pub on: i64,
+    pub carrier: i64,
     /// Offset from that point \[m\].
     pub offset: [f64; 3],
 }

@@ -11,9 +11,9 @@ use crate::signal::spectrum::{Spectrum, Welch};
 /// Samples of a segment: the carrier resolution is the sampling rate divided by it.
 const SEGMENT: usize = 256;
 /// Largest number of modulation frequencies; a longer record is truncated to match.
-const RATES: usize = 1500;
+const MAX_RATES: usize = 1500;
 /// Highest modulation frequency without bearing data, relative to the sampling rate.
-const SHARE: f64 = 1.0 / 32.0;
+const DEFAULT_HIGHEST_RATE: f64 = 1.0 / 32.0;
 
 impl Job<'_> {
     /// Coherence up to twice the highest characteristic frequency, at the resolution of the record.
@@ -25,10 +25,10 @@ impl Job<'_> {
             }
             None => None,
         };
-        let highest =
-            rates.map(|r| BearingPart::ALL.map(|part| part.rate(&r)).into_iter().fold(0.0, f64::max));
-        let top = highest.map_or(SHARE * self.rate, |h| 2.1 * h).min(0.5 * self.rate);
-        let most = ((RATES as f64 / top) * self.rate) as usize;
+        let highest = rates
+            .map(|r| BearingPart::ALL.map(|part| part.defect_frequency(&r)).into_iter().fold(0.0, f64::max));
+        let top = highest.map_or(DEFAULT_HIGHEST_RATE * self.rate, |h| 2.1 * h).min(0.5 * self.rate);
+        let most = ((MAX_RATES as f64 / top) * self.rate) as usize;
         let x = &self.x[..self.x.len().min(most)];
         let step = self.rate / x.len() as f64;
         let alphas: Vec<f64> = (0..=(top / step) as usize).map(|k| k as f64 * step).collect();
@@ -38,7 +38,9 @@ impl Job<'_> {
         let lines = rates.map_or_else(Vec::new, |rates| {
             let places = BearingPart::ALL.into_iter().flat_map(|part| [(part, 1), (part, 2)]);
             places
-                .filter_map(|(part, n)| self.cyclic_line(&enhanced, part, n, n as f64 * part.rate(&rates)))
+                .filter_map(|(part, n)| {
+                    self.cyclic_line(&enhanced, part, n, n as f64 * part.defect_frequency(&rates))
+                })
                 .collect()
         });
         Ok(CyclicResult { coherence, enhanced, lines, duration: x.len() as f64 / self.rate })

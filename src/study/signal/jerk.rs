@@ -7,7 +7,7 @@ use crate::signal::jerk::{jerk, jerk_jumps};
 use crate::signal::race_defects::{BallPassage, fold_jerk, race_defects};
 
 /// Detection threshold of a jump in robust standard deviations.
-const THRESHOLD: f64 = 10.0;
+const JUMP_THRESHOLD: f64 = 10.0;
 
 impl Job<'_> {
     /// Jerk and jumps; with a bearing at constant speed the defects of the chosen race.
@@ -27,20 +27,20 @@ impl Job<'_> {
                     // Relative to the first analysed sample.
                     datum: self.settings.datum - self.channel.start - self.first as f64 / self.rate,
                 };
-                let beside = self.channel.beside.as_ref();
-                let beside = beside.map(|y| &y[self.first..self.first + self.x.len()]);
+                let orthogonal = self.channel.orthogonal.as_ref();
+                let orthogonal = orthogonal.map(|y| &y[self.first..self.first + self.x.len()]);
                 Some(RaceResult {
                     race,
                     radius: bearing.raceway_radii.map(|radii| radii[radius]),
-                    all_round: beside.is_some(),
-                    fold: fold_jerk(self.x, beside, self.rate, &passage)?,
-                    defects: race_defects(self.x, beside, self.rate, &passage)?,
+                    full_circumference: orthogonal.is_some(),
+                    fold: fold_jerk(self.x, orthogonal, self.rate, &passage)?,
+                    defects: race_defects(self.x, orthogonal, self.rate, &passage)?,
                 })
             }
         };
         Ok(JerkResult {
             jerk: jerk(self.x, self.rate)?,
-            jumps: jerk_jumps(self.x, self.rate, THRESHOLD)?,
+            jumps: jerk_jumps(self.x, self.rate, JUMP_THRESHOLD)?,
             race,
         })
     }

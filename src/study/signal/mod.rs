@@ -5,18 +5,18 @@ mod jerk;
 mod settings;
 mod shaft;
 
-pub use settings::{Analysis, Race, SignalSettings, Wanted};
+pub use settings::{Analysis, AnalysisSelection, Race, SignalSettings};
 pub use shaft::ShaftMotion;
 
 use crate::error::Error;
 use crate::results::{
-    EnvelopeResult, KurtogramResult, OrderLine, RatedBearing, ShaftAverage, ShaftOrders, SignalResult,
-    SpectrogramOverTime,
+    BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, ShaftAverage, ShaftOrders, SignalResult,
+    SpectrogramWithSpeed,
 };
-use crate::signal::bearing_lines::{BearingPart, BearingRates};
+use crate::signal::bearing_lines::{BearingPart, DefectFrequencies};
 use crate::signal::cepstrum::real_cepstrum;
-use crate::signal::diagnosis::{BandRule, Turning, band_envelope, diagnose};
-use crate::signal::filter_bank::deepest;
+use crate::signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
+use crate::signal::filter_bank::max_depth;
 use crate::signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
 use crate::signal::order::{OrderSettings, OrderTracker};
 use crate::signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
@@ -27,11 +27,11 @@ use crate::signal::synchronous::synchronous_average;
 use crate::signal::{SignalError, WindowKind};
 
 /// Deepest level of a kurtogram: 128 bands.
-const DEPTH: usize = 7;
+const MAX_LEVEL: usize = 7;
 /// Default highest order.
-const ORDERS: f64 = 20.0;
+const DEFAULT_MAX_ORDER: f64 = 20.0;
 /// Speed below which the shaft counts as stationary \[rev/s\].
-const LEAST_SPEED: f64 = 0.1;
+const MIN_SPEED: f64 = 0.1;
 
 /// One channel of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub struct SignalChannel {
     pub start: f64,
     pub samples: Vec<f64>,
     /// Second channel at the same place, 90° from the first (x to y), to locate defects over the full race.
-    pub beside: Option<Vec<f64>>,
+    pub orthogonal: Option<Vec<f64>>,
 }
 
 /// All requested analyses of one channel.
@@ -59,7 +59,7 @@ pub struct SignalChannel {
 pub fn analyse(
     channel: &SignalChannel,
     shaft: Option<&ShaftMotion>,
-    bearing: Option<&RatedBearing>,
+    bearing: Option<&BearingWithOrders>,
     settings: &SignalSettings,
 ) -> Result<SignalResult, Error> {
     let job = Job::new(channel, shaft, bearing, settings);
@@ -85,15 +85,15 @@ pub fn analyse(
         cyclic: None,
         warnings: Vec::new(),
     };
-    for analysis in job.wanted() {
+    for analysis in job.selected_analyses() {
         let Err(error) = job.perform(analysis, &mut out) else { continue };
         // The envelope is the main analysis of a bearing: always required.
-        let asked = matches!(settings.analyses, Wanted::These(_))
+        let asked = matches!(settings.analyses, AnalysisSelection::Only(_))
             || (analysis == Analysis::Envelope && bearing.is_some());
         if asked {
             return Err(error.into());
         }
-        out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.word()));
+        out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.keyword()));
     }
     Ok(out)
 }
@@ -106,7 +106,7 @@ struct Job<'a> {
     rate: f64,
     channel: &'a SignalChannel,
     shaft: Option<&'a ShaftMotion>,
-    bearing: Option<&'a RatedBearing>,
+    bearing: Option<&'a BearingWithOrders>,
     settings: &'a SignalSettings,
 }
 
@@ -114,7 +114,7 @@ impl<'a> Job<'a> {
     fn new(
         channel: &'a SignalChannel,
         shaft: Option<&'a ShaftMotion>,
-        bearing: Option<&'a RatedBearing>,
+        bearing: Option<&'a BearingWithOrders>,
         settings: &'a SignalSettings,
     ) -> Self {
         let whole = &channel.samples[..];
@@ -125,12 +125,12 @@ impl<'a> Job<'a> {
         Job { x, first, rate: channel.sample_rate, channel, shaft, bearing, settings }
     }
 
-    fn wanted(&self) -> Vec<Analysis> {
+    fn selected_analyses(&self) -> Vec<Analysis> {
         use Analysis::*;
         match &self.settings.analyses {
-            Wanted::These(asked) => return asked.clone(),
-            Wanted::All => return Analysis::ALL.iter().map(|(analysis, _)| *analysis).collect(),
-            Wanted::Usual => {}
+            AnalysisSelection::Only(asked) => return asked.clone(),
+            AnalysisSelection::All => return Analysis::ALL.iter().map(|(analysis, _)| *analysis).collect(),
+            AnalysisSelection::Suitable => {}
         }
         let mut wanted = vec![Spectrum, Density, Envelope, Kurtogram, Cepstrum];
         if let Some(shaft) = self.shaft.filter(|s| !s.angle.is_empty()) {
@@ -160,19 +160,19 @@ impl<'a> Job<'a> {
     }
 
     /// Characteristic frequencies of the bearing at constant speed, else orders; with the shaft rotation.
-    fn rates(&self) -> Option<(BearingRates, Turning<'a>)> {
+    fn rates(&self) -> Option<(DefectFrequencies, ShaftRotation<'a>)> {
         let bearing = self.bearing?;
-        let (unit, turning) = self.clock()?;
-        Some((rates_of(bearing, unit), turning))
+        let (unit, turning) = self.rate_reference()?;
+        Some((characteristic_rates(bearing, unit), turning))
     }
 
     /// Reference of the characteristic rates: shaft speed \[Hz\] at constant speed, else order 1 over the
     /// shaft angle.
-    fn clock(&self) -> Option<(f64, Turning<'a>)> {
+    fn rate_reference(&self) -> Option<(f64, ShaftRotation<'a>)> {
         let shaft = self.shaft?;
         Some(match shaft.summary.steady {
-            true => (shaft.summary.mean, Turning::Steady),
-            false => (1.0, Turning::Angle(&shaft.angle[..self.x.len()])),
+            true => (shaft.summary.mean, ShaftRotation::ConstantSpeed),
+            false => (1.0, ShaftRotation::Angle(&shaft.angle[..self.x.len()])),
         })
     }
 
@@ -210,13 +210,13 @@ impl<'a> Job<'a> {
         Ok(Welch::hann(segment.max(2)))
     }
 
-    fn spectrogram(&self) -> Result<SpectrogramOverTime, SignalError> {
+    fn spectrogram(&self) -> Result<SpectrogramWithSpeed, SignalError> {
         let frame = 1 << (self.x.len() / 64).clamp(256, 8192).ilog2();
         let settings = StftSettings::new(WindowKind::Hann, frame, 0.75)?;
         let mut map = Stft::new(settings, self.rate)?.spectrogram(self.x)?;
         // At varying speed up to the highest order.
         let changing = self.shaft.filter(|s| !s.summary.steady);
-        let orders = changing.map(|s| 1.1 * self.max_order() * s.summary.most);
+        let orders = changing.map(|s| 1.1 * self.max_order() * s.summary.max);
         if let Some(limit) = self.settings.max_frequency.or(orders) {
             let bins = map.frequencies.len();
             let kept = map.frequencies.partition_point(|f| *f <= limit).max(2);
@@ -235,21 +235,21 @@ impl<'a> Job<'a> {
             _ => Vec::new(),
         };
         map.times.iter_mut().for_each(|t| *t += self.channel.start + self.first as f64 / self.rate);
-        Ok(SpectrogramOverTime { map, rpm })
+        Ok(SpectrogramWithSpeed { map, rpm })
     }
 
     fn envelope(&self) -> Result<EnvelopeResult, SignalError> {
         let over_orders = self.shaft.is_some_and(|s| !s.summary.steady);
         let Some((rates, turning)) = self.rates() else {
             let rule = self.settings.band.unwrap_or(BandRule::Kurtosis);
-            let (_, turning) = self.clock().unwrap_or((1.0, Turning::Steady));
-            let found = band_envelope(self.x, self.rate, turning, rule, ORDERS)?;
+            let (_, turning) = self.rate_reference().unwrap_or((1.0, ShaftRotation::ConstantSpeed));
+            let found = band_envelope(self.x, self.rate, turning, rule, DEFAULT_MAX_ORDER)?;
             return Ok(EnvelopeResult {
                 rule,
                 band: found.band,
                 spectrum: found.envelope,
                 over_orders,
-                compared: found.kurtogram,
+                band_scores: found.kurtogram,
                 lines: None,
             });
         };
@@ -260,13 +260,13 @@ impl<'a> Job<'a> {
             band: found.band,
             spectrum: found.envelope,
             over_orders,
-            compared: found.kurtogram,
+            band_scores: found.kurtogram,
             lines: Some(found.lines),
         })
     }
 
     fn kurtogram(&self) -> Result<KurtogramResult, SignalError> {
-        let depth = deepest(self.x.len()).clamp(1, DEPTH);
+        let depth = max_depth(self.x.len()).clamp(1, MAX_LEVEL);
         // Segments shorter than the time between pulses.
         let fastest = self.rates().filter(|_| self.shaft.is_some_and(|s| s.summary.steady));
         let segment = fastest.map_or(128.0, |(rates, _)| 0.5 * self.rate / rates.inner);
@@ -280,8 +280,8 @@ impl<'a> Job<'a> {
 
     /// Highest order: as given, else by bearing and sampling rate.
     fn max_order(&self) -> f64 {
-        let wanted = self.bearing.map_or(ORDERS, |b| (2.2 * b.orders.bpfi).max(ORDERS));
-        let fastest = self.shaft.map_or(0.0, |s| s.summary.most);
+        let wanted = self.bearing.map_or(DEFAULT_MAX_ORDER, |b| (2.2 * b.orders.bpfi).max(DEFAULT_MAX_ORDER));
+        let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
         self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
     }
 
@@ -289,7 +289,7 @@ impl<'a> Job<'a> {
         let theta = self.angle("order tracking")?;
         let resolution = self.settings.order_resolution;
         let settings =
-            OrderSettings { least_speed: LEAST_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
+            OrderSettings { min_speed: MIN_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
         let mut tracker = OrderTracker::new(theta, self.rate, settings)?;
         let records = tracker.resample(&[self.x])?;
         let map = tracker.spectrogram(&records[0]);
@@ -312,7 +312,7 @@ impl<'a> Job<'a> {
         if let Some(bearing) = self.bearing {
             lines.extend(BearingPart::ALL.map(|part| OrderLine {
                 label: part.line_name().into(),
-                order: part.rate(&rates_of(bearing, 1.0)),
+                order: part.defect_frequency(&characteristic_rates(bearing, 1.0)),
                 bearing: true,
             }));
         }
@@ -322,7 +322,7 @@ impl<'a> Job<'a> {
     fn average(&self) -> Result<ShaftAverage, SignalError> {
         let theta = self.angle("an average over the shaft's turns")?;
         let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(360.0, 4096.0) as usize;
-        let resampler = AngleResampler::new(theta, self.rate, per_turn, LEAST_SPEED)?;
+        let resampler = AngleResampler::new(theta, self.rate, per_turn, MIN_SPEED)?;
         let parts = resampler.parts();
         let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
         let mut records = resampler.resample(&[self.x])?;
@@ -339,9 +339,9 @@ impl<'a> Job<'a> {
 }
 
 /// Characteristic rates of a bearing at shaft rate `unit`.
-fn rates_of(bearing: &RatedBearing, unit: f64) -> BearingRates {
+fn characteristic_rates(bearing: &BearingWithOrders, unit: f64) -> DefectFrequencies {
     let orders = bearing.orders;
-    BearingRates {
+    DefectFrequencies {
         shaft: unit,
         cage: unit * orders.ftf,
         outer: unit * orders.bpfo,

@@ -34,7 +34,7 @@ impl Analysis {
     ];
 
     /// Its keyword, such as "kurtogram".
-    pub fn word(self) -> &'static str {
+    pub fn keyword(self) -> &'static str {
         Self::ALL[self as usize].1
     }
 }
@@ -49,20 +49,20 @@ pub enum Race {
 
 /// Selection of analyses.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Wanted {
+pub enum AnalysisSelection {
     /// Those suited to the record (default); impossible ones are omitted with a warning.
     #[default]
-    Usual,
+    Suitable,
     /// All that are possible with the record.
     All,
     /// Exactly these; an impossible one is an error.
-    These(Vec<Analysis>),
+    Only(Vec<Analysis>),
 }
 
 /// Analyses and their settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalSettings {
-    pub analyses: Wanted,
+    pub analyses: AnalysisSelection,
     /// Rule for the demodulation band of the envelope; `None`: the band with the strongest bearing lines,
     /// without bearing that of the highest kurtosis.
     pub band: Option<BandRule>,
@@ -83,7 +83,7 @@ pub struct SignalSettings {
 impl Default for SignalSettings {
     fn default() -> Self {
         SignalSettings {
-            analyses: Wanted::Usual,
+            analyses: AnalysisSelection::Suitable,
             band: None,
             resolution: None,
             max_frequency: None,

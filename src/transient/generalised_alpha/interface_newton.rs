@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use super::StepFailure;
-use crate::bearing::radial::StepGain;
+use crate::bearing::radial::NewmarkGain;
 use crate::bearing::{Reaction, Rotation};
-use crate::linalg::small::solve_in_place;
+use crate::linalg::small_dense::solve_in_place;
 use crate::transient::system::{State, System};
 
 /// Newton stops when no interface displacement changed by more than this \[m, rad\] in an iteration; with quadratic
@@ -40,7 +40,7 @@ pub(super) struct InterfaceNewton {
 
 impl InterfaceNewton {
     pub fn new(system: &System) -> Self {
-        let (rows, places) = (system.rows(), system.places());
+        let (rows, places) = (system.rows(), system.interface_size());
         Self {
             free_d: vec![0.0; places],
             free_d_rate: vec![0.0; places],
@@ -59,13 +59,13 @@ impl InterfaceNewton {
     }
 
     /// d̄ = W (x̄ + β h² a) and ḋ̄ = W (v̄ + γ h a) with the acceleration a without bearing forces.
-    pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &StepGain) {
+    pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &NewmarkGain) {
         system.to_interface(x, &mut self.free_d);
         system.to_interface(v, &mut self.free_d_rate);
         system.to_interface(a, &mut self.free_acceleration);
         for (r, acceleration) in self.free_acceleration.iter().enumerate() {
-            self.free_d[r] += gain.place * acceleration;
-            self.free_d_rate[r] += gain.rate * acceleration;
+            self.free_d[r] += gain.position * acceleration;
+            self.free_d_rate[r] += gain.velocity * acceleration;
         }
     }
 
@@ -85,7 +85,7 @@ impl InterfaceNewton {
         &mut self,
         system: &System,
         rotations: &[Rotation],
-        gain: &StepGain,
+        gain: &NewmarkGain,
     ) -> Result<(), StepFailure> {
         for (u, y) in self.acceleration.iter_mut().zip(self.compliance.chunks_exact(system.rows())) {
             *u = y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
@@ -112,12 +112,12 @@ impl InterfaceNewton {
     }
 
     /// Bearing reactions at the present u; balls with coordinates are solved inside.
-    fn evaluate(&mut self, system: &System, rotations: &[Rotation], gain: &StepGain) {
+    fn evaluate(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
         let rows = system.rows();
         self.set_row_motion(gain);
         self.d[rows..].copy_from_slice(&self.free_d[rows..]);
         self.d_rate[rows..].copy_from_slice(&self.free_d_rate[rows..]);
-        system.react_in_step(
+        system.bearing_reactions_in_step(
             [&mut self.d, &mut self.d_rate],
             rotations,
             gain,
@@ -128,7 +128,7 @@ impl InterfaceNewton {
     }
 
     /// Residual u − Ỹ f and Jacobian I + Ỹ (β h² K + γ h C), with the tangents block by block.
-    fn linearise(&mut self, system: &System, gain: &StepGain) {
+    fn linearise(&mut self, system: &System, gain: &NewmarkGain) {
         let rows = system.rows();
         for r in 0..rows {
             let y = &self.compliance[r * rows..(r + 1) * rows];
@@ -139,7 +139,7 @@ impl InterfaceNewton {
             for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
                 let (first, count) = (interface.first_row, interface.rows);
                 for b in 0..count {
-                    let (yd, yv) = (gain.place * y[first + b], gain.rate * y[first + b]);
+                    let (yd, yv) = (gain.position * y[first + b], gain.velocity * y[first + b]);
                     let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
                     for column in 0..count {
                         line[first + column] += yd * k[column] + yv * c[column];
@@ -151,11 +151,11 @@ impl InterfaceNewton {
     }
 
     /// u ← u − Δ; the row with the largest change of displacement, and that change.
-    fn correct(&mut self, gain: &StepGain) -> (usize, f64) {
+    fn correct(&mut self, gain: &NewmarkGain) -> (usize, f64) {
         let (mut largest, mut row) = (0.0, 0);
         for (r, correction) in self.correction.iter().enumerate() {
             self.acceleration[r] -= correction;
-            let change = gain.place * correction.abs();
+            let change = gain.position * correction.abs();
             if change > largest || change.is_nan() {
                 (largest, row) = (change, r);
             }
@@ -165,7 +165,7 @@ impl InterfaceNewton {
 
     /// Applies Newton's last correction to forces and displacements too, so that force and state agree:
     /// f ← f + (β h² K + γ h C) Δ.
-    fn apply_last_correction(&mut self, system: &System, gain: &StepGain) {
+    fn apply_last_correction(&mut self, system: &System, gain: &NewmarkGain) {
         let rows = system.rows();
         let (on_rows, on_balls) = self.force.split_at_mut(rows);
         for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
@@ -173,27 +173,27 @@ impl InterfaceNewton {
             for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
                 for (column, by) in correction.iter().enumerate() {
                     let (k, c) = (reaction.stiffness[b][column], reaction.damping[b][column]);
-                    *force += (gain.place * k + gain.rate * c) * by;
+                    *force += (gain.position * k + gain.velocity * c) * by;
                 }
             }
             on_rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
             for ball in interface.ball_range() {
                 let tangent = &self.ball_force_tangent[ball];
                 let change: f64 = tangent.iter().zip(correction).map(|(k, by)| k * by).sum();
-                on_balls[ball] += gain.place * change;
-                let acceleration = gain.ball / system.ball_masses[ball] * on_balls[ball];
-                self.d[rows + ball] = self.free_d[rows + ball] + gain.place * acceleration;
-                self.d_rate[rows + ball] = self.free_d_rate[rows + ball] + gain.rate * acceleration;
+                on_balls[ball] += gain.position * change;
+                let acceleration = gain.inverse_mass / system.ball_masses[ball] * on_balls[ball];
+                self.d[rows + ball] = self.free_d[rows + ball] + gain.position * acceleration;
+                self.d_rate[rows + ball] = self.free_d_rate[rows + ball] + gain.velocity * acceleration;
             }
         }
         self.set_row_motion(gain);
     }
 
     /// d = d̄ + β h² u and ḋ = ḋ̄ + γ h u of the rows.
-    fn set_row_motion(&mut self, gain: &StepGain) {
+    fn set_row_motion(&mut self, gain: &NewmarkGain) {
         for (r, u) in self.acceleration.iter().enumerate() {
-            self.d[r] = self.free_d[r] + gain.place * u;
-            self.d_rate[r] = self.free_d_rate[r] + gain.rate * u;
+            self.d[r] = self.free_d[r] + gain.position * u;
+            self.d_rate[r] = self.free_d_rate[r] + gain.velocity * u;
         }
     }
 

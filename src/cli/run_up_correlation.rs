@@ -1,0 +1,314 @@
+//! Comparison of a measured run-up with a simulated run-up driven by the measured speed.
+
+use std::path::{Path, PathBuf};
+
+use rotordyn::error::Error;
+use rotordyn::figures;
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::measured::{mapping, run_up};
+use rotordyn::io::{machine_records, results_file};
+use rotordyn::model::Model;
+use rotordyn::results::{CampbellResult, ChannelPair, CutPair, level_difference_db};
+use rotordyn::study::{Machine, MeasuredRun};
+use rotordyn::update::UpdateError;
+use serde_json::{Value, json};
+
+use super::args::{ShaftArgs, StoredArgs, ValidateArgs};
+use super::failure::Failure;
+use super::machine::ModelSource;
+use super::signal::input::{File, InputProblems, cut_time_range};
+use super::signal::shaft_source::ShaftSource;
+use super::studies::{Job, Study};
+use super::terminal::{Terminal, number, rpm};
+use super::{ehl_films, settings, store};
+
+/// Largest number of rows printed.
+const MAX_ROWS: usize = 40;
+/// Fraction of the highest speed: a record that starts faster than this causes a start transient in the
+/// simulation.
+const MAX_START_SPEED_RATIO: f64 = 0.2;
+/// Fraction of a channel's largest order below which an order is not listed.
+const MIN_ORDER_LEVEL_RATIO: f64 = 1e-3;
+
+/// A measured run-up mapped to the model.
+pub struct MeasuredRunUp {
+    pub run: MeasuredRun,
+    pub source: String,
+    /// Lowest and highest speed \[rpm\].
+    pub rpm: [f64; 2],
+}
+
+/// The run-up in a file, or the reason why it contains none.
+pub fn read(
+    path: &Path,
+    args: &ValidateArgs,
+    model: &Model,
+    terminal: &Terminal,
+) -> Result<Result<MeasuredRunUp, String>, Failure> {
+    let mut file = File::read(path)?;
+    let mut findings = InputProblems::default();
+    let mapping = args.measured.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
+    if let Some(rate) = mapping.as_ref().and_then(mapping::Mapping::rate) {
+        file.measured.set_missing_rate(rate);
+    }
+    mapping.iter().for_each(|mapping| mapping.set_missing_units(&mut file.measured));
+    if !file.time_records().any(|r| !run_up::is_rotation_signal(r)) {
+        return Ok(Err("it contains no time record".into()));
+    }
+    if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
+        return Ok(Err(format!(
+            "`{}` has no sampling rate: give it in the mapping, such as rate = \"12 kHz\"",
+            record.name
+        )));
+    }
+    // The measured shaft angle drives the model; pulse jitter would excite it.
+    let smoothed = ShaftArgs { smooth_tacho: true, ..args.shaft.clone() };
+    let shaft = ShaftSource::of(&smoothed, None, &file, &mut findings);
+    let named = |failure: Failure| match failure {
+        Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
+        other => other,
+    };
+    std::mem::take(&mut findings).into_result().map_err(named)?;
+    if !shaft.is_known() {
+        return Ok(Err("the speed of the shaft is not known: give --tacho CHANNEL, or --track \
+             1=\"5 Hz .. 50 Hz\"; a channel `speed` needs its unit, such as [channel.speed] unit = \"rpm\" in the \
+             mapping"
+            .into()));
+    }
+    let is_shaft_channel = |r: &rotordyn::signal::record::Record| {
+        run_up::is_rotation_signal(r) || args.shaft.tacho.as_deref() == Some(&r.name)
+    };
+    file.measured.records.retain(|r| !is_shaft_channel(r));
+    if let (Some(mapping), Some(of)) = (&mapping, &args.measured.mapping) {
+        let place = |name: &str| machine_records::point_number(model, name);
+        for warning in mapping.apply(&mut file.measured, &place, of)? {
+            terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
+        }
+    }
+    let of_file = |error: Error| match error {
+        Error::Update(UpdateError { problem, advice }) => {
+            Error::Content { path: path.into(), problem, advice }
+        }
+        other => other,
+    };
+    let (mut channels, warnings) = run_up::channels(&file.measured, model).map_err(of_file)?;
+    for warning in warnings {
+        terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
+    }
+    for (_, channel) in &mut channels {
+        cut_time_range(channel, args.time.as_deref(), "--time", &mut findings);
+    }
+    findings.into_result().map_err(named)?;
+    let first = &channels[0].1;
+    let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
+    let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {
+        return Ok(Err(
+            "the shaft speed is constant; `rotordyn signal FILE --against RUN` compares records at constant \
+             speed"
+                .into(),
+        ));
+    };
+    let rpm = [motion.summary.min, motion.summary.max].map(|speed| 60.0 * speed);
+    let source = motion.summary.source.clone();
+    Ok(Ok(MeasuredRunUp { run: MeasuredRun::new(channels, &motion, model)?, source, rpm }))
+}
+
+/// Simulates the run-up, compares it with the record and writes the results; returns the JSON and the files.
+pub fn compare(
+    found: &MeasuredRunUp,
+    origin: &ModelSource,
+    prefix: &str,
+    folder: &Path,
+    draw: bool,
+    terminal: &Terminal,
+) -> Result<(Value, Vec<PathBuf>), Failure> {
+    let first = rpm(found.run.history.speed[0]);
+    let own = folder.join(format!("{prefix}_computed"));
+    let (mut job, campbell) = simulation_job(found, origin, own, terminal)?;
+    if first > MAX_START_SPEED_RATIO * found.rpm[1] {
+        terminal.print_diagnostic(
+            "warning",
+            &format!(
+                "the record starts at {first:.0} rpm, but the simulation starts at static equilibrium: its first \
+                 seconds contain the start transient"
+            ),
+        );
+    }
+    check_record_length(&found.run, &job.machine.model)?;
+    job.perform(&[Study::RunUp]);
+    // Partial results are written even if the run failed.
+    job.write(false)?;
+    if let Some((_, failure)) = job.failures.pop() {
+        if !matches!(failure, Failure::Interrupted) {
+            terminal.print_diagnostic(
+                "warning",
+                &format!(
+                    "the simulation was driven by the shaft angle of {}: jumps or jitter of that angle excite the shaft",
+                    found.source
+                ),
+            );
+        }
+        return Err(failure);
+    }
+    let Some(computed) = &job.results.run_up else { return Ok((Value::Null, job.files)) };
+    let pairs = job.machine.correlate_run_up(&found.run.history, &computed.history)?;
+    tables(terminal, &pairs, &format!("{prefix}.h5"));
+    let mut files = std::mem::take(&mut job.files);
+    let path = folder.join(format!("{prefix}.h5"));
+    let file = Store::create(&path)?;
+    results_file::write_run_up_correlation(&file, &pairs, &found.run.history, &computed.history)?;
+    file.flush()?;
+    files.push(path);
+    if draw {
+        let spinner = terminal.spinner("figures");
+        files.extend(figures::draw_run_up_correlation(
+            prefix,
+            &pairs,
+            campbell.as_ref(),
+            &job.machine,
+            folder,
+        )?);
+        spinner.finish_and_clear();
+    }
+    let document = json!({
+        "rpm": found.rpm,
+        "speed_source": found.source,
+        "seconds": found.run.profile.duration(),
+        "channels": pairs.iter().map(to_json).collect::<Vec<_>>(),
+    });
+    Ok((document, files))
+}
+
+/// Checks before the simulation that the record is long enough for the spectrogram and the order resolution.
+fn check_record_length(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
+    let seconds = run.profile.duration();
+    let turns = run.history.angle.last().copied().unwrap_or(0.0) / std::f64::consts::TAU;
+    let (spectra, orders) = (&model.studies.spectrogram, &model.studies.orders);
+    let mut problems = Vec::new();
+    if let Some(study) = spectra.as_ref().filter(|study| study.length > seconds) {
+        problems.push(format!(
+            "the record of {} s is shorter than the spectrogram window of {} s: use a longer record, or set \
+             study.spectrogram.length=\"{} s\"",
+            number(seconds, 3),
+            number(study.length, 3),
+            number(0.2 * seconds, 1)
+        ));
+    }
+    if let Some(study) = orders.as_ref().filter(|study| study.resolution * turns < 1.0) {
+        problems.push(format!(
+            "the record has {} revolutions, fewer than the {} needed for an order resolution of {}: use a longer \
+             record, or set study.orders.resolution={}",
+            number(turns, 3),
+            number(1.0 / study.resolution, 3),
+            study.resolution,
+            number((2.0 / turns).min(1.0), 1)
+        ));
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Failure::Input(problems.join("; "))) }
+}
+
+/// Job of the model driven by the measured speed, and its Campbell diagram up to the highest speed.
+fn simulation_job<'a>(
+    found: &MeasuredRunUp,
+    origin: &ModelSource,
+    folder: PathBuf,
+    terminal: &'a Terminal,
+) -> Result<(Job<'a>, Option<CampbellResult>), Failure> {
+    let model = origin.load(&[])?.model;
+    let no_flags = StoredArgs::default();
+    let top = format!("{} rpm", found.rpm[1]);
+    let drafts = [
+        settings::run_up(&model, None, None, None),
+        settings::spectrogram(&model, &no_flags),
+        settings::orders(&model, &no_flags),
+        settings::campbell(&model, Some(&top), None),
+    ];
+    let set: Vec<(String, String)> = drafts.into_iter().flat_map(|draft| draft.set).collect();
+    let mut loaded = origin.load(&set)?;
+    ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
+    let machine = Machine::new(found.run.driven_model(&loaded.model))?;
+    let studies = &machine.model.studies;
+    let campbell = studies.campbell.as_ref().map(|study| machine.campbell(study)).transpose()?;
+    let results = store::open(&folder, (&loaded).into(), origin, true, terminal)?;
+    results_file::note_measured_speed(&results, &found.source)?;
+    Ok((Job::new(terminal, machine, folder, results), campbell))
+}
+
+fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
+    let level = |of: [f64; 2]| format!("{:+.1}", level_difference_db(of));
+    let rows: Vec<Vec<String>> = pairs
+        .iter()
+        .map(|p| {
+            let [m, c] = p.rms;
+            vec![p.channel.clone(), number(m, 4), number(c, 4), p.unit.clone(), level(p.rms)]
+        })
+        .collect();
+    let header = ["channel", "measured RMS", "computed RMS", "unit", "level dB"];
+    terminal.table("Run-up: measured and computed RMS", &header, &rows);
+    let mut rows = Vec::new();
+    for pair in pairs {
+        let size = |cut: &CutPair| cut.peaks[0].rms.max(cut.peaks[1].rms);
+        let highest = pair.cuts.iter().map(size).fold(0.0, f64::max);
+        for cut in pair.cuts.iter().filter(|cut| size(cut) >= MIN_ORDER_LEVEL_RATIO * highest) {
+            let [m, c] = cut.peaks;
+            rows.push(vec![
+                pair.channel.clone(),
+                cut.line.label.clone(),
+                format!("{:.1}", m.rpm),
+                format!("{:.1}", c.rpm),
+                match m.at_end || c.at_end {
+                    true => "(end)".into(),
+                    false => format!("{:+.2}", 100.0 * (c.rpm / m.rpm - 1.0)),
+                },
+                number(m.rms, 4),
+                number(c.rms, 4),
+                level([m.rms, c.rms]),
+                format!("{:.3}", cut.correlation),
+            ]);
+        }
+    }
+    let header = [
+        "channel",
+        "order",
+        "measured rpm",
+        "computed rpm",
+        "error %",
+        "measured RMS",
+        "computed RMS",
+        "level dB",
+        "correlation",
+    ];
+    let count = rows.len();
+    rows.truncate(MAX_ROWS);
+    terminal.table("Peaks of the order cuts, measured and computed", &header, &rows);
+    if count > MAX_ROWS {
+        terminal.print(&format!("  ... and {} more in {file}", count - MAX_ROWS));
+    }
+    terminal.print(
+        "  level: computed over measured; (end): peak at the lowest or highest speed; correlation of the order level \
+         over\n  the whole run, 1 for proportional levels",
+    );
+}
+
+fn to_json(pair: &ChannelPair) -> Value {
+    let cut = |cut: &CutPair| {
+        let [m, c] = cut.peaks;
+        json!({
+            "order": cut.line.order,
+            "label": cut.line.label,
+            "measured_rpm": m.rpm,
+            "computed_rpm": c.rpm,
+            "measured_rms": m.rms,
+            "computed_rms": c.rms,
+            "at_end": m.at_end || c.at_end,
+            "likeness": cut.correlation,
+        })
+    };
+    json!({
+        "channel": pair.channel,
+        "unit": pair.unit,
+        "measured_rms": pair.rms[0],
+        "computed_rms": pair.rms[1],
+        "orders": pair.cuts.iter().map(cut).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,249 @@
+//! Shaft angle and speed of a record: from flags, a tachometer, an order line of the record, or the file.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use rotordyn::signal::record::{Points, Record};
+use rotordyn::signal::tacho::{PulseTrain, rising_edges};
+use rotordyn::study::signal::{ShaftMotion, SignalChannel};
+use rotordyn::units::FREQUENCY;
+
+use super::super::args::ShaftArgs;
+use super::input::{File, InputProblems};
+
+/// Trigger hysteresis as a fraction of the tacho signal's range.
+const HYSTERESIS: f64 = 0.2;
+
+/// Source of the shaft angle; times are those of the record's file.
+pub enum ShaftSource {
+    Unknown,
+    /// rev/s.
+    Steady(f64, String),
+    Pulses {
+        train: PulseTrain,
+        smooth: bool,
+        source: String,
+    },
+    Line {
+        order: f64,
+        range: (f64, f64),
+        source: String,
+    },
+    /// A channel of angles \[rad\] or speeds \[rad/s\].
+    Sampled {
+        values: Vec<f64>,
+        rate: f64,
+        start: f64,
+        is_angle: bool,
+        source: String,
+    },
+}
+
+impl ShaftSource {
+    /// Source from the flags, else from the file; `rate` is used for records without a stated rate.
+    pub fn of(
+        args: &ShaftArgs,
+        rate: Option<&str>,
+        file: &File,
+        findings: &mut InputProblems,
+    ) -> ShaftSource {
+        let known = if let Some(name) = &args.tacho {
+            tacho(args, name, rate, file, findings)
+        } else if let Some(text) = &args.track {
+            tracked_line(text, findings)
+        } else {
+            stated_in_file(file)
+        };
+        known.unwrap_or(ShaftSource::Unknown)
+    }
+
+    /// Whether the shaft speed is known.
+    pub fn is_known(&self) -> bool {
+        !matches!(self, ShaftSource::Unknown)
+    }
+
+    /// Shaft motion at the samples of a channel.
+    pub fn motion(&self, channel: &SignalChannel) -> Result<Option<ShaftMotion>, String> {
+        let (rate, samples) = (channel.sample_rate, &channel.samples);
+        let message = |error: rotordyn::signal::SignalError| error.to_string();
+        Ok(Some(match self {
+            ShaftSource::Unknown => return Ok(None),
+            ShaftSource::Steady(speed, source) => ShaftMotion::constant(*speed, source.clone()),
+            ShaftSource::Pulses { train, smooth, source } => {
+                let times = train.times.iter().map(|t| t - channel.start).collect();
+                let train = PulseTrain { times, ..train.clone() };
+                ShaftMotion::from_pulses(&train, rate, samples.len(), *smooth, source.clone())
+                    .map_err(message)?
+            }
+            ShaftSource::Line { order, range, source } => {
+                ShaftMotion::from_order_line(samples, rate, *order, *range, source.clone())
+                    .map_err(message)?
+            }
+            ShaftSource::Sampled { values, rate: own, start, is_angle, source } => {
+                if values.len() < 2 {
+                    return Ok(None);
+                }
+                // The shaft channel is interpolated linearly unless its samples coincide with those of the
+                // record.
+                let last = (values.len() - 1) as f64;
+                let at = |n: usize| {
+                    let place = (channel.start + n as f64 / rate - start) * own;
+                    let place = if (place - place.round()).abs() < 1e-6 { place.round() } else { place };
+                    let low = place.clamp(0.0, last - 1.0).floor();
+                    let part = place.clamp(0.0, last) - low;
+                    let (a, b) = (values[low as usize], values[low as usize + 1]);
+                    if part == 0.0 { a } else { a + part * (b - a) }
+                };
+                let values: Vec<f64> = (0..samples.len()).map(at).collect();
+                let motion = if *is_angle {
+                    ShaftMotion::from_angle(values, 0, rate, source.clone())
+                } else {
+                    ShaftMotion::from_speed(&values, rate, source.clone()).map_err(message)?
+                };
+                if motion.summary.mean == 0.0 {
+                    return Ok(None);
+                }
+                motion
+            }
+        }))
+    }
+}
+
+/// Order line to track in the record, `ORDER=LOW .. HIGH`.
+fn tracked_line(text: &str, findings: &mut InputProblems) -> Option<ShaftSource> {
+    let parts =
+        text.split_once('=').and_then(|(order, range)| Some((order.trim().parse::<f64>().ok()?, range)));
+    let Some((order, range)) = parts.filter(|(order, _)| *order > 0.0) else {
+        findings
+            .problem(format!("--track {text}: expected an order and its range, such as 1=\"5 Hz .. 50 Hz\""));
+        return None;
+    };
+    let [low, high] = findings.range("--track", range, FREQUENCY, [0.0, f64::INFINITY])?;
+    let source = format!("order {order} tracked between {low} and {high} Hz");
+    Some(ShaftSource::Line { order, range: (low, high), source })
+}
+
+/// Tacho pulses from a channel of the record or from a separate file.
+fn tacho(
+    args: &ShaftArgs,
+    name: &str,
+    rate: Option<&str>,
+    file: &File,
+    findings: &mut InputProblems,
+) -> Option<ShaftSource> {
+    let own = file.measured.records.iter().find(|r| r.name == name);
+    let other;
+    let (record, source) = match own {
+        Some(record) => (record, format!("pulses of `{name}`")),
+        None if Path::new(name).exists() => {
+            other = match File::read(Path::new(name)) {
+                Ok(other) => other,
+                Err(failure) => {
+                    findings.problem(format!("--tacho: {}", failure.message()));
+                    return None;
+                }
+            };
+            match other.measured.records.as_slice() {
+                [record] => (record, format!("pulses in {name}")),
+                records => {
+                    findings.problem(format!(
+                        "--tacho {name}: expected a file with one channel, it has {}",
+                        records.len()
+                    ));
+                    return None;
+                }
+            }
+        }
+        None => {
+            let problem = file.record(name).err().unwrap_or_default();
+            findings.problem(format!("--tacho: there is no such file, and {problem}"));
+            return None;
+        }
+    };
+    let times = pulse_times(record, rate, findings)?;
+    if times.len() < 3 {
+        findings.problem(format!(
+            "--tacho: `{}` has {} pulses, at least 3 are needed for a speed; check that it is the tacho channel",
+            record.name,
+            times.len()
+        ));
+        return None;
+    }
+    let train = findings.value_or_problem("--tacho: ", PulseTrain::new(&times, args.pulses_per_rev))?;
+    if train.missing + train.dropped > 0 {
+        findings.warnings.push(format!(
+            "tacho: {} missing pulses added and {} false pulses removed, of {}",
+            train.missing,
+            train.dropped,
+            times.len()
+        ));
+    }
+    let source = format!("{source}, {} per revolution", args.pulses_per_rev);
+    Some(ShaftSource::Pulses { train, smooth: args.smooth_tacho, source })
+}
+
+/// Pulse times \[s\]: given as values, or the rising edges of a channel.
+fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut InputProblems) -> Option<Vec<f64>> {
+    let values = findings.value_or_problem("--tacho: ", record.time_samples())?;
+    let rising = values.windows(2).all(|w| w[1] > w[0]);
+    if record.axis.points == Points::Unknown && rising {
+        return Some(values.to_vec());
+    }
+    let rate = match (record.sample_rate(), rate) {
+        (Ok(rate), _) => rate,
+        (Err(_), Some(text)) => findings.positive("--rate", text, FREQUENCY)?,
+        (Err(error), None) => {
+            findings.problem(format!("--tacho: {error}"));
+            return None;
+        }
+    };
+    let start = match record.axis.points {
+        Points::Uniform { start, .. } => start,
+        _ => 0.0,
+    };
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low == high {
+        findings.problem(format!("--tacho: `{}` is constant ({low}): it contains no pulses", record.name));
+        return None;
+    }
+    let edges = findings.value_or_problem("--tacho: ", rising_edges(values, rate, None, HYSTERESIS))?;
+    Some(edges.into_iter().map(|t| t + start).collect())
+}
+
+/// Shaft angle, speed over time or constant speed stated in the file.
+pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
+    // Variable names as in the CWRU files: "X105_DE_time" becomes "de".
+    let plain = |name: &str| {
+        let name = name.to_lowercase();
+        let bare = match name.split_once('_') {
+            Some((id, rest)) if id.starts_with('x') && id[1..].bytes().all(|b| b.is_ascii_digit()) => rest,
+            _ => &name,
+        };
+        bare.strip_suffix("_time").unwrap_or(bare).to_string()
+    };
+    let sampled = |unit: &str, names: &[&str]| {
+        file.time_records().find(|r| r.unit == unit && names.contains(&plain(&r.name).as_str()))
+    };
+    let of = |record: &Record, factor: f64, is_angle: bool| {
+        let rate = record.sample_rate().ok()?;
+        let start = match record.axis.points {
+            Points::Uniform { start, .. } => start,
+            _ => 0.0,
+        };
+        let values = record.time_samples().ok()?.iter().map(|v| v * factor).collect();
+        let source = format!("channel `{}`", record.name);
+        Some(ShaftSource::Sampled { values, rate, start, is_angle, source })
+    };
+    let angle = sampled("rad", &["theta", "angle", "shaft_angle"]).and_then(|r| of(r, 1.0, true));
+    let names = ["speed", "rpm", "shaft_speed", "shaft speed"];
+    let speed = || sampled("rad/s", &names).and_then(|r| of(r, 1.0, false));
+    let rpm = || sampled("rpm", &names).and_then(|r| of(r, TAU / 60.0, false));
+    let stated = || {
+        let of_record = file.time_records().find_map(|r| r.speed_rpm);
+        let scalar = |(name, value): &(String, f64)| name.to_lowercase().ends_with("rpm").then_some(*value);
+        let rpm = of_record.or_else(|| file.measured.scalars.iter().find_map(scalar))?;
+        (rpm > 0.0).then(|| ShaftSource::Steady(rpm / 60.0, "as the file states".into()))
+    };
+    angle.or_else(speed).or_else(rpm).or_else(stated)
+}

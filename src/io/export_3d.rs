@@ -1,0 +1,91 @@
+//! 3D export: the machine and its bearings as .glb, mode shapes for ParaView (.vtu, .pvd).
+
+use std::path::{Path, PathBuf};
+
+use super::gltf;
+use super::vtk::{Field, Grid, Values, machine_fields, write_pvd, write_vtu};
+use crate::analysis::Mode;
+use crate::error::Error;
+use crate::geometry::parry::BearingShapes;
+use crate::geometry::scene_graph::Scene;
+use crate::names::file_name;
+use crate::results::Results;
+use crate::study::Machine;
+
+/// Ratio of the largest displacement of an exported mode shape to the length of the shaft.
+const MODE_SHAPE_SIZE: f64 = 0.1;
+
+/// Writes `machine.glb` and `bearing_<name>.glb` of every ball bearing; returns the files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let mut files = vec![folder.join("machine.glb")];
+    gltf::write(&files[0], &Scene::of_machine(&machine.model))?;
+    for site in &machine.model.bearings {
+        if let Some(ball) = site.bearing.ball() {
+            let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
+            let scene = Scene::of_bearing(&site.name, &shapes, &shapes.centred(ball.cage_angle));
+            let file = folder.join(file_name(&format!("bearing_{}.glb", site.name)));
+            gltf::write(&file, &scene)?;
+            files.push(file);
+        }
+    }
+    Ok(files)
+}
+
+/// Writes every mode as `modes_<speed>rpm_<number>.vtu` and per speed `modes_<speed>rpm.pvd`, whose time is
+/// the mode's number; returns the .pvd files.
+///
+/// Motion is Re(u e^{jωt}): fields `displacement` and `rotation` are Re u, `displacement_quarter` and
+/// `rotation_quarter` −Im u, a quarter of a cycle later. The largest displacement is a tenth of
+/// the shaft's length, or the largest rotation 1 rad.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let grid = Grid::of_machine(&machine.model);
+    let z = &machine.model.node_z;
+    let rotor =
+        machine.model.rigid_rotor.as_ref().map_or(0.0, |rotor| crate::geometry::scene::disc_size(rotor).1);
+    let length = (z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0)).max(rotor);
+    let mut files = Vec::new();
+    for found in &results.modal {
+        let name = format!("modes_{:.0}rpm", found.speed * 60.0 / std::f64::consts::TAU);
+        let mut frames = Vec::new();
+        for (k, mode) in found.modes.iter().enumerate() {
+            let file = format!("{name}_{:02}.vtu", k + 1);
+            write_vtu(&folder.join(&file), &grid, &mode_fields(&grid, mode, MODE_SHAPE_SIZE * length))?;
+            frames.push(((k + 1) as f64, file));
+        }
+        let file = folder.join(format!("{name}.pvd"));
+        write_pvd(&file, &frames)?;
+        files.push(file);
+    }
+    Ok(files)
+}
+
+fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
+    let size_of = |u: &[crate::linalg::Complex64]| u.iter().map(|u| u.norm_sqr()).sum::<f64>().sqrt();
+    let moves = |node: &[crate::linalg::Complex64]| size_of(&node[..3]).max(size * size_of(&node[3..]));
+    let largest = mode.full_shape.chunks(6).map(moves).fold(0.0, f64::max);
+    let scale = if largest > 0.0 { size / largest } else { 1.0 };
+    let part = |value: fn(&crate::linalg::Complex64) -> f64| -> Vec<f64> {
+        mode.full_shape.iter().map(|u| scale * value(u)).collect()
+    };
+    let mut fields = machine_fields(grid, &part(|u| u.re), &[]);
+    let mut quarter = machine_fields(grid, &part(|u| -u.im), &[]);
+    // A mode shape has no ball loads.
+    for list in [&mut fields, &mut quarter] {
+        list.retain(|f| matches!(f.values, Values::Vectors(_)));
+    }
+    quarter.iter_mut().for_each(|f| f.name.push_str("_quarter"));
+    fields.append(&mut quarter);
+    fields
+}
+
+fn create_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))
+}

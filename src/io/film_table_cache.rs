@@ -1,0 +1,183 @@
+//! Tables of EHL (elastohydrodynamic) films, computed when a model needs them and cached on disk by their
+//! inputs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::bearing::BallBearing;
+use crate::contact::ContactLaw;
+use crate::contact::ehl::{EhlError, Solution, Table, TableSpec};
+use crate::error::{Error, PhysicsError};
+use crate::io::csv::{self, Column};
+
+/// Cache folder: `ROTORDYN_CACHE`, or `rotordyn` in the user's cache folder; `None` without either.
+pub fn cache_folder() -> Option<PathBuf> {
+    let variable = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    variable("ROTORDYN_CACHE")
+        .or_else(|| Some(variable("XDG_CACHE_HOME")?.join("rotordyn")))
+        .or_else(|| Some(variable("HOME")?.join(".cache").join("rotordyn")))
+}
+
+/// Computes the tables of a bearing with an EHL film, or reads them from `cache`; other bearings are
+/// unchanged.
+///
+/// `progress(race, done, total)` is called after every contact that is solved, from any thread.
+///
+/// # Errors
+/// [`PhysicsError::Film`] when a contact does not converge: its last fields are then written to `last`, as
+/// CSV. A cache that cannot be written is not an error: the tables are then computed again next time.
+pub fn load_or_compute(
+    name: &str,
+    bearing: &mut BallBearing,
+    cache: Option<&Path>,
+    last: &Path,
+    progress: &(impl Fn(&str, usize, usize) + Sync),
+) -> Result<(), Error> {
+    let hertz = bearing.hertz();
+    let ContactLaw::Ehl(law) = &mut bearing.contact else { return Ok(()) };
+    if law.tables.is_some() {
+        return Ok(());
+    }
+    let [inner, outer] = law.specs(&hertz);
+    let table = |race: &str, spec: &TableSpec| -> Result<Table, Error> {
+        if let Some(known) = cache.and_then(|folder| read(folder, &spec.key())) {
+            return Ok(known);
+        }
+        let found = spec.compute(|done, total| progress(race, done, total));
+        let table = found.map_err(|failure| film_error(name, race, &failure, last))?;
+        if let Some(folder) = cache {
+            write(folder, &table);
+        }
+        Ok(table)
+    };
+    law.tables = Some(Arc::new([table("inner", &inner)?, table("outer", &outer)?]));
+    Ok(())
+}
+
+/// The error of a film; the last fields of a contact that did not converge are written to the file `last`.
+fn film_error(name: &str, race: &str, failure: &EhlError, last: &Path) -> Error {
+    let mut reason = failure.to_string();
+    if let EhlError::NoConvergence { last: fields, .. } = failure {
+        if let Some(folder) = last.parent() {
+            let _ = std::fs::create_dir_all(folder);
+        }
+        reason += &match write_fields(fields, last) {
+            Ok(()) => format!("; its last fields are in {}", last.display()),
+            Err(error) => format!("; its last fields could not be written: {error}"),
+        };
+    }
+    PhysicsError::Film { bearing: name.into(), race: race.into(), reason }.into()
+}
+
+/// Pressure and film over x and y as a table of four columns.
+///
+/// # Errors
+/// As [`csv::write`].
+pub fn write_fields(fields: &Solution, path: &Path) -> Result<(), Error> {
+    let ny = fields.y.len();
+    let x: Vec<f64> = fields.x.iter().flat_map(|&x| std::iter::repeat_n(x, ny)).collect();
+    let y: Vec<f64> = fields.x.iter().flat_map(|_| fields.y.iter().copied()).collect();
+    let column = |name, unit, values| Column { name, unit, values };
+    csv::write(
+        path,
+        &[
+            column("x", "m", &x),
+            column("y", "m", &y),
+            column("pressure", "Pa", &fields.pressure),
+            column("film", "m", &fields.film),
+        ],
+    )
+}
+
+fn cache_file(folder: &Path, key: &str) -> PathBuf {
+    // FNV-1a hash: short and stable; the key inside the file is decisive.
+    let hash = key.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    folder.join(format!("film-{hash:016x}.json"))
+}
+
+/// Reads the table of a key from the cache; `None` if missing or damaged.
+fn read(folder: &Path, key: &str) -> Option<Table> {
+    let text = std::fs::read(cache_file(folder, key)).ok()?;
+    let table: Table = serde_json::from_slice(&text).ok()?;
+    (table.key == key).then_some(table)
+}
+
+/// Writes a temporary file and renames it (atomic), so that no reader sees an incomplete table.
+fn write(folder: &Path, table: &Table) {
+    let path = cache_file(folder, &table.key);
+    let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
+    let written = std::fs::create_dir_all(folder)
+        .and_then(|()| std::fs::write(&temporary, serde_json::to_vec(table).unwrap_or_default()))
+        .and_then(|()| std::fs::rename(&temporary, &path));
+    if written.is_err() {
+        let _ = std::fs::remove_file(&temporary);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::ehl::{self, Domain, Grid, Problem};
+    use crate::contact::{EllipticContact, Lubricant};
+
+    #[test]
+    fn no_convergence_writes_last_fields_and_reports_values() {
+        let steel = crate::material::Material {
+            name: "steel".into(),
+            young: 2.06e11,
+            shear: 8e10,
+            poisson: 0.3,
+            density: 7850.0,
+        };
+        let problem = Problem {
+            contact: EllipticContact::new(100.0, 100.0, [&steel, &steel]),
+            lubricant: Lubricant {
+                name: "oil".into(),
+                viscosity: 0.04,
+                pressure_viscosity: 2.2e-8,
+                density: 870.0,
+            },
+            speed: 1.0,
+            load: 20.0,
+            grid: Grid { nx: 25, ny: 13, domain: Domain { inlet: 4.5, outlet: 1.5, side: 3.0 } },
+        };
+        let fields = ehl::solve(&problem, None).unwrap();
+        let failure = EhlError::NoConvergence {
+            load: problem.load,
+            speed: problem.speed,
+            residual: 0.125,
+            iterations: 60,
+            least_film: fields.minimum_film,
+            last: Box::new(fields),
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new").join("last.csv");
+        let message = film_error("A", "inner", &failure, &path).to_string();
+        for part in ["bearing A, inner race", "20.0000 N", "1.0000 m/s", "1.250e-1", "60", "last.csv"] {
+            assert!(message.contains(part), "{message} lacks {part}");
+        }
+        let text = std::fs::read_to_string(path).unwrap();
+        assert!(text.starts_with("x_m,y_m,pressure_Pa,film_m\n") && text.lines().count() == 1 + 25 * 13);
+    }
+
+    #[test]
+    fn cached_table_is_bit_exact_and_checked_by_key() {
+        let folder = tempfile::tempdir().unwrap();
+        let table = Table {
+            key: "ehl table 1; test".into(),
+            stiffness: 2.0e10 / 3.0,
+            loads: vec![1.0, 10.0],
+            speeds: vec![0.1],
+            shift: vec![vec![1.0e-6 / 3.0, 2.0e-7]],
+            central_film: vec![vec![3.0e-7, 0.1 + 0.2]],
+        };
+        write(folder.path(), &table);
+        assert_eq!(read(folder.path(), &table.key), Some(table.clone()));
+        assert_eq!(read(folder.path(), "ehl table 1; other"), None);
+        let renamed = cache_file(folder.path(), "another");
+        std::fs::rename(cache_file(folder.path(), &table.key), &renamed).unwrap();
+        assert_eq!(read(folder.path(), "another"), None);
+    }
+}

@@ -1,0 +1,333 @@
+//! Results as JSON, for other programs: the document "rotordyn-results-1".
+//!
+//! Frequencies in Hz, speeds in rpm, all else in SI; non-finite numbers are null. Keys of results that were
+//! not computed are absent.
+//!
+//! | key | contents |
+//! |---|---|
+//! | `schema`, `program`, `version` | "rotordyn-results-1", "rotordyn", the program's version |
+//! | `model`, `title` | name and title of the model |
+//! | `units` | the unit of every quantity below |
+//! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
+//! | `modal` | per speed {speed_rpm, modes: \[{label, kind, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
+//! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `thresholds` \[{speed_rpm, unstable_above, label}\] |
+//! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, log_decrement, kind, label}\], also the form of `crossings` |
+//! | `frf` | `speed_rpm`, `quantity`, `frequency_hz`, `functions` \[{excitation, response, unit, re, im}\] |
+//! | `unbalance` | `speeds_rpm`, `responses` \[{name, unit, re, im}\], `orbits` \[{disc, x_re, x_im, y_re, y_im}\]; x(t) = Re(X e^{jΩt}) |
+//! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
+//! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
+//! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
+//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
+//! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
+//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `seams`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
+//! | `bearings` | per stand-alone ball bearing {name, load_from, held, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `warnings` | messages |
+
+mod signal;
+mod steady;
+
+pub use signal::signal_to_json;
+
+/// Name and version of the document's schema.
+pub const SCHEMA: &str = "rotordyn-results-1";
+
+use serde_json::{Map, Value, json};
+
+use crate::analysis::Mode;
+use crate::analysis::critical_speed::CriticalSpeed;
+use crate::analysis::equilibrium::{BearingState, Equilibrium};
+use crate::results::{
+    BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
+    HistoryChannel, ModalResult, OrderResult, Results, RunUpResult, SpectrogramResult, UnbalanceResult,
+    is_rotation, unit_of,
+};
+use crate::study::Machine;
+use crate::transient::run::End;
+
+const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
+
+/// The results as one document.
+pub fn to_json(results: &Results, machine: &Machine) -> Value {
+    let mut out = Map::new();
+    let mut put = |key: &str, value: Value| out.insert(key.into(), value);
+    put("schema", SCHEMA.into());
+    put("program", "rotordyn".into());
+    put("version", env!("CARGO_PKG_VERSION").into());
+    put("model", machine.model.name.clone().into());
+    put("title", machine.model.title.clone().into());
+    put(
+        "units",
+        json!({
+            "speed": "rpm", "frequency": "Hz", "order": "1/revolution", "displacement": "m, rad",
+            "force": "N, N m", "stiffness": "N/m, N, N m/rad", "damping": "N s/m, N s, N m s/rad",
+            "damping_ratio": "1", "log_decrement": "1", "effective_mass": "share of the total mass",
+            "energy": "J", "angle": "rad",
+        }),
+    );
+    if let Some(found) = &results.equilibrium {
+        put("equilibrium", equilibrium(found, machine));
+    }
+    if !results.modal.is_empty() {
+        put("modal", results.modal.iter().map(modal).collect());
+    }
+    if let Some(found) = &results.campbell {
+        put("campbell", campbell(found));
+    }
+    if let Some(found) = &results.critical {
+        let speeds: Value = found.speeds.iter().map(crossing).collect();
+        put("critical_speeds", json!({ "max_speed_rpm": found.max_speed * TO_RPM, "speeds": speeds }));
+    }
+    if let Some(found) = &results.frf {
+        put("frf", frf(found));
+    }
+    if let Some(found) = &results.unbalance {
+        put("unbalance", unbalance(found));
+    }
+    if let Some(found) = &results.run_up {
+        put("run_up", run_up(found));
+    }
+    if !results.spectrograms.is_empty() {
+        put("spectrograms", results.spectrograms.iter().map(spectrogram).collect());
+    }
+    if !results.orders.is_empty() {
+        put("orders", results.orders.iter().map(orders).collect());
+    }
+    if let Some(found) = &results.poincare {
+        put("poincare", steady::poincare(found));
+    }
+    if let Some(found) = &results.lyapunov {
+        put("lyapunov", steady::lyapunov(found));
+    }
+    if let Some(found) = &results.bifurcation {
+        put("bifurcation", steady::bifurcation(found));
+    }
+    if !results.bearings.is_empty() {
+        put("bearings", results.bearings.iter().map(bearing).collect());
+    }
+    put("warnings", results.warnings.clone().into());
+    Value::Object(out)
+}
+
+/// Stand-alone ball bearings (no machine) as a document of the same schema.
+pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
+    json!({
+        "schema": SCHEMA, "program": "rotordyn", "version": env!("CARGO_PKG_VERSION"),
+        "model": name, "title": title, "warnings": results.warnings,
+        "bearings": results.bearings.iter().map(bearing).collect::<Value>(),
+    })
+}
+
+fn bearing(found: &BearingResult) -> Value {
+    let o = &found.nominal_orders;
+    let sweep = |s: &BearingSweepResult| {
+        json!({
+            "of": s.of.name(), "label": s.label, "unit": s.unit, "values": s.values,
+            "points": s.points.iter().map(point).collect::<Value>(),
+        })
+    };
+    json!({
+        "name": found.name,
+        "load_from": found.load_source,
+        "held": found.prescribed,
+        "rating": {
+            "dynamic": found.rating.dynamic, "static": found.rating.static_rating, "fatigue": found.rating.fatigue,
+        },
+        "preload": { "offset": found.preload.offset, "axial_force": found.preload.axial_force },
+        "nominal_orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
+        "operating": point(&found.point),
+        "sweeps": found.sweeps.iter().map(sweep).collect::<Value>(),
+        "films": found.films.iter().map(|f| json!({
+            "race": f.race,
+            "load": f.load,
+            "entrainment_speed": f.speed,
+            "central_film": f.solution.central_film,
+            "minimum_film": f.solution.minimum_film,
+            "approach": f.solution.approach,
+            "rolling_force": f.solution.rolling_force,
+        })).collect::<Value>(),
+        "warnings": found.warnings,
+    })
+}
+
+fn point(p: &BearingPoint) -> Value {
+    let contact = |c: &ContactState| -> Value {
+        let values =
+            ContactState::COLUMNS.iter().map(|(name, _, value)| ((*name).to_string(), json!(value(c))));
+        Value::Object(values.collect())
+    };
+    let ball = |b: &BallState| json!({ "row": b.row, "position": b.position, "inner": contact(&b.inner), "outer": contact(&b.outer) });
+    let mut out = json!({
+        "load": p.state.load, "displacement": p.state.displacement, "stiffness": p.state.stiffness,
+        "balls": p.balls.iter().map(ball).collect::<Value>(),
+    });
+    // Quantities for which a standard gives no value (NaN) are omitted.
+    for (name, _, value) in BearingPoint::COLUMNS.iter().filter(|(_, _, value)| !value(p).is_nan()) {
+        out[*name] = json!(value(p));
+    }
+    out
+}
+
+fn equilibrium(found: &Equilibrium, machine: &Machine) -> Value {
+    let dofs = &machine.assembly.dofs;
+    let q = dofs.expand(&found.q);
+    let nodes: Value = dofs
+        .node_names
+        .iter()
+        .zip(q.chunks(6))
+        .map(|(n, q)| json!({ "node": n, "displacement": q }))
+        .collect();
+    let ball = |b: &crate::bearing::BallLoad| {
+        json!({
+            "position_rad": b.position, "load_n": b.load,
+            "contact_angle_rad": b.contact_angle, "deflection_m": b.deflection,
+        })
+    };
+    let bearing = |b: &BearingState| {
+        json!({
+            "name": b.name, "displacement": b.displacement, "force": b.force,
+            "stiffness": b.tangent.stiffness, "damping": b.tangent.damping,
+            "largest_ball_load_n": b.largest_ball_load, "balls": b.balls.iter().map(ball).collect::<Value>(),
+        })
+    };
+    json!({
+        "speed_rpm": found.speed * TO_RPM,
+        "residual_n": found.residual,
+        "iterations": found.iterations,
+        "nodes": nodes,
+        "bearings": found.bearings.iter().map(bearing).collect::<Value>(),
+    })
+}
+
+fn modal(found: &ModalResult) -> Value {
+    let mode = |m: &Mode| {
+        json!({
+            "label": m.label, "kind": m.kind.name(), "frequency_hz": m.frequency_hz(),
+            "damping_ratio": m.zeta(), "log_decrement": m.log_dec(), "effective_mass": m.effective_mass,
+        })
+    };
+    json!({ "speed_rpm": found.speed * TO_RPM, "modes": found.modes.iter().map(mode).collect::<Value>() })
+}
+
+fn campbell(found: &CampbellResult) -> Value {
+    let branch = |b: &crate::analysis::campbell::Branch| {
+        let over = |value: fn(&Mode) -> f64| -> Value {
+            b.modes.iter().map(|m| m.as_ref().map_or(Value::Null, |m| value(m).into())).collect()
+        };
+        json!({
+            "label": b.label, "kind": b.kind.name(),
+            "frequency_hz": over(Mode::frequency_hz), "log_decrement": over(Mode::log_dec),
+        })
+    };
+    let speeds: Vec<f64> = found.diagram.speeds.iter().map(|s| s * TO_RPM).collect();
+    json!({
+        "speeds_rpm": speeds,
+        "branches": found.diagram.branches.iter().map(branch).collect::<Value>(),
+        "orders": found.orders.iter().map(|o| json!({ "label": o.label, "order": o.order })).collect::<Value>(),
+        "crossings": found.crossings.iter().map(crossing).collect::<Value>(),
+        "thresholds": found.thresholds.iter().map(|t| json!({
+            "speed_rpm": t.speed * TO_RPM, "unstable_above": t.unstable_above, "label": t.label,
+        })).collect::<Value>(),
+    })
+}
+
+fn crossing(c: &CriticalSpeed) -> Value {
+    json!({
+        "speed_rpm": c.speed * TO_RPM, "order": c.order, "frequency_hz": c.mode.frequency_hz(),
+        "log_decrement": c.mode.log_dec(), "kind": c.mode.kind.name(), "label": c.label,
+    })
+}
+
+fn frf(found: &FrfResult) -> Value {
+    let mut functions = Vec::new();
+    for (e, excitation) in found.excitations.iter().enumerate() {
+        for (r, response) in found.responses.iter().enumerate() {
+            let values = &found.frf.values[r][e];
+            functions.push(json!({
+                "excitation": excitation, "response": response, "unit": found.units[r][e],
+                "re": values.iter().map(|v| v.re).collect::<Vec<_>>(),
+                "im": values.iter().map(|v| v.im).collect::<Vec<_>>(),
+            }));
+        }
+    }
+    json!({
+        "speed_rpm": found.speed * TO_RPM,
+        "quantity": found.name(),
+        "frequency_hz": found.frf.frequencies,
+        "functions": functions,
+    })
+}
+
+fn unbalance(found: &UnbalanceResult) -> Value {
+    let part = |pairs: &[[f64; 2]], k: usize| -> Vec<f64> { pairs.iter().map(|p| p[k]).collect() };
+    let speeds: Vec<f64> = found.response.speeds.iter().map(|s| s * TO_RPM).collect();
+    let responses = found.channels.iter().map(|c| {
+        json!({
+            "name": c.probe.name, "unit": unit_of(c.probe.quantity, is_rotation(&c.probe.direction)),
+            "re": part(&c.amplitude, 0), "im": part(&c.amplitude, 1),
+        })
+    });
+    let orbits = found.orbits.iter().map(|o| {
+        json!({
+            "disc": o.name, "x_re": part(&o.x, 0), "x_im": part(&o.x, 1),
+            "y_re": part(&o.y, 0), "y_im": part(&o.y, 1),
+        })
+    });
+    json!({
+        "speeds_rpm": speeds,
+        "responses": responses.collect::<Value>(),
+        "orbits": orbits.collect::<Value>(),
+    })
+}
+
+fn run_up(found: &RunUpResult) -> Value {
+    let (report, energy) = (&found.report, &found.report.energy);
+    let channel = |c: &HistoryChannel| {
+        let minimum = c.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let maximum = c.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let square = c.values.iter().map(|v| v * v).sum::<f64>() / c.values.len() as f64;
+        json!({
+            "name": c.name, "unit": c.unit, "quantity": c.quantity, "station": c.station,
+            "direction": c.direction, "minimum": minimum, "maximum": maximum, "rms": square.sqrt(),
+        })
+    };
+    let end = match &report.end {
+        End::Complete => "complete".to_string(),
+        End::Stopped => "stopped".to_string(),
+        End::Failed(error) => format!("failed: {error}"),
+    };
+    json!({
+        "reduced_modes": found.modes, "reduced_corrections": found.corrections,
+        "static_error": found.static_error, "frequency_error": found.frequency_error,
+        "end": end, "steps": report.steps, "iterations": report.iterations, "halvings": report.halvings,
+        "energy_j": {
+            "work": energy.work, "parametric": energy.parametric, "damping_loss": energy.damping_loss,
+            "contact_loss": energy.contact_loss, "residual": energy.residual(),
+        },
+        "sample_rate_hz": found.history.sample_rate,
+        "samples": found.history.time.len(),
+        "channels": found.history.channels.iter().map(channel).collect::<Value>(),
+    })
+}
+
+fn spectrogram(found: &SpectrogramResult) -> Value {
+    let s = &found.spectrogram;
+    let bins = s.frequencies.len();
+    let highest = (0..s.amplitude.len()).max_by(|&a, &b| s.amplitude[a].total_cmp(&s.amplitude[b]));
+    let peak = highest.map_or(Value::Null, |k| {
+        json!({
+            "speed_rpm": found.speed[k / bins] * TO_RPM, "frequency_hz": s.frequencies[k % bins],
+            "amplitude": s.amplitude[k],
+        })
+    });
+    json!({
+        "channel": found.channel, "unit": found.unit, "frames": s.times.len(), "frequencies": bins,
+        "peak": peak,
+    })
+}
+
+fn orders(found: &OrderResult) -> Value {
+    let cuts = found.cuts.iter().map(|(line, cut)| {
+        json!({ "label": line.label, "order": cut.order, "speed_rpm": cut.rpm, "rms": cut.rms })
+    });
+    json!({ "channel": found.channel, "unit": found.unit, "cuts": cuts.collect::<Value>() })
+}

@@ -1,0 +1,20 @@
+//! File formats, read and written; each external crate is used by one module only.
+
+pub mod csv;
+pub mod export_3d;
+pub mod external_file;
+pub mod film_table_cache;
+pub mod gltf;
+pub mod hdf5;
+pub mod identified_modes;
+pub mod inflate;
+pub mod json;
+pub mod machine_records;
+pub mod mat;
+pub mod measured;
+pub mod model_file_edit;
+pub mod npy;
+pub mod results_file;
+pub mod uff;
+pub mod vtk;
+pub mod wav;

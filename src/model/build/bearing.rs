@@ -1,0 +1,395 @@
+//! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
+
+use super::catalogue::{self, CatalogueEntry};
+use super::contact;
+use super::imperfections;
+use super::loading::check_increasing;
+use super::material;
+use super::mounting;
+use super::places::Places;
+use super::radial_bearing;
+use super::springs::{self, MatrixKind};
+use crate::bearing::{
+    BallBearing, BallGeometry, BallInertia, Bearing, Cage, Fit, LinearBearing, LinearBearingRow, Preload,
+    Service,
+};
+use crate::contact::{ContactDamping, ContactLaw, Lubricant};
+use crate::element::{Anchor, Material};
+use crate::model::BearingSite;
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative, positive};
+use crate::model::file::tree::Value;
+use crate::units::{ANGLE, LENGTH, NUMBER, SPEED};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+const INERTIAS: [(&str, BallInertia); 4] = [
+    ("none", BallInertia::None),
+    ("outer_race_control", BallInertia::OuterRaceControl),
+    ("inner_race_control", BallInertia::InnerRaceControl),
+    ("shared", BallInertia::Shared),
+];
+
+pub(super) fn read(
+    top: &Reader,
+    materials: &[Material],
+    lubricants: &[Lubricant],
+    gravity: [f64; 3],
+    places: &Places,
+) -> Vec<BearingSite> {
+    let read = |(name, r): (&str, Reader)| {
+        let (node, z) = places.station(&r, "station");
+        let housing = r.text("housing").unwrap_or("ground");
+        let housing = places
+            .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
+            .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
+        let bearing = bearing(&r, materials, lubricants, gravity);
+        r.finish();
+        BearingSite { name: name.into(), node, housing, bearing }
+    };
+    top.items("bearing").into_iter().map(read).collect()
+}
+
+/// Bearings of a bearing-only file, without station and housing.
+pub(super) fn read_bearings_only(
+    top: &Reader,
+    materials: &[Material],
+    lubricants: &[Lubricant],
+    gravity: [f64; 3],
+) -> Vec<(String, Bearing)> {
+    let read = |(name, r): (&str, Reader)| {
+        let bearing = bearing(&r, materials, lubricants, gravity);
+        r.finish();
+        (name.to_string(), bearing)
+    };
+    top.items("bearing").into_iter().map(read).collect()
+}
+
+/// Keywords of the key `model`.
+#[derive(Clone, Copy)]
+enum ModelKeyword {
+    Linear,
+    Ball,
+    RadialBall,
+}
+
+fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant], gravity: [f64; 3]) -> Bearing {
+    if !r.has("model") {
+        r.missing("model", "\"ball\", \"radial_ball\" or \"linear\"");
+    }
+    let kinds = [
+        ("linear", ModelKeyword::Linear),
+        ("ball", ModelKeyword::Ball),
+        ("radial_ball", ModelKeyword::RadialBall),
+    ];
+    match r.choice("model", &kinds) {
+        Some(ModelKeyword::Ball) => Bearing::Ball(ball(r, materials, lubricants)),
+        Some(ModelKeyword::RadialBall) => Bearing::RadialBall(radial_bearing::read(r, materials, gravity)),
+        Some(ModelKeyword::Linear) => Bearing::Linear(linear(r)),
+        None => {
+            r.entries();
+            Bearing::Linear(LinearBearing { table: Vec::new() })
+        }
+    }
+}
+
+fn linear(r: &Reader) -> LinearBearing {
+    let speeds = r.list("speed", not_negative(SPEED)).unwrap_or_else(|| vec![0.0]);
+    check_increasing(r, "speed", &speeds);
+    let stiffness = springs::table(r, MatrixKind::Stiffness, speeds.len(), false);
+    let damping = springs::table(r, MatrixKind::Damping, speeds.len(), false);
+    if r.has_no_errors() && stiffness.iter().flatten().flatten().all(|&k| k == 0.0) {
+        r.missing("k_xx", "\"1e7 N/m\" (and k_yy)");
+    }
+    let rows = speeds.into_iter().zip(stiffness).zip(damping);
+    LinearBearing {
+        table: rows
+            .map(|((speed, stiffness), damping)| LinearBearingRow { speed, stiffness, damping })
+            .collect(),
+    }
+}
+
+/// Default material: bearing steel.
+fn bearing_steel() -> Material {
+    let (young, poisson) = (207e9, 0.3);
+    Material {
+        name: "bearing steel".into(),
+        young,
+        shear: young / (2.0 * (1.0 + poisson)),
+        poisson,
+        density: 7850.0,
+    }
+}
+
+fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBearing {
+    let mut bearing = common_properties(r, materials, designation(r).as_ref(), None);
+    bearing.service = contact::service(r, lubricants);
+    bearing.damping = contact::damping(r);
+    bearing.inertia = r.choice("ball_inertia", &INERTIAS).unwrap_or_default();
+    bearing.preload = mounting::preload(r);
+    bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
+    bearing.fit = mounting::fit(r, &bearing.geometry);
+    bearing.contact = contact::contact_law(r, lubricants, &bearing.hertz());
+    if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+        let message = format!(
+            "{} needs separate inner and outer contacts, which a fitted power law does not have",
+            r.name("ball_inertia")
+        );
+        let problem = Problem::new(Kind::Conflict, &r.span_of("ball_inertia"), message);
+        r.log.error(problem.expected("contact = \"hertz\" or \"film\", with separate inner and outer contacts").hint(
+            "a power law covers both contacts in series and includes the centrifugal force at the speed of the fit",
+        ));
+    }
+    imperfections::check_force_law(r, &bearing);
+    if r.has_no_errors() {
+        check_geometry(r, &bearing);
+    }
+    if r.has_no_errors() {
+        for why in bearing.problems() {
+            r.log.error(Problem::new(Kind::Conflict, &r.span, format!("{}: {why}", r.path)));
+        }
+    }
+    bearing
+}
+
+/// Properties common to all ball bearing models: geometry, materials, dry contacts, cage, imperfections; the
+/// rest are defaults.
+///
+/// `osculation`: default of both grooves if neither file nor catalogue gives it; `None` if it is required.
+pub(super) fn common_properties(
+    r: &Reader,
+    materials: &[Material],
+    entry: Option<&CatalogueEntry>,
+    osculation: Option<f64>,
+) -> BallBearing {
+    let geometry = geometry(r, entry, osculation);
+    let part = |key: &str| match (r.has(key), r.has("material")) {
+        (true, _) => material(r, key, materials),
+        (_, true) => material(r, "material", materials),
+        _ => None,
+    };
+    let steel = bearing_steel();
+    let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
+    let free = (spacing - geometry.ball_diameter).max(0.0);
+    let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
+    BallBearing {
+        ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
+        ring_material: part("ring_material").unwrap_or(steel),
+        service: Service::default(),
+        contact: ContactLaw::Hertz,
+        contact_stiffness: contact::stiffness(r),
+        damping: ContactDamping::Constant { coefficient: 0.0, ramp: 1e-6 },
+        inertia: BallInertia::None,
+        preload: Preload::None,
+        duplex: None,
+        fit: Fit::default(),
+        cage: cage(r),
+        cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
+        imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
+        cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
+        geometry,
+    }
+}
+
+pub(super) fn designation(r: &Reader) -> Option<CatalogueEntry> {
+    let name = r.text("designation")?;
+    let found = catalogue::find(name);
+    if found.is_none() {
+        let message = format!("unknown bearing designation `{name}`");
+        let problem = Problem::new(Kind::UnknownName, &r.span_of("designation"), message);
+        let names: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
+        r.log.error(
+            problem.suggest(name, names).expected("a bearing of assets/bearings.csv, or its geometry"),
+        );
+    }
+    found
+}
+
+/// Geometry from the catalogue; the file may override each field.
+fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Option<f64>) -> BallGeometry {
+    // an unknown designation was already reported; do not report its fields as missing
+    let reported = r.has("designation") && entry.is_none();
+    let field = |key: &str, from: fn(&CatalogueEntry) -> f64| match (r.get(key, positive(LENGTH)), entry) {
+        (Some(given), _) => given,
+        (None, Some(entry)) => from(entry),
+        (None, None) if reported || r.has(key) => 1.0,
+        (None, None) => r.need(key, positive(LENGTH)),
+    };
+    let ball_diameter = field("ball_diameter", |e| e.ball_diameter);
+    let pitch_diameter = field("pitch_diameter", |e| e.pitch_diameter);
+    let balls = match entry {
+        None if !reported && !r.has("balls") => {
+            r.missing("balls", "9");
+            3
+        }
+        _ => r.count("balls", entry.map_or(3, |e| e.balls), 3..=1000),
+    };
+    let groove = |radius: &str, osculation: &str, k: usize| match r.one_of(&[radius, osculation]) {
+        Some(key) if key == radius => r.need(radius, positive(LENGTH)),
+        Some(_) => r.need(osculation, positive(NUMBER)) * ball_diameter,
+        None => match entry {
+            Some(e) => e.osculation[k] * ball_diameter,
+            None if reported => ball_diameter,
+            None => {
+                default.unwrap_or_else(|| {
+                    r.missing(osculation, "0.52");
+                    1.0
+                }) * ball_diameter
+            }
+        },
+    };
+    let inner_groove_radius = groove("inner_groove_radius", "inner_osculation", 0);
+    let outer_groove_radius = groove("outer_groove_radius", "outer_osculation", 1);
+    let contact_angle = r.or("contact_angle", not_negative(ANGLE), entry.map_or(0.0, |e| e.contact_angle));
+    let thrust = thrust(r, contact_angle);
+    let bore = r.or("bore", positive(LENGTH), entry.map_or(pitch_diameter - 2.2 * ball_diameter, |e| e.bore));
+    let outside = entry.map_or(pitch_diameter + 2.2 * ball_diameter, |e| e.outside_diameter);
+    BallGeometry {
+        balls,
+        ball_diameter,
+        pitch_diameter,
+        inner_groove_radius,
+        outer_groove_radius,
+        radial_clearance: clearance(r, bore, contact_angle),
+        contact_angle,
+        thrust_direction: thrust,
+        moment_arm: r.get("moment_arm", positive(LENGTH)),
+        bore,
+        outside_diameter: r.or("outside_diameter", positive(LENGTH), outside),
+        width: r.or("width", positive(LENGTH), entry.map_or(1.8 * ball_diameter, |e| e.width)),
+    }
+}
+
+/// Thrust direction: required with a contact angle or a preload, except for a pair that carries thrust both
+/// ways.
+fn thrust(r: &Reader, contact_angle: f64) -> f64 {
+    let both_ways = matches!(r.text("arrangement"), Some("back_to_back" | "face_to_face"));
+    let thrust = r.choice("thrust", &[("+z", 1.0), ("-z", -1.0)]);
+    if both_ways && thrust.is_some() {
+        let message =
+            format!("{} does not apply to a pair that carries thrust in both directions", r.name("thrust"));
+        r.error(Kind::Conflict, "thrust", message);
+    }
+    // a misspelt arrangement was already reported; whether it needs a direction is unknown
+    let one_way = !r.has("arrangement") || r.text("arrangement") == Some("tandem");
+    if one_way && (contact_angle > 0.0 || r.has("preload")) && !r.has("thrust") {
+        r.missing(
+            "thrust",
+            "\"+z\" (direction of the shaft's axial load that the bearing transmits to the housing)",
+        );
+    }
+    thrust.unwrap_or(1.0)
+}
+
+/// Diametral (radial internal) clearance: as given, or the mean of the clearance class (default CN); an
+/// angular contact bearing has none by default.
+fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
+    let class = match r.one_of(&["radial_clearance", "clearance"]) {
+        Some("radial_clearance") => return r.get("radial_clearance", any(LENGTH)).unwrap_or(0.0),
+        Some(_) => {
+            let classes = catalogue::CLEARANCE_CLASSES.map(|c| (c, c));
+            r.choice("clearance", &classes)
+        }
+        None if contact_angle > 0.0 => return 0.0,
+        None => Some("CN"),
+    };
+    let Some(class) = class else { return 0.0 };
+    match catalogue::clearance(class, bore) {
+        Some([least, greatest]) => 0.5 * (least + greatest),
+        None if !r.has_no_errors() => 0.0,
+        None => {
+            let message = format!("no clearance class is tabulated for a bore of {:.3} mm", bore * 1e3);
+            let problem = Problem::new(Kind::OutOfRange, &r.span_of("clearance"), message);
+            r.log.error(problem.hint("give radial_clearance = \"10 um\""));
+            0.0
+        }
+    }
+}
+
+/// Geometric feasibility check: balls do not overlap, groove radii exceed ball radii, rings enclose the
+/// balls.
+pub(super) fn check_geometry(r: &Reader, bearing: &BallBearing) {
+    let g = &bearing.geometry;
+    let balls = g.balls as f64;
+    let spacing = g.pitch_diameter * (PI / balls).sin();
+    let problem = |key: &str, message: String| Problem::new(Kind::Geometry, &r.span_of(key), message);
+    let mm = |x: f64| x * 1e3;
+    if spacing <= g.ball_diameter {
+        let key =
+            ["balls", "ball_diameter", "pitch_diameter"].into_iter().find(|k| r.has(k)).unwrap_or("balls");
+        let message = format!(
+            "the balls of {} overlap: {} balls of {:.3} mm on a pitch circle of {:.3} mm",
+            r.path,
+            g.balls,
+            mm(g.ball_diameter),
+            mm(g.pitch_diameter)
+        );
+        // largest integer Z below the real root of D_pw sin(π/Z) = D_w
+        let most = (PI / (g.ball_diameter / g.pitch_diameter).min(1.0).asin()).ceil() - 1.0;
+        let room = format!("at most {most} balls of this size, or balls below {:.3} mm", mm(spacing));
+        r.log.error(problem(key, message).expected(room));
+        return;
+    }
+    if bearing.cage_pocket_diameter < g.ball_diameter || bearing.cage_pocket_diameter > spacing {
+        let message = format!("the cage pockets of {} do not fit", r.path);
+        let range = format!(
+            "from {:.3} mm (the ball) to {:.3} mm (the next pocket)",
+            mm(g.ball_diameter),
+            mm(spacing)
+        );
+        r.log.error(problem("cage_pocket_diameter", message).expected(range));
+    }
+    for (keys, radius) in [
+        (["inner_groove_radius", "inner_osculation"], g.inner_groove_radius),
+        (["outer_groove_radius", "outer_osculation"], g.outer_groove_radius),
+    ] {
+        if radius <= 0.5 * g.ball_diameter {
+            let key = keys.into_iter().find(|k| r.has(k)).unwrap_or(keys[0]);
+            let message = format!("the groove of {} is narrower than its balls", r.path);
+            let least = format!("a radius above {:.4} mm (osculation above 0.5)", 500.0 * g.ball_diameter);
+            r.log.error(problem(key, message).expected(least));
+        }
+    }
+    if g.contact_angle >= FRAC_PI_2 {
+        r.log.error(problem("contact_angle", format!("{} must be below 90 deg", r.name("contact_angle"))));
+    }
+    let (inside, outside) = (g.pitch_diameter - g.ball_diameter, g.pitch_diameter + g.ball_diameter);
+    if g.bore >= inside || g.bore <= 0.0 {
+        let message = format!("the balls of {} cut into its bore of {:.3} mm", r.path, mm(g.bore));
+        r.log.error(problem("bore", message).expected(format!("a bore below {:.3} mm", mm(inside))));
+    }
+    if g.outside_diameter <= outside {
+        let message = format!(
+            "the balls of {} extend beyond its outside diameter of {:.3} mm",
+            r.path,
+            mm(g.outside_diameter)
+        );
+        let least = format!("an outside diameter above {:.3} mm", mm(outside));
+        r.log.error(problem("outside_diameter", message).expected(least));
+    }
+    if g.radial_clearance.abs() > 0.1 * g.ball_diameter {
+        let message = format!("{} is more than a tenth of the ball diameter", r.name("radial_clearance"));
+        r.log.error(
+            problem("radial_clearance", message).expected("a clearance of some micrometres, diametral"),
+        );
+    }
+}
+
+fn cage(r: &Reader) -> Cage {
+    match r.entry("cage").map(|e| &e.node.value) {
+        None => Cage::Rolling,
+        Some(Value::Text(text)) if text == "rolling" => Cage::Rolling,
+        Some(Value::Integer(_) | Value::Float(_)) => {
+            let ratio = r.get("cage", not_negative(NUMBER)).unwrap_or(0.4);
+            if ratio > 1.0 {
+                r.error(Kind::OutOfRange, "cage", format!("{} must be at most 1", r.name("cage")));
+            }
+            Cage::Ratio(ratio)
+        }
+        Some(_) => {
+            let message = format!("{} is neither \"rolling\" nor a ratio", r.name("cage"));
+            let problem = Problem::new(Kind::WrongType, &r.span_of("cage"), message);
+            r.log.error(problem.expected("\"rolling\", or cage speed over shaft speed such as 0.3969"));
+            Cage::Rolling
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Order map (order tracking): level over shaft speed and order.
+
+use super::axes::{Axes, Frame};
+use super::campbell::OrderLine;
+use super::heat::{self, COLOR_BAR_WIDTH, Heat, color_bar};
+use super::labels::{EndLabel, end_label_width, end_labels, page_heading};
+use super::scale::Range;
+use super::style::*;
+use super::svg::Svg;
+
+/// Data of an order map.
+#[derive(Clone, Debug, Default)]
+pub struct OrderMap {
+    pub title: String,
+    pub note: String,
+    /// Shaft speed of each order spectrum \[rpm\].
+    pub rpm: Vec<f64>,
+    /// Orders \[events per revolution\].
+    pub order: Vec<f64>,
+    /// Levels \[dB\], `level_db[i * order.len() + j]` at `rpm[i]`, `order[j]`.
+    pub level_db: Vec<f64>,
+    /// Quantity and unit of the levels, e.g. "acceleration level" and "dB re 1 m/s²".
+    pub quantity: String,
+    pub unit: String,
+    /// Dynamic range \[dB\].
+    pub span_db: f64,
+    /// Order line cursors.
+    pub orders: Vec<OrderLine>,
+    /// Upper end of the order axis; by default the highest order.
+    pub max_order: Option<f64>,
+}
+
+pub fn draw(data: &OrderMap) -> Svg {
+    let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &[]);
+    let room = end_label_width(data.orders.iter().map(|o| o.label.clone()));
+    let frame = Frame { x: LEFT, y: top + 4.0, w: WIDTH - LEFT - room - COLOR_BAR_WIDTH, h: 420.0 };
+    let y = match data.max_order.filter(|o| o.is_finite() && *o > 0.0) {
+        Some(order) => Range::new(0.0, order),
+        None => Range::of(data.order.iter().copied()).near_zero(),
+    };
+    let axes = Axes::linear(frame, Range::of(data.rpm.iter().copied()).near_zero(), y);
+    let heat = Heat { x: &data.rpm, y: &data.order, level: &data.level_db };
+    let bounds = heat::bounds(data.level_db.iter().copied(), data.span_db);
+    heat.draw(&mut svg, &axes, bounds);
+    let mut labels = Vec::new();
+    for line in data.orders.iter().filter(|o| y.contains(o.order)) {
+        let (a, b) = (axes.x.range.lo, axes.x.range.hi);
+        axes.segment(&mut svg, [a, line.order], [b, line.order], line.style().thick(0.8).faint(0.8));
+        labels.push(EndLabel { at: axes.at(b, line.order), text: line.label.clone(), color: line.color() });
+    }
+    axes.border(&mut svg, Some(&axes.x.label("shaft speed", "rpm")), &axes.y.label("order", "1/rev"));
+    end_labels(&mut svg, &axes, &labels);
+    let label = format!("{} [{}]", data.quantity, data.unit);
+    color_bar(&mut svg, frame, WIDTH - COLOR_BAR_WIDTH, bounds, &label);
+    svg.height = frame.bottom() + BOTTOM;
+    svg
+}

@@ -1,0 +1,91 @@
+//! Spectrogram over shaft speed (Campbell diagram from the signal), with order lines and linear natural
+//! frequencies.
+
+use super::axes::Axes;
+use super::campbell::{Branch, OrderLine, branch_ends, order_lines};
+use super::heat::{self, COLOR_BAR_WIDTH, Heat, color_bar};
+use super::labels::{Entry, end_label_width, end_labels, page_heading};
+use super::panel_row::PanelRow;
+use super::scale::Range;
+use super::style::*;
+use super::svg::{Style, Svg};
+
+/// Spectrogram of one run.
+#[derive(Clone, Debug, Default)]
+pub struct SpectrogramPanel {
+    /// Panel name, shown if there are several, e.g. "measured".
+    pub name: String,
+    /// Shaft speed of each spectrum \[rpm\].
+    pub rpm: Vec<f64>,
+    /// Frequencies \[Hz\].
+    pub hz: Vec<f64>,
+    /// Levels \[dB\], `level_db[i * hz.len() + j]` at `rpm[i]`, `hz[j]`.
+    pub level_db: Vec<f64>,
+}
+
+/// Data of a spectrogram over speed; several panels are drawn in a row on common scales.
+#[derive(Clone, Debug, Default)]
+pub struct Spectrogram {
+    pub title: String,
+    pub note: String,
+    pub panels: Vec<SpectrogramPanel>,
+    /// Quantity and unit of the levels, e.g. "acceleration level" and "dB re 1 m/s²".
+    pub quantity: String,
+    pub unit: String,
+    /// Dynamic range \[dB\].
+    pub span_db: f64,
+    pub orders: Vec<OrderLine>,
+    pub branches: Vec<Branch>,
+    /// Upper end of the frequency axis \[Hz\]; by default the highest frequency.
+    pub max_hz: Option<f64>,
+}
+
+pub fn draw(data: &Spectrogram) -> Svg {
+    let mut kinds: Vec<Entry> = Vec::new();
+    for whirl in data.branches.iter().map(|b| b.whirl) {
+        if kinds.iter().all(|k| k.text != whirl.name()) {
+            kinds.push(Entry::line(whirl.name(), Style::stroke(whirl.color(), 1.3)));
+        }
+    }
+    let names = data.branches.iter().map(|b| &b.label).chain(data.orders.iter().map(|o| &o.label));
+    let room = end_label_width(names.cloned());
+    let row = PanelRow::new(data.panels.len(), WIDTH - LEFT - room - COLOR_BAR_WIDTH);
+    let page = LEFT + row.width() + room + COLOR_BAR_WIDTH;
+    let (mut svg, top) = page_heading(page, LEFT, &data.title, &data.note, &kinds);
+    let all_values = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(of).copied();
+    let y = match data.max_hz.filter(|hz| hz.is_finite() && *hz > 0.0) {
+        Some(hz) => Range::new(0.0, hz),
+        None => Range::of(all_values(|p| &p.hz)).near_zero(),
+    };
+    let x = Range::of(all_values(|p| &p.rpm)).near_zero();
+    let bounds = heat::bounds(all_values(|p| &p.level_db), data.span_db);
+    let count = data.panels.len().max(1);
+    for k in 0..count {
+        let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
+        if let Some(panel) = data.panels.get(k) {
+            Heat { x: &panel.rpm, y: &panel.hz, level: &panel.level_db }.draw(&mut svg, &axes, bounds);
+        }
+        // A pale edge keeps the dashes visible on dark levels.
+        for order in &data.orders {
+            let at = |rpm: f64| [rpm, order.order * rpm / 60.0];
+            axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
+        }
+        let mut labels = order_lines(&mut svg, &axes, &data.orders);
+        for branch in &data.branches {
+            // A white edge separates the thin line from the ridge below.
+            axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
+            axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(branch.whirl.color(), 1.1));
+        }
+        labels.extend(branch_ends(&axes, &data.branches));
+        row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));
+        row.name(&mut svg, axes.frame, data.panels.get(k).map_or("", |p| &p.name));
+        // The panels have the same lines: only those of the last are labelled.
+        if k + 1 == count {
+            end_labels(&mut svg, &axes, &labels);
+            let label = format!("{} [{}]", data.quantity, data.unit);
+            color_bar(&mut svg, axes.frame, page - COLOR_BAR_WIDTH, bounds, &label);
+            svg.height = axes.frame.bottom() + BOTTOM;
+        }
+    }
+    svg
+}
