@@ -1,5 +1,7 @@
 //! Dependency rules of CONTRIBUTING.md (module layers, foreign crates), checked on the source text.
 
+mod terms;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
