@@ -13,7 +13,7 @@ fn family() -> Vec<Model> {
     let settings = [
         ("study.bifurcation.values", "{ from = \"500 rpm\", to = \"6000 rpm\", count = 200 }"),
         ("study.bifurcation.sweep", "up"),
-        ("study.bifurcation.settle", "200"),
+        ("study.bifurcation.transient_periods", "200"),
         ("study.bifurcation.periods", "100"),
     ];
     let load = |more: &[(String, String)]| {

@@ -70,7 +70,7 @@
 //! let speeds = (0..5).map(|k| TAU * 5.0 * k as f64).collect();
 //! let orders = vec![1.0];
 //! let campbell =
-//!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, follow_bearings: true })?;
+//!     machine.campbell(&study::CampbellStudy { speeds, modes: 4, orders, speed_dependent_bearings: true })?;
 //! assert_eq!(campbell.diagram.branches.len(), 4);
 //!
 //! // The nonlinear run-up: linear parts reduced by component mode synthesis, one Hertz contact per ball.

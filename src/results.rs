@@ -212,7 +212,7 @@ pub struct SectionChannel {
 /// The clock (stroboscopic phase) of a Poincaré section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectionClock {
-    /// "shaft turn", "cage turn of B" or "ball passage of B".
+    /// "shaft revolution", "cage revolution of B" or "ball passage of B".
     pub name: String,
     /// Phase of the section \[rad\].
     pub phase: f64,

@@ -50,7 +50,7 @@ impl Mode {
         -self.eigenvalue.re / self.eigenvalue.norm()
     }
 
-    /// Logarithmic decrement (log dec) δ = 2π ζ / √(1 − ζ²).
+    /// Log decrement (logarithmic decrement) δ = 2π ζ / √(1 − ζ²).
     pub fn log_dec(&self) -> f64 {
         -TAU * self.eigenvalue.re / self.eigenvalue.im
     }

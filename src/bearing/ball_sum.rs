@@ -108,7 +108,7 @@ impl BallSum {
         (self.force[1][ONE], self.by_motion[3][ONE])
     }
 
-    /// Force and tangents with moment arm R \[m\] at a cage speed `turning` \[rad/s\].
+    /// Force and tangents with moment arm R \[m\] at a cage speed `cage_speed` \[rad/s\].
     ///
     /// ṡ = B ḋ + ψ̇ (∂B/∂ψ) d; hence the stiffness is Σ Bᵀ (∂p/∂s) B + ψ̇ Σ Bᵀ (∂p/∂ṡ) ∂B/∂ψ.
     pub fn reaction(&self, arm: f64, cage_speed: f64) -> Reaction {

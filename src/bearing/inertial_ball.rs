@@ -16,13 +16,13 @@ impl BallInertiaLoads {
     /// contact load Q_i. Power at a fixed ring: work of the ball's inertia force along ḃ.
     pub fn inner_ring_reaction(
         &self,
-        settled: &BallEquilibrium,
+        equilibrium: &BallEquilibrium,
         contacts: &SpeedContacts,
         damping: &ContactDamping,
         stiffness: f64,
         motion: &PlaneMotion,
     ) -> (PlaneForce, PlaneMoment) {
-        let BallEquilibrium { inner, outer } = settled;
+        let BallEquilibrium { inner, outer } = equilibrium;
         let energy = inner.loaded.energy + outer.loaded.energy;
         if inner.loaded.load <= 0.0 {
             return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());

@@ -199,7 +199,7 @@ pub struct ReferenceLife {
 /// Q_e = (Σ Q_j³/Z)^{1/3} on the ring that rotates relative to the load, (Σ Q_j^{10/3}/Z)^{3/10} on the
 /// stationary one.
 ///
-/// `dynamic_rating` C_r of the row \[N\]; `inner`, `outer`: loads on the rings, one per ball \[N\]; `turning`: the
+/// `dynamic_rating` C_r of the row \[N\]; `inner`, `outer`: loads on the rings, one per ball \[N\]; `rotating_ring`: the
 /// ring rotating relative to the load. Zero load gives infinite life. Source: ISO/TS 16281 eq. 19-29.
 pub fn reference_life(
     g: &BallGeometry,

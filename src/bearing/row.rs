@@ -137,7 +137,7 @@ impl Row {
         !dry(self.contacts.at_speed(1.0)) || self.speed_dependent_bearing.is_some() || self.inertia.is_some()
     }
 
-    /// Operating conditions of all balls; `turning`: cage speed as motion of the contacts.
+    /// Operating conditions of all balls at a motion of the ring.
     ///
     /// The inertial loads use the cage speed, or if it is zero (statics) the shaft speed times the nominal
     /// cage ratio.
@@ -150,7 +150,7 @@ impl Row {
         } else {
             self.cage_ratio * rotation.shaft_speed
         };
-        let fling = self.inertia.and_then(|balls| {
+        let loads = self.inertia.and_then(|balls| {
             let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
             balls.inertial_loads(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
         });
@@ -159,7 +159,7 @@ impl Row {
             let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
             offset[0] -= 0.5 * change;
         }
-        let mut out = OperatingState { contacts, offset, preload: 0.0, inertial_loads: fling };
+        let mut out = OperatingState { contacts, offset, preload: 0.0, inertial_loads: loads };
         out.preload = match self.preload_mechanism {
             PreloadMechanism::Fixed(offset) => offset,
             PreloadMechanism::Spring { .. } => 0.0,
@@ -188,7 +188,7 @@ impl Row {
                 &motion,
             )
             .unwrap_or_default(),
-            Some(fling) => self.inertial_ball_reaction(fling, operating, &motion).0,
+            Some(loads) => self.inertial_ball_reaction(loads, operating, &motion).0,
         };
         let z = self.balls() as f64;
         (z * ball.force[1], z * ball.by_motion[3])
@@ -196,8 +196,8 @@ impl Row {
 
     /// Sum over all balls at a motion of the inner ring relative to the outer one.
     pub fn sum(&self, ring: &RingMotion, operating: &OperatingState) -> BallSum {
-        if let Some(fling) = &operating.inertial_loads {
-            return self.sum_with_inertia(ring, operating, fling);
+        if let Some(loads) = &operating.inertial_loads {
+            return self.sum_with_inertia(ring, operating, loads);
         }
         let a = self.centre_distance;
         // One loop per contact law (monomorphised), to avoid dispatch per ball.
@@ -243,15 +243,15 @@ impl Row {
         &self,
         ring: &RingMotion,
         operating: &OperatingState,
-        fling: &BallInertiaLoads,
+        loads: &BallInertiaLoads,
     ) -> BallSum {
         let mut sum = BallSum::default();
         self.for_each_ball(ring, operating, |[cos, sin], motion, turn| {
-            let (mut ball, moment) = self.inertial_ball_reaction(fling, operating, &motion);
+            let (mut ball, moment) = self.inertial_ball_reaction(loads, operating, &motion);
             ball.power += ball.force[0] * turn[0] + ball.force[1] * turn[1];
             ball.power -= moment.moment * (ring.v[3] * sin - ring.v[4] * cos);
             sum.add(cos, sin, &ball);
-            if fling.inner_race_has_friction() {
+            if loads.inner_race_has_friction() {
                 sum.add_moment(cos, sin, &moment);
             }
         });
@@ -261,24 +261,24 @@ impl Row {
     /// Equilibrium of a ball with inertia, and its reaction on the inner ring.
     fn inertial_ball_reaction(
         &self,
-        fling: &BallInertiaLoads,
+        loads: &BallInertiaLoads,
         operating: &OperatingState,
         motion: &PlaneMotion,
     ) -> (PlaneForce, PlaneMoment) {
-        let settled = self.solve_equilibrium(fling, operating, motion);
+        let equilibrium = self.solve_equilibrium(loads, operating, motion);
         let stiffness = self.contacts.hertz.stiffness;
-        fling.inner_ring_reaction(&settled, &operating.contacts, &self.damping, stiffness, motion)
+        loads.inner_ring_reaction(&equilibrium, &operating.contacts, &self.damping, stiffness, motion)
     }
 
     fn solve_equilibrium(
         &self,
-        fling: &BallInertiaLoads,
+        loads: &BallInertiaLoads,
         operating: &OperatingState,
         motion: &PlaneMotion,
     ) -> BallEquilibrium {
         let hertz = &self.contacts.hertz;
         match &operating.contacts {
-            SpeedContacts::Hertz(pair) => fling.solve_equilibrium(
+            SpeedContacts::Hertz(pair) => loads.solve_equilibrium(
                 &BallContactLaws {
                     series: |x| pair.series(x),
                     single: |race, x| pair.single(race, x),
@@ -287,7 +287,7 @@ impl Row {
                 },
                 motion,
             ),
-            law => fling.solve_equilibrium(
+            law => loads.solve_equilibrium(
                 &BallContactLaws {
                     series: |x| law.series(x),
                     single: |race, x| law.single(race, x),
@@ -339,13 +339,13 @@ impl Row {
 
     /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
-        let held = RingMotion::at_rest(d, rotation, true);
-        let operating = self.operating(&held);
-        let d = self.with_ring_displacement(&held);
-        let ring = RingMotion { d: &d, ..held };
+        let at_rest = RingMotion::at_rest(d, rotation, true);
+        let operating = self.operating(&at_rest);
+        let d = self.with_ring_displacement(&at_rest);
+        let ring = RingMotion { d: &d, ..at_rest };
         self.for_each_ball(&ring, &operating, |[cos, sin], motion, _| {
             let equilibrium =
-                operating.inertial_loads.map(|fling| self.solve_equilibrium(&fling, &operating, &motion));
+                operating.inertial_loads.map(|loads| self.solve_equilibrium(&loads, &operating, &motion));
             let angle = |n: [f64; 2]| n[1].atan2(n[0]);
             let (loads, angles, deflection) = match equilibrium {
                 Some(ball) => {

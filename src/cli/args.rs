@@ -168,7 +168,7 @@ Units: forces N, moments N m, displacements um, ball positions and contact angle
 
 Examples:
   rotordyn static models/overhung_rig.toml
-  rotordyn static models/overhung_rig.toml --cage-as-placed --set bearing.A.cage_angle=\"20 deg\"")]
+  rotordyn static models/overhung_rig.toml --fixed-cage-angle --set bearing.A.cage_angle=\"20 deg\"")]
     Static {
         #[command(flatten)]
         study: StudyArgs,
@@ -176,7 +176,7 @@ Examples:
         #[arg(long, value_name = "SPEED")]
         speed: Option<String>,
         /// Keep the cage angle of the model instead of averaging over it
-        #[arg(long)]
+        #[arg(long, alias = "cage-as-placed")]
         fixed_cage_angle: bool,
     },
 
@@ -367,8 +367,8 @@ constrained unless --moment is given; in a machine, tilts and axial position are
 Examples:
   rotordyn bearing models/overhung_rig.toml
   rotordyn bearing models/overhung_rig.toml --bearing A --load \"0, -500, 100 N\" --speed \"3000 rpm\"
-  rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --averaged
-  rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --hold x,y,theta_x,theta_y
+  rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --cage-average
+  rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --constrain x,y,theta_x,theta_y
   rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
     Bearing(Box<BearingArgs>),
 
@@ -386,7 +386,7 @@ Examples:
 Examples:
   rotordyn identify frfs.uff --band \"5 .. 180 Hz\"
   rotordyn identify test.npz --quantity accelerance --max-order 40
-  rotordyn identify hit_*.mat --mapping channels.toml --window \"0.5 s\" --estimator hv
+  rotordyn identify hit_*.mat --mapping channels.toml --exponential-window \"0.5 s\" --estimator hv
   rotordyn identify out/overhung_rig/results.h5 --json")]
     Identify(Box<IdentifyArgs>),
 
@@ -451,7 +451,7 @@ Examples:
     ///
     /// Reads universal files (UFF), MATLAB, NumPy, WAV, CSV, HDF5 and stored runs; the format is detected
     /// from the content. The envelope spectrum is searched for bearing defect frequencies (BPFO, BPFI, BSF,
-    /// FTF) to find the damaged part. With --against, the envelope spectra of two records, such as measured
+    /// FTF) to find the damaged part. With --compare-with, the envelope spectra of two records, such as measured
     /// and simulated, are drawn in one figure.
     #[command(after_long_help = super::signal::args::EXAMPLES)]
     Signal(Box<SignalArgs>),

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
-use super::{Outcome, bearing_tables, diagnostics, ehl_films, print_written_files, settings};
+use super::{Outcome, bearing_tables, diagnostics, ehl_films, print_written_files, renamed, settings};
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
@@ -55,6 +55,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     if files.len() > 1 {
         terminal.print("  (figures are written as SVG and PNG)");
     }
+    renamed::print_hints(&loaded.hints, &loaded.sources, terminal);
     if !loaded.warnings.is_empty() {
         eprint!(
             "{}",

@@ -132,6 +132,6 @@ fn to_json(e: &CatalogueEntry) -> Value {
         "static_rating": e.static_rating,
         "radial_clearance": clearances,
         "orders": { "ftf": orders.ftf, "bpfo": orders.bpfo, "bpfi": orders.bpfi, "bsf": orders.bsf },
-        "origin": e.origin,
+        "geometry_source": e.origin,
     })
 }

@@ -126,10 +126,12 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     if top > 0.0 {
         terminal.print(&format!("  speed profile of {duration} s up to {} rpm", number(top, 5)));
     }
-    let asked: Vec<&str> =
+    let requested: Vec<&str> =
         Study::ALL.iter().filter(|s| s.is_requested(&model.studies)).map(|s| s.name()).collect();
-    terminal
-        .print(&format!("  studies: {}", if asked.is_empty() { "none".into() } else { asked.join(", ") }));
+    terminal.print(&format!(
+        "  studies: {}",
+        if requested.is_empty() { "none".into() } else { requested.join(", ") }
+    ));
 
     let rows: Vec<Vec<String>> = model
         .stations
@@ -215,7 +217,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "mass": found.mass,
         "dofs": found.machine.assembly.dofs.len(),
         "shaft_elements": found.loaded.model.shaft.len(),
-        "free_motions": found.rigid_body_modes,
+        "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

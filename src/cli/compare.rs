@@ -113,7 +113,7 @@ fn table(terminal: &Terminal, variants: &[Variant], k: usize) -> Value {
                 "frequency_hz": of(Mode::frequency_hz),
                 "zeta": of(Mode::zeta),
                 "labels": row.modes.iter().map(|m| m.map(|m| m.label.clone())).collect::<Vec<_>>(),
-                "least_mac": row.mac,
+                "min_mac": row.mac,
             })
         })
         .collect();

@@ -1,15 +1,26 @@
 //! Free parameters of `update` from `--free`, `--bounds` and `--prior`.
 
 use rotordyn::model::parameter_paths::resolve_parameter_path;
+use rotordyn::model::renamed_path;
 use rotordyn::units::leading_number;
 use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 
 use super::args::UpdateArgs;
 use super::failure::Failure;
 use super::machine::ModelSource;
+use super::terminal::Terminal;
 
 /// The free parameters, or all errors of the three flags at once.
-pub fn parameters(args: &UpdateArgs, origin: &ModelSource) -> Result<Vec<FreeParameter>, Failure> {
+pub fn parameters(
+    args: &UpdateArgs,
+    origin: &ModelSource,
+    terminal: &Terminal,
+) -> Result<Vec<FreeParameter>, Failure> {
+    for path in args.free.iter().flat_map(|name| name.split('+')).map(str::trim) {
+        if let Some(present) = renamed_path(path) {
+            terminal.note(&format!("--free: `{path}` is now `{present}`; the old spelling still works"));
+        }
+    }
     let mut problems = Vec::new();
     let mut out: Vec<FreeParameter> = Vec::new();
     for name in &args.free {

@@ -31,7 +31,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let test = ImpactTest {
         force: args.force.clone(),
         block: parse_positive("--block", args.block.as_ref(), units::TIME)?,
-        time_constant: parse_positive("--window", args.window.as_ref(), units::TIME)?,
+        time_constant: parse_positive("--exponential-window", args.exponential_window.as_ref(), units::TIME)?,
         estimator: match args.estimator {
             EstimatorName::H1 => Estimator::H1,
             EstimatorName::H2 => Estimator::H2,
@@ -87,8 +87,8 @@ fn identify_modes(
     let found = identify(&frfs, settings).map_err(|error| with_context(error.into()))?;
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
-            "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: --window \
-             is not the time constant of the window used, or it is too short for such light damping",
+            "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: \
+             --exponential-window is not the time constant of the window used, or it is too short for such light damping",
             mode.frequency_hz(),
             100.0 * mode.damping_ratio()
         ));
@@ -187,7 +187,7 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
             )));
         }
     };
-    let window = parse_positive("--window", args.window.as_ref(), units::TIME)?;
+    let window = parse_positive("--exponential-window", args.exponential_window.as_ref(), units::TIME)?;
     Ok(Settings {
         band,
         max_order: args.max_order,
@@ -277,8 +277,9 @@ fn read_frfs(
     }
     let from_hits = simulated || !tests.is_empty();
     for (path, files) in tests {
-        let (records, doubts) = impact::frfs(&files, test).map_err(|error| with_file_name(path, error))?;
-        warnings.extend(doubts);
+        let (records, quality_warnings) =
+            impact::frfs(&files, test).map_err(|error| with_file_name(path, error))?;
+        warnings.extend(quality_warnings);
         add_records(args, path, records, &mut all);
     }
     let named: Vec<String> =

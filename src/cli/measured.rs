@@ -174,7 +174,7 @@ pub fn to_json(target: &Target, state: &ModelState) -> Value {
     json!({
         "rpm": rpm(target.speed),
         "modes": pairs,
-        "not_measured": unpaired
+        "unpaired_computed": unpaired
             .map(|m| json!({ "label": m.label, "computed_hz": m.frequency_hz() }))
             .collect::<Vec<_>>(),
         "mac": state.pairing.mac,

@@ -17,6 +17,7 @@ mod interrupt;
 mod machine;
 mod measured;
 mod noisy_frf;
+mod renamed;
 mod run_up_correlation;
 mod settings;
 mod signal;
@@ -67,14 +68,15 @@ pub fn run() -> ExitCode {
             env!("CARGO_PKG_VERSION")
         );
     }));
-    let cli = Cli::parse();
+    let mut cli = Cli::parse();
     let terminal = Terminal::new(&cli.output);
     if let Some(threads) = cli.output.threads {
         // Fails only if the global pool already exists; nothing has created it yet.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     interrupt::install_handler();
-    let outcome = perform(&cli.command, &terminal)
+    let outcome = renamed::resolve(&mut cli.command, &terminal)
+        .and_then(|()| perform(&cli.command, &terminal))
         .unwrap_or_else(|failure| Outcome { document: json!({}), failures: vec![("", failure)] });
     for (study, failure) in &outcome.failures {
         report(&terminal, study, failure);
@@ -96,11 +98,9 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     match command {
         Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
-        Command::Static { study, speed, fixed_cage_angle: cage_as_placed } => {
-            run_one(study, Study::Static, &|model| {
-                settings::equilibrium(model, speed.as_ref(), *cage_as_placed)
-            })
-        }
+        Command::Static { study, speed, fixed_cage_angle } => run_one(study, Study::Static, &|model| {
+            settings::equilibrium(model, speed.as_ref(), *fixed_cage_angle)
+        }),
         Command::Modal { study, speed, modes } => {
             run_one(study, Study::Modal, &|model| settings::modal(model, speed.as_ref(), *modes))
         }
@@ -266,8 +266,9 @@ fn print_written_files(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.print(&line);
 }
 
-/// Prints the warnings of the model file.
+/// Prints the warnings and hints of the model file.
 fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
+    renamed::print_hints(&loaded.hints, &loaded.sources, terminal);
     if !loaded.warnings.is_empty() {
         let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
         eprint!("{text}");

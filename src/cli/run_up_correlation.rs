@@ -103,7 +103,7 @@ pub fn read(
     let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
     let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {
         return Ok(Err(
-            "the shaft speed is constant; `rotordyn signal FILE --against RUN` compares records at constant \
+            "the shaft speed is constant; `rotordyn signal FILE --compare-with RUN` compares records at constant \
              speed"
                 .into(),
         ));
@@ -301,7 +301,7 @@ fn to_json(pair: &ChannelPair) -> Value {
             "measured_rms": m.rms,
             "computed_rms": c.rms,
             "at_end": m.at_end || c.at_end,
-            "likeness": cut.correlation,
+            "correlation": cut.correlation,
         })
     };
     json!({

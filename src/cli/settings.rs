@@ -143,7 +143,7 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
     draft.set_flag("load", args.load.as_ref().map(toml_string));
     draft.set_flag("moment", args.moment.as_ref().map(toml_string));
     draft.set_flag("speed", args.speed.as_ref().map(toml_string));
-    draft.set_flag("hold", toml_array(&args.constrain));
+    draft.set_flag("constrain", toml_array(&args.constrain));
     draft.set_flag("along", args.along.as_ref().map(toml_string));
     draft.set_flag("cage_average", args.cage_average.then(|| "true".into()));
     let mut plain = Vec::new();

@@ -44,8 +44,8 @@ pub struct SteadyArgs {
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     pub phase: Option<String>,
     /// Periods discarded as transient before recording
-    #[arg(long, value_name = "N")]
-    pub settle: Option<usize>,
+    #[arg(long, alias = "settle", value_name = "N")]
+    pub transient_periods: Option<usize>,
     /// Periods recorded
     #[arg(long, value_name = "N")]
     pub periods: Option<usize>,
@@ -88,7 +88,7 @@ pub struct BifurcationArgs {
     /// Sweep direction: up, down or both
     #[arg(long, value_name = "WAY")]
     pub sweep: Option<String>,
-    /// Initial state of each value: carried (final state of the previous value) or equilibrium
+    /// Initial state of each value: continuation (final state of the previous value) or equilibrium
     #[arg(long, value_name = "START")]
     pub start: Option<String>,
     /// Probes to plot, separated by commas
@@ -104,19 +104,19 @@ fn common(draft: &mut SettingsBuilder, args: &SteadyArgs) {
     draft.set_flag("section", args.section.as_ref().map(toml_string));
     draft.set_flag("bearing", args.bearing.as_ref().map(toml_string));
     draft.set_flag("phase", args.phase.as_ref().map(toml_string));
-    draft.set_flag("settle", args.settle.map(|n| n.to_string()));
+    draft.set_flag("transient_periods", args.transient_periods.map(|n| n.to_string()));
     draft.set_flag("periods", args.periods.map(|n| n.to_string()));
     draft.set_flag("step", args.step.as_ref().map(toml_string));
     draft.set_flag("integrator", args.integrator.as_ref().map(toml_string));
 }
 
 /// Note on the defaults used if the file lacks the study.
-fn default_note(model: &Model, settle: usize, periods: usize) -> String {
+fn default_note(model: &Model, transient_periods: usize, periods: usize) -> String {
     let speed = match top_speed(model) {
         Some(top) => format!("{top} rpm, "),
         None => String::new(),
     };
-    format!("{speed}{settle} shaft revolutions discarded, {periods} recorded")
+    format!("{speed}{transient_periods} shaft revolutions discarded, {periods} recorded")
 }
 
 pub fn poincare(model: &Model, args: &PoincareArgs) -> Settings {

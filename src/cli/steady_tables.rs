@@ -157,7 +157,7 @@ impl MotionRange {
     }
 }
 
-/// "shaft turn at 0 deg (20 Hz)".
+/// "shaft revolution at 0 deg (20 Hz)".
 fn describe_clock(clock: &SectionClock) -> String {
     let phase =
         if clock.phase == 0.0 { String::new() } else { format!(" at {:.1} deg", clock.phase.to_degrees()) };

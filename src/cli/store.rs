@@ -27,7 +27,8 @@ impl<'a> From<&'a Loaded> for ModelText<'a> {
     }
 }
 
-/// Opens the results file of a folder; one of a different model version is renamed to results_previous.h5.
+/// Opens the results file of a folder; one of a different model version or with an earlier schema is renamed to
+/// results_previous.h5.
 pub fn open(
     folder: &Path,
     text: ModelText,
@@ -40,17 +41,18 @@ pub fn open(
         let stored = Store::append(&path)?;
         let same = stored_origin(&stored)
             .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
-        if same {
+        let current = results_file::schema(&stored).is_ok_and(|schema| schema == results_file::SCHEMA);
+        if same && current {
             return Ok(stored);
         }
+        let reason = match same {
+            true => "has another schema",
+            false => "belongs to another version of the model",
+        };
         drop(stored);
         let previous = folder.join("results_previous.h5");
         std::fs::rename(&path, &previous).map_err(|e| Failure::environment("rename", &path, e))?;
-        terminal.print(&format!(
-            "{} belongs to another version of the model: renamed to {}",
-            path.display(),
-            previous.display()
-        ));
+        terminal.print(&format!("{} {reason}: renamed to {}", path.display(), previous.display()));
     }
     let store = Store::create(&path)?;
     let set = &origin.options.set;

@@ -14,10 +14,13 @@ use super::args::Output;
 pub struct Terminal {
     tables: bool,
     progress: bool,
+    notes_shown: bool,
     bold: bool,
     pub colour: bool,
     /// All warnings, for the JSON document.
     warnings: Mutex<Vec<String>>,
+    /// Notes printed so far.
+    notes: Mutex<Vec<String>>,
 }
 
 impl Terminal {
@@ -26,9 +29,11 @@ impl Terminal {
         Self {
             tables: !output.quiet && !output.json,
             progress: !output.quiet && stderr().is_terminal(),
+            notes_shown: !output.quiet,
             bold: colour_allowed && stdout().is_terminal(),
             colour: colour_allowed && stderr().is_terminal(),
             warnings: Mutex::default(),
+            notes: Mutex::default(),
         }
     }
 
@@ -63,6 +68,15 @@ impl Terminal {
         let code = if word == "error" { 31 } else { 33 };
         let word = if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() };
         let _ = writeln!(stderr(), "{word}: {text}");
+    }
+
+    /// Prints a note to standard error, once and not with `--quiet`.
+    pub fn note(&self, text: &str) {
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        if self.notes_shown && !notes.iter().any(|known| known == text) {
+            let _ = writeln!(stderr(), "note: {text}");
+            notes.push(text.into());
+        }
     }
 
     /// Records a warning that is printed elsewhere.

@@ -27,7 +27,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
     let mut loaded = origin.load(&[])?;
     print_model_warnings(terminal, &loaded);
-    let parameters = free_parameters::parameters(args, &origin)?;
+    let parameters = free_parameters::parameters(args, &origin, terminal)?;
     let name = match &origin.options.variant {
         Some(variant) => format!("{}_{variant}", loaded.model.name),
         None => loaded.model.name.clone(),
@@ -140,12 +140,12 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         "source": read.source,
         "parameters": parameters_json(&parameters, &found),
         "singular_values": identifiability.singular_values,
-        "directions": identifiability.directions,
+        "singular_vectors": identifiability.directions,
         "correlation": identifiability.correlation,
         "chi_squared": identifiability.chi_squared,
-        "degrees": identifiability.degrees_of_freedom,
+        "degrees_of_freedom": identifiability.degrees_of_freedom,
         "converged": found.converged,
-        "steps": found.iterations.len() - 1,
+        "iterations": found.iterations.len() - 1,
         "frf_db_before": frf_difference_db.map(|a| a.0),
         "frf_db_after": frf_difference_db.map(|a| a.1),
         "before": measured::to_json(&read.target, &found.before),
@@ -347,8 +347,8 @@ fn parameters_json(parameters: &[FreeParameter], found: &Update) -> Value {
             "value": p.value(o.x),
             "fitted": p.value(o.fitted),
             "standard_error": (o.error * p.derivative(o.fitted)).abs(),
-            "prior_share": o.prior_share,
-            "verdict": o.class.label(),
+            "prior_variance_fraction": o.prior_share,
+            "identifiability": o.class.label(),
         })
     };
     parameters.iter().zip(&found.outcomes).map(one).collect()

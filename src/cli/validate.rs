@@ -55,10 +55,10 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let mut document = json!({ "command": "validate", "model": loaded.model.name });
     let mut files = Vec::new();
     if !structures.is_empty() {
-        let (structure_documents, levels, written) =
+        let (structure_documents, shifts, written) =
             compare_structures(args, &structures, &loaded, &folder, terminal)?;
         document["measured"] = structure_documents;
-        document["levels"] = levels;
+        document["force_level_shifts"] = shifts;
         files = written;
     }
     let mut run_up_documents = Vec::new();
@@ -123,7 +123,7 @@ fn compare_structures(
         figures_to_draw.push((prefix, frfs));
         states.push(state);
     }
-    let levels = if found.len() > 1 { force_level_shifts(found, &states, terminal) } else { Value::Null };
+    let shifts = if found.len() > 1 { force_level_shifts(found, &states, terminal) } else { Value::Null };
     let store_path = folder.join("validation.h5");
     let store = Store::create(&store_path)?;
     for ((prefix, frfs), ((_, read), state)) in figures_to_draw.iter().zip(found.iter().zip(&states)) {
@@ -139,7 +139,7 @@ fn compare_structures(
             files.extend(figures::draw_validation(prefix, title, &read.target, &[stage], folder)?);
         }
     }
-    Ok((json!(documents), levels, files))
+    Ok((json!(documents), shifts, files))
 }
 
 /// Frequency shift of every mode relative to the first file: with impact tests at different force levels it
@@ -176,7 +176,7 @@ fn force_level_shifts(found: &[(&Path, TestData)], states: &[ModelState], termin
     for (m, mode) in first.modes.iter().enumerate() {
         let label = states[0].paired_mode(m).map_or("-".to_string(), |p| p.0.label.clone());
         let mut row = vec![label.clone(), format!("{:.3}", mode.frequency_hz)];
-        let mut others = Vec::new();
+        let mut shifts = Vec::new();
         for (k, pairing) in pairings.iter().enumerate() {
             // Largest relative frequency shift of the same mode; beyond it the pair is rejected.
             const MAX_FREQUENCY_SHIFT: f64 = 0.2;
@@ -195,16 +195,16 @@ fn force_level_shifts(found: &[(&Path, TestData)], states: &[ModelState], termin
                         zeta,
                         format!("{:.3}", pair.mac),
                     ]);
-                    others.push(json!({ "hz": other.frequency_hz, "shift": shift, "mac": pair.mac }));
+                    shifts.push(json!({ "hz": other.frequency_hz, "shift": shift, "mac": pair.mac }));
                 }
                 None => {
                     row.extend(["-".to_string(), "-".into(), "-".into(), "-".into()]);
-                    others.push(Value::Null);
+                    shifts.push(Value::Null);
                 }
             }
         }
         rows.push(row);
-        documents.push(json!({ "label": label, "hz": mode.frequency_hz, "others": others }));
+        documents.push(json!({ "label": label, "hz": mode.frequency_hz, "shifts": shifts }));
     }
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     terminal.table("Frequency shift of the measured modes relative to the first file", &header, &rows);

@@ -134,7 +134,7 @@ fn fits(found: &ModalIdentification, frfs: &FrfMatrix, title: &str) -> Vec<Named
                 ],
             };
             let plain = |dof: Dof| dof.to_string().replace(['+', ':'], "");
-            (format!("fit_{}_{}", plain(response), plain(reference)), Figure::Frf(figure))
+            (format!("frf_fit_{}_{}", plain(response), plain(reference)), Figure::Frf(figure))
         })
         .collect()
 }
@@ -182,5 +182,5 @@ fn shapes(found: &ModalIdentification, geometry: &Geometry, title: &str) -> Opti
         strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
         shapes: found.modes.iter().enumerate().map(shape).collect(),
     };
-    Some(("shapes".into(), Figure::Wireframe(figure)))
+    Some(("mode_shapes".into(), Figure::Wireframe(figure)))
 }

@@ -105,7 +105,7 @@ pub fn layout(machine: &Machine) -> Named {
         belts: belts.collect(),
         stations: model.stations.iter().map(|s| (s.name.clone(), s.z)).collect(),
     };
-    ("rig".into(), Figure::MachineLayout(figure))
+    ("machine_layout".into(), Figure::MachineLayout(figure))
 }
 
 fn plain_support(label: String, z: f64, shaft: f64) -> LayoutBearing {

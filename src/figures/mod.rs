@@ -2,7 +2,7 @@
 //!
 //! | name | content |
 //! |---|---|
-//! | `rig` | layout of the machine, side view |
+//! | `machine_layout` | layout of the machine, side view |
 //! | `static_deflection`, `ball_loads` | static equilibrium |
 //! | `modes_<speed>rpm`, `campbell` | mode shapes, Campbell diagram |
 //! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
@@ -14,7 +14,7 @@
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
 //! | `signal_<what>_<channel>` | signal analysis of a record: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
-//! | `stabilisation`, `auto_mac`, `fit_...`, `shapes` | experimental modal analysis of FRFs |
+//! | `stabilisation`, `auto_mac`, `frf_fit_...`, `mode_shapes` | experimental modal analysis of FRFs |
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
 //! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
 //! | `comparison_frf_...`, `comparison_campbell` | model variants on common axes |

@@ -72,7 +72,7 @@ pub fn envelope_comparison(of: [(&SignalResult, &str); 2]) -> Option<Named> {
     };
     let bearing = of[0].0.bearing.as_ref().map_or(String::new(), |b| format!(", bearing {}", b.name));
     let note = format!("top {}, bottom {}{bearing}", speed(of[0].0), speed(of[1].0));
-    let name = format!("signal_envelope_{}_against_{}", of[0].0.channel, of[1].0.channel);
+    let name = format!("signal_envelope_{}_vs_{}", of[0].0.channel, of[1].0.channel);
     Some((name, Figure::CursorLines(envelope(&pair, &note))))
 }
 
@@ -206,12 +206,12 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
         .enumerate()
         .map(|(k, g)| if known || k == 0 { g.to_string() } else { String::new() });
     let band = format!("band {:.0} to {:.0} Hz", found.band.0, found.band.1);
-    let verdict = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
+    let diagnosis = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
     CursorLines {
         title: if several {
             format!("Envelope spectra: {} and {}", of[0].0.channel, of[1].0.channel)
         } else {
-            format!("Envelope spectrum of {}{verdict}", r.channel)
+            format!("Envelope spectrum of {}{diagnosis}", r.channel)
         },
         note: if several { note.into() } else { format!("{note}; {band}") },
         x_name: if by_order { "order" } else { "frequency" }.into(),
@@ -225,9 +225,9 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
 
 /// Label of a panel: record, band and bearing diagnosis.
 fn panel_label(r: &SignalResult, found: &EnvelopeResult, title: &str) -> String {
-    let verdict = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
+    let diagnosis = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
     let (low, high) = found.band;
-    format!("{title}, {}, {low:.0} to {high:.0} Hz{verdict}", r.channel)
+    format!("{title}, {}, {low:.0} to {high:.0} Hz{diagnosis}", r.channel)
 }
 
 /// One envelope spectrum; frequencies and cursors over `divisor`.

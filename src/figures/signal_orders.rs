@@ -32,17 +32,20 @@ pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
         }
     }
     if let Some(found) = &r.average {
-        out.push((name("average"), Figure::Lines(average(r, found, note))));
+        out.push((name("synchronous_average"), Figure::Lines(average(r, found, note))));
     }
     if let Some(found) = &r.jerk {
         out.push((name("jerk"), Figure::History(jerk(r, found, note))));
         if let Some(race) = &found.race {
-            out.push((name("jerk_of_race"), Figure::CursorLines(folded_jerk(r, race, note))));
+            out.push((name("jerk_folded"), Figure::CursorLines(folded_jerk(r, race, note))));
         }
     }
     if let Some(found) = &r.cyclic {
-        out.push((name("cyclic"), Figure::HeatMap(cyclic(r, found, note))));
-        out.push((name("cyclic_rates"), Figure::CursorLines(enhanced_envelope_spectrum(r, found, note))));
+        out.push((name("cyclic_coherence"), Figure::HeatMap(cyclic(r, found, note))));
+        out.push((
+            name("enhanced_envelope_spectrum"),
+            Figure::CursorLines(enhanced_envelope_spectrum(r, found, note)),
+        ));
     }
     out
 }

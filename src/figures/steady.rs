@@ -27,7 +27,7 @@ pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
         (name.to_string(), Figure::PhasePlanes(data))
     };
     // A section per shaft revolution at angle zero coincides with the keyphasor marks.
-    let same = found.clock.name == "shaft turn" && found.clock.phase == 0.0;
+    let same = found.clock.name == "shaft revolution" && found.clock.phase == 0.0;
     let keyphasor = if same { Vec::new() } else { keyphasor_passages(&found.shaft_angle) };
     let orbits = found.planes.iter().map(|p| PhasePlane { keyphasor: keyphasor.clone(), ..plane(p, true) });
     let sections = found.planes.iter().map(|p| plane(p, false));

@@ -2,7 +2,7 @@
 
 use super::Named;
 use super::display_unit::typographic_unit;
-use crate::identify::mac::{fdac, frac as likeness};
+use crate::identify::mac::{fdac, frac as frac_value};
 use crate::linalg::Complex64;
 use crate::model::Quantity;
 use crate::plot::{Curve, Figure, Frf, FrfCurve, HeatMap, Lines, Matrix};
@@ -141,7 +141,7 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
 fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let model = &stage.state.linearised.model;
     let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
-        true => likeness(&measured.values[r][e], &computed[r][e]),
+        true => frac_value(&measured.values[r][e], &computed[r][e]),
         false => f64::NAN,
     };
     let columns = measured.references.len();

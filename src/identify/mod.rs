@@ -4,13 +4,13 @@
 //! |---|---|
 //! | `data` | one band, one quantity, scales |
 //! | `plscf` | poles, participations of all orders: poly-reference least-squares complex frequency (pLSCF) |
-//! | `stabilise` | shapes for each, stabilisation diagram |
-//! | `select` | automatic pole selection |
+//! | `stabilisation` | shapes for each, stabilisation diagram |
+//! | `pole_selection` | automatic pole selection |
 //! | `lsfd` | residues, residual terms: least-squares frequency domain (LSFD) |
-//! | `refine`, `settle` | poles by nonlinear least squares; mode selection, duplicates |
+//! | `refine`, `mode_selection` | poles by nonlinear least squares; mode selection, duplicates |
 //! | `uncertainty` | standard errors of poles (jackknife) |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
-//! | [`single`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
+//! | [`sdof`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
 //! | `whirl` | whirl direction from x and y |
 //!
 //! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the mode shape (right eigenvector),
@@ -202,12 +202,12 @@ pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<ModalIdentifica
     let diagram = stabilisation::diagram(&candidates, &orders);
     let poles = pole_selection::select_poles(&data, &candidates, orders.len());
     let mut dropped = Vec::new();
-    let settled = if poles.is_empty() {
+    let selected = if poles.is_empty() {
         None
     } else {
         mode_selection::select_modes(&mut data, poles, settings, &mut dropped)
     };
-    let found = settled.ok_or(IdentifyError::NoMode {
+    let found = selected.ok_or(IdentifyError::NoMode {
         from: data.frequencies[0],
         to: data.frequencies[data.lines() - 1],
         poles: candidates.len(),

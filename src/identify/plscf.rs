@@ -143,18 +143,18 @@ impl NormalEquations {
         let mut a = right.rows(0, size).into_owned();
         lower.view((0, 0), (size, size)).tr_solve_lower_triangular_mut(&mut a);
         // lᵀ A(z) = 0 with μ = 1/z: μⁿ l + Σ μ^{n−j} A_jᵀ l = 0.
-        let mut companion = DMatrix::zeros(size, size);
+        let mut companion_matrix = DMatrix::zeros(size, size);
         for j in 0..n {
             for row in 0..ni {
                 for column in 0..ni {
-                    companion[(row, j * ni + column)] = -a[(j * ni + column, row)];
+                    companion_matrix[(row, j * ni + column)] = -a[(j * ni + column, row)];
                 }
             }
         }
         for k in ni..size {
-            companion[(k, k - ni)] = 1.0;
+            companion_matrix[(k, k - ni)] = 1.0;
         }
-        let (values, vectors) = eigen::general(&companion)?;
+        let (values, vectors) = eigen::general(&companion_matrix)?;
         let mut poles = Vec::new();
         for (k, mu) in values.iter().enumerate() {
             if mu.norm_sqr() == 0.0 {

@@ -76,11 +76,11 @@ pub fn write_hdf5(store: &Store, found: &ModalIdentification) -> Result<(), Erro
     let errors: Vec<f64> = found.errors.iter().flatten().copied().collect();
     store.write(&own("fit_error"), &[responses, references], &errors, &unit("1"))?;
     let poles: Vec<Complex64> = found.diagram.iter().map(|p| p.value).collect();
-    store.write_complex(&own("diagram/pole"), &[poles.len()], &poles, &unit("1/s"))?;
+    store.write_complex(&own("stabilisation/pole"), &[poles.len()], &poles, &unit("1/s"))?;
     let orders: Vec<f64> = found.diagram.iter().map(|p| p.order as f64).collect();
-    store.write(&own("diagram/order"), &[orders.len()], &orders, &[])?;
+    store.write(&own("stabilisation/order"), &[orders.len()], &orders, &[])?;
     let stability: Vec<&str> = found.diagram.iter().map(|p| p.stability.label()).collect();
-    store.write_texts(&own("diagram/stability"), &stability, &[])?;
+    store.write_texts(&own("stabilisation/stability"), &stability, &[])?;
     store.flush()
 }
 

@@ -1,11 +1,11 @@
-//! Results as JSON, for other programs: the document "rotordyn-results-1".
+//! Results as JSON, for other programs: the document "rotordyn-results-2".
 //!
 //! Frequencies in Hz, speeds in rpm, all else in SI; non-finite numbers are null. Keys of results that were
 //! not computed are absent.
 //!
 //! | key | contents |
 //! |---|---|
-//! | `schema`, `program`, `version` | "rotordyn-results-1", "rotordyn", the program's version |
+//! | `schema`, `program`, `version` | "rotordyn-results-2", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
 //! | `units` | the unit of every quantity below |
 //! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
@@ -19,8 +19,8 @@
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
 //! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
-//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `seams`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
-//! | `bearings` | per stand-alone ball bearing {name, load_from, held, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{of, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
+//! | `bearings` | per stand-alone ball bearing {name, load_source, prescribed: 5, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | messages |
 
 mod signal;
@@ -29,7 +29,7 @@ mod steady;
 pub use signal::signal_to_json;
 
 /// Name and version of the document's schema.
-pub const SCHEMA: &str = "rotordyn-results-1";
+pub const SCHEMA: &str = "rotordyn-results-2";
 
 use serde_json::{Map, Value, json};
 
@@ -121,14 +121,14 @@ fn bearing(found: &BearingResult) -> Value {
     let o = &found.nominal_orders;
     let sweep = |s: &BearingSweepResult| {
         json!({
-            "of": s.of.name(), "label": s.label, "unit": s.unit, "values": s.values,
+            "variable": s.of.name(), "label": s.label, "unit": s.unit, "values": s.values,
             "points": s.points.iter().map(point).collect::<Value>(),
         })
     };
     json!({
         "name": found.name,
-        "load_from": found.load_source,
-        "held": found.prescribed,
+        "load_source": found.load_source,
+        "prescribed": found.prescribed,
         "rating": {
             "dynamic": found.rating.dynamic, "static": found.rating.static_rating, "fatigue": found.rating.fatigue,
         },
@@ -296,11 +296,11 @@ fn run_up(found: &RunUpResult) -> Value {
         End::Failed(error) => format!("failed: {error}"),
     };
     json!({
-        "reduced_modes": found.modes, "reduced_corrections": found.corrections,
+        "reduced_modes": found.modes, "static_correction_modes": found.corrections,
         "static_error": found.static_error, "frequency_error": found.frequency_error,
         "end": end, "steps": report.steps, "iterations": report.iterations, "halvings": report.halvings,
         "energy_j": {
-            "work": energy.work, "parametric": energy.parametric, "damping_loss": energy.damping_loss,
+            "work": energy.work, "parametric_work": energy.parametric, "damping_loss": energy.damping_loss,
             "contact_loss": energy.contact_loss, "residual": energy.residual(),
         },
         "sample_rate_hz": found.history.sample_rate,

@@ -1,6 +1,6 @@
-//! Lengths that a fast Fourier transform is quick at.
+//! Efficient lengths for fast Fourier transforms.
 
-/// Least multiple of `step` ≥ 1 from `least` on without prime factors above 5 (5-smooth); `step` itself 5-smooth.
+/// Smallest multiple of `step` ≥ `least` without prime factors above 5 (5-smooth); `step` must be 5-smooth.
 pub fn fft_length(least: usize, step: usize) -> usize {
     let smooth = |n: usize| {
         let mut rest = n;

@@ -1,6 +1,6 @@
 //! Piecewise-linear interpolation in a table.
 
-/// What a table is before its first row and after its last.
+/// Extrapolation of a table beyond its first and last row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
     Zero,
@@ -8,9 +8,9 @@ pub enum Outside {
     Constant,
 }
 
-/// Row of a table at x: y = y₀ + (y₁ − y₀) (x − x₀)/(x₁ − x₀) between rows (x₀, y₀ …) and (x₁, y₁ …) of rising x.
+/// Row of a table at x: y = y₀ + (y₁ − y₀) (x − x₀)/(x₁ − x₀) between rows (x₀, y₀ …) and (x₁, y₁ …) with increasing x.
 ///
-/// The first number of a row is x, as many values as there are follow. A table without rows is zero everywhere.
+/// The first number of a row is x, the others are the values. An empty table is zero everywhere.
 #[inline]
 pub fn piecewise<const N: usize>(table: &[[f64; N]], x: f64, outside: Outside) -> [f64; N] {
     if let (Outside::Constant, Some(first), Some(last)) = (outside, table.first(), table.last()) {

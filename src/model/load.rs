@@ -5,6 +5,7 @@ mod parameter_range;
 use super::build;
 use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
+use super::file::renamed;
 use super::file::tree::{Table, Value};
 use super::file::{Diagnostic, Kind, ModelErrors, Source};
 use super::study::Studies;
@@ -26,7 +27,9 @@ pub struct Options {
 pub struct Loaded {
     pub model: Model,
     pub warnings: Vec<Diagnostic>,
-    /// Texts that the spans of the warnings refer to: the file, then every `--set`.
+    /// Former spellings of renamed keys and keywords; the file is valid and means the same.
+    pub hints: Vec<Diagnostic>,
+    /// Texts that the spans of warnings and hints refer to: the file, then every `--set`.
     pub sources: Vec<Source>,
     /// Text of the model file.
     pub text: String,
@@ -111,8 +114,8 @@ pub fn load_with(
     if log.error_count() == 0 {
         parameter_range::check(&root, files, &model, &log);
     }
-    let (sources, warnings) = sources_and_warnings(sources, log)?;
-    Ok(Loaded { model, warnings, sources, text })
+    let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
+    Ok(Loaded { model, warnings, hints, sources, text })
 }
 
 /// The ball bearings of a machine file or of a bearing-only file.
@@ -127,7 +130,9 @@ pub struct LoadedBearings {
     /// The machine; `None` for a bearing-only file.
     pub model: Option<Model>,
     pub warnings: Vec<Diagnostic>,
-    /// Texts that the spans of the warnings refer to: the file, then every `--set`.
+    /// Former spellings of renamed keys and keywords.
+    pub hints: Vec<Diagnostic>,
+    /// Texts that the spans of warnings and hints refer to: the file, then every `--set`.
     pub sources: Vec<Source>,
     /// Text of the file.
     pub text: String,
@@ -198,8 +203,8 @@ pub fn load_bearings_with(
             false => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
         });
     }
-    let (sources, warnings) = sources_and_warnings(sources, log)?;
-    Ok(LoadedBearings { name, title, bearings, studies, model, warnings, sources, text })
+    let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
+    Ok(LoadedBearings { name, title, bearings, studies, model, warnings, hints, sources, text })
 }
 
 /// Parsed file with its overrides applied, not yet validated.
@@ -251,6 +256,7 @@ impl Document {
                 return Err(model_errors(sources, log));
             }
         };
+        renamed::translate(&mut root, &log);
         apply_variant(&mut root, options.variant.as_deref(), &log);
         for (path, value) in &options.set {
             apply_set(&mut root, path, value, &mut sources, &log);
@@ -262,17 +268,21 @@ impl Document {
     }
 }
 
-/// Sources and warnings of a file without errors, otherwise its errors.
-fn sources_and_warnings(sources: Sources, log: Log) -> Result<(Vec<Source>, Vec<Diagnostic>), ModelErrors> {
+/// Sources, warnings and hints of a file without errors, otherwise its errors.
+fn sources_and_warnings(
+    sources: Sources,
+    log: Log,
+) -> Result<(Vec<Source>, [Vec<Diagnostic>; 2]), ModelErrors> {
     if log.error_count() > 0 {
         return Err(model_errors(sources, log));
     }
-    let warnings = sources.locate(log.into_parts().1);
-    Ok((sources.into_vec(), warnings))
+    let (warnings, hints) = log.into_warnings_and_hints();
+    let located = [sources.locate(warnings), sources.locate(hints)];
+    Ok((sources.into_vec(), located))
 }
 
 fn model_errors(sources: Sources, log: Log) -> ModelErrors {
-    let diagnostics = sources.locate(log.into_parts().0);
+    let diagnostics = sources.locate(log.into_errors());
     ModelErrors { sources: sources.into_vec(), diagnostics }
 }
 

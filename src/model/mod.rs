@@ -11,6 +11,7 @@ pub mod study;
 
 pub use build::catalogue;
 pub use external_file::{ExternalColumn, ExternalFile};
+pub use file::renamed::renamed_path;
 pub use file::{Diagnostic, Kind, ModelErrors, Source};
 pub use load::{
     Loaded, LoadedBearings, Options, external_files, item_span, load, load_bearings, load_bearings_with,

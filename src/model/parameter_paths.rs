@@ -1,6 +1,7 @@
 //! Values of a model file by parameter path: the numbers that model updating may change.
 
 use super::file::overlay::COLLECTIONS;
+use super::file::renamed::renamed_path;
 use super::file::tree::{Entry, Node, Table, Value};
 use super::load::{Document, Options};
 use crate::names::nearest;
@@ -9,7 +10,7 @@ use crate::units::leading_number;
 /// A number or quantity string of a model file, with its parameter path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterValue {
-    /// Dotted path such as "housing.B.k_x".
+    /// Dotted path such as "housing.B.k_x", in the spelling of the file.
     pub path: String,
     /// Value as written, without quotes: "6e6 N/m".
     pub text: String,
@@ -28,7 +29,8 @@ pub fn resolve_parameter_path(
     path: &str,
 ) -> Result<Vec<ParameterValue>, String> {
     let document = Document::read("model", text, options).map_err(|errors| errors.to_string())?;
-    let parts: Vec<&str> = path.split('.').map(str::trim).collect();
+    let present = renamed_path(path);
+    let parts: Vec<&str> = present.as_deref().unwrap_or(path).split('.').map(str::trim).collect();
     let mut found = Vec::new();
     let root = Node { span: 0..0, value: Value::Table(document.root) };
     collect_values(&root, &parts, 0, &mut Vec::new(), &mut found)
@@ -80,10 +82,14 @@ fn collect_values(
         Value::Table(table) if *part == "*" => {
             // Skip items without that key.
             let has = |entry: &&Entry| has_path(&entry.node, &parts[depth + 1..]);
-            table.entries.iter().filter(has).try_for_each(|entry| into(&entry.key, &entry.node, found))
+            table
+                .entries
+                .iter()
+                .filter(has)
+                .try_for_each(|entry| into(entry.written_key(), &entry.node, found))
         }
         Value::Table(table) => match table.get(part) {
-            Some(entry) => into(part, &entry.node, found),
+            Some(entry) => into(entry.written_key(), &entry.node, found),
             None => Err(unknown_key_message(table, part, parts, depth)),
         },
         Value::List(items) if *part == "*" => {
@@ -104,6 +110,10 @@ fn has_path(node: &Node, parts: &[&str]) -> bool {
         (Value::Table(table), Some((&"*", rest))) => table.entries.iter().any(|e| has_path(&e.node, rest)),
         (Value::Table(table), Some((first, rest))) => {
             table.get(first).is_some_and(|e| has_path(&e.node, rest))
+        }
+        (Value::List(items), Some((&"*", rest))) => items.iter().any(|item| has_path(item, rest)),
+        (Value::List(items), Some((first, rest))) => {
+            first.parse::<usize>().ok().and_then(|k| items.get(k)).is_some_and(|item| has_path(item, rest))
         }
         _ => false,
     }

@@ -202,8 +202,8 @@ pub fn bearing_lines(
             .expect("at least one family remains");
         families.push(open.remove(strongest));
     }
-    let verdict = families.first().filter(|f| f.detected).map(|f| f.part);
-    Ok(BearingLines { families, diagnosis: verdict })
+    let diagnosis = families.first().filter(|f| f.detected).map(|f| f.part);
+    Ok(BearingLines { families, diagnosis })
 }
 
 /// Score of a band by its bearing lines: level of the best fitting part over the background \[dB\].

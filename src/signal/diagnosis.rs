@@ -129,13 +129,13 @@ const DEFAULT_DEPTH: usize = 6;
 pub fn band_envelope(
     record: &[f64],
     sample_rate: f64,
-    turning: ShaftRotation,
+    rotation: ShaftRotation,
     rule: BandRule,
     top_order: f64,
 ) -> Result<BandEnvelope, SignalError> {
     check_record("record", record)?;
     check_rate(sample_rate)?;
-    let clock = SpectrumDomain::new(record.len(), sample_rate, turning, top_order)?;
+    let clock = SpectrumDomain::new(record.len(), sample_rate, rotation, top_order)?;
     let depth = max_depth(record.len()).min(DEFAULT_DEPTH);
     let (band, kurtogram) = match rule {
         BandRule::Given(low, high) => ((low, high), None),
@@ -184,8 +184,8 @@ enum SpectrumDomain {
 }
 
 impl SpectrumDomain {
-    fn new(samples: usize, rate: f64, turning: ShaftRotation, top_order: f64) -> Result<Self, SignalError> {
-        let ShaftRotation::Angle(theta) = turning else { return Ok(SpectrumDomain::Time { rate }) };
+    fn new(samples: usize, rate: f64, rotation: ShaftRotation, top_order: f64) -> Result<Self, SignalError> {
+        let ShaftRotation::Angle(theta) = rotation else { return Ok(SpectrumDomain::Time { rate }) };
         check_same_length("shaft angle", theta.len(), "the record", samples)?;
         let per_turn = (SAMPLES_PER_ORDER * top_order).ceil().clamp(16.0, 1e5) as usize;
         let resampler = AngleResampler::new(theta, rate, per_turn, MIN_SPEED)?;

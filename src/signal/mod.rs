@@ -12,12 +12,10 @@
 //! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
 //! | [`orbit`] | filtered orbit, forward and backward whirl, full spectrum |
 //! | [`poincare`] | Poincaré section (stroboscopic sampling) by a phase, clusters of its points |
-//! | [`period`] | classification of a motion: periodic, quasi-periodic or chaotic (0–1 test) |
+//! | [`motion_classification`] | classification of a motion: periodic, quasi-periodic or chaotic (0–1 test) |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
-//! | [`blow`] | detection of hammer impacts (hits) in a force record; double hits and overloads |
-//! | [`impact`] | FRF estimators H1, H2, Hv and coherence from impact or random excitation |
-//! | [`hammer`] | FRFs of an impact test (hammer test) from its time records |
+//! | [`impact`] | impact (hammer) test: detection and quality of hits, FRF estimators H1, H2, Hv, coherence, windows |
 //! | [`envelope`] | Hilbert transform: analytic signal, envelope, (squared) envelope spectrum of a band |
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, band selection by any score ([`filter_bank`]) |
 //! | [`bearing_lines`] | bearing defect frequencies FTF, BPFO, BPFI, 2 BSF with side bands; damaged part |
@@ -26,7 +24,7 @@
 //! | [`cepstrum`] | real and power cepstrum, liftering |
 //! | [`cyclic`] | cyclic spectral coherence (cyclostationarity) |
 //! | [`tacho`] | shaft angle from tachometer (keyphasor) pulses |
-//! | [`speed_line`] | tacholess speed estimation: shaft angle from an order line of the record |
+//! | [`tacholess`] | tacholess speed estimation: shaft angle from an order line of the record |
 //! | [`synchronous`] | time-synchronous average (TSA) |
 //! | [`record`] | measured records, FRFs, test geometry and mode shapes as read from files |
 //!

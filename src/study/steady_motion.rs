@@ -289,8 +289,8 @@ fn section_clock(model: &Model, steady: &SteadyRunSettings, frequency: f64) -> S
 /// Name of a clock.
 pub(super) fn clock_name(model: &Model, clock: SectionTrigger) -> String {
     match clock {
-        SectionTrigger::Shaft => "shaft turn".into(),
-        SectionTrigger::Cage { bearing } => format!("cage turn of {}", model.bearings[bearing].name),
+        SectionTrigger::Shaft => "shaft revolution".into(),
+        SectionTrigger::Cage { bearing } => format!("cage revolution of {}", model.bearings[bearing].name),
         SectionTrigger::BallPass { bearing, .. } => {
             format!("ball passage of {}", model.bearings[bearing].name)
         }

@@ -117,15 +117,15 @@ pub fn run_steady(
         }
         let end = begin + count as f64 * step;
         stepper.advance(system, &mut state, step, end, &mut |state, step| match &mut perturbed {
-            Some(companion) => companion.repeat_step(system, state, step),
+            Some(trajectory) => trajectory.repeat_step(system, state, step),
             None => Ok(()),
         })?;
         check_divergence(system, &state)?;
         let now = (turns(&state) + ROUND_OFF).floor();
-        if let Some(companion) = &mut perturbed {
-            companion.sync(&state);
+        if let Some(trajectory) = &mut perturbed {
+            trajectory.sync(&state);
             if now > last_section {
-                let growth = companion.renormalise(system, &state);
+                let growth = trajectory.renormalise(system, &state);
                 if now > first && now <= last {
                     run.log_growth.push(growth);
                     run.intervals.push(state.time - last_section_time);

@@ -199,8 +199,8 @@ fn is_usable_line(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> boo
 fn largest_response(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> f64 {
     let turns = |r: usize| measured.responses[r].direction[3..].iter().any(|d| *d != 0.0);
     let kind = |r: usize| (measured.quantities[r], turns(r));
-    let alike = (0..measured.responses.len()).filter(|&other| kind(other) == kind(r));
-    alike.map(|other| measured.values[other][e][line].norm()).fold(0.0, f64::max)
+    let same_kind = (0..measured.responses.len()).filter(|&other| kind(other) == kind(r));
+    same_kind.map(|other| measured.values[other][e][line].norm()).fold(0.0, f64::max)
 }
 
 /// Random error variance of ln|H| and of the phase by the coherence, for one average; 0 without coherence.

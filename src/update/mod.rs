@@ -77,10 +77,10 @@ impl IdentifiabilityClass {
     /// Label.
     pub fn label(self) -> &'static str {
         match self {
-            IdentifiabilityClass::Identifiable => "found",
-            IdentifiabilityClass::PoorlyIdentifiable => "poorly determined",
-            IdentifiabilityClass::NotIdentifiable => "not told by the data",
-            IdentifiabilityClass::AtBound => "at its bound",
+            IdentifiabilityClass::Identifiable => "identifiable",
+            IdentifiabilityClass::PoorlyIdentifiable => "poorly identifiable",
+            IdentifiabilityClass::NotIdentifiable => "not identifiable",
+            IdentifiabilityClass::AtBound => "at bound",
         }
     }
 }

@@ -240,7 +240,7 @@ pub fn modes_of(
         modes.iter().any(|s| s.components == components && of(&s))
     };
     let moving: Vec<usize> = (0..components).filter(|&c| moves(c)).collect();
-    let alike: Vec<_> =
+    let same_group: Vec<_> =
         modes.iter().filter(|s| s.nodes == first.nodes && s.components == components).collect();
     let dofs = first
         .nodes
@@ -267,7 +267,7 @@ pub fn modes_of(
             shape: shape.collect(),
         })
     };
-    let mut found: Vec<TargetMode> = alike.iter().filter_map(mode).collect();
+    let mut found: Vec<TargetMode> = same_group.iter().filter_map(mode).collect();
     found.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
     Some((dofs, found, taken))
 }

@@ -24,7 +24,7 @@ fn all_bearings_of_a_machine_at_their_static_loads() {
     assert!((total[0].abs() - 250.0).abs() < 25.0 && total[1] < -100.0, "{total:?}");
     for bearing in bearings {
         let of: Vec<&str> =
-            bearing["sweeps"].as_array().unwrap().iter().map(|s| s["of"].as_str().unwrap()).collect();
+            bearing["sweeps"].as_array().unwrap().iter().map(|s| s["variable"].as_str().unwrap()).collect();
         assert_eq!(of, ["load", "cage_angle"]);
         assert!((bearing["nominal_orders"]["bpfo"].as_f64().unwrap() - 3.5722).abs() < 1e-4);
         for sweep in bearing["sweeps"].as_array().unwrap() {
@@ -44,7 +44,7 @@ fn all_bearings_of_a_machine_at_their_static_loads() {
     }
     let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
     assert!(store.contains("/bearings/A/operating/stiffness") && store.contains("/meta"));
-    let stored = store.read("/bearings/B/over_load/stiffness").unwrap();
+    let stored = store.read("/bearings/B/sweep_load/stiffness").unwrap();
     assert_eq!(stored.shape, [40, 5, 5]);
     let first = numbers(&bearings[1]["sweeps"][0]["points"][0]["stiffness"][0]);
     assert_eq!(&stored.data[..5], first.as_slice());
@@ -74,15 +74,22 @@ fn bearing_only_file_under_a_given_load() {
         command.arg("bearing").arg(&model).args(["--no-figures", "--out"]).arg(folder.path()).args(flags);
         json_of(&mut command)["bearings"][0].clone()
     };
-    let flags = ["--load", "100, -200, 600 N", "--moment", "0, 1 N m", "--speed", "6000 rpm", "--averaged"];
+    let flags =
+        ["--load", "100, -200, 600 N", "--moment", "0, 1 N m", "--speed", "6000 rpm", "--cage-average"];
     let found = given(&[&flags[..], &["--sweep", "load=10 N .. 900 N", "--along", "z"]].concat());
     assert_eq!(numbers(&found["operating"]["load"]), [100.0, -200.0, 600.0, 0.0, 1.0]);
     let sweep = &found["sweeps"][0];
     let values = numbers(&sweep["values"]);
-    assert_eq!((values[0], values[40], sweep["of"].as_str()), (10.0, 900.0, Some("load")));
+    assert_eq!((values[0], values[40], sweep["variable"].as_str()), (10.0, 900.0, Some("load")));
     assert_eq!(numbers(&sweep["points"][40]["load"])[2], 900.0);
-    let pushed =
-        given(&["--sweep", "displacement=1 um .. 20 um", "--along", "z", "--hold", "x,y,theta_x,theta_y"]);
+    let pushed = given(&[
+        "--sweep",
+        "displacement=1 um .. 20 um",
+        "--along",
+        "z",
+        "--constrain",
+        "x,y,theta_x,theta_y",
+    ]);
     let point = &pushed["sweeps"][0]["points"][40];
     assert_eq!(numbers(&point["displacement"]), [0.0, 0.0, 20e-6, 0.0, 0.0]);
     assert!(numbers(&point["load"])[2] > 0.0);
@@ -100,7 +107,7 @@ fn invalid_flags_are_reported() {
     fails_with(&["--load", "1, 2, 3"], "unit");
     fails_with(&["--sweep", "weight"], "load, displacement, speed, cage_angle");
     fails_with(&["--sweep", "load=2 kN"], "load=\"0 N .. 2 kN\"");
-    fails_with(&["--hold", "up"], "theta_x");
+    fails_with(&["--constrain", "up"], "theta_x");
     rotordyn().args(["bearing", "models/jeffcott.toml"]).assert().code(2);
 }
 
@@ -130,7 +137,7 @@ fn run_computes_the_bearing_study() {
     let bearing = &document["bearings"][0];
     assert_eq!(bearing["name"], "B");
     let of: Vec<&str> =
-        bearing["sweeps"].as_array().unwrap().iter().map(|s| s["of"].as_str().unwrap()).collect();
+        bearing["sweeps"].as_array().unwrap().iter().map(|s| s["variable"].as_str().unwrap()).collect();
     assert_eq!(of, ["load", "speed"]);
     // Load: half the shaft's weight; the film thickness increases with speed.
     let weight = 7850.0 * std::f64::consts::PI * 1e-4 * 0.4 * 9.80665;
@@ -209,6 +216,6 @@ fn defects_are_reported_and_averaging_warns() {
     let (report, warnings) = run(&[]);
     assert!(report.contains("races and balls: dent on outer race"), "{report}");
     assert!(!warnings.contains("as if it had no defects"), "{warnings}");
-    let (_, warnings) = run(&["--averaged"]);
+    let (_, warnings) = run(&["--cage-average"]);
     assert!(warnings.contains("(dent on outer race) is averaged"), "{warnings}");
 }

@@ -38,7 +38,7 @@ fn every_model_passes_check_with_all_its_variants() {
         assert_eq!(variants.len(), 1 + rotordyn::model::variants(&text).len());
         for variant in variants {
             assert!(variant["mass"].as_f64().unwrap() > 0.0);
-            assert_eq!(variant["free_motions"], serde_json::json!([]), "{model:?} {variant}");
+            assert_eq!(variant["rigid_body_modes"], serde_json::json!([]), "{model:?} {variant}");
         }
     }
 }
@@ -89,7 +89,7 @@ fn studies_print_tables_and_write_files() {
     for group in ["/equilibrium", "/modes", "/campbell", "/critical_speeds", "/frf", "/unbalance"] {
         assert!(store.contains(group), "{group}");
     }
-    for figure in ["campbell.svg", "campbell.png", "modes_600rpm.svg", "rig.png"] {
+    for figure in ["campbell.svg", "campbell.png", "modes_600rpm.svg", "machine_layout.png"] {
         assert!(folder.path().join(figure).exists(), "{figure}");
     }
 }
@@ -144,7 +144,7 @@ fn quiet_prints_nothing_and_json_only_json() {
     let document: Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(document["command"], "modal");
     assert_eq!(document["exit_code"], 0);
-    assert_eq!(document["schema"], "rotordyn-results-1");
+    assert_eq!(document["schema"], "rotordyn-results-2");
     assert_eq!(document["errors"], serde_json::json!([]));
     let modes = document["modal"][0]["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 10);

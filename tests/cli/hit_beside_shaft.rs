@@ -1,11 +1,11 @@
-//! A tangential hit at the disc's rim, told by the mapping: torsion is seen, and FRFs are those of the model.
+//! A tangential hit at the rim of the disc, positioned by the mapping: it excites torsion, and the FRFs match the model.
 
 use crate::{json_of, rotordyn};
 
 const RIG: &str = "models/overhung_rig.toml";
 
 #[test]
-fn a_mapping_places_a_hit_beside_the_shaft() {
+fn mapping_positions_a_hit_off_the_shaft_axis() {
     let folder = tempfile::tempdir().unwrap();
     let (test, mapping) = (folder.path().join("test"), folder.path().join("points.toml"));
     rotordyn()

@@ -34,7 +34,7 @@ pub fn accelerance(r: usize, e: usize, hz: f64) -> Complex64 {
 }
 
 /// FRFs of the first three points along y for forces at `references`, 5 to 110 Hz.
-fn frfs(references: &[usize]) -> Vec<Record> {
+pub fn frfs(references: &[usize]) -> Vec<Record> {
     let lines: Vec<f64> = (0..421).map(|k| 5.0 + 0.25 * f64::from(k)).collect();
     let mut out = Vec::new();
     for &e in references {
@@ -190,7 +190,7 @@ fn frf_files(folder: &Path) {
 }
 
 #[test]
-fn bad_frfs_are_told() {
+fn bad_frfs_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     frf_files(folder);
@@ -225,8 +225,8 @@ fn bad_frfs_are_told() {
         ("a band the wrong way", vec!["good.uff"], vec!["--band", "90 Hz .. 10 Hz"]),
         ("a band without unit", vec!["good.uff"], vec!["--band", "10, 90"]),
         ("a band of one end", vec!["good.uff"], vec!["--band", "90 Hz"]),
-        ("a window without unit", vec!["good.uff"], vec!["--window", "0.5"]),
-        ("a window that is not that of the test", vec!["good.uff"], vec!["--window", "0.5 s"]),
+        ("a window without unit", vec!["good.uff"], vec!["--exponential-window", "0.5"]),
+        ("a window that is not that of the test", vec!["good.uff"], vec!["--exponential-window", "0.5 s"]),
         ("flags of time records", vec!["good.uff"], vec!["--force", "f1", "--estimator", "h2"]),
         ("no such estimator", vec!["good.uff"], vec!["--estimator", "h3"]),
         ("cut off", vec!["cut.uff"], vec![]),

@@ -26,7 +26,7 @@ struct Pulse {
 }
 
 /// Force, and accelerations of all points, of half-sine hits of 4 ms at a point, without noise.
-fn struck(seconds: f64, point: usize, pulses: &[Pulse]) -> (Vec<f64>, [Vec<f64>; 4]) {
+fn impact_record(seconds: f64, point: usize, pulses: &[Pulse]) -> (Vec<f64>, [Vec<f64>; 4]) {
     let step = 1.0 / (RATE * FINE as f64);
     let width = 4e-3;
     let force = |t: f64| {
@@ -119,7 +119,7 @@ fn eight_hits() -> Vec<Record> {
         .map(|k| Pulse { at: 0.5 + 6.0137 * f64::from(k), peak: 80.0 + 7.0 * f64::from(k % 3) })
         .collect();
     pulses.push(Pulse { at: pulses[3].at + 0.05, peak: 40.0 });
-    let (force, responses) = struck(49.0, 2, &pulses);
+    let (force, responses) = impact_record(49.0, 2, &pulses);
     let mut records = channels(force, &responses);
     noisy(&mut records, [2e-3, 2e-3], 5);
     if let Values::Real(force) = &mut records[0].values {
@@ -138,7 +138,7 @@ fn impact_test_of_eight_hits() {
     let records = eight_hits();
     write(folder, "test.npz", records.clone());
     write(folder, "test.mat", records.clone());
-    let flags = ["--block", "2 s", "--window", "0.4 s", "--band", "10 .. 110 Hz"];
+    let flags = ["--block", "2 s", "--exponential-window", "0.4 s", "--band", "10 .. 110 Hz"];
     let document = identified(folder, &["test.npz"], &flags);
     let found = modes(&document);
     assert_eq!(found.len(), 3, "{found:?}");
@@ -167,14 +167,20 @@ fn impact_test_of_eight_hits() {
     let measured = MeasuredData { records, ..MeasuredData::default() };
     let (windowed, _) = impact::frfs(&[measured], &test).unwrap();
     write(folder, "windowed.uff", windowed);
-    let told =
-        modes(&identified(folder, &["windowed.uff"], &["--window", "0.4 s", "--band", "10 .. 110 Hz"]));
-    let untold = modes(&identified(folder, &["windowed.uff"], &["--band", "10 .. 110 Hz"]));
+    let corrected = modes(&identified(
+        folder,
+        &["windowed.uff"],
+        &["--exponential-window", "0.4 s", "--band", "10 .. 110 Hz"],
+    ));
+    let uncorrected = modes(&identified(folder, &["windowed.uff"], &["--band", "10 .. 110 Hz"]));
     for (k, mode) in MODES.iter().enumerate() {
         let share = 1.0 / (0.4 * TAU * mode.0);
-        assert!(((untold[k].1 - told[k].1) / share - 1.0).abs() < 0.01, "{untold:?} {told:?}");
-        assert!(untold[k].1 / mode.1 > 1.3, "{untold:?}");
-        assert!((told[k].1 / found[k].1 - 1.0).abs() < 1e-3, "{told:?} {found:?}");
+        assert!(
+            ((uncorrected[k].1 - corrected[k].1) / share - 1.0).abs() < 0.01,
+            "{uncorrected:?} {corrected:?}"
+        );
+        assert!(uncorrected[k].1 / mode.1 > 1.3, "{uncorrected:?}");
+        assert!((corrected[k].1 / found[k].1 - 1.0).abs() < 1e-3, "{corrected:?} {found:?}");
     }
 }
 
@@ -184,7 +190,7 @@ fn estimators() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let pulses: Vec<Pulse> = (0..6u8).map(|k| Pulse { at: 0.5 + 8.0 * f64::from(k), peak: 80.0 }).collect();
-    let (mut force, responses) = struck(48.5, 2, &pulses);
+    let (mut force, responses) = impact_record(48.5, 2, &pulses);
     // A fifth more and a fifth less in turn is noise of 0.04 over the force's power; none of it is in the responses.
     for (k, f) in force.iter_mut().enumerate() {
         *f *= if (k as f64 / RATE / 8.0) % 2.0 < 1.0 { 1.2 } else { 0.8 };
@@ -223,7 +229,7 @@ fn estimators() {
     }
 }
 
-/// Hits of several files at points that are told are averaged; a bounce after a third of a second is one hit's fault
+/// Hits of several files at stated points are averaged; a bounce after a third of a second is one hit's fault
 /// and shortens no other block.
 #[test]
 fn hits_of_several_files() {
@@ -234,7 +240,7 @@ fn hits_of_several_files() {
         if k == 1 {
             pulses.push(Pulse { at: 8.63, peak: 50.0 });
         }
-        let (force, responses) = struck(16.5, 2, &pulses);
+        let (force, responses) = impact_record(16.5, 2, &pulses);
         let mut records = channels(force, &responses);
         noisy(&mut records, [1e-3, 2e-3], 10 + k);
         write(folder, &format!("hit_{k}.mat"), records);
@@ -268,7 +274,7 @@ fn bad_hits_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let pulses = [Pulse { at: 0.3, peak: 60.0 }, Pulse { at: 8.3, peak: 70.0 }];
-    let (force, responses) = struck(16.5, 2, &pulses);
+    let (force, responses) = impact_record(16.5, 2, &pulses);
     let good = || channels(force.clone(), &responses[..2]);
     let silent = |r: &mut Record| r.values = Values::Real(vec![0.0; r.values.len()]);
     let random = |r: &mut Record| {
@@ -292,11 +298,11 @@ fn bad_hits_are_reported() {
     write(folder, "nan.npz", changed(good(), spoilt));
     let slow = |r: &mut Vec<Record>| r[2].axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 2048.0);
     write(folder, "rates.npz", changed(good(), slow));
-    let untold = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
-    write(folder, "no_rate.npz", changed(good(), untold));
-    let (force, responses) = struck(8.2, 2, &[pulses[0], Pulse { at: 0.35, peak: 40.0 }]);
+    let unknown_rate = |r: &mut Vec<Record>| r.iter_mut().for_each(|r| r.axis.points = Points::Unknown);
+    write(folder, "no_rate.npz", changed(good(), unknown_rate));
+    let (force, responses) = impact_record(8.2, 2, &[pulses[0], Pulse { at: 0.35, peak: 40.0 }]);
     write(folder, "double.npz", channels(force, &responses[..2]));
-    let (force, responses) = struck(8.2, 2, &pulses[..1]);
+    let (force, responses) = impact_record(8.2, 2, &pulses[..1]);
     write(folder, "once.npz", channels(force, &responses[..2]));
     let clip = |r: &mut Vec<Record>| {
         if let Values::Real(values) = &mut r[2].values {
@@ -359,7 +365,7 @@ fn simulated_impact_test() {
         modal::modes(&assembly, &system, 9).unwrap().iter().map(|m| m.eigenvalue).collect();
     for window in [None, Some("0.5 s")] {
         let mut flags = vec!["--band", "5 .. 300 Hz"];
-        flags.extend(window.iter().flat_map(|tau| ["--window", tau]));
+        flags.extend(window.iter().flat_map(|tau| ["--exponential-window", tau]));
         let document = identified(folder, &["tap/results.h5"], &flags);
         assert_eq!(warnings(&document), Vec::<String>::new());
         let found = modes(&document);

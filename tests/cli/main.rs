@@ -3,16 +3,17 @@
 mod bearings;
 mod commands;
 mod failures;
-mod held_against;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;
+mod renamed;
 mod run_ups;
 mod runs;
 mod signal;
 mod signal_failures;
 mod steady;
 mod update_frf;
+mod validate_update;
 
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};

@@ -97,7 +97,7 @@ fn run_up_of_the_unchanged_model_agrees() {
         println!("{once}");
         assert!((number(&once["computed_rpm"]) / number(&once["measured_rpm"]) - 1.0).abs() < 2e-3, "{once}");
         assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 1e-2, "{once}");
-        assert!(number(&once["likeness"]) > 0.9999 && once["at_end"] == false, "{once}");
+        assert!(number(&once["correlation"]) > 0.9999 && once["at_end"] == false, "{once}");
     }
     for file in
         ["run_up.h5", "run_up_spectrogram_ch1.png", "run_up_waterfall_ch2.svg", "run_up_computed/results.h5"]
@@ -158,14 +158,14 @@ fn run_ups_with_coarse_tacho_or_speed_without_unit() {
     let mapping = folder.path().join("map.toml");
     let text = "[channel.x]\nstation = \"disc\"\ndirection = \"x\"\n[channel.speed]\nunit = \"rpm\"\n";
     std::fs::write(&mapping, text).unwrap();
-    for how in [&["--tacho", "pulses", "--pulses-per-turn", "4"][..], &[]] {
+    for how in [&["--tacho", "pulses", "--pulses-per-rev", "4"][..], &[]] {
         let mut command = rotordyn();
         command.args(["validate", MODEL, "--no-figures", "--measured"]).arg(&path);
         command.arg("--mapping").arg(&mapping).args(how);
         let document = json_of(command.arg("--out").arg(folder.path().join("out")));
         let once = order(&document, 0, "1x");
         println!("{how:?} {once}");
-        assert!(number(&once["likeness"]) > 0.999, "{how:?}: {once}");
+        assert!(number(&once["correlation"]) > 0.999, "{how:?}: {once}");
         assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 0.01, "{once}");
     }
 }
@@ -181,7 +181,7 @@ fn results_file_with_modes_and_a_run_up() {
     assert!(document["measured"][0]["modes"].as_array().unwrap().len() > 5);
     assert_eq!(document["run_ups"][0]["channels"].as_array().unwrap().len(), 3);
     let once = order(&document, 0, "1x");
-    assert!(number(&once["likeness"]) > 0.99999, "{once}");
+    assert!(number(&once["correlation"]) > 0.99999, "{once}");
     assert!((number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 1e-3, "{once}");
 }
 
@@ -211,7 +211,7 @@ fn exported_channels_are_read_as_run_ups() {
         let document = json_of(command.arg("--out").arg(folder.path().join("out")));
         let once = order(&document, 0, "1x");
         println!("{file} {once}");
-        assert!(number(&once["likeness"]) > 0.9999, "{file}: {once}");
+        assert!(number(&once["correlation"]) > 0.9999, "{file}: {once}");
         assert!(
             (number(&once["computed_rms"]) / number(&once["measured_rms"]) - 1.0).abs() < 5e-3,
             "{file}: {once}"

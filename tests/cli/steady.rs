@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 const MODEL: &str = "models/varying_compliance.toml";
 /// Few periods, for a run of about a second.
-const SHORT: [&str; 4] = ["--settle", "60", "--periods", "40"];
+const SHORT: [&str; 4] = ["--transient-periods", "60", "--periods", "40"];
 
 fn texts(store: &Store, path: &str) -> Vec<String> {
     store.read_texts(path).unwrap()
@@ -29,13 +29,13 @@ fn steady_motions_are_computed_printed_and_stored() {
         output_of(rotordyn().args([command, MODEL, "--out"]).arg(folder.path()).args(flags))
     };
     // At 1600 rpm transients decay within 60 ball passages: a motion with the ball-passage period.
-    let text = run("poincare", &["--speed", "1600 rpm", "--settle", "300", "--periods", "40"]);
+    let text = run("poincare", &["--speed", "1600 rpm", "--transient-periods", "300", "--periods", "40"]);
     for part in
         ["Motion at 1600.0 rpm, 40 section points", "ball passage of C (82.256 Hz)", "period 1", "x_rate"]
     {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
-    let text = run("lyapunov", &["--speed", "1600 rpm", "--settle", "300", "--periods", "200"]);
+    let text = run("lyapunov", &["--speed", "1600 rpm", "--transient-periods", "300", "--periods", "200"]);
     assert!(text.contains("convergent: regular"), "{text}");
     let range = ["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"];
     let text = run("bifurcation", &[&range[..], &SHORT].concat());
@@ -115,7 +115,7 @@ fn bifurcation_diagrams_do_not_depend_on_threads() {
         let mut command = rotordyn();
         command.args(["bifurcation", MODEL, "--no-figures", "--quiet", "--threads", threads, "--lyapunov"]);
         command.args(["--from", "2000 rpm", "--to", "3800 rpm", "--count", "24", "--out"]).arg(&out);
-        command.args(["--settle", "20", "--periods", "20"]).assert().success();
+        command.args(["--transient-periods", "20", "--periods", "20"]).assert().success();
         std::fs::read(out.join("results.h5")).unwrap()
     };
     assert!(run("1") == run("2"), "one and two threads differ");
@@ -126,7 +126,17 @@ fn ctrl_c_keeps_the_computed_values() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
         .args(["bifurcation", MODEL, "--no-figures", "--threads", "1", "--json"])
-        .args(["--from", "1600 rpm", "--to", "1700 rpm", "--count", "1000", "--settle", "1000", "--out"])
+        .args([
+            "--from",
+            "1600 rpm",
+            "--to",
+            "1700 rpm",
+            "--count",
+            "1000",
+            "--transient-periods",
+            "1000",
+            "--out",
+        ])
         .arg(folder.path())
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stdout(Stdio::piped())

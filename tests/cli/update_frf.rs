@@ -51,7 +51,7 @@ fn housing_stiffness_is_recovered_by_every_frf_fit() {
         let document = json_of(&mut update(fit, folder.path()));
         for (k, truth) in [(0, 4.2e6), (1, 2.1e7)] {
             let parameter = &document["parameters"][k];
-            assert_eq!(parameter["verdict"], "found", "{fit}: {parameter}");
+            assert_eq!(parameter["identifiability"], "identifiable", "{fit}: {parameter}");
             let value = parameter["value"].as_f64().unwrap();
             assert!((value / truth - 1.0).abs() < 0.02, "{fit}: {parameter}");
         }
@@ -72,9 +72,14 @@ fn report_lists_the_fitted_parameters() {
     let folder = tempfile::tempdir().unwrap();
     let text = output_of(&mut update("frf-complex", folder.path()));
     println!("{text}");
-    for part in
-        ["housing.*.k_x", "standard error %", "found", "degrees of freedom", "FRAC", "dB after the update"]
-    {
+    for part in [
+        "housing.*.k_x",
+        "standard error %",
+        "identifiable",
+        "degrees of freedom",
+        "FRAC",
+        "dB after the update",
+    ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
 }
@@ -96,7 +101,7 @@ fn skew_excitation_is_excluded_from_the_frf_fit() {
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let parameter = &document["parameters"][0];
     let ratio = parameter["value"].as_f64().unwrap() / parameter["start"].as_f64().unwrap();
-    assert!((ratio - 1.0).abs() < 0.01 && parameter["verdict"] == "found", "{parameter}");
+    assert!((ratio - 1.0).abs() < 0.01 && parameter["identifiability"] == "identifiable", "{parameter}");
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn force_only_equals_force_with_tangents() {
     let mut random = Random(23);
     for_each_with_imperfections(|name, bearing| {
         let (d, v, rotation) = sample(&mut random);
-        crate::force_alone::compare(name, bearing, &d, &v, &rotation);
+        crate::force_only::compare(name, bearing, &d, &v, &rotation);
     });
 }
 

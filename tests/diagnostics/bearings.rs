@@ -111,7 +111,7 @@ cases! {
     several_at_once: refused(&GOOD.replace("lubricant = \"oil\"\nfit", "lubricant = \"oyl\"\nfit").replace("\"150 N\"", "\"150\"").replace("outer_race_control", "jones"));
     contact_stiffness_without_unit: added("contact_stiffness = { inner = 3e10, outer = \"3e10 N/m\" }");
     contact_stiffness_of_a_fitted_law: refused(&GOOD.replace("ball_inertia = \"outer_race_control\"\n", "contact_stiffness = \"1e10 N/m^1.5\"\n").replace(FILM, "contact = \"power_law\"\npower_law = { stiffness = \"1e10 N/m^1.5\", exponent = 1.5, range = \"600, 2000 N\" }\npreload"));
-    joint_that_holds_no_motion: changed("[bearing.A]", "[joint.A]\nbetween = [\"A\", \"ground\"]\nhold = [\"z\", \"theta_x\", \"z\"]\n[bearing.A]");
-    joint_of_a_kind_that_holds: changed("[bearing.A]", "[joint.A]\nbetween = [\"A\", \"ground\"]\nkind = \"fixed\"\nhold = [\"z\"]\n[bearing.A]");
+    joint_that_holds_no_motion: changed("[bearing.A]", "[joint.A]\nbetween = [\"A\", \"ground\"]\nconstrain = [\"z\", \"theta_x\", \"z\"]\n[bearing.A]");
+    joint_of_a_kind_that_holds: changed("[bearing.A]", "[joint.A]\nbetween = [\"A\", \"ground\"]\nkind = \"fixed\"\nconstrain = [\"z\"]\n[bearing.A]");
     moment_on_a_ball_joint: refused("[model]\nname = \"pole\"\n[material.steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n[shaft]\nelement_length = \"50 mm\"\nsection = [{ length = \"400 mm\", outer_diameter = \"30 mm\" }]\n[station]\nA = \"200 mm\"\n[joint.A]\nbetween = [\"A\", \"ground\"]\nkind = \"spherical\"\n[load.tilt]\nat = \"A\"\nmoment = \"10, 0, 0 N m\"\n");
 }

@@ -93,8 +93,8 @@ cases! {
     wave_law_and_exponent: added("inner_waviness = { amplitude = \"1 um\", law = \"1/n\", roughness_exponent = 2, from = 5, to = 3 }");
     same_phase_of_a_race: added("inner_waviness = { amplitude = \"1 um\", same_phase = true }");
     wave_on_a_ball_that_is_not_there: added("ball_waviness = [{ ball = 9, order = 2, amplitude = \"1 um\" }]");
-    size_of_a_ball_that_is_not_there: added("off_size = [{ ball = 12, by = \"0.2 um\" }, { by = \"0.2 um\" }]");
-    ball_a_thousand_times_too_large: added("off_size = [{ ball = 0, by = \"0.2 mm\" }]");
+    size_of_a_ball_that_is_not_there: added("off_size = [{ ball = 12, diameter_difference = \"0.2 um\" }, { diameter_difference = \"0.2 um\" }]");
+    ball_a_thousand_times_too_large: added("off_size = [{ ball = 0, diameter_difference = \"0.2 mm\" }]");
     eccentricity_as_a_length: added("inner_eccentricity = \"2 um\"");
     unknown_spin: added("ball_spin = \"shafts\"");
 }

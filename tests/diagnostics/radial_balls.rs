@@ -34,7 +34,7 @@ stiffness_damping = "1e-4 s"
 
 [joint.plane]
 between = ["station.B", "ground"]
-hold = ["z", "tx", "ty"]
+constrain = ["z", "tx", "ty"]
 "#;
 
 const ROTOR: Sample = Sample { file: "rotor.toml", text: GOOD };
@@ -62,14 +62,14 @@ cases! {
     neither_stiffness_nor_grooves: changed(BOTH, "");
     stiffness_of_one_race: changed(", outer = \"1.1e10 N/m^1.5\"", "");
     negative_stiffness: changed("\"9.8e9 N/m^1.5\"", "\"-9.8e9 N/m^1.5\"");
-    unknown_key: added("contact_pulls = true");
+    unknown_key: added("tensile_contacts = true");
     preload_of_a_bearing_in_its_plane: added("preload = { force = \"50 N\" }\ncontact_angle = \"15 deg\"");
     damping_of_the_other_model: added("contact_damping = \"300 N s/m\"\nball_inertia = \"shared\"");
     angular_contact_bearing: changed("balls = 8\nball_diameter = \"9.524 mm\"\npitch_diameter = \"47 mm\"\n", "designation = \"7206B\"\n");
     too_few_balls: changed("balls = 8", "balls = 2");
     too_many_balls: changed("balls = 8", "balls = 17");
-    off_size_ball_that_is_none: added("off_size = [{ ball = 8, by = \"0.2 um\" }]");
-    off_size_ball_larger_than_the_gap_between_races: added("off_size = [{ ball = 1, by = \"5 mm\" }]");
+    off_size_ball_that_is_none: added("off_size = [{ ball = 8, diameter_difference = \"0.2 um\" }]");
+    off_size_ball_larger_than_the_gap_between_races: added("off_size = [{ ball = 1, diameter_difference = \"5 mm\" }]");
     defects_by_the_printed_force: added("defect_law = \"force\"\ndefect = [{ on = \"outer\", kind = \"dent\", angle = \"0 deg\", width = \"0.2 mm\" }]");
     massless_balls: changed("\"7800 kg/m^3\"", "\"0 kg/m^3\"");
     cage_faster_than_the_shaft: added("cage = 1.2");

@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use rotordyn::io::hdf5::Store;
 use rotordyn::io::{measured, uff, wav};
 use rotordyn::signal::record::{Kind, MeasuredData, Record, Values};
 use serde_json::Value;
@@ -42,7 +43,7 @@ fn scipy_and_numpy_read_written_files() {
         assert_eq!(numbers("fs"), [12000.0]);
         assert_eq!(numbers("X105RPM"), [1797.0]);
         assert_eq!(stored[file]["housing_B_ax_unit"][0], "m/s^2");
-        assert_eq!(stored[file]["rim_disc_y_is"][0], "rim/disc_y");
+        assert_eq!(stored[file]["rim_disc_y_name"][0], "rim/disc_y");
         assert_eq!(stored[file]["density_unit"][0], "(m/s^2)^2/Hz");
         for record in &example().records {
             let got = numbers(&record.name.replace('/', "_"));
@@ -110,6 +111,21 @@ fn compressed_scipy_and_numpy_files_are_read() {
     assert_eq!(real(&numpy, "fortran[2]"), count.iter().map(|k| 2.0 * k).collect::<Vec<_>>());
     assert_eq!(numpy.notes[0], "not read, since they are not plain arrays: objects");
     assert!(numpy.records.iter().all(|r| r.kind != Kind::General));
+}
+
+/// Files of earlier versions have the record's name as `name_is`.
+#[test]
+fn earlier_name_arrays_are_read() {
+    let temporary = tempfile::tempdir().unwrap();
+    let path = temporary.path().join("earlier.h5");
+    let store = Store::create(&path).unwrap();
+    store.write("/fs", &[1], &[100.0], &[]).unwrap();
+    store.write("/rim_disc_y", &[3], &[1.0, 2.0, 3.0], &[]).unwrap();
+    store.write_texts("/rim_disc_y_is", &["rim/disc_y"], &[]).unwrap();
+    drop(store);
+    let found = measured::read(&path).unwrap();
+    assert_eq!(found.records.len(), 1);
+    assert_eq!(real(&found, "rim/disc_y"), [1.0, 2.0, 3.0]);
 }
 
 /// Every format, truncated or with changed bytes, is read or rejected with an error, never with a panic.

@@ -124,17 +124,17 @@ with h5py.File(sys.argv[1], "r") as file:
     same(orders["cuts/rms"].dims[1][0], cuts[0]["speed_rpm"])
 
     bearing, group = want["bearings"][0], file["bearings/B"]
-    assert group.attrs["load_from"] == bearing["load_from"] and group.attrs["bpfo"] == bearing["nominal_orders"]["bpfo"]
+    assert group.attrs["load_source"] == bearing["load_source"] and group.attrs["bpfo"] == bearing["nominal_orders"]["bpfo"]
     singles = ("load", "displacement", "stiffness", "radial_stiffness", "largest_pressure", "bpfo")
     for name in singles:
         same(group["operating"][name], bearing["operating"][name])
     for sweep in bearing["sweeps"]:
-        over = group["over_" + sweep["of"]]
-        same(over["over"], sweep["values"])
-        assert over["over"].attrs["unit"] == sweep["unit"]
+        over = group["sweep_" + sweep["variable"]]
+        same(over["swept_value"], sweep["values"])
+        assert over["swept_value"].attrs["unit"] == sweep["unit"]
         for name in singles:
             same(over[name], [point[name] for point in sweep["points"]])
-            assert over[name].dims[0][0] == over["over"]
+            assert over[name].dims[0][0] == over["swept_value"]
         for race in ("inner", "outer"):
             for name in ("load", "contact_angle", "pressure", "film"):
                 balls = [[ball[race][name] for ball in point["balls"]] for point in sweep["points"]]

@@ -15,7 +15,7 @@ fn all_figures_are_drawn_reproducibly() {
     let again = draw(results, machine, &folder.path().join("b")).unwrap();
     let names: Vec<&str> = files.iter().map(|f| f.file_stem().unwrap().to_str().unwrap()).collect();
     let expected = [
-        "rig",
+        "machine_layout",
         "static_deflection",
         "ball_loads",
         "modes_0rpm",
@@ -63,7 +63,7 @@ fn all_figures_are_drawn_reproducibly() {
         ("spectrogram_B_ax.svg", &["1st torsional", "BPFO", "acceleration level [dB re 1 m/s²]"]),
         ("frf_rim.svg", &["accelerance [(m/s²)/N]", "disc_x", "0 rpm"]),
         ("ball_loads.svg", &["bearing A", "load [N]"]),
-        ("rig.svg", &["housing A", "bearing B", "250 N along x", "pulley"]),
+        ("machine_layout.svg", &["housing A", "bearing B", "250 N along x", "pulley"]),
     ] {
         let svg = text(file);
         words.iter().for_each(|w| assert!(svg.contains(w), "{file}: {w}"));
@@ -121,7 +121,7 @@ fn json_contains_finite_numbers_and_units() {
     ];
     expected.sort_unstable();
     assert_eq!(keys, expected);
-    assert_eq!(document["schema"], "rotordyn-results-1");
+    assert_eq!(document["schema"], "rotordyn-results-2");
     assert_eq!(document["modal"][1]["speed_rpm"].as_f64().map(|rpm| (rpm - 1200.0).abs() < 1e-9), Some(true));
     let mut all = Vec::new();
     numbers(&document, "", &mut all);

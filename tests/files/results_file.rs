@@ -5,7 +5,9 @@ use std::process::Command;
 
 use rotordyn::io::hdf5::{Attribute, ChannelStream, Store};
 use rotordyn::io::json::to_json;
-use rotordyn::io::results_file::{Meta, channels_of, read_history, remove_run, write_meta, write_study};
+use rotordyn::io::results_file::{
+    Meta, SCHEMA, channels_of, read_history, remove_run, schema, write_meta, write_study,
+};
 
 use crate::rig_results::RIG;
 
@@ -72,6 +74,7 @@ fn stored_run_round_trip_and_study_replacement() {
         "warnings",
     ];
     assert_eq!(groups, expected);
+    assert_eq!(schema(&Store::open(&path).unwrap()).unwrap(), SCHEMA);
 
     // Writing one study replaces it and leaves the others.
     let mut fewer = results.clone();
@@ -88,6 +91,7 @@ fn stored_run_round_trip_and_study_replacement() {
 fn file_without_run_error_message() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::create(folder.path().join("results.h5")).unwrap();
+    assert_eq!(schema(&store).unwrap(), 1, "files without the attribute");
     let message = read_history(&store).unwrap_err().to_string();
     assert!(message.contains("results.h5") && message.contains("/channels"), "{message}");
 }

@@ -11,7 +11,7 @@ use rotordyn::model::{Probe, Quantity};
 use rotordyn::signal::record::{FrfMatrix, MeasurementNoise};
 use rotordyn::study::Machine;
 
-use crate::made::lines;
+use crate::known_modes::lines;
 use crate::rig::variant;
 
 /// Housings 30 % softer along x and 40 % stiffer along y, belt 50 % stiffer, other damping.

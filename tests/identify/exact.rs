@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
 
-use crate::made::{KnownMode, bending_shape, frfs, largest_errors, lines};
+use crate::known_modes::{KnownMode, bending_shape, frfs, largest_errors, lines};
 
 /// Pole tolerance, relative to |λ|.
 const POLE_TOLERANCE: f64 = 1e-8;

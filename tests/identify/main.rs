@@ -7,7 +7,7 @@ mod rig;
 
 mod changed_rig;
 mod exact;
-mod made;
+mod known_modes;
 mod noise;
 mod plane_ema;
 mod refusals;

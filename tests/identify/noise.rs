@@ -4,7 +4,7 @@ use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::{Dof, MeasurementNoise};
 
-use crate::made::{KnownMode, bending_shape, frfs, lines};
+use crate::known_modes::{KnownMode, bending_shape, frfs, lines};
 
 fn known(references: &[usize]) -> Vec<KnownMode> {
     let modes = [(12.0, 0.01), (31.0, 0.006), (33.0, 0.012), (61.0, 0.004), (88.0, 0.015)];

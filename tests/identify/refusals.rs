@@ -4,7 +4,7 @@ use rotordyn::identify::{Settings, identify};
 use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::FrfMatrix;
 
-use crate::made::{KnownMode, bending_shape, frfs, lines};
+use crate::known_modes::{KnownMode, bending_shape, frfs, lines};
 
 fn good() -> FrfMatrix {
     frfs(&[KnownMode::real(40.0, 0.01, &bending_shape(1, 3), &[1])], &lines(5.0, 85.0, 0.2), 2)

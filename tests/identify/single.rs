@@ -3,7 +3,7 @@
 use rotordyn::identify::sdof::{circle_fit, half_power_fit};
 use rotordyn::model::Quantity;
 
-use crate::made::{KnownMode, bending_shape, frfs, lines};
+use crate::known_modes::{KnownMode, bending_shape, frfs, lines};
 
 #[test]
 fn circle_fit_and_peak_fit_of_one_mode() {

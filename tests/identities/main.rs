@@ -9,7 +9,7 @@ mod rig;
 
 mod double_eigenvalues;
 mod ehl;
-mod follow_speed;
 mod linear;
 mod planes;
 mod sensitivity;
+mod speed_dependent_bearings;

@@ -130,7 +130,7 @@ fn waves_by_law_and_list() {
 #[test]
 fn sizes_eccentric_races_and_spin() {
     let found = imperfections(
-        "off_size = [{ ball = 0, by = \"0.2 um\" }, { ball = 4, by = \"-0.1 um\" }]\nball_spin = \"shaft\"\n\
+        "off_size = [{ ball = 0, diameter_difference = \"0.2 um\" }, { ball = 4, diameter_difference = \"-0.1 um\" }]\nball_spin = \"shaft\"\n\
          inner_eccentricity = { amount = \"2 um\", angle = \"30 deg\" }\nouter_eccentricity = { amount = \"1 um\" }",
     );
     // Micrometres are converted by division by 10⁶.
@@ -145,7 +145,7 @@ fn sizes_eccentric_races_and_spin() {
 #[test]
 fn rows_of_a_pair() {
     let pair = "designation = \"7205B\"\narrangement = \"back_to_back\"\nrow_spacing = \"15 mm\"\n\
-        off_size = [{ ball = 0, by = \"0.2 um\", row = 1 }]\n\
+        off_size = [{ ball = 0, diameter_difference = \"0.2 um\", row = 1 }]\n\
         defect = [{ kind = \"dent\", on = \"outer\", row = 0, angle = \"0 deg\", width = \"0.1 mm\" }]";
     let text = format!("[model]\nname = \"b\"\n[bearing.b]\nmodel = \"ball\"\n{pair}\n");
     let file = model::load_bearings("b.toml", text, &Options::default()).unwrap_or_else(|e| panic!("{e}"));

@@ -6,5 +6,6 @@ mod catalogue;
 mod files;
 mod imperfections;
 mod papers;
+mod renamed;
 mod rig;
 mod syntax;

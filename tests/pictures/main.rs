@@ -1,6 +1,6 @@
 //! Figures: ticks, labels, decimation, valid and equal SVG, PNG size, and degenerate data.
 
+mod degenerate_data;
 mod figures;
-mod hostile;
 mod layout;
 mod samples;

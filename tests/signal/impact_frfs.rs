@@ -78,7 +78,7 @@ fn exponential_window_and_its_correction() {
 
 /// Noise in the response: H1 unbiased, H2 too high by 1/γ²; noise in the force: the other way round.
 #[test]
-fn noise_biases_h1_and_h2_as_theory_says() {
+fn noise_bias_of_h1_and_h2() {
     let n = 200_000;
     let (force, dirt) = (noise(1, n), noise(77, n));
     let response: Vec<f64> = force.iter().zip(&dirt).map(|(f, d)| 2.0 * f + d).collect();
@@ -93,7 +93,7 @@ fn noise_biases_h1_and_h2_as_theory_says() {
 
 /// Noise alike in force and response: H1 too low, H2 too high by the same factor, Hv right.
 #[test]
-fn hv_is_right_when_both_channels_are_noisy_alike() {
+fn hv_is_unbiased_for_equal_noise_on_both_channels() {
     let n = 200_000;
     let (source, first, second) = (noise(1, n), noise(77, n), noise(123, n));
     let force: Vec<f64> = source.iter().zip(&first).map(|(f, d)| f + 0.5 * d).collect();

@@ -38,7 +38,7 @@ fn hits_are_found_in_a_long_record() {
 }
 
 #[test]
-fn a_good_hit_passes_and_its_contact_is_measured() {
+fn contact_of_a_usable_hit() {
     let mut force = vec![0.0; 4_000];
     strike(&mut force, 100, 9, -50.0);
     // An anti-aliasing filter rings with changing sign.
@@ -53,7 +53,7 @@ fn a_good_hit_passes_and_its_contact_is_measured() {
 }
 
 #[test]
-fn double_hits_overloads_and_truncated_decays_are_told() {
+fn double_hits_overloads_and_truncated_decays_are_reported() {
     let clean = ring(4_000, 100, 300.0);
     let mut single = vec![0.0; 4_000];
     strike(&mut single, 100, 9, 50.0);
@@ -99,7 +99,7 @@ fn double_hits_overloads_and_truncated_decays_are_told() {
 }
 
 #[test]
-fn unusable_records_are_refused() {
+fn unusable_records_are_errors() {
     let trigger = Trigger { level: 0.1, before: 0, length: 10 };
     assert!(matches!(trigger.find(&[f64::NAN]), Err(SignalError::NotFinite { .. })));
     assert!(Trigger { level: 1.5, ..trigger }.find(&[1.0]).is_err());

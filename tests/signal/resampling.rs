@@ -69,7 +69,7 @@ fn steady_tone_is_suppressed_where_it_is_above_nyquist() {
 
 /// Stand 1 s, ramp 2 s, stand 1 s, turn steadily 2 s: two parts, two standstills.
 #[test]
-fn standstill_is_left_out_and_said() {
+fn standstill_is_skipped_and_reported() {
     let speed = sampled(30_000, RATE, |t| match t {
         t if t < 1.0 => 0.0,
         t if t < 3.0 => TAU * 5.0 * (t - 1.0),
@@ -99,14 +99,14 @@ fn a_shaft_turning_backwards_is_tracked() {
 }
 
 #[test]
-fn a_shaft_that_only_rocks_is_an_error() {
+fn oscillating_shaft_angle_is_an_error() {
     let theta = sampled(5000, RATE, |t| (TAU * 3.0 * t).sin());
     let error = AngleResampler::new(&theta, RATE, 32, 0.05).err().unwrap();
     assert!(matches!(error, SignalError::TooFewRevolutions { given, .. } if given < 0.4), "{error}");
 }
 
 #[test]
-fn several_channels_give_what_each_gives_alone() {
+fn several_channels_equal_single_channels() {
     let theta = sampled(5000, RATE, |t| TAU * 20.0 * t);
     let resampler = AngleResampler::new(&theta, RATE, 32, 0.05).unwrap();
     let (a, b) = (crate::noise(1, 5000), crate::noise(2, 5000));

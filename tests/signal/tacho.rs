@@ -37,7 +37,7 @@ fn all_pulses_of_a_start_from_rest_are_kept() {
 
 /// Gaps of one to three pulses and false pulses, on jitter of 1 % of the interval: the count of turns stays right.
 #[test]
-fn missing_and_false_pulses_are_mended() {
+fn missing_and_false_pulses_are_corrected() {
     let times = pulses();
     let jitter = noise(17, times.len());
     let mut given = Vec::new();
@@ -146,7 +146,7 @@ fn pulses_sharpen_orders() {
 }
 
 #[test]
-fn refusals() {
+fn bad_input() {
     let message = |times: &[f64]| PulseTrain::new(times, 1).unwrap_err().to_string();
     assert_eq!(
         message(&[0.0, 1.0, 2.0]),

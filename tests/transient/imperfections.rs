@@ -75,7 +75,7 @@ fn run(inertia: bool, step: f64, bearing_a: &str) -> (History, Report) {
 }
 
 const ZERO_SIZE: &str = r#"
-off_size = [{ ball = 2, by = "0 um" }]
+off_size = [{ ball = 2, diameter_difference = "0 um" }]
 inner_waviness = [{ order = 8, amplitude = "0 um" }]
 ball_waviness = { amplitude = "0 um", from = 2, to = 9 }
 outer_eccentricity = { amount = "0 um", angle = "20 deg" }
@@ -87,7 +87,7 @@ defect = [
 "#;
 
 const DAMAGED: &str = r#"
-off_size = [{ ball = 2, by = "0.3 um" }]
+off_size = [{ ball = 2, diameter_difference = "0.3 um" }]
 ball_waviness = { amplitude = "0.05 um", from = 2, to = 9 }
 defect = [
     { kind = "dent", on = "outer", angle = "260 deg", width = "0.5 mm" },

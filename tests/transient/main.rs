@@ -5,12 +5,12 @@ mod measured_data;
 #[path = "../common/rig.rs"]
 mod rig;
 
-mod attractor;
 mod high_speed;
 mod impact;
 mod imperfections;
 mod measured_run_up;
 mod radial_balls;
 mod run_up;
+mod steady_motion;
 mod torque;
 mod varying_compliance;

@@ -30,7 +30,7 @@ C = "0 m"
 
 [joint.plane]
 between = ["rotor", "ground"]
-hold = ["z", "tx", "ty"]
+constrain = ["z", "tx", "ty"]
 
 [bushing.seal]
 between = ["rotor", "ground"]

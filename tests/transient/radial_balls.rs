@@ -19,12 +19,12 @@ fn rig(set: &[(&str, &str)]) -> Machine {
 }
 
 /// Energy balance of a run-up of the rig, within the second-order error of a Newmark step, with perfect and with
-/// imperfect balls.
+/// with_defects balls.
 #[test]
 fn energy_balance_of_a_run_up_of_the_rig() {
-    for imperfect in [false, true] {
-        let off = ("bearing.A.off_size", "[{ ball = 2, by = \"1 um\" }]");
-        let set = if imperfect { vec![off] } else { vec![] };
+    for with_defects in [false, true] {
+        let off = ("bearing.A.off_size", "[{ ball = 2, diameter_difference = \"1 um\" }]");
+        let set = if with_defects { vec![off] } else { vec![] };
         let machine = rig(&set);
         let mut study = machine.model.studies.run_up.clone().unwrap();
         study.integrator = Integrator::Newmark;

@@ -159,14 +159,15 @@ impl RadialElement {
         let rotation_at_rest = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..*rotation };
         let cage_speed = self.cage_speed(rotation);
         self.for_each_ball(&rings_at_rest, &rotation_at_rest, |_, seen| {
-            let flung = |lift: f64| self.mass * cage_speed * cage_speed * (self.outer_contact_radius + lift);
-            let push = flung(0.0) + seen.weight;
-            let guess = push.signum() * (push.abs() / self.stiffness[1]).cbrt().powi(2);
+            let centrifugal_force =
+                |lift: f64| self.mass * cage_speed * cage_speed * (self.outer_contact_radius + lift);
+            let outward_force = centrifugal_force(0.0) + seen.weight;
+            let guess = outward_force.signum() * (outward_force.abs() / self.stiffness[1]).cbrt().powi(2);
             let residual = |lift: f64| {
                 let acting = self.ball_state(&seen, seen.housing_displacement[0] + lift, 0.0);
                 let [inner, outer] = &acting.contacts;
                 let slope = inner.by_deformation * acting.n[0] * acting.n[0] + outer.by_deformation;
-                [-acting.force - flung(lift), slope]
+                [-acting.force - centrifugal_force(lift), slope]
             };
             let place = seen.housing_displacement[0] + root_finding::increasing_root(residual, guess);
             visit(&seen, place, &self.ball_state(&seen, place, 0.0));

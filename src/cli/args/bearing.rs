@@ -22,7 +22,7 @@ pub struct BearingArgs {
     #[arg(long, value_name = "SPEED")]
     pub speed: Option<String>,
     /// DOFs constrained at the centred position, such as z,theta_x,theta_y
-    #[arg(long, value_name = "MOTIONS", value_delimiter = ',')]
+    #[arg(long, alias = "hold", value_name = "MOTIONS", value_delimiter = ',')]
     pub constrain: Vec<String>,
     /// Quantity to sweep: load, displacement, speed or cage_angle, with a range or with its default range,
     /// such as load="0 N .. 2 kN" or speed; can be repeated
@@ -33,6 +33,6 @@ pub struct BearingArgs {
     #[arg(long, value_name = "MOTION")]
     pub along: Option<String>,
     /// Average over the cage angle instead of using the cage angle of the model
-    #[arg(long)]
+    #[arg(long, alias = "averaged")]
     pub cage_average: bool,
 }

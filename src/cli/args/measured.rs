@@ -26,7 +26,7 @@ pub struct ShaftArgs {
     #[arg(long, value_name = "CHANNEL|FILE", help_heading = "Shaft", conflicts_with = "track")]
     pub tacho: Option<String>,
     /// Tachometer pulses per revolution
-    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Shaft")]
+    #[arg(long, alias = "pulses-per-turn", value_name = "N", default_value_t = 1, help_heading = "Shaft")]
     pub pulses_per_rev: usize,
     /// Remove the jitter of the tachometer pulses (always on in validate)
     #[arg(long, help_heading = "Shaft")]
@@ -69,8 +69,8 @@ pub struct IdentifyArgs {
     pub quantity: Option<String>,
     /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records; its
     /// added damping is subtracted from every mode
-    #[arg(long, value_name = "TIME")]
-    pub window: Option<String>,
+    #[arg(long, alias = "window", value_name = "TIME")]
+    pub exponential_window: Option<String>,
     /// Channel of the force in time records [default: the one in N]
     #[arg(long, value_name = "NAME")]
     pub force: Option<String>,

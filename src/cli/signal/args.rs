@@ -8,14 +8,15 @@ use super::super::args::ShaftArgs;
 
 /// Shown with the long help.
 pub const EXAMPLES: &str = "\
-Analyses: spectrum, psd, spectrogram, envelope, kurtogram, cepstrum, jerk, orders, average, cyclic.
+Analyses: spectrum, psd, spectrogram, envelope, kurtogram, cepstrum, jerk, orders, synchronous-average,
+cyclic-coherence.
 
 Examples:
   rotordyn signal 105.mat --rate \"12 kHz\" --bearing 6205-2RS
-  rotordyn signal out/cwru_6205 --bearing DE --time \"0.2 s ..\" --against 105.mat --against-rate \"12 kHz\"
+  rotordyn signal out/cwru_6205 --bearing DE --time \"0.2 s ..\" --compare-with 105.mat --compare-rate \"12 kHz\"
   rotordyn signal run_up.csv --channel A_ax --tacho tacho --bearing 6206
-  rotordyn signal pump.wav --track 1=\"20 Hz .. 60 Hz\" --rates BPFO=3.585,BPFI=5.415
-  rotordyn signal out/dents --bearing A --analyses jerk --beside A_ay";
+  rotordyn signal pump.wav --track 1=\"20 Hz .. 60 Hz\" --bearing-orders BPFO=3.585,BPFI=5.415
+  rotordyn signal out/dents --bearing A --analyses jerk --quadrature-channel A_ay";
 
 /// Arguments of `signal`.
 #[derive(Args, Clone, Debug)]
@@ -35,8 +36,7 @@ pub struct SignalArgs {
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub time: Option<String>,
     /// Analyses, separated by commas, or "all" [default: spectrum, psd, envelope, kurtogram, cepstrum; with
-    /// the shaft angle also orders and average (time synchronous averaging), and spectrogram if the speed
-    /// varies]
+    /// the shaft angle also orders and synchronous-average, and spectrogram if the speed varies]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub analyses: Vec<String>,
 
@@ -62,14 +62,15 @@ pub struct SignalArgs {
     /// FTF=0.398,BPFO=3.585,BPFI=5.415,BSF=2.357
     #[arg(
         long,
-        value_name = "RATES",
+        alias = "rates",
+        value_name = "ORDERS",
         value_delimiter = ',',
         help_heading = "Bearing",
         conflicts_with = "bearing"
     )]
     pub bearing_orders: Vec<String>,
     /// Demodulation band of the envelope: lines (highest bearing lines above the background), kurtosis (from
-    /// the kurtogram), whole, or "500 Hz .. 5.5 kHz" [default: lines; without a bearing, kurtosis]
+    /// the kurtogram), full, or "500 Hz .. 5.5 kHz" [default: lines; without a bearing, kurtosis]
     #[arg(long, value_name = "BAND", help_heading = "Bearing")]
     pub band: Option<String>,
     /// Number of harmonics of each defect frequency to search
@@ -82,11 +83,12 @@ pub struct SignalArgs {
     #[arg(long, value_name = "RACE", default_value = "outer", help_heading = "Bearing")]
     pub race: String,
     /// Channel 90 deg from the first, from x to y, to locate defects over the full circumference
-    #[arg(long, value_name = "CHANNEL", help_heading = "Bearing")]
+    #[arg(long, alias = "beside", value_name = "CHANNEL", help_heading = "Bearing")]
     pub quadrature_channel: Option<String>,
     /// Reference time at which a ball is at angle 0 of the race and that angle points along x
     #[arg(
         long,
+        alias = "datum",
         value_name = "TIME",
         default_value = "0 s",
         help_heading = "Bearing",
@@ -101,36 +103,51 @@ pub struct SignalArgs {
     #[arg(long, value_name = "FREQUENCY", help_heading = "Figures and files")]
     pub max_frequency: Option<String>,
     /// Second record whose envelope spectrum is compared with the first, such as measured and simulated
-    #[arg(long, value_name = "FILE", help_heading = "Comparison with a second record")]
+    #[arg(long, alias = "against", value_name = "FILE", help_heading = "Comparison with a second record")]
     pub compare_with: Option<PathBuf>,
     /// Channel of the second record [default: the first vibration channel]
-    #[arg(long, value_name = "NAME", help_heading = "Comparison with a second record", requires = "against")]
+    #[arg(
+        long,
+        alias = "against-channel",
+        value_name = "NAME",
+        help_heading = "Comparison with a second record",
+        requires = "compare_with"
+    )]
     pub compare_channel: Option<String>,
     /// Sampling rate of the second record, if its file does not state it
     #[arg(
         long,
+        alias = "against-rate",
         value_name = "FREQUENCY",
         help_heading = "Comparison with a second record",
-        requires = "against"
+        requires = "compare_with"
     )]
     pub compare_rate: Option<String>,
     /// Unit of the second record, if its file does not state it
-    #[arg(long, value_name = "UNIT", help_heading = "Comparison with a second record", requires = "against")]
+    #[arg(
+        long,
+        alias = "against-unit",
+        value_name = "UNIT",
+        help_heading = "Comparison with a second record",
+        requires = "compare_with"
+    )]
     pub compare_unit: Option<String>,
     /// Shaft speed of the second record [default: as stated in its file, else that of the first]
     #[arg(
         long,
+        alias = "against-speed",
         value_name = "SPEED",
         help_heading = "Comparison with a second record",
-        requires = "against"
+        requires = "compare_with"
     )]
     pub compare_speed: Option<String>,
     /// Time range of the second record, such as "0.5 s .."
     #[arg(
         long,
+        alias = "against-time",
         value_name = "RANGE",
         help_heading = "Comparison with a second record",
-        requires = "against"
+        requires = "compare_with"
     )]
     pub compare_time: Option<String>,
     /// Results folder [default: out/NAME, or the folder of the stored run]

@@ -47,7 +47,7 @@ pub fn find(
     let known = of_model.iter().map(|(name, _)| name.as_str()).chain(designations);
     let hint = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`rotordyn catalogue` lists all; use --rates for any other".into(),
+        None => "`rotordyn catalogue` lists all; use --bearing-orders for any other".into(),
     };
     let places = if of_model.is_empty() { "in the catalogue" } else { "in the model or the catalogue" };
     findings.problem(format!("there is no bearing `{name}` {places}; {hint}"));
@@ -83,19 +83,19 @@ fn from_orders(rates: &[String], findings: &mut InputProblems) -> Option<Bearing
                 found[place] = Some(value)
             }
             _ => findings.problem(format!(
-                "--rates {text}: expected one of {} with its order (per revolution), such as BPFO=3.585",
+                "--bearing-orders {text}: expected one of {} with its order (per revolution), such as BPFO=3.585",
                 NAMES.join(", ")
             )),
         }
     }
     let (Some(bpfo), Some(bpfi)) = (found[1], found[2]) else {
-        findings.problem("--rates: both BPFO and BPFI are required, such as --rates BPFO=3.585,BPFI=5.415");
+        findings.problem("--bearing-orders: both BPFO and BPFI are required, such as --bearing-orders BPFO=3.585,BPFI=5.415");
         return None;
     };
     let z = (bpfo + bpfi).round();
     if z < 3.0 || (bpfo + bpfi - z).abs() > 0.02 || bpfo >= bpfi {
         findings.problem(format!(
-            "--rates: BPFO + BPFI = {:.3} must be the number of balls, with BPFO < BPFI",
+            "--bearing-orders: BPFO + BPFI = {:.3} must be the number of balls, with BPFO < BPFI",
             bpfo + bpfi
         ));
         return None;

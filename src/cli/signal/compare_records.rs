@@ -1,4 +1,4 @@
-//! Second record of `--against`, whose envelope spectrum is compared with the first.
+//! Second record of `--compare-with`, whose envelope spectrum is compared with the first.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use super::args::SignalArgs;
 use super::input::{ChannelSelection, File, InputProblems, channels};
 use super::shaft_source::{ShaftSource, stated_in_file};
 
-/// Envelope analysis of the second record and its name; `None` without `--against`.
+/// Envelope analysis of the second record and its name; `None` without `--compare-with`.
 pub fn second_record(
     args: &SignalArgs,
     first: &SignalResult,
@@ -34,11 +34,11 @@ pub fn second_record(
         rate: args.compare_rate.as_deref(),
         unit: args.compare_unit.as_deref(),
         time: args.compare_time.as_deref(),
-        flag_prefix: "--against-",
+        flag_prefix: "--compare-",
     };
     let found = channels(&file, &choice, &mut findings);
     let given =
-        args.compare_speed.as_ref().and_then(|text| findings.positive("--against-speed", text, SPEED));
+        args.compare_speed.as_ref().and_then(|text| findings.positive("--compare-speed", text, SPEED));
     let shaft = match (given, stated_in_file(&file), &first.shaft) {
         (Some(speed), ..) => ShaftSource::Steady(speed / TAU, "as given".into()),
         (None, Some(known), _) => known,

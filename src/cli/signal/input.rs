@@ -151,7 +151,7 @@ pub struct ChannelSelection<'a> {
     pub rate: Option<&'a str>,
     pub unit: Option<&'a str>,
     pub time: Option<&'a str>,
-    /// Flag prefix in messages, "--" or "--against-".
+    /// Flag prefix in messages, "--" or "--compare-".
     pub flag_prefix: &'a str,
 }
 
@@ -173,8 +173,9 @@ pub fn channels(file: &File, choice: &ChannelSelection, findings: &mut InputProb
         [all] if all == "all" => file.time_records().filter(|r| !is_rotation_signal(r)).collect(),
         names => names.iter().filter_map(|name| findings.value_or_problem("", file.record(name))).collect(),
     };
-    let quadrature =
-        choice.quadrature.and_then(|name| findings.value_or_problem("--beside: ", file.record(name)));
+    let quadrature = choice
+        .quadrature
+        .and_then(|name| findings.value_or_problem("--quadrature-channel: ", file.record(name)));
     chosen.into_iter().filter_map(|record| channel(record, quadrature, choice, findings)).collect()
 }
 
@@ -233,7 +234,7 @@ fn channel(
     }
     let quadrature = quadrature.and_then(|other| {
         let same = other.axis == record.axis && other.values.len() == record.values.len();
-        let given = findings.value_or_problem("--beside: ", other.time_samples())?;
+        let given = findings.value_or_problem("--quadrature-channel: ", other.time_samples())?;
         if !same {
             findings.problem(RecordError::axes_differ(record, other).to_string());
             return None;

@@ -28,7 +28,9 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
             .map(|p| vec![number(p.position, 5), number(p.amplitude, 4)])
             .collect();
         terminal.table(&format!("Highest lines, {title_suffix}"), &[unit, &level("peak", result)], &rows);
-        terminal.print("  no bearing diagnosis: give the bearing with --bearing, or its orders with --rates");
+        terminal.print(
+            "  no bearing diagnosis: give the bearing with --bearing, or its orders with --bearing-orders",
+        );
         return;
     };
     let unit = if envelope.over_orders { "order" } else { "Hz" };

@@ -35,7 +35,7 @@ pub fn from_flags(args: &SignalArgs, bearing: bool, findings: &mut InputProblems
         max_order: args.max_order,
         lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
         race,
-        datum: findings.quantity("--datum", &args.reference_time, TIME).unwrap_or(0.0),
+        datum: findings.quantity("--reference-time", &args.reference_time, TIME).unwrap_or(0.0),
     }
 }
 
@@ -67,20 +67,20 @@ fn band(text: &str, bearing: bool, findings: &mut InputProblems) -> Option<BandR
     match text.trim() {
         "lines" if !bearing => {
             findings.problem(
-                "--band lines: needs --bearing or --rates to score the bands by their bearing lines",
+                "--band lines: needs --bearing or --bearing-orders to score the bands by their bearing lines",
             );
             None
         }
         "lines" => Some(BandRule::Lines),
         "kurtosis" => Some(BandRule::Kurtosis),
-        "whole" => Some(BandRule::Whole),
+        "full" => Some(BandRule::Whole),
         range if range.contains("..") => {
             let [low, high] = findings.range("--band", range, FREQUENCY, [0.0, f64::MAX])?;
             Some(BandRule::Given(low, high))
         }
         other => {
             findings.problem(format!(
-                "--band {other}: expected lines, kurtosis, whole or a range such as \"500 Hz .. 5.5 kHz\""
+                "--band {other}: expected lines, kurtosis, full or a range such as \"500 Hz .. 5.5 kHz\""
             ));
             None
         }

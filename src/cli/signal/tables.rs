@@ -222,7 +222,7 @@ fn defects(terminal: &Terminal, race: &RaceResult) {
     terminal.table(&title, &header, &rows);
     if !race.full_circumference {
         terminal.print(
-            "  angles are modulo one ball spacing; --beside gives the channel at 90 deg that resolves them",
+            "  angles are modulo one ball spacing; --quadrature-channel gives the channel at 90 deg that resolves them",
         );
     }
 }

@@ -1,23 +1,24 @@
-//! Signal analyses of records as JSON: the document "rotordyn-signal-1".
+//! Signal analyses of records as JSON: the document "rotordyn-signal-2".
 //!
 //! Frequencies and rates in Hz, times in s, angles in rad, amplitudes in the channel's unit; maps and spectra
-//! are in the HDF5 file. Per channel in `channels`, and for the channel of the compared record in `against`:
+//! are in the HDF5 file. Per channel in `channels`, and for the channel of the compared record in
+//! `compared_record`:
 //!
 //! | key | contents |
 //! |---|---|
 //! | `channel`, `unit`, `sample_rate_hz`, `start_s`, `samples` | what was analysed |
-//! | `shaft` | `source`, `mean_rpm`, `least_rpm`, `most_rpm`, `steady` |
+//! | `shaft` | `source`, `mean_rpm`, `min_rpm`, `max_rpm`, `steady` |
 //! | `speed` | `time_s`, `rpm`, if the shaft's angle is known |
 //! | `bearing` | `name`, `source`, `balls`, `orders` {ftf, bpfo, bpfi, bsf} |
 //! | `statistics` | mean, rms, peak, crest_factor, kurtosis, skewness, ... |
 //! | `spectrum`, `density` | `peaks` \[{frequency_hz, amplitude}\], highest first; `resolution_hz` |
-//! | `envelope` | `band_hz`, `rule`, `axis` "Hz" or "order", `verdict`, `peaks`, `strongest`, `families` \[{part, line, expected, found, lines}\] |
+//! | `envelope` | `band_hz`, `rule`, `axis` "Hz" or "order", `diagnosis`, `peaks` \[{measured, amplitude}\], `strongest`, `families` \[{part, line, expected, fitted, detected, strength, lines}\]; a line: {line, harmonic, sideband_of, sideband_order, expected, measured, amplitude, background, level_db, probability, significant, coincident: a shaft harmonic or a stronger family has a line there} |
 //! | `kurtogram` | `best` {low_hz, high_hz, kurtosis}, `spectral_kurtosis` {frequency_hz, value} at its highest |
 //! | `cepstrum` | `peaks` \[{quefrency_s, value}\] |
-//! | `jerk` | `jumps`: their number, `race`, `defects` \[{kind, angle, width, width_m}\] |
+//! | `jerk` | `jumps`: their number, `race`, `full_circumference`, `defects` \[{kind, angle, width, width_m}\] |
 //! | `orders` | `cuts` \[{label, order, rpm, rms}\] |
-//! | `average` | time-synchronous average: `turns`, `rms` {record, average, rest} |
-//! | `cyclic` | cyclic spectral coherence: `duration_s`, `lines` \[{line, harmonic, expected_hz, found_hz, coherence, background, deviations}\] |
+//! | `synchronous_average` | time-synchronous average: `revolutions`, `rms` {record, synchronous_average, residual} |
+//! | `cyclic_coherence` | cyclic spectral coherence: `duration_s`, `lines` \[{line, harmonic, expected_hz, peak_hz, coherence, background, z_score}\] |
 
 use serde_json::{Map, Value, json};
 
@@ -30,16 +31,16 @@ use crate::signal::ridge::find_peaks;
 /// Number of spectral peaks listed.
 const MAX_PEAKS: usize = 20;
 
-/// The results of every channel as one document; `against`: the channel of the compared record.
+/// The results of every channel as one document; `compared`: the channel of the compared record.
 pub fn signal_to_json(results: &[SignalResult], compared: Option<&SignalResult>) -> Value {
     let mut out = json!({
-        "schema": "rotordyn-signal-1",
+        "schema": "rotordyn-signal-2",
         "program": "rotordyn",
         "version": env!("CARGO_PKG_VERSION"),
         "channels": results.iter().map(channel).collect::<Vec<_>>(),
     });
     if let Some(other) = compared {
-        out["against"] = channel(other);
+        out["compared_record"] = channel(other);
     }
     out
 }
@@ -57,7 +58,7 @@ fn channel(r: &SignalResult) -> Value {
         put(
             "shaft",
             json!({
-                "source": s.source, "mean_rpm": rpm(s.mean), "least_rpm": rpm(s.min), "most_rpm": rpm(s.max),
+                "source": s.source, "mean_rpm": rpm(s.mean), "min_rpm": rpm(s.min), "max_rpm": rpm(s.max),
                 "steady": s.steady,
             }),
         );
@@ -120,23 +121,23 @@ fn channel(r: &SignalResult) -> Value {
         put("orders", json!({ "cuts": cuts.collect::<Vec<_>>() }));
     }
     if let Some(found) = &r.average {
-        let [record, average, rest] = found.rms;
+        let [record, average, residual] = found.rms;
         put(
-            "average",
+            "synchronous_average",
             json!({
-                "turns": found.average.periods,
-                "rms": { "record": record, "average": average, "rest": rest },
+                "revolutions": found.average.periods,
+                "rms": { "record": record, "synchronous_average": average, "residual": residual },
             }),
         );
     }
     if let Some(found) = &r.cyclic {
         let lines = found.lines.iter().map(|l| {
             json!({
-                "line": l.part.line_name(), "harmonic": l.harmonic, "expected_hz": l.expected, "found_hz": l.rate,
-                "coherence": l.coherence, "background": l.background, "deviations": l.deviations,
+                "line": l.part.line_name(), "harmonic": l.harmonic, "expected_hz": l.expected, "peak_hz": l.rate,
+                "coherence": l.coherence, "background": l.background, "z_score": l.deviations,
             })
         });
-        put("cyclic", json!({ "duration_s": found.duration, "lines": lines.collect::<Vec<_>>() }));
+        put("cyclic_coherence", json!({ "duration_s": found.duration, "lines": lines.collect::<Vec<_>>() }));
     }
     put("warnings", json!(r.warnings));
     Value::Object(out)
@@ -158,7 +159,7 @@ fn highest_peaks(axis: &[f64], values: &[f64], position_key: &str, amplitude_key
 fn envelope(found: &EnvelopeResult) -> Value {
     let rule = match found.rule {
         BandRule::Given(..) => "given",
-        BandRule::Whole => "whole",
+        BandRule::Whole => "full_band",
         BandRule::Kurtosis => "kurtosis",
         BandRule::Lines => "lines",
     };
@@ -168,14 +169,14 @@ fn envelope(found: &EnvelopeResult) -> Value {
         "axis": if found.over_orders { "order" } else { "Hz" },
     });
     let s = &found.spectrum;
-    out["peaks"] = json!(highest_peaks(&s.frequencies, &s.values, "at", "amplitude"));
+    out["peaks"] = json!(highest_peaks(&s.frequencies, &s.values, "measured", "amplitude"));
     if let Some(lines) = &found.lines {
-        out["verdict"] = json!(lines.diagnosis_name());
+        out["diagnosis"] = json!(lines.diagnosis_name());
         out["strongest"] = lines.strongest_line().map_or(Value::Null, line);
         let families = lines.families.iter().map(|f| {
             json!({
-                "part": f.part.name(), "line": f.part.line_name(), "expected": f.expected, "found_at": f.frequency,
-                "found": f.detected, "strength": f.strength, "lines": f.lines.iter().map(line).collect::<Vec<_>>(),
+                "part": f.part.name(), "line": f.part.line_name(), "expected": f.expected, "fitted": f.frequency,
+                "detected": f.detected, "strength": f.strength, "lines": f.lines.iter().map(line).collect::<Vec<_>>(),
             })
         });
         out["families"] = families.collect();
@@ -190,9 +191,9 @@ fn line(l: &BearingLine) -> Value {
         Some(Modulation::Cage(n)) => (Some("cage"), n),
     };
     json!({
-        "line": l.part.line_name(), "harmonic": l.harmonic, "side_band_of": sideband_of, "side_band": sideband_order,
-        "expected": l.expected, "at": l.frequency, "amplitude": l.amplitude, "background": l.background,
-        "level_db": l.level_db, "probability": l.probability, "significant": l.significant, "shared": l.shared,
+        "line": l.part.line_name(), "harmonic": l.harmonic, "sideband_of": sideband_of, "sideband_order": sideband_order,
+        "expected": l.expected, "measured": l.frequency, "amplitude": l.amplitude, "background": l.background,
+        "level_db": l.level_db, "probability": l.probability, "significant": l.significant, "coincident": l.shared,
     })
 }
 
@@ -206,7 +207,7 @@ fn jerk(found: &JerkResult) -> Value {
             })
         };
         out["race"] = json!(race.race);
-        out["all_round"] = json!(race.full_circumference);
+        out["full_circumference"] = json!(race.full_circumference);
         out["defects"] = race.defects.iter().map(defect).collect();
     }
     out

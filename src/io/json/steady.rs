@@ -49,7 +49,7 @@ pub fn bifurcation(found: &BifurcationResult) -> Value {
     json!({
         "parameter": found.parameter.paths, "unit": found.parameter.unit, "clock": found.clock,
         "channels": found.channels.iter().map(|c| json!({ "name": c.name, "unit": c.unit })).collect::<Value>(),
-        "seams": found.seams, "repaired": found.rerun_chunks, "complete": found.complete,
+        "chunk_boundaries": found.seams, "rerun_chunks": found.rerun_chunks, "complete": found.complete,
         "sweeps": found.sweeps.iter().map(sweep).collect::<Value>(),
     })
 }

@@ -3,7 +3,7 @@
 //! Arrays written with the array `name` of a record: `fs` \[Hz\] and `t0` \[s\], or `freq_hz`, for all
 //! records of one axis; else `name_fs`, `name_t0`, `name_t`, `name_freq_hz`. Then `name_unit`, `name_kind`,
 //! `name_dof` (response node and direction, reference node and direction), `name_rpm` and, if the record's
-//! name is not valid in the format, that name as `name_is`.
+//! name is not valid in the format, that name as `name_name` (`name_is` in earlier files).
 //!
 //! Arrays of other programs are interpreted by name: `fs`, `dt`, `time`, `frequency`; complex values over
 //! frequency are FRFs; names that begin with `coh` are coherence; a scalar that ends in `RPM` is the speed of
@@ -94,7 +94,8 @@ const FREQUENCIES: [&str; 8] =
     ["freq_hz", "frequency", "frequencies", "freq", "freqs", "f", "f_hz", "frequency_hz"];
 
 /// Suffixes of arrays that describe another array.
-const PROPERTY_SUFFIXES: [&str; 9] = ["fs", "t0", "t", "freq_hz", "unit", "kind", "dof", "rpm", "is"];
+const PROPERTY_SUFFIXES: [&str; 10] =
+    ["fs", "t0", "t", "freq_hz", "unit", "kind", "dof", "rpm", "name", "is"];
 
 /// Records from arrays, by the naming rules above.
 pub fn to_records(arrays: Vec<Array>) -> MeasuredData {
@@ -179,7 +180,7 @@ impl<'a> File<'a> {
     /// The records of one array.
     fn records(&self, array: &Array, axes: &Axes, out: &mut MeasuredData) {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
-        let name = own("is").and_then(Array::as_text).unwrap_or(&array.name);
+        let name = own("name").or_else(|| own("is")).and_then(Array::as_text).unwrap_or(&array.name);
         let stated = own("unit").and_then(Array::as_text).unwrap_or_default();
         let kind = own("kind").and_then(Array::as_text);
         let kind = kind.and_then(|word| Kind::LABELS.iter().find(|k| k.1 == word)).map(|k| k.0);
@@ -409,7 +410,7 @@ pub fn from_records(measured: &MeasuredData, name_length: usize) -> Vec<Array> {
         }
         properties.extend(record.speed_rpm.map(|rpm| Array::scalar(&own("rpm"), rpm)));
         if name != record.name {
-            properties.push(Array::text(&own("is"), &record.name));
+            properties.push(Array::text(&own("name"), &record.name));
         }
         let data = match &record.values {
             Values::Real(values) => Data::Real(values.clone()),

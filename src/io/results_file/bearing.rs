@@ -8,7 +8,7 @@ use crate::results::{BallState, BearingPoint, BearingResult, ContactState};
 pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
     for bearing in found {
         let writer = GroupWriter::new(store, &format!("/bearings/{}", bearing.name))?;
-        writer.set_attribute("load_from", bearing.load_source.as_str())?;
+        writer.set_attribute("load_source", bearing.load_source.as_str())?;
         writer.set_attribute("preload_offset", bearing.preload.offset)?;
         writer.set_attribute("preload_force", bearing.preload.axial_force)?;
         for (name, value) in [
@@ -26,10 +26,10 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
         }
         points(&writer.subgroup("operating")?, std::slice::from_ref(&bearing.point), None)?;
         for sweep in &bearing.sweeps {
-            let at = writer.subgroup(&format!("over_{}", sweep.of.name()))?;
+            let at = writer.subgroup(&format!("sweep_{}", sweep.of.name()))?;
             at.set_attribute("label", sweep.label.as_str())?;
-            at.write_array("over", &[sweep.values.len()], &sweep.values, sweep.unit)?;
-            points(&at, &sweep.points, Some("over"))?;
+            at.write_array("swept_value", &[sweep.values.len()], &sweep.values, sweep.unit)?;
+            points(&at, &sweep.points, Some("swept_value"))?;
         }
         for film in &bearing.films {
             let (at, fields) = (writer.subgroup(&format!("film_{}", film.race))?, &film.solution);

@@ -18,7 +18,7 @@ pub fn equilibrium(store: &Store, found: &Equilibrium, machine: &Machine) -> Res
     writer.set_attribute(
         "cage",
         match found.cage {
-            CageTreatment::FixedAngle => "as placed",
+            CageTreatment::FixedAngle => "fixed angle",
             CageTreatment::Averaged => "averaged over a ball pitch",
         },
     )?;

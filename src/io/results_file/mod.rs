@@ -2,7 +2,7 @@
 //!
 //! | group | contents |
 //! |---|---|
-//! | `/meta` | attributes: program, version, git, model (its text), title, variant, settings, seed, units |
+//! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units |
 //! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
 //! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls |
@@ -14,7 +14,7 @@
 //! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |
-//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `over_<sweep>` with its axis as dimension scale |
+//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
@@ -40,6 +40,9 @@ use crate::linalg::Complex64;
 use crate::results::{ChannelPair, History, HistoryChannel, Results};
 use crate::study::Machine;
 
+/// Version of the names of groups, data sets and attributes, in `/meta`.
+pub const SCHEMA: i64 = 2;
+
 /// Provenance of results.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Meta<'a> {
@@ -58,6 +61,7 @@ pub struct Meta<'a> {
 /// The file cannot be written.
 pub fn write_meta(store: &Store, meta: &Meta) -> Result<(), Error> {
     let writer = GroupWriter::new(store, "/meta")?;
+    writer.set_attribute("schema", SCHEMA)?;
     writer.set_attribute("program", "rotordyn")?;
     writer.set_attribute("version", env!("CARGO_PKG_VERSION"))?;
     writer.set_attribute("git", option_env!("ROTORDYN_GIT").unwrap_or("unknown"))?;
@@ -70,6 +74,18 @@ pub fn write_meta(store: &Store, meta: &Meta) -> Result<(), Error> {
         "none for the program: random parts of the model have their seeds in its text",
     )?;
     writer.set_attribute("units", "SI: m, kg, s, N, rad; speeds in rad/s unless named rpm, frequencies in Hz")
+}
+
+/// Schema of a stored file; 1 for files written before the attribute was added.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn schema(store: &Store) -> Result<i64, Error> {
+    let stored = if store.contains("/meta") { store.attribute("/meta", "schema")? } else { None };
+    Ok(match stored {
+        Some(Attribute::Integer(schema)) => schema,
+        _ => 1,
+    })
 }
 
 /// Writes every available result, replacing earlier ones; the run itself is streamed.

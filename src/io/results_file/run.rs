@@ -18,7 +18,7 @@ pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
     writer.set_attribute("end", end)?;
     for (name, value) in [
         ("reduced_modes", found.modes as i64),
-        ("reduced_corrections", found.corrections as i64),
+        ("static_correction_modes", found.corrections as i64),
         ("samples", report.samples as i64),
         ("steps", report.steps as i64),
         ("iterations", report.iterations as i64),
@@ -30,7 +30,7 @@ pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
         ("static_error", found.static_error),
         ("frequency_error", found.frequency_error),
         ("energy_work", energy.work),
-        ("energy_parametric", energy.parametric),
+        ("energy_parametric_work", energy.parametric),
         ("energy_damping_loss", energy.damping_loss),
         ("energy_contact_loss", energy.contact_loss),
         ("energy_residual", energy.residual()),

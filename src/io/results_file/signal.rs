@@ -2,17 +2,17 @@
 //!
 //! | group | contents |
 //! |---|---|
-//! | `/meta` | attributes: program, version, git, file, command |
-//! | `/against/<channel>` | the channel of the compared record |
-//! | `/<channel>` | attributes: unit, sample_rate, start, statistics, speed, bearing and its orders, verdict |
+//! | `/meta` | attributes: schema, program, version, git, file, command |
+//! | `/compared_record/<channel>` | the channel of the compared record |
+//! | `/<channel>` | attributes: unit, sample_rate, start, statistics, speed, bearing and its orders, diagnosis |
 //! | `.../record`, `.../speed` | the samples analysed; the shaft's speed over time |
 //! | `.../spectrum`, `.../density`, `.../envelope`, `.../spectral_kurtosis` | values over their axis |
 //! | `.../kurtogram`, `.../band_scores` | low, high, level, value of every band |
-//! | `.../spectrogram`, `.../orders`, `.../cyclic` | spectrogram, order map, cyclic spectral coherence, with their axes as dimension scales |
-//! | `.../cepstrum`, `.../jerk`, `.../folded_jerk`, `.../average` | curves; jerk folded over the ball passages, time-synchronous average |
+//! | `.../spectrogram`, `.../orders`, `.../cyclic_coherence` | spectrogram, order map, cyclic spectral coherence, with their axes as dimension scales |
+//! | `.../cepstrum`, `.../jerk`, `.../folded_jerk`, `.../synchronous_average` | curves; jerk folded over the ball passages, time-synchronous average |
 //! | `.../lines` | one row for every bearing defect line searched |
 
-use super::GroupWriter;
+use super::{GroupWriter, SCHEMA};
 use crate::error::Error;
 use crate::io::hdf5::Store;
 use crate::results::{EnvelopeResult, JerkResult, SignalResult};
@@ -41,6 +41,7 @@ pub fn write_signal(
     compared: Option<&SignalResult>,
 ) -> Result<(), Error> {
     let writer = GroupWriter::new(store, "/meta")?;
+    writer.set_attribute("schema", SCHEMA)?;
     writer.set_attribute("program", "rotordyn")?;
     writer.set_attribute("version", env!("CARGO_PKG_VERSION"))?;
     writer.set_attribute("git", option_env!("ROTORDYN_GIT").unwrap_or("unknown"))?;
@@ -51,7 +52,7 @@ pub fn write_signal(
         "SI where the record's unit is known; frequencies in Hz, orders per revolution of the shaft",
     )?;
     results.iter().try_for_each(|result| channel(store, "", result))?;
-    compared.map_or(Ok(()), |other| channel(store, "/against", other))?;
+    compared.map_or(Ok(()), |other| channel(store, "/compared_record", other))?;
     store.flush()
 }
 
@@ -75,7 +76,7 @@ fn channel(store: &Store, parent: &str, r: &SignalResult) -> Result<(), Error> {
     }
     if let Some(shaft) = &r.shaft {
         writer.set_attribute("speed_source", shaft.source.as_str())?;
-        for (name, speed) in [("speed", shaft.mean), ("least_speed", shaft.min), ("most_speed", shaft.max)] {
+        for (name, speed) in [("speed", shaft.mean), ("min_speed", shaft.min), ("max_speed", shaft.max)] {
             writer.set_attribute(name, std::f64::consts::TAU * speed)?;
         }
     }
@@ -144,10 +145,10 @@ fn channel(store: &Store, parent: &str, r: &SignalResult) -> Result<(), Error> {
         at.attach_scale("average", 0, "order")?;
     }
     if let Some(found) = &r.average {
-        let at = writer.subgroup("average")?;
+        let at = writer.subgroup("synchronous_average")?;
         let count = found.average.mean.len();
         let angle: Vec<f64> = (0..count).map(|k| std::f64::consts::TAU * k as f64 / count as f64).collect();
-        at.set_attribute("turns", found.average.periods as i64)?;
+        at.set_attribute("revolutions", found.average.periods as i64)?;
         at.write_array("mean", &[count], &found.average.mean, unit)?;
         at.write_array("deviation", &[count], &found.average.deviation, unit)?;
         at.write_array("angle", &[count], &angle, "rad")?;
@@ -155,18 +156,18 @@ fn channel(store: &Store, parent: &str, r: &SignalResult) -> Result<(), Error> {
         at.attach_scale("deviation", 0, "angle")?;
     }
     if let Some(found) = &r.cyclic {
-        let at = writer.subgroup("cyclic")?;
+        let at = writer.subgroup("cyclic_coherence")?;
         let c = &found.coherence;
         let (rates, carriers) = (c.cyclic_frequencies.len(), c.frequencies.len());
-        at.set_attribute("one_percent", c.one_percent_threshold)?;
+        at.set_attribute("threshold_1_percent", c.one_percent_threshold)?;
         at.set_attribute("duration", found.duration)?;
         at.write_array("squared_coherence", &[rates, carriers], &c.squared, "1")?;
         at.write_array("cyclic_frequency", &[rates], &c.cyclic_frequencies, "Hz")?;
         at.write_array("frequency", &[carriers], &c.frequencies, "Hz")?;
-        at.write_array("enhanced", &[rates], &found.enhanced.values, "1")?;
+        at.write_array("enhanced_envelope_spectrum", &[rates], &found.enhanced.values, "1")?;
         at.attach_scale("squared_coherence", 0, "cyclic_frequency")?;
         at.attach_scale("squared_coherence", 1, "frequency")?;
-        at.attach_scale("enhanced", 0, "cyclic_frequency")?;
+        at.attach_scale("enhanced_envelope_spectrum", 0, "cyclic_frequency")?;
     }
     Ok(())
 }
@@ -212,7 +213,7 @@ fn envelope(writer: &GroupWriter, found: &EnvelopeResult, unit: &str) -> Result<
         bands(writer, "band_scores", compared, if found.rule == BandRule::Lines { "dB" } else { "1" })?;
     }
     let Some(lines) = &found.lines else { return Ok(()) };
-    writer.set_attribute("verdict", lines.diagnosis_name())?;
+    writer.set_attribute("diagnosis", lines.diagnosis_name())?;
     let at = writer.subgroup("lines")?;
     let all: Vec<&BearingLine> = lines.families.iter().flat_map(|f| &f.lines).collect();
     let names: Vec<String> = all.iter().map(|l| line_name(l)).collect();
@@ -220,12 +221,12 @@ fn envelope(writer: &GroupWriter, found: &EnvelopeResult, unit: &str) -> Result<
     let column = |pick: fn(&BearingLine) -> f64| all.iter().map(|l| pick(l)).collect::<Vec<_>>();
     for (name, values, unit) in [
         ("expected", column(|l| l.expected), axis_unit),
-        ("at", column(|l| l.frequency), axis_unit),
+        ("measured", column(|l| l.frequency), axis_unit),
         ("amplitude", column(|l| l.amplitude), unit),
         ("background", column(|l| l.background), unit),
         ("level", column(|l| l.level_db), "dB"),
         ("probability", column(|l| l.probability), "1"),
-        ("own", column(|l| f64::from(u8::from(l.significant && !l.shared))), "1"),
+        ("significant_not_coincident", column(|l| f64::from(u8::from(l.significant && !l.shared))), "1"),
     ] {
         at.write_array(name, &[values.len()], &values, unit)?;
     }
@@ -255,8 +256,8 @@ fn jerk(writer: &GroupWriter, found: &JerkResult, unit: &str) -> Result<(), Erro
     let at = writer.subgroup("folded_jerk")?;
     at.set_attribute("race", race.race)?;
     at.write_array("angle", &[race.fold.angles.len()], &race.fold.angles, "rad")?;
-    at.write_complex("change", &[race.fold.changes.len()], &race.fold.changes, &unit)?;
-    at.attach_scale("change", 0, "angle")?;
+    at.write_complex("jerk_change", &[race.fold.changes.len()], &race.fold.changes, &unit)?;
+    at.attach_scale("jerk_change", 0, "angle")?;
     if race.defects.is_empty() {
         return Ok(());
     }

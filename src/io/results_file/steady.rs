@@ -55,8 +55,8 @@ pub fn bifurcation(store: &Store, found: &BifurcationResult) -> Result<(), Error
     writer.set_attribute("parameter", found.parameter.paths.clone())?;
     writer.set_attribute("unit", found.parameter.unit.as_str())?;
     writer.set_attribute("clock", found.clock.as_str())?;
-    writer.set_attribute("seams", found.seams as i64)?;
-    writer.set_attribute("repaired", found.rerun_chunks as i64)?;
+    writer.set_attribute("chunk_boundaries", found.seams as i64)?;
+    writer.set_attribute("rerun_chunks", found.rerun_chunks as i64)?;
     writer.set_attribute("complete", i64::from(found.complete))?;
     for sweep in &found.sweeps {
         let at = writer.subgroup(&sweep.name.replace(' ', "_"))?;

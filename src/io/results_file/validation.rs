@@ -38,7 +38,7 @@ pub fn write(
     measured.write_complex("shapes", &[m, s], &shapes, "1")?;
     let paired_mode = |k: usize| state.pairing.pairs.iter().find(|p| p.measured == k);
     measured.write_array(
-        "partner",
+        "paired_mode",
         &[m],
         &column(&|k| paired_mode(k).map_or(-1.0, |p| p.computed as f64)),
         "1",
@@ -77,7 +77,7 @@ pub fn write_parameters(store: &Store, parameters: &[FreeParameter], found: &Upd
     let classes: Vec<&str> = found.outcomes.iter().map(|o| o.class.label()).collect();
     writer.write_texts("name", &[n], &names)?;
     writer.write_texts("unit", &[n], &units)?;
-    writer.write_texts("verdict", &[n], &classes)?;
+    writer.write_texts("identifiability", &[n], &classes)?;
     let column = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..n).map(of).collect() };
     let own = "in the parameter's unit";
     writer.write_array("start", &[n], &column(&|k| parameters[k].value(0.0)), own)?;
@@ -85,9 +85,9 @@ pub fn write_parameters(store: &Store, parameters: &[FreeParameter], found: &Upd
     let error =
         |k: usize| (found.outcomes[k].error * parameters[k].derivative(found.outcomes[k].fitted)).abs();
     writer.write_array("standard_error", &[n], &column(&error), own)?;
-    writer.write_array("prior_share", &[n], &column(&|k| found.outcomes[k].prior_share), "1")?;
+    writer.write_array("prior_variance_fraction", &[n], &column(&|k| found.outcomes[k].prior_share), "1")?;
     let identifiability = &found.identifiability;
     writer.write_array("singular_values", &[n], &identifiability.singular_values, "1")?;
-    writer.write_array("directions", &[n, n], &identifiability.directions.concat(), "1")?;
+    writer.write_array("singular_vectors", &[n, n], &identifiability.directions.concat(), "1")?;
     writer.write_array("correlation", &[n, n], &identifiability.correlation.concat(), "1")
 }

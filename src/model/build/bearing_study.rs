@@ -20,13 +20,13 @@ pub(super) fn read(r: &Reader, bearings: &[String]) -> BearingStudy {
     let mut study = BearingStudy { bearings: chosen, ..BearingStudy::default() };
     study.force = r.list("load", any(FORCE)).and_then(|f| fixed_length(r, "load", "F_x, F_y, F_z", &f));
     study.moment = r.list("moment", any(MOMENT)).and_then(|m| fixed_length(r, "moment", "M_x, M_y", &m));
-    study.constrained = r.texts("hold").map(|names| {
+    study.constrained = r.texts("constrain").map(|names| {
         let mut constrained = [false; 5];
         for (name, span) in names {
             match DOF_NAMES.iter().position(|motion| *motion == name) {
                 Some(k) => constrained[k] = true,
                 None => {
-                    let message = format!("{} cannot be `{name}`", r.name("hold"));
+                    let message = format!("{} cannot be `{name}`", r.name("constrain"));
                     let problem = Problem::new(Kind::UnknownName, &span, message);
                     r.log.error(problem.expected("some of x, y, z, theta_x, theta_y"));
                 }

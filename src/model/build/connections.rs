@@ -30,8 +30,8 @@ const FIXED: [bool; 6] = [true; 6];
 pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     let read = |(name, r): (&str, Reader)| {
         let [a, b] = places.between(&r);
-        let locked = match r.one_of(&["kind", "hold"]) {
-            Some("hold") => constrained_dofs(&r),
+        let locked = match r.one_of(&["kind", "constrain"]) {
+            Some("constrain") => constrained_dofs(&r),
             _ => constrained_by_kind(&r),
         };
         r.finish();
@@ -40,27 +40,27 @@ pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     top.items("joint").into_iter().map(read).collect()
 }
 
-/// Constrained DOFs of a `kind`; `axial = "free"` or `"held"` overrides its constraint along z.
+/// Constrained DOFs of a `kind`; `axial = "free"` or `"fixed"` overrides its constraint along z.
 fn constrained_by_kind(r: &Reader) -> [bool; 6] {
     let kinds =
         [("spherical", SPHERICAL), ("cylindrical", CYLINDRICAL), ("revolute", REVOLUTE), ("fixed", FIXED)];
     if !r.has("kind") {
-        r.missing("kind", "\"spherical\", or hold = [\"z\", \"tx\", \"ty\"]");
+        r.missing("kind", "\"spherical\", or constrain = [\"z\", \"tx\", \"ty\"]");
     }
     let mut locked = r.choice("kind", &kinds).unwrap_or(FIXED);
-    if let Some(constrained) = r.choice("axial", &[("held", true), ("free", false)]) {
+    if let Some(constrained) = r.choice("axial", &[("fixed", true), ("free", false)]) {
         locked[2] = constrained;
     }
     locked
 }
 
-/// Constrained DOFs as listed, e.g. `hold = ["z", "tx", "ty"]` for planar motion.
+/// Constrained DOFs as listed, e.g. `constrain = ["z", "tx", "ty"]` for planar motion.
 fn constrained_dofs(r: &Reader) -> [bool; 6] {
     let mut locked = [false; 6];
-    for (motion, span) in r.texts("hold").unwrap_or_default() {
+    for (motion, span) in r.texts("constrain").unwrap_or_default() {
         match DOFS.iter().position(|m| *m == motion) {
             Some(k) if locked[k] => {
-                let message = format!("{} names {motion} twice", r.name("hold"));
+                let message = format!("{} names {motion} twice", r.name("constrain"));
                 r.log.error(Problem::new(Kind::Conflict, &span, message));
             }
             Some(k) => locked[k] = true,
@@ -72,7 +72,11 @@ fn constrained_dofs(r: &Reader) -> [bool; 6] {
         }
     }
     if r.has_no_errors() && locked == [false; 6] {
-        r.error(Kind::OutOfRange, "hold", format!("{} constrains no degree of freedom", r.name("hold")));
+        r.error(
+            Kind::OutOfRange,
+            "constrain",
+            format!("{} constrains no degree of freedom", r.name("constrain")),
+        );
     }
     locked
 }

@@ -158,30 +158,32 @@ fn eccentricity(r: &Reader, key: &str) -> Option<[f64; 2]> {
     Some(out)
 }
 
-/// Deviations of ball diameters: `[{ ball = 0, by = "0.2 um" }]`.
+/// Deviations of ball diameters: `[{ ball = 0, diameter_difference = "0.2 um" }]`.
 fn off_size(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<OffSize> {
     let most = 0.01 * g.ball_diameter;
-    let read =
-        |size: Reader| {
-            if !size.has("ball") {
-                size.missing("ball", "0");
-            }
-            let out = OffSize {
-                ball: size.count("ball", 0, 0..=g.balls - 1),
-                diameter_difference: size.need("by", any(LENGTH)),
-                row: defects::row(&size, pair),
-            };
-            if size.has_no_errors() && out.diameter_difference.abs() > most {
-                let message = format!("{} is more than a hundredth of the ball diameter", size.name("by"));
-                let problem = Problem::new(Kind::OutOfRange, &size.span_of("by"), message);
-                size.log.error(problem.expected(format!(
+    let read = |size: Reader| {
+        if !size.has("ball") {
+            size.missing("ball", "0");
+        }
+        let out = OffSize {
+            ball: size.count("ball", 0, 0..=g.balls - 1),
+            diameter_difference: size.need("diameter_difference", any(LENGTH)),
+            row: defects::row(&size, pair),
+        };
+        if size.has_no_errors() && out.diameter_difference.abs() > most {
+            let message =
+                format!("{} is more than a hundredth of the ball diameter", size.name("diameter_difference"));
+            let problem = Problem::new(Kind::OutOfRange, &size.span_of("diameter_difference"), message);
+            size.log.error(
+                problem.expected(format!(
                     "a diameter deviation within {:.1} um, such as \"0.2 um\"",
                     most * 1e6
-                )));
-            }
-            size.finish();
-            out
-        };
+                )),
+            );
+        }
+        size.finish();
+        out
+    };
     r.tables("off_size").into_iter().map(read).collect()
 }
 

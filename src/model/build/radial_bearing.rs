@@ -53,7 +53,7 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
     let damping = damping(r);
     let out = RadialBallBearing {
         stiffness_damping: damping,
-        tensile_contact: r.flag("contacts_pull", false),
+        tensile_contact: r.flag("tensile_contact", false),
         gravity: [gravity[0], gravity[1]],
         ball,
     };

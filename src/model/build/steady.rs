@@ -3,6 +3,7 @@
 use super::study::{channels, integrator};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, positive};
+use crate::model::file::renamed::{self, renamed_path};
 use crate::model::file::tree::{Node, Value};
 use crate::model::study::{
     BifurcationStudy, Continuation, Integrator, LyapunovStudy, Parameter, Plane, PoincareStudy, RunUpStudy,
@@ -46,7 +47,7 @@ fn steady(
     r: &Reader,
     model: &Model,
     run_up: Option<&RunUpStudy>,
-    [settle, periods]: [usize; 2],
+    [transient_periods, periods]: [usize; 2],
     varied: bool,
 ) -> SteadyRunSettings {
     let top = model.profile.top_speed();
@@ -66,7 +67,7 @@ fn steady(
         cutoff: r.or("cutoff", positive(FREQUENCY), run_up.map_or(f64::INFINITY, |s| s.cutoff)),
         trigger: section_trigger(r, model),
         phase: r.or("phase", any(ANGLE), 0.0),
-        transient_periods: r.count("settle", settle, 0..=10_000_000),
+        transient_periods: r.count("transient_periods", transient_periods, 0..=10_000_000),
         periods: r.count("periods", periods, 8..=10_000_000),
     }
 }
@@ -191,7 +192,7 @@ fn bifurcation(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>) -> Bifurc
         r.log.error(problem.hint("add [probe.NAME] with at and direction"));
     }
     let sweeps = [("up", Sweep::Up), ("down", Sweep::Down), ("both", Sweep::Both)];
-    let starts = [("carried", true), ("equilibrium", false)];
+    let starts = [("continuation", true), ("equilibrium", false)];
     let count = parameter.values.len().max(1);
     let continuation = match r.choice("start", &starts).unwrap_or(true) {
         true => Continuation::PreviousState {
@@ -200,7 +201,7 @@ fn bifurcation(r: &Reader, model: &Model, run_up: Option<&RunUpStudy>) -> Bifurc
         },
         false => {
             for key in ["chunks", "overlap", "sweep"].iter().filter(|key| r.has(key)) {
-                r.error(Kind::Conflict, key, format!("{} belongs to start = \"carried\"", r.name(key)));
+                r.error(Kind::Conflict, key, format!("{} belongs to start = \"continuation\"", r.name(key)));
             }
             Continuation::Equilibrium
         }
@@ -226,8 +227,12 @@ fn parameter(r: &Reader) -> Parameter {
     if !r.has("parameter") {
         r.missing("parameter", "\"speed\", or \"bearing.B.radial_clearance\", or any other value's path");
     }
-    let path = |(text, _): (&str, _)| match text {
-        "speed" => format!("{}.speed", r.path),
+    let path = |(text, span): (&str, _)| match (text, renamed_path(text)) {
+        ("speed", _) => format!("{}.speed", r.path),
+        (_, Some(present)) => {
+            r.log.hint(Problem::new(Kind::FormerName, &span, renamed::hint(text, &present)));
+            present
+        }
         _ => text.to_string(),
     };
     let paths = r.texts("parameter").unwrap_or_default().into_iter().map(path).collect();

@@ -35,7 +35,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
             speeds: speeds(&r),
             modes: r.count("modes", DEFAULT_MODES, 1..=10_000),
             orders: orders(&r, "orders", model, &[1.0]),
-            speed_dependent_bearings: r.flag("follow_bearings", true),
+            speed_dependent_bearings: r.flag("speed_dependent_bearings", true),
         });
         r.finish();
     }

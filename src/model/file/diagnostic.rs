@@ -35,6 +35,8 @@ pub enum Kind {
     Disconnected,
     /// A `--set` argument whose path does not exist.
     BadPath,
+    /// Former spelling of a renamed key or keyword: only a hint.
+    FormerName,
 }
 
 /// One problem with its location.
@@ -157,6 +159,7 @@ impl Sources {
 pub(crate) struct Log {
     errors: RefCell<Vec<Problem>>,
     warnings: RefCell<Vec<Problem>>,
+    hints: RefCell<Vec<Problem>>,
 }
 
 impl Log {
@@ -174,12 +177,25 @@ impl Log {
         self.warnings.borrow_mut().push(problem);
     }
 
+    /// Add a hint, once per message.
+    pub fn hint(&self, problem: Problem) {
+        let mut hints = self.hints.borrow_mut();
+        if hints.iter().all(|known| known.message != problem.message) {
+            hints.push(problem);
+        }
+    }
+
     /// Number of errors so far; a check that needs valid values compares it with the number before.
     pub fn error_count(&self) -> usize {
         self.errors.borrow().len()
     }
 
-    pub fn into_parts(self) -> (Vec<Problem>, Vec<Problem>) {
-        (self.errors.into_inner(), self.warnings.into_inner())
+    pub fn into_errors(self) -> Vec<Problem> {
+        self.errors.into_inner()
+    }
+
+    /// Warnings and hints.
+    pub fn into_warnings_and_hints(self) -> (Vec<Problem>, Vec<Problem>) {
+        (self.warnings.into_inner(), self.hints.into_inner())
     }
 }

@@ -8,6 +8,7 @@
 pub(crate) mod diagnostic;
 pub(crate) mod overlay;
 pub(crate) mod reader;
+pub(crate) mod renamed;
 pub(crate) mod tree;
 
 pub use diagnostic::{Diagnostic, Kind, ModelErrors, Source};

@@ -1,6 +1,7 @@
 //! Overrides of the document before validation: variants and `--set` arguments.
 
 use super::diagnostic::{Kind, Log, Problem, Sources};
+use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
 use std::ops::Range;
 
@@ -89,6 +90,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
         if let Some(list) = overrides.remove("remove") {
             remove(root, &list, log);
         }
+        renamed::translate(&mut overrides, log);
         merge(root, overrides);
     }
 }
@@ -107,7 +109,11 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
             continue;
         };
         let mut table = &mut *root;
-        let parts: Vec<&str> = text.split('.').collect();
+        let present = renamed::renamed_path(text);
+        if let Some(present) = &present {
+            log.hint(Problem::new(Kind::FormerName, &path.span, renamed::hint(text, present)));
+        }
+        let parts: Vec<&str> = present.as_deref().unwrap_or(text).split('.').collect();
         for (depth, part) in parts.iter().enumerate() {
             if table.get(part).is_none() {
                 let problem =
@@ -137,6 +143,7 @@ fn merge(into: &mut Table, from: Table) {
             Some(old) => match (&mut old.node.value, entry.node.value) {
                 (Value::Table(old_table), Value::Table(new_table)) => merge(old_table, new_table),
                 (_, value) => {
+                    old.former_key = entry.former_key;
                     old.key_span = entry.key_span;
                     old.node = Node { span: entry.node.span, value };
                 }
@@ -152,7 +159,7 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
     let start = sources.push("--set", text);
     let value_start = start + path.len() + 1;
     let span = value_start..value_start + value.len();
-    let node = match Table::parse(&format!("x={value}"), value_start.saturating_sub(2)) {
+    let mut node = match Table::parse(&format!("x={value}"), value_start.saturating_sub(2)) {
         Ok(mut table) if table.entries.len() == 1 && !value.contains('\n') => table.entries.remove(0).node,
         _ => Node { span, value: Value::Text(value.trim().to_string()) },
     };
@@ -162,7 +169,18 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
         at = span.end + 1;
         Part { name, span }
     };
-    let parts: Vec<Part> = path.split('.').map(locate).collect();
+    let mut parts: Vec<Part> = path.split('.').map(locate).collect();
+    let mut names: Vec<&str> = parts.iter().map(|part| part.name).collect();
+    for k in 0..names.len() {
+        if let Some(new) = renamed::renamed_part(&names, k) {
+            let old_path = names.join(".");
+            names[k] = new;
+            let message = renamed::hint(&old_path, &names.join("."));
+            log.hint(Problem::new(Kind::FormerName, &parts[k].span, message));
+            parts[k].name = new;
+        }
+    }
+    renamed::translate_node(&mut node, &mut names.into_iter().map(String::from).collect(), log);
     if let Err(problem) = set_in_table(root, path, &parts, 0, node) {
         log.error(problem);
     }
@@ -200,7 +218,12 @@ fn set_in_table(
             return Err(bad_path(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
         }
         let empty = Node { span: part.span.clone(), value: Value::Table(Table::default()) };
-        table.entries.push(Entry { key: part.name.into(), key_span: part.span.clone(), node: empty });
+        table.entries.push(Entry {
+            key: part.name.into(),
+            former_key: None,
+            key_span: part.span.clone(),
+            node: empty,
+        });
     }
     let Some(entry) = table.get_mut(part.name) else { return Ok(()) };
     if last {

@@ -84,8 +84,9 @@ impl<'a> Reader<'a> {
         self.table.get(key).map_or_else(|| self.span.clone(), |e| e.node.span.clone())
     }
 
-    /// Name of a key for messages: "bearing.B.balls".
+    /// Name of a key for messages, as written in the file: "bearing.B.balls".
     pub fn name(&self, key: &str) -> String {
+        let key = self.table.get(key).map_or(key, Entry::written_key);
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 
@@ -454,8 +455,8 @@ impl<'a> Reader<'a> {
 
     /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
     pub fn finish(self) {
-        let asked = self.requested_keys.borrow();
-        let known: Vec<&str> = asked.iter().map(String::as_str).collect();
+        let requested = self.requested_keys.borrow();
+        let known: Vec<&str> = requested.iter().map(String::as_str).collect();
         for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
             if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
                 self.log.retract_missing(&self.span, &self.missing_message(meant));

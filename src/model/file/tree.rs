@@ -46,8 +46,17 @@ pub(crate) struct Table {
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub key: String,
+    /// Former spelling of the key, if the file uses it.
+    pub former_key: Option<String>,
     pub key_span: Range<usize>,
     pub node: Node,
+}
+
+impl Entry {
+    /// The key as it is written in the file.
+    pub fn written_key(&self) -> &str {
+        self.former_key.as_deref().unwrap_or(&self.key)
+    }
 }
 
 impl Table {
@@ -78,7 +87,12 @@ impl Table {
 fn table(from: &DeTable<'_>, offset: usize) -> Table {
     let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| -> Entry {
         let name: &std::borrow::Cow<'_, str> = key.get_ref();
-        Entry { key: name.to_string(), key_span: shift(key.span(), offset), node: node(value, offset) }
+        Entry {
+            key: name.to_string(),
+            former_key: None,
+            key_span: shift(key.span(), offset),
+            node: node(value, offset),
+        }
     };
     let mut entries: Vec<Entry> = from.iter().map(entry).collect();
     entries.sort_by_key(|e| e.key_span.start);

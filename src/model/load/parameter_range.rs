@@ -69,7 +69,7 @@ fn model_at(
     let model =
         (!is_path).then(|| build::build_model(&varied, files, &log)).filter(|_| log.error_count() == 0);
     model.ok_or_else(|| {
-        let first = sources.locate(log.into_parts().0).into_iter().next();
+        let first = sources.locate(log.into_errors()).into_iter().next();
         is_path |= first.as_ref().is_some_and(|d| d.kind == Kind::UnknownKey);
         let (message, hint) = first.map_or_else(Default::default, |d| (d.message, d.hint.or(d.expected)));
         InvalidParameter { is_path, message, hint }

@@ -14,44 +14,44 @@ use crate::signal::window::WindowKind;
 pub struct FrfEstimate {
     /// Frequencies \[Hz\].
     pub frequencies: Vec<f64>,
-    /// H₁ = S_fx / S_ff: right when the noise is in the response; too low in force noise.
+    /// H₁ = S_fx / S_ff: unbiased for noise on the response; biased low by noise on the force.
     pub h1: Vec<Complex<f64>>,
-    /// H₂ = S_xx / S_xf: right when the noise is in the force; too high in response noise.
+    /// H₂ = S_xx / S_xf: unbiased for noise on the force; biased high by noise on the response.
     pub h2: Vec<Complex<f64>>,
-    /// H_v = √(S_xx/S_ff) e^{j arg S_fx}, the geometric mean of H₁ and H₂: noise in both, alike in proportion.
+    /// H_v = √(S_xx/S_ff) e^{j arg S_fx}, the geometric mean of H₁ and H₂: for noise on both in equal proportion.
     ///
     /// It is the total least squares estimate of records scaled to equal power; |H₁| ≤ |H_v| ≤ |H₂|. Source:
     /// Rocklin, Crowley & Vold, IMAC 3 (1985).
     pub hv: Vec<Complex<f64>>,
     /// γ² = H₁ / H₂, 0..1; it is 1 by definition with one average.
     pub coherence: Vec<f64>,
-    /// Decay rate that the exponential window added to every pole \[1/s\]; 0 without one.
+    /// Decay rate added to every pole by the exponential window \[1/s\]; 0 without one.
     pub added_decay: f64,
 }
 
 impl FrfEstimate {
-    /// Damping ratio without the exponential window's share, ζ = ζ_measured − 1/(τω_n).
+    /// Damping ratio corrected for the exponential window, ζ = ζ_measured − 1/(τω_n).
     ///
-    /// With the window the estimate is H(jω + 1/τ) instead of H(jω): compare a linear FRF there.
+    /// With the window the estimate is H(jω + 1/τ) instead of H(jω).
     pub fn true_damping_ratio(&self, measured: f64, natural_frequency_hz: f64) -> f64 {
         measured - self.added_decay / (std::f64::consts::TAU * natural_frequency_hz)
     }
 
-    /// A pole \[1/s\] without the exponential window's share, λ = λ_measured + 1/τ.
+    /// Pole \[1/s\] corrected for the exponential window, λ = λ_measured + 1/τ.
     pub fn true_pole(&self, measured: Complex<f64>) -> Complex<f64> {
         measured + self.added_decay
     }
 }
 
-/// Which estimate of an FRF is taken: what noise it is right in.
+/// FRF estimator, by the noise for which it is unbiased.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Estimator {
-    /// Noise in the response.
+    /// Noise on the response.
     #[default]
     H1,
-    /// Noise in the force.
+    /// Noise on the force.
     H2,
-    /// Noise in both.
+    /// Noise on both.
     Hv,
 }
 
@@ -84,9 +84,9 @@ impl ImpactWindows {
     }
 }
 
-/// FRF from one or more hits of equal length, averaged; no mean is taken away.
+/// FRF from one or more hits of equal length, averaged; means are not removed.
 ///
-/// With one rectangular window that holds the whole decay, the DFT's ratio is exact for a linear system up to
+/// With a rectangular window that contains the whole decay the ratio of DFTs is exact for a linear system, up to
 /// aliasing. `sample_rate` \[Hz\]. Errors: no hit, NaN, unequal lengths, time constant not positive.
 /// Source: Ewins, Modal Testing (2000), ch. 3.
 pub fn frf_from_hits(
@@ -143,8 +143,8 @@ pub fn frf_from_random(
 
 /// FRF from averaged one-sided spectra, as an analyser stores them: S_ff, S_xx and S_fx = mean conj(F) X.
 ///
-/// All in one scaling; `added_decay` \[1/s\] is that of the exponential window they were made with, or 0. Errors:
-/// lengths that differ, values that are not finite.
+/// All in one scaling; `added_decay` \[1/s\] is that of the exponential window used, or 0. Errors:
+/// different lengths, values that are not finite.
 pub fn frf_from_spectra(
     frequencies: &[f64],
     force: &[f64],

@@ -1,11 +1,11 @@
 //! Impact tests: FRFs from hits with an instrumented hammer.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
-//! | [`trigger`] | hits found in a long record of the force |
+//! | [`trigger`] | detection of hits in a force record |
 //! | [`quality`] | double hits, overloads and truncated responses of a hit |
 //! | [`frf`] | force and exponential window; H1, H2, Hv and coherence from hits or random excitation |
-//! | [`records`] | all of it: from time records to FRFs, bad hits left out |
+//! | [`records`] | from time records to averaged FRFs, without unusable hits |
 
 pub mod frf;
 pub mod quality;
@@ -24,7 +24,7 @@ pub struct Hit<'a> {
     pub response: &'a [f64],
 }
 
-/// Sample and size of the largest |value|; (0, 0) of an empty record.
+/// Index and magnitude of the largest |value|; (0, 0) for an empty record.
 fn peak(record: &[f64]) -> (usize, f64) {
     let largest = record.iter().enumerate().map(|(n, v)| (n, v.abs()));
     largest.fold((0, 0.0), |best, here| if here.1 > best.1 { here } else { best })

@@ -4,15 +4,15 @@ use super::{Hit, peak};
 use crate::signal::SignalError;
 use crate::signal::error::{check, check_record, check_same_length};
 
-/// Limits beyond which a hit is not used.
+/// Limits of a usable hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// A second pulse of the force of more than this share of the first is a double hit. Filters ring with up to
-    /// a fifth of the peak beside it, with changing sign; only pulses of the hit's sign count.
+    /// A second force pulse above this fraction of the first is a double hit. Filter ringing near the peak reaches
+    /// a fifth of it with alternating sign; only pulses with the sign of the hit count.
     pub double_hit: f64,
-    /// Largest |force| and |response| that the channels can hold; `None` looks for flat tops alone.
+    /// Full scale of the force and response channels; `None`: only flat tops are detected.
     pub full_scale: [Option<f64>; 2],
-    /// Largest share of its peak that the response may have at the end of the block, after windows.
+    /// Largest residual response at the end of the block, as a fraction of its peak, after windows.
     pub residual: f64,
 }
 
@@ -27,15 +27,15 @@ impl Default for Limits {
 pub struct HitQuality {
     /// Sample and value of the largest force.
     pub peak: (usize, f64),
-    /// Contact: the samples over a tenth of it around the peak.
+    /// Contact: the samples around the peak above a tenth of it.
     pub contact: std::ops::Range<usize>,
     /// Sample of a second hit.
     pub double_hit: Option<usize>,
     /// Sample at which force or response is beyond its range.
     pub overload: [Option<usize>; 2],
-    /// RMS of the response's last twentieth over its peak; 0 where the response is 0.
+    /// RMS of the last twentieth of the response over its peak; 0 for a zero response.
     pub residual: f64,
-    /// Whether that is more than the limit: a longer block or an exponential window is needed.
+    /// Whether the residual exceeds the limit: a longer block or an exponential window is needed.
     pub truncated: bool,
 }
 
@@ -45,7 +45,7 @@ impl HitQuality {
         self.double_hit.is_none() && self.overload == [None; 2]
     }
 
-    /// What is wrong, in words; empty for a good hit.
+    /// Faults as messages; empty for a usable hit.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         faults.extend(
@@ -66,10 +66,9 @@ impl HitQuality {
     }
 }
 
-/// Quality of one hit; the residual is that of the response times `response_window` \[1\].
+/// Quality of one hit; the residual is computed for the response times `response_window` \[1\].
 ///
-/// A channel without a known range counts as overloaded where it stays at its largest value for three samples or
-/// more. Errors: NaN, unequal lengths, a force that is zero throughout.
+/// A channel without a known range is overloaded if it stays at its largest value for three or more samples. Errors: NaN, unequal lengths, a force that is zero throughout.
 pub fn inspect(
     hit: &Hit,
     limits: &Limits,
@@ -106,7 +105,7 @@ pub fn inspect(
     })
 }
 
-/// First sample at the end of the range, or of three or more at the record's own extreme.
+/// First sample at full scale, or the first of three or more equal samples at the extreme of the record.
 fn overload(record: &[f64], full_scale: Option<f64>) -> Option<usize> {
     if let Some(limit) = full_scale {
         return record.iter().position(|v| v.abs() >= limit);

@@ -1,4 +1,4 @@
-//! FRFs of an impact test from its time records: hits found, bad ones left out, windowed, averaged.
+//! FRFs of an impact test from its time records: detection of hits, rejection, windows, averaging.
 
 use std::ops::Range;
 
@@ -8,38 +8,39 @@ use super::{Hit, Trigger};
 use crate::error::Error;
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, RecordError, Values};
 
-/// How the records are cut.
+/// Settings of an impact test.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImpactTest {
-    /// Name of the force's channel; the one in newtons if `None`.
+    /// Name of the force channel; `None`: the channel in newtons.
     pub force: Option<String>,
-    /// Length of a hit's block \[s\]; up to the next hit if `None`.
+    /// Block length after a hit \[s\]; `None`: up to the next hit.
     pub block: Option<f64>,
     /// Time constant of an exponential window \[s\].
     pub time_constant: Option<f64>,
     pub estimator: Estimator,
 }
 
-/// A hit begins where the force passes this share of its largest value.
+/// Trigger level, as a fraction of the largest force.
 const LEVEL: f64 = 0.25;
-/// Time kept before it \[s\], at most a tenth of the block.
+/// Pre-trigger time \[s\], at most a tenth of the block.
 const BEFORE: f64 = 0.01;
-/// Hits nearer to each other are one double hit \[s\].
+/// Smallest spacing of two hits \[s\]; closer ones are a double hit.
 const APART: f64 = 0.2;
-/// So are those nearer than this share of the median gap.
+/// The same, as a fraction of the median spacing.
 const OF_MEDIAN: f64 = 0.5;
-/// A hit is so many times larger than the median |force|: noise and shakers stay below.
+/// Smallest ratio of a hit to the median |force|; noise and shaker excitation stay below.
 const STANDS_OUT: f64 = 10.0;
-/// The force counts for at least so long after the contact \[s\], in which filters ring.
+/// Shortest force window after the contact \[s\], to include filter ringing.
 const AFTER: f64 = 0.01;
 
-/// FRFs of every response to the force, with coherence where there are several hits; and what deserves a warning.
+/// FRFs of all responses to the force, with coherence for several hits, and quality warnings.
 ///
-/// `files` hold the same channels at the same points: their hits are averaged. Bad hits (double hits, overloads)
-/// are left out, an overloaded response only where it is. Beyond the contact the force is noise and set to zero.
+/// `files` have the same channels at the same points: their hits are averaged. Double hits and hits with force
+/// overload are rejected, hits with response overload only for that response. After the contact the force is set
+/// to zero (force window).
 ///
 /// # Errors
-/// No force, records of different rates or lengths, no good hit, NaN.
+/// No force, records of different rates or lengths, no usable hit, NaN.
 pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), Error> {
     let Some(first) = files.first() else { return Ok((Vec::new(), Vec::new())) };
     let time = time_records(first);
@@ -53,7 +54,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         finite(own)?;
         blocks.push(self::blocks(own, rate, test, &mut warnings)?);
     }
-    // Blocks of all files are of one length.
+    // One block length for all files.
     let length = blocks.iter().flatten().map(|b| b.len()).min().unwrap_or(0);
     blocks.iter_mut().flatten().for_each(|block| block.end = block.start + length);
     let hits = blocks.iter().map(|own| own.len()).sum();
@@ -62,7 +63,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     if force.unit != "N" && !force.unit.is_empty() {
         let unit = &force.unit;
         warnings.push(format!(
-            "`{}` is in {unit}, not in N: frequencies and damping are right, shapes are for each {unit}",
+            "`{}` is in {unit}, not in N: frequencies and damping are not affected, shapes are per {unit}",
             force.name
         ));
     }
@@ -93,7 +94,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         if residual > 0.0 {
             warnings.push(format!(
                 "`{}` is truncated: {:.0} % of its peak is left at the end of a block; take longer blocks (--block), or \
-                 an exponential window (--window)",
+                 an exponential window (--exponential-window)",
                 response.name,
                 100.0 * residual
             ));
@@ -109,7 +110,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     }
     if !single.is_empty() {
         warnings.push(format!(
-            "there is one good hit only for {}: no coherence, and no average over noise; take several hits",
+            "only one usable hit for {}: no coherence and no averaging of noise; take several hits",
             single.join(", ")
         ));
     }
@@ -123,7 +124,7 @@ struct HitSet<'a> {
     inspected: Vec<Inspected<'a>>,
     /// Samples of a block up to the end of the longest contact.
     contact: usize,
-    /// Largest residual of a good hit, where it is too much.
+    /// Largest residual of the usable hits that exceeds the limit; else 0.
     residual: f64,
 }
 
@@ -204,7 +205,7 @@ fn time_records(measured: &MeasuredData) -> Vec<&Record> {
     measured.records.iter().filter(|r| r.kind == Kind::Time).collect()
 }
 
-/// Refuses two channels of different rates.
+/// Error for two channels with different sampling rates.
 fn same_rate(first: &Record, other: &Record) -> Result<(), RecordError> {
     match (other.sample_rate()? / first.sample_rate()? - 1.0).abs() > 1e-9 {
         true => Err(RecordError::axes_differ(first, other)),
@@ -244,7 +245,7 @@ fn force<'a>(
     }
 }
 
-/// Ranges of samples of the hits, all of one length.
+/// Sample ranges of the hits, all of the same length.
 fn blocks(
     record: &Record,
     rate: f64,
@@ -260,7 +261,7 @@ fn blocks(
         let (largest, median) = (digits(largest), digits(usual_size));
         return Err(RecordError::NoHit { channel, largest, median, unit }.into());
     }
-    // Second hits belong to the first.
+    // A double hit counts as one.
     let starts = starts(force, LEVEL * largest, samples(APART));
     let gaps: Vec<f64> = starts.windows(2).map(|pair| (pair[1] - pair[0]) as f64).collect();
     let least = OF_MEDIAN * median(gaps.clone());
@@ -300,7 +301,7 @@ fn starts(force: &[f64], level: f64, apart: usize) -> Vec<usize> {
     found
 }
 
-/// A number to four digits.
+/// Number with four digits.
 fn digits(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -309,7 +310,7 @@ fn digits(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
-/// The middle value; 0 of none.
+/// Median; 0 for an empty list.
 fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }

@@ -1,24 +1,24 @@
-//! Hits in a long record of the force.
+//! Trigger: detection of hits in a force record.
 
 use super::peak;
 use crate::signal::SignalError;
 use crate::signal::error::{check, check_record};
 
-/// How hits are found in a long record of the force.
+/// Settings of the trigger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trigger {
-    /// A hit begins where |force| passes this share of its largest value in the record.
+    /// Trigger level of |force|, as a fraction of its largest value in the record.
     pub level: f64,
-    /// Samples kept before that.
+    /// Pre-trigger samples.
     pub before: usize,
-    /// Samples of a hit's block.
+    /// Block length in samples.
     pub length: usize,
 }
 
 impl Trigger {
-    /// Ranges of samples of every hit whose block lies whole in the record; blocks do not overlap.
+    /// Sample ranges of all hits with a complete block in the record; blocks do not overlap.
     ///
-    /// A second crossing within a block belongs to it: [`super::inspect`] finds double hits. Errors: NaN, level not
+    /// A second crossing within a block is not a new hit; [`super::inspect`] detects double hits. Errors: NaN, level not
     /// between 0 and 1, no length, more samples before the hit than in the block.
     pub fn find(&self, force: &[f64]) -> Result<Vec<std::ops::Range<usize>>, SignalError> {
         check_record("force", force)?;

@@ -29,8 +29,8 @@ impl Analysis {
         (Analysis::Cepstrum, "cepstrum"),
         (Analysis::Jerk, "jerk"),
         (Analysis::Orders, "orders"),
-        (Analysis::Average, "average"),
-        (Analysis::Cyclic, "cyclic"),
+        (Analysis::Average, "synchronous-average"),
+        (Analysis::Cyclic, "cyclic-coherence"),
     ];
 
     /// Its keyword, such as "kurtogram".
