@@ -94,6 +94,7 @@ k_tilt = "2e4 N m/rad"
 k_spin = "3e4 N m/rad"
 [bearing.A]
 station = "A"
+housing = "A"
 BEARING
 [bearing.B]
 station = "B"
@@ -109,11 +110,13 @@ station = "A"
 #[test]
 fn all_modes_together_take_the_whole_mass() {
     let linear = "model = \"linear\"\nk_xx = \"1e7 N/m\"\nk_yy = \"2e7 N/m\"\nk_zz = \"5e6 N/m\"";
-    let balls = "model = \"radial_ball\"\ndesignation = \"6205\"\nradial_clearance = \"-20 um\"\nstiffness_damping = \"0 s\"\nmaterial = \"steel\"";
+    let balls = "model = \"radial_ball\"\ndesignation = \"6205\"\nradial_clearance = \"-20 um\"\n\
+                 stiffness_damping = \"0 s\"\nmaterial = \"steel\"";
     for bearing in [linear, balls] {
         let text = MACHINE.replace("BEARING", bearing);
         let model = load("sum.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
         let machine = Machine::new(model).unwrap();
+        assert!(machine.model.bearings[0].housing.node.is_some());
         let system = machine.linear_system(0.0).unwrap();
         let modes = modal::modes(&machine.assembly, &system, 11).unwrap();
         // Five motions of the rotor, whose rotation is prescribed, and six of the housing.
