@@ -1,7 +1,7 @@
 //! A belt on a rigid shaft with two springs: rest by levers, rest kept in time, a further pull, a belt's damper.
 
 use rotordyn::analysis::modal;
-use rotordyn::model::study::EquilibriumStudy;
+use rotordyn::model::study::{CriticalStudy, EquilibriumStudy};
 use rotordyn::model::{Options, load};
 use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
@@ -176,5 +176,13 @@ fn a_belts_damper() {
         assert!(close(mode.omega(), omega), "{} {omega}", mode.omega());
         let decrement = -sigma * std::f64::consts::TAU / omega;
         assert!(close(mode.log_dec(), decrement), "{} {decrement}", mode.log_dec());
+
+        // The motion along x knows no gyroscopic effect: the line n Ω meets its damped frequency at ω/n.
+        for order in [0.5, 1.0, 2.0, 3.0] {
+            let found = machine.critical(&CriticalStudy { max_speed: 2000.0, orders: vec![order] }).unwrap();
+            let own: Vec<f64> =
+                found.speeds.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
+            assert!(own.len() == 1 && close(own[0], omega / order), "{order}: {own:?} {}", omega / order);
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Hunt-Crossley damping against figures worked by hand and the first integral of a ball that bounces.
+//! Contact damping against figures worked by hand and the first integral of a ball that bounces.
 
 use rotordyn::contact::{BallContacts, ContactDamping, ContactLaw, HertzPair, PowerLaw};
 
@@ -22,6 +22,19 @@ fn force_in_newtons() {
         let found = damping.apply(&at, &elastic, 4e-6, rate).load;
         // Round-off of the powers.
         assert!((found - load).abs() < 1e-11, "{rate} m/s: {found} N instead of {load} N");
+    }
+}
+
+/// c δ̇ once the ramp is behind, half of it in the ramp's middle, where the smooth rise is by symmetry.
+#[test]
+fn constant_damping_in_newtons() {
+    let contacts = spring(1e10, 1.5);
+    let at = contacts.at_speed(0.0);
+    let damping = ContactDamping::Constant { coefficient: 300.0, ramp: 1e-6 };
+    // 300 N s/m at 20 mm/s: 6 N beside 80 N at 4 um; 3 N beside 1e10 · (0.5e-6)^1.5 = 3.5355339 N.
+    for (approach, load) in [(4e-6, 86.0), (0.5e-6, 6.535_533_905_932_738)] {
+        let found = damping.apply(&at, &at.series(approach), approach, 0.02).load;
+        assert!((found - load).abs() < 1e-11, "{approach} m: {found} N instead of {load} N");
     }
 }
 

@@ -11,6 +11,7 @@ mod effective_mass;
 mod fits;
 mod hertz;
 mod hunt_crossley;
+mod kinematics;
 mod precession;
 mod rigid_rotor;
 mod rolling_ball;

@@ -87,3 +87,126 @@ fn a_spinning_top_gives_way_sideways() {
         }
     }
 }
+
+/// While it speeds up, the same top by L̇ = moment: with half of the drive's torque I_p Ω̇ along z and half along t
+/// j I β̈ + I_p (Ω β)˙ = j l F + ½ I_p Ω̇ β, stepped here by itself.
+#[test]
+fn a_top_that_speeds_up() {
+    let (polar, about_joint, arm): (f64, f64, f64) = (0.02, 0.012 + 4.8 * 0.01, 0.3);
+    let text = TOP.replace("FORCE", "0, -2");
+    let mut model = load("top.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
+    let (from, rate) = (100.0, 2000.0);
+    model.profile = SpeedProfile::Ramp { from, to: from + 0.3 * rate, settle: 0.0, ramp: 0.3, hold: 0.0 };
+    let machine = Machine::new(model).unwrap();
+    let study =
+        RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
+    let reduction = machine.reduce(&study).unwrap();
+    let mut seen = Vec::new();
+    let report = machine.run_up(&study, &reduction, |sample| {
+        seen.push(C::new(sample.channels[0], sample.channels[1]));
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+
+    let j = C::new(0.0, 1.0);
+    let moment = j * C::new(0.0, -2.0) * arm;
+    let second = |t: f64, tilt: C, tilting: C| {
+        let speed = from + rate * t;
+        (moment + tilt * (0.5 * polar * rate) - (tilt * rate + tilting * speed) * polar) / (j * about_joint)
+    };
+    let (mut tilt, mut tilting, h) = (C::default(), C::default(), 2e-5);
+    let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
+    for (k, place) in seen.iter().enumerate() {
+        worst = worst.max((place - tilt * arm).norm());
+        farthest = farthest.max(place.norm());
+        for i in 0..50 {
+            let t = (50 * k + i) as f64 * h;
+            let (k1, l1) = (tilting, second(t, tilt, tilting));
+            let (k2, l2) = (
+                tilting + l1 * (0.5 * h),
+                second(t + 0.5 * h, tilt + k1 * (0.5 * h), tilting + l1 * (0.5 * h)),
+            );
+            let (k3, l3) = (
+                tilting + l2 * (0.5 * h),
+                second(t + 0.5 * h, tilt + k2 * (0.5 * h), tilting + l2 * (0.5 * h)),
+            );
+            let (k4, l4) = (tilting + l3 * h, second(t + h, tilt + k3 * h, tilting + l3 * h));
+            tilt += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
+            tilting += (l1 + l2 * 2.0 + l3 * 2.0 + l4) * (h / 6.0);
+        }
+    }
+    // (ν h)⁴ of both integrators.
+    assert!(worst < 1e-6 * farthest && seen.len() == 301, "{worst} of {farthest}, {}", seen.len());
+}
+
+/// A disc of J at the end of a massless shaft whose other end is driven at an acceleration α from rest: it lags by
+/// φ = (J α/k) (1 − cos √(k/J) t), k = G I_t/l.
+#[test]
+fn a_disc_lags_behind_an_accelerating_drive() {
+    let text = r#"
+        [model]
+        name = "lag"
+        gravity = "0 m/s^2"
+        [material.light]
+        young = "208 GPa"
+        poisson = 0.3
+        density = "0.001 kg/m^3"
+        [shaft]
+        material = "light"
+        element_length = "100 mm"
+        section = [{ length = "400 mm", outer_diameter = "12 mm" }]
+        [station]
+        A = "0 mm"
+        disc = "300 mm"
+        B = "400 mm"
+        [disc.main]
+        station = "disc"
+        mass = "5 kg"
+        polar_inertia = "0.05 kg m^2"
+        diametral_inertia = "0.03 kg m^2"
+        [bearing.A]
+        model = "linear"
+        station = "A"
+        k_xx = "1e7 N/m"
+        k_yy = "1e7 N/m"
+        k_zz = "1e7 N/m"
+        [bearing.B]
+        model = "linear"
+        station = "B"
+        k_xx = "1e7 N/m"
+        k_yy = "1e7 N/m"
+        [drive]
+        kind = "prescribed"
+        station = "A"
+        [speed]
+        profile = "ramp"
+        from = "0 rad/s"
+        ramp = "0.3 s"
+        to = "60 rad/s"
+        [probe.twist]
+        at = "disc"
+        direction = "tz"
+        [study.run_up]
+        integrator = "newmark"
+        step = "50 us"
+        sample_rate = "1 kHz"
+        cutoff = "500 Hz"
+    "#;
+    let model = load("lag.toml", text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
+    let machine = Machine::new(model).unwrap();
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let shear = 208e9 / 2.6;
+    let stiffness = shear * std::f64::consts::PI / 32.0 * 12e-3_f64.powi(4) / 0.3;
+    let (inertia, acceleration) = (0.05, 200.0);
+    let (lag, omega) = (inertia * acceleration / stiffness, f64::sqrt(stiffness / inertia));
+    let mut worst = 0.0_f64;
+    let report = machine.run_up(&study, &reduction, |sample| {
+        let t = sample.state.time;
+        worst = worst.max((sample.channels[0] + lag * (1.0 - (omega * t).cos())).abs());
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    // Newmark's (ω h)²/12 of ω t = 31 with ω = 104 rad/s: 7e-5.
+    assert!(worst < 3e-4 * lag, "{worst} of {lag}");
+}
