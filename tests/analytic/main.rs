@@ -13,6 +13,7 @@ mod hertz;
 mod hunt_crossley;
 mod kinematics;
 mod precession;
+mod responses;
 mod rigid_rotor;
 mod rolling_ball;
 mod shaft_limits;
