@@ -1,7 +1,7 @@
 //! Clearance change by fits compared with closed forms of thick and thin rings.
 
 use crate::bearing::{rig_6205, steel};
-use rotordyn::bearing::{BallGeometry, Fit, FitMaterials};
+use rotordyn::bearing::{BallBearing, BallElement, BallGeometry, Fit, FitMaterials, Rotation};
 use rotordyn::element::Material;
 
 fn geometry() -> BallGeometry {
@@ -104,4 +104,40 @@ fn tight_fit_rotates_as_one_disc() {
     assert_eq!(fit.shaft_pressure(&g, &materials, loose), 0.0);
     let bare = Fit { shaft_interference: 0.0, ..fit };
     assert_eq!(fit.clearance_change(&g, &materials, loose), bare.clearance_change(&g, &materials, loose));
+}
+
+/// Half the diametral clearance is what a centred ring crosses before it meets a ball; the mounted bearing has it less
+/// by the fit and by the growth at speed.
+#[test]
+fn balls_meet_the_ring_at_the_clearance_as_mounted() {
+    let bare = rig_6205();
+    let (g, k) = (bare.geometry.clone(), bare.hertz().stiffness);
+    let [f, _] = races(&g);
+    let speed = 3000.0;
+    // Ring and solid shaft as one disc (see above): the fit's growth alone at rest, with that of the disc at speed.
+    let fit = Fit { shaft_interference: 10e-6, speed_growth: true, ..Fit::default() };
+    let grown = 10e-6 * g.bore / f;
+    let disc = 2.0 * 7850.0 * speed * speed * (0.5 * f).powi(3) * 0.7 / (4.0 * 207e9);
+    // Without a film nothing else changes with speed.
+    for (fit, speed, clearance) in [
+        (Fit::default(), 0.0, g.radial_clearance),
+        (fit, 0.0, g.radial_clearance - grown),
+        (fit, speed, g.radial_clearance - grown - disc),
+    ] {
+        let element = BallElement::new(&BallBearing { fit, ..bare.clone() });
+        let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
+        for push in [-1e-6, 3e-6, 12e-6] {
+            let x = 0.5 * clearance + push;
+            let force: f64 = (0..g.balls)
+                .map(|j| {
+                    let cos = (std::f64::consts::TAU * j as f64 / g.balls as f64).cos();
+                    k * (x * cos - 0.5 * clearance).max(0.0).powf(1.5) * cos
+                })
+                .sum();
+            let found = element.reaction(&[x, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6], &rotation).force;
+            assert_eq!(force > 0.0, push > 0.0);
+            // Approaches of 1e-6 m as differences of 1e-3 m.
+            assert!((found[0] + force).abs() <= 1e-8 * force, "{speed} {push}: {} {force}", found[0]);
+        }
+    }
 }

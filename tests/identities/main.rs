@@ -13,3 +13,4 @@ mod follow_speed;
 mod linear;
 mod planes;
 mod sensitivity;
+mod tracking;

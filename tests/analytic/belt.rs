@@ -1,0 +1,188 @@
+//! A belt on a rigid shaft with two springs: rest by levers, rest kept in time, a further pull, a belt's damper.
+
+use rotordyn::analysis::modal;
+use rotordyn::model::study::{CriticalStudy, EquilibriumStudy};
+use rotordyn::model::{Options, load};
+use rotordyn::study::Machine;
+use rotordyn::transient::run::End;
+use std::ops::ControlFlow;
+
+/// Cylinder on springs of 1e6 N/m at A and 2e6 N/m at B; the pulley hangs over beyond B.
+const ROTOR: &str = r#"
+[model]
+name = "belt"
+gravity = "0 m/s^2"
+[rotor]
+length = "0.55 m"
+outer_diameter = "40 mm"
+mass = "4.8 kg"
+centre = "0 m"
+[station]
+A = "-0.2 m"
+C = "0 m"
+B = "0.2 m"
+pulley = "0.26 m"
+[bearing.A]
+model = "linear"
+station = "A"
+k_xx = "1e6 N/m"
+k_yy = "1e6 N/m"
+k_zz = "1e6 N/m"
+c_xx = "400 N s/m"
+c_yy = "400 N s/m"
+[bearing.B]
+model = "linear"
+station = "B"
+k_xx = "2e6 N/m"
+k_yy = "2e6 N/m"
+c_xx = "700 N s/m"
+c_yy = "700 N s/m"
+[belt.drive]
+station = "pulley"
+pull = "300, -120 N"
+constant_pull = CONSTANT
+k_x = "4e5 N/m"
+k_y = "5e4 N/m"
+[drive]
+kind = "prescribed"
+station = "A"
+[speed]
+profile = "constant"
+speed = "0 rad/s"
+duration = "0.5 s"
+[probe.x]
+at = "pulley"
+direction = "x"
+[probe.y]
+at = "pulley"
+direction = "y"
+[study.run_up]
+step = "50 us"
+sample_rate = "1 kHz"
+cutoff = "1e6 Hz"
+"#;
+
+const PULL: [f64; 2] = [300.0, -120.0];
+const STIFFNESS: [f64; 2] = [4e5, 5e4];
+
+fn machine(constant: bool, more: &str) -> Machine {
+    let text = ROTOR.replace("CONSTANT", if constant { "true" } else { "false" }) + more;
+    Machine::new(load("belt.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model)
+        .unwrap()
+}
+
+/// Displacement of the pulley per force on it: 1 N there puts 0.46/0.4 N on B and −0.06/0.4 N on A, and the ends move
+/// by their share over their stiffness.
+fn compliance() -> f64 {
+    let (on_a, on_b) = (-0.06 / 0.4, 0.46 / 0.4);
+    let (at_a, at_b) = (on_a / 1e6, on_b / 2e6);
+    at_a + (at_b - at_a) * 0.46 / 0.4
+}
+
+/// Rest at a pull that stays as given, and at one that falls by k u as the shaft gives way.
+fn rest(constant: bool, axis: usize) -> f64 {
+    let s = compliance();
+    if constant { s * PULL[axis] } else { s * PULL[axis] / (1.0 + s * STIFFNESS[axis]) }
+}
+
+#[test]
+fn a_shaft_rests_where_levers_put_it() {
+    for constant in [true, false] {
+        let machine = machine(constant, "");
+        let found = machine.equilibrium(&EquilibriumStudy { speed: 0.0, cage_average: true }).unwrap();
+        for axis in 0..2 {
+            let probe = &machine.model.probes[axis];
+            let seen = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&found.q);
+            let expected = rest(constant, axis);
+            // Of the order of what is left over, 1e-10 of the pull.
+            assert!((seen / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {seen} {expected}");
+            // The bearings hold against the part of the pull that the belt keeps.
+            let kept = if constant { PULL[axis] } else { PULL[axis] - STIFFNESS[axis] * expected };
+            let force: f64 = found.bearings.iter().map(|b| b.force[axis]).sum();
+            assert!((force + kept).abs() < 1e-6, "{constant} {axis}: {force} {kept}");
+        }
+    }
+}
+
+/// What the run's last sample reads, starting from equilibrium; and the largest departure from the first.
+fn run(machine: &Machine) -> ([f64; 2], f64) {
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let (mut first, mut last, mut moved) = (None, [0.0; 2], 0.0_f64);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        last = [sample.channels[0], sample.channels[1]];
+        let [x, y] = *first.get_or_insert(last);
+        moved = moved.max((last[0] - x).abs()).max((last[1] - y).abs());
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    (last, moved)
+}
+
+#[test]
+fn at_rest_it_stays_there() {
+    for constant in [true, false] {
+        let (last, moved) = run(&machine(constant, ""));
+        for axis in 0..2 {
+            assert!((last[axis] / rest(constant, axis) - 1.0).abs() < 1e-8, "{constant} {axis}: {last:?}");
+        }
+        // 200 um of deflection; the equilibrium is good to 1e-10 of it.
+        assert!(moved < 1e-13, "{constant}: {moved} m");
+    }
+}
+
+/// A further force ΔF meets the belt's stiffness in either case: Δu = s ΔF/(1 + s k).
+#[test]
+fn a_further_force_meets_the_belts_stiffness() {
+    let step = "[load.more]\nat = \"pulley\"\nforce = \"50, 80, 0 N\"\ntime = \"0, 10 s\"\nfactor = [1, 1]\n";
+    for constant in [true, false] {
+        let (last, _) = run(&machine(constant, step));
+        for (axis, more) in [50.0, 80.0].into_iter().enumerate() {
+            let s = compliance();
+            let expected = rest(constant, axis) + s * more / (1.0 + s * STIFFNESS[axis]);
+            // The slowest mode, 590 rad/s with a decay of 80 1/s, leaves e⁻⁴⁰ of the step.
+            assert!((last[axis] / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {last:?} {expected}");
+        }
+    }
+}
+
+/// One mass on springs with a belt's damper alone: ζ = c/(2 √(k m)), and from peak to peak the motion falls by e^{−δ}
+/// with δ = 2πζ/√(1 − ζ²), written here as δ = −σ T of λ = σ ± j 2π/T from λ² m + λ c + k = 0.
+#[test]
+fn a_belts_damper() {
+    for damping in [60.0, 2500.0] {
+        let text = ROTOR
+            .replace("CONSTANT", "false")
+            .replace("c_xx = \"400 N s/m\"\n", "")
+            .replace("c_yy = \"400 N s/m\"\n", "")
+            .replace("c_xx = \"700 N s/m\"\n", "")
+            .replace("c_yy = \"700 N s/m\"\n", "")
+            .replace("2e6 N/m", "1e6 N/m")
+            .replace("pulley = \"0.26 m\"", "pulley = \"0 m\"")
+            .replace("C = \"0 m\"\n", "")
+            .replace("k_y = \"5e4 N/m\"", &format!("k_y = \"5e4 N/m\"\nc_x = \"{damping} N s/m\""));
+        let model = load("belt.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
+        let machine = Machine::new(model).unwrap();
+        let modes = modal::modes(&machine.assembly, &machine.linear_system(0.0).unwrap(), 5).unwrap();
+        let (mass, stiffness): (f64, f64) = (4.8, 2.4e6);
+        let zeta = damping / (2.0 * (stiffness * mass).sqrt());
+        let (sigma, omega) =
+            (-damping / (2.0 * mass), (stiffness / mass - (damping / (2.0 * mass)).powi(2)).sqrt());
+        let damped: Vec<_> = modes.iter().filter(|m| m.zeta() > 1e-6).collect();
+        assert_eq!(damped.len(), 1, "the belt damps the motion along x alone");
+        let mode = damped[0];
+        let close = |found: f64, exact: f64| (found / exact - 1.0).abs() < 1e-9;
+        assert!(close(mode.zeta(), zeta), "{} {zeta}", mode.zeta());
+        assert!(close(mode.omega(), omega), "{} {omega}", mode.omega());
+        let decrement = -sigma * std::f64::consts::TAU / omega;
+        assert!(close(mode.log_dec(), decrement), "{} {decrement}", mode.log_dec());
+
+        // The motion along x knows no gyroscopic effect: the line n Ω meets its damped frequency at ω/n.
+        for order in [0.5, 1.0, 2.0, 3.0] {
+            let found = machine.critical(&CriticalStudy { max_speed: 2000.0, orders: vec![order] }).unwrap();
+            let own: Vec<f64> =
+                found.speeds.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
+            assert!(own.len() == 1 && close(own[0], omega / order), "{order}: {own:?} {}", omega / order);
+        }
+    }
+}
