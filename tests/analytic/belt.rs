@@ -1,4 +1,5 @@
-//! A belt on a rigid shaft with two springs: rest by levers, rest kept in time, a further pull, a belt's damper.
+//! Belt on a rigid shaft with two spring bearings: static equilibrium, transient from equilibrium, step load,
+//! damping.
 
 use rotordyn::analysis::modal;
 use rotordyn::model::study::{CriticalStudy, EquilibriumStudy};
@@ -7,7 +8,7 @@ use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
 use std::ops::ControlFlow;
 
-/// Cylinder on springs of 1e6 N/m at A and 2e6 N/m at B; the pulley hangs over beyond B.
+/// Cylinder on springs of 1e6 N/m at A and 2e6 N/m at B, with an overhung pulley beyond B.
 const ROTOR: &str = r#"
 [model]
 name = "belt"
@@ -71,85 +72,89 @@ fn machine(constant: bool, more: &str) -> Machine {
         .unwrap()
 }
 
-/// Displacement of the pulley per force on it: 1 N there puts 0.46/0.4 N on B and −0.06/0.4 N on A, and the ends move
-/// by their share over their stiffness.
+/// Compliance of the pulley: 1 N there loads B with 0.46/0.4 N and A with −0.06/0.4 N (lever rule), and each
+/// end moves by its load divided by its stiffness.
 fn compliance() -> f64 {
     let (on_a, on_b) = (-0.06 / 0.4, 0.46 / 0.4);
     let (at_a, at_b) = (on_a / 1e6, on_b / 2e6);
     at_a + (at_b - at_a) * 0.46 / 0.4
 }
 
-/// Rest at a pull that stays as given, and at one that falls by k u as the shaft gives way.
-fn rest(constant: bool, axis: usize) -> f64 {
+/// Static displacement of the pulley under a constant belt pull, or under one that falls by k u with the
+/// displacement.
+fn static_displacement(constant: bool, axis: usize) -> f64 {
     let s = compliance();
     if constant { s * PULL[axis] } else { s * PULL[axis] / (1.0 + s * STIFFNESS[axis]) }
 }
 
 #[test]
-fn a_shaft_rests_where_levers_put_it() {
+fn static_equilibrium_under_belt_pull() {
     for constant in [true, false] {
         let machine = machine(constant, "");
         let found = machine.equilibrium(&EquilibriumStudy { speed: 0.0, cage_average: true }).unwrap();
         for axis in 0..2 {
             let probe = &machine.model.probes[axis];
-            let seen = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&found.q);
-            let expected = rest(constant, axis);
-            // Of the order of what is left over, 1e-10 of the pull.
-            assert!((seen / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {seen} {expected}");
-            // The bearings hold against the part of the pull that the belt keeps.
-            let kept = if constant { PULL[axis] } else { PULL[axis] - STIFFNESS[axis] * expected };
+            let computed = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&found.q);
+            let expected = static_displacement(constant, axis);
+            // Equilibrium residual: 1e-10 of the pull.
+            assert!((computed / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {computed} {expected}");
+            // The bearing forces balance the remaining belt pull.
+            let remaining_pull = if constant { PULL[axis] } else { PULL[axis] - STIFFNESS[axis] * expected };
             let force: f64 = found.bearings.iter().map(|b| b.force[axis]).sum();
-            assert!((force + kept).abs() < 1e-6, "{constant} {axis}: {force} {kept}");
+            assert!((force + remaining_pull).abs() < 1e-6, "{constant} {axis}: {force} {remaining_pull}");
         }
     }
 }
 
-/// What the run's last sample reads, starting from equilibrium; and the largest departure from the first.
+/// Last sample of a run from equilibrium, and the largest deviation from the first sample.
 fn run(machine: &Machine) -> ([f64; 2], f64) {
     let study = machine.model.studies.run_up.clone().unwrap();
     let reduction = machine.reduce(&study).unwrap();
-    let (mut first, mut last, mut moved) = (None, [0.0; 2], 0.0_f64);
+    let (mut first, mut last, mut deviation) = (None, [0.0; 2], 0.0_f64);
     let report = machine.run_up(&study, &reduction, |sample| {
         last = [sample.channels[0], sample.channels[1]];
         let [x, y] = *first.get_or_insert(last);
-        moved = moved.max((last[0] - x).abs()).max((last[1] - y).abs());
+        deviation = deviation.max((last[0] - x).abs()).max((last[1] - y).abs());
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    (last, moved)
+    (last, deviation)
 }
 
 #[test]
-fn at_rest_it_stays_there() {
+fn transient_from_equilibrium_stays_at_equilibrium() {
     for constant in [true, false] {
-        let (last, moved) = run(&machine(constant, ""));
+        let (last, deviation) = run(&machine(constant, ""));
         for axis in 0..2 {
-            assert!((last[axis] / rest(constant, axis) - 1.0).abs() < 1e-8, "{constant} {axis}: {last:?}");
+            assert!(
+                (last[axis] / static_displacement(constant, axis) - 1.0).abs() < 1e-8,
+                "{constant} {axis}: {last:?}"
+            );
         }
-        // 200 um of deflection; the equilibrium is good to 1e-10 of it.
-        assert!(moved < 1e-13, "{constant}: {moved} m");
+        // Deflection 200 um; accuracy of the equilibrium 1e-10 of it.
+        assert!(deviation < 1e-13, "{constant}: {deviation} m");
     }
 }
 
-/// A further force ΔF meets the belt's stiffness in either case: Δu = s ΔF/(1 + s k).
+/// The belt stiffness acts on an additional force ΔF in both cases: Δu = s ΔF/(1 + s k).
 #[test]
-fn a_further_force_meets_the_belts_stiffness() {
+fn step_load_with_belt_stiffness() {
     let step = "[load.more]\nat = \"pulley\"\nforce = \"50, 80, 0 N\"\ntime = \"0, 10 s\"\nfactor = [1, 1]\n";
     for constant in [true, false] {
         let (last, _) = run(&machine(constant, step));
         for (axis, more) in [50.0, 80.0].into_iter().enumerate() {
             let s = compliance();
-            let expected = rest(constant, axis) + s * more / (1.0 + s * STIFFNESS[axis]);
-            // The slowest mode, 590 rad/s with a decay of 80 1/s, leaves e⁻⁴⁰ of the step.
+            let expected = static_displacement(constant, axis) + s * more / (1.0 + s * STIFFNESS[axis]);
+            // The slowest mode, 590 rad/s with a decay rate of 80 1/s, has decayed to e⁻⁴⁰ of the step.
             assert!((last[axis] / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {last:?} {expected}");
         }
     }
 }
 
-/// One mass on springs with a belt's damper alone: ζ = c/(2 √(k m)), and from peak to peak the motion falls by e^{−δ}
-/// with δ = 2πζ/√(1 − ζ²), written here as δ = −σ T of λ = σ ± j 2π/T from λ² m + λ c + k = 0.
+/// One mass on springs, damped by the belt only: ζ = c/(2 √(k m)), logarithmic decrement δ = 2πζ/√(1 − ζ²),
+/// computed here as δ = −σ T from the eigenvalue λ = σ ± j 2π/T of λ² m + λ c + k = 0.
 #[test]
-fn a_belts_damper() {
+fn damping_ratio_and_log_decrement_of_belt_damping() {
     for damping in [60.0, 2500.0] {
         let text = ROTOR
             .replace("CONSTANT", "false")
@@ -169,7 +174,7 @@ fn a_belts_damper() {
         let (sigma, omega) =
             (-damping / (2.0 * mass), (stiffness / mass - (damping / (2.0 * mass)).powi(2)).sqrt());
         let damped: Vec<_> = modes.iter().filter(|m| m.zeta() > 1e-6).collect();
-        assert_eq!(damped.len(), 1, "the belt damps the motion along x alone");
+        assert_eq!(damped.len(), 1, "only the mode along x is damped by the belt");
         let mode = damped[0];
         let close = |found: f64, exact: f64| (found / exact - 1.0).abs() < 1e-9;
         assert!(close(mode.zeta(), zeta), "{} {zeta}", mode.zeta());
@@ -177,12 +182,17 @@ fn a_belts_damper() {
         let decrement = -sigma * std::f64::consts::TAU / omega;
         assert!(close(mode.log_dec(), decrement), "{} {decrement}", mode.log_dec());
 
-        // The motion along x knows no gyroscopic effect: the line n Ω meets its damped frequency at ω/n.
+        // Without gyroscopic effect the order line n Ω crosses the damped frequency of the mode along x at
+        // ω/n.
         for order in [0.5, 1.0, 2.0, 3.0] {
             let found = machine.critical(&CriticalStudy { max_speed: 2000.0, orders: vec![order] }).unwrap();
-            let own: Vec<f64> =
+            let damped_speeds: Vec<f64> =
                 found.speeds.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
-            assert!(own.len() == 1 && close(own[0], omega / order), "{order}: {own:?} {}", omega / order);
+            assert!(
+                damped_speeds.len() == 1 && close(damped_speeds[0], omega / order),
+                "{order}: {damped_speeds:?} {}",
+                omega / order
+            );
         }
     }
 }

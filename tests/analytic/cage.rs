@@ -1,4 +1,5 @@
-//! The cage of a thrust-loaded angular-contact bearing against the closed form of its contact angle.
+//! Cage speed of a thrust-loaded angular-contact bearing compared with the closed form at its loaded contact
+//! angle.
 
 use rotordyn::model::{Options, SpeedProfile, load};
 use rotordyn::study::Machine;
@@ -6,7 +7,7 @@ use rotordyn::transient::run::End;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-/// Rotor under pure thrust: bearing A takes it, B guides.
+/// Rotor under pure thrust: bearing A is the locating bearing, B supports radially only.
 const ROTOR: &str = r#"
 [model]
 name = "thrust"
@@ -52,18 +53,18 @@ cutoff = "3 kHz"
 "#;
 
 #[test]
-fn a_cage_rolls_at_the_loaded_contact_angle() {
+fn cage_speed_at_loaded_contact_angle() {
     for (thrust, force, speed) in [("+z", 3000.0, 200.0), ("-z", -1500.0, 200.0), ("+z", 3000.0, -200.0)] {
         let text = ROTOR.replace("THRUST", thrust).replace("FORCE", &format!("{force}"));
         let mut model =
             load("thrust.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
         let ball = model.bearings[0].bearing.ball().unwrap().clone();
         let (g, nominal) = (&ball.geometry, ball.geometry.contact_angle);
-        // Each of Z balls carries F/(Z sin α) = K δ^1.5 along groove centres A + δ apart, whose radial distance
-        // A cos α₀ stays: δ = A (cos α₀/cos α − 1) (Harris, ch. 7).
-        let apart = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
+        // Ball load F/(Z sin α) = K δ^1.5; the groove centres are A + δ apart at the constant radial distance
+        // A cos α₀, so δ = A (cos α₀/cos α − 1) (Harris, ch. 7).
+        let centre_distance = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let thrust_at = |angle: f64| {
-            let approach = apart * (nominal.cos() / angle.cos() - 1.0);
+            let approach = centre_distance * (nominal.cos() / angle.cos() - 1.0);
             g.balls as f64 * angle.sin() * ball.hertz().stiffness * approach.powf(1.5)
         };
         let (mut low, mut high) = (nominal, nominal + 0.3);
@@ -72,7 +73,7 @@ fn a_cage_rolls_at_the_loaded_contact_angle() {
             if thrust_at(middle) < f64::abs(force) { low = middle } else { high = middle }
         }
         let ratio = |angle: f64| 0.5 * (1.0 - g.ball_diameter * angle.cos() / g.pitch_diameter);
-        // Rolling at the nominal angle would be an eighth of a percent off and more.
+        // The cage ratio at the nominal angle differs by more than 0.12 %.
         assert!(ratio(low) / ratio(nominal) > 1.0012, "{} {}", ratio(low), ratio(nominal));
 
         model.profile = SpeedProfile::Constant { speed, duration: 0.2 };
@@ -87,7 +88,7 @@ fn a_cage_rolls_at_the_loaded_contact_angle() {
         assert_eq!(report.end, End::Complete);
         let [shaft, cage] = end;
         assert!((shaft / TAU).abs() > 6.0);
-        // The equilibrium's 1e-10, and a ring that moves by 1e-12 m as contacts take up damping.
+        // Equilibrium tolerance 1e-10, and a ring displacement of 1e-12 m due to contact damping.
         assert!((cage / (ratio(low) * shaft) - 1.0).abs() < 1e-8, "{cage} {}", ratio(low) * shaft);
     }
 }

@@ -1,4 +1,5 @@
-//! A top under a side force: which way it goes, and how far.
+//! Gyroscopic moment: precession and nutation of a pivoted rotor under a side force, and torsional lag in a
+//! run-up.
 
 use nalgebra::Complex;
 use rotordyn::model::study::{Integrator, RunUpStudy};
@@ -9,10 +10,10 @@ use std::ops::ControlFlow;
 
 type C = Complex<f64>;
 
-/// Cylinder held in a ball joint at one end, free otherwise; at t = 0 a force sets in at the other end.
-const TOP: &str = r#"
+/// Rotor on a spherical joint at one end, free at the other, where a step force acts from t = 0.
+const PIVOTED_ROTOR: &str = r#"
 [model]
-name = "top"
+name = "pivoted"
 gravity = "0 m/s^2"
 [rotor]
 mass = "4.8 kg"
@@ -49,16 +50,17 @@ sample_rate = "1 kHz"
 cutoff = "1e6 Hz"
 "#;
 
-/// L = I_p Ω t + I t × ṫ with t = (β_x, β_y, 1); the force F at l z has the moment l z × F, so that with β = β_x + jβ_y
-/// I β̈ − j I_p Ω β̇ = l F: β̇ = j (l F/(I_p Ω)) (1 − e^{jνt}), ν = I_p Ω/I about the joint. A force down (−y) on a
-/// shaft along z that spins from x to y so drives the tip towards +x.
+/// Angular momentum L = I_p Ω t + I t × ṫ with t = (β_x, β_y, 1); the force F at l z has the moment l z × F,
+/// so that with β = β_x + jβ_y: I β̈ − j I_p Ω β̇ = l F and β̇ = j (l F/(I_p Ω)) (1 − e^{jνt}), with the
+/// nutation frequency ν = I_p Ω/I, I about the joint. A downward force (−y) on a shaft along z that spins
+/// from x to y thus moves the tip towards +x (precession).
 #[test]
-fn a_spinning_top_gives_way_sideways() {
+fn gyroscopic_precession_and_nutation_under_side_force() {
     let (polar, about_joint, arm): (f64, f64, f64) = (0.02, 0.012 + 4.8 * 0.01, 0.3);
     for (speed, force) in [(400.0, [0.0, -2.0]), (-400.0, [0.0, -2.0]), (700.0, [1.5, 0.0])] {
-        let text = TOP.replace("FORCE", &format!("{}, {}", force[0], force[1]));
+        let text = PIVOTED_ROTOR.replace("FORCE", &format!("{}, {}", force[0], force[1]));
         let mut model =
-            load("top.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
+            load("pivoted.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
         model.profile = SpeedProfile::Constant { speed, duration: 0.3 };
         let machine = Machine::new(model).unwrap();
         let study = RunUpStudy {
@@ -78,71 +80,75 @@ fn a_spinning_top_gives_way_sideways() {
             ControlFlow::Continue(())
         });
         assert_eq!(report.end, End::Complete);
-        let far = (rate * 0.3 * arm).norm();
-        // (ν h)⁴ of the integrator over 0.3 s.
-        assert!(worst < 1e-6 * far, "{worst} of {far}");
+        let precession = (rate * 0.3 * arm).norm();
+        // Integration error (ν h)⁴ over 0.3 s.
+        assert!(worst < 1e-6 * precession, "{worst} of {precession}");
         if force[1] < 0.0 {
-            // Sideways by precession; along the force only by nutation.
-            assert!(last.re * speed.signum() > 0.9 * far && last.im.abs() < 0.2 * far, "{last} of {far}");
+            // Precession is perpendicular to the force; motion along the force is nutation only.
+            assert!(
+                last.re * speed.signum() > 0.9 * precession && last.im.abs() < 0.2 * precession,
+                "{last} of {precession}"
+            );
         }
     }
 }
 
-/// While it speeds up, the same top by L̇ = moment: with half of the drive's torque I_p Ω̇ along z and half along t
-/// j I β̈ + I_p (Ω β)˙ = j l F + ½ I_p Ω̇ β, stepped here by itself.
+/// The same rotor at constant angular acceleration, from L̇ = moment: with half of the drive torque I_p Ω̇
+/// along z and half along t, j I β̈ + I_p (Ω β)˙ = j l F + ½ I_p Ω̇ β, integrated here independently.
 #[test]
-fn a_top_that_speeds_up() {
+fn gyroscopic_precession_during_run_up() {
     let (polar, about_joint, arm): (f64, f64, f64) = (0.02, 0.012 + 4.8 * 0.01, 0.3);
-    let text = TOP.replace("FORCE", "0, -2");
-    let mut model = load("top.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
+    let text = PIVOTED_ROTOR.replace("FORCE", "0, -2");
+    let mut model =
+        load("pivoted.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model;
     let (from, rate) = (100.0, 2000.0);
     model.profile = SpeedProfile::Ramp { from, to: from + 0.3 * rate, settle: 0.0, ramp: 0.3, hold: 0.0 };
     let machine = Machine::new(model).unwrap();
     let study =
         RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
     let reduction = machine.reduce(&study).unwrap();
-    let mut seen = Vec::new();
+    let mut computed = Vec::new();
     let report = machine.run_up(&study, &reduction, |sample| {
-        seen.push(C::new(sample.channels[0], sample.channels[1]));
+        computed.push(C::new(sample.channels[0], sample.channels[1]));
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
 
     let j = C::new(0.0, 1.0);
     let moment = j * C::new(0.0, -2.0) * arm;
-    let second = |t: f64, tilt: C, tilting: C| {
+    let tilt_acceleration = |t: f64, tilt: C, tilt_rate: C| {
         let speed = from + rate * t;
-        (moment + tilt * (0.5 * polar * rate) - (tilt * rate + tilting * speed) * polar) / (j * about_joint)
+        (moment + tilt * (0.5 * polar * rate) - (tilt * rate + tilt_rate * speed) * polar) / (j * about_joint)
     };
-    let (mut tilt, mut tilting, h) = (C::default(), C::default(), 2e-5);
+    let (mut tilt, mut tilt_rate, h) = (C::default(), C::default(), 2e-5);
     let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
-    for (k, place) in seen.iter().enumerate() {
-        worst = worst.max((place - tilt * arm).norm());
-        farthest = farthest.max(place.norm());
+    for (k, position) in computed.iter().enumerate() {
+        worst = worst.max((position - tilt * arm).norm());
+        farthest = farthest.max(position.norm());
         for i in 0..50 {
             let t = (50 * k + i) as f64 * h;
-            let (k1, l1) = (tilting, second(t, tilt, tilting));
+            let (k1, l1) = (tilt_rate, tilt_acceleration(t, tilt, tilt_rate));
             let (k2, l2) = (
-                tilting + l1 * (0.5 * h),
-                second(t + 0.5 * h, tilt + k1 * (0.5 * h), tilting + l1 * (0.5 * h)),
+                tilt_rate + l1 * (0.5 * h),
+                tilt_acceleration(t + 0.5 * h, tilt + k1 * (0.5 * h), tilt_rate + l1 * (0.5 * h)),
             );
             let (k3, l3) = (
-                tilting + l2 * (0.5 * h),
-                second(t + 0.5 * h, tilt + k2 * (0.5 * h), tilting + l2 * (0.5 * h)),
+                tilt_rate + l2 * (0.5 * h),
+                tilt_acceleration(t + 0.5 * h, tilt + k2 * (0.5 * h), tilt_rate + l2 * (0.5 * h)),
             );
-            let (k4, l4) = (tilting + l3 * h, second(t + h, tilt + k3 * h, tilting + l3 * h));
+            let (k4, l4) = (tilt_rate + l3 * h, tilt_acceleration(t + h, tilt + k3 * h, tilt_rate + l3 * h));
             tilt += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
-            tilting += (l1 + l2 * 2.0 + l3 * 2.0 + l4) * (h / 6.0);
+            tilt_rate += (l1 + l2 * 2.0 + l3 * 2.0 + l4) * (h / 6.0);
         }
     }
-    // (ν h)⁴ of both integrators.
-    assert!(worst < 1e-6 * farthest && seen.len() == 301, "{worst} of {farthest}, {}", seen.len());
+    // Integration error (ν h)⁴ of both integrators.
+    assert!(worst < 1e-6 * farthest && computed.len() == 301, "{worst} of {farthest}, {}", computed.len());
 }
 
-/// A disc of J at the end of a massless shaft whose other end is driven at an acceleration α from rest: it lags by
-/// φ = (J α/k) (1 − cos √(k/J) t), k = G I_t/l.
+/// Disc of inertia J at the end of a massless shaft whose other end has a constant angular acceleration α
+/// from rest: torsional lag φ = (J α/k) (1 − cos √(k/J) t), k = G I_t/l.
 #[test]
-fn a_disc_lags_behind_an_accelerating_drive() {
+fn torsional_lag_of_disc_under_constant_angular_acceleration() {
     let text = r#"
         [model]
         name = "lag"
@@ -207,6 +213,6 @@ fn a_disc_lags_behind_an_accelerating_drive() {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    // Newmark's (ω h)²/12 of ω t = 31 with ω = 104 rad/s: 7e-5.
+    // Newmark period error (ω h)²/12 times ω t = 31 with ω = 104 rad/s: 7e-5.
     assert!(worst < 3e-4 * lag, "{worst} of {lag}");
 }

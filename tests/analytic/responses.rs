@@ -1,4 +1,5 @@
-//! Responses of one mass in closed form: frequency response, step, self-excited whirl; and an ellipse by its axes.
+//! Closed-form responses of one mass: FRF, step response, self-excited whirl (internal damping); axes of
+//! elliptic orbits.
 
 use crate::machine::{disc, element, shaft};
 use nalgebra::Complex;
@@ -15,15 +16,16 @@ use std::ops::ControlFlow;
 
 type C = Complex<f64>;
 
-/// x + jy = e^{jγ} (a cos τ + j b sin τ), τ = Ωt + ϕ: a along γ, and a quarter of a turn later b across it.
+/// x + jy = e^{jγ} (a cos τ + j b sin τ), τ = Ωt + ϕ: semi-axis a along γ, and a quarter revolution later b
+/// across it.
 #[test]
-fn an_ellipse_has_the_axes_it_was_drawn_with() {
+fn axes_and_inclination_of_elliptic_orbit() {
     for (a, b, inclination, phase) in [(3.0, 1.0, 0.5, 0.9), (3.0, -1.0, 0.5, 0.9), (2.0, 1.9, -1.2, 2.0)] {
-        let turned = C::from_polar(1.0, phase);
+        let phasor = C::from_polar(1.0, phase);
         let (sin, cos) = f64::sin_cos(inclination);
         // Re(j e^{jτ}) = −sin τ.
-        let x = C::new(a * cos, b * sin) * turned;
-        let y = C::new(a * sin, -b * cos) * turned;
+        let x = C::new(a * cos, b * sin) * phasor;
+        let y = C::new(a * sin, -b * cos) * phasor;
         let orbit = Orbit::new(x, y);
         assert!((orbit.major - a).abs() < 1e-14 && (orbit.minor - b).abs() < 1e-14, "{orbit:?}");
         let off = (orbit.inclination - inclination).rem_euclid(PI);
@@ -34,14 +36,14 @@ fn an_ellipse_has_the_axes_it_was_drawn_with() {
 
 /// Dowson and Higginson's oil, 1 + 0.34 p/(5.9e8 + p): 193/159 at 1 GPa.
 #[test]
-fn oil_under_pressure_is_denser() {
+fn dowson_higginson_density_ratio() {
     let oil = Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2e-8, density: 870.0 };
     assert!((oil.density_ratio(1e9) - 193.0 / 159.0).abs() < 1e-14);
     assert_eq!(oil.density_ratio(0.0), 1.0);
 }
 
 /// 4.8 kg midway between two springs of 1e6 N/m.
-fn mass(more: &str) -> Machine {
+fn mass_on_springs(more: &str) -> Machine {
     let text = format!(
         r#"
         [model]
@@ -92,10 +94,10 @@ fn mass(more: &str) -> Machine {
         .unwrap()
 }
 
-/// (jω)^p/(k − m ω² + jω c): a velocity leads its displacement by a quarter of a turn.
+/// (jω)^p/(k − m ω² + jω c), p = 0, 1, 2: velocity leads displacement by 90°.
 #[test]
 fn receptance_mobility_and_accelerance() {
-    let machine = mass("");
+    let machine = mass_on_springs("");
     let probe = &machine.model.probes[0];
     let row = [machine.assembly.direction_row(&probe.at, &probe.direction)];
     let system = machine.linear_system(0.0).unwrap();
@@ -113,12 +115,12 @@ fn receptance_mobility_and_accelerance() {
     }
 }
 
-/// A force that sets in on a mode of measured damping: x = (F/k) (1 − e^{−ζωt} (cos ω_d t + ζω/ω_d sin ω_d t)).
+/// Step response with given modal damping: x = (F/k) (1 − e^{−ζωt} (cos ω_d t + ζω/ω_d sin ω_d t)).
 #[test]
-fn measured_damping_acts_in_a_reduced_run() {
+fn step_response_with_modal_damping() {
     let more = "[damping.modal]\nfrequency = \"50 Hz\"\nratio = 0.05\n[load.step]\nat = \"C\"\nforce = \"100, 0, 0 N\"\n\
                 time = \"0, 10 s\"\nfactor = [1, 1]\n";
-    let machine = mass(more);
+    let machine = mass_on_springs(more);
     let study =
         RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
     let reduction = machine.reduce(&study).unwrap();
@@ -133,15 +135,15 @@ fn measured_damping_acts_in_a_reduced_run() {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    // (ω h)⁴ of the integrator, 3e-8, and less.
+    // Integration error at most (ω h)⁴ = 3e-8.
     assert!(worst < 1e-7 * 5e-5, "{worst}");
 }
 
-/// A disc midway on a massless shaft that damps itself: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F, z = u_x + j u_y, c_i = η k.
-/// From rest z = z∞ (1 + (s₂ e^{s₁t} − s₁ e^{s₂t})/(s₁ − s₂)), z∞ = F/(k − jΩ c_i), s₁ and s₂ the roots. Far above the
-/// threshold the forward whirl grows.
+/// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,
+/// z = u_x + j u_y, c_i = η k. From rest z = z∞ (1 + (s₂ e^{s₁t} − s₁ e^{s₂t})/(s₁ − s₂)),
+/// z∞ = F/(k − jΩ c_i), s₁ and s₂ the roots. Far above the stability threshold speed the forward whirl grows.
 #[test]
-fn internal_damping_drives_a_forward_whirl() {
+fn unstable_forward_whirl_due_to_internal_damping() {
     let (eta, external, mass, speed, force) = (4e-4, 20.0, 10.0, 500.0, 30.0);
     let mut light = element(0.1, 0.02, 0.02);
     light.material.density = 1e-3;
@@ -157,7 +159,7 @@ fn internal_damping_drives_a_forward_whirl() {
     let mut damping = [[0.0; 6]; 6];
     (damping[0][0], damping[1][1]) = (external, external);
     let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
-    model.bushings.push(Bushing { name: "air".into(), a, b, stiffness, damping });
+    model.bushings.push(Bushing { name: "external_damper".into(), a, b, stiffness, damping });
     let history = vec![[0.0, 1.0], [10.0, 1.0]];
     model.loads.push(Load { name: "step".into(), at: a, force: [force, 0.0, 0.0, 0.0, 0.0, 0.0], history });
     for k in 0..2 {
@@ -177,21 +179,21 @@ fn internal_damping_drives_a_forward_whirl() {
     let reduction = machine.reduce(&study).unwrap();
 
     let spring = 48.0 * 2.1e11 * PI / 64.0 * 0.02f64.powi(4) / 0.8f64.powi(3);
-    let (loss, held) = (external + eta * spring, C::new(spring, -speed * eta * spring));
-    let root = (C::from(loss * loss) - held * (4.0 * mass)).sqrt();
-    let (s1, s2) = ((root - loss) / (2.0 * mass), (-root - loss) / (2.0 * mass));
+    let (damping, stiffness) = (external + eta * spring, C::new(spring, -speed * eta * spring));
+    let root = (C::from(damping * damping) - stiffness * (4.0 * mass)).sqrt();
+    let (s1, s2) = ((root - damping) / (2.0 * mass), (-root - damping) / (2.0 * mass));
     assert!(s1.re.max(s2.re) > 5.0, "{s1} {s2}");
     let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
     let report = machine.run_up(&study, &reduction, |sample| {
         let t = sample.state.time;
-        let swing = (s2 * (s1 * t).exp() - s1 * (s2 * t).exp()) / (s1 - s2);
-        let expected = C::from(force) / held * (swing + 1.0);
-        let seen = C::new(sample.channels[0], sample.channels[1]);
-        worst = worst.max((seen - expected).norm());
+        let transient = (s2 * (s1 * t).exp() - s1 * (s2 * t).exp()) / (s1 - s2);
+        let expected = C::from(force) / stiffness * (transient + 1.0);
+        let computed = C::new(sample.channels[0], sample.channels[1]);
+        worst = worst.max((computed - expected).norm());
         farthest = farthest.max(expected.norm());
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    // Newmark's (ω h)²/12 of 50 rad is 3e-5; the disc's and the shaft's inertia add 1e-6.
+    // Newmark period error (ω h)²/12 times 50 rad: 3e-5; rotary inertia of disc and shaft: 1e-6.
     assert!(worst < 3e-4 * farthest, "{worst} of {farthest}");
 }

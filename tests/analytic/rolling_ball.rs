@@ -1,5 +1,6 @@
-//! A ball with inertia by Newton and Euler with vectors: its rotation from rolling, the rate of its angular momentum,
-//! the friction that makes it, and the ring that takes both. None of it knows the element's equations.
+//! Balls with inertia compared with vector Newton-Euler equations, independent of the element's equations:
+//! ball spin by raceway control, gyroscopic moment, the friction force that balances it, centrifugal force,
+//! and the ring reaction.
 
 use crate::bearing::rig_6205;
 use nalgebra::Vector3;
@@ -8,14 +9,14 @@ use rotordyn::contact::ContactDamping;
 
 type V = Vector3<f64>;
 
-/// The race on which the ball does not spin.
+/// Raceway control: the race relative to which the ball has no spin about the contact normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Control {
     Outer,
     Inner,
 }
 
-/// A bearing at a contact angle; thrust −1 turns the contact lines round.
+/// Angular-contact bearing; thrust −1 reverses the contact angle.
 fn bearing(control: Control, thrust: f64) -> BallBearing {
     let mut bearing = rig_6205();
     bearing.geometry.contact_angle = 0.4;
@@ -25,29 +26,30 @@ fn bearing(control: Control, thrust: f64) -> BallBearing {
         Control::Outer => BallInertia::OuterRaceControl,
         Control::Inner => BallInertia::InnerRaceControl,
     };
-    // Without damping the turning cage adds no force.
+    // Without damping the cage speed adds no force.
     bearing.damping = ContactDamping::Constant { coefficient: 0.0, ramp: 1e-6 };
     bearing
 }
 
-/// A ball's forces by hand, in axes e_r, e_t, e_z at the ball.
-struct Ball {
+/// Forces on a ball from the vector equations, in axes e_r, e_t, e_z at the ball.
+struct BallForces {
     /// Friction of the controlling race on the ball \[N\].
     friction: V,
-    /// Force of the inner race on the ball, and where it acts, seen from the ball's centre.
+    /// Force of the inner race on the ball \[N\].
     by_inner: V,
-    /// m a less all forces: 0 when the loads are right \[N\].
-    left: V,
+    /// Residual of Newton's law m a − Σ F \[N\]; 0 at equilibrium.
+    residual: V,
     /// Centrifugal force \[N\].
-    flung: f64,
+    centrifugal_force: f64,
 }
 
-/// Direction in the plane of axis and ball from the ball's centre to the outer contact, or from the inner contact to it.
+/// Contact normal in the axial plane of the ball: from the ball centre to the outer contact, or from the
+/// inner contact to the ball centre.
 fn normal(angle: f64) -> V {
     V::new(angle.cos(), 0.0, angle.sin())
 }
 
-fn by_hand(bearing: &BallBearing, ball: &BallLoad, control: Control, rotation: &Rotation) -> Ball {
+fn newton_euler(bearing: &BallBearing, ball: &BallLoad, control: Control, rotation: &Rotation) -> BallForces {
     let (d, pitch) = (bearing.geometry.ball_diameter, bearing.geometry.pitch_diameter);
     let mass = bearing.ball_material.density * std::f64::consts::PI / 6.0 * d.powi(3);
     let inertia = 0.4 * mass * (0.5 * d).powi(2);
@@ -56,8 +58,8 @@ fn by_hand(bearing: &BallBearing, ball: &BallLoad, control: Control, rotation: &
     let centre = V::new(0.5 * pitch, 0.0, 0.0);
     let (inner, outer) = (normal(ball.contact_angle), normal(ball.outer_contact_angle));
 
-    // The race turns at `race`; the ball's point at `arm` from its centre moves with it, and the ball does not turn
-    // about the contact's normal relative to it: ω' = ω − race satisfies ω' × arm = v, ω' · arm = 0.
+    // No slip and no spin relative to the race of angular velocity `race`, at the contact point `arm` from
+    // the ball centre: ω' = ω − race satisfies ω' × arm = v, ω' · arm = 0.
     let (arm, race) = match control {
         Control::Outer => (outer * (0.5 * d), V::zeros()),
         Control::Inner => (inner * (-0.5 * d), shaft),
@@ -67,9 +69,10 @@ fn by_hand(bearing: &BallBearing, ball: &BallLoad, control: Control, rotation: &
     assert!((relative.cross(&arm) - slip).norm() < 1e-12 * slip.norm());
     let spin = race + relative;
 
-    // Steady in axes that turn with the cage: dL/dt = Ω × L, of which the cage pockets take nothing along e_t.
+    // Steady motion in axes rotating with the cage: dL/dt = ω_c × L; no moment along e_t from the cage
+    // pockets.
     let rate = cage.cross(&(spin * inertia));
-    // A force F at `arm`, across the normal and in the plane of axis and ball: arm × F = rate.
+    // Friction force F at `arm`, tangential, in the axial plane: arm × F = rate.
     let friction = rate.cross(&arm) / arm.norm_squared();
     assert!((arm.cross(&friction) - rate).norm() < 1e-12 * rate.norm());
 
@@ -79,16 +82,17 @@ fn by_hand(bearing: &BallBearing, ball: &BallLoad, control: Control, rotation: &
         Control::Inner => by_inner += friction,
     }
     let acceleration = cage.cross(&cage.cross(&centre));
-    Ball {
+    BallForces {
         friction,
         by_inner,
-        left: acceleration * mass - by_inner - by_outer,
-        flung: (acceleration * mass).norm(),
+        residual: acceleration * mass - by_inner - by_outer,
+        centrifugal_force: (acceleration * mass).norm(),
     }
 }
 
-fn each(mut visit: impl FnMut(Control, f64, &BallBearing, &[f64; 6], &Rotation)) {
-    // Thrust with some radial load and tilt: every ball keeps both contacts, more on the inner one than F_c.
+fn for_each_case(mut visit: impl FnMut(Control, f64, &BallBearing, &[f64; 6], &Rotation)) {
+    // Axial displacement with some radial displacement and tilt: every ball is in contact with both races,
+    // with an inner load above the centrifugal force.
     let d = [6e-6, -4e-6, 60e-6, 2e-4, -1e-4, 0.0];
     for control in [Control::Outer, Control::Inner] {
         for thrust in [1.0, -1.0] {
@@ -108,41 +112,46 @@ fn each(mut visit: impl FnMut(Control, f64, &BallBearing, &[f64; 6], &Rotation))
 }
 
 #[test]
-fn forces_on_a_ball_are_mass_times_acceleration() {
-    each(|control, thrust, bearing, d, rotation| {
+fn ball_loads_satisfy_newton_euler_equations() {
+    for_each_case(|control, thrust, bearing, d, rotation| {
         let element = BallElement::new(bearing);
         for ball in element.ball_loads(d, rotation) {
-            let hand = by_hand(bearing, &ball, control, rotation);
-            assert!(ball.load > hand.flung, "inner control is whole only above F_c: {ball:?}");
+            let forces = newton_euler(bearing, &ball, control, rotation);
+            assert!(ball.load > forces.centrifugal_force, "inner load below the centrifugal force: {ball:?}");
             assert!(ball.contact_angle * thrust > 0.1 && ball.outer_contact_angle * thrust > 0.1);
-            // The friction at stake is 2 N and more; what is left is round-off of loads of 1e3 N through angles.
-            assert!(hand.friction.norm() > 2.0, "{}", hand.friction);
-            let along = hand.left - V::new(0.0, hand.left[1], 0.0);
-            assert!(along.norm() < 1e-9, "{control:?} {thrust}: {} N left of {}", along.norm(), hand.flung);
+            // Friction exceeds 2 N; the residual is round-off of loads of 1e3 N through the contact angles.
+            assert!(forces.friction.norm() > 2.0, "{}", forces.friction);
+            let in_plane = forces.residual - V::new(0.0, forces.residual[1], 0.0);
+            assert!(
+                in_plane.norm() < 1e-9,
+                "{control:?} {thrust}: residual {} N of {}",
+                in_plane.norm(),
+                forces.centrifugal_force
+            );
         }
     });
 }
 
-/// What the ball does to the inner ring acts at their contact, a groove's radius from the groove's centre.
+/// The ball force on the inner ring acts at their contact, a groove radius from the groove centre.
 #[test]
-fn the_ring_takes_the_forces_at_its_contacts() {
-    each(|control, thrust, bearing, d, rotation| {
+fn inner_ring_reaction_is_sum_of_contact_forces() {
+    for_each_case(|control, thrust, bearing, d, rotation| {
         let element = BallElement::new(bearing);
-        let (mut force, mut moment, mut own, mut size) = (V::zeros(), V::zeros(), 0.0_f64, 0.0);
+        let (mut force, mut moment, mut friction_moment, mut size) = (V::zeros(), V::zeros(), 0.0_f64, 0.0);
         for ball in element.ball_loads(d, rotation) {
-            let hand = by_hand(bearing, &ball, control, rotation);
+            let forces = newton_euler(bearing, &ball, control, rotation);
             let (sin, cos) = ball.position.sin_cos();
-            let turned = |v: V| V::new(v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos, v[2]);
+            let to_fixed_axes = |v: V| V::new(v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos, v[2]);
             let from_groove = normal(ball.contact_angle) * -bearing.geometry.inner_groove_radius;
             let contact = V::new(bearing.geometry.inner_centre_radius(), 0.0, 0.0) + from_groove;
-            let on_ring = turned(-hand.by_inner);
+            let on_ring = to_fixed_axes(-forces.by_inner);
             force += on_ring;
-            moment += turned(contact).cross(&on_ring);
-            own = own.max(from_groove.cross(&hand.by_inner).norm());
-            size += hand.by_inner.norm();
+            moment += to_fixed_axes(contact).cross(&on_ring);
+            friction_moment = friction_moment.max(from_groove.cross(&forces.by_inner).norm());
+            size += forces.by_inner.norm();
         }
         let found = element.reaction(d, &[0.0; 6], rotation).force;
-        // Round-off of all loads together, at a lever of 20 mm.
+        // Round-off of the sum of all loads, moments with an arm of 20 mm.
         for k in 0..3 {
             let off = (found[k] - force[k]).abs();
             assert!(off < 1e-13 * size, "{control:?} {thrust} force {k}: {} {}", found[k], force[k]);
@@ -151,7 +160,7 @@ fn the_ring_takes_the_forces_at_its_contacts() {
             let off = (found[3 + k] - moment[k]).abs();
             assert!(off < 1e-14 * size, "{control:?} {thrust} moment {k}: {} {}", found[3 + k], moment[k]);
         }
-        // The load goes through the groove's centre; friction at the inner race does not.
-        assert_eq!(own > 5e-3, control == Control::Inner, "{own} N m");
+        // The line of action of the normal load passes through the groove centre, that of friction does not.
+        assert_eq!(friction_moment > 5e-3, control == Control::Inner, "{friction_moment} N m");
     });
 }

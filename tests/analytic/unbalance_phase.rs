@@ -1,4 +1,5 @@
-//! Where the high spot is: unbalances of different phases, at a steady speed and while it changes.
+//! Phase of the unbalance response (high spot and heavy spot): unbalances of different phase, at constant
+//! speed and in a run-up.
 
 use nalgebra::{Complex, Matrix2, Vector2};
 use rotordyn::model::study::{Integrator, RunUpStudy, UnbalanceStudy};
@@ -10,7 +11,7 @@ use std::ops::ControlFlow;
 
 type C = Complex<f64>;
 
-/// Solid cylinder of 4.8 kg, 0.55 m long and 40 mm thick, about its middle.
+/// Solid cylinder of 4.8 kg, 0.55 m long, 40 mm in diameter, centre of mass at z = 0.
 const ROTOR: &str = r#"
 [model]
 name = "phases"
@@ -50,12 +51,12 @@ cutoff = "1e6 Hz"
 const MASS: f64 = 4.8;
 const POLAR: f64 = MASS * 4e-4 / 2.0;
 const DIAMETRAL: f64 = MASS * (12e-4 + 0.3025) / 12.0;
-/// Bearings A and B: place \[m\], stiffness \[N/m\] and damping \[N s/m\], the same along x and y.
+/// Bearings A and B: position z \[m\], stiffness \[N/m\] and damping \[N s/m\], the same along x and y.
 const BEARINGS: [[f64; 3]; 2] = [[-0.2, 1e6, 300.0], [0.22, 1.6e6, 400.0]];
-/// Unbalances: place \[m\], magnitude \[kg m\], phase \[°\].
+/// Unbalances: position z \[m\], magnitude \[kg m\], phase \[°\].
 const UNBALANCES: [[f64; 3]; 2] = [[-0.12, 1e-4, 30.0], [0.18, 7e-5, 110.0]];
 
-/// R(z) in u_x + j u_y = R e^{jΩt} at a place, from Newton's and Euler's law for u_x + j u_y = r + z β:
+/// Complex amplitude R(z) = r + z β of u_x + j u_y = R e^{jΩt}, from the Newton-Euler equations:
 /// (Σ k + jΩ Σ c − m Ω²) r + (Σ k z + jΩ Σ c z) β = Σ U Ω² e^{jϕ} and
 /// (Σ k z + jΩ Σ c z) r + (Σ k z² + jΩ Σ c z² + (I_p − I_d) Ω²) β = Σ z U Ω² e^{jϕ}.
 fn closed_form(speed: f64) -> impl Fn(f64) -> C {
@@ -68,10 +69,10 @@ fn closed_form(speed: f64) -> impl Fn(f64) -> C {
         sum(1),
         sum(2) + C::from((POLAR - DIAMETRAL) * square),
     );
-    let push = |power: i32| -> C {
+    let excitation = |power: i32| -> C {
         UNBALANCES.iter().map(|[z, u, deg]| C::from_polar(u * square * z.powi(power), deg * PI / 180.0)).sum()
     };
-    let found = matrix.try_inverse().unwrap() * Vector2::new(push(0), push(1));
+    let found = matrix.try_inverse().unwrap() * Vector2::new(excitation(0), excitation(1));
     move |z| found[0] + found[1] * z
 }
 
@@ -89,7 +90,7 @@ fn machine(more: &str) -> Machine {
         .unwrap()
 }
 
-fn on_bearings(speed: f64) -> Machine {
+fn machine_on_bearings(speed: f64) -> Machine {
     let bearings: String = ["A", "B"]
         .iter()
         .zip(BEARINGS)
@@ -105,18 +106,19 @@ fn on_bearings(speed: f64) -> Machine {
     ))
 }
 
-/// Below, between and far above the resonances; each run starts at rest, and 0.5 s leave e⁻²⁵ of its start.
+/// Below, between and far above the resonances; runs start at rest, and in 0.5 s the transient decays to
+/// e⁻²⁵.
 #[test]
-fn high_spots_of_two_unbalances() {
+fn unbalance_response_phase_of_two_unbalances() {
     for speed in [150.0, 800.0, 2500.0] {
-        let machine = on_bearings(speed);
+        let machine = machine_on_bearings(speed);
         let at = closed_form(speed);
         let [left, right] = [at(-0.12), at(0.18)];
 
         let responses = machine.model.probes.clone();
         let linear = machine.unbalance(&UnbalanceStudy { speeds: vec![speed], responses }).unwrap();
-        let x_leads = C::new(0.0, -1.0);
-        let expected = [left, left * x_leads, right, right * x_leads];
+        let y_from_x = C::new(0.0, -1.0);
+        let expected = [left, left * y_from_x, right, right * y_from_x];
         for (channel, expected) in linear.channels.iter().zip(expected) {
             let [re, im] = channel.amplitude[0];
             let off = (C::new(re, im) - expected).norm();
@@ -125,7 +127,8 @@ fn high_spots_of_two_unbalances() {
         }
 
         for integrator in [Integrator::RungeKutta4, Integrator::Newmark] {
-            // Newmark's resonances, up to 900 rad/s, are off by (ω h)²/12, near which the response changes by many times that.
+            // Newmark shifts the resonances, up to 900 rad/s, by (ω h)²/12; near resonance the response
+            // changes by many times that.
             let tolerance = match integrator {
                 Integrator::Newmark => 10.0 * (20e-6 * speed.max(900.0)).powi(2),
                 _ => 1e-6,
@@ -135,13 +138,13 @@ fn high_spots_of_two_unbalances() {
             let mut compared = 0;
             let report = machine.run_up(&study, &reduction, |sample| {
                 if sample.state.time > 0.5 {
-                    let turned = C::from_polar(1.0, sample.state.spin.angle);
-                    let seen = |k: usize| C::new(sample.channels[2 * k], sample.channels[2 * k + 1]);
+                    let rotation = C::from_polar(1.0, sample.state.spin.angle);
+                    let computed = |k: usize| C::new(sample.channels[2 * k], sample.channels[2 * k + 1]);
                     for (k, expected) in [left, right].into_iter().enumerate() {
-                        let off = (seen(k) - expected * turned).norm();
+                        let off = (computed(k) - expected * rotation).norm();
                         assert!(
                             off < tolerance * expected.norm(),
-                            "{integrator:?} at {speed}: {k} off by {off}"
+                            "{integrator:?} at {speed}: {k} error {off}"
                         );
                     }
                     compared += 1;
@@ -150,17 +153,20 @@ fn high_spots_of_two_unbalances() {
             });
             assert_eq!((report.end, compared > 400), (End::Complete, true));
         }
-        // Far below resonance the high spot is near the heavy spots, far above it opposite.
-        let heavy: C = UNBALANCES.iter().map(|[_, u, deg]| C::from_polar(*u, deg * PI / 180.0)).sum();
-        let behind = (at(0.0) / heavy).arg().abs();
-        assert!(if speed < 200.0 { behind < 0.2 } else { speed < 2000.0 || behind > 2.8 }, "{behind}");
+        // Far below resonance the high spot is near the heavy spot, far above it opposite.
+        let heavy_spot: C = UNBALANCES.iter().map(|[_, u, deg]| C::from_polar(*u, deg * PI / 180.0)).sum();
+        let phase_lag = (at(0.0) / heavy_spot).arg().abs();
+        assert!(
+            if speed < 200.0 { phase_lag < 0.2 } else { speed < 2000.0 || phase_lag > 2.8 },
+            "{phase_lag}"
+        );
     }
 }
 
-/// A rotor that nothing holds: its centre of mass with the unbalance's mass stays where it is, whatever the speed does:
-/// m r + U e^{j(θ + ϕ)} keeps its start, r = −(U/m) (e^{j(θ + ϕ)} − e^{jϕ}) from rest.
+/// Free rotor without supports: the centre of mass of rotor and unbalance stays at rest at any speed and
+/// acceleration: m r + U e^{j(θ + ϕ)} is constant, r = −(U/m) (e^{j(θ + ϕ)} − e^{jϕ}) from rest.
 #[test]
-fn a_free_rotor_speeds_up_about_its_centre_of_mass() {
+fn run_up_of_free_rotor_about_its_centre_of_mass() {
     let machine = machine(
         "[unbalance.middle]\nstation = \"C\"\nmagnitude = \"100 g mm\"\nphase = \"40 deg\"\n\
          [speed]\nprofile = \"ramp\"\nfrom = \"0 rad/s\"\nramp = \"0.3 s\"\nto = \"300 rad/s\"\n",
@@ -175,14 +181,15 @@ fn a_free_rotor_speeds_up_about_its_centre_of_mass() {
         let angle = sample.state.spin.angle + start;
         let expected = -(C::from_polar(arm, angle) - C::from_polar(arm, start));
         for k in [0, 2] {
-            let seen = C::new(sample.channels[k], sample.channels[k + 1]);
-            worst = worst.max((seen - expected).norm());
-            farthest = farthest.max(seen.norm());
+            let computed = C::new(sample.channels[k], sample.channels[k + 1]);
+            worst = worst.max((computed - expected).norm());
+            farthest = farthest.max(computed.norm());
         }
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    // (Ω h)⁴ of the integrator at the top speed, over 7 turns; the angle's own acceleration counts for a part in ten.
+    // Integration error (Ω h)⁴ at the maximum speed over 7 revolutions, a tenth of it from the angular
+    // acceleration.
     assert!(worst < 1e-7 * arm, "{worst} of {arm}");
     assert!(farthest > 1.99 * arm, "{farthest} of {arm}");
 }

@@ -1,4 +1,5 @@
-//! Modes followed over speed: a pair of one frequency is one plane of shapes, whichever two of them a solver gives.
+//! Mode tracking over speed: modes of a double eigenvalue span one subspace, in whichever basis the solver
+//! returns it.
 
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::ModeKind;
@@ -7,10 +8,11 @@ use rotordyn::assembly::Assembly;
 use rotordyn::element::{Anchor, Joint};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// At rest an axisymmetric rotor has pairs in planes, beside it whirls: each whirl is half of either plane's mode, but
-/// the plane of shapes stays the same, and nothing is in doubt that would call for speeds in between.
+/// An axisymmetric rotor has pairs of planar modes at standstill and whirl modes at speed: each whirl mode
+/// has MAC ½ with either planar mode, but the subspace is the same, so that no intermediate speeds are
+/// needed.
 #[test]
-fn planes_go_over_into_whirls_without_doubt() {
+fn planar_modes_link_to_whirl_modes_without_intermediate_speeds() {
     let mut model = shaft(vec![element(0.1, 0.03, 0.03); 8]);
     model.discs.push(disc(3, 10.0, 0.08, 0.05));
     for (node, axial) in [(0, true), (8, false)] {
@@ -27,9 +29,13 @@ fn planes_go_over_into_whirls_without_doubt() {
         let diagram = campbell(&assembly, &speeds, 2, &tangents).unwrap();
         assert_eq!(calls.load(Ordering::Relaxed), speeds.len(), "{speeds:?}");
         for branch in &diagram.branches {
-            assert!(branch.modes.iter().all(Option::is_some), "{} is lost", branch.label);
+            assert!(
+                branch.modes.iter().all(Option::is_some),
+                "branch {} not tracked at every speed",
+                branch.label
+            );
         }
-        // Every branch goes its own way: one forward and one backward.
+        // One branch is forward whirl, the other backward.
         if speeds[speeds.len() - 1] > 0.0 {
             let kinds: Vec<ModeKind> = diagram.branches.iter().map(|b| b.kind).collect();
             assert!(kinds.contains(&ModeKind::Forward) && kinds.contains(&ModeKind::Backward), "{kinds:?}");
