@@ -216,11 +216,11 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
 }
 
 fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
-    let told = &found.identifiability;
-    let rows: Vec<Vec<String>> = told
+    let identifiability = &found.identifiability;
+    let rows: Vec<Vec<String>> = identifiability
         .singular_values
         .iter()
-        .zip(&told.directions)
+        .zip(&identifiability.directions)
         .map(|(sigma, direction)| {
             let mut parts: Vec<(f64, &str)> =
                 direction.iter().zip(parameters).map(|(v, p)| (*v, p.name.as_str())).collect();
@@ -272,8 +272,8 @@ fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &U
             );
         }
     }
-    let told = &found.identifiability;
-    let misfit = told.chi_squared / told.degrees_of_freedom.max(1.0);
+    let identifiability = &found.identifiability;
+    let misfit = identifiability.chi_squared / identifiability.degrees_of_freedom.max(1.0);
     if misfit > LACK_OF_FIT_LIMIT {
         terminal.print_diagnostic(
             "warning",

@@ -5,7 +5,16 @@ mod bearing;
 #[path = "../common/machine.rs"]
 mod machine;
 
+mod belt;
+mod cage;
+mod effective_mass;
 mod fits;
 mod hertz;
+mod hunt_crossley;
+mod kinematics;
+mod precession;
+mod responses;
 mod rigid_rotor;
+mod rolling_ball;
 mod shaft_limits;
+mod unbalance_phase;

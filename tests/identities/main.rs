@@ -13,3 +13,4 @@ mod linear;
 mod planes;
 mod sensitivity;
 mod speed_dependent_bearings;
+mod tracking;

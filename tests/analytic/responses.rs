@@ -1,0 +1,199 @@
+//! Closed-form responses of one mass: FRF, step response, self-excited whirl (internal damping); axes of
+//! elliptic orbits.
+
+use crate::machine::{disc, element, shaft};
+use nalgebra::Complex;
+use rotordyn::analysis::frf::frf;
+use rotordyn::analysis::unbalance::Orbit;
+use rotordyn::contact::Lubricant;
+use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
+use rotordyn::model::study::{Integrator, RunUpStudy};
+use rotordyn::model::{Load, Options, Probe, Quantity, SpeedProfile, load};
+use rotordyn::study::Machine;
+use rotordyn::transient::run::End;
+use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
+
+type C = Complex<f64>;
+
+/// x + jy = e^{jγ} (a cos τ + j b sin τ), τ = Ωt + ϕ: semi-axis a along γ, and a quarter revolution later b
+/// across it.
+#[test]
+fn axes_and_inclination_of_elliptic_orbit() {
+    for (a, b, inclination, phase) in [(3.0, 1.0, 0.5, 0.9), (3.0, -1.0, 0.5, 0.9), (2.0, 1.9, -1.2, 2.0)] {
+        let phasor = C::from_polar(1.0, phase);
+        let (sin, cos) = f64::sin_cos(inclination);
+        // Re(j e^{jτ}) = −sin τ.
+        let x = C::new(a * cos, b * sin) * phasor;
+        let y = C::new(a * sin, -b * cos) * phasor;
+        let orbit = Orbit::new(x, y);
+        assert!((orbit.major - a).abs() < 1e-14 && (orbit.minor - b).abs() < 1e-14, "{orbit:?}");
+        let off = (orbit.inclination - inclination).rem_euclid(PI);
+        assert!(off.min(PI - off) < 1e-14, "{orbit:?}");
+        assert!(orbit.whirl * b > 0.0);
+    }
+}
+
+/// Dowson and Higginson's oil, 1 + 0.34 p/(5.9e8 + p): 193/159 at 1 GPa.
+#[test]
+fn dowson_higginson_density_ratio() {
+    let oil = Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2e-8, density: 870.0 };
+    assert!((oil.density_ratio(1e9) - 193.0 / 159.0).abs() < 1e-14);
+    assert_eq!(oil.density_ratio(0.0), 1.0);
+}
+
+/// 4.8 kg midway between two springs of 1e6 N/m.
+fn mass_on_springs(more: &str) -> Machine {
+    let text = format!(
+        r#"
+        [model]
+        name = "mass"
+        gravity = "0 m/s^2"
+        [rotor]
+        length = "0.55 m"
+        outer_diameter = "40 mm"
+        mass = "4.8 kg"
+        centre = "0 m"
+        [station]
+        A = "-0.2 m"
+        C = "0 m"
+        B = "0.2 m"
+        [bearing.A]
+        model = "linear"
+        station = "A"
+        k_xx = "1e6 N/m"
+        k_yy = "1e6 N/m"
+        k_zz = "1e6 N/m"
+        DAMPING
+        [bearing.B]
+        model = "linear"
+        station = "B"
+        k_xx = "1e6 N/m"
+        k_yy = "1e6 N/m"
+        DAMPING
+        [drive]
+        kind = "prescribed"
+        station = "A"
+        [speed]
+        profile = "constant"
+        speed = "0 rad/s"
+        duration = "0.1 s"
+        [probe.x]
+        at = "C"
+        direction = "x"
+        [study.run_up]
+        step = "20 us"
+        sample_rate = "5 kHz"
+        cutoff = "1e6 Hz"
+        {more}
+        "#
+    );
+    let damping = if more.is_empty() { "c_xx = \"300 N s/m\"" } else { "" };
+    let text = text.replace("DAMPING", damping);
+    Machine::new(load("mass.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model)
+        .unwrap()
+}
+
+/// (jω)^p/(k − m ω² + jω c), p = 0, 1, 2: velocity leads displacement by 90°.
+#[test]
+fn receptance_mobility_and_accelerance() {
+    let machine = mass_on_springs("");
+    let probe = &machine.model.probes[0];
+    let row = [machine.assembly.direction_row(&probe.at, &probe.direction)];
+    let system = machine.linear_system(0.0).unwrap();
+    for (power, quantity) in
+        [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].iter().enumerate()
+    {
+        let hz = [20.0, 100.0, 102.7, 300.0];
+        let found = frf(&machine.assembly, &system, &hz, &row, &row, *quantity).unwrap();
+        for (hz, value) in hz.iter().zip(&found.values[0][0]) {
+            let w = TAU * hz;
+            let expected = C::new(0.0, w).powu(power as u32) / C::new(2e6 - 4.8 * w * w, 600.0 * w);
+            let off = C::new(value.re, value.im) - expected;
+            assert!(off.norm() < 1e-12 * expected.norm(), "{quantity:?} at {hz} Hz: {value} {expected}");
+        }
+    }
+}
+
+/// Step response with given modal damping: x = (F/k) (1 − e^{−ζωt} (cos ω_d t + ζω/ω_d sin ω_d t)).
+#[test]
+fn step_response_with_modal_damping() {
+    let more = "[damping.modal]\nfrequency = \"50 Hz\"\nratio = 0.05\n[load.step]\nat = \"C\"\nforce = \"100, 0, 0 N\"\n\
+                time = \"0, 10 s\"\nfactor = [1, 1]\n";
+    let machine = mass_on_springs(more);
+    let study =
+        RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
+    let reduction = machine.reduce(&study).unwrap();
+    let (omega, zeta) = (f64::sqrt(2e6 / 4.8), 0.05_f64);
+    let damped = omega * (1.0 - zeta * zeta).sqrt();
+    let mut worst = 0.0_f64;
+    let report = machine.run_up(&study, &reduction, |sample| {
+        let t = sample.state.time;
+        let (sin, cos) = (damped * t).sin_cos();
+        let expected = 5e-5 * (1.0 - (-zeta * omega * t).exp() * (cos + zeta * omega / damped * sin));
+        worst = worst.max((sample.channels[0] - expected).abs());
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    // Integration error at most (ω h)⁴ = 3e-8.
+    assert!(worst < 1e-7 * 5e-5, "{worst}");
+}
+
+/// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,
+/// z = u_x + j u_y, c_i = η k. From rest z = z∞ (1 + (s₂ e^{s₁t} − s₁ e^{s₂t})/(s₁ − s₂)),
+/// z∞ = F/(k − jΩ c_i), s₁ and s₂ the roots. Far above the stability threshold speed the forward whirl grows.
+#[test]
+fn unstable_forward_whirl_due_to_internal_damping() {
+    let (eta, external, mass, speed, force) = (4e-4, 20.0, 10.0, 500.0, 30.0);
+    let mut light = element(0.1, 0.02, 0.02);
+    light.material.density = 1e-3;
+    light.shear = ShearCoefficient::Rigid;
+    light.internal_viscous = eta;
+    let mut model = shaft(vec![light; 8]);
+    model.gravity = [0.0; 3];
+    model.discs.push(disc(4, mass, 1e-6, 1e-6));
+    for (node, axial) in [(0, true), (8, false)] {
+        let locked = [true, true, axial, false, false, axial];
+        model.joints.push(Joint { name: "pin".into(), a: Anchor::node(node), b: Anchor::GROUND, locked });
+    }
+    let mut damping = [[0.0; 6]; 6];
+    (damping[0][0], damping[1][1]) = (external, external);
+    let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
+    model.bushings.push(Bushing { name: "external_damper".into(), a, b, stiffness, damping });
+    let history = vec![[0.0, 1.0], [10.0, 1.0]];
+    model.loads.push(Load { name: "step".into(), at: a, force: [force, 0.0, 0.0, 0.0, 0.0, 0.0], history });
+    for k in 0..2 {
+        let mut direction = [0.0; 6];
+        direction[k] = 1.0;
+        model.probes.push(Probe { name: format!("{k}"), at: a, direction, quantity: Quantity::Displacement });
+    }
+    model.profile = SpeedProfile::Constant { speed, duration: 0.4 };
+    let machine = Machine::new(model).unwrap();
+    let study = RunUpStudy {
+        integrator: Integrator::Newmark,
+        step: 2e-5,
+        sample_rate: 1000.0,
+        cutoff: 100.0,
+        from_equilibrium: true,
+    };
+    let reduction = machine.reduce(&study).unwrap();
+
+    let spring = 48.0 * 2.1e11 * PI / 64.0 * 0.02f64.powi(4) / 0.8f64.powi(3);
+    let (damping, stiffness) = (external + eta * spring, C::new(spring, -speed * eta * spring));
+    let root = (C::from(damping * damping) - stiffness * (4.0 * mass)).sqrt();
+    let (s1, s2) = ((root - damping) / (2.0 * mass), (-root - damping) / (2.0 * mass));
+    assert!(s1.re.max(s2.re) > 5.0, "{s1} {s2}");
+    let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        let t = sample.state.time;
+        let transient = (s2 * (s1 * t).exp() - s1 * (s2 * t).exp()) / (s1 - s2);
+        let expected = C::from(force) / stiffness * (transient + 1.0);
+        let computed = C::new(sample.channels[0], sample.channels[1]);
+        worst = worst.max((computed - expected).norm());
+        farthest = farthest.max(expected.norm());
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    // Newmark period error (ω h)²/12 times 50 rad: 3e-5; rotary inertia of disc and shaft: 1e-6.
+    assert!(worst < 3e-4 * farthest, "{worst} of {farthest}");
+}
