@@ -61,7 +61,7 @@ fn signal(path: &Path, out: &Path, flags: &[&str]) -> Value {
 /// Records of Case Western Reserve University: diagnosis, fault frequencies and statistics as in their description.
 #[test]
 fn measured_race_faults_are_diagnosed() {
-    for (file, verdict, line, hz, rms, kurtosis) in [
+    for (file, diagnosis, line, hz, rms, kurtosis) in [
         ("cwru/105_IR007_0hp_12k.mat", "inner race", "BPFI", 161.68, 0.29153, 5.396),
         ("cwru/130_OR007at6_0hp_12k.mat", "outer race", "BPFO", 107.65, 0.66951, 7.649),
     ] {
@@ -83,7 +83,7 @@ fn measured_race_faults_are_diagnosed() {
             assert!((number(&channel["statistics"]["rms"]) - rms).abs() < 5e-6, "{file}");
             assert!((number(&channel["statistics"]["kurtosis"]) - kurtosis).abs() < 5e-4, "{file}");
             let envelope = &channel["envelope"];
-            assert_eq!(envelope["diagnosis"], verdict, "{file} {band:?}");
+            assert_eq!(envelope["diagnosis"], diagnosis, "{file} {band:?}");
             let strongest = &envelope["strongest"];
             assert_eq!(strongest["line"], line, "{file} {band:?}");
             // Within 0.5 % of the catalogue, and equal to the description to the printed digit.
@@ -389,7 +389,7 @@ fn race_defects_are_located_from_the_jerk() {
 /// Simulation of the measured rig: the same diagnosis, both envelope spectra in one figure.
 #[test]
 fn simulated_rig_gives_the_measured_diagnosis() {
-    for (variant, verdict, line, file) in [
+    for (variant, diagnosis, line, file) in [
         ("inner_race", "inner race", "BPFI", "cwru/105_IR007_0hp_12k.mat"),
         ("outer_race", "outer race", "BPFO", "cwru/130_OR007at6_0hp_12k.mat"),
     ] {
@@ -413,14 +413,14 @@ fn simulated_rig_gives_the_measured_diagnosis() {
         }
         let document = signal(folder.path(), folder.path(), &flags);
         let envelope = &document["channels"][0]["envelope"];
-        assert_eq!(envelope["diagnosis"], verdict, "{variant}");
+        assert_eq!(envelope["diagnosis"], diagnosis, "{variant}");
         let strongest = &envelope["strongest"];
         assert_eq!(strongest["line"], line, "{variant}");
         // Cage speed as measured, 0.35 % off the kinematic rates of the geometry.
         let off = number(&strongest["measured"]) / number(&strongest["expected"]) - 1.0;
         assert!(off.abs() < 5e-3, "{variant}: {off}");
         if let Some(path) = &measured {
-            assert_eq!(document["compared_record"]["envelope"]["diagnosis"], verdict, "{variant}");
+            assert_eq!(document["compared_record"]["envelope"]["diagnosis"], diagnosis, "{variant}");
             let other = document_channel(path);
             assert!(folder.path().join(format!("signal_envelope_DE_vs_{other}.png")).exists());
         }

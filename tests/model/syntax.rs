@@ -273,7 +273,7 @@ fn floating_shaft_is_a_warning() {
     let text = HEAD.split("[bearing.A]").next().unwrap();
     let loaded = model::load("test.toml", text, &Options::default()).unwrap();
     assert_eq!(loaded.warnings.len(), 1);
-    assert!(loaded.warnings[0].message.contains("floats"));
+    assert!(loaded.warnings[0].message.contains("free-free"));
 }
 
 #[test]

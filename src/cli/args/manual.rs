@@ -20,7 +20,7 @@ Examples:
   rotordyn identify frfs.uff --band \"5 .. 180 Hz\"             modes from measured FRFs
   rotordyn catalogue 6205
 
-Values are written with units: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A number without its unit is an error.
+Units: values are written with their unit: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A bare number is an error.
 
 Results go to out/NAME/ (out/NAME_VARIANT/ for a variant): results.h5 (HDF5, opens with h5py) and every figure as SVG \
 and PNG. Tables go to standard output; progress, warnings and errors to standard error.
