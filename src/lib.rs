@@ -78,10 +78,10 @@
 //! let reduction = machine.reduce(&settings)?;
 //! let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
 //! let report = machine.run_up(&settings, &reduction, |sample| {
-//!     recorder.take(sample);
+//!     recorder.record(sample);
 //!     ControlFlow::Continue(())
 //! });
-//! assert!(report.energy.residual().abs() < 1e-3 * report.energy.turnover());
+//! assert!(report.energy.residual().abs() < 1e-3 * report.energy.exchanged());
 //!
 //! // Order tracking of a recorded channel.
 //! let orders = study::OrderStudy {

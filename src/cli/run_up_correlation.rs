@@ -68,7 +68,7 @@ pub fn read(
         Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
         other => other,
     };
-    std::mem::take(&mut findings).into_result().map_err(named)?;
+    std::mem::take(&mut findings).to_result().map_err(named)?;
     if !shaft.is_known() {
         return Ok(Err("the speed of the shaft is not known: give --tacho CHANNEL, or --track \
              1=\"5 Hz .. 50 Hz\"; a channel `speed` needs its unit, such as [channel.speed] unit = \"rpm\" in the \
@@ -98,7 +98,7 @@ pub fn read(
     for (_, channel) in &mut channels {
         cut_time_range(channel, args.time.as_deref(), "--time", &mut findings);
     }
-    findings.into_result().map_err(named)?;
+    findings.to_result().map_err(named)?;
     let first = &channels[0].1;
     let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
     let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {

@@ -3,15 +3,16 @@
 //! | module | contents |
 //! |---|---|
 //! | [`sparse`] | [`Triplets`] for assembly, [`SparseMatrix`] (compressed columns, CSC), [`SparseRow`] |
-//! | [`band`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
-//! | [`banded`] | the banded [`BandMatrix`] in natural order |
-//! | [`fft_length`](mod@fft_length) | lengths that a fast Fourier transform is quick at |
+//! | [`band_lu`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
+//! | [`band_matrix`] | the banded [`BandMatrix`] in natural order |
+//! | [`fft_length`](mod@fft_length) | efficient lengths for fast Fourier transforms |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
+//! | [`dot`](mod@dot), [`piecewise`](mod@piecewise) | scalar products; piecewise-linear tables |
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
-//! | [`small`] | small dense linear systems |
+//! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 
 pub mod band_lu;

@@ -43,7 +43,7 @@ impl Loaded {
     }
 }
 
-/// Span of an item's definition in the text of a model file, see [`Loaded::place_of`].
+/// Span of an item's definition in the text of a model file, see [`Loaded::item_span`].
 pub fn item_span(text: &str, path: &[&str]) -> Range<usize> {
     let root = Table::parse(text, 0).unwrap_or_default();
     let variants = match root.get("variant").map(|e| &e.node.value) {
@@ -99,7 +99,7 @@ pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loa
     load_with(name, text, options, &[])
 }
 
-/// [`load`] with the external data files that the model refers to (see [`side_files`]).
+/// [`load`] with the external data files that the model refers to (see [`external_files`]).
 ///
 /// # Errors
 /// As [`load`]; a missing data file or unsuitable columns in it.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`target`] | measured points and modes mapped to the model |
 //! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
-//! | `double` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
+//! | `repeated` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
 //! | [`state`] | the model's modes at the measured points, paired |
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
 //! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |

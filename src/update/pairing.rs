@@ -41,7 +41,7 @@ pub fn pair_score(mac: f64, computed_hz: f64, measured_hz: f64) -> f64 {
     if near && mac >= MIN_MAC { mac * (-0.5 * (apart / FREQUENCY_SPREAD).powi(2)).exp() } else { 0.0 }
 }
 
-/// Optimal pairing: the assignment with the largest sum of [`likeness`]; modes of zero score are not paired.
+/// Optimal pairing: the assignment with the largest sum of [`pair_score`]; modes of zero score are not paired.
 pub fn pair_modes(measured: &[Candidate], computed: &[Candidate]) -> Pairing {
     let measured_shapes: Vec<&[Complex64]> = measured.iter().map(|c| c.shape).collect();
     let computed_shapes: Vec<&[Complex64]> = computed.iter().map(|c| c.shape).collect();

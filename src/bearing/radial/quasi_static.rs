@@ -14,7 +14,7 @@ impl RadialElement {
     ///
     /// Stiffness by static condensation, K_dd − K_dy K_yy⁻¹ K_yd; damping of slow motions, with the balls
     /// following quasi-statically, y = S d, S = −K_yy⁻¹ K_yd: C_dd + C_dy S + Sᵀ C_yd + Sᵀ C_yy S. The
-    /// housing also carries the balls' weight and centrifugal force ([`Reaction::carried`]). A ball without
+    /// housing also carries the balls' weight and centrifugal force ([`Reaction::housing_force`]). A ball without
     /// contact does not contribute.
     ///
     /// `d`, `v`: displacement and velocity of the shaft relative to the housing; only x and y are used.

@@ -45,7 +45,7 @@ pub fn second_record(
         (None, None, Some(s)) => ShaftSource::Steady(s.mean, "as in the first record".into()),
         (None, None, None) => ShaftSource::Unknown,
     };
-    findings.into_result().map_err(of_file)?;
+    findings.to_result().map_err(of_file)?;
     warnings.extend(findings.warnings);
     let settings =
         SignalSettings { analyses: AnalysisSelection::Only(vec![Analysis::Envelope]), ..settings.clone() };

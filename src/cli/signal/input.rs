@@ -81,7 +81,7 @@ impl InputProblems {
     }
 
     /// Returns all problems as one error.
-    pub fn into_result(&self) -> Result<(), Failure> {
+    pub fn to_result(&self) -> Result<(), Failure> {
         match self.problems.as_slice() {
             [] => Ok(()),
             [one] => Err(Failure::Input(one.clone())),

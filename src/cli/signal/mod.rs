@@ -64,7 +64,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
              --tacho CHANNEL or --track 1=\"5 Hz .. 50 Hz\"",
         );
     }
-    findings.into_result()?;
+    findings.to_result()?;
 
     let spinner = terminal.spinner("signal");
     let results: Result<Vec<SignalResult>, Failure> =

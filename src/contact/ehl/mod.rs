@@ -101,7 +101,7 @@ const MIN_RESOLVED_LENGTH: f64 = 0.08;
 /// `start`: initial guess from a nearby solution (other load, speed or grid), instead of a coarse grid.
 ///
 /// # Errors
-/// [`Failure::Input`] for invalid input values; [`Failure::NoConvergence`] with the last fields.
+/// [`EhlError::Input`] for invalid input values; [`EhlError::NoConvergence`] with the last fields.
 ///
 /// Validity: fully flooded inlet, Newtonian fluid, isothermal, half-spaces. Source: Venner & Lubrecht 2000.
 pub fn solve(problem: &Problem, start: Option<&Solution>) -> Result<Solution, EhlError> {

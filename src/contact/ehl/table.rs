@@ -72,7 +72,7 @@ impl TableSpec {
     /// threads. `progress(done, total)` is called after every contact, from any thread.
     ///
     /// # Errors
-    /// [`Failure::Input`] for loads or speeds that are not positive and increasing; else the first contact in
+    /// [`EhlError::Input`] for loads or speeds that are not positive and increasing; else the first contact in
     /// table order that does not converge.
     pub fn compute(&self, progress: impl Fn(usize, usize) + Sync) -> Result<Table, EhlError> {
         for (quantity, values) in [("first load", &self.loads), ("first entrainment speed", &self.speeds)] {

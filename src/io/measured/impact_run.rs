@@ -25,10 +25,10 @@ pub fn impact_frfs(store: &Store) -> Result<Option<MeasuredData>, Error> {
     impact_frfs_windowed(store, ImpactWindows::default())
 }
 
-/// As [`frfs`], with a force window and an exponential window.
+/// As [`impact_frfs`], with a force window and an exponential window.
 ///
 /// # Errors
-/// As [`frfs`].
+/// As [`impact_frfs`].
 pub fn impact_frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<MeasuredData>, Error> {
     if !store.contains("/time/t") {
         return Ok(None);
