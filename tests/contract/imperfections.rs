@@ -255,3 +255,41 @@ fn ball_defect_passes_each_race_once_per_spin_revolution() {
         }
     }
 }
+
+/// At rest the reaction is the sum of the ball loads along their contact lines, and the mean cosine is weighted by load.
+#[test]
+fn reaction_at_rest_is_the_sum_of_ball_loads() {
+    let mut random = Random(31);
+    let mut negative = 0;
+    for_each_with_imperfections(|name, bearing| {
+        let (d, _, rotation) = sample(&mut random);
+        let rotation = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..rotation };
+        let element = BallElement::new(bearing);
+        let reaction = element.reaction(&d, &[0.0; 6], &rotation);
+        let loads = element.ball_loads(&d, &rotation);
+        let sum = |part: &dyn Fn(f64, f64) -> f64| -> f64 {
+            loads.iter().map(|b| b.load * part(b.contact_angle, b.position)).sum()
+        };
+        let force = [
+            -sum(&|alpha, psi| alpha.cos() * psi.cos()),
+            -sum(&|alpha, psi| alpha.cos() * psi.sin()),
+            -sum(&|alpha, _| alpha.sin()),
+        ];
+        let scale: f64 = loads.iter().map(|b| b.load.abs()).sum::<f64>().max(1e-3);
+        negative += usize::from(loads.iter().any(|b| b.load < 0.0));
+        for (k, expected) in force.into_iter().enumerate() {
+            // Round-off of a sum over up to 18 balls.
+            assert!(
+                (reaction.force[k] - expected).abs() < 1e-12 * scale,
+                "{name} {k}: {reaction:?} {force:?}"
+            );
+        }
+        let total = sum(&|_, _| 1.0);
+        if total > 1e-3 * scale {
+            let mean = sum(&|alpha, _| alpha.cos()) / total;
+            assert!((reaction.mean_cos - mean).abs() < 1e-12 * scale / total, "{name}: {mean}");
+        }
+    });
+    // The published force law lets unloaded balls pull.
+    assert!(negative > 10, "{negative}");
+}
