@@ -44,6 +44,10 @@ fn dowson_higginson_density_ratio() {
 
 /// 4.8 kg midway between two springs of 1e6 N/m.
 fn mass_on_springs(more: &str) -> Machine {
+    mass_on_springs_with(more, None)
+}
+
+fn mass_on_springs_with(more: &str, variant: Option<&str>) -> Machine {
     let text = format!(
         r#"
         [model]
@@ -90,8 +94,8 @@ fn mass_on_springs(more: &str) -> Machine {
     );
     let damping = if more.is_empty() { "c_xx = \"300 N s/m\"" } else { "" };
     let text = text.replace("DAMPING", damping);
-    Machine::new(load("mass.toml", &text, &Options::default()).unwrap_or_else(|e| panic!("{e:?}")).model)
-        .unwrap()
+    let options = Options { variant: variant.map(String::from), ..Options::default() };
+    Machine::new(load("mass.toml", &text, &options).unwrap_or_else(|e| panic!("{e:?}")).model).unwrap()
 }
 
 /// (jω)^p/(k − m ω² + jω c), p = 0, 1, 2: velocity leads displacement by 90°.
@@ -137,6 +141,28 @@ fn step_response_with_modal_damping() {
     assert_eq!(report.end, End::Complete);
     // Integration error at most (ω h)⁴ = 3e-8.
     assert!(worst < 1e-7 * 5e-5, "{worst}");
+}
+
+/// Negative stiffness, as of a magnetic pull: x = F/(m a²) (cosh at − 1) with a² = −k/m. K is indefinite, so the
+/// static correction modes of the reduction are computed with a mass shift.
+#[test]
+fn growth_on_negative_stiffness() {
+    let more = "[load.step]\nat = \"C\"\nforce = \"1, 0, 0 N\"\ntime = \"0, 10 s\"\nfactor = [1, 1]\n\
+                [variant.pull]\nbearing.A.k_xx = \"-60 N/m\"\nbearing.B.k_xx = \"-60 N/m\"\n";
+    let machine = mass_on_springs_with(more, Some("pull"));
+    let study =
+        RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
+    let reduction = machine.reduce(&study).unwrap();
+    let rate = f64::sqrt(120.0 / 4.8);
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        let expected = ((rate * sample.state.time).cosh() - 1.0) / 120.0;
+        worst = worst.max((sample.channels[0] - expected).abs());
+        largest = largest.max(expected);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    assert!(worst < 1e-9 * largest, "{worst} of {largest}");
 }
 
 /// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,

@@ -2,7 +2,9 @@
 
 use rotordyn::bearing::{BallBearing, BallInertia, Bearing, Preload};
 use rotordyn::contact::ContactLaw;
+use rotordyn::model::study::ModalStudy;
 use rotordyn::model::{self, Model, Options};
+use rotordyn::study::Machine;
 
 const BAL: &str = include_str!("../../models/bal_2022.toml");
 const ZHANG: &str = include_str!("../../models/zhang_2016.toml");
@@ -79,4 +81,21 @@ fn zhang_2016() {
     assert_eq!((lubricant.viscosity, lubricant.pressure_viscosity), (0.096, 1.82e-8));
     let inertia = load(ZHANG, Some("centrifugal"));
     assert_eq!(balls(&inertia)[0].inertia, BallInertia::OuterRaceControl);
+}
+
+/// A body mode is labelled by its body; only a bearing's own housing is called housing.
+#[test]
+fn labels_of_body_modes() {
+    for (file, present, absent) in [
+        ("overhung_rig", "housing B, u_", "housing disc"),
+        ("atef_2022", "resonator, u_", "housing resonator"),
+    ] {
+        let path = format!("{}/models/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        let machine = Machine::new(model::load(&path, text, &Default::default()).unwrap().model).unwrap();
+        let found = machine.modal(&ModalStudy { speeds: vec![0.0], modes: 16 }).unwrap();
+        let labels: Vec<&str> = found[0].modes.iter().map(|mode| mode.label.as_str()).collect();
+        assert!(labels.iter().any(|label| label.contains(present)), "{file}: {labels:?}");
+        assert!(!labels.iter().any(|label| label.contains(absent)), "{file}: {labels:?}");
+    }
 }
