@@ -4,8 +4,8 @@ use crate::ball_bearing::Random;
 use crate::ball_combinations::{angular, for_each_combination, lever, sample};
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{
-    BallBearing, Bearing, BearingElement, Defect, DefectForm, DefectLaw, OffSize, Reaction, Rotation, Shape,
-    Surface,
+    BallBearing, Bearing, BearingElement, Defect, DefectForm, DefectLaw, Fit, OffSize, Reaction, Rotation,
+    Shape, Surface,
 };
 
 /// Compares both evaluations, which differ only in the summation order over balls.
@@ -37,6 +37,19 @@ fn force_only_for_every_combination() {
         let (d, v, rotation) = sample(&mut random);
         compare(name, bearing, &d, &v, &rotation);
     });
+}
+
+/// Rings that grow by rotation: the clearance depends on speed (2500 rad/s takes micrometres off it).
+#[test]
+fn force_only_with_centrifugal_growth() {
+    let mut random = Random(16);
+    for mut bearing in [rig_6205(), angular()] {
+        bearing.fit = Fit { speed_growth: true, ..bearing.fit };
+        for _ in 0..20 {
+            let (d, v, rotation) = sample(&mut random);
+            compare("centrifugal growth", &bearing, &d, &v, &rotation);
+        }
+    }
 }
 
 /// Full and partially filled SIMD lanes.
