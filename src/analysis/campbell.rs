@@ -109,7 +109,7 @@ impl<T: Tangents> Tracker<'_, T> {
         modal::modes(self.assembly, &system, self.count)
     }
 
-    /// Continuation of every mode of `a` in `b`; the step is halved until those in `followed` are certain.
+    /// Continuation of every mode of `a` in `b`; the step is halved until those in `tracked` are certain.
     fn link_modes(
         &self,
         a: (f64, &[Mode]),

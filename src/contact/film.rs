@@ -229,7 +229,7 @@ const TABLE_START: f64 = -4.0;
 const TABLE_END: f64 = 64.0;
 const TABLE_NODES_PER_UNIT: f64 = 16.0;
 
-/// Lookup table of ln σ and its slope over d from `TABLE_START` to `HIGH`, the range of nearly all evaluations.
+/// Lookup table of ln σ and its slope over d from `TABLE_START` to `TABLE_END`, the range of nearly all evaluations.
 static DEFORMATION_TABLE: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
     let mut log: f64 = -13.8;
     (0..=((TABLE_END - TABLE_START) * TABLE_NODES_PER_UNIT) as usize)

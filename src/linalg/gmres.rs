@@ -13,7 +13,7 @@ pub struct GmresResult {
     pub products: usize,
 }
 
-/// Solves A x = b from x = 0 to ‖b − A x‖ ≤ `tolerance` ‖b‖ in at most `space` matrix-vector products.
+/// Solves A x = b from x = 0 to ‖b − A x‖ ≤ `tolerance` ‖b‖ in at most `max_products` matrix-vector products.
 ///
 /// `apply(v, out)`: out = A v; `precondition(v)`: v ← M⁻¹ v in place, M ≈ A. Arnoldi by modified
 /// Gram-Schmidt, least squares by Givens rotations; no restarts. Check `residual`: the tolerance may not be

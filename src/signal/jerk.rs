@@ -6,7 +6,7 @@ use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
 
 /// A jump spans one bin on either side of its middle; the bin at distance `FLANK_DISTANCE` is its flank, and the bins
-/// beyond, up to `REACH`, give the baseline level of that side.
+/// beyond, up to `BASELINE_DISTANCE`, give the baseline level of that side.
 const FLANK_DISTANCE: isize = 2;
 const BASELINE_DISTANCE: isize = 6;
 /// Maximum deviation of a jump's flanks from the baselines, relative to the jump's mean.

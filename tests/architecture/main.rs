@@ -35,8 +35,10 @@ const OWNERS: [(&[&str], &[&str]); 8] = [
 ];
 
 /// Computing modules, which must not access files.
-const NO_FILES: [&str; 14] = [
+const NO_FILES: [&str; 16] = [
     "units",
+    "names",
+    "geometry",
     "material",
     "linalg",
     "signal",

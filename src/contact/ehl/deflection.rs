@@ -21,7 +21,7 @@ pub(super) struct Deflection {
     ny: usize,
     /// Real spectra, \[frequency\]\[source row\]\[row\].
     spectra: Vec<f64>,
-    /// Spatial kernel for column distances up to [`NEAR`], \[distance\]\[row\]\[source row\].
+    /// Spatial kernel for column distances up to [`PRECONDITIONER_COLUMNS`], \[distance\]\[row\]\[source row\].
     near: Vec<f64>,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -72,7 +72,7 @@ impl Deflection {
         Self { nx, ny, spectra, near, forward, inverse, work }
     }
 
-    /// Deflection in row `row` by unit pressure in each row of the column at distance `d` ≤ [`NEAR`].
+    /// Deflection in row `row` by unit pressure in each row of the column at distance `d` ≤ [`PRECONDITIONER_COLUMNS`].
     pub(super) fn near(&self, d: usize, row: usize) -> &[f64] {
         &self.near[(d * self.ny + row) * self.ny..][..self.ny]
     }

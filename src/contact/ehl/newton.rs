@@ -2,7 +2,7 @@
 //!
 //! Complementarity min(P, R/d) = 0 at every node, with R linearised where R/d < P and P = 0 elsewhere, and the
 //! rigid separation H₀ closing Σ w P = 1. The linear systems are dense because of the deflection: GMRES, with
-//! a banded preconditioner that truncates the deflection after [`NEAR`] columns.
+//! a banded preconditioner that truncates the deflection after [`PRECONDITIONER_COLUMNS`] columns.
 
 use super::deflection::{Deflection, PRECONDITIONER_COLUMNS};
 use super::reynolds::{self, Row, STENCIL_POINTS, neighbour};
@@ -177,7 +177,7 @@ impl<'a> Newton<'a> {
         found.solution.iter().all(|v| v.is_finite()).then_some(found.solution)
     }
 
-    /// Linearised equations with the deflection truncated after [`NEAR`] columns.
+    /// Linearised equations with the deflection truncated after [`PRECONDITIONER_COLUMNS`] columns.
     fn fill_band(&mut self) {
         let Self { s, deflection, rows, scale, full, band, .. } = self;
         let (nx, ny) = (s.nx, s.ny);
