@@ -426,7 +426,7 @@ Examples:
     ///
     /// Weighted least squares with priors and bounds on frequencies, mode shapes, damping or FRFs, by
     /// Levenberg-Marquardt with exact sensitivities. Reports the identifiability of every parameter: standard
-    /// error, posterior over prior variance, and the poorly determined parameter combinations. Writes the
+    /// error, posterior over prior variance, and the poorly identifiable parameter combinations. Writes the
     /// model file with the updated values, the rest of its text unchanged, and figures before and after.
     #[command(after_long_help = update::UPDATE)]
     Update(Box<UpdateArgs>),
