@@ -127,6 +127,9 @@ fn map_equals_single_solutions() {
     };
     let rows: Vec<Vec<Condition>> = (0..6).map(|a| (1..6).map(|l| at(a, l)).collect()).collect();
     let map = solver.map(&rows).unwrap();
+    let sweeps: Vec<_> = rows.iter().map(|row| solver.sweep(row).0).collect();
+    assert_eq!(map, sweeps);
+    assert!(map.iter().zip(&rows).all(|(found, row)| found.len() == row.len()));
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(map, alone.install(|| solver.map(&rows)).unwrap());
     for (conditions, found) in rows.iter().zip(&map) {
