@@ -200,7 +200,7 @@ impl ShaftElement {
     /// Circulatory stiffness K_c of internal damping, for unit speed: η_v K_e P.
     ///
     /// Damping acts on the velocity in the rotating frame, q̇ + Ω P q with (P q)_x = q_y and
-    /// (P q)_y = −q_x for displacements and rotations alike, so that f = −η_v K_e (q̇ + Ω P q). Forward
+    /// (P q)_y = −q_x for both displacements and rotations, so that f = −η_v K_e (q̇ + Ω P q). Forward
     /// whirl at ω gets the damping η_v K_e (ω − Ω)/ω, negative above the critical speed.
     pub fn circulatory_stiffness(&self) -> Matrix12 {
         let k = self.elastic_stiffness(ConeRule::Exact);

@@ -91,7 +91,7 @@ fn noise_bias_of_h1_and_h2() {
     assert_close("coherence", coherence, 0.8, 0.005);
 }
 
-/// Noise alike in force and response: H1 too low, H2 too high by the same factor, Hv right.
+/// Equal noise on force and response: H1 is low and H2 high by the same factor, Hv is unbiased.
 #[test]
 fn hv_is_unbiased_for_equal_noise_on_both_channels() {
     let n = 200_000;

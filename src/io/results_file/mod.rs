@@ -258,7 +258,7 @@ struct GroupWriter<'a> {
 }
 
 impl<'a> GroupWriter<'a> {
-    /// The group, created anew without its earlier members.
+    /// The group, recreated without its previous members.
     fn new(store: &'a Store, group: &str) -> Result<Self, Error> {
         store.remove(group)?;
         store.create_group(group)?;

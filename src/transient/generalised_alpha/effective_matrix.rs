@@ -37,7 +37,7 @@ pub(super) struct EffectiveMatrix {
 }
 
 impl EffectiveMatrices {
-    /// The matrix for a step length, inverted anew where the speed has changed too much.
+    /// The matrix for a step length, inverted again if the speed has changed too much.
     pub fn at(&mut self, system: &System, scheme: Scheme, step: f64, spin: &Spin) -> &EffectiveMatrix {
         let known = self.matrices.iter().position(|matrix| matrix.step == step);
         let k = match known {
