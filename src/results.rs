@@ -16,7 +16,7 @@ pub use signal::{
 
 use crate::analysis::Mode;
 use crate::analysis::campbell::Campbell;
-use crate::analysis::critical_speed::CriticalSpeed;
+use crate::analysis::critical_speed::CrossingList;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::analysis::frf::Frf;
 use crate::analysis::stability::Threshold;
@@ -72,7 +72,7 @@ pub struct OrderLine {
 pub struct CampbellResult {
     pub diagram: Campbell,
     pub orders: Vec<OrderLine>,
-    pub crossings: Vec<CriticalSpeed>,
+    pub crossings: CrossingList,
     /// Stability thresholds: speeds at which a mode's damping changes sign.
     pub thresholds: Vec<Threshold>,
 }
@@ -81,7 +81,7 @@ pub struct CampbellResult {
 #[derive(Clone, Debug)]
 pub struct CriticalResult {
     pub max_speed: f64,
-    pub speeds: Vec<CriticalSpeed>,
+    pub crossings: CrossingList,
 }
 
 /// FRFs with the names of excitations and responses.

@@ -30,7 +30,7 @@ pub fn branches() -> Vec<Branch> {
     let rpm = linspace(0.0, 3000.0, 41);
     let branch = |&(label, whirl, hz, slope, damping): &(&str, Whirl, f64, f64, f64)| Branch {
         label: label.to_string(),
-        whirl,
+        whirl: vec![whirl; rpm.len()],
         hz: rpm.iter().map(|r| hz + slope * r * (1.0 - 0.00008 * r)).collect(),
         log_decrement: rpm
             .iter()
@@ -136,7 +136,7 @@ pub fn spectrogram() -> Figure {
         orders: orders(),
         branches: branches()
             .into_iter()
-            .filter(|b| !matches!(b.whirl, Whirl::Axial | Whirl::Torsion))
+            .filter(|b| !matches!(b.whirl[0], Whirl::Axial | Whirl::Torsion))
             .collect(),
         max_hz: None,
     })

@@ -26,17 +26,24 @@ impl<F: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync> Tangents for F {}
 pub struct Campbell {
     /// Speeds Ω \[rad/s\].
     pub speeds: Vec<f64>,
-    /// One branch per mode, by frequency at the first speed.
+    /// One branch per mode, by frequency at the first speed; then those that continue lost ones.
     pub branches: Vec<Branch>,
+    /// Branches that could not be followed.
+    pub lost: Vec<LostBranch>,
+    /// Number of modes requested.
+    pub(super) count: usize,
+    /// All modes computed at every speed, a few more than requested.
+    pub(super) sets: Vec<Vec<Mode>>,
 }
 
 /// One mode tracked over speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
-    /// Label and kind at the highest speed of the branch.
+    /// Label at the lowest speed at which the branch exists and the shaft rotates; made unique by a number.
     pub label: String,
+    /// Kind at the same speed.
     pub kind: ModeKind,
-    /// The mode at every speed; `None` where tracking was lost.
+    /// The mode at every speed, each with its own label and kind; `None` where it was not tracked.
     pub modes: Vec<Option<Mode>>,
 }
 
@@ -45,6 +52,24 @@ impl Branch {
     pub fn omega(&self, k: usize) -> Option<f64> {
         self.modes[k].as_ref().map(Mode::omega)
     }
+
+    /// The modes from the lowest speed on, with rotation before those at standstill.
+    fn first(&self, speeds: &[f64]) -> Option<&Mode> {
+        let modes = || speeds.iter().zip(&self.modes).filter_map(|(s, m)| Some((s, m.as_ref()?)));
+        let rotating = modes().find(|(speed, _)| **speed != 0.0);
+        rotating.or_else(|| modes().next()).map(|(_, mode)| mode)
+    }
+}
+
+/// A branch with no similar mode (MAC) at the next speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostBranch {
+    /// Index of the branch.
+    pub branch: usize,
+    /// Last speed at which it is known and next speed \[rad/s\].
+    pub speeds: [f64; 2],
+    /// Index of a new branch that starts at the next speed, if one of the lowest modes there has no branch.
+    pub continued_by: Option<usize>,
 }
 
 /// Campbell diagram of the `count` lowest modes over increasing speeds \[rad/s\].
@@ -66,26 +91,40 @@ pub fn campbell(
     let mut at: Vec<Option<usize>> =
         (0..sets.first().map_or(0, |set| set.len().min(count))).map(Some).collect();
     let mut paths: Vec<Vec<Option<usize>>> = vec![at.clone()];
+    let mut lost = Vec::new();
     for k in 1..speeds.len() {
         let (a, b) = ((speeds[k - 1], sets[k - 1].as_slice()), (speeds[k], sets[k].as_slice()));
         let links = tracker.link_modes(a, b, &at, MAX_HALVINGS)?;
-        at.iter_mut().for_each(|i| *i = i.and_then(|i| links[i]));
+        let next: Vec<Option<usize>> = at.iter().map(|i| i.and_then(|i| links[i])).collect();
+        let ended: Vec<usize> = (0..at.len()).filter(|&i| at[i].is_some() && next[i].is_none()).collect();
+        at = next;
+        for branch in ended {
+            let free = (0..sets[k].len().min(count)).find(|&j| !at.contains(&Some(j)));
+            let continued_by = free.map(|j| {
+                at.push(Some(j));
+                at.len() - 1
+            });
+            lost.push(LostBranch { branch, speeds: [speeds[k - 1], speeds[k]], continued_by });
+        }
         paths.push(at.clone());
     }
     let mut branches: Vec<Branch> = (0..at.len())
         .map(|branch| {
-            let modes: Vec<Option<Mode>> =
-                paths.iter().zip(&sets).map(|(path, set)| path[branch].map(|i| set[i].clone())).collect();
-            let last = modes.iter().flatten().next_back();
-            let (label, kind) = last.map_or((String::new(), ModeKind::Mixed), |m| (m.label.clone(), m.kind));
-            Branch { label, kind, modes }
+            let index = |path: &Vec<Option<usize>>| path.get(branch).copied().flatten();
+            let modes =
+                paths.iter().zip(&sets).map(|(path, set)| index(path).map(|i| set[i].clone())).collect();
+            let mut branch = Branch { label: String::new(), kind: ModeKind::Mixed, modes };
+            if let Some((label, kind)) = branch.first(speeds).map(|m| (m.label.clone(), m.kind)) {
+                (branch.label, branch.kind) = (label, kind);
+            }
+            branch
         })
         .collect();
     make_labels_unique(&mut branches);
-    Ok(Campbell { speeds: speeds.to_vec(), branches })
+    Ok(Campbell { speeds: speeds.to_vec(), branches, lost, count, sets })
 }
 
-/// Makes labels unique by a number: branches that end at different speeds may have the same label.
+/// Makes labels unique by a number: branches that start at different speeds may have the same label.
 fn make_labels_unique(branches: &mut [Branch]) {
     for k in 1..branches.len() {
         let same = (0..k).filter(|&i| branches[i].label == branches[k].label).count();

@@ -58,22 +58,44 @@ impl Mode {
 
 /// The lowest `count` oscillatory modes, by natural frequency; rigid-body and overdamped modes are omitted.
 ///
+/// Labels number the modes below the one labelled, so that they depend neither on `count` nor on other speeds.
+///
 /// # Errors
 /// An eigenvalue computation that fails.
 pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+    let mut modes = modes_of(assembly, system, eigenpairs(assembly, system, count)?);
+    modes.truncate(count);
+    Ok(modes)
+}
+
+/// Modes of the lowest eigenpairs, by natural frequency, with kinds and labels.
+pub(super) fn modes_of(assembly: &Assembly, system: &LinearSystem, mut pairs: Vec<Eigenpair>) -> Vec<Mode> {
+    align_double_modes(assembly, system, &mut pairs);
+    let mut modes: Vec<Mode> =
+        pairs.into_iter().map(|(value, shape)| mode_kind::characterise(assembly, value, shape)).collect();
+    mode_kind::label(assembly, &mut modes);
+    modes
+}
+
+/// Eigenvalue λ and shape φ over the free DOFs, φᴴ M φ = 1.
+pub(super) type Eigenpair = (Complex64, Vec<Complex64>);
+
+/// The eigenpairs of the lowest `count` oscillatory modes, by natural frequency, and one more.
+///
+/// The additional one keeps the two modes of a double eigenvalue at the end together.
+///
+/// # Errors
+/// As [`modes`].
+pub(super) fn eigenpairs(
+    assembly: &Assembly,
+    system: &LinearSystem,
+    count: usize,
+) -> Result<Vec<Eigenpair>, Error> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
     let mut pairs = krylov::lowest_eigenpairs(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
         .map_err(|e| failed(e.to_string()))?;
-    // One more than requested keeps a degenerate pair at the end together.
     pairs.truncate(count + 1);
-    let mut shapes: Vec<(Complex64, Vec<Complex64>)> =
-        pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &system.mass))).collect();
-    align_double_modes(assembly, system, &mut shapes);
-    shapes.truncate(count);
-    let mut modes: Vec<Mode> =
-        shapes.into_iter().map(|(value, shape)| mode_kind::characterise(assembly, value, shape)).collect();
-    mode_kind::label(assembly, &mut modes);
-    Ok(modes)
+    Ok(pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &assembly.mass))).collect())
 }
 
 /// The undamped modes of a system: C and the circulatory part dropped, gyroscopic effect kept.
@@ -95,7 +117,7 @@ pub fn undamped(assembly: &Assembly, system: &LinearSystem) -> LinearSystem {
 }
 
 /// φ scaled to φᴴ M φ = 1.
-fn mass_normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) -> Vec<Complex64> {
+pub(super) fn mass_normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) -> Vec<Complex64> {
     let size = inner(&shape, &mass.mul_complex(&shape)).re.sqrt();
     if size > 0.0 {
         shape.iter_mut().for_each(|v| *v /= size);

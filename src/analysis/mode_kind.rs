@@ -180,11 +180,11 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
 /// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing A, u_x"; for a rigid
 /// rotor "rigid-body" replaces "bending".
 ///
-/// Bending modes come in pairs: a forward (or x) mode is numbered by the forward modes below it, a mixed one
-/// by half of all bending modes.
+/// Bending modes come in pairs: forward and backward, x and y, or both mixed. A mode is numbered by the modes of its
+/// own kind below it and, for pairs of another type, by half of their number.
 pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
     let mut count: HashMap<String, usize> = HashMap::new();
-    let (mut bending, mut mixed) = (0, 0);
+    let [mut whirling, mut planar, mut mixed] = [0, 0, 0];
     for mode in modes {
         let name = match mode.kind {
             ModeKind::Body => body_name(assembly, &mode.energy),
@@ -193,12 +193,17 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
         };
         let before = *count.entry(name.clone()).and_modify(|n| *n += 1).or_insert(1) - 1;
         let place = match mode.kind {
-            ModeKind::Mixed => bending / 2,
-            kind if kind.is_bending() => before + mixed / 2,
-            _ => before,
+            ModeKind::Forward | ModeKind::Backward => before + (planar + mixed) / 2,
+            ModeKind::PlaneX | ModeKind::PlaneY => before + (whirling + mixed) / 2,
+            ModeKind::Mixed => (whirling + planar + mixed) / 2,
+            ModeKind::Torsional | ModeKind::Axial | ModeKind::Body => before,
         };
-        bending += usize::from(mode.kind.is_bending());
-        mixed += usize::from(mode.kind == ModeKind::Mixed);
+        match mode.kind {
+            ModeKind::Forward | ModeKind::Backward => whirling += 1,
+            ModeKind::PlaneX | ModeKind::PlaneY => planar += 1,
+            ModeKind::Mixed => mixed += 1,
+            ModeKind::Torsional | ModeKind::Axial | ModeKind::Body => {}
+        }
         mode.label = match mode.kind {
             ModeKind::Body if before == 0 => name,
             _ => format!("{} {name}", ordinal(place + 1)),

@@ -233,6 +233,33 @@ fn quality_warnings(job: &mut Job) {
             found.push(format!("{} is unstable at {speed:.0} rpm: zeta = {zeta:.3} %", mode.label));
         }
     }
+    let campbell = job.results.campbell.as_ref();
+    let critical = job.results.critical.as_ref().map(|found| &found.crossings);
+    for list in campbell.map(|found| &found.crossings).into_iter().chain(critical) {
+        found.extend(list.uncertain.iter().map(|range| {
+            let [from, to] = [range.from, range.to].map(terminal::rpm);
+            format!(
+                "crossings of order {} between {from:.1} and {to:.1} rpm may be missing: the bearings change faster \
+                 with speed than the search can follow",
+                range.order
+            )
+        }));
+    }
+    if let Some(diagram) = campbell.map(|found| &found.diagram) {
+        found.extend(diagram.lost.iter().map(|lost| {
+            let [from, to] = lost.speeds.map(terminal::rpm);
+            let label = |branch: usize| diagram.branches[branch].label.as_str();
+            let continued = match lost.continued_by {
+                Some(next) => format!("a new branch starts as {}", label(next)),
+                None => "it ends there".into(),
+            };
+            format!(
+                "the branch {} cannot be followed from {from:.0} to {to:.0} rpm (no mode of similar shape): \
+                 {continued}",
+                label(lost.branch)
+            )
+        }));
+    }
     if let Some(run) = &job.results.run_up {
         let energy = &run.report.energy;
         let open = energy.residual().abs() / energy.exchanged().max(f64::MIN_POSITIVE);

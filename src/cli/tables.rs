@@ -124,8 +124,12 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
         .iter()
         .map(|branch| {
             let end = branch.modes.last().and_then(Option::as_ref);
+            let name = match end {
+                Some(end) if end.label != branch.label => format!("{} -> {}", branch.label, end.label),
+                _ => branch.label.clone(),
+            };
             vec![
-                branch.label.clone(),
+                name,
                 hz(branch.modes.first().and_then(Option::as_ref)),
                 hz(end),
                 end.map_or("-".into(), |m| format!("{:.3}", 100.0 * m.zeta())),
@@ -136,21 +140,35 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
     let zeta = format!("zeta % at {:.0} rpm", rpm(*last));
     let header = ["mode", from.as_str(), to.as_str(), zeta.as_str()];
     terminal.table(&format!("Campbell diagram over {} speeds", diagram.speeds.len()), &header, &rows);
-    if !found.crossings.is_empty() {
-        crossings(terminal, "Crossings with order lines", &found.crossings);
+    if !found.crossings.list.is_empty() {
+        crossings(terminal, "Crossings with order lines", &found.crossings.list);
+    }
+    let count = diagram.branches.len();
+    for (order, modes) in &found.crossings.omitted {
+        terminal.print(&format!(
+            "  order {}: {modes} more modes lie below the line at {:.0} rpm than the {count} of this diagram;\n  \
+             raise 'modes' or use 'critical', which lists all crossings",
+            order_text(*order),
+            rpm(*last)
+        ));
     }
     for threshold in &found.thresholds {
         let side = if threshold.unstable_above { "above" } else { "below" };
-        terminal.print(&format!("  {} is unstable {side} {:.1} rpm", threshold.label, rpm(threshold.speed)));
+        terminal.print(&format!(
+            "  {} is unstable {side} {:.1} rpm",
+            threshold.mode.label,
+            rpm(threshold.speed)
+        ));
     }
 }
 
 pub fn critical(terminal: &Terminal, found: &CriticalResult) {
     let title = format!("Critical speeds up to {:.0} rpm", rpm(found.max_speed));
-    if found.speeds.is_empty() {
+    let speeds = &found.crossings.list;
+    if speeds.is_empty() {
         terminal.heading(&format!("{title}: none"));
     } else {
-        crossings(terminal, &title, &found.speeds);
+        crossings(terminal, &title, speeds);
     }
 }
 
@@ -162,16 +180,21 @@ fn crossings(terminal: &Terminal, title: &str, found: &[CriticalSpeed]) {
             vec![
                 format!("{:.2}", rpm(c.speed)),
                 format!("{:.3}", c.mode.frequency_hz()),
-                number(c.order, 4).trim_end_matches('0').trim_end_matches('.').to_string(),
+                order_text(c.order),
                 c.mode.kind.name().to_string(),
                 format!("{:.3}", 100.0 * c.mode.zeta()),
                 format!("{:.4}", c.mode.log_dec()),
-                c.label.clone(),
+                c.mode.label.clone(),
             ]
         })
         .collect();
     terminal.table(title, &["rpm", "Hz", "order", "whirl", "zeta %", "log dec", "mode"], &rows);
     print_omitted_count(terminal, found.len());
+}
+
+/// An order without trailing zeros.
+fn order_text(order: f64) -> String {
+    number(order, 4).trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
 fn print_omitted_count(terminal: &Terminal, count: usize) {

@@ -3,7 +3,7 @@
 use super::machine::whirl;
 use super::{Named, TO_RPM};
 use crate::analysis::Mode;
-use crate::plot::{Branch, Campbell, Critical, Figure, OrderLine};
+use crate::plot::{Branch, Campbell, Critical, Figure, OrderLine, Whirl};
 use crate::results::{self, CampbellResult};
 use crate::study::Machine;
 
@@ -15,6 +15,11 @@ const MIN_BRANCHES: usize = 4;
 pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
     let mut branches = branches(found);
     let top = max_frequency(&branches, found);
+    for (shown, branch) in branches.iter_mut().zip(&found.diagram.branches) {
+        // Named by the mode that the branch is where it ends or leaves the panel.
+        let inside = branch.modes.iter().flatten().rfind(|mode| mode.frequency_hz() <= top);
+        shown.label = inside.map_or_else(String::new, |mode| mode.label.clone());
+    }
     branches.retain(|b| b.hz.iter().any(|hz| *hz <= top));
     let figure = Campbell {
         title: "Campbell diagram".into(),
@@ -24,6 +29,7 @@ pub fn campbell(found: &CampbellResult, machine: &Machine) -> Named {
         orders: order_lines(&found.orders),
         criticals: found
             .crossings
+            .list
             .iter()
             .filter(|c| c.speed > 0.0)
             .map(|c| Critical {
@@ -44,9 +50,10 @@ pub fn branches(found: &CampbellResult) -> Vec<Branch> {
             branch.modes.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect::<Vec<f64>>()
         };
         let round_off = |d: f64| if d.abs() < UNDAMPED_LOG_DECREMENT { 0.0 } else { d };
+        let end = branch.modes.iter().flatten().next_back();
         Branch {
-            label: branch.label.clone(),
-            whirl: whirl(branch.kind),
+            label: end.map_or_else(|| branch.label.clone(), |mode| mode.label.clone()),
+            whirl: kinds(branch, &found.diagram.speeds),
             rpm: rpm.clone(),
             hz: values(Mode::frequency_hz),
             log_decrement: values(Mode::log_dec).into_iter().map(round_off).collect(),
@@ -57,6 +64,17 @@ pub fn branches(found: &CampbellResult) -> Vec<Branch> {
         branches.iter_mut().for_each(|b| b.log_decrement.clear());
     }
     branches
+}
+
+/// Kind at every speed; at standstill, where the modes of an axisymmetric rotor are planar, that of the next speed.
+fn kinds(branch: &crate::analysis::campbell::Branch, speeds: &[f64]) -> Vec<Whirl> {
+    let modes = &branch.modes;
+    let at = |k: usize| modes.get(k)?.as_ref().map(|m| whirl(m.kind));
+    let kind = |k: usize| match speeds[k] {
+        0.0 => at(k + 1).or_else(|| at(k)),
+        _ => at(k),
+    };
+    (0..modes.len()).map(|k| kind(k).unwrap_or(Whirl::Mixed)).collect()
 }
 
 pub fn order_lines(orders: &[results::OrderLine]) -> Vec<OrderLine> {

@@ -56,8 +56,8 @@ pub fn frf_curve(found: &FrfResult, response: usize, excitation: usize, label: &
 /// Synchronous (1x) critical speeds, from the critical speed study, else from the Campbell diagram.
 pub fn criticals(results: &Results) -> Vec<Critical> {
     let list = match (&results.critical, &results.campbell) {
-        (Some(found), _) => &found.speeds[..],
-        (None, Some(found)) => &found.crossings[..],
+        (Some(found), _) => &found.crossings.list[..],
+        (None, Some(found)) => &found.crossings.list[..],
         (None, None) => &[],
     };
     let synchronous =

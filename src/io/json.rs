@@ -10,8 +10,8 @@
 //! | `units` | the unit of every quantity below |
 //! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
 //! | `modal` | per speed {speed_rpm, modes: \[{label, kind, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
-//! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `thresholds` \[{speed_rpm, unstable_above, label}\] |
-//! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, log_decrement, kind, label}\], also the form of `crossings` |
+//! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
+//! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, damping_ratio, log_decrement, kind, label}\], also the form of `crossings`; `uncertain` \[{order, from_rpm, to_rpm}\] |
 //! | `frf` | `speed_rpm`, `quantity`, `frequency_hz`, `functions` \[{excitation, response, unit, re, im}\] |
 //! | `unbalance` | `speeds_rpm`, `responses` \[{name, unit, re, im}\], `orbits` \[{disc, x_re, x_im, y_re, y_im}\]; x(t) = Re(X e^{jΩt}) |
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
@@ -34,7 +34,7 @@ pub const SCHEMA: &str = "rotordyn-results-2";
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;
-use crate::analysis::critical_speed::CriticalSpeed;
+use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
@@ -74,8 +74,14 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
         put("campbell", campbell(found));
     }
     if let Some(found) = &results.critical {
-        let speeds: Value = found.speeds.iter().map(crossing).collect();
-        put("critical_speeds", json!({ "max_speed_rpm": found.max_speed * TO_RPM, "speeds": speeds }));
+        let speeds: Value = found.crossings.list.iter().map(crossing).collect();
+        put(
+            "critical_speeds",
+            json!({
+                "max_speed_rpm": found.max_speed * TO_RPM, "speeds": speeds,
+                "uncertain": uncertain_ranges(&found.crossings),
+            }),
+        );
     }
     if let Some(found) = &results.frf {
         put("frf", frf(found));
@@ -213,8 +219,10 @@ fn campbell(found: &CampbellResult) -> Value {
         let over = |value: fn(&Mode) -> f64| -> Value {
             b.modes.iter().map(|m| m.as_ref().map_or(Value::Null, |m| value(m).into())).collect()
         };
+        let labels: Value =
+            b.modes.iter().map(|m| m.as_ref().map_or(Value::Null, |m| m.label.as_str().into())).collect();
         json!({
-            "label": b.label, "kind": b.kind.name(),
+            "label": b.label, "kind": b.kind.name(), "labels": labels,
             "frequency_hz": over(Mode::frequency_hz), "log_decrement": over(Mode::log_dec),
         })
     };
@@ -223,17 +231,32 @@ fn campbell(found: &CampbellResult) -> Value {
         "speeds_rpm": speeds,
         "branches": found.diagram.branches.iter().map(branch).collect::<Value>(),
         "orders": found.orders.iter().map(|o| json!({ "label": o.label, "order": o.order })).collect::<Value>(),
-        "crossings": found.crossings.iter().map(crossing).collect::<Value>(),
+        "crossings": found.crossings.list.iter().map(crossing).collect::<Value>(),
+        "crossings_omitted": found.crossings.omitted.iter().map(|(order, modes)| json!({
+            "order": order, "modes": modes,
+        })).collect::<Value>(),
+        "uncertain": uncertain_ranges(&found.crossings),
+        "lost_branches": found.diagram.lost.iter().map(|lost| json!({
+            "branch": lost.branch, "from_rpm": lost.speeds[0] * TO_RPM, "to_rpm": lost.speeds[1] * TO_RPM,
+            "continued_by": lost.continued_by,
+        })).collect::<Value>(),
         "thresholds": found.thresholds.iter().map(|t| json!({
-            "speed_rpm": t.speed * TO_RPM, "unstable_above": t.unstable_above, "label": t.label,
+            "speed_rpm": t.speed * TO_RPM, "unstable_above": t.unstable_above, "label": t.mode.label,
         })).collect::<Value>(),
     })
+}
+
+/// Ranges of speed in which crossings may be missing.
+fn uncertain_ranges(list: &CrossingList) -> Value {
+    let range = |r: &UncertainRange| json!({ "order": r.order, "from_rpm": r.from * TO_RPM, "to_rpm": r.to * TO_RPM });
+    list.uncertain.iter().map(range).collect()
 }
 
 fn crossing(c: &CriticalSpeed) -> Value {
     json!({
         "speed_rpm": c.speed * TO_RPM, "order": c.order, "frequency_hz": c.mode.frequency_hz(),
-        "log_decrement": c.mode.log_dec(), "kind": c.mode.kind.name(), "label": c.label,
+        "log_decrement": c.mode.log_dec(), "damping_ratio": c.mode.zeta(), "kind": c.mode.kind.name(),
+        "label": c.mode.label,
     })
 }
 

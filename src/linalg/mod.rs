@@ -7,6 +7,7 @@
 //! | [`band_matrix`] | the banded [`BandMatrix`] in natural order |
 //! | [`fft_length`](mod@fft_length) | efficient lengths for fast Fourier transforms |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
+//! | [`inertia`] | number of negative eigenvalues of a banded Hermitian matrix |
 //! | [`dot`](mod@dot), [`piecewise`](mod@piecewise) | scalar products; piecewise-linear tables |
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
@@ -21,6 +22,7 @@ pub mod dot;
 pub mod eigen;
 pub mod fft_length;
 pub mod gmres;
+pub mod inertia;
 pub mod krylov;
 pub mod panel;
 pub mod pchip;

@@ -67,13 +67,35 @@ impl Whirl {
 pub struct Branch {
     /// Label at the end of the branch, e.g. "1st bending".
     pub label: String,
-    pub whirl: Whirl,
+    /// Kind of the mode at every speed.
+    pub whirl: Vec<Whirl>,
     /// Shaft speeds \[rpm\].
     pub rpm: Vec<f64>,
     /// Natural frequencies \[Hz\].
     pub hz: Vec<f64>,
     /// Logarithmic decrements \[-\]; empty if not known.
     pub log_decrement: Vec<f64>,
+}
+
+impl Branch {
+    /// A curve of values over speed in the style of each kind; a step between two kinds has that of its upper end.
+    pub(super) fn curves(&self, svg: &mut Svg, axes: &Axes, values: &[f64], style: impl Fn(Whirl) -> Style) {
+        let count = values.len().min(self.rpm.len());
+        let mut from = 0;
+        for k in 1..count {
+            if self.whirl.get(k + 1) != self.whirl.get(k) || k + 1 == count {
+                let kind = self.whirl.get(k).copied().unwrap_or(Whirl::Mixed);
+                axes.curve(svg, &self.rpm[from..=k], &values[from..=k], style(kind));
+                from = k;
+            }
+        }
+    }
+
+    /// Kind at the last speed at which the branch is known.
+    fn end_kind(&self) -> Whirl {
+        let last = self.hz.iter().rposition(|hz| hz.is_finite()).unwrap_or(0);
+        self.whirl.get(last).copied().unwrap_or(Whirl::Mixed)
+    }
 }
 
 /// A line f = order × rpm / 60.
@@ -138,7 +160,7 @@ pub fn draw(data: &Campbell) -> Svg {
     axes.grid(&mut svg);
     let mut labels = order_lines(&mut svg, &axes, &data.orders);
     for branch in &data.branches {
-        axes.curve(&mut svg, &branch.rpm, &branch.hz, branch.whirl.line());
+        branch.curves(&mut svg, &axes, &branch.hz, Whirl::line);
         mark_branch(&mut svg, &axes, branch, &branch.hz);
     }
     labels.extend(branch_ends(&axes, &data.branches));
@@ -156,7 +178,7 @@ pub fn draw(data: &Campbell) -> Svg {
 }
 
 fn entries(data: &Campbell, unstable: bool) -> Vec<Entry> {
-    let kinds = Whirl::ALL.into_iter().filter(|w| data.branches.iter().any(|b| b.whirl == *w));
+    let kinds = Whirl::ALL.into_iter().filter(|w| data.branches.iter().any(|b| b.whirl.contains(w)));
     let mut entries: Vec<Entry> =
         kinds.map(|w| Entry::line(w.name(), w.line()).marked(w.marker(), w.marker_style(true))).collect();
     if unstable {
@@ -176,21 +198,14 @@ const CRITICAL: Style = Style::stroke(INK, 1.4).filled(Color(255, 214, 64));
 
 /// Marker on a branch about every 36 px, hollow where the mode is unstable.
 fn mark_branch(svg: &mut Svg, axes: &Axes, branch: &Branch, values: &[f64]) {
-    for stable in [true, false] {
-        let shown: Vec<f64> = (values.iter().enumerate())
-            .map(|(k, v)| {
+    for (whirl, stable) in Whirl::ALL.into_iter().flat_map(|whirl| [(whirl, true), (whirl, false)]) {
+        let shown: Vec<f64> = (values.iter().zip(&branch.whirl).enumerate())
+            .map(|(k, (v, kind))| {
                 let is_stable = branch.log_decrement.get(k).is_none_or(|d| *d >= 0.0 || d.is_nan());
-                if is_stable == stable { *v } else { f64::NAN }
+                if *kind == whirl && is_stable == stable { *v } else { f64::NAN }
             })
             .collect();
-        axes.markers(
-            svg,
-            &branch.rpm,
-            &shown,
-            branch.whirl.marker(),
-            branch.whirl.marker_style(stable),
-            36.0,
-        );
+        axes.markers(svg, &branch.rpm, &shown, whirl.marker(), whirl.marker_style(stable), 36.0);
     }
 }
 
@@ -215,7 +230,7 @@ pub(super) fn branch_ends(axes: &Axes, branches: &[Branch]) -> Vec<EndLabel> {
     for branch in branches {
         let points: Vec<_> = branch.rpm.iter().zip(&branch.hz).map(|(&x, &y)| axes.at(x, y)).collect();
         if let Some(&at) = clip(&points, axes.frame).last() {
-            labels.push(EndLabel { at, text: branch.label.clone(), color: branch.whirl.color() });
+            labels.push(EndLabel { at, text: branch.label.clone(), color: branch.end_kind().color() });
         }
     }
     // A branch that ends before the right edge is labelled there too, at its last height.
@@ -283,7 +298,7 @@ fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_labe
     axes.grid(svg);
     axes.segment(svg, [x.lo, 0.0], [x.hi, 0.0], Style::stroke(INK, 0.9));
     for branch in branches {
-        axes.curve(svg, &branch.rpm, &branch.log_decrement, branch.whirl.line().thick(1.2));
+        branch.curves(svg, &axes, &branch.log_decrement, |whirl| whirl.line().thick(1.2));
         mark_branch(svg, &axes, branch, &branch.log_decrement);
     }
     axes.border(svg, Some(x_label), &axes.y.label("log decrement", "–"));

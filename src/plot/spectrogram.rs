@@ -42,7 +42,7 @@ pub struct Spectrogram {
 
 pub fn draw(data: &Spectrogram) -> Svg {
     let mut kinds: Vec<Entry> = Vec::new();
-    for whirl in data.branches.iter().map(|b| b.whirl) {
+    for whirl in data.branches.iter().flat_map(|b| b.whirl.iter().copied()) {
         if kinds.iter().all(|k| k.text != whirl.name()) {
             kinds.push(Entry::line(whirl.name(), Style::stroke(whirl.color(), 1.3)));
         }
@@ -74,7 +74,7 @@ pub fn draw(data: &Spectrogram) -> Svg {
         for branch in &data.branches {
             // A white edge separates the thin line from the ridge below.
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
-            axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(branch.whirl.color(), 1.1));
+            branch.curves(&mut svg, &axes, &branch.hz, |whirl| Style::stroke(whirl.color(), 1.1));
         }
         labels.extend(branch_ends(&axes, &data.branches));
         row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));

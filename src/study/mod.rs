@@ -17,7 +17,7 @@ pub use steady_motion::{Progress, RestartState};
 
 use std::ops::ControlFlow;
 
-use crate::analysis::campbell::{self, Campbell};
+use crate::analysis::campbell;
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::analysis::{frf, modal, stability, unbalance};
@@ -140,21 +140,15 @@ impl Machine {
         Ok(CampbellResult { diagram, orders: self.order_lines(&study.orders), crossings, thresholds })
     }
 
-    /// Critical speeds up to a speed, from a Campbell diagram of its own.
+    /// All critical speeds up to a speed.
     ///
     /// # Errors
-    /// As [`campbell::campbell`].
+    /// As [`critical_speed::critical_speeds`].
     pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, Error> {
-        const SPEEDS: usize = 33;
-        const MODES: usize = 12;
-        let speeds: Vec<f64> =
-            (0..SPEEDS).map(|k| study.max_speed * k as f64 / (SPEEDS - 1) as f64).collect();
         let tangents = |speed| self.tangents(speed, true);
-        let diagram: Campbell = campbell::campbell(&self.assembly, &speeds, MODES, &tangents)?;
-        let mut speeds = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
-        // The crossing of a 0 Hz mode at standstill is no critical speed.
-        speeds.retain(|c| c.speed > 0.0);
-        Ok(CriticalResult { max_speed: study.max_speed, speeds })
+        let (assembly, max_speed) = (&self.assembly, study.max_speed);
+        let crossings = critical_speed::critical_speeds(assembly, max_speed, &study.orders, &tangents)?;
+        Ok(CriticalResult { max_speed, crossings })
     }
 
     /// Frequency response functions at a speed.

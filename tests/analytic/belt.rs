@@ -187,7 +187,7 @@ fn damping_ratio_and_log_decrement_of_belt_damping() {
         for order in [0.5, 1.0, 2.0, 3.0] {
             let found = machine.critical(&CriticalStudy { max_speed: 2000.0, orders: vec![order] }).unwrap();
             let damped_speeds: Vec<f64> =
-                found.speeds.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
+                found.crossings.list.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
             assert!(
                 damped_speeds.len() == 1 && close(damped_speeds[0], omega / order),
                 "{order}: {damped_speeds:?} {}",

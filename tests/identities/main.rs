@@ -7,6 +7,7 @@ mod machine;
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod complete_crossings;
 mod double_eigenvalues;
 mod ehl;
 mod linear;

@@ -57,7 +57,7 @@ fn crossings_of_tracked_branches_agree() {
         let speeds: Vec<f64> = (0..=20).map(|k| top * f64::from(k) / 20.0).collect();
         let tangents = |speed: f64| Ok(ross::tangents(&model, speed));
         let diagram = campbell(&assembly, &speeds, 12, &tangents).unwrap();
-        let ours = crossings(&assembly, &diagram, &[1.0], &tangents).unwrap();
+        let ours = crossings(&assembly, &diagram, &[1.0], &tangents).unwrap().list;
         for reference in &theirs {
             let nearest =
                 ours.iter().map(|c| (c.speed / reference - 1.0).abs()).fold(f64::INFINITY, f64::min);
@@ -65,7 +65,7 @@ fn crossings_of_tracked_branches_agree() {
         }
         println!("{name}:");
         for c in &ours {
-            println!("  {:10.2} rad/s  {}  {:?}", c.speed, c.label, c.mode.kind);
+            println!("  {:10.2} rad/s  {}  {:?}", c.speed, c.mode.label, c.mode.kind);
         }
         let listed: Vec<f64> = ours.iter().map(|c| c.speed).collect();
         assert!(listed.windows(2).all(|w| w[1] > w[0]), "{name}: no crossing twice: {listed:?}");

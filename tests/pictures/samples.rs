@@ -17,7 +17,7 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
         .into_iter()
         .map(|whirl| Branch {
             label: name.clone(),
-            whirl,
+            whirl: vec![whirl; x.len()],
             rpm: x.clone(),
             hz: y.clone(),
             log_decrement: y.clone(),

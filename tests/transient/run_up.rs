@@ -157,6 +157,7 @@ fn second_bending_pair_follows_the_campbell_lines() {
     for (line, cut) in &orders.cuts {
         let crossings: Vec<f64> = campbell
             .crossings
+            .list
             .iter()
             .filter(|c| c.order == line.order && c.mode.omega() > 100.0 * TAU && c.mode.kind.is_bending())
             .map(|c| c.speed / RPM)

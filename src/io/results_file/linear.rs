@@ -105,15 +105,18 @@ pub fn campbell(store: &Store, found: &CampbellResult) -> Result<(), Error> {
     let kinds: Vec<&str> = diagram.branches.iter().map(|b| b.kind.name()).collect();
     writer.write_texts("label", &[labels.len()], &labels)?;
     writer.write_texts("kind", &[kinds.len()], &kinds)?;
+    let each = diagram.branches.iter().flat_map(|b| &b.modes);
+    let labels: Vec<&str> = each.map(|m| m.as_ref().map_or("", |m| m.label.as_str())).collect();
+    writer.write_texts("labels", &shape, &labels)?;
     let names: Vec<&str> = found.orders.iter().map(|o| o.label.as_str()).collect();
     let orders: Vec<f64> = found.orders.iter().map(|o| o.order).collect();
     writer.write_texts("orders/label", &[names.len()], &names)?;
     writer.write_array("orders/order", &[orders.len()], &orders, "1/revolution")?;
-    crossings(&writer.subgroup("crossings")?, &found.crossings)?;
+    crossings(&writer.subgroup("crossings")?, &found.crossings.list)?;
     let at = writer.subgroup("thresholds")?;
     let speeds: Vec<f64> = found.thresholds.iter().map(|t| t.speed * TO_RPM).collect();
     let above: Vec<f64> = found.thresholds.iter().map(|t| f64::from(u8::from(t.unstable_above))).collect();
-    let labels: Vec<&str> = found.thresholds.iter().map(|t| t.label.as_str()).collect();
+    let labels: Vec<&str> = found.thresholds.iter().map(|t| t.mode.label.as_str()).collect();
     at.write_array("rpm", &[speeds.len()], &speeds, "rpm")?;
     at.write_array("unstable_above", &[above.len()], &above, "1")?;
     at.write_texts("label", &[labels.len()], &labels)
@@ -127,7 +130,7 @@ pub fn crossings(writer: &GroupWriter, found: &[CriticalSpeed]) -> Result<(), Er
     writer.write_array("frequency", &shape, &column(|c| c.mode.frequency_hz()), "Hz")?;
     writer.write_array("log_dec", &shape, &column(|c| c.mode.log_dec()), "1")?;
     writer.write_texts("whirl", &shape, &found.iter().map(|c| c.mode.kind.name()).collect::<Vec<_>>())?;
-    writer.write_texts("label", &shape, &found.iter().map(|c| c.label.as_str()).collect::<Vec<_>>())
+    writer.write_texts("label", &shape, &found.iter().map(|c| c.mode.label.as_str()).collect::<Vec<_>>())
 }
 
 pub fn frf(store: &Store, found: &FrfResult) -> Result<(), Error> {

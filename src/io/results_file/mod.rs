@@ -106,7 +106,7 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     if let Some(found) = &results.critical {
         let writer = GroupWriter::new(store, "/critical_speeds")?;
         writer.set_attribute("max_speed", found.max_speed)?;
-        linear::crossings(&writer, &found.speeds)?;
+        linear::crossings(&writer, &found.crossings.list)?;
     }
     if let Some(found) = &results.frf {
         linear::frf(store, found)?;

@@ -1,0 +1,100 @@
+//! A crossing refined on its own mode: inverse iteration at a speed, secant method over speed.
+
+use crate::analysis::modal::{Eigenpair, inner, mass_normalised};
+use crate::assembly::{Assembly, LinearSystem};
+use crate::error::Error;
+use crate::linalg::{BandLayout, Complex64};
+
+/// Relative change at which an iteration ends.
+const TOLERANCE: f64 = 1e-13;
+/// Relative change that is round-off if it does not decrease further.
+const ROUND_OFF: f64 = 1e-8;
+const MAX_ITERATIONS: usize = 12;
+const MAX_SECANT_STEPS: usize = 20;
+
+/// The eigenpair of (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
+///
+/// Inverse iteration (Newton's method): P(λ) ψ = P'(λ) φ, λ ← λ − (wᴴ φ)/(wᴴ ψ), w = M φ.
+pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Option<Eigenpair> {
+    let (mut value, mut shape) = start.clone();
+    let largest = (0..shape.len()).max_by(|&i, &j| shape[i].norm_sqr().total_cmp(&shape[j].norm_sqr()))?;
+    let matrices = [&system.mass, &system.damping, &system.stiffness];
+    // The mode lies in one group of coupled unknowns.
+    let layout = BandLayout::new(&matrices).restricted_to(&[largest]);
+    let [m, d, s] = matrices.map(|a| layout.scatter(a));
+    let mut inside = vec![false; shape.len()];
+    layout.groups().flatten().for_each(|&i| inside[i] = true);
+    let mut lu = layout.workspace::<Complex64>();
+    let mut last = f64::INFINITY;
+    for _ in 0..MAX_ITERATIONS {
+        let square = value * value;
+        if lu.refactor(|k| square * m[k] + value * d[k] + s[k]).is_err() {
+            // λ is an eigenvalue to the last bit.
+            return Some((value, shape));
+        }
+        let (mass, damping) = (system.mass.mul_complex(&shape), system.damping.mul_complex(&shape));
+        let mut next: Vec<Complex64> = mass.iter().zip(&damping).map(|(m, d)| 2.0 * value * m + d).collect();
+        next.iter_mut()
+            .zip(&inside)
+            .filter(|(_, inside)| !**inside)
+            .for_each(|(v, _)| *v = Complex64::default());
+        lu.solve(&mut next);
+        let change = inner(&mass, &shape) / inner(&mass, &next);
+        if !(change.re.is_finite() && change.im.is_finite()) {
+            return None;
+        }
+        value -= change;
+        shape = mass_normalised(next, &system.mass);
+        let size = change.norm() / value.norm();
+        if has_converged(size, last) {
+            return Some((value, shape));
+        }
+        last = size;
+    }
+    None
+}
+
+/// Whether a relative change is small enough, or is round-off.
+fn has_converged(change: f64, last: f64) -> bool {
+    change <= TOLERANCE || change < ROUND_OFF && change > 0.25 * last
+}
+
+/// The speed between `from` and `to` where the mode that starts as `start` at a speed has ω_d = n Ω, by the secant
+/// method from there and from `trial`; `None` if it leaves the range.
+///
+/// # Errors
+/// Errors of the linearised system.
+pub(super) fn crossing(
+    (assembly, tangents): (&Assembly, &impl super::Tangents),
+    order: f64,
+    (start_speed, start): (f64, &Eigenpair),
+    trial: f64,
+    (from, to): (f64, f64),
+) -> Result<Option<(f64, Complex64)>, Error> {
+    let gap = |pair: &Eigenpair, speed: f64| pair.0.im - order * speed;
+    let mut last = (start_speed, gap(start, start_speed));
+    let mut pair = start.clone();
+    let mut speed = trial.clamp(from, to);
+    let margin = 0.1 * (to - from);
+    let mut last_change = f64::INFINITY;
+    for _ in 0..MAX_SECANT_STEPS {
+        let system = LinearSystem::new(assembly, &tangents(speed)?, speed)?;
+        let Some(next) = nearest_eigenpair(&system, &pair) else { return Ok(None) };
+        pair = next;
+        let now = (speed, gap(&pair, speed));
+        // At the start again: as if the frequency did not change with speed.
+        let slope = if now.0 == last.0 { -order } else { (now.1 - last.1) / (now.0 - last.0) };
+        let step = -now.1 / slope;
+        let change = step.abs() / speed;
+        if now.1 == 0.0 || has_converged(change, last_change) {
+            let inside = speed > from - 1e-9 * to && speed <= to * (1.0 + 1e-9);
+            return Ok(inside.then_some((speed, pair.0)));
+        }
+        (last, last_change) = (now, change);
+        speed += step;
+        if !(speed > from - margin && speed < to + margin && speed > 0.0) {
+            return Ok(None);
+        }
+    }
+    Ok(None)
+}
