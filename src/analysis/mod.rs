@@ -10,6 +10,7 @@
 //! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
 //! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
+//! | [`harmonic`] | steady harmonic response of a linear system, the common solver of FRF and unbalance |
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
 pub mod bearing_stiffness;
@@ -17,6 +18,7 @@ pub mod campbell;
 pub mod critical_speed;
 pub mod equilibrium;
 pub mod frf;
+pub mod harmonic;
 pub mod modal;
 pub mod mode_kind;
 pub mod sensitivity;

@@ -53,9 +53,10 @@ impl Machine {
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model) -> Result<Self, Error> {
-        let assembly = Assembly::new(&model)?;
+        let mut assembly = Assembly::new(&model)?;
         let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
             .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
+        assembly.set_standstill(&base.tangents())?;
         let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
         Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
     }
@@ -240,7 +241,7 @@ impl Machine {
         let system = self.linear_system(speed)?;
         let project =
             |m: &SparseMatrix| SparseMatrix::from_dense(&(basis.transpose() * m.to_dense() * basis));
-        let (m, c, k) = (project(&system.mass), project(&system.damping), project(&system.stiffness));
+        let (m, c, k) = (project(&system.mass), project(&system.full_damping()), project(&system.stiffness));
         let count = MODES.min(basis.ncols());
         let reduced = krylov::lowest_eigenpairs(&m, &c, &k, count, modal::SHIFT)
             .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;

@@ -10,6 +10,7 @@ mod rig;
 mod double_eigenvalues;
 mod ehl;
 mod linear;
+mod modal_damping;
 mod planes;
 mod sensitivity;
 mod speed_dependent_bearings;
