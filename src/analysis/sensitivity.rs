@@ -12,6 +12,7 @@ use super::equilibrium::{
 };
 use super::harmonic::HarmonicSystem;
 use super::modal::inner;
+use super::table_range;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::bearing::{Reaction, SiteTangent};
 use crate::error::{Error, PhysicsError};
@@ -38,6 +39,7 @@ impl Linearised {
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, Error> {
+        table_range::check_tables(&model, "the linearised machine", [speed; 2])?;
         let mut assembly = Assembly::new(&model)?;
         let start = start.filter(|q| q.len() == assembly.dofs.len());
         let found = equilibrium(&model, &assembly, speed, CageTreatment::Averaged, start)?;

@@ -12,6 +12,8 @@ mod ehl;
 mod linear;
 mod modal_damping;
 mod planes;
+mod refined_grids;
 mod sensitivity;
 mod speed_dependent_bearings;
+mod tables;
 mod tracking;

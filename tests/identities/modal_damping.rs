@@ -38,17 +38,17 @@ pub fn overhung(elements: usize, bearings: [&str; 2], ratio: &str) -> Model {
 }
 
 /// Cross-coupled k_xy = −k_yx larger than the direct stiffness, as of a whirling film.
-const CROSS: [&str; 2] = [
+pub const CROSS: [&str; 2] = [
     "k_xx = \"2e5 N/m\"\nk_yy = \"2e5 N/m\"\nk_xy = \"2.5e5 N/m\"\nk_yx = \"-2.5e5 N/m\"\nc_xx = \"300 N s/m\"\nc_yy = \"300 N s/m\"",
     "k_xx = \"3e6 N/m\"\nk_yy = \"2e6 N/m\"\nk_xy = \"4e5 N/m\"\nk_yx = \"-1e5 N/m\"",
 ];
 /// The same at one end, tabulated over speed at the other.
-const TABLE: [&str; 2] = [
+pub const TABLE: [&str; 2] = [
     CROSS[0],
     "speed = \"0, 3000, 12000 rpm\"\nk_xx = \"3e6, 5e6, 9e6 N/m\"\nk_yy = \"2e6, 3e6, 8e6 N/m\"\n\
      k_xy = \"4e5, 8e5, 2e6 N/m\"\nk_yx = \"-1e5, -8e5, -2e6 N/m\"\nc_xx = \"200, 300, 100 N s/m\"\nc_yy = \"200, 300, 100 N s/m\"",
 ];
-const ISOTROPIC: [&str; 2] =
+pub const ISOTROPIC: [&str; 2] =
     ["k_xx = \"1e7 N/m\"\nk_yy = \"1e7 N/m\"", "k_xx = \"2e7 N/m\"\nk_yy = \"2e7 N/m\""];
 pub const RATIO: &str = "[0.01, 0.03]";
 
