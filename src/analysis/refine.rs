@@ -143,7 +143,7 @@ mod tests {
             assert!(found.points.windows(2).all(|w| w[0] < w[1]));
             assert!(grid.iter().zip(&found.requested).all(|(x, &i)| found.points[i] == *x));
             for (p, z) in modes {
-                let near = |x: &f64| (x - p).abs() < 20.0 * z * p;
+                let near = |x: &f64| (x - p).abs() < 4.0 * z * p;
                 let largest = found.points.iter().filter(|x| near(x)).map(|x| response(&modes, *x).norm());
                 let exact = (0..40_001).map(|k| p * (1.0 + 4.0 * z * (f64::from(k) / 20_000.0 - 1.0)));
                 let exact = exact.map(|x| response(&modes, x).norm()).fold(0.0, f64::max);

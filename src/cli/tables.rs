@@ -200,10 +200,15 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
     }
     let count = rows.len();
     rows.truncate(MAX_ROWS);
-    let title =
-        format!("{} at {:.0} rpm, {} frequencies: peaks", found.name(), rpm(found.speed), frequencies.len());
+    let (given, added) = points_text(found.requested.len(), frequencies.len());
+    let title = format!("{} at {:.0} rpm, {given} frequencies{added}: peaks", found.name(), rpm(found.speed));
     terminal.table(&title, &["excitation", "response", "peak Hz", "peak magnitude", "unit"], &rows);
     print_omitted_count(terminal, count);
+}
+
+/// Number of the given points of a grid, and the note on those added at resonances.
+fn points_text(given: usize, all: usize) -> (usize, String) {
+    (given, if all > given { format!(" and {} at resonances", all - given) } else { String::new() })
 }
 
 /// Text of a peak amplitude: infinite at an undamped mode.
@@ -243,7 +248,8 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
             rows.push(vec![format!("{name} ({whirl})"), format!("{speed:.1}"), size, "m".into()]);
         }
     }
-    let title = format!("Unbalance response (1x) over {} speeds: peak amplitudes", speeds.len());
+    let (given, added) = points_text(found.requested.len(), speeds.len());
+    let title = format!("Unbalance response (1x) over {given} speeds{added}: peak amplitudes");
     terminal.table(&title, &["response", "at rpm", "amplitude", "unit"], &rows);
     unbalance_peaks(terminal, found);
 }
