@@ -6,7 +6,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::analysis::{campbell::campbell, frf::frf, modal};
 use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::element::Anchor;
-use rotordyn::model::Quantity;
+use rotordyn::model::{Options, Quantity, load};
+use rotordyn::study::Machine;
 use std::hint::black_box;
 
 #[path = "../tests/common/ross.rs"]
@@ -37,5 +38,25 @@ fn linear(c: &mut Criterion) {
     });
 }
 
-criterion_group! { name = benches; config = Criterion::default().sample_size(10); targets = linear }
+/// Campbell diagram of the Jeffcott rotor with 100 elements, with and without modal damping.
+fn modal_damping(c: &mut Criterion) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/models/jeffcott.toml");
+    let text = std::fs::read_to_string(path).expect("the model file exists");
+    let (start, end) = (text.find("[damping.modal]"), text.find("[drive]"));
+    let undamped = start.zip(end).map(|(start, end)| format!("{}{}", &text[..start], &text[end..]));
+    let undamped = undamped.expect("the file has modal damping");
+    for (name, text) in [("with", &text), ("without", &undamped)] {
+        let set = vec![("shaft.element_length".to_string(), "\"8 mm\"".to_string())];
+        let loaded = load("jeffcott.toml", text.clone(), &Options { variant: None, set });
+        let model = loaded.expect("the model is valid").model;
+        c.bench_function(&format!("Campbell, 100 elements, {name} modal damping"), |b| {
+            b.iter(|| {
+                let machine = Machine::new(black_box(&model).clone()).expect("the model is valid");
+                machine.campbell(model.studies.campbell.as_ref().expect("the file has a Campbell diagram"))
+            });
+        });
+    }
+}
+
+criterion_group! { name = benches; config = Criterion::default().sample_size(10); targets = linear, modal_damping }
 criterion_main!(benches);

@@ -64,6 +64,11 @@ pub enum PhysicsError {
         load[0], load[1], load[2], load[3], load[4]
     )]
     NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
+    #[error(
+        "bearing {bearing}: its table covers {:.0} to {:.0} rpm, {study} needs {:.0} to {:.0} rpm",
+        table_rpm[0], table_rpm[1], study_rpm[0], study_rpm[1]
+    )]
+    BeyondTable { bearing: String, study: String, table_rpm: [f64; 2], study_rpm: [f64; 2] },
     #[error("bearing {bearing}, {race} race: {reason}")]
     Film { bearing: String, race: String, reason: String },
     #[error("no derivative with respect to the parameter: {reason}")]

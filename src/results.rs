@@ -19,8 +19,10 @@ use crate::analysis::campbell::Campbell;
 use crate::analysis::critical_speed::CrossingList;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::analysis::frf::Frf;
+use crate::analysis::peaks::Peak;
 use crate::analysis::stability::Threshold;
 use crate::analysis::unbalance::UnbalanceResponse;
+use crate::linalg::Complex64;
 use crate::model::study::Parameter;
 use crate::model::{Probe, Quantity};
 use crate::signal::lyapunov::LyapunovExponent;
@@ -93,7 +95,33 @@ pub struct FrfResult {
     pub responses: Vec<String>,
     /// Unit of every response per excitation, `units[response][excitation]`, such as "(m/s^2)/N".
     pub units: Vec<Vec<String>>,
+    /// At the requested frequencies and those added around the natural frequencies.
     pub frf: Frf,
+    /// Index of every requested frequency.
+    pub requested: Vec<usize>,
+    /// Undamped modes, at which the FRFs are infinite, by frequency \[Hz\].
+    pub undamped: Vec<UndampedPeak>,
+}
+
+/// An undamped mode that is excited: the response there is infinite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UndampedPeak {
+    /// Frequency \[Hz\] or speed \[rad/s\].
+    pub at: f64,
+    /// Label of the mode.
+    pub label: String,
+    /// Responses in which it appears; of an FRF "RESPONSE/EXCITATION".
+    pub responses: Vec<String>,
+}
+
+impl UndampedPeak {
+    /// Largest distance, as a fraction of the frequency or speed, at which a response counts as infinite.
+    pub const WIDTH: f64 = 1e-6;
+
+    /// Whether a response is infinite at a frequency or speed.
+    pub fn covers(&self, at: f64) -> bool {
+        (at - self.at).abs() <= Self::WIDTH * self.at
+    }
 }
 
 impl FrfResult {
@@ -108,6 +136,15 @@ impl FrfResult {
 }
 
 impl FrfResult {
+    /// The FRFs at the requested frequencies only, for formats and programs that need equal spacing.
+    pub fn at_requested(&self) -> Self {
+        let pick = |h: &Vec<Complex64>| self.requested.iter().map(|&k| h[k]).collect();
+        let values = self.frf.values.iter().map(|row| row.iter().map(pick).collect()).collect();
+        let frequencies: Vec<f64> = self.requested.iter().map(|&k| self.frf.frequencies[k]).collect();
+        let requested = (0..frequencies.len()).collect();
+        Self { frf: Frf { frequencies, values, quantity: self.frf.quantity }, requested, ..self.clone() }
+    }
+
     /// Whether the FRF is non-zero at any frequency; uncoupled responses have no curve and no peak.
     pub fn is_coupled(&self, response: usize, excitation: usize) -> bool {
         self.frf.values[response][excitation].iter().any(|h| h.norm_sqr() > 0.0)
@@ -122,9 +159,27 @@ pub fn is_rotation(direction: &[f64; 6]) -> bool {
 /// Unbalance response at every requested probe, and the orbit of every disc.
 #[derive(Clone, Debug)]
 pub struct UnbalanceResult {
+    /// At the requested speeds and those added around the critical speeds.
     pub response: UnbalanceResponse,
+    /// Index of every requested speed.
+    pub requested: Vec<usize>,
     pub channels: Vec<UnbalanceChannel>,
     pub orbits: Vec<DiscOrbit>,
+    /// Peaks of every channel and orbit, by speed \[rad/s\].
+    pub peaks: Vec<ResponsePeak>,
+    /// Operating speed \[rad/s\] for the separation margins: the highest of the speed profile.
+    pub operating_speed: Option<f64>,
+    /// Undamped modes excited by the unbalance, at which the response is infinite, by speed \[rad/s\].
+    pub undamped: Vec<UndampedPeak>,
+}
+
+/// A peak of the unbalance response.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponsePeak {
+    /// Name of the probe, or "orbit of disc.NAME" for its semi-major axis.
+    pub response: String,
+    pub unit: &'static str,
+    pub peak: Peak,
 }
 
 /// One response: complex amplitude of the probe's quantity over speed.

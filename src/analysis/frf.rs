@@ -1,8 +1,9 @@
 //! Frequency response functions at a fixed speed, solved directly.
 
+use super::harmonic::HarmonicSystem;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{BandLayout, Complex64, SparseRow};
+use crate::linalg::{Complex64, SparseRow};
 use crate::model::Quantity;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -35,31 +36,30 @@ pub fn frf(
     quantity: Quantity,
 ) -> Result<Frf, Error> {
     let reached: Vec<usize> = excitations.iter().flat_map(|e| e.0.iter().map(|&(i, _)| i)).collect();
-    let layout = BandLayout::new(&[&system.mass, &system.damping, &system.stiffness]).restricted_to(&reached);
-    let [m, d, s] = [&system.mass, &system.damping, &system.stiffness].map(|a| layout.scatter(a));
-
-    let start = || layout.workspace::<Complex64>();
+    let harmonic = HarmonicSystem::new(system, Some(&reached));
     let columns: Vec<Vec<Complex64>> = frequencies
         .par_iter()
-        .map_init(start, |lu, &hz| {
-            let omega = hz * TAU;
-            let square = omega * omega;
-            lu.refactor(|k| Complex64::new(s[k] - square * m[k], omega * d[k])).map_err(|pivot| {
-                PhysicsError::Singular { motion: format!("at {hz} Hz {}", assembly.dofs.name(pivot.unknown)) }
-            })?;
-            let scale = derivative_factor(quantity, omega);
-            let mut column = Vec::with_capacity(excitations.len() * responses.len());
-            let mut q = vec![Complex64::default(); layout.size()];
-            for excitation in excitations {
-                q.fill(Complex64::default());
-                for &(i, v) in &excitation.0 {
-                    q[i] += v;
+        .map_init(
+            || harmonic.solver(),
+            |solver, &hz| {
+                let omega = hz * TAU;
+                solver.factor(omega).map_err(|pivot| PhysicsError::Singular {
+                    motion: format!("at {hz} Hz {}", assembly.dofs.name(pivot.unknown)),
+                })?;
+                let scale = derivative_factor(quantity, omega);
+                let mut column = Vec::with_capacity(excitations.len() * responses.len());
+                let mut q = vec![Complex64::default(); harmonic.size()];
+                for excitation in excitations {
+                    q.fill(Complex64::default());
+                    for &(i, v) in &excitation.0 {
+                        q[i] += v;
+                    }
+                    solver.solve(&mut q);
+                    column.extend(responses.iter().map(|r| scale * r.dot_complex(&q)));
                 }
-                lu.solve(&mut q);
-                column.extend(responses.iter().map(|r| scale * r.dot_complex(&q)));
-            }
-            Ok(column)
-        })
+                Ok(column)
+            },
+        )
         .collect::<Result<_, Error>>()?;
 
     let value = |r: usize, e: usize| columns.iter().map(|c| c[e * responses.len() + r]).collect();

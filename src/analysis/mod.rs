@@ -8,8 +8,13 @@
 //! | [`campbell`] | modes over speed (Campbell diagram), tracked by MAC |
 //! | [`critical_speed`] | critical speeds: intersections of modes with order lines |
 //! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
+//! | [`poles`] | poles of FRFs and of the unbalance response |
+//! | [`peaks`] | resonance peaks over speed: amplification factor, separation margin |
+//! | [`refine`](mod@refine) | grids refined around poles |
 //! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
+//! | [`harmonic`] | steady harmonic response of a linear system, the common solver of FRF and unbalance |
+//! | [`table_range`] | speeds beyond the tables of bearings |
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
 pub mod bearing_stiffness;
@@ -17,10 +22,15 @@ pub mod campbell;
 pub mod critical_speed;
 pub mod equilibrium;
 pub mod frf;
+pub mod harmonic;
 pub mod modal;
 pub mod mode_kind;
+pub mod peaks;
+pub mod poles;
+pub mod refine;
 pub mod sensitivity;
 pub mod stability;
+pub mod table_range;
 pub mod unbalance;
 
 pub use modal::Mode;

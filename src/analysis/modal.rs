@@ -92,8 +92,14 @@ pub(super) fn eigenpairs(
     count: usize,
 ) -> Result<Vec<Eigenpair>, Error> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
-    let mut pairs = krylov::lowest_eigenpairs(&system.mass, &system.damping, &system.stiffness, count, SHIFT)
-        .map_err(|e| failed(e.to_string()))?;
+    let [m, d, s] = [&system.mass, &system.damping, &system.stiffness];
+    let mut pairs = match &system.modal {
+        None => krylov::lowest_eigenpairs(m, d, s, count, SHIFT),
+        Some(modal) => {
+            krylov::lowest_eigenpairs_with([m, d, s], (&modal.matrix, &modal.stiffness), count, SHIFT)
+        }
+    }
+    .map_err(|e| failed(e.to_string()))?;
     pairs.truncate(count + 1);
     Ok(pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &assembly.mass))).collect())
 }
@@ -112,6 +118,7 @@ pub fn undamped(assembly: &Assembly, system: &LinearSystem) -> LinearSystem {
         speed: system.speed,
         mass: system.mass.clone(),
         damping: SparseMatrix::sum(&[(system.speed, &assembly.gyroscopic)]),
+        modal: None,
         stiffness: SparseMatrix::sum(&[(1.0, &system.stiffness), (-system.speed, &assembly.circulatory)]),
     }
 }
@@ -207,8 +214,8 @@ pub fn with_shape(assembly: &Assembly, mode: &Mode, shape: Vec<Complex64>) -> Mo
 fn projected_residual(system: &LinearSystem, value: Complex64, shapes: [&[Complex64]; 2]) -> f64 {
     let mut largest: f64 = 0.0;
     for right in shapes {
-        let [m, d, s] =
-            [&system.mass, &system.damping, &system.stiffness].map(|matrix| matrix.mul_complex(right));
+        let [m, s] = [&system.mass, &system.stiffness].map(|matrix| matrix.mul_complex(right));
+        let d = system.damp(right);
         for left in shapes {
             let rest = value * value * inner(left, &m) + value * inner(left, &d) + inner(left, &s);
             largest = largest.max(rest.norm() / value.norm_sqr());

@@ -10,9 +10,11 @@
 use super::equilibrium::{
     CageTreatment, Equilibrium, Sites, bearing_stiffness_matrix, equilibrium, external_load, residual_force,
 };
+use super::harmonic::HarmonicSystem;
 use super::modal::inner;
+use super::table_range;
 use crate::assembly::{Assembly, LinearSystem};
-use crate::bearing::SiteTangent;
+use crate::bearing::{Reaction, SiteTangent};
 use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, Complex64, SparseMatrix, SparseRow, Triplets};
 use crate::model::{Model, Quantity};
@@ -26,6 +28,8 @@ pub struct Linearised {
     pub model: Model,
     pub assembly: Assembly,
     pub equilibrium: Equilibrium,
+    /// Equilibrium at standstill, for modal damping at another speed.
+    standstill: Option<Equilibrium>,
     pub system: LinearSystem,
 }
 
@@ -35,11 +39,19 @@ impl Linearised {
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, Error> {
-        let assembly = Assembly::new(&model)?;
+        table_range::check_tables(&model, "the linearised machine", [speed; 2])?;
+        let mut assembly = Assembly::new(&model)?;
         let start = start.filter(|q| q.len() == assembly.dofs.len());
         let found = equilibrium(&model, &assembly, speed, CageTreatment::Averaged, start)?;
+        // Modal damping is that of the machine at standstill.
+        let standstill = if speed != 0.0 && !assembly.modal_damping.is_empty() {
+            Some(equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, Some(&found.q))?)
+        } else {
+            None
+        };
+        assembly.set_standstill(&standstill.as_ref().unwrap_or(&found).tangents())?;
         let system = LinearSystem::new(&assembly, &found.tangents(), speed)?;
-        Ok(Self { model, assembly, equilibrium: found, system })
+        Ok(Self { model, assembly, equilibrium: found, standstill, system })
     }
 
     /// dM/dp, dD/dp and dS/dp from the models at p − h and p + h, `width` = 2h in units of p.
@@ -47,46 +59,64 @@ impl Linearised {
     /// # Errors
     /// A parameter that changes the mesh or the free DOFs, or a singular tangent stiffness.
     pub fn derivative(&self, below: &Model, above: &Model, width: f64) -> Result<SystemDerivative, Error> {
-        let speed = self.system.speed;
-        let q = &self.equilibrium.q;
         let side = |model: &Model| -> Result<PerturbedAssembly, Error> {
             let assembly = Assembly::new(model)?;
-            let sites = Sites::new(model, speed, CageTreatment::Averaged);
             if assembly.dofs.free != self.assembly.dofs.free {
                 let reason = "it changes the mesh or which motions are free".into();
                 return Err(PhysicsError::NoDerivative { reason }.into());
             }
-            Ok(PerturbedAssembly { assembly, sites })
+            let sites = |at: &Equilibrium| Sites::new(model, at.speed, CageTreatment::Averaged);
+            Ok(PerturbedAssembly {
+                assembly,
+                sites: sites(&self.equilibrium),
+                standstill: self.standstill.as_ref().map(sites),
+            })
         };
-        let (below, above) = (side(below)?, side(above)?);
-        let change: Vec<f64> = above
-            .residual_force(q)
-            .iter()
-            .zip(below.residual_force(q))
-            .map(|(a, b)| (a - b) / width)
-            .collect();
-        let shift = self.equilibrium_derivative(change)?;
-        let at = |side: &PerturbedAssembly, way: f64| {
-            let there: Vec<f64> = q.iter().zip(&shift).map(|(q, m)| q + way * 0.5 * width * m).collect();
-            LinearSystem::new(&side.assembly, &side.tangents(&there), speed)
-        };
-        let (low, high) = (at(&below, -1.0)?, at(&above, 1.0)?);
+        let (mut below, mut above) = (side(below)?, side(above)?);
+        if let Some(standstill) = &self.standstill {
+            let [low, high] = self.perturbed_tangents(standstill, [&below, &above], width)?;
+            below.assembly.set_standstill(&low)?;
+            above.assembly.set_standstill(&high)?;
+        }
+        let [low, high] = self.perturbed_tangents(&self.equilibrium, [&below, &above], width)?;
+        let speed = self.system.speed;
+        let (low, high) = (
+            LinearSystem::new(&below.assembly, &low, speed)?,
+            LinearSystem::new(&above.assembly, &high, speed)?,
+        );
         let slope =
             |a: &SparseMatrix, b: &SparseMatrix| SparseMatrix::sum(&[(1.0 / width, b), (-1.0 / width, a)]);
         Ok(SystemDerivative {
             mass: slope(&low.mass, &high.mass),
-            damping: slope(&low.damping, &high.damping),
+            damping: slope(&low.full_damping(), &high.full_damping()),
             stiffness: slope(&low.stiffness, &high.stiffness),
         })
     }
 
-    /// Derivative of the equilibrium, q′ of (K + K_t) q′ = `change`.
-    fn equilibrium_derivative(&self, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
+    /// Tangents of the bearings at p ∓ h about the equilibria `of` ∓ h q′, `width` = 2h.
+    fn perturbed_tangents(
+        &self,
+        of: &Equilibrium,
+        sides: [&PerturbedAssembly; 2],
+        width: f64,
+    ) -> Result<[Vec<SiteTangent>; 2], Error> {
+        let [below, above] = sides.map(|side| side.residual_force(of));
+        let change = above.iter().zip(below).map(|(a, b)| (a - b) / width).collect();
+        let shift = self.equilibrium_derivative(of, change)?;
+        let at = |side: &PerturbedAssembly, way: f64| {
+            let there: Vec<f64> = of.q.iter().zip(&shift).map(|(q, m)| q + way * 0.5 * width * m).collect();
+            side.reactions(of, &there).iter().map(SiteTangent::from).collect()
+        };
+        Ok([at(sides[0], -1.0), at(sides[1], 1.0)])
+    }
+
+    /// Derivative of an equilibrium, q′ of (K + K_t) q′ = `change`.
+    fn equilibrium_derivative(&self, of: &Equilibrium, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
         if change.iter().all(|r| *r == 0.0) {
             return Ok(change);
         }
-        let sites = Sites::new(&self.model, self.system.speed, CageTreatment::Averaged);
-        let reactions = sites.reactions(&self.assembly, &self.equilibrium.q);
+        let sites = Sites::new(&self.model, of.speed, CageTreatment::Averaged);
+        let reactions = sites.reactions(&self.assembly, &of.q);
         let bearings = bearing_stiffness_matrix(&self.assembly, &reactions);
         let (mass, stiffness) = (&self.assembly.mass, &self.assembly.stiffness);
         let layout = BandLayout::new(&[mass, stiffness, &bearings]);
@@ -105,20 +135,19 @@ impl Linearised {
 struct PerturbedAssembly {
     assembly: Assembly,
     sites: Sites,
+    /// The bearings at standstill, where the equilibrium is at another speed.
+    standstill: Option<Sites>,
 }
 
 impl PerturbedAssembly {
-    fn residual_force(&self, q: &[f64]) -> Vec<f64> {
-        residual_force(
-            &self.assembly,
-            external_load(&self.assembly),
-            q,
-            &self.sites.reactions(&self.assembly, q),
-        )
+    /// Reactions of the bearings at the speed of an equilibrium, at displacements q.
+    fn reactions(&self, of: &Equilibrium, q: &[f64]) -> Vec<Reaction> {
+        let standstill = self.standstill.as_ref().filter(|_| of.speed == 0.0);
+        standstill.unwrap_or(&self.sites).reactions(&self.assembly, q)
     }
 
-    fn tangents(&self, q: &[f64]) -> Vec<SiteTangent> {
-        self.sites.reactions(&self.assembly, q).iter().map(SiteTangent::from).collect()
+    fn residual_force(&self, of: &Equilibrium) -> Vec<f64> {
+        residual_force(&self.assembly, external_load(&self.assembly), &of.q, &self.reactions(of, &of.q))
     }
 }
 
@@ -174,7 +203,7 @@ impl<'a> ModeSensitivity<'a> {
     /// A defective eigenvalue, whose left and right vectors are orthogonal: it has no derivative.
     pub fn new(system: &'a LinearSystem, value: Complex64, right: &'a [Complex64]) -> Result<Self, Error> {
         let left = left_vector(system, value, right)?;
-        let (m, d) = (system.mass.mul_complex(right), system.damping.mul_complex(right));
+        let (m, d) = (system.mass.mul_complex(right), system.damp(right));
         let weighted: Vec<Complex64> = m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect();
         let norm = bilinear_product(&left, &weighted);
         let size = inner(&left, &left).re.sqrt() * inner(&weighted, &weighted).re.sqrt();
@@ -202,7 +231,7 @@ impl<'a> ModeSensitivity<'a> {
     ) -> Result<Self, Error> {
         let lefts = [left_vector(system, value, right)?, left_vector(system, value, other)?];
         let weighted = [right, other].map(|v| {
-            let (m, d) = (system.mass.mul_complex(v), system.damping.mul_complex(v));
+            let (m, d) = (system.mass.mul_complex(v), system.damp(v));
             m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect::<Vec<Complex64>>()
         });
         // Ψ = L G⁻ᵀ with G = Lᵀ (2λ M + D) Φ has Ψᵀ (2λ M + D) Φ = 1.
@@ -253,8 +282,11 @@ impl<'a> ModeSensitivity<'a> {
         };
         let system = self.system;
         let scale = system.stiffness.get(fixed[0], fixed[0]).abs().max(f64::MIN_POSITIVE);
-        let matrices =
-            [without(&system.mass, 0.0), without(&system.damping, 0.0), without(&system.stiffness, scale)];
+        let matrices = [
+            without(&system.mass, 0.0),
+            without(&system.full_damping(), 0.0),
+            without(&system.stiffness, scale),
+        ];
         let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
         let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
         let value = self.value;
@@ -320,7 +352,8 @@ fn left_vector(
     if is_symmetric(&system.damping) && is_symmetric(&system.stiffness) {
         return Ok(right.to_vec());
     }
-    let matrices = [&system.mass, &system.damping, &system.stiffness].map(SparseMatrix::transposed);
+    let damping = system.full_damping();
+    let matrices = [&system.mass, &damping, &system.stiffness].map(SparseMatrix::transposed);
     let layout = BandLayout::new(&[&matrices[0], &matrices[1], &matrices[2]]);
     let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
     // Shifted slightly off the eigenvalue, so that the factors exist and one step gains eight digits.
@@ -363,23 +396,21 @@ pub fn frf_sensitivity(
     by: &[&SystemDerivative],
 ) -> Result<FrfSensitivity, Error> {
     let system = &at.system;
-    let matrices = [&system.mass, &system.damping, &system.stiffness];
-    let layout = BandLayout::new(&matrices);
-    let [m, d, s] = matrices.map(|a| layout.scatter(a));
+    let harmonic = HarmonicSystem::new(system, None);
     let empty = vec![vec![Vec::with_capacity(frequencies.len()); excitations.len()]; responses.len()];
     let mut out = FrfSensitivity { values: empty.clone(), derivatives: vec![empty; by.len()] };
-    let mut lu = layout.workspace::<Complex64>();
+    let mut solver = harmonic.solver();
     for &hz in frequencies {
         let omega = TAU * hz;
         let value = Complex64::new(0.0, omega);
-        lu.refactor(|k| Complex64::new(s[k] - omega * omega * m[k], omega * d[k])).map_err(|pivot| {
+        solver.factor(omega).map_err(|pivot| {
             let name = at.assembly.dofs.name(pivot.unknown);
             PhysicsError::Singular { motion: format!("at {hz} Hz {name}") }
         })?;
         for (e, excitation) in excitations.iter().enumerate() {
-            let mut q = vec![Complex64::default(); layout.size()];
+            let mut q = vec![Complex64::default(); harmonic.size()];
             excitation.0.iter().for_each(|&(i, v)| q[i] += v);
-            lu.solve(&mut q);
+            solver.solve(&mut q);
             let read = |q: &[Complex64], r: usize| {
                 time_derivative(quantities[r], omega) * responses[r].dot_complex(q)
             };
@@ -389,7 +420,7 @@ pub fn frf_sensitivity(
             for (slopes, by) in out.derivatives.iter_mut().zip(by) {
                 let mut change = by.apply(value, &q);
                 change.iter_mut().for_each(|v| *v = -*v);
-                lu.solve(&mut change);
+                solver.solve(&mut change);
                 for (r, slopes) in slopes.iter_mut().enumerate() {
                     slopes[e].push(read(&change, r));
                 }

@@ -2,10 +2,11 @@
 
 use super::campbell::Tangents;
 use super::frf::derivative_factor;
+use super::harmonic::HarmonicSystem;
 use super::mode_kind::whirl_index;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{BandLayout, Complex64, SparseRow};
+use crate::linalg::{Complex64, SparseRow};
 use crate::model::Quantity;
 use rayon::prelude::*;
 
@@ -75,13 +76,12 @@ pub fn response(
             let system = LinearSystem::new(assembly, &tangents(speed)?, speed)?;
             let mut q = assembly.unbalance_amplitude(speed);
             let reached: Vec<usize> = (0..q.len()).filter(|&i| q[i] != Complex64::default()).collect();
-            let layout =
-                BandLayout::new(&[&system.mass, &system.damping, &system.stiffness]).restricted_to(&reached);
-            let [m, d, s] = [&system.mass, &system.damping, &system.stiffness].map(|a| layout.scatter(a));
-            let mut lu = layout.workspace::<Complex64>();
-            lu.refactor(|k| Complex64::new(s[k] - speed * speed * m[k], speed * d[k]))
+            let harmonic = HarmonicSystem::new(&system, Some(&reached));
+            let mut solver = harmonic.solver();
+            solver
+                .factor(speed)
                 .map_err(|pivot| PhysicsError::Singular { motion: assembly.dofs.name(pivot.unknown) })?;
-            lu.solve(&mut q);
+            solver.solve(&mut q);
             Ok(q)
         })
         .collect::<Result<_, Error>>()?;

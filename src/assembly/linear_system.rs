@@ -1,9 +1,10 @@
 //! Linearised equations of motion at one speed, bearings included.
 
-use super::Assembly;
+use super::{Assembly, ModalDamping};
 use crate::bearing::SiteTangent;
-use crate::error::{Error, PhysicsError};
-use crate::linalg::{Outside, SparseMatrix, Triplets, eigen, piecewise};
+use crate::error::Error;
+use crate::linalg::{Complex64, SparseMatrix, Triplets};
+use std::sync::Arc;
 
 /// M q̈ + D q̇ + S q = f at speed Ω, with D = C + Ω G and S = K + Ω K_c, bearings and belts included.
 #[derive(Clone, Debug)]
@@ -12,14 +13,18 @@ pub struct LinearSystem {
     pub speed: f64,
     /// M.
     pub mass: SparseMatrix,
-    /// D = C + Ω G.
+    /// D without modal damping.
     pub damping: SparseMatrix,
+    /// Modal damping, the rest of D; `None` without any.
+    pub modal: Option<Arc<ModalDamping>>,
     /// S = K + Ω K_c.
     pub stiffness: SparseMatrix,
 }
 
 impl LinearSystem {
     /// Linearised equations with one tangent per bearing site, in order.
+    ///
+    /// Modal damping is that of [`Assembly::set_standstill`]; without it, that of these `tangents`.
     ///
     /// # Errors
     /// Undamped modes for modal damping did not converge.
@@ -30,49 +35,48 @@ impl LinearSystem {
             k.add_between_rows(&site.rows, &tangent.stiffness);
             c.add_between_rows(&site.rows, &tangent.damping);
         }
-        let standstill = SparseMatrix::sum(&[
-            (1.0, &assembly.stiffness),
-            (1.0, &assembly.belt_stiffness),
-            (1.0, &k.build()),
-        ]);
-        let modal = modal_damping(assembly, &standstill)?;
+        let modal = match &assembly.modal {
+            Some(modal) => Some(modal.clone()),
+            None => ModalDamping::new(assembly, tangents)?.map(Arc::new),
+        };
         Ok(Self {
             speed,
             mass: assembly.mass.clone(),
             damping: SparseMatrix::sum(&[
                 (1.0, &assembly.damping),
                 (1.0, &c.build()),
-                (1.0, &modal),
                 (speed, &assembly.gyroscopic),
             ]),
-            stiffness: SparseMatrix::sum(&[(1.0, &standstill), (speed, &assembly.circulatory)]),
+            modal,
+            stiffness: SparseMatrix::sum(&[
+                (1.0, &assembly.stiffness),
+                (1.0, &assembly.belt_stiffness),
+                (1.0, &k.build()),
+                (speed, &assembly.circulatory),
+            ]),
         })
     }
-}
 
-/// Modal damping matrix C = M Φ diag(2 ζ ω) Φᵀ M from the undamped modes at standstill, Φᵀ M Φ = 1.
-pub fn modal_damping(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<SparseMatrix, Error> {
-    let n = assembly.dofs.len();
-    if assembly.modal_damping.is_empty() {
-        return Ok(SparseMatrix::zeros(n, n));
-    }
-    let mass = assembly.mass.to_dense();
-    let (squares, mut shapes) = eigen::undamped(&stiffness.to_dense(), &mass, 1.0)
-        .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
-    let momentum = &mass * &shapes;
-    for (mut column, square) in shapes.column_iter_mut().zip(&squares) {
-        let omega = square.max(0.0).sqrt();
-        let hz = omega / std::f64::consts::TAU;
-        let [_, ratio] = piecewise(&assembly.modal_damping, hz, Outside::Constant);
-        column *= 2.0 * omega * ratio;
-    }
-    let mut dense = &momentum * (mass * shapes).transpose();
-    // Entries between uncoupled unknowns are round-off only: set to zero to keep sparsity.
-    let floor = 1e-12 * dense.amax();
-    dense.apply(|v| {
-        if v.abs() < floor {
-            *v = 0.0;
+    /// D with modal damping, dense where there is any.
+    pub fn full_damping(&self) -> SparseMatrix {
+        match &self.modal {
+            Some(modal) => SparseMatrix::sum(&[(1.0, &self.damping), (1.0, &modal.matrix.to_sparse())]),
+            None => self.damping.clone(),
         }
-    });
-    Ok(SparseMatrix::from_dense(&dense))
+    }
+
+    /// D v, modal damping included.
+    pub fn damp(&self, v: &[Complex64]) -> Vec<Complex64> {
+        let mut out = self.damping.mul_complex(v);
+        if let Some(modal) = &self.modal {
+            out.iter_mut().zip(modal.matrix.mul_complex(v)).for_each(|(o, m)| *o += m);
+        }
+        out
+    }
+
+    /// Matrices with the couplings between unknowns, those of modal damping included.
+    pub fn patterns(&self) -> Vec<&SparseMatrix> {
+        let modal = self.modal.as_ref().map(|modal| &modal.stiffness);
+        [Some(&self.mass), Some(&self.damping), Some(&self.stiffness), modal].into_iter().flatten().collect()
+    }
 }

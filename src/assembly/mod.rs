@@ -6,19 +6,22 @@
 pub mod dofs;
 mod elements;
 pub mod linear_system;
+pub mod modal_damping;
 pub mod rigid_body_modes;
 mod spin_up;
 
 pub use dofs::DofMap;
 pub use linear_system::LinearSystem;
+pub use modal_damping::ModalDamping;
 pub use spin_up::SpinUpForm;
 
-use crate::bearing::Reaction;
+use crate::bearing::{Reaction, SiteTangent};
 use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
 use crate::error::Error;
 use crate::linalg::{Complex64, SparseMatrix, SparseRow, dot};
 use crate::model::Model;
+use std::sync::Arc;
 
 /// Equations of motion over the free DOFs, without bearings.
 #[derive(Clone, Debug)]
@@ -52,6 +55,9 @@ pub struct Assembly {
     pub sites: Vec<Site>,
     /// Modal damping table: (frequency \[Hz\], ζ).
     pub modal_damping: Vec<[f64; 2]>,
+    /// The modal damping matrix, once the bearings at standstill are known
+    /// ([`Assembly::set_standstill`]).
+    pub modal: Option<Arc<ModalDamping>>,
     /// Mass over all DOFs, before elimination.
     pub full_mass: SparseMatrix,
 }
@@ -150,11 +156,21 @@ impl Assembly {
                 })
                 .collect(),
             modal_damping: model.damping.modal.clone(),
+            modal: None,
             full_mass: full.mass,
             dofs,
         };
         rigid_body_modes::check_mass(&assembly)?;
         Ok(assembly)
+    }
+
+    /// Computes the modal damping from one tangent at standstill per bearing site, for all speeds and studies.
+    ///
+    /// # Errors
+    /// As [`ModalDamping::new`].
+    pub fn set_standstill(&mut self, tangents: &[SiteTangent]) -> Result<(), Error> {
+        self.modal = ModalDamping::new(self, tangents)?.map(Arc::new);
+        Ok(())
     }
 
     /// Displacement of an anchor's point as rows over the free DOFs.

@@ -24,7 +24,8 @@ impl From<&Reaction> for SiteTangent {
 /// A linear bearing prepared for evaluation.
 #[derive(Clone, Debug)]
 pub struct LinearElement {
-    constant: bool,
+    /// First and last speed of the table \[rad/s\]; `None` for constant matrices.
+    range: Option<[f64; 2]>,
     /// Entries that are not identically zero: row, column, curve over speed.
     stiffness: Vec<(usize, usize, Pchip)>,
     damping: Vec<(usize, usize, Pchip)>,
@@ -49,7 +50,7 @@ impl LinearElement {
             out
         };
         Self {
-            constant: speeds.len() < 2,
+            range: bearing.table_range(),
             stiffness: curves(&|k, a, b| bearing.table[k].stiffness[a][b]),
             damping: curves(&|k, a, b| bearing.table[k].damping[a][b]),
         }
@@ -57,11 +58,13 @@ impl LinearElement {
 
     /// Whether stiffness or damping is tabulated over speed.
     pub fn depends_on_speed(&self) -> bool {
-        !self.constant
+        self.range.is_some()
     }
 
-    /// Stiffness K and damping C at a speed Ω \[rad/s\], order u_x u_y u_z θ_x θ_y θ_z.
+    /// Stiffness K and damping C at a speed Ω \[rad/s\], order u_x u_y u_z θ_x θ_y θ_z; those of the table's end
+    /// beyond it.
     pub fn matrices(&self, speed: f64) -> ([[f64; 6]; 6], [[f64; 6]; 6]) {
+        let speed = self.range.map_or(speed, |[first, last]| speed.max(first).min(last));
         let fill = |curves: &[(usize, usize, Pchip)]| {
             let mut m = [[0.0; 6]; 6];
             for (a, b, curve) in curves {

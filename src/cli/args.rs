@@ -244,7 +244,8 @@ Examples:
     ///
     /// Response of every probe to every excitation, solved directly at each frequency. Default without
     /// [study.frf]: receptance for unit forces along x and y at the first disc (else station), 1 to 500 Hz in
-    /// steps of 0.25 Hz.
+    /// steps of 0.25 Hz. Frequencies are added around the natural frequencies, so that no peak lies between
+    /// the points (refine = false in [study.frf]: none); universal files have the given ones.
     #[command(after_long_help = "\
 Units: receptance m/N, mobility m/(s N), accelerance m/(s^2 N).
 
@@ -271,6 +272,8 @@ Examples:
     /// Synchronous (1x) unbalance response over speed: Bode plots and orbits
     ///
     /// Default without [study.unbalance]: 200 speeds up to 1.5 times the highest of [speed], else 6000 rpm.
+    /// Speeds are added around the critical speeds (refine = false: none). Every peak is listed with its
+    /// amplification factor, and its separation from the highest speed of [speed] as in API 617.
     #[command(after_long_help = "\
 Examples:
   rotordyn unbalance models/jeffcott.toml
@@ -410,6 +413,9 @@ Examples:
         /// Number of modes
         #[arg(long, value_name = "N")]
         modes: Option<usize>,
+        /// Smallest MAC of a mode pair; modes below it stay without a pair
+        #[arg(long, value_name = "MAC", default_value_t = 0.5)]
+        min_mac: f64,
     },
 
     /// Correlate the model with measured modes, FRFs or run-ups: mode pairing, MAC, frequency errors

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::analysis::table_range::check_tables;
 use rotordyn::io::measured::test_data::{self, ReadSettings, TestData};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
@@ -123,12 +124,18 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
 /// Relative frequency difference above which a mode pair gets a warning.
 const FREQUENCY_ERROR_LIMIT: f64 = 0.2;
 
-/// Warns about mode pairs with a large frequency difference.
-pub fn frequency_error_warnings(terminal: &Terminal, target: &Target, state: &ModelState) {
+/// MAC below which a mode pair gets a warning.
+const DOUBTFUL_MAC: f64 = 0.5;
+
+/// Warns about bearings outside their tables, and mode pairs with a large frequency difference or a low MAC.
+pub fn pair_warnings(terminal: &Terminal, target: &Target, state: &ModelState) -> Result<(), Failure> {
+    for warning in check_tables(&state.linearised.model, "the measurement", [target.speed; 2])? {
+        terminal.print_diagnostic("warning", &warning);
+    }
     for (k, measured) in target.modes.iter().enumerate() {
         let Some((mode, mac)) = state.paired_mode(k) else { continue };
         let off = mode.frequency_hz() / measured.frequency_hz - 1.0;
-        if off.abs() > FREQUENCY_ERROR_LIMIT {
+        if off.abs() > FREQUENCY_ERROR_LIMIT || mac < DOUBTFUL_MAC {
             terminal.print_diagnostic(
                 "warning",
                 &format!(
@@ -142,6 +149,7 @@ pub fn frequency_error_warnings(terminal: &Terminal, target: &Target, state: &Mo
             );
         }
     }
+    Ok(())
 }
 
 /// Frequency band of the measured modes, widened to 0.8 and 1.1 times its ends.

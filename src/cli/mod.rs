@@ -137,8 +137,8 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
         Command::Identify(args) => identify::run(args, terminal),
-        Command::Compare { study, variants, speed, modes } => {
-            compare::run(study, variants, speed.as_ref(), *modes, terminal)
+        Command::Compare { study, variants, speed, modes, min_mac } => {
+            compare::run(study, variants, speed.as_ref(), *modes, *min_mac, terminal)
         }
         Command::Validate(args) => validate::run(args, terminal),
         Command::Update(args) => update::run(args, terminal),
@@ -225,7 +225,7 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
 
 /// Quality warnings: unstable modes, energy balance of the run-up, error of the reduced model.
 fn quality_warnings(job: &mut Job) {
-    let mut found = Vec::new();
+    let mut found = std::mem::take(&mut job.quality_warnings);
     for at in &job.results.modal {
         for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
             let speed = terminal::rpm(at.speed);

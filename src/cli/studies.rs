@@ -8,8 +8,8 @@ use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::{ChannelStream, Store};
 use rotordyn::io::results_file;
-use rotordyn::model::Model;
 use rotordyn::model::study::Studies;
+use rotordyn::model::{Drive, Model};
 use rotordyn::results::{Results, RunUpResult};
 use rotordyn::study::{Machine, Recorder};
 use rotordyn::transient::run::End;
@@ -72,6 +72,30 @@ impl Study {
         }
     }
 
+    /// Speeds at which it evaluates the bearings \[rad/s\]; none if the model file does not contain it.
+    ///
+    /// A run-up with a motor torque has its speeds only afterwards, in its history.
+    pub fn speeds(self, model: &Model) -> Vec<f64> {
+        let studies = &model.studies;
+        let found = match self {
+            Self::Static => studies.equilibrium.as_ref().map(|s| vec![s.speed]),
+            Self::Modal => studies.modal.as_ref().map(|s| s.speeds.clone()),
+            Self::Campbell => studies.campbell.as_ref().map(|s| s.speeds.clone()),
+            Self::Critical => studies.critical.as_ref().map(|s| vec![0.0, s.max_speed]),
+            Self::Frf => studies.frf.as_ref().map(|s| vec![s.speed]),
+            Self::Unbalance => studies.unbalance.as_ref().map(|s| s.speeds.clone()),
+            Self::RunUp => {
+                let prescribed = matches!(model.drive, Drive::Prescribed { .. });
+                prescribed.then(|| model.profile.speed_range().to_vec())
+            }
+            Self::Poincare => studies.poincare.as_ref().map(|s| vec![s.steady.speed]),
+            Self::Lyapunov => studies.lyapunov.as_ref().map(|s| vec![s.steady.speed]),
+            Self::Bifurcation => studies.bifurcation.as_ref().map(|s| vec![s.steady.speed]),
+            Self::Spectrogram | Self::Orders | Self::Bearing => None,
+        };
+        found.unwrap_or_default()
+    }
+
     /// Whether the model file contains it.
     pub fn is_requested(self, studies: &Studies) -> bool {
         match self {
@@ -105,14 +129,26 @@ pub struct Job<'a> {
     pub seconds: Vec<(&'static str, f64)>,
     /// Files written, results.h5 included.
     pub files: Vec<PathBuf>,
+    /// Warnings of the studies, shown at the end.
+    pub quality_warnings: Vec<String>,
     /// Failed studies with their errors.
     pub failures: Vec<(&'static str, Failure)>,
 }
 
 impl<'a> Job<'a> {
     pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, store: Store) -> Self {
-        let (family, results, seconds, files, failures) = Default::default();
-        Self { terminal, machine, parameter_models: family, folder, store, results, seconds, files, failures }
+        Self {
+            terminal,
+            machine,
+            parameter_models: Vec::new(),
+            folder,
+            store,
+            results: Results::default(),
+            seconds: Vec::new(),
+            files: Vec::new(),
+            quality_warnings: Vec::new(),
+            failures: Vec::new(),
+        }
     }
 
     /// Runs studies in order; a failed study does not stop the others, Ctrl-C does.
@@ -136,6 +172,11 @@ impl<'a> Job<'a> {
     }
 
     fn run_study(&mut self, study: Study) -> Result<(), Failure> {
+        let mut speeds = study.speeds(&self.machine.model);
+        if study == Study::Bifurcation {
+            speeds = self.parameter_models.iter().flat_map(|model| study.speeds(model)).collect();
+        }
+        self.quality_warnings.extend(self.machine.check_tables(study.name(), &speeds)?);
         let (machine, terminal) = (&self.machine, self.terminal);
         let studies = &machine.model.studies;
         let spinner = terminal.spinner(study.name());
@@ -177,6 +218,12 @@ impl<'a> Job<'a> {
                     let found = machine.frf(settings)?;
                     spinner.finish_and_clear();
                     tables::frf(terminal, &found);
+                    self.quality_warnings.extend(found.undamped.iter().map(|peak| {
+                        format!(
+                            "frf: {} at {:.4} Hz is undamped: the FRF is infinite there",
+                            peak.label, peak.at
+                        )
+                    }));
                     self.results.frf = Some(found);
                 }
             }
@@ -185,6 +232,13 @@ impl<'a> Job<'a> {
                     let found = machine.unbalance(settings)?;
                     spinner.finish_and_clear();
                     tables::unbalance(terminal, &found);
+                    self.quality_warnings.extend(found.undamped.iter().map(|peak| {
+                        format!(
+                            "unbalance: {} at {:.2} rpm is undamped: the response is infinite there",
+                            peak.label,
+                            rpm(peak.at)
+                        )
+                    }));
                     self.results.unbalance = Some(found);
                 }
             }
@@ -278,6 +332,18 @@ impl<'a> Job<'a> {
             report,
         };
         tables::run_up(self.terminal, &found);
+        let failure = match (failure, &machine.model.drive) {
+            (None, Drive::Torque { .. }) => {
+                match machine.check_tables(Study::RunUp.name(), &found.history.speed) {
+                    Ok(warnings) => {
+                        self.quality_warnings.extend(warnings);
+                        None
+                    }
+                    Err(error) => Some(error.into()),
+                }
+            }
+            (failure, _) => failure,
+        };
         self.results.run_up = Some(found);
         failure.map_or(Ok(()), Err)
     }

@@ -8,7 +8,7 @@ use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
 use rotordyn::results::{
     CampbellResult, CriticalResult, FrfResult, ModalResult, OrderResult, RunUpResult, SpectrogramResult,
-    UnbalanceResult, unit_of,
+    UnbalanceResult, UndampedPeak, unit_of,
 };
 
 use super::terminal::{Terminal, number, rpm};
@@ -216,17 +216,30 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
                 excitation.clone(),
                 response.clone(),
                 number(frequencies[peak], 6),
-                number(size(&peak), 4),
+                amplitude_text(size(&peak), &found.undamped, &format!("{response}/{excitation}")),
                 found.units[r][e].clone(),
             ]);
         }
     }
     let count = rows.len();
     rows.truncate(MAX_ROWS);
-    let title =
-        format!("{} at {:.0} rpm, {} frequencies: peaks", found.name(), rpm(found.speed), frequencies.len());
+    let (given, added) = points_text(found.requested.len(), frequencies.len());
+    let title = format!("{} at {:.0} rpm, {given} frequencies{added}: peaks", found.name(), rpm(found.speed));
     terminal.table(&title, &["excitation", "response", "peak Hz", "peak magnitude", "unit"], &rows);
     print_omitted_count(terminal, count);
+}
+
+/// Number of the given points of a grid, and the note on those added at resonances.
+fn points_text(given: usize, all: usize) -> (usize, String) {
+    (given, if all > given { format!(" and {} at resonances", all - given) } else { String::new() })
+}
+
+/// Text of a peak amplitude: infinite at an undamped mode.
+fn amplitude_text(size: f64, undamped: &[UndampedPeak], response: &str) -> String {
+    if undamped.iter().any(|peak| peak.responses.iter().any(|name| name == response)) {
+        return "infinite".into();
+    }
+    number(size, 4)
 }
 
 pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
@@ -241,7 +254,9 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
         if let Some((speed, size, _)) = peak(sizes) {
             let unit =
                 unit_of(channel.probe.quantity, channel.probe.direction[..3].iter().all(|d| *d == 0.0));
-            rows.push(vec![channel.probe.name.clone(), format!("{speed:.1}"), number(size, 4), unit.into()]);
+            let name = channel.probe.name.clone();
+            let size = amplitude_text(size, &found.undamped, &name);
+            rows.push(vec![name, format!("{speed:.1}"), size, unit.into()]);
         }
     }
     for disc in &found.orbits {
@@ -251,12 +266,60 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
         };
         if let Some((speed, size, k)) = peak((0..disc.x.len()).map(|k| orbit(k).major).collect()) {
             let whirl = if orbit(k).minor < 0.0 { "backward" } else { "forward" };
-            let name = format!("orbit of disc.{} ({whirl})", disc.name);
-            rows.push(vec![name, format!("{speed:.1}"), number(size, 4), "m".into()]);
+            let name = format!("orbit of disc.{}", disc.name);
+            let size = amplitude_text(size, &found.undamped, &name);
+            rows.push(vec![format!("{name} ({whirl})"), format!("{speed:.1}"), size, "m".into()]);
         }
     }
-    let title = format!("Unbalance response (1x) over {} speeds: peak amplitudes", speeds.len());
+    let (given, added) = points_text(found.requested.len(), speeds.len());
+    let title = format!("Unbalance response (1x) over {given} speeds{added}: peak amplitudes");
     terminal.table(&title, &["response", "at rpm", "amplitude", "unit"], &rows);
+    unbalance_peaks(terminal, found);
+}
+
+/// Resonance peaks with amplification factors and separation margins.
+fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
+    if found.peaks.is_empty() {
+        return;
+    }
+    let text = |value: Option<f64>, digits: usize| value.map_or("-".into(), |v| format!("{v:.digits$}"));
+    let percent = |value: Option<f64>| text(value.map(|v| 100.0 * v), 1);
+    let mut rows: Vec<Vec<String>> = found
+        .peaks
+        .iter()
+        .map(|p| {
+            let peak = &p.peak;
+            let half_power = peak.half_power.map(|ends| ends.map(rpm));
+            let mut row = vec![
+                p.response.clone(),
+                format!("{:.1}", rpm(peak.at)),
+                number(peak.amplitude, 4),
+                p.unit.into(),
+                text(peak.amplification(), 2),
+                half_power.map_or("-".into(), |[low, high]| format!("{low:.1} to {high:.1}")),
+            ];
+            if let Some(speed) = found.operating_speed {
+                row.push(percent(Some(peak.separation(speed))));
+                row.push(percent(peak.required_separation(speed)));
+            }
+            row
+        })
+        .collect();
+    let count = rows.len();
+    rows.truncate(MAX_ROWS);
+    let mut header = vec!["response", "peak rpm", "amplitude", "unit", "AF", "half power rpm"];
+    if found.operating_speed.is_some() {
+        header.extend(["margin %", "required %"]);
+    }
+    terminal.table("Resonance peaks: amplification factor AF", &header, &rows);
+    print_omitted_count(terminal, count);
+    if let Some(speed) = found.operating_speed {
+        let note = format!(
+            "  margin: separation from {:.0} rpm, the highest speed of the profile; required by API 617",
+            rpm(speed)
+        );
+        terminal.print(&note);
+    }
 }
 
 pub fn run_up(terminal: &Terminal, found: &RunUpResult) {

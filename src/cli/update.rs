@@ -82,7 +82,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     singular_table(terminal, &parameters, &found);
     measured::mode_table(terminal, "Modes before", &read.target, &found.before);
     measured::mode_table(terminal, "Modes after", &read.target, &found.after);
-    measured::frequency_error_warnings(terminal, &read.target, &found.after);
+    measured::pair_warnings(terminal, &read.target, &found.after)?;
     let frfs = |state: &rotordyn::update::state::ModelState| {
         read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose()
     };

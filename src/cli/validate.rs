@@ -107,7 +107,7 @@ fn compare_structures(
         let state = ModelState::new(loaded.model.clone(), &read.target, None)?;
         terminal.print(&format!("{}: {}", path.display(), read.source));
         measured::mode_table(terminal, "Measured and computed modes", &read.target, &state);
-        measured::frequency_error_warnings(terminal, &read.target, &state);
+        measured::pair_warnings(terminal, &read.target, &state)?;
         let frfs = read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose()?;
         let frac = frfs.as_ref().map(|c| measured::frac_table(terminal, &read.target, &state, c));
         let mut document = measured::to_json(&read.target, &state);

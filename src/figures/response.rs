@@ -43,10 +43,19 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
 
 /// One FRF as a curve.
 pub fn frf_curve(found: &FrfResult, response: usize, excitation: usize, label: &str) -> FrfCurve {
-    let values = &found.frf.values[response][excitation];
+    // An undamped peak is infinite: no point of the curve.
+    let finite: Vec<(f64, Complex64)> = found
+        .frf
+        .frequencies
+        .iter()
+        .zip(&found.frf.values[response][excitation])
+        .filter(|(_, h)| h.re.is_finite())
+        .map(|(hz, h)| (*hz, *h))
+        .collect();
+    let values: Vec<Complex64> = finite.iter().map(|(_, h)| *h).collect();
     FrfCurve {
         label: label.into(),
-        hz: found.frf.frequencies.clone(),
+        hz: finite.iter().map(|(hz, _)| *hz).collect(),
         re: values.iter().map(|v| v.re).collect(),
         im: values.iter().map(|v| v.im).collect(),
         coherence: Vec::new(),
@@ -86,11 +95,19 @@ pub fn unbalance(found: &UnbalanceResult, criticals: &[Critical], machine: &Mach
             .channels
             .iter()
             .filter(|c| si(c) == of)
-            .map(|c| BodeCurve {
-                label: c.probe.name.clone(),
-                rpm: rpm.clone(),
-                amplitude: c.amplitude.iter().map(|[re, im]| shown.factor * re.hypot(*im)).collect(),
-                phase_deg: c.amplitude.iter().map(|[re, im]| im.atan2(*re).to_degrees()).collect(),
+            .map(|c| {
+                let finite: Vec<(f64, [f64; 2])> = rpm
+                    .iter()
+                    .zip(&c.amplitude)
+                    .filter(|(_, [re, _])| re.is_finite())
+                    .map(|(rpm, value)| (*rpm, *value))
+                    .collect();
+                BodeCurve {
+                    label: c.probe.name.clone(),
+                    rpm: finite.iter().map(|(rpm, _)| *rpm).collect(),
+                    amplitude: finite.iter().map(|(_, [re, im])| shown.factor * re.hypot(*im)).collect(),
+                    phase_deg: finite.iter().map(|(_, [re, im])| im.atan2(*re).to_degrees()).collect(),
+                }
             })
             // Channels not excited by the unbalance have no phase.
             .filter(|c| c.amplitude.iter().any(|a| *a > 0.0))
@@ -141,7 +158,7 @@ fn disc_orbits(orbit: &DiscOrbit, rpm: &[f64]) -> Vec<Orbit> {
         let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
         Ellipse::new(complex(orbit.x[k]), complex(orbit.y[k]))
     };
-    let size = |k: usize| ellipse(k).major;
+    let size = |k: usize| Some(ellipse(k).major).filter(|major| major.is_finite()).unwrap_or(0.0);
     let Some(largest) = (0..rpm.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
         return Vec::new();
     };

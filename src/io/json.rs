@@ -12,8 +12,8 @@
 //! | `modal` | per speed {speed_rpm, modes: \[{label, kind, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
 //! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
 //! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, damping_ratio, log_decrement, kind, label}\], also the form of `crossings`; `uncertain` \[{order, from_rpm, to_rpm}\] |
-//! | `frf` | `speed_rpm`, `quantity`, `frequency_hz`, `functions` \[{excitation, response, unit, re, im}\] |
-//! | `unbalance` | `speeds_rpm`, `responses` \[{name, unit, re, im}\], `orbits` \[{disc, x_re, x_im, y_re, y_im}\]; x(t) = Re(X e^{jΩt}) |
+//! | `frf` | `speed_rpm`, `quantity`, `frequency_hz`, `requested` (indices of the requested frequencies), `undamped` \[{frequency_hz, label, responses}\], `functions` \[{excitation, response, unit, re, im}\] |
+//! | `unbalance` | `speeds_rpm`, `requested` (indices of the requested speeds), `operating_speed_rpm`, `peaks` \[{response, unit, speed_rpm, amplitude, amplification_factor, half_power_rpm: 2, separation_margin, required_separation_margin}\], `undamped` \[{speed_rpm, label, responses}\], `responses` \[{name, unit, re, im}\], `orbits` \[{disc, x_re, x_im, y_re, y_im}\]; x(t) = Re(X e^{jΩt}) |
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
@@ -38,8 +38,8 @@ use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRang
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
-    HistoryChannel, ModalResult, OrderResult, Results, RunUpResult, SpectrogramResult, UnbalanceResult,
-    is_rotation, unit_of,
+    HistoryChannel, ModalResult, OrderResult, ResponsePeak, Results, RunUpResult, SpectrogramResult,
+    UnbalanceResult, UndampedPeak, is_rotation, unit_of,
 };
 use crate::study::Machine;
 use crate::transient::run::End;
@@ -276,8 +276,14 @@ fn frf(found: &FrfResult) -> Value {
         "speed_rpm": found.speed * TO_RPM,
         "quantity": found.name(),
         "frequency_hz": found.frf.frequencies,
+        "requested": found.requested,
+        "undamped": found.undamped.iter().map(|u| undamped_peak(u, "frequency_hz", 1.0)).collect::<Vec<_>>(),
         "functions": functions,
     })
+}
+
+fn undamped_peak(found: &UndampedPeak, key: &str, factor: f64) -> Value {
+    json!({ key: found.at * factor, "label": found.label, "responses": found.responses })
 }
 
 fn unbalance(found: &UnbalanceResult) -> Value {
@@ -295,8 +301,22 @@ fn unbalance(found: &UnbalanceResult) -> Value {
             "y_re": part(&o.y, 0), "y_im": part(&o.y, 1),
         })
     });
+    let peak = |p: &ResponsePeak| {
+        let separation = found.operating_speed.map(|speed| p.peak.separation(speed));
+        let required = found.operating_speed.and_then(|speed| p.peak.required_separation(speed));
+        json!({
+            "response": p.response, "unit": p.unit, "speed_rpm": p.peak.at * TO_RPM,
+            "amplitude": p.peak.amplitude, "amplification_factor": p.peak.amplification(),
+            "half_power_rpm": p.peak.half_power.map(|ends| ends.map(|speed| speed * TO_RPM)),
+            "separation_margin": separation, "required_separation_margin": required,
+        })
+    };
     json!({
         "speeds_rpm": speeds,
+        "requested": found.requested,
+        "operating_speed_rpm": found.operating_speed.map(|speed| speed * TO_RPM),
+        "peaks": found.peaks.iter().map(peak).collect::<Vec<_>>(),
+        "undamped": found.undamped.iter().map(|u| undamped_peak(u, "speed_rpm", TO_RPM)).collect::<Vec<_>>(),
         "responses": responses.collect::<Value>(),
         "orbits": orbits.collect::<Value>(),
     })

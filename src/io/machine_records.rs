@@ -55,10 +55,12 @@ pub fn point_number(model: &Model, place: &str) -> Option<i64> {
     node.map(|node| node as i64 + 1)
 }
 
-/// Computed FRFs between excitation and response points.
+/// Computed FRFs between excitation and response points, at the requested frequencies.
 pub fn frf_records(found: &FrfResult, machine: &Machine) -> MeasuredData {
     let model = &machine.model;
     let Some(study) = &model.studies.frf else { return MeasuredData::default() };
+    // Measurement programs expect equally spaced lines where those were requested.
+    let found = &found.at_requested();
     let mut geometry = geometry(model);
     let mut offset_points = Vec::new();
     let axis = Axis::from_points(AxisQuantity::Frequency, found.frf.frequencies.clone());

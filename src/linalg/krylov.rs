@@ -6,7 +6,7 @@
 
 use super::dot::partial_sums;
 use super::eigen::{self, EigenError};
-use super::{BandLayout, BandLu, Complex64, SparseMatrix, Triplets};
+use super::{BandLayout, BandLu, Complex64, DenseLu, GroupDense, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
 
 /// Residual of an accepted Ritz pair relative to its value.
@@ -43,10 +43,32 @@ pub fn lowest_eigenpairs(
     count: usize,
     shift: f64,
 ) -> Result<Vec<QuadraticPair>, EigenError> {
-    let layout = BandLayout::new(&[m, c, k]);
+    search([m, c, k], &BandLayout::new(&[m, c, k]), None, count, shift)
+}
+
+/// As [`lowest_eigenpairs`] with the damping C + `dense`, whose blocks are coupled by the sparsity `pattern`.
+///
+/// # Errors
+/// As [`lowest_eigenpairs`].
+pub fn lowest_eigenpairs_with(
+    [m, c, k]: [&SparseMatrix; 3],
+    (dense, pattern): (&GroupDense, &SparseMatrix),
+    count: usize,
+    shift: f64,
+) -> Result<Vec<QuadraticPair>, EigenError> {
+    search([m, c, k], &BandLayout::new(&[m, c, k, pattern]), Some(dense), count, shift)
+}
+
+fn search(
+    matrices: [&SparseMatrix; 3],
+    layout: &BandLayout,
+    dense: Option<&GroupDense>,
+    count: usize,
+    shift: f64,
+) -> Result<Vec<QuadraticPair>, EigenError> {
     let groups: Vec<&[usize]> = layout.groups().collect();
     let parts: Vec<CoupledGroup> =
-        groups.iter().map(|unknowns| CoupledGroup::new([m, c, k], unknowns, shift)).collect();
+        groups.iter().map(|unknowns| CoupledGroup::new(matrices, dense, unknowns, shift)).collect();
     let mut searches: Vec<Search> = parts.iter().map(Search::new).collect::<Result<_, _>>()?;
     loop {
         let mut sizes: Vec<f64> =
@@ -100,21 +122,24 @@ struct CoupledGroup {
     m: SparseMatrix,
     c: SparseMatrix,
     k: SparseMatrix,
-    /// C + σ M.
+    /// Further part of C, dense within groups.
+    dense: Option<GroupDense>,
+    /// C + σ M without the dense part.
     damp: SparseMatrix,
-    /// K + σ C + σ² M.
+    /// K + σ C + σ² M without the dense part.
     shifted: SparseMatrix,
     layout: BandLayout,
     shift: f64,
 }
 
 impl CoupledGroup {
-    fn new(matrices: [&SparseMatrix; 3], unknowns: &[usize], shift: f64) -> Self {
+    fn new(matrices: [&SparseMatrix; 3], dense: Option<&GroupDense>, unknowns: &[usize], shift: f64) -> Self {
         let [m, c, k] = matrices.map(|a| submatrix(a, unknowns));
         let damp = SparseMatrix::sum(&[(1.0, &c), (shift, &m)]);
         let shifted = SparseMatrix::sum(&[(1.0, &k), (shift, &damp)]);
         let layout = BandLayout::new(&[&shifted]);
-        Self { m, c, k, damp, shifted, layout, shift }
+        let dense = dense.map(|dense| dense.submatrix(unknowns));
+        Self { m, c, k, dense, damp, shifted, layout, shift }
     }
 
     fn order(&self) -> usize {
@@ -123,7 +148,11 @@ impl CoupledGroup {
 
     /// All its oscillatory eigenpairs.
     fn solve_dense(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let mut pairs = eigen::quadratic(&self.m.to_dense(), &self.c.to_dense(), &self.k.to_dense())?;
+        let mut c = self.c.to_dense();
+        if let Some(dense) = &self.dense {
+            dense.add_to(1.0, &mut c);
+        }
+        let mut pairs = eigen::quadratic(&self.m.to_dense(), &c, &self.k.to_dense())?;
         pairs.retain(|(value, _)| oscillatory(*value, self.shift));
         Ok(pairs)
     }
@@ -186,12 +215,39 @@ impl<'a> Search<'a> {
     }
 }
 
+/// Factors of K + σ C + σ² M: banded, or dense if C has a dense part.
+enum Factors<'a> {
+    Band(BandLu<'a, f64>),
+    Dense(DenseLu),
+}
+
+impl<'a> Factors<'a> {
+    fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
+        let factors = match &part.dense {
+            None => part.layout.factor(part.layout.scatter(&part.shifted)).ok().map(Self::Band),
+            Some(dense) => {
+                let mut matrix = part.shifted.to_dense();
+                dense.add_to(part.shift, &mut matrix);
+                DenseLu::new(&matrix).map(Self::Dense)
+            }
+        };
+        factors.ok_or(EigenError::SingularShift)
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        match self {
+            Self::Band(lu) => lu.solve(b),
+            Self::Dense(lu) => lu.solve(b),
+        }
+    }
+}
+
 /// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
 ///
 /// The factor 1/σ balances the two halves of the wanted vectors.
 struct Arnoldi<'a> {
     part: &'a CoupledGroup,
-    lu: BandLu<'a, f64>,
+    lu: Factors<'a>,
     /// Block size: number of start vectors.
     block: usize,
     basis: Vec<Vec<f64>>,
@@ -202,10 +258,8 @@ struct Arnoldi<'a> {
 
 impl<'a> Arnoldi<'a> {
     fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        let lu = part.layout.factor(part.layout.scatter(&part.shifted));
-        let lu = lu.map_err(|_| EigenError::SingularShift)?;
+        let lu = Factors::new(part)?;
         let largest = part.c.iter().map(|(_, _, v)| v.abs()).fold(0.0, f64::max);
-        // Above the round-off of modal damping.
         let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
         let block = if rotating { 1 } else { 2 };
         let noise = PseudoRandom(0x9E37_79B9_7F4A_7C15);
@@ -225,6 +279,9 @@ impl<'a> Arnoldi<'a> {
         let mut q = vec![0.0; n];
         self.part.m.mul_add(-shift, b, &mut q);
         self.part.damp.mul_add(-1.0, a, &mut q);
+        if let Some(dense) = &self.part.dense {
+            dense.mul_add(-1.0, a, &mut q);
+        }
         self.lu.solve(&mut q);
         let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
         q.extend(v);

@@ -9,7 +9,9 @@
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
 //! | [`inertia`] | number of negative eigenvalues of a banded Hermitian matrix |
 //! | [`dot`](mod@dot), [`piecewise`](mod@piecewise) | scalar products; piecewise-linear tables |
+//! | [`dense_lu`] | LU factors of a dense matrix ([`DenseLu`]) |
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
+//! | [`group_dense`] | symmetric matrices dense within groups of unknowns ([`GroupDense`]) |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
@@ -18,10 +20,12 @@
 
 pub mod band_lu;
 pub mod band_matrix;
+pub mod dense_lu;
 pub mod dot;
 pub mod eigen;
 pub mod fft_length;
 pub mod gmres;
+pub mod group_dense;
 pub mod inertia;
 pub mod krylov;
 pub mod panel;
@@ -33,9 +37,11 @@ pub mod spline;
 
 pub use band_lu::{BandLayout, BandLu, ZeroPivot};
 pub use band_matrix::BandMatrix;
+pub use dense_lu::DenseLu;
 pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;
+pub use group_dense::GroupDense;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 

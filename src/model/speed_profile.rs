@@ -94,6 +94,21 @@ impl SpeedProfile {
         }
     }
 
+    /// Lowest and highest speed of the profile \[rad/s\].
+    pub fn speed_range(&self) -> [f64; 2] {
+        const SAMPLES: usize = 2000;
+        let (curve, duration) = (self.curve(), self.duration());
+        let speeds = (0..=SAMPLES).map(|k| curve.at(duration * k as f64 / SAMPLES as f64).speed);
+        let points: Vec<f64> = match self {
+            Self::Table { points } => points.iter().map(|p| p[1]).collect(),
+            Self::Pulses { points, .. } => points.iter().map(|p| curve.at(p[0]).speed).collect(),
+            _ => Vec::new(),
+        };
+        speeds
+            .chain(points)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], speed| [low.min(speed), high.max(speed)])
+    }
+
     /// The profile with its interpolants, ready for evaluation.
     pub fn curve(&self) -> SpeedCurve {
         let columns =

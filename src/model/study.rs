@@ -70,6 +70,8 @@ pub struct FrfStudy {
     pub speed: f64,
     /// Frequencies \[Hz\].
     pub frequencies: Vec<f64>,
+    /// Add frequencies around the natural frequencies.
+    pub refine: bool,
     pub excitations: Vec<Excitation>,
     pub responses: Vec<Probe>,
     /// Receptance, mobility or accelerance.
@@ -90,6 +92,8 @@ pub struct Excitation {
 pub struct UnbalanceStudy {
     /// Speeds \[rad/s\].
     pub speeds: Vec<f64>,
+    /// Add speeds around the critical speeds.
+    pub refine: bool,
     pub responses: Vec<Probe>,
 }
 

@@ -5,6 +5,7 @@ mod bifurcation;
 mod ehl_film;
 mod order_tracking;
 mod record;
+mod responses;
 mod run_up_correlation;
 pub mod signal;
 mod steady_motion;
@@ -20,21 +21,15 @@ use std::ops::ControlFlow;
 use crate::analysis::campbell;
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
-use crate::analysis::{frf, modal, stability, unbalance};
+use crate::analysis::table_range::{check_tables, speed_range};
+use crate::analysis::{modal, stability};
 use crate::assembly::{Assembly, LinearSystem, rigid_body_modes};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
-use crate::element::Anchor;
 use crate::error::{Error, PhysicsError};
-use crate::linalg::{Complex64, SparseMatrix, krylov};
-use crate::model::study::{
-    CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy, RunUpStudy,
-    UnbalanceStudy,
-};
-use crate::model::{Model, Probe};
-use crate::results::{
-    CampbellResult, CriticalResult, DiscOrbit, FrfResult, ModalResult, OrderLine, UnbalanceChannel,
-    UnbalanceResult, is_rotation, unit_of,
-};
+use crate::linalg::{SparseMatrix, krylov};
+use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalStudy, RunUpStudy};
+use crate::model::{Drive, Model};
+use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, Sample, Settings, run};
 
@@ -53,9 +48,10 @@ impl Machine {
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model) -> Result<Self, Error> {
-        let assembly = Assembly::new(&model)?;
+        let mut assembly = Assembly::new(&model)?;
         let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
             .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
+        assembly.set_standstill(&base.tangents())?;
         let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
         Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
     }
@@ -65,6 +61,7 @@ impl Machine {
     /// # Errors
     /// No equilibrium.
     pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, Error> {
+        self.check_tables("static", &[study.speed])?;
         let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
     }
@@ -116,11 +113,20 @@ impl Machine {
         LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
+    /// Warnings of bearings whose tables cover less than these speeds \[rad/s\] of a study.
+    ///
+    /// # Errors
+    /// A bearing that refuses speeds beyond its table.
+    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<String>, Error> {
+        speed_range(speeds).map_or(Ok(Vec::new()), |range| check_tables(&self.model, study, range))
+    }
+
     /// Damped modes at every requested speed.
     ///
     /// # Errors
     /// An eigenvalue computation that fails.
     pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, Error> {
+        self.check_tables("modal", &study.speeds)?;
         let at = |&speed: &f64| {
             let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, study.modes)?;
             Ok(ModalResult { speed, modes })
@@ -133,6 +139,7 @@ impl Machine {
     /// # Errors
     /// As [`campbell::campbell`].
     pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, Error> {
+        self.check_tables("campbell", &study.speeds)?;
         let tangents = |speed| self.tangents(speed, study.speed_dependent_bearings);
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
         let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
@@ -145,67 +152,11 @@ impl Machine {
     /// # Errors
     /// As [`critical_speed::critical_speeds`].
     pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, Error> {
+        self.check_tables("critical", &[0.0, study.max_speed])?;
         let tangents = |speed| self.tangents(speed, true);
         let (assembly, max_speed) = (&self.assembly, study.max_speed);
         let crossings = critical_speed::critical_speeds(assembly, max_speed, &study.orders, &tangents)?;
         Ok(CriticalResult { max_speed, crossings })
-    }
-
-    /// Frequency response functions at a speed.
-    ///
-    /// # Errors
-    /// A singular dynamic stiffness.
-    pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, Error> {
-        let system = self.linear_system(study.speed)?;
-        let row = |at: &Anchor, direction| self.assembly.direction_row(at, direction);
-        let excitations: Vec<_> = study.excitations.iter().map(|e| row(&e.at, &e.direction)).collect();
-        let responses: Vec<_> = study.responses.iter().map(|p| row(&p.at, &p.direction)).collect();
-        let (f, q) = (&study.frequencies, study.quantity);
-        let unit = |response: &Probe, excitation: &Excitation| {
-            let moved = unit_of(q, is_rotation(&response.direction));
-            let moved = if moved.contains('/') { format!("({moved})") } else { moved.into() };
-            format!("{moved}/{}", if is_rotation(&excitation.direction) { "(N m)" } else { "N" })
-        };
-        Ok(FrfResult {
-            speed: study.speed,
-            units: study
-                .responses
-                .iter()
-                .map(|r| study.excitations.iter().map(|e| unit(r, e)).collect())
-                .collect(),
-            excitations: study.excitations.iter().map(|e| e.name.clone()).collect(),
-            responses: study.responses.iter().map(|p| p.name.clone()).collect(),
-            frf: frf::frf(&self.assembly, &system, f, &excitations, &responses, q)?,
-        })
-    }
-
-    /// Steady unbalance response over speed.
-    ///
-    /// # Errors
-    /// A singular dynamic stiffness.
-    pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, Error> {
-        let tangents = |speed| self.tangents(speed, true);
-        let response = unbalance::response(&self.assembly, &study.speeds, &tangents)?;
-        let plain = |values: Vec<Complex64>| values.iter().map(|v| [v.re, v.im]).collect();
-        let channels = study
-            .responses
-            .iter()
-            .map(|probe| {
-                let row = self.assembly.direction_row(&probe.at, &probe.direction);
-                let amplitude = plain(response.amplitude_of(&row, probe.quantity));
-                UnbalanceChannel { probe: probe.clone(), amplitude }
-            })
-            .collect();
-        let orbits = self
-            .model
-            .rotating_inertias()
-            .map(|disc| {
-                let [x, y, ..] = self.assembly.anchor_rows(&Anchor::node(disc.node));
-                let along = |row| plain(response.amplitude_of(row, crate::model::Quantity::Displacement));
-                DiscOrbit { name: disc.name.clone(), x: along(&x), y: along(&y) }
-            })
-            .collect();
-        Ok(UnbalanceResult { response, channels, orbits })
     }
 
     /// The reduced model of a run-up, about the equilibrium at the cage angles of the model.
@@ -213,6 +164,9 @@ impl Machine {
     /// # Errors
     /// No equilibrium, or no modes.
     pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, Error> {
+        if matches!(self.model.drive, Drive::Prescribed { .. }) {
+            self.check_tables("run-up", &self.model.profile.speed_range())?;
+        }
         let start = equilibrium(
             &self.model,
             &self.assembly,
@@ -234,7 +188,7 @@ impl Machine {
         let system = self.linear_system(speed)?;
         let project =
             |m: &SparseMatrix| SparseMatrix::from_dense(&(basis.transpose() * m.to_dense() * basis));
-        let (m, c, k) = (project(&system.mass), project(&system.damping), project(&system.stiffness));
+        let (m, c, k) = (project(&system.mass), project(&system.full_damping()), project(&system.stiffness));
         let count = MODES.min(basis.ncols());
         let reduced = krylov::lowest_eigenpairs(&m, &c, &k, count, modal::SHIFT)
             .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;

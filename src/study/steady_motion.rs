@@ -125,6 +125,7 @@ impl Machine {
         steady: &SteadyRunSettings,
         carried: Option<&RestartState>,
     ) -> Result<(Reduction, State), Error> {
+        self.check_tables("steady motion", &[steady.speed])?;
         let cage = CageTreatment::FixedAngle;
         let static_equilibrium = equilibrium(
             &self.model,

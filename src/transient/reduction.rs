@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::system::{Channel, Interface, LoadHistory, Panels, System};
 use super::torque::TorqueDrive;
 use crate::analysis::equilibrium::Equilibrium;
-use crate::assembly::{Assembly, linear_system};
+use crate::assembly::{Assembly, ModalDamping};
 use crate::bearing::radial::Rings;
 use crate::bearing::{BearingElement, Rotation};
 use crate::error::{Error, PhysicsError};
@@ -152,7 +152,10 @@ pub fn reduce(
     let row = |r: &SparseRow| vector(&dense(r));
     let structure_stiffness =
         SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
-    let modal = linear_system::modal_damping(assembly, &tangent_stiffness)?;
+    let tangents = equilibrium.tangents();
+    let own = if assembly.modal.is_none() { ModalDamping::new(assembly, &tangents)? } else { None };
+    let modal = assembly.modal.as_deref().or(own.as_ref());
+    let modal = modal.map_or_else(|| SparseMatrix::zeros(n, n), |modal| modal.matrix.to_sparse());
     let damping = SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &modal)]);
 
     let mut unbalance = [DVector::zeros(size), DVector::zeros(size)];

@@ -6,6 +6,7 @@ mod failures;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;
+mod pairing;
 mod renamed;
 mod run_ups;
 mod runs;

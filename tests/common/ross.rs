@@ -83,7 +83,7 @@ fn bearing(value: &Value, k: usize) -> BearingSite {
         name: format!("bearing {k}"),
         node: index(&value["n"]),
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: rows.collect() }),
+        bearing: Bearing::Linear(LinearBearing { table: rows.collect(), beyond: Default::default() }),
     }
 }
 

@@ -49,6 +49,7 @@ fn simulated_test(set: &[(&str, &str)], speed: f64, frequencies: Vec<f64>) -> (M
     let study = FrfStudy {
         speed,
         frequencies,
+        refine: false,
         excitations: vec![
             hit("disc_x", disc, X),
             hit("disc_z", disc, Z),

@@ -68,7 +68,7 @@ fn bearing(r: &mut Random, top: f64) -> Bearing {
             LinearBearingRow { speed: top * f64::from(row) / 3.0, stiffness: scale(&k), damping: scale(&c) }
         })
         .collect();
-    Bearing::Linear(LinearBearing { table })
+    Bearing::Linear(LinearBearing { table, beyond: Default::default() })
 }
 
 /// A shaft with discs on two bearings, on ground or on a sprung housing.
@@ -135,13 +135,16 @@ fn machine(r: &mut Random) -> (Model, f64) {
     if r.chance(0.3) {
         model.damping.proportional = [r.between(0.0, 10.0), r.decades(1e-7, 5e-6)];
     }
+    if r.chance(0.25) {
+        model.damping.modal = vec![[0.0, r.between(0.0, 0.03)], [200.0, r.between(0.0, 0.03)]];
+    }
     (model, top)
 }
 
 /// Damped frequencies and damping ratios of the oscillatory modes with |λ| < `reach`, by frequency, and the number of
 /// other eigenvalues in that circle: eigenvalues of the dense state matrix by its Schur form.
 fn dense_spectrum(system: &LinearSystem, reach: f64) -> (Vec<(f64, f64)>, usize) {
-    let [m, d, s] = [&system.mass, &system.damping, &system.stiffness].map(|m| m.to_dense());
+    let [m, d, s] = [&system.mass, &system.full_damping(), &system.stiffness].map(|m| m.to_dense());
     let n = m.nrows();
     let mass = Cholesky::new(m).unwrap();
     // Time scaled by the highest frequency: both halves of the state have the same size.
@@ -330,7 +333,7 @@ fn a_mode_that_becomes_oscillatory_is_no_crossing() {
     }
     model.discs.push(disc(0, mass, 1.0, 0.6));
     let table = vec![row(0.0, 1.6), row(150.0, 1.2), row(300.0, 0.01), row(1000.0, 0.01)];
-    let bearing = Bearing::Linear(LinearBearing { table });
+    let bearing = Bearing::Linear(LinearBearing { table, beyond: Default::default() });
     model.bearings.push(BearingSite { name: "b".into(), node: 0, housing: Anchor::GROUND, bearing });
     for node in 0..2 {
         let locked = [node == 1, node == 1, false, true, true, true];

@@ -68,7 +68,7 @@ fn isotropic(node: usize, stiffness: f64) -> BearingSite {
         name: "bearing".into(),
         node,
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: vec![row] }),
+        bearing: Bearing::Linear(LinearBearing { table: vec![row], beyond: Default::default() }),
     }
 }
 

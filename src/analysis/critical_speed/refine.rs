@@ -1,7 +1,7 @@
 //! A crossing refined on its own mode: inverse iteration at a speed, secant method over speed.
 
 use crate::analysis::modal::{Eigenpair, inner, mass_normalised};
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, ModalDamping};
 use crate::error::Error;
 use crate::linalg::{BandLayout, Complex64};
 
@@ -10,20 +10,33 @@ const TOLERANCE: f64 = 1e-13;
 /// Relative change that is round-off if it does not decrease further.
 const ROUND_OFF: f64 = 1e-8;
 const MAX_ITERATIONS: usize = 12;
+const MAX_RESIDUAL_ITERATIONS: usize = 60;
+/// Relative change of a shape at which the residual iteration may end.
+const MAX_SHAPE_CHANGE: f64 = 1e-7;
 const MAX_SECANT_STEPS: usize = 20;
 
-/// The eigenpair of (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
-///
-/// Inverse iteration (Newton's method): P(λ) ψ = P'(λ) φ, λ ← λ − (wᴴ φ)/(wᴴ ψ), w = M φ.
+/// The eigenpair of P(λ) φ = (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
 pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Option<Eigenpair> {
-    let (mut value, mut shape) = start.clone();
+    let (value, mut shape) = start.clone();
     let largest = (0..shape.len()).max_by(|&i, &j| shape[i].norm_sqr().total_cmp(&shape[j].norm_sqr()))?;
-    let matrices = [&system.mass, &system.damping, &system.stiffness];
     // The mode lies in one group of coupled unknowns.
-    let layout = BandLayout::new(&matrices).restricted_to(&[largest]);
-    let [m, d, s] = matrices.map(|a| layout.scatter(a));
+    let layout = BandLayout::new(&system.patterns()).restricted_to(&[largest]);
     let mut inside = vec![false; shape.len()];
     layout.groups().flatten().for_each(|&i| inside[i] = true);
+    shape.iter_mut().zip(inside).filter(|(_, inside)| !inside).for_each(|(v, _)| *v = Complex64::default());
+    match &system.modal {
+        None => inverse_iteration(system, &layout, (value, shape)),
+        Some(modal) => residual_iteration(system, modal, &layout, (value, shape)),
+    }
+}
+
+/// Newton's method: P(λ) ψ = P'(λ) φ, λ ← λ − (wᴴ φ)/(wᴴ ψ), w = M φ.
+fn inverse_iteration(
+    system: &LinearSystem,
+    layout: &BandLayout,
+    (mut value, mut shape): Eigenpair,
+) -> Option<Eigenpair> {
+    let [m, d, s] = [&system.mass, &system.damping, &system.stiffness].map(|a| layout.scatter(a));
     let mut lu = layout.workspace::<Complex64>();
     let mut last = f64::INFINITY;
     for _ in 0..MAX_ITERATIONS {
@@ -32,12 +45,8 @@ pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Opt
             // λ is an eigenvalue to the last bit.
             return Some((value, shape));
         }
-        let (mass, damping) = (system.mass.mul_complex(&shape), system.damping.mul_complex(&shape));
-        let mut next: Vec<Complex64> = mass.iter().zip(&damping).map(|(m, d)| 2.0 * value * m + d).collect();
-        next.iter_mut()
-            .zip(&inside)
-            .filter(|(_, inside)| !**inside)
-            .for_each(|(v, _)| *v = Complex64::default());
+        let mass = system.mass.mul_complex(&shape);
+        let mut next = derivative(system, value, &shape);
         lu.solve(&mut next);
         let change = inner(&mass, &shape) / inner(&mass, &next);
         if !(change.re.is_finite() && change.im.is_finite()) {
@@ -47,6 +56,58 @@ pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Opt
         shape = mass_normalised(next, &system.mass);
         let size = change.norm() / value.norm();
         if has_converged(size, last) {
+            return Some((value, shape));
+        }
+        last = size;
+    }
+    None
+}
+
+/// P'(λ) φ = (2 λ M + D) φ.
+fn derivative(system: &LinearSystem, value: Complex64, shape: &[Complex64]) -> Vec<Complex64> {
+    let mass = system.mass.mul_complex(shape);
+    mass.iter().zip(system.damp(shape)).map(|(m, d)| 2.0 * value * m + d).collect()
+}
+
+/// With modal damping, which is dense: residual inverse iteration φ ← φ − P̃⁻¹ P(λ) φ, φᴴ P(λ) φ = 0. P̃ is a band
+/// matrix at a fixed λ next to the start, with proportional damping of the same ratio there.
+/// Source: Neumaier 1985.
+fn residual_iteration(
+    system: &LinearSystem,
+    modal: &ModalDamping,
+    layout: &BandLayout,
+    (mut value, mut shape): Eigenpair,
+) -> Option<Eigenpair> {
+    let [m, d, s, k] =
+        [&system.mass, &system.damping, &system.stiffness, &modal.stiffness].map(|a| layout.scatter(a));
+    let shift = value * (1.0 + 1e-4);
+    let omega = shift.norm();
+    let factor = shift * (modal.ratio(omega) / omega);
+    let mut lu = layout.workspace::<Complex64>();
+    lu.refactor(|i| shift * shift * m[i] + shift * d[i] + s[i] + factor * (omega * omega * m[i] + k[i]))
+        .ok()?;
+    let mut last = f64::INFINITY;
+    for _ in 0..MAX_RESIDUAL_ITERATIONS {
+        let (mass, damping) = (system.mass.mul_complex(&shape), system.damp(&shape));
+        let stiffness = system.stiffness.mul_complex(&shape);
+        let [a, b, c] = [&mass, &damping, &stiffness].map(|v| inner(&shape, v));
+        let before = value;
+        for _ in 0..3 {
+            value -= (a * value * value + b * value + c) / (2.0 * a * value + b);
+        }
+        let mut rest: Vec<Complex64> =
+            (0..shape.len()).map(|i| value * value * mass[i] + value * damping[i] + stiffness[i]).collect();
+        lu.solve(&mut rest);
+        shape.iter_mut().zip(&rest).for_each(|(v, r)| *v -= r);
+        shape = mass_normalised(shape, &system.mass);
+        let size = (value - before).norm() / value.norm();
+        if !size.is_finite() {
+            return None;
+        }
+        // The change of λ is of second order in that of φ.
+        let moved = rest.iter().map(|v| v.norm()).fold(0.0, f64::max)
+            / shape.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        if moved < MAX_SHAPE_CHANGE && has_converged(size, last) {
             return Some((value, shape));
         }
         last = size;

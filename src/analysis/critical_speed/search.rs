@@ -280,12 +280,18 @@ impl<'a, T: Tangents> Search<'a, T> {
                 };
                 let root = refine::crossing((self.assembly, self.tangents), order, start, trial, ends)?;
                 if let Some((speed, _)) = root {
-                    self.modes_on_line(speed, order, end.pairs.len().max(2) - 1, &mut found)?;
+                    self.modes_near_line(speed, order, ON_LINE, end.pairs.len(), &mut found)?;
                 }
             }
         }
         found.retain(|place, _| places.contains(place));
-        if found.len() == places.len() || depth == 0 || b.speed - a.speed < 1e-9 * b.speed {
+        if found.len() < places.len() && (depth == 0 || b.speed - a.speed < ON_LINE * b.speed) {
+            // A frequency that crosses the line here without a refined crossing, unless it begins or ends by a jump.
+            self.modes_near_line(b.speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
+            found.retain(|place, _| places.contains(place));
+            return Ok(found.into_values().collect());
+        }
+        if found.len() == places.len() {
             return Ok(found.into_values().collect());
         }
         let middle = self.spectrum(0.5 * (a.speed + b.speed), end.pairs.len().max(2) - 1)?;
@@ -294,15 +300,22 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(found)
     }
 
-    /// Adds the modes on an order line at a speed, by their places.
-    fn modes_on_line(&self, speed: f64, order: f64, count: usize, found: &mut ByPlace) -> Result<(), Error> {
+    /// Adds the modes within a relative distance of an order line at a speed, by their places.
+    fn modes_near_line(
+        &self,
+        speed: f64,
+        order: f64,
+        distance: f64,
+        count: usize,
+        found: &mut ByPlace,
+    ) -> Result<(), Error> {
         let system = self.system(speed)?;
-        let pairs = self.pairs(&system, count, self.limit.is_none())?;
+        let pairs = self.pairs(&system, count.max(2) - 1, self.limit.is_none())?;
         let mut modes = modal::modes_of(self.assembly, &system, pairs);
         modes.sort_by(|a, b| a.omega().total_cmp(&b.omega()));
         let line = order * speed;
         for (place, mode) in modes.into_iter().enumerate() {
-            if (mode.omega() - line).abs() <= ON_LINE * line {
+            if (mode.omega() - line).abs() <= distance * line {
                 found.entry(place).or_insert(CriticalSpeed { speed, order, mode });
             }
         }

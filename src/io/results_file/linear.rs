@@ -4,6 +4,7 @@ use super::GroupWriter;
 use crate::analysis::Mode;
 use crate::analysis::critical_speed::CriticalSpeed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium};
+use crate::analysis::peaks::Peak;
 use crate::error::Error;
 use crate::io::hdf5::Store;
 use crate::linalg::Complex64;
@@ -138,6 +139,7 @@ pub fn frf(store: &Store, found: &FrfResult) -> Result<(), Error> {
     writer.set_attribute("rpm", found.speed * TO_RPM)?;
     writer.set_attribute("quantity", found.name())?;
     writer.write_array("frequency", &[found.frf.frequencies.len()], &found.frf.frequencies, "Hz")?;
+    write_requested(&writer, &found.requested, found.frf.frequencies.len(), "frequency")?;
     let (responses, excitations) = (found.responses.len(), found.excitations.len());
     let values: Vec<Complex64> = found.frf.values.iter().flatten().flatten().copied().collect();
     let shape = [responses, excitations, found.frf.frequencies.len()];
@@ -148,10 +150,34 @@ pub fn frf(store: &Store, found: &FrfResult) -> Result<(), Error> {
     writer.write_texts("excitations", &[excitations], &found.excitations)
 }
 
+/// 1 for every requested point of a refined axis, 0 for those added.
+fn write_requested(
+    writer: &GroupWriter,
+    requested: &[usize],
+    points: usize,
+    axis: &str,
+) -> Result<(), Error> {
+    let mut mask = vec![0.0; points];
+    requested.iter().for_each(|&k| mask[k] = 1.0);
+    writer.write_array("requested", &[points], &mask, "1")?;
+    writer.attach_scale("requested", 0, axis)
+}
+
 pub fn unbalance(store: &Store, found: &UnbalanceResult) -> Result<(), Error> {
     let writer = GroupWriter::new(store, "/unbalance")?;
     let rpm: Vec<f64> = found.response.speeds.iter().map(|s| s * TO_RPM).collect();
     writer.write_array("rpm", &[rpm.len()], &rpm, "rpm")?;
+    write_requested(&writer, &found.requested, rpm.len(), "rpm")?;
+    let peaks = writer.subgroup("peaks")?;
+    let column =
+        |value: &dyn Fn(&Peak) -> f64| -> Vec<f64> { found.peaks.iter().map(|p| value(&p.peak)).collect() };
+    let shape = [found.peaks.len()];
+    let names: Vec<&str> = found.peaks.iter().map(|p| p.response.as_str()).collect();
+    peaks.write_texts("response", &shape, &names)?;
+    peaks.write_array("rpm", &shape, &column(&|p| p.at * TO_RPM), "rpm")?;
+    peaks.write_array("amplitude", &shape, &column(&|p| p.amplitude), "SI")?;
+    let factors = column(&|p| p.amplification().unwrap_or(f64::NAN));
+    peaks.write_array("amplification_factor", &shape, &factors, "1")?;
     let complex = |pairs: &[[f64; 2]]| -> Vec<Complex64> {
         pairs.iter().map(|&[re, im]| Complex64::new(re, im)).collect()
     };

@@ -9,8 +9,8 @@
 //! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
 //! | `/campbell` | \[branch, speed\]: frequency, zeta, log_dec; order lines, crossings, thresholds |
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |
-//! | `/frf` | response \[response, excitation, frequency\] (complex) |
-//! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit |
+//! | `/frf` | response \[response, excitation, frequency\] (complex); requested: 1 for the requested frequencies, 0 for those added around peaks |
+//! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit; requested: as in `/frf`; peaks: speed, amplitude, amplification factor |
 //! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |

@@ -10,8 +10,8 @@ use super::places::Places;
 use super::radial_bearing;
 use super::springs::{self, MatrixKind};
 use crate::bearing::{
-    BallBearing, BallGeometry, BallInertia, Bearing, Cage, Fit, LinearBearing, LinearBearingRow, Preload,
-    Service,
+    BallBearing, BallGeometry, BallInertia, Bearing, BeyondTable, Cage, Fit, LinearBearing, LinearBearingRow,
+    Preload, Service,
 };
 use crate::contact::{ContactDamping, ContactLaw, Lubricant};
 use crate::element::{Anchor, Material};
@@ -87,7 +87,7 @@ fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant], gravity
         Some(ModelKeyword::Linear) => Bearing::Linear(linear(r)),
         None => {
             r.entries();
-            Bearing::Linear(LinearBearing { table: Vec::new() })
+            Bearing::Linear(LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold })
         }
     }
 }
@@ -100,8 +100,14 @@ fn linear(r: &Reader) -> LinearBearing {
     if r.has_no_errors() && stiffness.iter().flatten().flatten().all(|&k| k == 0.0) {
         r.missing("k_xx", "\"1e7 N/m\" (and k_yy)");
     }
+    let choices = [("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)];
+    let beyond = r.choice("beyond_table", &choices);
+    if beyond.is_some() && speeds.len() < 2 && r.has_no_errors() {
+        r.missing("speed", "\"0, 3000 rpm\", with a value of k_xx per speed");
+    }
     let rows = speeds.into_iter().zip(stiffness).zip(damping);
     LinearBearing {
+        beyond: beyond.unwrap_or_default(),
         table: rows
             .map(|((speed, stiffness), damping)| LinearBearingRow { speed, stiffness, damping })
             .collect(),

@@ -50,7 +50,8 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     }
     if let Some(r) = all.table("unbalance") {
         let responses = responses(&r, model, Quantity::Displacement);
-        studies.unbalance = Some(UnbalanceStudy { speeds: speeds(&r), responses });
+        studies.unbalance =
+            Some(UnbalanceStudy { speeds: speeds(&r), refine: r.flag("refine", true), responses });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
@@ -137,7 +138,8 @@ fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
         r.log.error(problem.hint("add [study.frf.excitation.NAME] with at and direction"));
     }
     let speed = r.or("speed", not_negative(SPEED), 0.0);
-    FrfStudy { speed, frequencies, excitations, responses: responses(r, model, quantity), quantity }
+    let refine = r.flag("refine", true);
+    FrfStudy { speed, frequencies, refine, excitations, responses: responses(r, model, quantity), quantity }
 }
 
 /// Probes of the given names, or all, with the study's quantity.
