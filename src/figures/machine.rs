@@ -230,17 +230,28 @@ pub fn equilibrium(found: &Equilibrium, machine: &Machine) -> Vec<Named> {
         u_y: column(1),
         stations: model.stations.iter().map(|s| Mark { label: s.name.clone(), z: s.z }).collect(),
     };
-    let row = |bearing: &BearingState| {
+    let row = |bearing: &BearingState, number: usize, rows: usize| {
         // Rounded first, plus zero: avoids "-0".
         let [x, y, z, ..] = bearing.force.map(|f| f.round());
+        let side = match (rows, number) {
+            (1, _) => "",
+            (_, 0) => ", row 1 (towards −z)",
+            _ => ", row 2 (towards +z)",
+        };
+        let balls = || bearing.balls.iter().filter(|b| b.row == number);
         BallRow {
-            title: format!("bearing {}", bearing.name),
+            title: format!("bearing {}{side}", bearing.name),
             note: format!("force on the shaft: x {} N, y {} N, z {} N", x + 0.0, y + 0.0, z + 0.0),
-            angle_deg: bearing.balls.iter().map(|b| b.position.to_degrees()).collect(),
-            load: bearing.balls.iter().map(|b| b.load).collect(),
+            angle_deg: balls().map(|b| b.position.to_degrees()).collect(),
+            load: balls().map(|b| b.load).collect(),
         }
     };
-    let rows: Vec<BallRow> = found.bearings.iter().filter(|b| !b.balls.is_empty()).map(row).collect();
+    // Every row of a pair has its own panel.
+    let mut rows: Vec<BallRow> = Vec::new();
+    for bearing in &found.bearings {
+        let count = bearing.balls.iter().map(|b| b.row + 1).max().unwrap_or(0);
+        rows.extend((0..count).map(|number| row(bearing, number, count)));
+    }
     let mut figures = vec![("static_deflection".into(), Figure::Deflection(deflection))];
     if !rows.is_empty() {
         let loads = BallLoads { title: "Load distribution of the ball bearings".into(), note, rows };

@@ -60,8 +60,7 @@ impl Grid {
         let carriers = self.carriers.get(k).map_or(&own[..], |list| list);
         let mut out = [[0.0; 3]; 2];
         for c in carriers {
-            let Some(&[u, v, w, a, b, t]) = q.get(6 * c.node..6 * c.node + 6).and_then(|q| q.as_array())
-            else {
+            let Some(&[u, v, w, a, b, t]) = q.get(6 * c.node..).and_then(|q| q.first_chunk()) else {
                 continue;
             };
             let [x, y, z] = c.arm;

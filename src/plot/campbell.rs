@@ -285,8 +285,9 @@ fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_labe
     }
     axes.border(svg, Some(x_label), &axes.y.label("log decrement", "–"));
     if !above.is_empty() {
+        // In the gap above the panel, off its curves.
         let text = font::fit(&format!("above: {}", above.join(", ")), SMALL, frame.w - 16.0);
-        svg.text([frame.x + 8.0, frame.y + 14.0], &text, Text::new(SMALL, MUTED).halo());
+        svg.text([frame.x + 8.0, frame.y - 4.0], &text, Text::new(SMALL, MUTED));
     }
 }
 

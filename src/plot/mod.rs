@@ -3,7 +3,7 @@
 //! | layer | files |
 //! |---|---|
 //! | page | [`svg`], `font`, `color_map`, `style` |
-//! | axes | [`scale`], [`axes`], [`labels`], `row`, `thin`, `heat` |
+//! | axes | [`scale`], [`axes`], [`labels`], `leaders`, `obstacles`, `symbols`, `arcs`, `decimate`, `heat` |
 //! | figures | one file each, one variant of [`Figure`] each |
 //!
 //! A new figure is one file, one variant and its match arm. Non-finite data give a gap; no data give empty
@@ -35,6 +35,7 @@ mod history;
 mod lines;
 mod machine_layout;
 mod matrix;
+mod mode_motion;
 mod mode_shape;
 mod mode_view;
 mod obstacles;

@@ -1,6 +1,8 @@
 //! Machine layout: rows of a pair with their contact angles, symbols of linear bearings, bushings and joints.
 
-use super::machines::{PEDESTALS, SPINDLE, groups, layout, paths};
+use rotordyn::results::Results;
+
+use super::machines::{PEDESTALS, SPINDLE, groups, layout, machine, paths, pictures_of};
 
 /// Axial positions \[px\] where the upper load lines of the rows meet the shaft axis, and of the rows.
 fn load_lines(arrangement: &str) -> ([f64; 2], [f64; 2]) {
@@ -77,4 +79,27 @@ fn linear_bearings_bushings_and_joints_have_their_own_symbols() {
     }
     let axial = paths(symbols[2]).into_iter().find(|p| p.len() == 11).unwrap();
     assert!((axial[10][0] - axial[0][0]).abs() > 3.0 * (axial[10][1] - axial[0][1]).abs(), "{axial:?}");
+}
+
+#[test]
+fn loads_of_a_pair_are_drawn_in_a_panel_for_each_row() {
+    let machine = machine(SPINDLE);
+    let study = machine.model.studies.equilibrium.as_ref().unwrap();
+    let found = machine.equilibrium(study).unwrap();
+    let balls = found.bearings[0].balls.len();
+    let results = Results { equilibrium: Some(found), ..Results::default() };
+    let svg = &pictures_of(&machine, &results)["ball_loads"];
+    assert!(
+        svg.contains("bearing front, row 1 (towards −z)")
+            && svg.contains("bearing front, row 2 (towards +z)")
+    );
+    // Four circles of the rings in every panel, and one per ball.
+    assert_eq!(svg.matches("<circle").count(), 2 * 4 + balls);
+    let centre = |name: &str| -> Vec<f64> {
+        svg.split(name).skip(1).map(|p| p.split('"').next().unwrap().parse().unwrap()).collect()
+    };
+    let (x, y) = (centre("cx=\""), centre("cy=\""));
+    let same = |i: usize, j: usize| (x[i] - x[j]).hypot(y[i] - y[j]) < 1.0;
+    let on_top: usize = (4..4 + balls / 2).filter(|i| (4..x.len()).any(|j| j != *i && same(*i, j))).count();
+    assert_eq!(on_top, 0, "balls of both rows are drawn over each other");
 }
