@@ -1,6 +1,6 @@
 //! Duplex (matched) pair: two rows on one shaft and in one housing.
 
-use super::{Arrangement, Duplex, Reaction};
+use super::{Arrangement, BallBearing, Duplex, Reaction};
 
 impl Duplex {
     /// Axial position of each row relative to the bearing's station \[m\] and its thrust direction.
@@ -13,6 +13,14 @@ impl Duplex {
             Arrangement::FaceToFace => [(-half, -1.0), (half, 1.0)],
             Arrangement::Tandem => [(-half, thrust_direction), (half, thrust_direction)],
         }
+    }
+}
+
+impl BallBearing {
+    /// Axial position of each row relative to the bearing's station \[m\] and its thrust direction.
+    pub fn rows(&self) -> Vec<(f64, f64)> {
+        let thrust = self.geometry.thrust_direction;
+        self.duplex.map_or(vec![(0.0, thrust)], |pair| pair.rows(thrust).to_vec())
     }
 }
 

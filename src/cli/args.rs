@@ -465,7 +465,7 @@ Examples:
     /// Export geometry, modes, FRFs and time histories: glTF (glb), VTK, UFF, MATLAB, NumPy, CSV, WAV
     ///
     /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer); mode
-    /// shapes as VTK for ParaView; mode shapes and, with [study.frf], FRFs as universal files for modal
+    /// shapes as VTK for ParaView, with discs, bodies and bearings as surfaces; mode shapes and, with [study.frf], FRFs as universal files for modal
     /// analysis programs; and the channels of a run-up stored in the folder in each of the formats.
     #[command(after_long_help = "\
 Names: channels.mat has X001_B_ax_time, fs is the sampling rate in Hz, X001RPM is the mean speed. A WAV file contains \

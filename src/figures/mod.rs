@@ -56,6 +56,11 @@ type Named = (String, Figure);
 /// # Errors
 /// A file cannot be written.
 pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    write_all(&all(results, machine), folder)
+}
+
+/// All figures of the available results with their file names (without extension).
+pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
     let mut figures = vec![machine::layout(machine)];
     figures.extend(results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine)));
     figures.extend(results.modal.iter().map(|found| machine::modes(found, machine)));
@@ -72,7 +77,7 @@ pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<P
     figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
     figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));
     figures.extend(bearings(&results.bearings, &machine.model.title));
-    write_all(&figures, folder)
+    figures
 }
 
 /// Draws all figures of ball bearing analyses; returns the SVG files.

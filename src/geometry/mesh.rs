@@ -73,6 +73,31 @@ impl Mesh {
         Self::revolved(&pieces, sectors)
     }
 
+    /// Solid of revolution from lengths in a row, possibly tapered or hollow: one closed surface, smooth where
+    /// lengths continue each other, with steps between different radii as faces.
+    pub fn shaft(lengths: &[Length], sectors: usize) -> Self {
+        let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
+        let (Some(first), Some(last)) = (lengths.first(), lengths.last()) else { return Self::default() };
+        let face = |from: f64, to: f64, z: f64| vec![[from, z], [to, z]];
+        pieces.push(face(first.inner[0], first.outer[0], first.z[0]));
+        for (k, length) in lengths.iter().enumerate() {
+            pieces.push(vec![[length.outer[0], length.z[0]], [length.outer[1], length.z[1]]]);
+            if let Some(next) = lengths.get(k + 1) {
+                pieces.push(face(length.outer[1], next.outer[0], length.z[1]));
+            }
+        }
+        pieces.push(face(last.outer[1], last.inner[1], last.z[1]));
+        for (k, length) in lengths.iter().enumerate().rev() {
+            pieces.push(vec![[length.inner[1], length.z[1]], [length.inner[0], length.z[0]]]);
+            if let Some(before) = k.checked_sub(1).map(|k| &lengths[k]) {
+                pieces.push(face(length.inner[0], before.inner[1], length.z[0]));
+            }
+        }
+        // Faces without height and bores without radius have no surface.
+        pieces.retain(|p| p[0] != p[1] && p.iter().any(|point| point[0] > 0.0));
+        Self::revolved(&joined_smoothly(&pieces), sectors)
+    }
+
     /// Ring of a bearing, its groove in `rows` rows of facets.
     pub fn ring(ring: &Ring, sectors: usize, rows: usize) -> Self {
         let arc = ring.groove_arc(rows + 1);
@@ -196,6 +221,44 @@ impl Mesh {
         self.positions.push(position);
         self.normals.push(normal);
     }
+}
+
+/// A length of shaft, possibly tapered or hollow \[m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Length {
+    /// Axial positions of the ends.
+    pub z: [f64; 2],
+    /// Outer and inner radius at the two ends.
+    pub outer: [f64; 2],
+    pub inner: [f64; 2],
+}
+
+/// Largest change of direction that is drawn smooth \[rad\]; larger ones are edges.
+const SMOOTH: f64 = 0.15;
+
+/// Straight pieces of an outline joined where they continue each other with little change of direction.
+fn joined_smoothly(pieces: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+    let direction = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]).atan2(b[0] - a[0]);
+    let mut out: Vec<Vec<[f64; 2]>> = Vec::new();
+    for piece in pieces {
+        if let Some(line) = out.last_mut()
+            && let [.., a, b] = line[..]
+            && b == piece[0]
+        {
+            let turn = (direction(piece[0], piece[1]) - direction(a, b)).rem_euclid(TAU);
+            let turn = turn.min(TAU - turn);
+            // Round-off apart, a straight continuation needs no point.
+            if turn < 1e-9 {
+                line.pop();
+            }
+            if turn < SMOOTH {
+                line.push(piece[1]);
+                continue;
+            }
+        }
+        out.push(piece.clone());
+    }
+    out
 }
 
 /// Unit normals (n_r, n_z) of a smooth outline, to the right of its direction.

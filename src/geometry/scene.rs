@@ -2,9 +2,10 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 
-use super::mesh::Mesh;
+use super::mesh::{Length, Mesh};
 use super::parry::{BearingPose, BearingShapes};
 use super::scene_graph::{Material, MaterialMesh, Node, Scene};
+use crate::bearing::{BallBearing, BallGeometry};
 use crate::element::{Disc, RigidBody};
 use crate::model::Model;
 
@@ -27,31 +28,33 @@ const BODY: Material =
     Material { name: "body", colour: [0.45, 0.50, 0.45, 0.35], metallic: 0.1, roughness: 0.8 };
 
 impl Scene {
-    /// One bearing at a placement: nodes "inner ring", "outer ring", "cage", "ball 1" to "ball Z".
+    /// One row of balls at a placement: nodes "inner ring", "outer ring", "cage", "ball 1" to "ball Z".
     pub fn of_bearing(name: &str, shapes: &BearingShapes, at: &BearingPose) -> Self {
         let mut scene = Self { name: name.into(), ..Self::default() };
-        scene.add_bearing(name, [0.0; 3], shapes, at);
+        scene.add_row(name, [0.0; 3], shapes, at);
         scene
     }
 
-    /// The machine at rest: shaft sections, discs, ball bearings, rigid bodies.
+    /// A ball bearing at rest with all its rows, its station at the origin.
+    pub fn of_ball_bearing(name: &str, bearing: &BallBearing) -> Self {
+        let mut scene = Self { name: name.into(), ..Self::default() };
+        scene.add_bearing(name, 0.0, bearing);
+        scene
+    }
+
+    /// The machine at rest: shaft, discs, ball bearings, rigid bodies, each one node with one mesh; the parts of
+    /// a ball bearing are under a node with its name, those of a pair under "row 1" and "row 2" of it.
     ///
     /// A disc given by inertia alone is drawn as the cylinder, a body as the box that has its mass and
     /// inertias. Linear bearings, bushings and belts have no shape.
     pub fn of_machine(model: &Model) -> Self {
         let mut scene = Self { name: model.name.clone(), ..Self::default() };
-        for (k, section) in shaft_sections(model).iter().enumerate() {
-            let [start, end] = section.z;
-            let mesh = Mesh::frustum(section.inner, section.outer, [0.0, end - start], SECTORS);
-            let at = Isometry3::translation(0.0, 0.0, start);
-            scene.part(format!("shaft {}", k + 1), mesh, SHAFT, &at);
+        let shaft = Mesh::shaft(&shaft_sections(model), SECTORS);
+        if !shaft.triangles.is_empty() {
+            scene.part("shaft".into(), shaft, SHAFT, &Isometry3::identity());
         }
         for disc in &model.discs {
-            let (radius, thickness) = disc_size(disc);
-            let bore = 0.5 * shaft_diameter(model, disc.node);
-            let inner = if bore < radius { bore } else { 0.0 };
-            let z = [-0.5 * thickness, 0.5 * thickness];
-            let mesh = Mesh::frustum([inner; 2], [radius; 2], z, SECTORS);
+            let mesh = disc_mesh(model, disc, SECTORS);
             let at = Isometry3::translation(0.0, 0.0, model.node_z[disc.node]);
             scene.part(disc.name.clone(), mesh, DISC, &at);
         }
@@ -63,15 +66,29 @@ impl Scene {
         }
         for site in &model.bearings {
             if let Some(ball) = site.bearing.ball() {
-                let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
-                let at = shapes.centred(ball.cage_angle);
-                scene.add_bearing(&site.name, [0.0, 0.0, model.node_z[site.node]], &shapes, &at);
+                scene.add_bearing(&site.name, model.node_z[site.node], ball);
             }
         }
         scene
     }
 
-    fn add_bearing(&mut self, name: &str, centre: [f64; 3], shapes: &BearingShapes, at: &BearingPose) {
+    fn add_bearing(&mut self, name: &str, z: f64, bearing: &BallBearing) {
+        let rows = row_shapes(bearing);
+        if let [(_, shapes)] = &rows[..] {
+            self.add_row(name, [0.0, 0.0, z], shapes, &shapes.centred(bearing.cage_angle));
+            return;
+        }
+        let parent = self.nodes.len();
+        self.nodes.push(Node::translated(name, None, [0.0, 0.0, z]));
+        for (k, (offset, shapes)) in rows.iter().enumerate() {
+            let row = self.nodes.len();
+            let at = shapes.centred(bearing.cage_angle);
+            self.add_row(&format!("row {}", k + 1), [0.0, 0.0, *offset], shapes, &at);
+            self.nodes[parent].children.push(row);
+        }
+    }
+
+    fn add_row(&mut self, name: &str, centre: [f64; 3], shapes: &BearingShapes, at: &BearingPose) {
         let parent = self.nodes.len();
         self.nodes.push(Node::translated(name, None, centre));
         let inner = self.part("inner ring".into(), Mesh::ring(&shapes.inner, SECTORS, 24), INNER, &at.inner);
@@ -98,20 +115,20 @@ impl Scene {
     }
 }
 
-/// A length of shaft as it is drawn, possibly tapered or hollow.
-pub(crate) struct ShaftSection {
-    /// Axial positions of the ends \[m\].
-    pub z: [f64; 2],
-    /// Outer and inner radius at the two ends \[m\].
-    pub outer: [f64; 2],
-    pub inner: [f64; 2],
+/// Axial offset \[m\] and shapes of every row of a ball bearing.
+pub(crate) fn row_shapes(bearing: &BallBearing) -> Vec<(f64, BearingShapes)> {
+    let shapes = |(offset, thrust_direction): (f64, f64)| {
+        let geometry = BallGeometry { thrust_direction, ..bearing.geometry.clone() };
+        (offset, BearingShapes::new(&geometry, bearing.cage_pocket_diameter))
+    };
+    bearing.rows().into_iter().map(shapes).collect()
 }
 
 /// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball
 /// bearings.
-pub(crate) fn shaft_sections(model: &Model) -> Vec<ShaftSection> {
+pub(crate) fn shaft_sections(model: &Model) -> Vec<Length> {
     let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
-    let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| ShaftSection {
+    let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| Length {
         z: [z[0], z[1]],
         outer: half(e.outer_diameter),
         inner: half(e.inner_diameter),
@@ -122,7 +139,7 @@ pub(crate) fn shaft_sections(model: &Model) -> Vec<ShaftSection> {
     }
 }
 
-fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<ShaftSection> {
+fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<Length> {
     let (radius, length) = disc_size(rotor);
     let centre = model.node_z[rotor.node];
     // It extends over every node, even if the length given or derived from its inertia is shorter.
@@ -138,7 +155,7 @@ fn rigid_sections(model: &Model, rotor: &Disc) -> Vec<ShaftSection> {
         let middle = 0.5 * (z[0] + z[1]);
         let at = |seat: &&([f64; 2], f64)| seat.0[0] < middle && middle < seat.0[1];
         let outer = seats.iter().filter(at).map(|seat| seat.1).fold(radius, f64::min);
-        ShaftSection { z: [z[0], z[1]], outer: [outer; 2], inner: [0.0; 2] }
+        Length { z: [z[0], z[1]], outer: [outer; 2], inner: [0.0; 2] }
     };
     cuts.windows(2).map(section).collect()
 }
@@ -173,6 +190,14 @@ pub(crate) fn disc_size(disc: &Disc) -> (f64, f64) {
     let radius = radius2.max(0.0).sqrt();
     // A thin disc's inertias may give no thickness; a tenth of the radius is then drawn.
     (given(0.5 * disc.outer_diameter, radius), given(disc.thickness, thickness2.max(0.01 * radius2).sqrt()))
+}
+
+/// A disc about its centre, with the shaft's diameter as its bore.
+pub(crate) fn disc_mesh(model: &Model, disc: &Disc, sectors: usize) -> Mesh {
+    let (radius, thickness) = disc_size(disc);
+    let bore = 0.5 * shaft_diameter(model, disc.node);
+    let inner = if bore < radius { bore } else { 0.0 };
+    Mesh::frustum([inner; 2], [radius; 2], [-0.5 * thickness, 0.5 * thickness], sectors)
 }
 
 /// Edges and orientation of the homogeneous box with the body's mass and inertias:

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::gltf;
-use super::vtk::{Field, Grid, Values, machine_fields, write_pvd, write_vtu};
+use super::vtk::{Field, Grid, Values, machine_fields, part_field, write_pvd, write_vtu};
+use super::vtk_machine::rounded;
 use crate::analysis::Mode;
 use crate::error::Error;
-use crate::geometry::parry::BearingShapes;
 use crate::geometry::scene_graph::Scene;
 use crate::names::file_name;
 use crate::results::Results;
@@ -25,8 +25,7 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
     gltf::write(&files[0], &Scene::of_machine(&machine.model))?;
     for site in &machine.model.bearings {
         if let Some(ball) = site.bearing.ball() {
-            let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
-            let scene = Scene::of_bearing(&site.name, &shapes, &shapes.centred(ball.cage_angle));
+            let scene = Scene::of_ball_bearing(&site.name, ball);
             let file = folder.join(file_name(&format!("bearing_{}.glb", site.name)));
             gltf::write(&file, &scene)?;
             files.push(file);
@@ -40,7 +39,8 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
 ///
 /// Motion is Re(u e^{jωt}): fields `displacement` and `rotation` are Re u, `displacement_quarter` and
 /// `rotation_quarter` −Im u, a quarter of a cycle later. The largest displacement is a tenth of
-/// the shaft's length, or the largest rotation 1 rad.
+/// the shaft's length, or the largest rotation 1 rad. Field `part` tells shaft (0), discs (1), bodies (2), rings (3)
+/// and balls (4), whose surfaces move with the mode as rigid bodies.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -68,12 +68,8 @@ pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Resu
 }
 
 fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
-    let size_of = |u: &[crate::linalg::Complex64]| u.iter().map(|u| u.norm_sqr()).sum::<f64>().sqrt();
-    let moves = |node: &[crate::linalg::Complex64]| size_of(&node[..3]).max(size * size_of(&node[3..]));
-    let largest = mode.full_shape.chunks(6).map(moves).fold(0.0, f64::max);
-    let scale = if largest > 0.0 { size / largest } else { 1.0 };
     let part = |value: fn(&crate::linalg::Complex64) -> f64| -> Vec<f64> {
-        mode.full_shape.iter().map(|u| scale * value(u)).collect()
+        mode.full_shape.iter().map(value).collect()
     };
     let mut fields = machine_fields(grid, &part(|u| u.re), &[]);
     let mut quarter = machine_fields(grid, &part(|u| -u.im), &[]);
@@ -81,8 +77,24 @@ fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
     for list in [&mut fields, &mut quarter] {
         list.retain(|f| matches!(f.values, Values::Vectors(_)));
     }
+    // Amplitude of every point over both phases; a rotation of 1 rad counts as the full size.
+    let largest = |k: usize| {
+        let both = [&fields[k], &quarter[k]].map(|f| match &f.values {
+            Values::Vectors(v) => v.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>()).collect(),
+            Values::Scalars(_) => Vec::new(),
+        });
+        both[0].iter().zip(&both[1]).map(|(a, b)| (a + b).sqrt()).fold(0.0, f64::max)
+    };
+    let largest = largest(0).max(size * largest(1));
+    let scale = if largest > 0.0 { size / largest } else { 1.0 };
     quarter.iter_mut().for_each(|f| f.name.push_str("_quarter"));
     fields.append(&mut quarter);
+    for field in &mut fields {
+        if let Values::Vectors(v) = &mut field.values {
+            v.iter_mut().flatten().for_each(|x| *x = rounded(scale * *x));
+        }
+    }
+    fields.push(part_field(grid));
     fields
 }
 

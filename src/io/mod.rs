@@ -17,4 +17,5 @@ pub mod npy;
 pub mod results_file;
 pub mod uff;
 pub mod vtk;
+mod vtk_machine;
 pub mod wav;

@@ -4,15 +4,39 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::geometry::parry::BearingShapes;
-use crate::model::Model;
 
-/// Points and lines between them; a point without a line becomes a vertex cell.
+/// Points with lines and triangles between them; a point without either becomes a vertex cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
     /// Positions \[m\].
     pub points: Vec<[f64; 3]>,
     pub lines: Vec<[usize; 2]>,
+    pub triangles: Vec<[usize; 3]>,
+    /// What every point moves with: the sum of its carriers, none for a point at rest. If the list is shorter
+    /// than that of the points, point k beyond it moves with node k.
+    pub carriers: Vec<Vec<Carrier>>,
+    /// Kind of part of every point; may be empty.
+    pub parts: Vec<Part>,
+}
+
+/// A node that a point moves with as on a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carrier {
+    pub node: usize,
+    /// Position from the node \[m\].
+    pub arm: [f64; 3],
+    /// Share of the motion.
+    pub weight: f64,
+}
+
+/// Kind of part, by its number in the field `part`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Shaft = 0,
+    Disc = 1,
+    Body = 2,
+    Ring = 3,
+    Ball = 4,
 }
 
 /// A field on the points.
@@ -30,42 +54,52 @@ pub enum Values {
 }
 
 impl Grid {
-    /// The machine: shaft nodes joined by lines, then bodies, then the balls of every ball bearing in order.
-    pub fn of_machine(model: &Model) -> Self {
-        let mut points: Vec<[f64; 3]> = model.node_z.iter().map(|&z| [0.0, 0.0, z]).collect();
-        let lines = (1..points.len()).map(|k| [k - 1, k]).collect();
-        points.extend(model.bodies.iter().map(|b| b.position));
-        for site in &model.bearings {
-            if let Some(ball) = site.bearing.ball() {
-                let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
-                let z = model.node_z[site.node];
-                points.extend(shapes.centred(ball.cage_angle).balls.iter().map(|c| [c.x, c.y, z + c.z]));
+    /// Displacement and rotation of a point: Σ w (u + θ × r), Σ w θ.
+    fn motion(&self, k: usize, q: &[f64]) -> [[f64; 3]; 2] {
+        let own = [Carrier { node: k, arm: [0.0; 3], weight: 1.0 }];
+        let carriers = self.carriers.get(k).map_or(&own[..], |list| list);
+        let mut out = [[0.0; 3]; 2];
+        for c in carriers {
+            let Some(&[u, v, w, a, b, t]) = q.get(6 * c.node..).and_then(|q| q.first_chunk()) else {
+                continue;
+            };
+            let [x, y, z] = c.arm;
+            let moved = [u + b * z - t * y, v + t * x - a * z, w + a * y - b * x];
+            for i in 0..3 {
+                out[0][i] += c.weight * moved[i];
+                out[1][i] += c.weight * [a, b, t][i];
             }
         }
-        Self { points, lines }
+        out
     }
 }
 
 /// Fields `displacement` \[m\], `rotation` \[rad\] and `ball_load` \[N\] on [`Grid::of_machine`].
 ///
-/// `q`: six DOFs per node, shaft nodes then bodies; `ball_loads`: one per ball, in the grid's order. Balls
-/// get no displacement, nodes no load; missing values are zero.
+/// `q`: six DOFs per node, shaft nodes then bodies; `ball_loads`: one per ball, in the grid's order, at the
+/// balls' centres. Missing values are zero.
 pub fn machine_fields(grid: &Grid, q: &[f64], ball_loads: &[f64]) -> Vec<Field> {
     let nodes = q.len() / 6;
-    let at = |k: usize, first: usize| match q.get(6 * k + first..6 * k + first + 3) {
-        Some(v) => [v[0], v[1], v[2]],
-        None => [0.0; 3],
-    };
-    let count = grid.points.len();
+    let motion: Vec<[[f64; 3]; 2]> = (0..grid.points.len()).map(|k| grid.motion(k, q)).collect();
     let load = |k: usize| k.checked_sub(nodes).and_then(|j| ball_loads.get(j)).copied().unwrap_or(0.0);
+    let vectors = |name: &str, i: usize| Field {
+        name: name.into(),
+        values: Values::Vectors(motion.iter().map(|m| m[i]).collect()),
+    };
     vec![
+        vectors("displacement", 0),
+        vectors("rotation", 1),
         Field {
-            name: "displacement".into(),
-            values: Values::Vectors((0..count).map(|k| at(k, 0)).collect()),
+            name: "ball_load".into(),
+            values: Values::Scalars((0..grid.points.len()).map(load).collect()),
         },
-        Field { name: "rotation".into(), values: Values::Vectors((0..count).map(|k| at(k, 3)).collect()) },
-        Field { name: "ball_load".into(), values: Values::Scalars((0..count).map(load).collect()) },
     ]
+}
+
+/// Field `part`: the kind of part of every point.
+pub fn part_field(grid: &Grid) -> Field {
+    let part = |k: usize| grid.parts.get(k).map_or(0.0, |p| f64::from(*p as u8));
+    Field { name: "part".into(), values: Values::Scalars((0..grid.points.len()).map(part).collect()) }
 }
 
 /// The text of a .vtu file.
@@ -79,8 +113,16 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
     for &k in grid.lines.iter().flatten() {
         *joined.get_mut(k).ok_or(format!("a line ends at point {k} of {count}"))? = true;
     }
+    for &k in grid.triangles.iter().flatten() {
+        *joined.get_mut(k).ok_or(format!("a triangle has its corner at point {k} of {count}"))? = true;
+    }
     let single: Vec<usize> = (0..count).filter(|&k| !joined[k]).collect();
-    let cells = grid.lines.len() + single.len();
+    // VTK's numbers of the kinds of cells.
+    const VERTEX: usize = 1;
+    const LINE: usize = 3;
+    const TRIANGLE: usize = 5;
+    let kinds = [(LINE, 2, grid.lines.len()), (TRIANGLE, 3, grid.triangles.len()), (VERTEX, 1, single.len())];
+    let cells: usize = kinds.iter().map(|k| k.2).sum();
     let mut out = format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
          <UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<PointData>\n"
@@ -99,17 +141,16 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
     let coordinates: Vec<f64> = grid.points.iter().flatten().copied().collect();
     array(&mut out, "points", 3, &coordinates)?;
     out.push_str("</Points>\n<Cells>\n");
-    integers(&mut out, "connectivity", "Int64", grid.lines.iter().flatten().chain(&single).copied());
-    let ends = (1..=grid.lines.len()).map(|k| 2 * k);
-    integers(&mut out, "offsets", "Int64", ends.chain((1..=single.len()).map(|k| 2 * grid.lines.len() + k)));
-    const VERTEX: usize = 1;
-    const LINE: usize = 3;
-    integers(
-        &mut out,
-        "types",
-        "UInt8",
-        (0..cells).map(|k| if k < grid.lines.len() { LINE } else { VERTEX }),
-    );
+    let corners = grid.lines.iter().flatten().chain(grid.triangles.iter().flatten()).chain(&single);
+    integers(&mut out, "connectivity", "Int64", corners.copied());
+    let sizes = kinds.iter().flat_map(|&(_, size, number)| std::iter::repeat_n(size, number));
+    let ends = sizes.scan(0, |end, size| {
+        *end += size;
+        Some(*end)
+    });
+    integers(&mut out, "offsets", "Int64", ends);
+    let types = kinds.iter().flat_map(|&(kind, _, number)| std::iter::repeat_n(kind, number));
+    integers(&mut out, "types", "UInt8", types);
     out.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     Ok(out)
 }

@@ -3,6 +3,7 @@
 use super::axes::{Axes, Frame, Marker, clip};
 use super::font;
 use super::labels::{EndLabel, Entry, end_label_width, end_labels, page_heading};
+use super::obstacles::Obstacles;
 use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
@@ -164,7 +165,7 @@ pub fn draw(data: &Campbell) -> Svg {
         mark_branch(&mut svg, &axes, branch, &branch.hz);
     }
     labels.extend(branch_ends(&axes, &data.branches));
-    criticals(&mut svg, &axes, &data.criticals, &data.branches);
+    criticals(&mut svg, &axes, data);
     let x_label = axes.x.label("shaft speed", "rpm");
     axes.border(&mut svg, (!damped).then_some(x_label.as_str()), &axes.y.label("natural frequency", "Hz"));
     end_labels(&mut svg, &axes, &labels);
@@ -213,15 +214,20 @@ fn mark_branch(svg: &mut Svg, axes: &Axes, branch: &Branch, values: &[f64]) {
 pub(super) fn order_lines(svg: &mut Svg, axes: &Axes, orders: &[OrderLine]) -> Vec<EndLabel> {
     let mut labels = Vec::new();
     for order in orders {
-        let (a, b) = (axes.x.range.lo, axes.x.range.hi);
-        let hz = |rpm: f64| order.order * rpm / 60.0;
-        let line = clip(&[axes.at(a, hz(a)), axes.at(b, hz(b))], axes.frame);
+        let line = order_line(axes, order);
         svg.polyline(&line, order.style());
         if let Some(&at) = line.last() {
             labels.push(EndLabel { at, text: order.label.clone(), color: order.color() });
         }
     }
     labels
+}
+
+/// An order line inside the panel.
+fn order_line(axes: &Axes, order: &OrderLine) -> Vec<Point> {
+    let hz = |rpm: f64| order.order * rpm / 60.0;
+    let (a, b) = (axes.x.range.lo, axes.x.range.hi);
+    clip(&[axes.at(a, hz(a)), axes.at(b, hz(b))], axes.frame)
 }
 
 /// Labels where the branches leave the panel.
@@ -238,56 +244,32 @@ pub(super) fn branch_ends(axes: &Axes, branches: &[Branch]) -> Vec<EndLabel> {
     labels
 }
 
-/// Markers and labels of critical speeds; each label is placed where it covers no marker or label
-/// and as little of the branches as possible.
-fn criticals(svg: &mut Svg, axes: &Axes, list: &[Critical], branches: &[Branch]) {
-    let marks: Vec<_> =
-        list.iter().map(|c| (axes.at(c.rpm, c.hz), &c.label)).filter(|m| axes.contains(m.0)).collect();
-    let square = |p: Point, r: f64| [p[0] - r, p[1] - r, p[0] + r, p[1] + r];
-    let mut taken: Vec<[f64; 4]> = marks.iter().map(|(p, _)| square(*p, 6.0)).collect();
-    let lines: Vec<[f64; 4]> =
-        branches.iter().flat_map(|b| branch_points(axes, b)).map(|p| square(p, 2.0)).collect();
+/// Markers and labels of critical speeds; each label is placed where it covers no line, marker or label, with a
+/// leader if that is not beside its marker.
+fn criticals(svg: &mut Svg, axes: &Axes, data: &Campbell) {
+    let marks: Vec<(Point, &String)> = (data.criticals.iter())
+        .map(|c| (axes.at(c.rpm, c.hz), &c.label))
+        .filter(|m| axes.contains(m.0))
+        .collect();
+    let mut obstacles = Obstacles::default();
+    for (p, _) in &marks {
+        obstacles.add([p[0] - 5.0, p[1] - 5.0, p[0] + 5.0, p[1] + 5.0]);
+    }
+    for branch in &data.branches {
+        let points: Vec<Point> = branch.rpm.iter().zip(&branch.hz).map(|(&x, &y)| axes.at(x, y)).collect();
+        // With the markers on it.
+        obstacles.add_line(&clip(&points, axes.frame), 4.0);
+    }
+    for order in &data.orders {
+        obstacles.add_line(&order_line(axes, order), 1.0);
+    }
     for (at, label) in &marks {
         Marker::Circle.draw(svg, *at, CRITICAL);
         let label = font::fit(label, SMALL, 160.0);
-        let w = font::width(&label, SMALL);
-        let area = |[x, y]: Point| [x - 2.0, y - 0.9 * SMALL, x + w + 2.0, y + 0.3 * SMALL];
-        let heights = [14.0, -7.0, 26.0, -19.0];
-        let places =
-            heights.iter().flat_map(|dy| [[8.0, *dy], [-8.0 - w, *dy], [-0.5 * w, *dy + dy.signum() * 4.0]]);
-        let covered = |list: &[[f64; 4]], p: &Point| {
-            let [l, t, r, b] = area(*p);
-            list.iter().filter(|o| l < o[2] && r > o[0] && t < o[3] && b > o[1]).count()
-        };
-        let inside = |p: &Point| {
-            let [l, t, r, b] = area(*p);
-            l > axes.frame.x && r < axes.frame.right() && t > axes.frame.y && b < axes.frame.bottom()
-        };
-        let places = places.map(|d| [at[0] + d[0], at[1] + d[1]]);
-        // Never over another marker or label: it is omitted instead.
-        let places = places.filter(inside).filter(|p| covered(&taken, p) == 0);
-        if let Some(place) = places.min_by_key(|p| covered(&lines, p)) {
-            svg.text(place, &label, Text::new(SMALL, INK).halo());
-            taken.push(area(place));
+        if let Some(area) = obstacles.place_label(*at, font::width(&label, SMALL), axes.frame) {
+            obstacles.callout(svg, *at, area, &label);
         }
     }
-}
-
-/// Points about every 4 px along a branch inside the panel.
-fn branch_points(axes: &Axes, branch: &Branch) -> Vec<Point> {
-    let points: Vec<Point> = branch.rpm.iter().zip(&branch.hz).map(|(&x, &y)| axes.at(x, y)).collect();
-    let line = clip(&points, axes.frame);
-    let pieces = line.windows(2).filter(|p| p[0][0].is_finite() && p[1][0].is_finite());
-    pieces
-        .flat_map(|p| {
-            let steps =
-                ((p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]) / 4.0).ceil().clamp(1.0, 400.0) as usize;
-            let [a, b] = [p[0], p[1]];
-            (0..=steps)
-                .map(move |k| k as f64 / steps as f64)
-                .map(move |t| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])])
-        })
-        .collect()
 }
 
 fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_label: &str) {
@@ -303,8 +285,9 @@ fn decrements(svg: &mut Svg, branches: &[Branch], frame: Frame, x: Range, x_labe
     }
     axes.border(svg, Some(x_label), &axes.y.label("log decrement", "–"));
     if !above.is_empty() {
+        // In the gap above the panel, off its curves.
         let text = font::fit(&format!("above: {}", above.join(", ")), SMALL, frame.w - 16.0);
-        svg.text([frame.x + 8.0, frame.y + 14.0], &text, Text::new(SMALL, MUTED).halo());
+        svg.text([frame.x + 8.0, frame.y - 4.0], &text, Text::new(SMALL, MUTED));
     }
 }
 

@@ -2,10 +2,12 @@
 
 use super::axes::{Axes, Frame};
 use super::font;
-use super::labels::{NameRow, page_heading, place_without_overlap};
+use super::labels::{NameRow, page_heading};
+use super::leaders::{Callout, CalloutRow};
 use super::scale::{Range, extremes};
 use super::style::*;
 use super::svg::{Color, Dash, Point, Style, Svg, Text};
+use super::symbols::{self, SupportSymbol};
 
 /// A shaft section, possibly tapered or hollow.
 #[derive(Clone, Copy, Debug)]
@@ -28,24 +30,49 @@ pub struct LayoutBlock {
     pub rotating: bool,
 }
 
-/// A bearing around the shaft.
+/// A rolling bearing around the shaft.
 #[derive(Clone, Debug)]
 pub struct LayoutBearing {
     pub label: String,
-    /// Axial position and width \[m\].
-    pub z: f64,
-    pub width: f64,
     /// Bore and outside radius \[m\].
     pub bore: f64,
     pub outside: f64,
+    pub rows: Vec<LayoutRow>,
 }
 
-/// A spring or bushing between two points.
+/// One row of balls with its rings.
+#[derive(Clone, Copy, Debug)]
+pub struct LayoutRow {
+    /// Axial position and width \[m\].
+    pub z: f64,
+    pub width: f64,
+    /// Pitch radius and ball radius \[m\].
+    pub pitch: f64,
+    pub ball: f64,
+    /// Contact angle \[rad\], positive if the load lines meet the axis on the −z side of the row.
+    pub contact_angle: f64,
+}
+
+/// A linear bearing, bushing or joint on the shaft, drawn as its symbol below the shaft.
+#[derive(Clone, Debug)]
+pub struct LayoutSupport {
+    pub label: String,
+    /// Axial position, radius of the surface it acts on \[m\].
+    pub z: f64,
+    pub radius: f64,
+    pub symbol: SupportSymbol,
+    /// The other side is the ground, else a body.
+    pub grounded: bool,
+}
+
+/// A bushing between two points.
 #[derive(Clone, Copy, Debug)]
 pub struct LayoutSpring {
     /// \[z, y\] of the ends \[m\].
     pub from: [f64; 2],
     pub to: [f64; 2],
+    pub spring: bool,
+    pub damper: bool,
     /// The second end is connected to ground.
     pub grounded: bool,
 }
@@ -68,7 +95,8 @@ pub struct MachineLayout {
     pub note: String,
     pub sections: Vec<LayoutSection>,
     pub blocks: Vec<LayoutBlock>,
-    pub supports: Vec<LayoutBearing>,
+    pub bearings: Vec<LayoutBearing>,
+    pub supports: Vec<LayoutSupport>,
     pub springs: Vec<LayoutSpring>,
     pub belts: Vec<LayoutBelt>,
     /// Names and axial positions \[m\] of the stations.
@@ -84,29 +112,38 @@ pub fn draw(data: &MachineLayout) -> Svg {
     let (z, y) = extent(data);
     let w = WIDTH - 48.0;
     let h = (w * (y.hi - y.lo) / (z.hi - z.lo)).clamp(130.0, 420.0);
-    let frame = Frame { x: 24.0, y: top + 30.0, w, h };
-    let axes = Axes::equal(frame, z, y);
+    let frame = Frame { x: 24.0, y: top, w, h };
+    // The height of the names shifts the drawing down; x positions do not depend on it.
+    let names = names(&Axes::equal(frame, z, y), data).height;
+    let axes = Axes::equal(Frame { y: top + 18.0 + names, ..frame }, z, y);
     let corner = |z: f64, y: f64| axes.at(1e3 * z, 1e3 * y);
     let under_names = stations(&mut svg, &axes, &data.stations);
     for block in data.blocks.iter().filter(|b| !b.rotating) {
         let fill = Style::stroke(MUTED, 0.9).filled(STATIONARY);
         rectangle(&mut svg, corner(block.z[0], block.y[0]), corner(block.z[1], block.y[1]), fill);
     }
-    for spring in &data.springs {
-        zigzag(
-            &mut svg,
-            corner(spring.from[0], spring.from[1]),
-            corner(spring.to[0], spring.to[1]),
-            spring.grounded,
-        );
+    for s in &data.springs {
+        let ends = (corner(s.from[0], s.from[1]), corner(s.to[0], s.to[1]));
+        svg.group("spring", |svg| {
+            symbols::spring_damper(svg, ends.0, ends.1, (s.spring, s.damper), s.grounded);
+        });
     }
     for block in data.blocks.iter().filter(|b| b.rotating) {
         let fill = Style::stroke(INK, 0.9).filled(ROTATING);
         rectangle(&mut svg, corner(block.z[0], block.y[0]), corner(block.z[1], block.y[1]), fill);
     }
     shaft(&mut svg, &axes, &data.sections);
-    for support in &data.supports {
-        bearing(&mut svg, &axes, support);
+    for b in &data.bearings {
+        svg.group("ball-bearing", |svg| bearing(svg, &axes, b));
+    }
+    for (k, support) in data.supports.iter().enumerate() {
+        let at = [support_x(&axes, data, k), corner(support.z, -support.radius)[1]];
+        let class = match support.symbol {
+            SupportSymbol::Ball => "ball-bearing",
+            SupportSymbol::SpringDamper { .. } => "spring-damper",
+            SupportSymbol::Joint(_) => "joint",
+        };
+        svg.group(class, |svg| symbols::support(svg, at, support.symbol, support.grounded));
     }
     for b in &data.belts {
         belt(&mut svg, &axes, b);
@@ -117,13 +154,13 @@ pub fn draw(data: &MachineLayout) -> Svg {
         [x1, axes.at(0.0, 0.0)[1]],
         Style::stroke(INK, 0.7).dashed(Dash::DashDot),
     );
-    names(&mut svg, &axes, data);
+    self::names(&axes, data).draw(&mut svg, axes.frame.y - 10.0);
     ruler(&mut svg, &axes, under_names + 10.0);
     svg.height = under_names + 56.0;
     svg
 }
 
-/// The shaft: outline and shoulders dark, boundaries between equal sections pale.
+/// The shaft: outline and shoulders; boundaries between elements are not drawn.
 fn shaft(svg: &mut Svg, axes: &Axes, sections: &[LayoutSection]) {
     let corner = |z: f64, y: f64| axes.at(1e3 * z, 1e3 * y);
     let dark = Style::stroke(INK, 0.9);
@@ -131,9 +168,12 @@ fn shaft(svg: &mut Svg, axes: &Axes, sections: &[LayoutSection]) {
         let shape = |r: [f64; 2]| {
             [corner(s.z[0], r[0]), corner(s.z[1], r[1]), corner(s.z[1], -r[1]), corner(s.z[0], -r[0])]
         };
-        svg.polygon(&shape(s.outer), Style::stroke(PALE, 0.5).filled(SHAFT));
+        svg.polygon(&shape(s.outer), Style::stroke(SHAFT, 0.6).filled(SHAFT));
         if s.inner.iter().any(|r| *r > 0.0) {
-            svg.polygon(&shape(s.inner), Style::stroke(MUTED, 0.7).filled(WHITE).faint(0.8));
+            let bore = shape(s.inner);
+            svg.polygon(&bore, Style::stroke(WHITE, 0.6).filled(WHITE));
+            svg.line(bore[0], bore[1], Style::stroke(MUTED, 0.7));
+            svg.line(bore[3], bore[2], Style::stroke(MUTED, 0.7));
         }
     }
     for (k, s) in sections.iter().enumerate() {
@@ -152,70 +192,59 @@ fn shaft(svg: &mut Svg, axes: &Axes, sections: &[LayoutSection]) {
 
 /// Padded extent of all parts \[mm\].
 fn extent(data: &MachineLayout) -> (Range, Range) {
+    let rows = || data.bearings.iter().flat_map(|b| &b.rows);
     let zs = (data.sections.iter().flat_map(|s| s.z))
         .chain(data.blocks.iter().flat_map(|b| b.z))
         .chain(data.springs.iter().flat_map(|s| [s.from[0], s.to[0]]))
-        .chain(data.supports.iter().flat_map(|s| [s.z - 0.5 * s.width, s.z + 0.5 * s.width]))
+        .chain(rows().flat_map(|r| [r.z - 0.5 * r.width, r.z + 0.5 * r.width]))
+        .chain(data.supports.iter().map(|s| s.z))
         .chain(data.stations.iter().map(|s| s.1));
+    let z = Range::of(zs.map(|v| 1e3 * v)).padded(0.04);
+    // Symbols of supports have a size in px.
+    let below = (symbols::SUPPORT_LENGTH + 8.0) * (z.hi - z.lo) / (WIDTH - 48.0) / 1e3;
     let ys = (data.sections.iter().flat_map(|s| s.outer.into_iter().flat_map(|r| [r, -r])))
         .chain(data.blocks.iter().flat_map(|b| b.y))
         .chain(data.springs.iter().flat_map(|s| [s.from[1], s.to[1]]))
-        .chain(data.supports.iter().flat_map(|s| [s.outside, -s.outside]))
-        .chain(data.belts.iter().flat_map(|b| [b.radius, -b.radius]));
-    (Range::of(zs.map(|v| 1e3 * v)).padded(0.04), Range::of(ys.map(|v| 1e3 * v)).padded(0.06))
+        .chain(data.bearings.iter().flat_map(|b| [b.outside, -b.outside]))
+        .chain(data.supports.iter().flat_map(|s| [s.radius, -s.radius - below]))
+        .chain(data.belts.iter().flat_map(|b| [b.radius + below, -b.radius]));
+    (z, Range::of(ys.map(|v| 1e3 * v)).padded(0.06))
 }
 
 fn rectangle(svg: &mut Svg, a: Point, b: Point, style: Style) {
     svg.polygon(&[a, [b[0], a[1]], b, [a[0], b[1]]], style);
 }
 
-/// Rolling bearing in section: rings and a ball above and below the shaft.
-fn bearing(svg: &mut Svg, axes: &Axes, s: &LayoutBearing) {
-    for side in [1.0, -1.0] {
-        let a = axes.at(1e3 * (s.z - 0.5 * s.width), side * 1e3 * s.bore);
-        let b = axes.at(1e3 * (s.z + 0.5 * s.width), side * 1e3 * s.outside);
-        rectangle(svg, a, b, Style::stroke(INK, 1.0).filled(WHITE));
-        let center = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        let radius = 0.3 * (b[1] - a[1]).abs().min((b[0] - a[0]).abs().max(4.0));
-        svg.circle(center, radius, Style::stroke(INK, 0.9).filled(STEEL));
+/// Rolling bearing in section above and below the shaft: per row the rings, a ball, and its contact line.
+fn bearing(svg: &mut Svg, axes: &Axes, b: &LayoutBearing) {
+    for row in &b.rows {
+        let [low, high] = [-0.5, 0.5].map(|side| row.z + side * row.width);
+        let shoulder = 0.6 * row.ball;
+        for side in [1.0, -1.0] {
+            let at = |z: f64, r: f64| axes.at(1e3 * z, side * 1e3 * r);
+            let line = Style::stroke(INK, 0.9);
+            rectangle(svg, at(low, b.bore), at(high, b.outside), line.filled(WHITE));
+            for r in [[b.bore, row.pitch - shoulder], [row.pitch + shoulder, b.outside]] {
+                rectangle(svg, at(low, r[0]), at(high, r[1]), line.filled(STEEL));
+            }
+            let center = at(row.z, row.pitch);
+            let radius = (center[1] - at(row.z, row.pitch + row.ball)[1]).abs();
+            svg.circle(center, radius, line.filled(WHITE));
+            if row.contact_angle != 0.0 {
+                // Outwards from the axis: towards +z if the load lines meet the axis on the −z side.
+                let (sin, cos) = row.contact_angle.sin_cos();
+                let reach = 0.5 * (b.outside - b.bore) / cos.max(0.3);
+                let end = |t: f64| at(row.z + t * reach * sin, row.pitch + t * reach * cos);
+                svg.group("contact-line", |svg| {
+                    svg.line(end(-1.0), end(1.0), Style::stroke(RED, 1.2));
+                });
+            }
+        }
     }
 }
 
-/// A spring as a zigzag, with ground hatching if grounded.
-fn zigzag(svg: &mut Svg, a: Point, b: Point, grounded: bool) {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let length = d[0].hypot(d[1]);
-    if !length.is_finite() || length < 1.0 {
-        return;
-    }
-    let across = [-d[1] / length, d[0] / length];
-    let offset = |k: usize| {
-        if !(2..=8).contains(&k) {
-            0.0
-        } else if k.is_multiple_of(2) {
-            4.5
-        } else {
-            -4.5
-        }
-    };
-    let points: Vec<Point> = (0..=10)
-        .map(|k| {
-            let t = k as f64 / 10.0;
-            [a[0] + t * d[0] + offset(k) * across[0], a[1] + t * d[1] + offset(k) * across[1]]
-        })
-        .collect();
-    svg.polyline(&points, Style::stroke(INK, 1.0));
-    if grounded {
-        let at = |along: f64, out: f64| {
-            [b[0] + along * across[0] + out * d[0] / length, b[1] + along * across[1] + out * d[1] / length]
-        };
-        svg.line(at(-10.0, 0.0), at(10.0, 0.0), Style::stroke(INK, 1.2));
-        for k in 0..5 {
-            let along = -8.0 + 4.5 * f64::from(k);
-            svg.line(at(along, 0.0), at(along - 3.5, 5.0), Style::stroke(INK, 0.7));
-        }
-    }
-}
+/// Height of a belt's symbol above the pulley \[px\].
+const BELT_SYMBOL: f64 = 26.0;
 
 /// Belt pull: an arrow up or down, or the symbol of an arrow into (cross) or out of the page (dot).
 fn belt(svg: &mut Svg, axes: &Axes, b: &LayoutBelt) {
@@ -234,13 +263,8 @@ fn belt(svg: &mut Svg, axes: &Axes, b: &LayoutBelt) {
             svg.circle(at, 2.0, Style::fill(GREEN));
         }
     } else {
-        svg.arrow([x, y], [x, y - side * 30.0], 8.0, GREEN, 2.0);
+        svg.arrow([x, y], [x, y - side * BELT_SYMBOL], 8.0, GREEN, 2.0);
     }
-    svg.text(
-        [x + 12.0, y - side * 18.0 + 4.0],
-        &font::fit(&b.label, SMALL, 150.0),
-        Text::new(SMALL, GREEN).halo(),
-    );
 }
 
 /// Stations: dotted lines from the axis to their names below the drawing; returns the height below the names.
@@ -254,21 +278,36 @@ fn stations(svg: &mut Svg, axes: &Axes, list: &[(String, f64)]) -> f64 {
     bottom + 11.0 + row.height
 }
 
-/// Names of blocks and bearings in a row above the drawing, with leader lines.
-fn names(svg: &mut Svg, axes: &Axes, data: &MachineLayout) {
-    let blocks = data.blocks.iter().map(|b| (&b.label, 0.5 * (b.z[0] + b.z[1]), b.y[0].max(b.y[1])));
-    let supports = data.supports.iter().map(|s| (&s.label, s.z, s.outside));
-    let list: Vec<_> = blocks.chain(supports).filter(|n| !n.0.is_empty()).collect();
-    let places: Vec<f64> = list.iter().map(|n| axes.x.px(1e3 * n.1)).collect();
-    let labels: Vec<String> = list.iter().map(|n| font::fit(n.0, SMALL, 140.0)).collect();
-    let sizes: Vec<f64> = labels.iter().map(|l| font::width(l, SMALL) + 10.0).collect();
-    let row = axes.frame.y - 12.0;
-    for (k, place) in place_without_overlap(&places, &sizes, 4.0, WIDTH - 4.0).into_iter().enumerate() {
-        let Some(x) = place else { continue };
-        let tip = axes.at(1e3 * list[k].1, 1e3 * list[k].2);
-        svg.polyline(&[tip, [tip[0], row + 10.0], [x, row + 3.0]], Style::stroke(MUTED, 0.7));
-        svg.text([x, row], &labels[k], Text::new(SMALL, INK).middle());
-    }
+/// Page position of a support; those at one station are side by side.
+fn support_x(axes: &Axes, data: &MachineLayout, k: usize) -> f64 {
+    let x = axes.x.px(1e3 * data.supports[k].z);
+    let near = |o: &&LayoutSupport| (axes.x.px(1e3 * o.z) - x).abs() < 14.0;
+    x + 24.0 * data.supports[..k].iter().filter(near).count() as f64
+}
+
+/// Names of all parts in a row above the drawing, with leader lines.
+fn names(axes: &Axes, data: &MachineLayout) -> CalloutRow {
+    let place = |label: &str, z: [f64; 2], y: f64, color: Color| {
+        let x = z.map(|z| axes.x.px(1e3 * z));
+        let x = if x[1] - x[0] > 6.0 { [x[0] + 2.0, x[1] - 2.0] } else { [0.5 * (x[0] + x[1]); 2] };
+        Callout { text: font::fit(label, SMALL, 170.0), color, x, y: axes.y.px(1e3 * y) }
+    };
+    let blocks = data.blocks.iter().map(|b| place(&b.label, b.z, b.y[0].max(b.y[1]), INK));
+    let bearings = data.bearings.iter().map(|b| {
+        let z = extremes(b.rows.iter().flat_map(|r| [r.z - 0.5 * r.width, r.z + 0.5 * r.width]));
+        place(&b.label, z.map_or([0.0; 2], |z| [z.0, z.1]), b.outside, INK)
+    });
+    let supports = data.supports.iter().enumerate().map(|(k, s)| {
+        let at = support_x(axes, data, k);
+        Callout { x: [at; 2], ..place(&s.label, [s.z; 2], s.radius, INK) }
+    });
+    let belts = data.belts.iter().map(|b| {
+        let place = place(&b.label, [b.z; 2], b.radius, GREEN);
+        // To the symbol, which is above the pulley unless the pull is downwards.
+        Callout { y: place.y - if b.pull[1] >= 0.0 { BELT_SYMBOL } else { 0.0 }, ..place }
+    });
+    let all = blocks.chain(bearings).chain(supports).chain(belts).filter(|c| !c.text.is_empty());
+    CalloutRow::new(all.collect(), WIDTH)
 }
 
 /// Axial scale below the station names.

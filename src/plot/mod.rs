@@ -3,18 +3,20 @@
 //! | layer | files |
 //! |---|---|
 //! | page | [`svg`], `font`, `color_map`, `style` |
-//! | axes | [`scale`], [`axes`], [`labels`], `row`, `thin`, `heat` |
+//! | axes | [`scale`], [`axes`], [`labels`], `leaders`, `obstacles`, `symbols`, `arcs`, `decimate`, `heat` |
 //! | figures | one file each, one variant of [`Figure`] each |
 //!
 //! A new figure is one file, one variant and its match arm. Non-finite data give a gap; no data give empty
 //! axes. Output is deterministic: equal data give equal bytes.
 
+mod arcs;
 pub mod axes;
 mod color_map;
 mod decimate;
 mod font;
 mod heat;
 pub mod labels;
+mod leaders;
 pub mod scale;
 mod style;
 pub mod svg;
@@ -33,7 +35,10 @@ mod history;
 mod lines;
 mod machine_layout;
 mod matrix;
+mod mode_motion;
 mod mode_shape;
+mod mode_view;
+mod obstacles;
 mod orbit;
 mod order_map;
 mod panel_row;
@@ -42,6 +47,7 @@ mod phase_plane;
 mod polar;
 mod spectrogram;
 mod stabilisation;
+mod symbols;
 mod waterfall;
 mod wireframe;
 
@@ -64,16 +70,18 @@ pub use heat_map::{HeatMap, MarkedRegion};
 pub use history::{Channel, History};
 pub use lines::{Curve, Lines};
 pub use machine_layout::{
-    LayoutBearing, LayoutBelt, LayoutBlock, LayoutSection, LayoutSpring, MachineLayout,
+    LayoutBearing, LayoutBelt, LayoutBlock, LayoutRow, LayoutSection, LayoutSpring, LayoutSupport,
+    MachineLayout,
 };
 pub use matrix::Matrix;
-pub use mode_shape::{BodyMotion, ModeShape, ModeShapes, Rotor};
+pub use mode_shape::{BodyBox, BodyMotion, ModeShape, ModeShapes, Rotor, RotorDisc, RotorSupport};
 pub use orbit::{Orbit, Orbits};
 pub use order_map::OrderMap;
 pub use phase_plane::{PhasePlane, PhasePlanes};
 pub use polar::{Polar, PolarCurve};
 pub use spectrogram::{Spectrogram, SpectrogramPanel};
 pub use stabilisation::{PoleStability, Stabilisation};
+pub use symbols::{JointSymbol, SupportSymbol};
 pub use waterfall::{Waterfall, WaterfallPanel};
 pub use wireframe::{WireShape, Wireframe};
 

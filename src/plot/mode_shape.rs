@@ -1,4 +1,4 @@
-//! Mode shapes of the rotor: deflected centreline in axonometric projection with whirl orbits.
+//! Mode shapes of the machine: deflected shaft, discs and bodies in axonometric projection with whirl orbits.
 
 use std::f64::consts::TAU;
 
@@ -6,36 +6,92 @@ use super::axes::Frame;
 use super::campbell::Whirl;
 use super::font;
 use super::labels::page_heading;
-use super::scale::{Range, extremes};
+use super::mode_motion::{body_motion, caption, major, shaft_motion, twist_radius};
+use super::mode_view::{View, cross};
+use super::scale::extremes;
 use super::style::*;
 use super::svg::{Dash, Point, Style, Svg, Text};
+use super::symbols::{self, JointSymbol, SupportSymbol};
 
 /// Largest number of modes in one figure.
 const MAX_MODES: usize = 24;
 /// Largest number of orbits in one panel.
 const MAX_ORBITS: usize = 14;
+/// Largest drawn displacement over the height of a panel.
+const DISPLACEMENT: f64 = 0.18;
+/// Largest drawn slope of a body.
+const MAX_BODY_SLOPE: f64 = 0.6;
 
 /// Simplified machine drawn in the panels.
 #[derive(Clone, Debug, Default)]
 pub struct Rotor {
     /// Axial positions of the shaft nodes \[m\], ascending.
     pub z: Vec<f64>,
-    /// Discs: axial position and radius \[m\].
-    pub discs: Vec<[f64; 2]>,
-    /// Axial positions of the bearings \[m\].
-    pub bearings: Vec<f64>,
+    pub discs: Vec<RotorDisc>,
+    pub supports: Vec<RotorSupport>,
+    pub bodies: Vec<BodyBox>,
     /// Nodes whose orbits are drawn; empty for an even selection.
     pub orbit_nodes: Vec<usize>,
 }
 
-/// Motion of another body (a housing) in a mode.
+/// A disc on a shaft node.
 #[derive(Clone, Copy, Debug)]
-pub struct BodyMotion {
+pub struct RotorDisc {
+    pub node: usize,
+    /// Radius \[m\].
+    pub radius: f64,
+}
+
+/// A support of the shaft on the ground; one in a body is drawn as its body.
+#[derive(Clone, Copy, Debug)]
+pub struct RotorSupport {
     /// Axial position \[m\].
     pub z: f64,
-    /// Complex displacement \[re, im\] in x and y, with the scale of the mode.
-    pub u_x: [f64; 2],
-    pub u_y: [f64; 2],
+    pub symbol: SupportSymbol,
+}
+
+/// A body (housing, block, foundation), drawn as a box.
+#[derive(Clone, Debug)]
+pub struct BodyBox {
+    pub name: String,
+    /// Centre of mass \[m\].
+    pub centre: [f64; 3],
+    /// Vectors from the centre to the middle of three faces \[m\].
+    pub half_edges: [[f64; 3]; 3],
+    /// Spring and damper to the ground.
+    pub to_ground: (bool, bool),
+}
+
+impl BodyBox {
+    /// Corners \[m\].
+    pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.arms().map(|r| [0, 1, 2].map(|i| self.centre[i] + r[i]))
+    }
+
+    /// Corners from the centre \[m\].
+    pub(super) fn arms(&self) -> impl Iterator<Item = [f64; 3]> {
+        let [a, b, c] = self.half_edges;
+        (0..8).map(move |k| {
+            let sign = |bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            [0, 1, 2].map(|i| sign(0) * a[i] + sign(1) * b[i] + sign(2) * c[i])
+        })
+    }
+}
+
+/// Motion of a body in a mode: complex displacement \[re, im\] of its centre and rotation, in x, y, z, with the
+/// scale of the mode.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BodyMotion {
+    pub u: [[f64; 2]; 3],
+    pub theta: [[f64; 2]; 3],
+}
+
+impl BodyMotion {
+    /// Displacement of the point at `r` \[m\] from the centre, u + θ × r.
+    pub(super) fn at(&self, r: [f64; 3]) -> [[f64; 2]; 3] {
+        let turn = [0, 1].map(|part| cross(self.theta.map(|t| t[part]), r));
+        [0, 1, 2].map(|i| [self.u[i][0] + turn[0][i], self.u[i][1] + turn[1][i]])
+    }
 }
 
 /// One mode; complex amplitudes \[re, im\] at every node, motion Re(u e^{iωt}), arbitrary common scale.
@@ -48,8 +104,11 @@ pub struct ModeShape {
     pub u_y: Vec<[f64; 2]>,
     /// Axial displacement; may be empty.
     pub u_z: Vec<[f64; 2]>,
-    /// Twist \[rad\]; may be empty.
+    /// Tilts and twist \[rad\]; may be empty.
+    pub theta_x: Vec<[f64; 2]>,
+    pub theta_y: Vec<[f64; 2]>,
     pub theta_z: Vec<[f64; 2]>,
+    /// One for every body of the rotor.
     pub bodies: Vec<BodyMotion>,
 }
 
@@ -64,50 +123,99 @@ pub struct ModeShapes {
 
 pub fn draw(data: &ModeShapes) -> Svg {
     const W: f64 = 376.0;
-    const H: f64 = 212.0;
+    const H: f64 = 232.0;
     let count = data.modes.len().min(MAX_MODES);
     let columns = if count > 1 { 2 } else { 1 };
     let width = (W * columns as f64 + 16.0).max(WIDTH * 0.66);
     let (mut svg, top) = page_heading(width, 16.0, &data.title, &data.note, &[]);
-    for (k, mode) in data.modes.iter().take(MAX_MODES).enumerate() {
+    let modes = &data.modes[..count];
+    let view = common_view(&data.rotor, modes, Frame { x: 0.0, y: 0.0, w: W, h: H });
+    for (k, mode) in modes.iter().enumerate() {
         let frame =
             Frame { x: 8.0 + W * (k % columns) as f64, y: top + H * (k / columns) as f64, w: W, h: H };
-        panel(&mut svg, &data.rotor, mode, frame, k == 0);
+        let view = view.moved([frame.x, frame.y]);
+        svg.group(&format!("mode mode-{}", k + 1), |svg| panel(svg, &data.rotor, mode, frame, &view));
+        if k == 0 {
+            triad(&mut svg, [frame.x + 30.0, frame.bottom() - 34.0]);
+        }
     }
     let bottom = top + H * count.div_ceil(columns).max(1) as f64;
-    svg.text([16.0, bottom + 12.0], HOW_TO_READ, Text::new(SMALL, MUTED));
+    let bodies = if data.rotor.bodies.is_empty() { "" } else { " Boxes: bodies." };
+    let how = format!(
+        "Line: shaft at phase 0.{bodies} One scale for all motions of a mode. Orbits run from the dot to the gap (whirl direction)."
+    );
+    svg.text([16.0, bottom + 12.0], &font::fit(&how, SMALL, width - 24.0), Text::new(SMALL, MUTED));
     svg.height = bottom + 24.0;
     svg
 }
 
-const HOW_TO_READ: &str = "Line: shaft at phase 0. Orbits run from the dot to the gap (whirl direction).";
-
-/// Axonometric view of one machine in a panel.
-struct View {
-    origin: Point,
-    /// px per m along the shaft.
-    along: f64,
-    /// Mid-length of the shaft \[m\].
-    middle: f64,
+/// The view in which the motion in every mode fits into the panel below its caption.
+fn common_view(rotor: &Rotor, modes: &[ModeShape], frame: Frame) -> View {
+    let mut view = View::new(rotor, frame);
+    let mut points: Vec<Point> = Vec::new();
+    for motion in std::iter::once(None).chain(modes.iter().map(Some)) {
+        let motion = motion.and_then(|mode| Motion::new(rotor, mode, &view, frame));
+        let phases: &[f64] = if motion.is_some() { &[0.0, 0.25, 0.5, 0.75] } else { &[0.0] };
+        let shift = |k, phase| motion.as_ref().map_or([0.0; 3], |m| m.node(k, TAU * phase));
+        for &phase in phases {
+            points.extend(rotor.z.iter().enumerate().map(|(k, &z)| view.at(z, shift(k, phase))));
+        }
+        for (k, body) in rotor.bodies.iter().enumerate() {
+            let (by, turn) = motion.as_ref().map_or(([0.0; 3], [0.0; 3]), |m| m.body(k, 0.0));
+            points.extend(view.faces(body, by, turn).into_iter().flatten());
+        }
+        for disc in &rotor.discs {
+            let (by, tilt) = motion.as_ref().map_or(([0.0; 3], [0.0; 2]), |m| m.tilted(disc.node));
+            if let Some(&z) = rotor.z.get(disc.node) {
+                points.extend(view.rim(z, view.disc_radius(disc.radius, frame), by, tilt));
+            }
+        }
+    }
+    let x = extremes(points.iter().map(|p| p[0]));
+    let y = extremes(points.iter().map(|p| p[1]));
+    if let (Some(x), Some(y)) = (x, y) {
+        let area = Frame { x: frame.x + 14.0, y: frame.y + 44.0, w: frame.w - 32.0, h: frame.h - 66.0 };
+        view.fit([x.0, y.0, x.1, y.1], area);
+    }
+    view
 }
 
-impl View {
-    fn new(rotor: &Rotor, frame: Frame) -> Self {
-        let z =
-            Range::of(rotor.z.iter().chain(&rotor.bearings).copied().chain(rotor.discs.iter().map(|d| d[0])));
-        let along = 0.7 * frame.w / (z.hi - z.lo);
-        View { origin: [frame.center()[0], frame.center()[1] + 8.0], along, middle: 0.5 * (z.lo + z.hi) }
+/// Displacements of one mode on the page \[px\].
+struct Motion<'a> {
+    mode: &'a ModeShape,
+    /// px per amplitude.
+    scale: f64,
+    /// Slope per rotation.
+    slope: f64,
+}
+
+impl<'a> Motion<'a> {
+    fn new(rotor: &Rotor, mode: &'a ModeShape, view: &View, frame: Frame) -> Option<Self> {
+        let scale = pixels_per_amplitude(rotor, mode, view, DISPLACEMENT * frame.h)?;
+        Some(Self { mode, scale, slope: scale / view.scale })
     }
 
-    /// Page point of the axial position z \[m\] displaced by x, y, s \[px\] across and along the shaft:
-    /// azimuth 30°, elevation 25°; z to the right, y up, x to the back.
-    fn at(&self, z: f64, x: f64, y: f64, s: f64) -> Point {
-        let z = (z - self.middle) * self.along + s;
-        [self.origin[0] + 0.97 * z + 0.5 * x, self.origin[1] - 0.906 * y + 0.17 * z - 0.366 * x]
+    /// Displacement of a shaft node.
+    fn node(&self, k: usize, phase: f64) -> [f64; 3] {
+        let m = self.mode;
+        [&m.u_x, &m.u_y, &m.u_z].map(|u| u.get(k).map_or(0.0, |u| self.scale * at_phase(*u, phase)))
+    }
+
+    /// Displacement and tilt of a shaft node at phase 0.
+    fn tilted(&self, node: usize) -> ([f64; 3], [f64; 2]) {
+        let slope = |theta: &[[f64; 2]]| theta.get(node).map_or(0.0, |t| self.slope * t[0]);
+        (self.node(node, 0.0), [slope(&self.mode.theta_x), slope(&self.mode.theta_y)])
+    }
+
+    /// Displacement and rotation of a body.
+    fn body(&self, k: usize, phase: f64) -> ([f64; 3], [f64; 3]) {
+        let moves = self.mode.bodies.get(k).copied().unwrap_or_default();
+        let part = |u: [[f64; 2]; 3], by: f64| u.map(|u| by * at_phase(u, phase));
+        (part(moves.u, self.scale), part(moves.theta, self.slope))
     }
 }
 
-fn panel(svg: &mut Svg, rotor: &Rotor, mode: &ModeShape, frame: Frame, first: bool) {
+fn panel(svg: &mut Svg, rotor: &Rotor, mode: &ModeShape, frame: Frame, view: &View) {
     let title = font::fit(&mode.title, LABEL, frame.w - 20.0);
     svg.text([frame.x + 8.0, frame.y + 16.0], &title, Text::new(LABEL, INK));
     svg.line(
@@ -115,24 +223,27 @@ fn panel(svg: &mut Svg, rotor: &Rotor, mode: &ModeShape, frame: Frame, first: bo
         [frame.right() - 12.0, frame.y + 22.0],
         Style::stroke(GRID, 1.0),
     );
-    let view = View::new(rotor, frame);
-    undeformed(svg, &view, rotor, frame);
+    let caption = font::fit(&caption(rotor, mode), SMALL, frame.w - 20.0);
+    svg.text([frame.x + 8.0, frame.y + 35.0], &caption, Text::new(SMALL, MUTED));
+    undeformed(svg, view, rotor, frame);
     for z in orbit_nodes(rotor).into_iter().filter_map(|k| rotor.z.get(k)) {
-        svg.circle(view.at(*z, 0.0, 0.0, 0.0), 1.5, Style::fill(PALE));
+        svg.circle(view.at(*z, [0.0; 3]), 1.5, Style::fill(PALE));
     }
-    if first {
-        triad(svg, [frame.x + 30.0, frame.bottom() - 34.0]);
+    let Some(moves) = Motion::new(rotor, mode, view, frame) else { return };
+    let (arm, scale, color) = (twist_radius(rotor), moves.scale, mode.whirl.color());
+    let motion =
+        |k: usize, phase: f64| rotor.z.get(k).map_or([f64::NAN; 2], |&z| view.at(z, moves.node(k, phase)));
+    svg.group("bodies", |svg| {
+        for k in 0..rotor.bodies.len().min(MAX_MODES) {
+            moving_body(svg, view, &rotor.bodies[k], |phase| moves.body(k, phase), color);
+        }
+    });
+    for disc in rotor.discs.iter().take(4 * MAX_MODES) {
+        let Some(&z) = rotor.z.get(disc.node) else { continue };
+        let (by, tilt) = moves.tilted(disc.node);
+        let rim = view.rim(z, view.disc_radius(disc.radius, frame), by, tilt);
+        svg.polygon(&rim, Style::stroke(PALE, 0.9).filled(STEEL).faint(0.55));
     }
-    let arm = twist_radius(rotor);
-    let Some(scale) = pixels_per_amplitude(mode, arm, 0.22 * frame.h) else { return };
-    let color = mode.whirl.color();
-    let motion = |k: usize, phase: f64| {
-        let part = |u: &[[f64; 2]]| u.get(k).map_or(0.0, |u| scale * at_phase(*u, phase));
-        rotor
-            .z
-            .get(k)
-            .map_or([f64::NAN; 2], |&z| view.at(z, part(&mode.u_x), part(&mode.u_y), part(&mode.u_z)))
-    };
     // No orbit for purely axial motion: it would coincide with the shaft line.
     let lateral = |k: usize| {
         let size = |u: &[[f64; 2]]| u.get(k).map_or(0.0, |u| scale * u[0].hypot(u[1]));
@@ -141,20 +252,66 @@ fn panel(svg: &mut Svg, rotor: &Rotor, mode: &ModeShape, frame: Frame, first: bo
     for k in orbit_nodes(rotor).into_iter().filter(|k| lateral(*k)) {
         orbit(svg, |phase| motion(k, phase), Style::stroke(color, 0.9));
     }
-    axial_arrow(svg, &view, rotor, mode, scale);
-    draw_twist(svg, &view, rotor, mode, scale * arm, 0.2 * frame.h);
-    let line: Vec<Point> = (0..rotor.z.len()).map(|k| motion(k, 0.0)).collect();
-    svg.polyline(&line, Style::stroke(color, 2.2));
-    for body in mode.bodies.iter().take(MAX_MODES) {
-        let place = |phase| {
-            view.at(body.z, scale * at_phase(body.u_x, phase), scale * at_phase(body.u_y, phase), 0.0)
-        };
-        orbit(svg, place, Style::stroke(MUTED, 0.9));
-        let p = place(0.0);
-        svg.rect(p[0] - 3.5, p[1] - 3.5, 7.0, 7.0, Style::stroke(INK, 1.0).filled(WHITE));
-    }
+    axial_arrow(svg, view, rotor, mode, scale);
+    draw_twist(svg, view, rotor, mode, scale * arm, 0.2 * frame.h);
+    let line = centreline(rotor, &moves, view);
+    svg.group("shaft", |svg| svg.polyline(&line, Style::stroke(color, 2.2)));
     for p in orbit_nodes(rotor).into_iter().map(|k| motion(k, 0.0)) {
         svg.circle(p, 2.2, Style::fill(INK));
+    }
+}
+
+/// The deflected centreline at phase 0: cubic between nodes, with the slopes ∂u_x/∂z = θ_y, ∂u_y/∂z = −θ_x.
+fn centreline(rotor: &Rotor, moves: &Motion, view: &View) -> Vec<Point> {
+    let Some(last) = rotor.z.len().checked_sub(1) else { return Vec::new() };
+    let mut line = Vec::new();
+    for k in 0..last {
+        let (a, b) = (moves.tilted(k), moves.tilted(k + 1));
+        let (z, length) = (rotor.z[k], rotor.z[k + 1] - rotor.z[k]);
+        // Pieces of about 4 px.
+        let steps = (0.25 * length * view.scale).clamp(1.0, 16.0).ceil();
+        for step in 0..steps as usize {
+            let t = step as f64 / steps;
+            let (square, cube) = (t * t, t * t * t);
+            let hermite = |u: [f64; 2], slope: [f64; 2]| {
+                let tangent = slope.map(|s| s * length * view.scale);
+                (2.0 * cube - 3.0 * square + 1.0) * u[0]
+                    + (cube - 2.0 * square + t) * tangent[0]
+                    + (3.0 * square - 2.0 * cube) * u[1]
+                    + (cube - square) * tangent[1]
+            };
+            let by = [
+                hermite([a.0[0], b.0[0]], [a.1[1], b.1[1]]),
+                hermite([a.0[1], b.0[1]], [-a.1[0], -b.1[0]]),
+                a.0[2] + t * (b.0[2] - a.0[2]),
+            ];
+            line.push(view.at(z + t * length, by));
+        }
+    }
+    line.push(view.at(rotor.z[last], moves.node(last, 0.0)));
+    line
+}
+
+/// A body at its largest displacement, the path of its centre, and its spring to the ground.
+fn moving_body(
+    svg: &mut Svg,
+    view: &View,
+    body: &BodyBox,
+    moves: impl Fn(f64) -> ([f64; 3], [f64; 3]),
+    color: super::svg::Color,
+) {
+    let (by, turn) = moves(0.0);
+    if body.to_ground != (false, false) {
+        let [x, y] = view.body_foot(body, [0.0; 3]);
+        symbols::spring_damper(svg, view.body_foot(body, by), [x, y + 18.0], body.to_ground, true);
+    }
+    view.moved_body(svg, body, by, turn);
+    orbit(svg, |phase| view.body_centre(body, moves(phase).0), Style::stroke(INK, 0.9));
+    let (from, to) = (view.body_centre(body, [0.0; 3]), view.body_centre(body, by));
+    if (to[0] - from[0]).hypot(to[1] - from[1]) > 6.0 {
+        svg.arrow(from, to, 7.0, color, 1.4);
+    } else {
+        svg.circle(to, 1.8, Style::fill(INK));
     }
 }
 
@@ -163,24 +320,16 @@ fn at_phase([re, im]: [f64; 2], phase: f64) -> f64 {
     re * phase.cos() - im * phase.sin()
 }
 
-/// Radius that converts twist to displacement \[m\]: the largest disc radius, or a tenth of the shaft length.
-fn twist_radius(rotor: &Rotor) -> f64 {
-    let z = Range::of(rotor.z.iter().copied());
-    extremes(rotor.discs.iter().map(|d| d[1]))
-        .map(|e| e.1)
-        .filter(|r| *r > 0.0)
-        .unwrap_or(0.1 * (z.hi - z.lo))
-}
-
-/// Common scale of all displacements of the mode, so that small ones are not exaggerated. None without
-/// motion.
-fn pixels_per_amplitude(mode: &ModeShape, arm: f64, height: f64) -> Option<f64> {
-    let size = |u: &[f64; 2]| u[0].hypot(u[1]);
-    let lateral = mode.u_x.iter().chain(&mode.u_y).chain(&mode.u_z).map(size);
-    let twist = mode.theta_z.iter().map(|t| arm * size(t));
-    let bodies = mode.bodies.iter().flat_map(|b| [size(&b.u_x), size(&b.u_y)]);
-    let (_, largest) = extremes(lateral.chain(twist).chain(bodies))?;
-    (largest > 0.0).then(|| height / largest).filter(|s| s.is_finite())
+/// Common scale of all displacements of the mode \[px\], so that small ones are not exaggerated: the largest of
+/// shaft, discs and bodies in any direction is drawn `height` px, unless a body would turn too far. None
+/// without motion.
+fn pixels_per_amplitude(rotor: &Rotor, mode: &ModeShape, view: &View, height: f64) -> Option<f64> {
+    let bodies = || rotor.bodies.iter().zip(&mode.bodies);
+    let largest = bodies().map(|(b, m)| body_motion(b, m)).fold(shaft_motion(rotor, mode).0, f64::max);
+    let turn = bodies().map(|(_, m)| major(&m.theta)).fold(0.0, f64::max);
+    let scale =
+        (height / largest).min(if turn > 0.0 { MAX_BODY_SLOPE * view.scale / turn } else { f64::INFINITY });
+    (largest > 0.0 && scale.is_finite() && scale > 0.0).then_some(scale)
 }
 
 fn orbit_nodes(rotor: &Rotor) -> Vec<usize> {
@@ -203,24 +352,21 @@ fn orbit(svg: &mut Svg, place: impl Fn(f64) -> Point, style: Style) {
 }
 
 fn undeformed(svg: &mut Svg, view: &View, rotor: &Rotor, frame: Frame) {
-    for &[z, radius] in rotor.discs.iter().take(4 * MAX_MODES) {
-        let r = (radius * view.along).clamp(6.0, 0.3 * frame.h);
-        let rim: Vec<Point> = (0..48)
-            .map(|k| {
-                let angle = TAU * f64::from(k) / 48.0;
-                view.at(z, r * angle.cos(), r * angle.sin(), 0.0)
-            })
-            .collect();
-        svg.polygon(&rim, Style::stroke(PALE, 0.9).filled(STEEL).faint(0.55));
+    for body in rotor.bodies.iter().take(MAX_MODES) {
+        view.rest_body(svg, body);
     }
-    let line: Vec<Point> = rotor.z.iter().map(|&z| view.at(z, 0.0, 0.0, 0.0)).collect();
+    for disc in rotor.discs.iter().take(4 * MAX_MODES) {
+        let Some(&z) = rotor.z.get(disc.node) else { continue };
+        let rim = view.rim(z, view.disc_radius(disc.radius, frame), [0.0; 3], [0.0; 2]);
+        svg.polygon(&rim, Style::stroke(PALE, 0.8).dashed(Dash::Short));
+    }
+    let line: Vec<Point> = rotor.z.iter().map(|&z| view.at(z, [0.0; 3])).collect();
     svg.polyline(&line, Style::stroke(PALE, 1.2).dashed(Dash::Long));
-    for &z in rotor.bearings.iter().take(4 * MAX_MODES) {
-        let [x, y] = view.at(z, 0.0, 0.0, 0.0);
-        svg.polygon(
-            &[[x, y + 2.0], [x + 6.0, y + 12.0], [x - 6.0, y + 12.0]],
-            Style::stroke(MUTED, 0.9).filled(WHITE),
-        );
+    // A joint that holds no lateral motion would hide the shaft.
+    let stop = SupportSymbol::Joint(JointSymbol::Stop);
+    for support in rotor.supports.iter().filter(|s| s.symbol != stop).take(4 * MAX_MODES) {
+        let [x, y] = view.at(support.z, [0.0; 3]);
+        symbols::support(svg, [x, y + 2.0], support.symbol, true);
     }
 }
 
@@ -236,12 +382,12 @@ fn draw_twist(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, px_pe
     let tip = |k: usize, phase: f64| {
         let angle = mode.theta_z.get(k).map_or(f64::NAN, |t| turn * at_phase(*t, phase));
         // Rotation about +z: from y towards -x.
-        view.at(rotor.z[k], -length * angle.sin(), length * angle.cos(), 0.0)
+        view.at(rotor.z[k], [-length * angle.sin(), length * angle.cos(), 0.0])
     };
-    let base: Vec<Point> = rotor.z.iter().map(|&z| view.at(z, 0.0, length, 0.0)).collect();
+    let base: Vec<Point> = rotor.z.iter().map(|&z| view.at(z, [0.0, length, 0.0])).collect();
     svg.polyline(&base, Style::stroke(PALE, 0.8).dashed(Dash::Short));
     for k in orbit_nodes(rotor) {
-        svg.line(view.at(rotor.z[k], 0.0, 0.0, 0.0), tip(k, 0.0), Style::stroke(color, 0.9));
+        svg.line(view.at(rotor.z[k], [0.0; 3]), tip(k, 0.0), Style::stroke(color, 0.9));
     }
     let tips: Vec<Point> = (0..rotor.z.len()).map(|k| tip(k, 0.0)).collect();
     svg.polyline(&tips, Style::stroke(color, 1.5));
@@ -253,17 +399,23 @@ fn axial_arrow(svg: &mut Svg, view: &View, rotor: &Rotor, mode: &ModeShape, scal
     let (Some(&z), Some(u)) = (rotor.z.get(middle), mode.u_z.get(middle)) else { return };
     let shift = scale * u[0];
     if shift.abs() > 6.0 {
-        svg.arrow(view.at(z, 0.0, 18.0, 0.0), view.at(z, 0.0, 18.0, shift), 8.0, Whirl::Axial.color(), 1.5);
+        svg.arrow(
+            view.at(z, [0.0, 18.0, 0.0]),
+            view.at(z, [0.0, 18.0, shift]),
+            8.0,
+            Whirl::Axial.color(),
+            1.5,
+        );
     }
 }
 
 /// The axes of the view.
 fn triad(svg: &mut Svg, at: Point) {
-    let view = View { origin: at, along: 1.0, middle: 0.0 };
+    let view = View::of_axes(at);
     for (name, end) in [
-        ("x", view.at(0.0, 24.0, 0.0, 0.0)),
-        ("y", view.at(0.0, 0.0, 22.0, 0.0)),
-        ("z", view.at(22.0, 0.0, 0.0, 0.0)),
+        ("x", view.at(0.0, [24.0, 0.0, 0.0])),
+        ("y", view.at(0.0, [0.0, 22.0, 0.0])),
+        ("z", view.at(22.0, [0.0; 3])),
     ] {
         svg.arrow(at, end, 5.0, MUTED, 0.9);
         let way = [end[0] - at[0], end[1] - at[1]];

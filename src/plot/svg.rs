@@ -259,6 +259,15 @@ impl Svg {
         self.body.push_str("</text>\n");
     }
 
+    /// Puts what `draw` draws into a group with a class.
+    pub fn group(&mut self, class: &str, draw: impl FnOnce(&mut Self)) {
+        self.body.push_str("<g class=\"");
+        push_escaped(&mut self.body, class);
+        self.body.push_str("\">\n");
+        draw(self);
+        self.body.push_str("</g>\n");
+    }
+
     /// An embedded PNG stretched over a rectangle.
     pub fn image(&mut self, x: f64, y: f64, w: f64, h: f64, png: &[u8]) {
         let data = base64::engine::general_purpose::STANDARD.encode(png);

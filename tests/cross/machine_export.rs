@@ -3,10 +3,14 @@
 
 use rotordyn::bearing::Bearing;
 use rotordyn::element::{Anchor, Disc, RigidBody, ShaftElement, ShearCoefficient};
-use rotordyn::geometry::scene_graph::Scene;
+use rotordyn::geometry::mesh::Mesh;
+use rotordyn::geometry::scene_graph::{Node, Scene};
+use rotordyn::io::export_3d::export_modes;
 use rotordyn::io::gltf;
-use rotordyn::io::vtk::{Grid, machine_fields, to_vtu};
-use rotordyn::model::{BearingSite, Damping, Drive, Model, SpeedProfile};
+use rotordyn::io::vtk::{Field, Grid, Part, Values, machine_fields, to_vtu};
+use rotordyn::model::{BearingSite, Damping, Drive, Model, Options, SpeedProfile, load};
+use rotordyn::results::Results;
+use rotordyn::study::Machine;
 
 use crate::bearing::{rig_6205, steel};
 
@@ -78,9 +82,9 @@ fn rig() -> Model {
 fn gltf_contains_every_part() {
     let scene = Scene::of_machine(&rig());
     let names: Vec<&str> = scene.nodes.iter().map(|n| n.name.as_str()).collect();
-    // 50 shaft sections, 2 discs, 2 housings, 2 bearings of 3 parts and 9 balls under one node.
-    assert_eq!(names.len(), 50 + 2 + 2 + 2 * (1 + 3 + 9));
-    for name in ["shaft 50", "disc", "pulley", "housing B", "A", "ball 9"] {
+    // The shaft, 2 discs, 2 housings, 2 bearings of 3 parts and 9 balls under one node.
+    assert_eq!(names.len(), 1 + 2 + 2 + 2 * (1 + 3 + 9));
+    for name in ["shaft", "disc", "pulley", "housing B", "A", "ball 9"] {
         assert!(names.contains(&name), "{name}");
     }
     // The pulley, given by inertia alone: R = √(2 I_p/m) = 60 mm, t = √(12 I_d/m − 3 R²) = 30 mm.
@@ -100,12 +104,246 @@ fn gltf_contains_every_part() {
     assert_eq!(std::fs::read(path).unwrap(), gltf::to_glb(&scene));
 }
 
+/// A stepped, tapered and partly hollow shaft with a pair in a block, from a file.
+const SPINDLE: &str = r#"
+[model]
+name = "spindle"
+[material.steel]
+young = "210 GPa"
+poisson = 0.3
+density = "7850 kg/m^3"
+[shaft]
+material = "steel"
+element_length = "20 mm"
+section = [
+    { length = "80 mm", outer_diameter = "30 mm", inner_diameter = "12 mm" },
+    { length = "100 mm", outer_diameter = "30 mm", outer_diameter_end = "50 mm", inner_diameter = "12 mm" },
+    { length = "90 mm", outer_diameter = "50 mm" },
+    { length = "60 mm", outer_diameter = "40 mm", inner_diameter = "20 mm" },
+]
+[station]
+front = "40 mm"
+wheel = "220 mm"
+rear = "310 mm"
+[disc.wheel]
+station = "wheel"
+mass = "6 kg"
+polar_inertia = "0.02 kg m^2"
+diametral_inertia = "0.011 kg m^2"
+outer_diameter = "160 mm"
+thickness = "30 mm"
+[body.block]
+station = "front"
+offset = "0, -100, 0 mm"
+mass = "40 kg"
+inertia = "0.4, 0.3, 0.5 kg m^2"
+[bushing.feet]
+between = ["body.block", "ground"]
+k_x = "1e6 N/m"
+k_y = "4e6 N/m"
+k_z = "2e6 N/m"
+k_txtx = "2e5 N m/rad"
+k_tyty = "2e5 N m/rad"
+k_tztz = "2e5 N m/rad"
+[bearing.front]
+station = "front"
+housing = "body.block"
+model = "ball"
+designation = "7206B"
+arrangement = "back_to_back"
+row_spacing = "16 mm"
+preload = { force = "150 N" }
+[bearing.rear]
+station = "rear"
+model = "linear"
+k_xx = "4e7 N/m"
+k_yy = "4e7 N/m"
+[drive]
+kind = "prescribed"
+station = "rear"
+[study.modal]
+speeds = "3000 rpm"
+modes = 10
+"#;
+
+fn spindle() -> Model {
+    load("spindle.toml", SPINDLE, &Options::default()).unwrap_or_else(|e| panic!("{e}")).model
+}
+
+type Position = [f64; 3];
+
+/// Volume enclosed by a closed mesh, by the divergence theorem.
+fn volume(mesh: &Mesh) -> f64 {
+    let corner = |k: u32| nalgebra::Vector3::from(mesh.positions[k as usize]);
+    mesh.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
+}
+
+#[test]
+fn shaft_is_one_closed_solid_of_its_volume() {
+    let model = spindle();
+    let scene = Scene::of_machine(&model);
+    let shafts: Vec<_> = scene.nodes.iter().filter(|n| n.name.starts_with("shaft")).collect();
+    assert_eq!(shafts.len(), 1);
+    let mesh = &scene.meshes[shafts[0].mesh.unwrap()].mesh;
+
+    // Closed: with corners at one position joined, every edge is in two triangles, once in each direction.
+    let key = |p: Position| p.map(|x| x.to_bits());
+    let mut edges = std::collections::HashMap::new();
+    for t in &mesh.triangles {
+        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+            let [a, b] = [a, b].map(|k| key(mesh.positions[t[k] as usize]));
+            *edges.entry((a, b)).or_insert(0) += 1;
+        }
+    }
+    assert!(edges.iter().all(|((a, b), count)| *count == 1 && edges.get(&(*b, *a)) == Some(&1)));
+
+    // Frusta by hand, on a polygon of 96 corners instead of a circle.
+    let frustum = |d0: f64, d1: f64, l: f64| std::f64::consts::PI * l / 12.0 * (d0 * d0 + d0 * d1 + d1 * d1);
+    let solid = frustum(0.03, 0.03, 0.08)
+        + frustum(0.03, 0.05, 0.1)
+        + frustum(0.05, 0.05, 0.09)
+        + frustum(0.04, 0.04, 0.06);
+    let bores = frustum(0.012, 0.012, 0.18) + frustum(0.02, 0.02, 0.06);
+    let polygon = 96.0 / std::f64::consts::TAU * (std::f64::consts::TAU / 96.0).sin();
+    assert!((volume(mesh) / ((solid - bores) * polygon) - 1.0).abs() < 1e-9, "{}", volume(mesh));
+
+    // Normals: smooth along the cone, whose elements have no seams; edges at steps.
+    let radius = |p: Position| p[0].hypot(p[1]);
+    let outside = |z: f64, r: f64| {
+        let at = move |p: &Position| (p[2] - z).abs() < 1e-9 && (radius(*p) - r).abs() < 1e-9;
+        (0..mesh.positions.len())
+            .filter(move |&k| at(&mesh.positions[k]))
+            .map(|k| mesh.normals[k][2])
+            .collect::<Vec<_>>()
+    };
+    // Inside the cone there is no ring of corners: its elements are one piece.
+    assert!(outside(0.12, 0.019).is_empty() && !outside(0.18, 0.025).is_empty());
+    // At the step from 50 to 40 mm the corner has the normals of both faces.
+    let step = outside(0.27, 0.025);
+    assert!(step.iter().any(|z| (z - 1.0).abs() < 1e-9) && step.iter().any(|z| z.abs() < 1e-9), "{step:?}");
+
+    // Rigid rotor, turned down to the bores of its bearings: one solid as well.
+    let scene = Scene::of_machine(&rigid());
+    assert_eq!(scene.nodes.iter().filter(|n| n.name == "shaft").count(), 1);
+}
+
+fn rigid() -> Model {
+    let text = include_str!("../../models/bal_2022.toml");
+    load("bal_2022.toml", text, &Options::default()).unwrap_or_else(|e| panic!("{e}")).model
+}
+
+#[test]
+fn both_rows_of_a_pair_are_in_the_scene() {
+    let scene = Scene::of_machine(&spindle());
+    let node = |name: &str| scene.nodes.iter().find(|n| n.name == name).unwrap();
+    let (pair, rows) = (node("front"), [node("row 1"), node("row 2")]);
+    assert_eq!(pair.children.len(), 2);
+    assert!((rows[1].translation[2] - rows[0].translation[2] - 0.016).abs() < 1e-12);
+    let balls = scene.nodes.iter().filter(|n| n.name.starts_with("ball ")).count();
+    assert_eq!(balls % 2, 0);
+    // Rows with opposite thrust: the outer rings' grooves are offset to opposite sides of the balls.
+    let ball_z = |row: &Node| scene.nodes[row.children[3]].translation[2];
+    assert!((ball_z(rows[0]) + ball_z(rows[1])).abs() < 1e-12 && ball_z(rows[0]) != 0.0);
+}
+
 #[test]
 fn vtk_contains_nodes_bodies_and_balls() {
     let grid = Grid::of_machine(&rig());
-    assert_eq!((grid.points.len(), grid.lines.len()), (51 + 2 + 18, 50));
+    // Nodes, bodies and balls' centres come first; surfaces follow.
+    let first = 51 + 2 + 18;
+    assert!(grid.points.len() > first + 1000 && grid.lines.len() == 50 && grid.triangles.len() > 1000);
+    let corners: std::collections::HashSet<usize> = grid.triangles.iter().flatten().copied().collect();
+    assert!(corners.iter().all(|k| *k >= first) && corners.len() == grid.points.len() - first);
     let q: Vec<f64> = (0..6 * 53).map(|k| 1e-6 * f64::from(k)).collect();
     let loads: Vec<f64> = (0..18).map(f64::from).collect();
     let text = to_vtu(&grid, &machine_fields(&grid, &q, &loads)).unwrap();
-    assert!(text.contains("NumberOfPoints=\"71\" NumberOfCells=\"70\""));
+    let cells = 50 + grid.triangles.len() + 2 + 18;
+    assert!(text.contains(&format!("NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\"", grid.points.len())));
+}
+
+/// Points of a part and their displacements.
+fn moved(grid: &Grid, fields: &[Field], part: Part) -> Vec<(Position, Position)> {
+    let Values::Vectors(moves) = &fields[0].values else { panic!() };
+    assert_eq!(fields[0].name, "displacement");
+    let of_part = (0..grid.points.len()).filter(|&k| grid.parts[k] == part);
+    of_part.map(|k| (grid.points[k], moves[k])).collect()
+}
+
+#[test]
+fn vtk_surfaces_move_as_rigid_bodies_with_their_nodes() {
+    let model = spindle();
+    let grid = Grid::of_machine(&model);
+    let nodes = model.node_z.len();
+    // Small rotation about one node: u = θ × r with r from that node, by hand for every direction.
+    let rotated = |node: usize, centre: Position, part: Part, wanted: &dyn Fn(Position) -> bool| {
+        for axis in 0..3 {
+            let mut q = vec![0.0; 6 * model.node_count()];
+            q[6 * node + 3 + axis] = 1e-3;
+            let mut theta = [0.0; 3];
+            theta[axis] = 1e-3;
+            let all = moved(&grid, &machine_fields(&grid, &q, &[]), part);
+            let points: Vec<_> = all.into_iter().filter(|(p, _)| wanted(*p)).collect();
+            assert!(points.len() >= 24, "{part:?}: {} points", points.len());
+            for (p, u) in points {
+                let r = nalgebra::Vector3::from(p) - nalgebra::Vector3::from(centre);
+                let exact = nalgebra::Vector3::from(theta).cross(&r);
+                assert!(
+                    (nalgebra::Vector3::from(u) - exact).norm() < 1e-9,
+                    "{part:?} {p:?}: {u:?} {exact:?}"
+                );
+            }
+        }
+    };
+    let disc = model.discs[0].node;
+    rotated(disc, [0.0, 0.0, model.node_z[disc]], Part::Disc, &|_| true);
+    rotated(nodes, model.bodies[0].position, Part::Body, &|_| true);
+    // Outer rings are in the block; the rings below a radius of 0.02 m are the inner ones.
+    let outer = |p: Position| p[0].hypot(p[1]) > 0.028;
+    rotated(nodes, model.bodies[0].position, Part::Ring, &outer);
+    let inner = |p: Position| p[0].hypot(p[1]) < 0.019;
+    let site = model.bearings[0].node;
+    rotated(site, [0.0, 0.0, model.node_z[site]], Part::Ring, &inner);
+    // Balls: half of a displacement of the block, half of one of the shaft.
+    for node in [nodes, site] {
+        let mut q = vec![0.0; 6 * model.node_count()];
+        q[6 * node + 1] = 1e-3;
+        let balls = moved(&grid, &machine_fields(&grid, &q, &[]), Part::Ball);
+        assert!(balls.iter().all(|(_, u)| (u[1] - 0.5e-3).abs() < 1e-15) && balls.len() > 100);
+    }
+}
+
+#[test]
+fn exported_modes_have_the_parts_and_their_size() {
+    let machine = Machine::new(spindle()).unwrap();
+    let modal = machine.modal(machine.model.studies.modal.as_ref().unwrap()).unwrap();
+    let results = Results { modal, ..Results::default() };
+    let folder = tempfile::tempdir().unwrap();
+    export_modes(&results, &machine, folder.path()).unwrap();
+    let grid = Grid::of_machine(&machine.model);
+    let numbers = |text: &str, name: &str| -> Vec<f64> {
+        let body = text.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
+        let body = &body[body.find('>').unwrap() + 1..];
+        body[..body.find('<').unwrap()].split_whitespace().map(|x| x.parse().unwrap()).collect()
+    };
+    for k in 1..=10 {
+        let text = std::fs::read_to_string(folder.path().join(format!("modes_3000rpm_{k:02}.vtu"))).unwrap();
+        let parts = numbers(&text, "part");
+        assert_eq!(parts.len(), grid.points.len());
+        // All five kinds of part have surfaces.
+        for part in 0..5 {
+            assert!(parts.iter().filter(|p| **p == f64::from(part)).count() > 20, "part {part}");
+        }
+        let size = |name: &str| {
+            numbers(&text, name).chunks(3).map(|u| u.iter().map(|x| x * x).sum::<f64>()).collect::<Vec<_>>()
+        };
+        let both: Vec<f64> = size("displacement")
+            .iter()
+            .zip(size("displacement_quarter"))
+            .map(|(a, b)| (a + b).sqrt())
+            .collect();
+        let largest = both.iter().copied().fold(0.0, f64::max);
+        // A tenth of the shaft's length of 0.33 m, less where a rotation of 1 rad comes first.
+        assert!(largest < 0.033 * 1.000_001 && largest > 0.003, "mode {k}: {largest}");
+        assert!(text.len() < 1_500_000, "{} bytes", text.len());
+    }
 }

@@ -3,4 +3,9 @@
 mod degenerate_data;
 mod figures;
 mod layout;
+mod machine_layout;
+mod machines;
+mod mode_shapes;
+mod polar;
 mod samples;
+mod text_overlap;

@@ -93,8 +93,20 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             title: name.clone(),
             rotor: Rotor {
                 z: x.clone(),
-                discs: vec![[first(0), value(0)]],
-                bearings: x.clone(),
+                discs: vec![
+                    RotorDisc { node: 0, radius: value(0) },
+                    RotorDisc { node: 1000, radius: value(1) },
+                ],
+                supports: x
+                    .iter()
+                    .map(|z| RotorSupport { z: *z, symbol: SupportSymbol::Joint(JointSymbol::Pin) })
+                    .collect(),
+                bodies: vec![BodyBox {
+                    name: name.clone(),
+                    centre: [value(0), value(1), first(0)],
+                    half_edges: [[value(0), 0.0, 0.0], [0.0, value(1), 0.0], [0.0, 0.0, first(1)]],
+                    to_ground: (true, true),
+                }],
                 orbit_nodes: vec![0, 1, 1000],
             },
             modes: whirls
@@ -105,8 +117,10 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                     u_x: pairs.clone(),
                     u_y: pairs.clone(),
                     u_z: pairs.clone(),
+                    theta_x: pairs.clone(),
+                    theta_y: pairs.clone(),
                     theta_z: pairs.clone(),
-                    bodies: pairs.iter().map(|p| BodyMotion { z: first(0), u_x: *p, u_y: *p }).collect(),
+                    bodies: pairs.iter().map(|p| BodyMotion { u: [*p; 3], theta: [*p; 3] }).collect(),
                 })
                 .collect(),
             ..Default::default()
@@ -288,16 +302,39 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 y: [value(0), value(1)],
                 rotating: true,
             }],
-            supports: vec![LayoutBearing {
+            bearings: vec![LayoutBearing {
                 label: name.clone(),
-                z: first(0),
-                width: value(0),
                 bore: value(0),
                 outside: value(1),
+                rows: vec![LayoutRow {
+                    z: first(0),
+                    width: value(0),
+                    pitch: value(0),
+                    ball: value(1),
+                    contact_angle: value(2),
+                }],
             }],
+            supports: [
+                SupportSymbol::Ball,
+                SupportSymbol::SpringDamper { spring: true, damper: true, axial: false },
+                SupportSymbol::SpringDamper { spring: true, damper: false, axial: true },
+                SupportSymbol::Joint(JointSymbol::Pin),
+                SupportSymbol::Joint(JointSymbol::Sleeve),
+                SupportSymbol::Joint(JointSymbol::Stop),
+            ]
+            .map(|symbol| LayoutSupport {
+                label: name.clone(),
+                z: first(0),
+                radius: value(0),
+                symbol,
+                grounded: true,
+            })
+            .to_vec(),
             springs: vec![LayoutSpring {
                 from: [first(0), value(0)],
                 to: [first(1), value(1)],
+                spring: true,
+                damper: true,
                 grounded: true,
             }],
             belts: vec![LayoutBelt {
