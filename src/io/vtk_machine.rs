@@ -110,12 +110,20 @@ impl Grid {
     }
 
     fn add_mesh(&mut self, mesh: &Mesh, part: Part, place: impl Fn([f64; 3]) -> ([f64; 3], Vec<Carrier>)) {
-        let first = self.points.len();
-        for &position in &mesh.positions {
-            let (at, carriers) = place(position);
-            self.add(at.map(rounded), carriers, part);
+        // Poles of a mesh of revolution have corners without a triangle.
+        let mut index = vec![None; mesh.positions.len()];
+        for corners in &mesh.triangles {
+            let mut point = |k: u32| {
+                let k = k as usize;
+                *index[k].get_or_insert_with(|| {
+                    let (at, carriers) = place(mesh.positions[k]);
+                    self.add(at.map(rounded), carriers, part);
+                    self.points.len() - 1
+                })
+            };
+            let triangle = corners.map(&mut point);
+            self.triangles.push(triangle);
         }
-        self.triangles.extend(mesh.triangles.iter().map(|t| t.map(|k| first + k as usize)));
     }
 
     fn add(&mut self, at: [f64; 3], carriers: Vec<Carrier>, part: Part) {

@@ -187,7 +187,8 @@ fn shaft_is_one_closed_solid_of_its_volume() {
     let mesh = &scene.meshes[shafts[0].mesh.unwrap()].mesh;
 
     // Closed: with corners at one position joined, every edge is in two triangles, once in each direction.
-    let key = |p: Position| p.map(|x| x.to_bits());
+    // Plus zero: −0 is 0.
+    let key = |p: Position| p.map(|x| (x + 0.0).to_bits());
     let mut edges = std::collections::HashMap::new();
     for t in &mesh.triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
