@@ -100,8 +100,10 @@ pub fn modes() -> Figure {
         u_x,
         u_y,
         u_z: Vec::new(),
+        theta_x: Vec::new(),
+        theta_y: Vec::new(),
         theta_z: Vec::new(),
-        bodies: Vec::new(),
+        bodies: vec![BodyMotion::default(); 2],
     };
     let mut torsion = mode("68.0 Hz, 1st torsion", Whirl::Torsion, shape(&still, 1.0, 1.0));
     torsion.theta_z = z.iter().map(|z| [1.0 - 1.8 * (z / 0.6) * (2.0 - z / 0.6), 0.0]).collect();
@@ -110,15 +112,23 @@ pub fn modes() -> Figure {
     let mut rocking =
         mode("158.0 Hz, pedestal rocking", Whirl::Mixed, shape(&|s| 0.3 * (3.0 * s).cos(), 1.0, 0.05));
     rocking.bodies = vec![
-        BodyMotion { z: 0.12, u_x: [0.8, 0.0], u_y: [0.05, 0.1] },
-        BodyMotion { z: 0.36, u_x: [-0.6, 0.0], u_y: [0.0, 0.1] },
+        BodyMotion { u: [[0.8, 0.0], [0.05, 0.1], [0.0, 0.0]], ..BodyMotion::default() },
+        BodyMotion { u: [[-0.6, 0.0], [0.0, 0.1], [0.0, 0.0]], ..BodyMotion::default() },
     ];
     Figure::ModeShapes(ModeShapes {
         title: "Overhung rig: mode shapes at 1200 rpm".to_string(),
         note: String::new(),
         rotor: Rotor {
-            discs: vec![[0.58, 0.09]],
-            bearings: vec![0.12, 0.36],
+            discs: vec![RotorDisc { node: 23, radius: 0.09 }],
+            supports: [0.12, 0.36].map(|z| RotorSupport { z, symbol: SupportSymbol::Ball }).to_vec(),
+            bodies: [("A", 0.12), ("B", 0.36)]
+                .map(|(name, z)| BodyBox {
+                    name: name.to_string(),
+                    centre: [0.0, 0.0, z],
+                    half_edges: [[0.05, 0.0, 0.0], [0.0, 0.05, 0.0], [0.0, 0.0, 0.02]],
+                    to_ground: (true, false),
+                })
+                .to_vec(),
             z: z.clone(),
             orbit_nodes: Vec::new(),
         },
@@ -300,14 +310,14 @@ pub fn stiffness() -> Figure {
 pub fn rig() -> Figure {
     let cylinder = |a: f64, b: f64, r: f64| LayoutSection { z: [a, b], outer: [r, r], inner: [0.0, 0.0] };
     let block = |label: &str, z, y, rotating| LayoutBlock { label: label.to_string(), z, y, rotating };
-    let support = |label: &str, z| LayoutBearing {
+    let bearing = |label: &str, z| LayoutBearing {
         label: label.to_string(),
-        z,
-        width: 0.015,
         bore: 0.0125,
         outside: 0.026,
+        rows: vec![LayoutRow { z, width: 0.015, pitch: 0.0193, ball: 0.004, contact_angle: 0.0 }],
     };
-    let spring = |z| LayoutSpring { from: [z, -0.07], to: [z, -0.12], grounded: true };
+    let spring =
+        |z| LayoutSpring { from: [z, -0.07], to: [z, -0.12], spring: true, damper: true, grounded: true };
     Figure::MachineLayout(MachineLayout {
         title: "Overhung rig: model sketch".to_string(),
         note: "shaft and bodies to scale; rotating parts dark".to_string(),
@@ -322,7 +332,8 @@ pub fn rig() -> Figure {
             block("pulley", [0.0, 0.025], [-0.03, 0.03], true),
             block("disc", [0.57, 0.59], [-0.09, 0.09], true),
         ],
-        supports: vec![support("bearing A", 0.12), support("bearing B", 0.36)],
+        bearings: vec![bearing("bearing A", 0.12), bearing("bearing B", 0.36)],
+        supports: Vec::new(),
         springs: vec![spring(0.1), spring(0.38)],
         belts: vec![LayoutBelt {
             label: "belt 120 N".to_string(),
