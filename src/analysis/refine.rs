@@ -10,12 +10,12 @@ const OFFSETS: [f64; 17] =
     [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.25, 1.6, 2.0, 2.6, 4.0, 7.0];
 /// Deviation of a point from the line between its neighbours above which both intervals are halved, as a
 /// fraction of the amplitude there.
-const TOLERANCE: f64 = 5e-3;
+const TOLERANCE: f64 = 1.5e-3;
 /// Amplitude, as a fraction of the largest of the curve, below which the deviation is compared with that instead.
 const FLOOR: f64 = 0.02;
 /// Curves smaller than this fraction of the largest one are round-off.
 const SMALLEST_CURVE: f64 = 1e-9;
-const MAX_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 24;
 /// Largest number of points added to the grid by halving.
 const MAX_ADDED: usize = 4000;
 /// Smallest relative distance of two points.

@@ -39,6 +39,26 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
     Ok(warnings)
 }
 
+/// Warning of a motor whose torque table (speed \[rad/s\], torque \[N m\]) covers less than the speeds of a run.
+///
+/// A table of one row is a constant torque.
+pub fn check_torque_table(table: &[[f64; 2]], speeds: [f64; 2]) -> Option<String> {
+    let [first, .., last] = table else { return None };
+    let margin = TABLE_MARGIN * last[0].abs();
+    let inside = speeds[0] >= first[0] - margin && speeds[1] <= last[0] + margin;
+    let rpm = |speed: f64| speed * 60.0 / TAU;
+    (!inside).then(|| {
+        format!(
+            "drive: its torque table covers {:.0} to {:.0} rpm, the run reaches {:.0} to {:.0} rpm; beyond it the \
+             torque of its end holds",
+            rpm(first[0]),
+            rpm(last[0]),
+            rpm(speeds[0]),
+            rpm(speeds[1])
+        )
+    })
+}
+
 /// Lowest and highest of a list of speeds; `None` for an empty list.
 pub fn speed_range(speeds: &[f64]) -> Option<[f64; 2]> {
     let widen = |range: Option<[f64; 2]>, &speed: &f64| {

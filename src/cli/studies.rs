@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use rotordyn::analysis::table_range::{check_torque_table, speed_range};
 use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::{ChannelStream, Store};
@@ -333,7 +334,10 @@ impl<'a> Job<'a> {
         };
         tables::run_up(self.terminal, &found);
         let failure = match (failure, &machine.model.drive) {
-            (None, Drive::Torque { .. }) => {
+            (None, Drive::Torque { table, .. }) => {
+                let reached = speed_range(&found.history.speed);
+                let torque = reached.and_then(|reached| check_torque_table(table, reached));
+                self.quality_warnings.extend(torque);
                 match machine.check_tables(Study::RunUp.name(), &found.history.speed) {
                     Ok(warnings) => {
                         self.quality_warnings.extend(warnings);

@@ -124,3 +124,13 @@ fn every_study_refuses_or_warns_by_name() {
     );
     assert!(hold.check_tables("frf", &[2000.0 * RPM]).unwrap().is_empty());
 }
+
+#[test]
+fn a_torque_table_warns_beyond_its_speeds() {
+    use rotordyn::analysis::table_range::check_torque_table;
+    let table = [[0.0, 2.0], [300.0 * RPM, 1.5], [1500.0 * RPM, 0.2]];
+    assert_eq!(check_torque_table(&table, [0.0, 1510.0 * RPM]), None);
+    assert_eq!(check_torque_table(&table[..1], [0.0, 9e3]), None);
+    let warning = check_torque_table(&table, [0.0, 1812.0 * RPM]).unwrap();
+    assert!(warning.contains("0 to 1500 rpm") && warning.contains("reaches 0 to 1812 rpm"), "{warning}");
+}
