@@ -344,9 +344,11 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         found.modes, found.corrections, found.static_error, found.frequency_error
     ));
     let e = &report.energy;
+    let driven = e.drive != 0.0;
     let rows: Vec<Vec<String>> = [
         ("energy at the start", e.start),
-        ("work of loads, unbalance and drive", e.work),
+        (if driven { "work of loads" } else { "work of loads, unbalance and drive" }, e.work),
+        ("work of the drive torque", e.drive),
         ("parametric work (cage rotation)", e.parametric),
         ("dissipated by damping", -e.damping_loss),
         ("dissipated in contacts", -e.contact_loss),
@@ -354,6 +356,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         ("residual", -e.residual()),
     ]
     .iter()
+    .filter(|(name, _)| driven || *name != "work of the drive torque")
     .map(|(name, value)| vec![(*name).to_string(), number(*value, 6)])
     .collect();
     terminal.table("Energy balance of the run-up", &["", "J"], &rows);

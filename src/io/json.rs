@@ -343,7 +343,7 @@ fn run_up(found: &RunUpResult) -> Value {
         "static_error": found.static_error, "frequency_error": found.frequency_error,
         "end": end, "steps": report.steps, "iterations": report.iterations, "halvings": report.halvings,
         "energy_j": {
-            "work": energy.work, "parametric_work": energy.parametric, "damping_loss": energy.damping_loss,
+            "work": energy.work, "drive_work": energy.drive, "parametric_work": energy.parametric, "damping_loss": energy.damping_loss,
             "contact_loss": energy.contact_loss, "residual": energy.residual(),
         },
         "sample_rate_hz": found.history.sample_rate,

@@ -13,4 +13,5 @@ mod radial_balls;
 mod run_up;
 mod steady_motion;
 mod torque;
+mod torque_coupling;
 mod varying_compliance;

@@ -30,6 +30,7 @@ pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
         ("static_error", found.static_error),
         ("frequency_error", found.frequency_error),
         ("energy_work", energy.work),
+        ("energy_drive_work", energy.drive),
         ("energy_parametric_work", energy.parametric),
         ("energy_damping_loss", energy.damping_loss),
         ("energy_contact_loss", energy.contact_loss),
