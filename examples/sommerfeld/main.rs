@@ -11,6 +11,7 @@ use rotordyn::linalg::{Outside, piecewise};
 use rotordyn::model::{self, Options};
 use rotordyn::plot::{self, Curve, Figure, Grid, GridPanel};
 use rotordyn::study::Machine;
+use rotordyn::transient::run::End;
 
 const MODEL: &str = include_str!("../../models/sommerfeld.toml");
 /// Interval over which speed and whirl are averaged \[s\].
@@ -56,6 +57,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         ControlFlow::Continue(())
     });
+    if let End::Failed(error) = report.end {
+        return Err(error.into());
+    }
     for (name, branch) in [("up", &up), ("down", &down)] {
         let jump = branch.windows(2).max_by(|a, b| {
             let size = |pair: &[Point]| (pair[1].speed - pair[0].speed).abs();

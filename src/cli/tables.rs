@@ -322,7 +322,7 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
     }
 }
 
-pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
+pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     let (report, history) = (&found.report, &found.history);
     terminal.heading("Run-up");
     let (end, speed) = (history.time.last().unwrap_or(&0.0), history.speed.last().unwrap_or(&0.0));
@@ -338,6 +338,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         report.halvings,
         report.samples
     ));
+    super::run_up_tables::step_and_cages(terminal, found, check_seconds);
     terminal.print(&format!(
         "  reduced model: {} modes and {} static correction modes; relative error {:.1e} of the static deflection,\n  \
          {:.1e} of the frequencies up to half the cutoff",

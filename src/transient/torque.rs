@@ -3,10 +3,11 @@
 //! The coordinates x contain the rigid rotation x_r; θ is the motion of their frame. With the unbalance at the angle
 //! φ = θ + θ_z + ϕ of its node, all terms with a rotation come from one Lagrangian,
 //!
-//! L = ½ ẋᵀ ẋ + Ω ẋᵀ x_r + ½ J Ω² + Ω ẋᵀ K_s x + Σ U φ̇ (u̇_y cos φ − u̇_x sin φ) + Σ U (g_x cos φ + g_y sin φ) − V:
+//! L = ½ ẋᵀ ẋ + Ω ẋᵀ x_r + ½ J (Ω + s)² + Σ U φ̇ (u̇_y cos φ − u̇_x sin φ) + Σ U (g_x cos φ + g_y sin φ) − V,
+//! s = ẋᵀ K_s x / J:
 //!
-//! its terms in x are the unbalance force and Ω G ẋ + Ω̇ K_s x (K_s = ½ G + K_T), its terms in θ and θ_z the reactions
-//! on the rotation ([`coupling`]). U = m e alone is known of an unbalance: its own inertia m e² about the axis is
+//! its terms in x are the unbalance force and (Ω + s) G ẋ + (Ω̇ + ṡ) K_s x (K_s = ½ G + K_T), its terms in θ and θ_z the
+//! reactions on the rotation ([`coupling`]). s is the mean spin of the sections about their tangents by bending alone. U = m e alone is known of an unbalance: its own inertia m e² about the axis is
 //! neglected, and its mass m is that of the disc. Drive torque and drag depend on Ω, not on the local twist rate.
 
 pub mod coupling;

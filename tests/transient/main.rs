@@ -5,6 +5,7 @@ mod measured_data;
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod cage_phases;
 mod high_speed;
 mod impact;
 mod imperfections;

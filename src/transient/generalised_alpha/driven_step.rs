@@ -1,8 +1,8 @@
 //! A step under a torque drive: the rotation at the end of the step is found together with the coordinates.
 //!
 //! The coupling loads e and the angular acceleration Ω̇ at the end of the step are iterated. Every pass is a step with
-//! given e and Ω̇; what e should have been at the acceleration found is answered by the inertia matrix alone
-//! ([`TorqueDrive::solve_inertia`]), so that a pass reduces the error by the share of stiffness in a step, (ω h)².
+//! given e and Ω̇. What e should have been at the accelerations found follows with the response of the linear part to e
+//! ([`TorqueDrive::solve_coupling`]), so that only bearing tangents and terms in x and ẋ are left to iteration.
 
 use nalgebra::DVector;
 
@@ -12,8 +12,10 @@ use crate::transient::system::{State, System};
 use crate::transient::torque::TorqueDrive;
 use crate::transient::torque::coupling::{Motion, Workspace};
 
-/// Change of the coupling loads, relative to the accelerations, at which the iteration ends.
+/// Defect of the coupling loads, relative to the accelerations, at which the iteration ends.
 const TOLERANCE: f64 = 1e-11;
+/// The same after the last pass, for the round-off of stiff coordinates.
+const LAST_TOLERANCE: f64 = 1e-8;
 const MAX_PASSES: usize = 30;
 
 /// Buffers and guesses of the iteration.
@@ -22,6 +24,8 @@ pub(super) struct DrivenStep {
     /// e at the end of the step, and its correction.
     load: DVector<f64>,
     correction: DVector<f64>,
+    response: DVector<f64>,
+    scratch: Vec<f64>,
     /// Part of Ω̇ K_s x that the effective matrix leaves out.
     spin_up: DVector<f64>,
     x: DVector<f64>,
@@ -40,6 +44,8 @@ impl DrivenStep {
             work: Workspace::new(drive, size),
             load: zero(),
             correction: zero(),
+            response: zero(),
+            scratch: Vec::new(),
             spin_up: zero(),
             x: zero(),
             v: zero(),
@@ -114,22 +120,44 @@ impl GeneralisedAlpha {
             self.solve(system, state, step, &matrix_spin, pass == 0)?;
             self.end_of_step(system, state, step, driven);
 
-            // y = coupling(x₁, ẋ₁, ẍ₁) − e, then with the inertia matrix.
+            // δ = coupling(x₁, ẋ₁, ẍ₁) − e.
             driven.correction.copy_from(&driven.load);
             driven.correction.neg_mut();
             let at = Motion { spin: &spin, x: &driven.x, v: &driven.v, acceleration: &driven.acceleration };
             let reactions = self.newton.reactions();
             drive.add_coupling(system, &at, reactions, &mut driven.work, &mut driven.correction);
-            drive.solve_inertia(&mut driven.work, &mut driven.correction);
-            let scale = driven.acceleration.norm() + driven.load.norm();
+            // Mass-normalised accelerations: of the coordinates, of the rotation, and by the loads they balance.
+            let scale = driven.acceleration.norm()
+                + driven.load.norm()
+                + drive.inertia().sqrt() * spin.acceleration.abs()
+                + system.static_load.norm();
             change = driven.correction.norm();
-            if change <= TOLERANCE * scale {
+            let tolerance = if pass + 1 < MAX_PASSES { TOLERANCE } else { LAST_TOLERANCE };
+            if change <= tolerance * scale {
                 return Ok((spin, rate));
             }
             if !change.is_finite() {
                 break;
             }
-            let turned = drive.rigid_part(&driven.correction);
+            // D = (1−α_m) S⁻¹.
+            let DrivenStep { work, correction, response, scratch, .. } = &mut *driven;
+            let matrix = self.matrices.at(system, scheme, step, &matrix_spin);
+            let mut respond = |load: &DVector<f64>, response: &mut DVector<f64>| {
+                let n = system.structure();
+                response.fill(0.0);
+                matrix.add_inverse(
+                    spin.speed,
+                    &load.as_slice()[..n],
+                    scratch,
+                    &mut response.as_mut_slice()[..n],
+                );
+                *response *= 1.0 - scheme.alpha_m;
+            };
+            respond(correction, response);
+            work.set_responses(&mut respond);
+            drive.solve_coupling(work, response, correction);
+            respond(correction, response);
+            let turned = drive.rigid_part(response);
             end_rate += drive.rigid_part(&driven.acceleration) + turned;
             driven.load += &driven.correction;
             driven.load.axpy(turned, driven.work.spin_up_x(), 1.0);

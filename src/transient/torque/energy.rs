@@ -66,13 +66,13 @@ impl DriveEnergy {
 
 impl TorqueDrive {
     /// Kinetic energy of the rotation and of its products with the other velocities \[J\]:
-    /// ½ J Ω² + Ω ẋᵀ (x_r + K_s x) − Σ U φ̇ (u̇_x sin φ − u̇_y cos φ).
+    /// ½ J (Ω + s)² + Ω ẋᵀ x_r − Σ U φ̇ (u̇_x sin φ − u̇_y cos φ), J s = ẋᵀ K_s x.
     pub fn kinetic_energy(&self, system: &System, state: &State) -> f64 {
         let speed = state.spin.speed;
         let n = system.structure();
         let spin_up = &system.spin_up * state.x.rows(0, n);
-        let mut out = 0.5 * self.inertia() * speed * speed
-            + speed * (state.v.dot(&self.rigid_rotation) + state.v.rows(0, n).dot(&spin_up));
+        let spin = speed + state.v.rows(0, n).dot(&spin_up) / self.inertia();
+        let mut out = 0.5 * self.inertia() * spin * spin + speed * state.v.dot(&self.rigid_rotation);
         for u in &self.unbalances {
             let (sin, cos) = (state.spin.angle + u.twist.dot(&state.x) + u.phase).sin_cos();
             let rate = speed + u.twist.dot(&state.v);
