@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let grid = Grid {
         title: "Sommerfeld effect of a Jeffcott rotor".into(),
-        note: "control torque of the motor up and down in 100 s each; torque of the motor: control torque − 4 mN m s/rad × speed".into(),
+        note: "control torque up and down in 100 s each, less drag".into(),
         x_name: "control torque".into(),
         x_unit: "N m".into(),
         legend: vec!["up".into(), "down".into()],
