@@ -40,7 +40,8 @@ use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRang
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
-    ModalResult, OrderResult, ResponsePeak, Results, SpectrogramResult, UnbalanceResult, UndampedPeak, is_rotation, unit_of,
+    ModalResult, OrderResult, ResponsePeak, Results, SpectrogramResult, UnbalanceResult, UndampedPeak,
+    is_rotation, unit_of,
 };
 use crate::study::Machine;
 

@@ -176,7 +176,7 @@ fn step_used_its_error_and_the_cage_angles_are_reported() {
     };
     let text = output_of(&mut run("100 us", "a"));
     for part in
-        ["time step 83.333 us instead of 100 us, 4 to a sample", "estimated error of the order levels"]
+        ["time step 83.333 us instead of 100.0 us, 4 to a sample", "estimated error of the order levels"]
     {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }

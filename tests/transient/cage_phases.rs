@@ -146,8 +146,8 @@ fn ball_pass_levels_range_over_the_phase_between_the_cages() {
     let orders = own.model.studies.orders.clone().unwrap();
     let base = own.orders(&orders, &run(&own).0).unwrap();
     let study = own.model.studies.run_up.clone().unwrap();
-    let go_on = || ControlFlow::Continue(());
-    let band = own.cage_phase_band(&study, &orders, &base, &go_on).unwrap().unwrap();
+    let carry_on = || ControlFlow::Continue(());
+    let band = own.cage_phase_band(&study, &orders, &base, &carry_on).unwrap().unwrap();
     assert_eq!(band.bearings, ["B"]);
     let pitch = std::f64::consts::TAU / own.model.bearings[1].bearing.ball().unwrap().geometry.balls as f64;
     let angles: Vec<f64> = band.angles.iter().map(|a| a[0] / pitch).collect();

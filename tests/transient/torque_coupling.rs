@@ -249,7 +249,8 @@ fn motor_of_015_newton_metres_does_not_pass_the_resonance_of_the_jeffcott_rotor(
     assert!(rpm(&balanced.0) > 1700.0, "{} rpm", rpm(&balanced.0));
     // The power of the motor, 0.15 N m × 159 rad/s = 24 W, goes into the whirl.
     let e = report.energy;
-    assert!(e.residual().abs() < 1e-5 * e.drive, "{} of {}", e.residual(), e.drive);
+    // Of second order in the step: 1e-6 at 12.5 us.
+    assert!(e.residual().abs() < 5e-4 * e.drive, "{} of {}", e.residual(), e.drive);
 }
 
 /// Ball bearings roll with the shaft: the power of their cages comes from the motor.
