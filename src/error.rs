@@ -55,6 +55,10 @@ pub enum PhysicsError {
     NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
     #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
     Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
+    #[error(
+        "unbalance {unbalance} of {magnitude:.3e} kg m is too large for a torque drive: U^2 must be less than m J of the rotor at its station, and there m = {mass:.3e} kg and J = {inertia:.3e} kg m^2 move with it; put it on a disc, or add its mass as a disc"
+    )]
+    UnbalanceAboveInertia { unbalance: String, magnitude: f64, mass: f64, inertia: f64 },
     #[error("the clock of the Poincaré section does not advance at {speed_rpm:.1} rpm")]
     SectionClockStopped { speed_rpm: f64 },
     #[error("no steady motion at any value of the parameter: {reason}")]

@@ -1,6 +1,7 @@
 //! Results of the studies of a model: plain data in SI.
 
 mod bearing;
+mod run_up;
 mod run_up_correlation;
 mod signal;
 
@@ -8,6 +9,7 @@ pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState, EhlFilm,
     PickContact,
 };
+pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, StepError, StepErrorLine};
 pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
 pub use signal::{
     BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,
@@ -44,6 +46,7 @@ pub struct Results {
     pub run_up: Option<RunUpResult>,
     pub spectrograms: Vec<SpectrogramResult>,
     pub orders: Vec<OrderResult>,
+    pub cage_phases: Option<CagePhaseBand>,
     pub poincare: Option<PoincareResult>,
     pub lyapunov: Option<LyapunovResult>,
     pub bifurcation: Option<BifurcationResult>,
@@ -235,6 +238,12 @@ pub struct RunUpResult {
     pub frequency_error: f64,
     pub history: History,
     pub report: Report,
+    /// Requested step \[s\]; the step used divides the sampling interval.
+    pub requested_step: f64,
+    /// Bearings with balls and their cage angle at the start \[rad\].
+    pub cage_angles: Vec<(String, f64)>,
+    /// Estimated error of the order levels by the step.
+    pub step_error: Option<StepError>,
 }
 
 /// Spectrogram of one channel with the speed at every frame.

@@ -2,8 +2,8 @@
 
 use super::dofs::full_rows;
 use crate::bearing::Bearing;
-use crate::element::Belt;
 use crate::element::shaft_matrices::{ConeRule, Matrix12};
+use crate::element::{Belt, Bushing};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets};
 use crate::model::Model;
 
@@ -69,10 +69,7 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         }
     }
     for bushing in &model.bushings {
-        let (mut rows, other) = (full_rows(&bushing.a), full_rows(&bushing.b));
-        for (row, b) in rows.iter_mut().zip(&other) {
-            row.add_scaled(-1.0, b);
-        }
+        let rows = bushing_rows(bushing);
         k.add_between_rows(&rows, &bushing.stiffness);
         c.add_between_rows(&rows, &bushing.damping);
     }
@@ -95,6 +92,43 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
         gyroscopic: g.build(),
         circulatory: kc.build(),
     }
+}
+
+/// Damping of bushings and belts over all DOFs.
+pub(super) fn support_damping(model: &Model) -> SparseMatrix {
+    let n = 6 * model.node_count();
+    let mut c = Triplets::new(n, n);
+    for bushing in &model.bushings {
+        c.add_between_rows(&bushing_rows(bushing), &bushing.damping);
+    }
+    for belt in &model.belts {
+        for (dof, _, damping) in belt_terms(belt) {
+            c.add(dof, dof, damping);
+        }
+    }
+    c.build()
+}
+
+/// Displacement of a bushing's end a relative to b over all DOFs.
+fn bushing_rows(bushing: &Bushing) -> [SparseRow; 6] {
+    let (mut rows, other) = (full_rows(&bushing.a), full_rows(&bushing.b));
+    for (row, b) in rows.iter_mut().zip(&other) {
+        row.add_scaled(-1.0, b);
+    }
+    rows
+}
+
+/// Sᵀ C_i S from K_c = −C_i S over all DOFs, S the turn by 90° about z: −Sᵀ K_c, with Sᵀ (x, y) = (y, −x).
+pub(super) fn rotating_damping(circulatory: &SparseMatrix, n: usize) -> SparseMatrix {
+    let mut out = Triplets::new(n, n);
+    for (row, column, value) in circulatory.iter() {
+        match row % 3 {
+            0 => out.add(row + 1, column, value),
+            1 => out.add(row - 1, column, -value),
+            _ => {}
+        }
+    }
+    out.build()
 }
 
 /// (full DOF, stiffness, damping) of a belt.

@@ -39,6 +39,8 @@ pub struct Assembly {
     pub gyroscopic: SparseMatrix,
     /// Circulatory stiffness K_c of internal damping, per rad/s.
     pub circulatory: SparseMatrix,
+    /// Sᵀ C_i S of internal damping C_i, S the turn by 90° about z: the share of its loss that grows with Ω².
+    pub rotating_damping: SparseMatrix,
     /// Stiffness K_s of angular acceleration, per rad/s².
     pub spin_up: SparseMatrix,
     /// Gravity on every mass \[N, N m\].
@@ -49,6 +51,8 @@ pub struct Assembly {
     /// by −Ω̇ times this. (Without a drive station each inertia is driven by its own torque: not to be
     /// applied.)
     pub spin_momentum: Vec<f64>,
+    /// Moments Tᵀ C r of bushings and belts on the rotating shaft, per rad/s of the rigid rotation r.
+    pub rotation_drag: Vec<f64>,
     /// Polar moment of inertia rᵀ M r of shaft, discs and attached masses \[kg m²\].
     pub polar_inertia: f64,
     pub unbalances: Vec<UnbalanceForce>,
@@ -91,9 +95,10 @@ impl Site {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnbalanceForce {
     pub name: String,
-    /// u_x and u_y of the node as rows over the free DOFs.
+    /// u_x, u_y and θ_z of the node as rows over the free DOFs.
     pub x: SparseRow,
     pub y: SparseRow,
+    pub twist: SparseRow,
     /// U = m e \[kg m\].
     pub magnitude: f64,
     /// ϕ \[rad\].
@@ -122,6 +127,7 @@ impl Assembly {
         let rotation: Vec<f64> =
             (0..dofs.full_len()).map(|i| f64::from(i < 6 * dofs.shaft_nodes && i % 6 == 5)).collect();
         let momentum = full.mass.mul(&rotation);
+        let n_full = dofs.full_len();
         let node_rows = |node: usize| dofs.anchor_rows(&Anchor::node(node));
         let assembly = Self {
             mass: reduce(&full.mass),
@@ -130,17 +136,26 @@ impl Assembly {
             damping: reduce(&full.damping),
             gyroscopic: reduce(&full.gyroscopic),
             circulatory: reduce(&full.circulatory),
+            rotating_damping: reduce(&elements::rotating_damping(&full.circulatory, n_full)),
             spin_up: reduce(&spin_up::spin_up(model, spin_up, &full.gyroscopic)),
             gravity_load: dofs.reduce(&gravity),
             static_load: dofs.reduce(&steady),
             spin_momentum: dofs.reduce(&momentum),
+            rotation_drag: dofs.reduce(&elements::support_damping(model).mul(&rotation)),
             polar_inertia: dot(&momentum, &rotation),
             unbalances: model
                 .unbalances
                 .iter()
                 .map(|u| {
-                    let [x, y, ..] = node_rows(u.node);
-                    UnbalanceForce { name: u.name.clone(), x, y, magnitude: u.magnitude, phase: u.phase }
+                    let [x, y, _, _, _, twist] = node_rows(u.node);
+                    UnbalanceForce {
+                        name: u.name.clone(),
+                        x,
+                        y,
+                        twist,
+                        magnitude: u.magnitude,
+                        phase: u.phase,
+                    }
                 })
                 .collect(),
             sites: model

@@ -61,6 +61,13 @@ impl Default for Service {
 }
 
 impl BallBearing {
+    /// Whether all balls are of one size and shape.
+    pub fn balls_are_alike(&self) -> bool {
+        let Imperfections { ball_waviness, off_size, defects, .. } = &self.imperfections;
+        let on_ball = |d: &super::Defect| matches!(d.surface, super::Surface::Ball(_));
+        ball_waviness.is_empty() && off_size.is_empty() && !defects.iter().any(on_ball)
+    }
+
     /// Lubricant of the contact law, else of the service conditions.
     pub fn lubricant(&self) -> Option<&Lubricant> {
         match &self.contact {

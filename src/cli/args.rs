@@ -292,11 +292,13 @@ Examples:
     /// frequency plus static correction modes, every ball a nonlinear contact. Samples are streamed to
     /// results.h5; after Ctrl-C the samples so far remain readable. Default without [study.run_up]:
     /// generalised-alpha, steps of 100 us, sampling at 2 kHz, all modes. [study.spectrogram] and
-    /// [study.orders] of the file are run too.
+    /// [study.orders] of the file are run too. The step used divides the sampling interval; its error in the
+    /// order levels is estimated by repeating the stretch of the largest response with twice the step.
     #[command(after_long_help = "\
 Examples:
   rotordyn run-up models/overhung_rig.toml
   rotordyn run-up models/overhung_rig.toml --variant wavy --step \"50 us\"
+  rotordyn run-up models/overhung_rig.toml --cage-phases 8
   rotordyn run-up models/overhung_rig.toml --set speed.ramp=\"5 s\"")]
     RunUp {
         #[command(flatten)]
@@ -310,6 +312,9 @@ Examples:
         /// Sampling rate of the channels, such as "4 kHz"
         #[arg(long, value_name = "FREQUENCY")]
         sample_rate: Option<String>,
+        /// Repeat the run-up with this many initial cage phases; range of every order cut ([study.orders])
+        #[arg(long, value_name = "N")]
+        cage_phases: Option<usize>,
     },
 
     /// Spectrograms over rpm of a stored run-up: waterfall and Campbell map from the signal

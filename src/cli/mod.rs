@@ -19,6 +19,7 @@ mod measured;
 mod noisy_frf;
 mod renamed;
 mod run_up_correlation;
+mod run_up_tables;
 mod settings;
 mod signal;
 mod steady;
@@ -121,9 +122,12 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Unbalance { study, max_speed } => {
             run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
         }
-        Command::RunUp { study, step, integrator, sample_rate } => run_one(study, Study::RunUp, &|model| {
-            settings::run_up(model, step.as_ref(), integrator.as_ref(), sample_rate.as_ref())
-        }),
+        Command::RunUp { study, step, integrator, sample_rate, cage_phases } => {
+            run_one(study, Study::RunUp, &|model| {
+                let [step, integrator, rate] = [step, integrator, sample_rate].map(Option::as_ref);
+                settings::run_up(model, step, integrator, rate, *cage_phases)
+            })
+        }
         Command::Poincare(args) => {
             run_one(&args.steady.study, Study::Poincare, &|model| steady_args::poincare(model, args))
         }
@@ -267,6 +271,17 @@ fn quality_warnings(job: &mut Job) {
             found.push(format!(
                 "the energy balance of the run-up has a residual of {:.2} %: reduce the time step",
                 100.0 * open
+            ));
+        }
+        if let Some(line) = run.step_error.as_ref().and_then(|e| e.worst()).filter(|l| l.error.abs() > 0.05) {
+            let step = run.report.step.unwrap_or_default();
+            found.push(format!(
+                "the time step of {:.4} us changes the level of {} of {} by about {:.0} %: about {:.3} us would give 1 %",
+                1e6 * step,
+                line.line.label,
+                line.channel,
+                100.0 * line.error.abs(),
+                1e6 * step * (0.01 / line.error.abs()).sqrt()
             ));
         }
         if run.frequency_error > 0.01 {

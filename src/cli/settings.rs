@@ -121,11 +121,13 @@ pub fn run_up(
     step: Option<&String>,
     integrator: Option<&String>,
     sample_rate: Option<&String>,
+    cage_phases: Option<usize>,
 ) -> Settings {
     let mut draft = SettingsBuilder::new("run_up");
     draft.set_flag("step", step.map(toml_string));
     draft.set_flag("integrator", integrator.map(toml_string));
     draft.set_flag("sample_rate", sample_rate.map(toml_string));
+    draft.set_flag("cage_phases", cage_phases.map(|n| n.to_string()));
     let words = "generalised-alpha, time step 100 us, sampling rate 2 kHz";
     draft.defaults(model.studies.run_up.is_none(), words, &[("step", toml_string("100 us"))])
 }

@@ -9,15 +9,15 @@ use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::{ChannelStream, Store};
 use rotordyn::io::results_file;
-use rotordyn::model::study::Studies;
+use rotordyn::model::study::{RunUpStudy, Studies};
 use rotordyn::model::{Drive, Model};
-use rotordyn::results::{Results, RunUpResult};
-use rotordyn::study::{Machine, Recorder};
+use rotordyn::results::{CagePhaseBand, Results, RunUpResult};
+use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
 use super::failure::Failure;
 use super::terminal::{Terminal, rpm};
-use super::{bearing_tables, interrupt, tables};
+use super::{bearing_tables, interrupt, run_up_tables, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -296,11 +296,13 @@ impl<'a> Job<'a> {
         let channels = results_file::channels_of(&recorder.history);
         let mut stream = ChannelStream::create(&self.store, "", &channels, settings.sample_rate, 0.0)?;
         let bar = self.terminal.time_bar(profile.duration());
+        let mut checkpoints = Checkpoints::new(settings, profile.duration());
         let mut disk: Result<(), Error> = Ok(());
         let mut last = (0.0, 0.0);
         let report = machine.run_up(settings, &reduction, |sample| {
             let (time, spin) = (sample.state.time, &sample.state.spin);
             last = (time, rpm(spin.speed));
+            checkpoints.observe(sample);
             disk = stream.push(time, spin.angle, spin.speed, recorder.record(sample));
             if sample.index % 64 == 0 {
                 bar.set_position((1e3 * time) as u64);
@@ -324,15 +326,25 @@ impl<'a> Job<'a> {
             Some(why) => format!("stopped: {} at t = {:.4} s, {:.1} rpm", why.message(), last.0, last.1),
         };
         stream.finish(&state)?;
+        let history = recorder.history;
+        let spinner = self.terminal.spinner("step error");
+        let orders = machine.checked_orders();
+        let start = Instant::now();
+        let step_error = machine.step_error(settings, &reduction, &orders, (&checkpoints, &history, &report));
+        let check_seconds = start.elapsed().as_secs_f64();
+        spinner.finish_and_clear();
         let found = RunUpResult {
             modes: reduction.modes,
             corrections: reduction.corrections,
             static_error: reduction.static_error,
             frequency_error,
-            history: recorder.history,
+            history,
             report,
+            requested_step: settings.step,
+            cage_angles: machine.cage_angles(),
+            step_error,
         };
-        tables::run_up(self.terminal, &found);
+        tables::run_up(self.terminal, &found, check_seconds);
         let failure = match (failure, &machine.model.drive) {
             (None, Drive::Torque { table, .. }) => {
                 let reached = speed_range(&found.history.speed);
@@ -348,8 +360,29 @@ impl<'a> Job<'a> {
             }
             (failure, _) => failure,
         };
+        if failure.is_none() && settings.cage_phases > 1 {
+            self.results.cage_phases = self.cage_phases(settings, &found)?;
+        }
         self.results.run_up = Some(found);
         failure.map_or(Ok(()), Err)
+    }
+
+    /// Range of the order cuts over the initial cage phases.
+    fn cage_phases(
+        &self,
+        settings: &RunUpStudy,
+        found: &RunUpResult,
+    ) -> Result<Option<CagePhaseBand>, Failure> {
+        let Some(orders) = &self.machine.model.studies.orders else { return Ok(None) };
+        let spinner = self.terminal.spinner("cage phases");
+        let base = self.machine.orders(orders, &found.history)?;
+        let progress =
+            || if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let band = self.machine.cage_phase_band(settings, orders, &base, &progress)?;
+        spinner.finish_and_clear();
+        let band = band.ok_or(Failure::Interrupted)?;
+        run_up_tables::cage_phases(self.terminal, &band);
+        Ok(Some(band))
     }
 
     /// Writes and draws the results so far, also after failures.

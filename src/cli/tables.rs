@@ -322,7 +322,7 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
     }
 }
 
-pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
+pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     let (report, history) = (&found.report, &found.history);
     terminal.heading("Run-up");
     let (end, speed) = (history.time.last().unwrap_or(&0.0), history.speed.last().unwrap_or(&0.0));
@@ -338,15 +338,18 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         report.halvings,
         report.samples
     ));
+    super::run_up_tables::step_and_cages(terminal, found, check_seconds);
     terminal.print(&format!(
         "  reduced model: {} modes and {} static correction modes; relative error {:.1e} of the static deflection,\n  \
          {:.1e} of the frequencies up to half the cutoff",
         found.modes, found.corrections, found.static_error, found.frequency_error
     ));
     let e = &report.energy;
+    let driven = e.drive != 0.0;
     let rows: Vec<Vec<String>> = [
         ("energy at the start", e.start),
-        ("work of loads, unbalance and drive", e.work),
+        (if driven { "work of loads" } else { "work of loads, unbalance and drive" }, e.work),
+        ("work of the drive torque", e.drive),
         ("parametric work (cage rotation)", e.parametric),
         ("dissipated by damping", -e.damping_loss),
         ("dissipated in contacts", -e.contact_loss),
@@ -354,6 +357,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
         ("residual", -e.residual()),
     ]
     .iter()
+    .filter(|(name, _)| driven || *name != "work of the drive torque")
     .map(|(name, value)| vec![(*name).to_string(), number(*value, 6)])
     .collect();
     terminal.table("Energy balance of the run-up", &["", "J"], &rows);

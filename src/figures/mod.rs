@@ -9,7 +9,7 @@
 //! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
-//! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts |
+//! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts with their range over the cage phases |
 //! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
@@ -72,7 +72,9 @@ pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
     figures.extend(results.run_up.iter().flat_map(|found| run::histories(&found.history, machine)));
     let campbell = results.campbell.as_ref();
     figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
-    figures.extend(results.orders.iter().flat_map(|found| run::orders(found, machine)));
+    figures.extend(
+        results.orders.iter().flat_map(|found| run::orders(found, results.cage_phases.as_ref(), machine)),
+    );
     figures.extend(results.poincare.iter().flat_map(|found| steady::poincare(found, machine)));
     figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
     figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));

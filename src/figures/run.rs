@@ -7,7 +7,7 @@ use crate::plot::{
     Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, SpectrogramPanel, Waterfall,
     WaterfallPanel,
 };
-use crate::results::{self, CampbellResult, HistoryChannel, OrderResult, SpectrogramResult};
+use crate::results::{self, CagePhaseBand, CampbellResult, HistoryChannel, OrderResult, SpectrogramResult};
 use crate::signal::waterfall::waterfall;
 use crate::study::Machine;
 
@@ -163,7 +163,15 @@ pub(super) fn spectrograms(
     figures
 }
 
-pub fn orders(found: &OrderResult, machine: &Machine) -> Vec<Named> {
+pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Machine) -> Vec<Named> {
+    let band_of = |label: &str| -> Vec<[f64; 2]> {
+        let channel = phases.and_then(|p| p.channels.iter().find(|c| c.channel == found.channel));
+        let line = channel.and_then(|c| c.lines.iter().find(|l| l.line.label == label));
+        let factor = unit(&found.unit).factor;
+        line.map_or_else(Vec::new, |l| {
+            l.minimum.iter().zip(&l.maximum).map(|(lo, hi)| [lo * factor, hi * factor]).collect()
+        })
+    };
     let s = &found.spectrogram;
     let shown = unit(&found.unit);
     let note = machine.model.title.clone();
@@ -190,6 +198,10 @@ pub fn orders(found: &OrderResult, machine: &Machine) -> Vec<Named> {
             y: cut.rms.iter().map(|v| v * shown.factor).collect(),
             points: false,
         });
+        let note = match phases {
+            None => note,
+            Some(p) => format!("{note}; bands: range over {} initial cage phases", p.angles.len()),
+        };
         let figure = Lines {
             title: format!("Order cuts of the run-up, {}", found.channel),
             note,
@@ -198,6 +210,7 @@ pub fn orders(found: &OrderResult, machine: &Machine) -> Vec<Named> {
             y_name: format!("{}, RMS", quantity(&found.unit)),
             y_unit: shown.name.into(),
             curves: curves.collect(),
+            bands: found.cuts.iter().map(|(line, _)| band_of(&line.label)).collect(),
             log_x: false,
             log_y: true,
             ..Lines::default()

@@ -17,12 +17,14 @@
 //! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
+//! | `cage_phases` | `bearings`, `angles_rad` per run, `channels` \[{channel, unit, cuts: \[{label, order, speed_rpm, rms, minimum, maximum, peaks}\]}\] |
 //! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
 //! | `bearings` | per stand-alone ball bearing {name, load_source, prescribed: 5, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | messages |
 
+mod run_up;
 mod signal;
 mod steady;
 
@@ -38,11 +40,10 @@ use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRang
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
-    HistoryChannel, ModalResult, OrderResult, ResponsePeak, Results, RunUpResult, SpectrogramResult,
-    UnbalanceResult, UndampedPeak, is_rotation, unit_of,
+    ModalResult, OrderResult, ResponsePeak, Results, SpectrogramResult, UnbalanceResult, UndampedPeak,
+    is_rotation, unit_of,
 };
 use crate::study::Machine;
-use crate::transient::run::End;
 
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
@@ -90,13 +91,16 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
         put("unbalance", unbalance(found));
     }
     if let Some(found) = &results.run_up {
-        put("run_up", run_up(found));
+        put("run_up", run_up::run_up(found));
     }
     if !results.spectrograms.is_empty() {
         put("spectrograms", results.spectrograms.iter().map(spectrogram).collect());
     }
     if !results.orders.is_empty() {
         put("orders", results.orders.iter().map(orders).collect());
+    }
+    if let Some(found) = &results.cage_phases {
+        put("cage_phases", run_up::cage_phases(found));
     }
     if let Some(found) = &results.poincare {
         put("poincare", steady::poincare(found));
@@ -319,36 +323,6 @@ fn unbalance(found: &UnbalanceResult) -> Value {
         "undamped": found.undamped.iter().map(|u| undamped_peak(u, "speed_rpm", TO_RPM)).collect::<Vec<_>>(),
         "responses": responses.collect::<Value>(),
         "orbits": orbits.collect::<Value>(),
-    })
-}
-
-fn run_up(found: &RunUpResult) -> Value {
-    let (report, energy) = (&found.report, &found.report.energy);
-    let channel = |c: &HistoryChannel| {
-        let minimum = c.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let maximum = c.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let square = c.values.iter().map(|v| v * v).sum::<f64>() / c.values.len() as f64;
-        json!({
-            "name": c.name, "unit": c.unit, "quantity": c.quantity, "station": c.station,
-            "direction": c.direction, "minimum": minimum, "maximum": maximum, "rms": square.sqrt(),
-        })
-    };
-    let end = match &report.end {
-        End::Complete => "complete".to_string(),
-        End::Stopped => "stopped".to_string(),
-        End::Failed(error) => format!("failed: {error}"),
-    };
-    json!({
-        "reduced_modes": found.modes, "static_correction_modes": found.corrections,
-        "static_error": found.static_error, "frequency_error": found.frequency_error,
-        "end": end, "steps": report.steps, "iterations": report.iterations, "halvings": report.halvings,
-        "energy_j": {
-            "work": energy.work, "parametric_work": energy.parametric, "damping_loss": energy.damping_loss,
-            "contact_loss": energy.contact_loss, "residual": energy.residual(),
-        },
-        "sample_rate_hz": found.history.sample_rate,
-        "samples": found.history.time.len(),
-        "channels": found.history.channels.iter().map(channel).collect::<Value>(),
     })
 }
 

@@ -122,6 +122,8 @@ pub struct RunUpStudy {
     pub cutoff: f64,
     /// Start from static equilibrium; otherwise at rest and undeformed.
     pub from_equilibrium: bool,
+    /// Number of initial cage phases over which the order cuts are computed; 0 for that of the model alone.
+    pub cage_phases: usize,
 }
 
 /// Spectrogram of a run-up over rpm.

@@ -4,7 +4,7 @@ use super::axes::{Axes, Frame, Marker};
 use super::labels::{Entry, page_heading};
 use super::scale::{Kind, Range, Scale};
 use super::style::*;
-use super::svg::{Style, Svg};
+use super::svg::{Color, Point, Style, Svg};
 
 /// One curve.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +33,8 @@ pub struct Lines {
     pub from_zero: bool,
     /// Ends of a linear x axis; by default those of the data.
     pub x_range: Option<[f64; 2]>,
+    /// Range (lower, upper) about every point of every curve, drawn as a band; empty for none.
+    pub bands: Vec<Vec<[f64; 2]>>,
 }
 
 pub fn draw(data: &Lines) -> Svg {
@@ -52,7 +54,7 @@ pub fn draw(data: &Lines) -> Svg {
     let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frame = Frame { x: LEFT, y: top, w: WIDTH - LEFT - RIGHT, h: 340.0 };
     let xs = || data.curves.iter().flat_map(|c| c.x.iter().copied());
-    let ys = || data.curves.iter().flat_map(|c| c.y.iter().copied());
+    let ys = || data.curves.iter().flat_map(|c| &c.y).chain(data.bands.iter().flatten().flatten()).copied();
     let x = if data.log_x {
         Scale::log(Range::positive(xs()), frame.across(), 60.0)
     } else {
@@ -71,6 +73,9 @@ pub fn draw(data: &Lines) -> Svg {
     if axes.y.kind == Kind::Linear && axes.y.range.contains(0.0) {
         axes.segment(&mut svg, [axes.x.range.lo, 0.0], [axes.x.range.hi, 0.0], Style::stroke(PALE, 0.9));
     }
+    for (k, (c, band)) in data.curves.iter().zip(&data.bands).enumerate() {
+        draw_band(&mut svg, &axes, &c.x, band, curve(k).stroke.unwrap_or(INK));
+    }
     for (k, c) in data.curves.iter().enumerate() {
         if c.points || c.x.len() == 1 {
             axes.markers(&mut svg, &c.x, &c.y, SHAPES[k % SHAPES.len()], style(k), 2.0);
@@ -85,4 +90,16 @@ pub fn draw(data: &Lines) -> Svg {
     );
     svg.height = frame.bottom() + BOTTOM;
     svg
+}
+
+/// The range about a curve as a pale area, clipped to the frame.
+fn draw_band(svg: &mut Svg, axes: &Axes, x: &[f64], band: &[[f64; 2]], color: Color) {
+    if band.len() != x.len() || x.len() < 2 {
+        return;
+    }
+    let (bottom, top) = (axes.y.range.lo, axes.y.range.hi);
+    let along =
+        |side: usize| x.iter().zip(band).map(move |(x, ends)| axes.at(*x, ends[side].clamp(bottom, top)));
+    let outline: Vec<Point> = along(0).chain(along(1).rev()).collect();
+    svg.polygon(&outline, Style { opacity: 0.18, ..Style::fill(color) });
 }

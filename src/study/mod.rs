@@ -2,6 +2,7 @@
 
 mod bearing;
 mod bifurcation;
+mod cage_phases;
 mod ehl_film;
 mod order_tracking;
 mod record;
@@ -9,12 +10,14 @@ mod responses;
 mod run_up_correlation;
 pub mod signal;
 mod steady_motion;
+mod step_error;
 
 pub use bearing::single_bearings;
 pub use bifurcation::bifurcation;
 pub use record::Recorder;
 pub use run_up_correlation::MeasuredRun;
 pub use steady_motion::{Progress, RestartState};
+pub use step_error::Checkpoints;
 
 use std::ops::ControlFlow;
 

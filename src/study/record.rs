@@ -11,11 +11,13 @@ pub struct Recorder {
     row: Vec<f64>,
     /// Number of force components (of u_x u_y u_z) of every bearing.
     directions: Vec<usize>,
+    /// Whether the work of a torque drive is recorded.
+    drive: bool,
 }
 
 impl Recorder {
     /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
-    /// angle; the terms of the energy balance.
+    /// angle; the terms of the energy balance, with the work of a torque drive.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
         let mut channels: Vec<HistoryChannel> =
             model.probes.iter().map(|p| probe_channel(model, p)).collect();
@@ -35,11 +37,13 @@ impl Recorder {
             }
             channels.push(plain(format!("{site}_cage_angle"), "rad", "angle", site, "cage"));
         }
-        for name in ENERGIES {
+        let drive = system.drive.is_some();
+        for name in ENERGIES.into_iter().chain(drive.then_some("drive")) {
             channels.push(plain(format!("energy_{name}"), "J", "energy", "machine", ""));
         }
         Self {
             row: Vec::with_capacity(channels.len()),
+            drive,
             directions: system.interfaces.iter().map(|i| i.element.relative_dofs().min(3)).collect(),
             history: History { sample_rate, channels, ..History::default() },
         }
@@ -67,6 +71,9 @@ impl Recorder {
             e.contact_loss,
             e.residual(),
         ]);
+        if self.drive {
+            self.row.push(e.drive);
+        }
         self.history.time.push(state.time);
         self.history.angle.push(state.spin.angle);
         self.history.speed.push(state.spin.speed);

@@ -1,21 +1,28 @@
 //! Energy balance of a run, step by step.
+//!
+//! Under a torque drive the rotation is an unknown: its kinetic energy belongs to the stored energy, and what unbalance,
+//! gyroscopic terms, internal damping and cages exchange with it stays inside the machine.
 
 use nalgebra::DVector;
 
 use super::system::{State, System};
+use super::torque::DriveEnergy;
 use crate::bearing::{Reaction, Rotation};
 
-/// Energy balance \[J\]: kinetic + strain + contact = start + work + parametric − losses + residual.
+/// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Energy {
-    /// ½ ẋᵀ ẋ (mass-normalised coordinates).
+    /// ½ ẋᵀ ẋ (mass-normalised coordinates); under a torque drive with the energy of the rotation.
     pub kinetic: f64,
     /// ½ xᵀ K x of the linear parts.
     pub strain: f64,
     /// Elastic energy in the bearings.
     pub contact: f64,
-    /// Work of loads, unbalance, angular acceleration and circulatory terms since the start.
+    /// Work of loads since the start, and with a prescribed speed of unbalance, angular acceleration and circulatory
+    /// terms.
     pub work: f64,
+    /// Work of a torque drive since the start.
+    pub drive: f64,
     /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation) since
     /// the start.
     pub parametric: f64,
@@ -30,7 +37,7 @@ pub struct Energy {
 impl Energy {
     /// Residual of the energy balance \[J\].
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.strain + self.contact - self.start - self.work - self.parametric
+        self.kinetic + self.strain + self.contact - self.start - self.work - self.drive - self.parametric
             + self.damping_loss
             + self.contact_loss
     }
@@ -54,6 +61,7 @@ pub struct EnergyBalance {
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
     rotations: Vec<Rotation>,
+    rotation: Option<DriveEnergy>,
     time: f64,
 }
 
@@ -69,8 +77,9 @@ impl EnergyBalance {
             moved: zero(),
             x: state.x.clone(),
             v: state.v.clone(),
-            powers: powers(state),
+            powers: powers(system, state),
             rotations: state.rotations.clone(),
+            rotation: system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state)),
             time: state.time,
         };
         effective_load(system, state, &mut balance.scratch, &mut balance.previous_load);
@@ -85,6 +94,13 @@ impl EnergyBalance {
         let step = state.time - self.time;
         self.moved.copy_from(&state.x);
         self.moved -= &self.x;
+        if let (Some(drive), Some(rotation)) = (&system.drive, &mut self.rotation) {
+            self.moved.axpy(rotation.turned(state), &drive.rigid_rotation, 1.0);
+            let done = rotation.step(drive, system, state, &self.moved, step);
+            self.energy.drive += done.drive;
+            self.energy.work += done.gravity;
+            self.energy.damping_loss += done.loss;
+        }
         effective_load(system, state, &mut self.scratch, &mut self.load);
         let e = &mut self.energy;
         e.work += 0.5 * (self.load.dot(&self.moved) + self.previous_load.dot(&self.moved));
@@ -96,7 +112,7 @@ impl EnergyBalance {
         let n = system.structure();
         system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
         e.damping_loss += self.linear.dot(&self.moved);
-        let now = powers(state);
+        let now = powers(system, state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
@@ -112,12 +128,16 @@ impl EnergyBalance {
         effective_load(system, state, &mut self.scratch, &mut self.previous_load);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
+        self.rotation = system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state));
     }
 
     /// Updates the stored energies (kinetic, strain, contact); needed before reading [`Self::energy`] only.
     pub fn update_stored_energy(&mut self, system: &System, state: &State) {
         let e = &mut self.energy;
         e.kinetic = 0.5 * state.v.norm_squared();
+        if let Some(drive) = &system.drive {
+            e.kinetic += drive.kinetic_energy(system, state);
+        }
         let x = state.x.rows(0, system.structure());
         let mut pull = self.linear.rows_mut(0, system.structure());
         pull.gemv(0.5, &system.stiffness, &x, 0.0);
@@ -126,9 +146,13 @@ impl EnergyBalance {
     }
 }
 
-fn powers(state: &State) -> [f64; 2] {
+fn powers(system: &System, state: &State) -> [f64; 2] {
     let sum = |pick: fn(&Reaction) -> f64| state.reactions.iter().map(pick).sum();
-    [sum(|r| r.parametric_power), sum(|r| r.dissipated_power)]
+    let parametric = match &system.drive {
+        None => sum(|r| r.parametric_power),
+        Some(drive) => drive.remaining_parametric_power(system, state),
+    };
+    [parametric, sum(|r| r.dissipated_power)]
 }
 
 /// Change of the bearings' energy by the change of speed alone since `before` \[J\]: film, ball inertia,
@@ -140,10 +164,7 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
     {
         let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
         if before != *now && interface.balls == 0 && interface.element.depends_on_speed() {
-            let (mut d, mut rate) = ([0.0; 6], [0.0; 6]);
-            let rows = interface.row_range();
-            d[..interface.rows].copy_from_slice(&state.d[rows.clone()]);
-            rate[..interface.rows].copy_from_slice(&state.d_rate[rows]);
+            let [d, rate] = interface.motion(&state.d, &state.d_rate, &before);
             let slower = interface.element.reaction(&d, &rate, &before);
             sum += reaction.elastic_energy - slower.elastic_energy;
         }
@@ -151,8 +172,12 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
     sum
 }
 
-/// Loads plus the left-hand terms that are neither elastic nor damping: −(Ω̇ K_s + Ω K_c) x.
+/// Loads plus the left-hand terms that are neither elastic nor damping: −(Ω̇ K_s + Ω K_c) x. Under a torque drive the
+/// given loads alone.
 fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
+    if system.drive.is_some() {
+        return system.given_load(state.time, out);
+    }
     system.load(state.time, &state.spin, out);
     if !system.panels.has_effective {
         return;

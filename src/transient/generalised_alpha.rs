@@ -6,6 +6,7 @@
 //! follow by back-substitution. Balls with coordinates of their own are coupled to their bearing alone, which solves
 //! their equations at every Newton iteration.
 
+mod driven_step;
 mod effective_matrix;
 mod interface_newton;
 
@@ -16,6 +17,7 @@ use super::system::{State, System};
 use crate::bearing::Rotation;
 use crate::bearing::radial::NewmarkGain;
 use crate::model::Spin;
+use driven_step::DrivenStep;
 use effective_matrix::EffectiveMatrices;
 use interface_newton::InterfaceNewton;
 
@@ -83,6 +85,8 @@ pub struct GeneralisedAlpha {
     previous_step: f64,
     rotations: Vec<Rotation>,
     scratch: Vec<f64>,
+    /// Buffers of a torque drive.
+    driven: Option<DrivenStep>,
 }
 
 impl GeneralisedAlpha {
@@ -103,6 +107,7 @@ impl GeneralisedAlpha {
             previous_step: 0.0,
             rotations: vec![Default::default(); system.interfaces.len()],
             scratch: Vec::new(),
+            driven: None,
         }
     }
 
@@ -116,7 +121,7 @@ impl GeneralisedAlpha {
         self.matrices.inverted
     }
 
-    /// Advances `state` by `step`; `spin` is the shaft's motion at the end of the step.
+    /// Advances `state` by `step`; `spin` is the shaft's motion at the end of the step, found here under a torque drive.
     ///
     /// (1−α_m) a₁ + α_m a₀ + (1−α_f) R₁ + α_f R₀ = 0 with R = (C+ΩG) v + (K+…) x − p − Wᵀ f,
     /// x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁), v₁ = v₀ + h ((1−γ) a₀ + γ a₁).
@@ -130,9 +135,12 @@ impl GeneralisedAlpha {
         step: f64,
         spin: Spin,
     ) -> Result<(), StepFailure> {
+        if let Some(drive) = &system.drive {
+            return self.driven_step(system, drive, state, step);
+        }
         self.predict(system, state, step, &spin);
         self.assemble(system, state, step, &spin);
-        self.solve(system, state, step, &spin)?;
+        self.solve(system, state, step, &spin, true)?;
         self.update(state, step, spin);
         Ok(())
     }
@@ -171,8 +179,16 @@ impl GeneralisedAlpha {
         self.right.axpy(1.0 - alpha_f, &self.residual, 1.0);
     }
 
-    /// a₁ = S⁻¹ (r + (1−α_f) Wᵀ f₁), with f₁ from Newton's method on the interface rows.
-    fn solve(&mut self, system: &System, state: &State, step: f64, spin: &Spin) -> Result<(), StepFailure> {
+    /// a₁ = S⁻¹ (r + (1−α_f) Wᵀ f₁), with f₁ from Newton's method on the interface rows; unless this is the `first`
+    /// solution of the step, Newton starts from the forces of the last one.
+    fn solve(
+        &mut self,
+        system: &System,
+        state: &State,
+        step: f64,
+        spin: &Spin,
+        first: bool,
+    ) -> Result<(), StepFailure> {
         let Scheme { alpha_m, alpha_f, .. } = self.scheme;
         let (gain, weight) = (self.scheme.gain(step), 1.0 - alpha_f);
         let matrix = self.matrices.at(system, self.scheme, step, spin);
@@ -191,7 +207,8 @@ impl GeneralisedAlpha {
         let newton = &mut self.newton;
         newton.set_free_motion(system, [&self.x, &self.v, &self.a], &gain);
         matrix.compliance(spin.speed, weight, &mut newton.compliance);
-        if self.previous_step == step {
+        if !first {
+        } else if self.previous_step == step {
             newton.extrapolate_force(&state.force, &self.previous_force);
         } else {
             newton.force.copy_from_slice(&state.force);

@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::system::{Channel, Interface, LoadHistory, Panels, System};
-use super::torque::TorqueDrive;
+use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, ModalDamping};
 use crate::bearing::radial::Rings;
@@ -133,11 +133,16 @@ pub fn reduce(
             first_ball,
             balls: ball_masses.len() - first_ball,
             cage_angle: site.bearing.cage_angle(),
+            free_rotation: matches!(model.drive, Drive::Torque { .. }),
             element,
         });
         map.extend(rows);
     }
     forces.extend(assembly.unbalances.iter().flat_map(|u| [dense(&u.x), dense(&u.y)]));
+    if let Drive::Torque { node, .. } = model.drive {
+        let driven = &assembly.anchor_rows(&crate::element::Anchor::node(node))[5];
+        forces.extend(assembly.unbalances.iter().map(|u| &u.twist).chain([driven]).map(&dense));
+    }
     forces.extend(histories.iter().map(|(v, _)| v.clone()));
     let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
         .ok_or_else(|| failed("the stiffness at equilibrium is not positive definite".into()))?;
@@ -169,12 +174,33 @@ pub fn reduce(
         Drive::Prescribed { .. } => None,
         Drive::Torque { node, table, drag } => {
             let node = crate::element::Anchor::node(*node);
-            Some(TorqueDrive {
+            let unbalances: Vec<RotatingUnbalance> = assembly
+                .unbalances
+                .iter()
+                .map(|u| RotatingUnbalance {
+                    name: u.name.clone(),
+                    x: row(&u.x),
+                    y: row(&u.y),
+                    twist: row(&u.twist),
+                    magnitude: u.magnitude,
+                    phase: u.phase,
+                })
+                .collect();
+            let drive = TorqueDrive {
                 table: table.clone(),
                 drag: *drag,
                 torque: row(&assembly.anchor_rows(&node)[5]),
                 rigid_rotation: vector(&assembly.spin_momentum),
-            })
+                unbalances,
+                gravity: [model.gravity[0], model.gravity[1]],
+                rotation_drag: vector(&assembly.rotation_drag),
+                rotating_damping: match assembly.rotating_damping.max_abs() {
+                    0.0 => DMatrix::zeros(0, 0),
+                    _ => project(&assembly.rotating_damping),
+                },
+            };
+            drive.check_inertia()?;
+            Some(drive)
         }
     };
     // Without a drive station every inertia is accelerated by its own torque: spin-up causes no twist.

@@ -16,7 +16,7 @@ pub struct Settings {
     pub step: f64,
     /// Sampling rate \[Hz\].
     pub sample_rate: f64,
-    /// End of the run \[s\].
+    /// Duration of the run \[s\]: to this time, if it starts at t = 0.
     pub duration: f64,
 }
 
@@ -32,6 +32,8 @@ pub struct Sample<'a> {
 /// Outcome and cost of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
+    /// Step used \[s\]; `None` if error control chose the steps.
+    pub step: Option<f64>,
     pub samples: usize,
     pub steps: u64,
     /// Newton iterations of an implicit run.
@@ -54,7 +56,7 @@ pub enum End {
     Failed(PhysicsError),
 }
 
-/// Runs `system` from `state`, calling `observe` at t = 0 and every sampling instant.
+/// Runs `system` from `state`, calling `observe` at its time and every sampling instant after it.
 ///
 /// A step that does not converge is halved; a run that fails ends with [`End::Failed`] after all earlier
 /// samples have been observed. Deterministic: the result depends only on the arguments.
@@ -69,11 +71,14 @@ pub fn run(
     let step = interval / substeps as f64;
     let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
     let mut stepper = Stepper::new(system, settings.integrator, step);
+    let start = state.time;
+    let used = (!stepper.is_adaptive()).then_some(step);
     // Error control chooses the steps between two samples.
     let (calls, step) = if stepper.is_adaptive() { (1, interval) } else { (substeps, step) };
     let mut balance = EnergyBalance::new(system, &state);
     let mut channels = vec![0.0; system.channels.len()];
     let mut report = Report {
+        step: used,
         samples: 0,
         steps: 0,
         iterations: 0,
@@ -85,7 +90,7 @@ pub fn run(
     for index in 0..=samples {
         if index > 0 {
             let advanced = (0..calls).try_for_each(|k| {
-                let end = ((index - 1) * calls + k + 1) as f64 * step;
+                let end = start + ((index - 1) * calls + k + 1) as f64 * step;
                 stepper.advance(system, &mut state, step, end, &mut |state, _| {
                     finish_step(system, state, &mut balance);
                     Ok(())

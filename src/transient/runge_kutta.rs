@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use super::cage;
 use super::system::{State, System};
+use super::torque::coupling::{Motion, Workspace};
 use crate::bearing::{Reaction, Rotation};
 use crate::model::Spin;
 
@@ -66,6 +67,10 @@ pub struct RungeKutta {
     scratch: Vec<f64>,
     rotations: Vec<Rotation>,
     reactions: Vec<Reaction>,
+    /// Buffers of a torque drive: of its coupling, and x, ẋ without the rigid rotation.
+    coupling: Option<Workspace>,
+    centred: [DVector<f64>; 2],
+    at_rest: DVector<f64>,
     /// Evaluations of the right-hand side.
     pub evaluations: u64,
 }
@@ -95,6 +100,9 @@ impl RungeKutta {
             scratch: Vec::new(),
             rotations: vec![Rotation::default(); system.interfaces.len()],
             reactions: vec![Reaction::default(); system.interfaces.len()],
+            coupling: system.drive.as_ref().map(|drive| Workspace::new(drive, n)),
+            centred: [zero(), zero()],
+            at_rest: zero(),
             evaluations: 0,
         }
     }
@@ -102,15 +110,33 @@ impl RungeKutta {
     /// Rate (ẋ, ẍ) at (time, x, v), written to `stage`; reactions, d and ḋ of that point stay in the buffers.
     fn evaluate(&mut self, system: &System, state: &State, time: f64, spin: &Spin, stage: usize) {
         self.evaluations += 1;
-        cage::advance(system, state, spin, &mut self.rotations);
-        system.to_interface(&self.x, &mut self.d);
-        system.to_interface(&self.v, &mut self.d_rate);
+        let mut spin = *spin;
+        let [mut x, mut v] = [&self.x, &self.v];
+        if let Some(drive) = &system.drive {
+            // The rigid rotation within the step belongs to the shaft's rotation.
+            let [angle, speed] = [drive.rigid_part(x), drive.rigid_part(v)];
+            for ((centred, y), turned) in self.centred.iter_mut().zip([x, v]).zip([angle, speed]) {
+                centred.copy_from(y);
+                centred.axpy(-turned, &drive.rigid_rotation, 1.0);
+            }
+            spin.angle += angle;
+            spin.speed += speed;
+            [x, v] = self.centred.each_ref();
+        }
+        cage::advance(system, state, &spin, &mut self.rotations);
+        system.to_interface(x, &mut self.d);
+        system.to_interface(v, &mut self.d_rate);
         system.bearing_forces(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
-        system.load(time, spin, acceleration);
-        system.add_linear(spin, [&self.x, &self.v], -1.0, &mut self.scratch, acceleration);
+        system.load(time, &spin, acceleration);
+        system.add_linear(&spin, [x, v], -1.0, &mut self.scratch, acceleration);
         system.add_from_interface(&self.force, acceleration);
+        if let (Some(drive), Some(work)) = (&system.drive, &mut self.coupling) {
+            let at = Motion { spin: &spin, x, v, acceleration: &self.at_rest };
+            drive.add_coupling(system, &at, &self.reactions, work, acceleration);
+            drive.solve_inertia(work, acceleration);
+        }
     }
 
     /// x and v of the state plus the weighted sum of the stage rates.
@@ -136,17 +162,13 @@ impl RungeKutta {
         tolerance: Option<(f64, f64)>,
     ) -> f64 {
         let Tableau { c, a, b, error, last_is_end } = *self.tableau;
-        // The first stage is the state's own rate, unless a torque drive has recentred the frame.
-        let reused_stages = usize::from(system.drive.is_none());
-        if reused_stages > 0 {
-            self.stages[0].0.copy_from(&state.v);
-            self.stages[0].1.copy_from(&state.a);
-        }
-        for stage in reused_stages..c.len() {
+        // The first stage is the state's own rate.
+        self.stages[0].0.copy_from(&state.v);
+        self.stages[0].1.copy_from(&state.a);
+        for stage in 1..c.len() {
             self.combine(state, step, a[stage]);
             let offset = c[stage] * step;
-            let at = if offset == 0.0 { state.spin } else { spin(offset) };
-            self.evaluate(system, state, state.time + offset, &at, stage);
+            self.evaluate(system, state, state.time + offset, &spin(offset), stage);
         }
         let mut estimate = 0.0;
         if let Some((relative, absolute)) = tolerance {
@@ -172,6 +194,10 @@ impl RungeKutta {
         state.x.copy_from(&self.x);
         state.v.copy_from(&self.v);
         state.a.copy_from(&self.stages[if last_is_end { c.len() - 1 } else { 0 }].1);
+        if system.drive.is_some() {
+            state.driven.acceleration.copy_from(&state.a);
+            state.driven.rate = end.acceleration;
+        }
         state.time += step;
         state.spin = end;
         state.rotations.copy_from_slice(&self.rotations);

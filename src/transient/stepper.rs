@@ -194,7 +194,10 @@ fn no_convergence(
     failure: super::generalised_alpha::StepFailure,
 ) -> PhysicsError {
     PhysicsError::NoConvergence {
-        item: system.name_of_row(failure.row),
+        item: match failure.row {
+            usize::MAX => "the rotation of the shaft".into(),
+            row => system.name_of_row(row),
+        },
         time: state.time,
         speed_rpm: rpm(state.spin.speed),
         residual: failure.residual,

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::torque::TorqueDrive;
+use super::torque::{DrivenState, TorqueDrive};
 use crate::bearing::radial::{NewmarkGain, Rings};
 use crate::bearing::{BearingElement, Reaction, Rotation};
 use crate::linalg::panel::Panel;
@@ -27,6 +27,9 @@ pub struct Interface {
     pub balls: usize,
     /// Cage angle at the start \[rad\].
     pub cage_angle: f64,
+    /// Whether θ_z, the twist, leaves out a rotation with an inertia of its own (torque drive): its rate is then the
+    /// speed of the shaft plus that of the twist.
+    pub free_rotation: bool,
 }
 
 impl Interface {
@@ -40,9 +43,14 @@ impl Interface {
         self.first_ball..self.first_ball + self.balls
     }
 
+    /// Whether balls in a cage turn with the shaft.
+    pub fn has_cage(&self) -> bool {
+        !matches!(self.element, BearingElement::Linear(_))
+    }
+
     /// Reaction at displacements and velocities of all interfaces.
     fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
-        let [at, rate] = self.motion(d, d_rate);
+        let [at, rate] = self.motion(d, d_rate, rotation);
         self.element.reaction(&at, &rate, rotation)
     }
 
@@ -52,12 +60,16 @@ impl Interface {
     }
 
     /// Its relative displacement and velocity among those of all interfaces.
-    fn motion(&self, d: &[f64], d_rate: &[f64]) -> [[f64; 6]; 2] {
-        [d, d_rate].map(|all| {
+    pub fn motion(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> [[f64; 6]; 2] {
+        let [at, mut rate] = [d, d_rate].map(|all| {
             let mut own = [0.0; 6];
             own[..self.rows].copy_from_slice(&all[self.row_range()]);
             own
-        })
+        });
+        if self.free_rotation && self.rows == 6 {
+            rate[5] += rotation.shaft_speed;
+        }
+        [at, rate]
     }
 }
 
@@ -131,6 +143,11 @@ pub struct Panels {
 }
 
 impl Panels {
+    /// Whether K_s is not zero.
+    pub fn has_spin_up(&self) -> bool {
+        self.is_nonzero[3]
+    }
+
     /// Panels of the matrices C, K, G, K_s, K_c and W.
     pub fn new(
         [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
@@ -170,6 +187,8 @@ pub struct State {
     pub d_rate: Vec<f64>,
     /// The corresponding forces.
     pub force: Vec<f64>,
+    /// What a torque drive needs in addition; empty without.
+    pub driven: DrivenState,
 }
 
 impl System {
@@ -223,11 +242,12 @@ impl System {
         self.interfaces.iter().find_map(named).unwrap_or("the structure".into())
     }
 
-    /// External load p(t) without bearing forces, written to `out`.
+    /// Load p(t) without bearing forces, and under a torque drive without what couples the rotation to the other
+    /// coordinates ([`TorqueDrive::add_coupling`]), written to `out`.
     pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
         let (square, rate) = (spin.speed * spin.speed, spin.acceleration);
         out.copy_from(&self.static_load);
-        if self.unbalance.iter().any(|u| u.as_slice().iter().any(|u| *u != 0.0)) {
+        if self.drive.is_none() && self.unbalance.iter().any(|u| u.as_slice().iter().any(|u| *u != 0.0)) {
             let (sin, cos) = spin.angle.sin_cos();
             out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
             out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
@@ -238,6 +258,16 @@ impl System {
         if let Some(drive) = &self.drive {
             out.axpy(drive.torque_at(spin.speed), &drive.torque, 1.0);
         }
+        self.add_histories(time, out);
+    }
+
+    /// Constant and tabulated loads alone, written to `out`.
+    pub fn given_load(&self, time: f64, out: &mut DVector<f64>) {
+        out.copy_from(&self.static_load);
+        self.add_histories(time, out);
+    }
+
+    fn add_histories(&self, time: f64, out: &mut DVector<f64>) {
         for history in &self.histories {
             let factor = piecewise(&history.points, time, Outside::Zero)[1];
             if factor != 0.0 {
@@ -330,7 +360,7 @@ impl System {
             match interface.element.radial() {
                 None if tangents => *reaction = interface.reaction(d, d_rate, rotation),
                 None => {
-                    let [at, rate] = interface.motion(d, d_rate);
+                    let [at, rate] = interface.motion(d, d_rate, rotation);
                     interface.element.force(&at, &rate, rotation, reaction);
                 }
                 Some(radial) => {
@@ -411,6 +441,7 @@ impl System {
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
+            driven: DrivenState::default(),
         };
         self.refresh(&mut state);
         state
@@ -440,7 +471,10 @@ impl System {
         self.load(state.time, &state.spin, &mut a);
         self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);
         self.add_from_interface(&state.force, &mut a);
-        state.a = a;
+        match &self.drive {
+            None => state.a = a,
+            Some(drive) => drive.start(self, state, a),
+        }
     }
 
     /// Reads every channel at a state into `out`.

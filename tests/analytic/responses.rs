@@ -201,6 +201,7 @@ fn unstable_forward_whirl_due_to_internal_damping() {
         sample_rate: 1000.0,
         cutoff: 100.0,
         from_equilibrium: true,
+        cage_phases: 0,
     };
     let reduction = machine.reduce(&study).unwrap();
 

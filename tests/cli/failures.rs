@@ -103,3 +103,16 @@ fn free_motions_are_physics_errors() {
     let warning = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
     assert_contains(&warning, &["unconstrained rigid-body mode: axial motion of the shaft (u_z)"]);
 }
+
+#[test]
+fn cage_phases_without_balls_or_a_range() {
+    let run = |model: &str, phases: &str| failure(&["run-up", model, "--cage-phases", phases], 2);
+    assert_contains(
+        &run("models/jeffcott.toml", "4"),
+        &["study.run_up.cage_phases needs a bearing with balls"],
+    );
+    assert_contains(
+        &run("models/overhung_rig.toml", "1"),
+        &["study.run_up.cage_phases is 1", "2 phases or more"],
+    );
+}

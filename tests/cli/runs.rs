@@ -164,3 +164,51 @@ fn another_version_of_the_model_does_not_overwrite_a_run() {
     assert!(modal("disc.main.thickness=25 mm").contains("another version"));
     assert!(folder.path().join("results_previous.h5").exists());
 }
+
+#[test]
+fn step_used_its_error_and_the_cage_angles_are_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |step: &str, out: &str| {
+        let mut command = rotordyn();
+        command.args(["run-up", "models/jeffcott.toml", "--no-figures", "--sample-rate", "3 kHz", "--step"]);
+        command.args([step, "--set", "speed.ramp=1 s", "--out"]).arg(folder.path().join(out));
+        command
+    };
+    let text = output_of(&mut run("100 us", "a"));
+    for part in
+        ["time step 83.333 us instead of 100.0 us, 4 to a sample", "estimated error of the order levels"]
+    {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    assert!(!text.contains("cage angles"), "{text}");
+    let found = &json_of(&mut run("100 us", "b"))["run_up"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap_or_else(|| panic!("{found}"));
+    assert!((number(&found["step_s"]) - 1.0 / 12e3).abs() < 1e-12, "{found}");
+    assert_eq!(number(&found["requested_step_s"]), 1e-4);
+    assert!(number(&found["step_error"]["share_of_steps"]) < 0.1, "{found}");
+    assert!(number(&found["step_error"]["largest_relative_error"]) < 0.05, "{found}");
+}
+
+#[test]
+fn order_cuts_range_over_cage_phases() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = rotordyn();
+    command.args(["run-up", RIG, "--cage-phases", "3", "--out"]).arg(folder.path()).args(SHORT);
+    let document = json_of(command.args(["--set", "bearing.A.cage_angle=10 deg"]));
+    let angles = &document["run_up"]["cage_angles"];
+    assert_eq!(angles[0]["bearing"], "A");
+    assert!((angles[0]["initial_rad"].as_f64().unwrap() - 10f64.to_radians()).abs() < 1e-12, "{angles}");
+    let band = &document["cage_phases"];
+    assert_eq!(band["bearings"], serde_json::json!(["B"]));
+    assert_eq!(band["angles_rad"].as_array().unwrap().len(), 3);
+    let cut = &band["channels"][0]["cuts"][0];
+    let list = |key: &str| -> Vec<f64> {
+        cut[key].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let (own, lowest, highest) = (list("rms"), list("minimum"), list("maximum"));
+    assert!(own.iter().zip(lowest.iter().zip(&highest)).all(|(own, (lo, hi))| lo <= own && own <= hi));
+    assert!(lowest.iter().zip(&highest).any(|(lo, hi)| hi > lo), "{cut}");
+    let store = Store::open(folder.path().join("results.h5")).unwrap();
+    assert!(store.contains("/run_up/cage_phases/B_ax/maximum"));
+    assert!(folder.path().join("order_cuts_B_ax.svg").exists());
+}

@@ -100,6 +100,7 @@ cases! {
     no_speed: STEADY.refused(GOOD.replace(CONSTANT, ""));
     speed_of_zero: changed("[study.lyapunov]", "[study.lyapunov]\nspeed = \"0 rpm\"");
     perturbation_of_zero: changed("\"1 nm\"", "\"0 nm\"");
+    rotation_held_under_torque: changed("[speed]", "[bushing.brake]\nbetween = [\"station.A\", \"ground\"]\nk_spin = \"10 N m/rad\"\n\n[drive]\nkind = \"torque\"\nstation = \"A\"\nspeed = \"0, 3000 rpm\"\ntorque = \"1, 0 N m\"\n\n[speed]");
     torque_holds_no_speed: changed("[speed]", "[drive]\nkind = \"torque\"\nstation = \"A\"\nspeed = \"0, 3000 rpm\"\ntorque = \"1, 0 N m\"\n\n[speed]");
     no_parameter: changed("parameter = \"bearing.B.radial_clearance\"\n", "");
     no_values: changed(&format!("values = {UM}\n"), "");

@@ -5,6 +5,7 @@ mod measured_data;
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod cage_phases;
 mod high_speed;
 mod impact;
 mod imperfections;
@@ -13,4 +14,5 @@ mod radial_balls;
 mod run_up;
 mod steady_motion;
 mod torque;
+mod torque_coupling;
 mod varying_compliance;

@@ -119,6 +119,7 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     }
     results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, "", found))?;
     results.orders.iter().try_for_each(|found| run::orders(store, "", found))?;
+    results.cage_phases.iter().try_for_each(|found| run::cage_phases(store, found))?;
     results.poincare.iter().try_for_each(|found| steady::poincare(store, found))?;
     results.lyapunov.iter().try_for_each(|found| steady::lyapunov(store, found))?;
     results.bifurcation.iter().try_for_each(|found| steady::bifurcation(store, found))?;

@@ -3,7 +3,10 @@
 use super::GroupWriter;
 use crate::error::Error;
 use crate::io::hdf5::Store;
-use crate::results::{ChannelPair, History, OrderResult, RunUpResult, SpectrogramResult};
+use crate::results::{
+    CagePhaseBand, CagePhaseLine, ChannelPair, History, OrderResult, RunUpResult, SpectrogramResult,
+    StepErrorLine,
+};
 use crate::signal::segment::Level;
 use crate::transient::run::End;
 
@@ -27,15 +30,63 @@ pub fn summary(store: &Store, found: &RunUpResult) -> Result<(), Error> {
         writer.set_attribute(name, value)?;
     }
     for (name, value) in [
+        ("requested_step", found.requested_step),
         ("static_error", found.static_error),
         ("frequency_error", found.frequency_error),
         ("energy_work", energy.work),
+        ("energy_drive_work", energy.drive),
         ("energy_parametric_work", energy.parametric),
         ("energy_damping_loss", energy.damping_loss),
         ("energy_contact_loss", energy.contact_loss),
         ("energy_residual", energy.residual()),
     ] {
         writer.set_attribute(name, value)?;
+    }
+    if let Some(step) = report.step {
+        writer.set_attribute("step", step)?;
+    }
+    for (bearing, angle) in &found.cage_angles {
+        writer.set_attribute(&format!("initial_cage_angle_{bearing}"), *angle)?;
+    }
+    let Some(error) = &found.step_error else { return Ok(()) };
+    let writer = GroupWriter::new(store, "/run_up/step_error")?;
+    for (name, value) in [
+        ("start", error.stretch[0]),
+        ("end", error.stretch[1]),
+        ("speed", error.speed),
+        ("share_of_steps", error.cost),
+    ] {
+        writer.set_attribute(name, value)?;
+    }
+    let (lines, count) = (&error.lines, error.lines.len());
+    let texts = |pick: fn(&StepErrorLine) -> &str| lines.iter().map(pick).collect::<Vec<_>>();
+    let values = |pick: fn(&StepErrorLine) -> f64| lines.iter().map(pick).collect::<Vec<_>>();
+    writer.write_texts("channel", &[count], &texts(|l| &l.channel))?;
+    writer.write_texts("label", &[count], &texts(|l| &l.line.label))?;
+    writer.write_array("order", &[count], &values(|l| l.line.order), "1/revolution")?;
+    writer.write_array("relative_error", &[count], &values(|l| l.error), "1")
+}
+
+/// Ranges of the order cuts over the initial cage phases.
+pub fn cage_phases(store: &Store, found: &CagePhaseBand) -> Result<(), Error> {
+    let writer = GroupWriter::new(store, "/run_up/cage_phases")?;
+    let bearings: Vec<&str> = found.bearings.iter().map(String::as_str).collect();
+    writer.write_texts("bearing", &[bearings.len()], &bearings)?;
+    let angles: Vec<f64> = found.angles.iter().flatten().copied().collect();
+    writer.write_array("angle", &[found.angles.len(), bearings.len()], &angles, "rad")?;
+    for channel in &found.channels {
+        let Some(first) = channel.lines.first() else { continue };
+        let writer = GroupWriter::new(store, &format!("/run_up/cage_phases/{}", channel.channel))?;
+        let (count, windows) = (channel.lines.len(), first.cut.rpm.len());
+        let all = |pick: fn(&CagePhaseLine) -> &[f64]| {
+            channel.lines.iter().flat_map(|l| pick(l).iter().copied()).collect::<Vec<_>>()
+        };
+        let labels: Vec<&str> = channel.lines.iter().map(|l| l.line.label.as_str()).collect();
+        writer.write_texts("label", &[count], &labels)?;
+        writer.write_array("rpm", &[windows], &first.cut.rpm, "rpm")?;
+        writer.write_array("rms", &[count, windows], &all(|l| &l.cut.rms), &channel.unit)?;
+        writer.write_array("minimum", &[count, windows], &all(|l| &l.minimum), &channel.unit)?;
+        writer.write_array("maximum", &[count, windows], &all(|l| &l.maximum), &channel.unit)?;
     }
     Ok(())
 }

@@ -84,6 +84,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     if log.error_count() == 0 {
         topology::check(&top, &model);
         mounting::check_axial_location(&top, &model);
+        mounting::check_free_rotation(&top, &model);
     }
     top.finish();
     model

@@ -2,9 +2,10 @@
 //! shaft.
 
 use crate::bearing::{Arrangement, BallBearing, BallGeometry, Bearing, Duplex, Fit, Preload};
-use crate::model::Model;
+use crate::element::Anchor;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
+use crate::model::{Drive, Model};
 use crate::units::{EXPANSION, FORCE, LENGTH, STIFFNESS, TEMPERATURE_DIFFERENCE};
 
 /// Default coefficient of thermal expansion: bearing steel \[1/K\].
@@ -162,6 +163,35 @@ pub(super) fn check_axial_location(top: &Reader, model: &Model) {
             .hint(format!(
                 "add a bearing with thrust = \"{other}\", make this one a pair (arrangement = \"back_to_back\"), or give a linear bearing or bushing axial stiffness"
             ));
+        top.log.error(problem);
+    }
+}
+
+/// Report everything that holds the shaft's rotation against a torque drive, whose rotation is free.
+pub(super) fn check_free_rotation(top: &Reader, model: &Model) {
+    if !matches!(model.drive, Drive::Torque { .. }) {
+        return;
+    }
+    let shaft = model.node_z.len();
+    let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
+    let apart = |a: &Anchor, b: &Anchor| on_shaft(a.node) != on_shaft(b.node);
+    let bushings = model.bushings.iter().filter(|b| apart(&b.a, &b.b) && b.stiffness[5][5] != 0.0);
+    let belts = model.belts.iter().filter(|b| b.stiffness[2] != 0.0);
+    let bearings = model.bearings.iter().filter(|site| match &site.bearing {
+        Bearing::Linear(linear) => linear.table.iter().any(|row| row.stiffness[5][5] != 0.0),
+        Bearing::Ball(_) | Bearing::RadialBall(_) => false,
+    });
+    let joints = model.joints.iter().filter(|j| apart(&j.a, &j.b) && j.locked[5]);
+    let held = bushings
+        .map(|b| format!("bushing.{} has k_spin", b.name))
+        .chain(belts.map(|b| format!("belt.{} has k_spin", b.name)))
+        .chain(bearings.map(|b| format!("bearing.{} has k_spin", b.name)))
+        .chain(joints.map(|j| format!("joint.{} locks theta_z", j.name)));
+    let span = top.table("drive").map_or(0..0, |r| r.span_of("kind"));
+    for what in held {
+        let message = format!("drive.kind = \"torque\" needs a shaft that is free to rotate, but {what}");
+        let problem = Problem::new(Kind::Conflict, &span, message)
+            .hint("remove this constraint of the rotation, or set drive.kind = \"prescribed\"");
         top.log.error(problem);
     }
 }

@@ -12,7 +12,7 @@ use crate::model::study::{
     BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, Integrator,
     ModalStudy, OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
 };
-use crate::model::{Model, Probe, Quantity};
+use crate::model::{Drive, Model, Probe, Quantity};
 use crate::units::{FREQUENCY, LENGTH, NUMBER, SPEED, TIME};
 
 const DEFAULT_MODES: usize = 12;
@@ -59,7 +59,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         r.finish();
     }
     if let Some(r) = all.table("run_up") {
-        studies.run_up = Some(run_up(top, &r));
+        studies.run_up = Some(run_up(top, &r, model));
         r.finish();
     }
     let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
@@ -168,7 +168,7 @@ pub(super) fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
     channels
 }
 
-fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
+fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
     if !top.has("speed") {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
@@ -179,7 +179,38 @@ fn run_up(top: &Reader, r: &Reader) -> RunUpStudy {
         sample_rate: r.or("sample_rate", positive(FREQUENCY), 2000.0),
         cutoff: r.or("cutoff", positive(FREQUENCY), f64::INFINITY),
         from_equilibrium: r.flag("from_equilibrium", true),
+        cage_phases: cage_phases(top, r, model),
     }
+}
+
+/// Number of cage phases: of a machine with a ball bearing and a prescribed speed, whose order cuts are requested.
+fn cage_phases(top: &Reader, r: &Reader, model: &Model) -> usize {
+    let count = r.count("cage_phases", 0, 0..=360);
+    if count == 0 || !r.has_no_errors() {
+        return count;
+    }
+    let conflict = if count == 1 {
+        Some(("is 1: one phase has no range", "give 2 phases or more, such as 8"))
+    } else if model.bearings.iter().all(|site| site.bearing.ball().is_none()) {
+        Some(("needs a bearing with balls", "remove it, or use model = \"ball\" in a bearing"))
+    } else if matches!(model.drive, Drive::Torque { .. }) {
+        Some((
+            "needs a prescribed speed, so that all runs have the same speeds",
+            "set drive.kind = \"prescribed\"",
+        ))
+    } else if top.table("study").and_then(|all| all.table("orders")).is_none() {
+        Some((
+            "gives a range of order cuts, but the file has no [study.orders]",
+            "add [study.orders] with cuts = [1, \"BPFO\"]",
+        ))
+    } else {
+        None
+    };
+    if let Some((problem, hint)) = conflict {
+        let message = format!("{} {problem}", r.name("cage_phases"));
+        r.log.error(Problem::new(Kind::Conflict, &r.span_of("cage_phases"), message).hint(hint));
+    }
+    count
 }
 
 /// The requested integrator or the default; reject settings of other integrators.

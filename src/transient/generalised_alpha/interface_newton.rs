@@ -197,6 +197,11 @@ impl InterfaceNewton {
         }
     }
 
+    /// Bearing reactions of the solution.
+    pub fn reactions(&self) -> &[Reaction] {
+        &self.reactions
+    }
+
     /// Writes the solution to a state.
     pub fn store(&self, state: &mut State) {
         state.reactions.copy_from_slice(&self.reactions);

@@ -1,0 +1,215 @@
+//! Error of a run-up's order levels by its time step, from a rerun of a stretch with another step.
+//!
+//! With twice the step a stretch costs half its steps, so that it can begin well before the largest response and the
+//! differences build up as in the whole run. Explicit steps of that length may be unstable: half the step there.
+
+use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
+
+use super::Machine;
+use crate::model::study::{Integrator, RunUpStudy};
+use crate::results::{History, StepError, StepErrorLine};
+use crate::transient::reduction::Reduction;
+use crate::transient::run::{End, Report, Sample, Settings, run};
+use crate::transient::system::State;
+
+/// Intervals of a run at whose beginnings the state is kept.
+const INTERVALS: usize = 64;
+/// Intervals rerun before the largest response, and from there on, in which the levels are compared: with twice the step
+/// 9.4 % of the run's steps.
+const LEAD: usize = 8;
+const COMPARED: usize = 4;
+/// The same with half the step.
+const SHORT_LEAD: usize = 1;
+const SHORT_COMPARED: usize = 2;
+/// Fewest samples of an interval, and fewest cycles of an order in the stretch.
+const FEWEST_SAMPLES: usize = 16;
+const FEWEST_CYCLES: f64 = 4.0;
+/// Lines below this share of their channel's largest level are left out.
+const SMALLEST_SHARE: f64 = 0.01;
+
+/// States of a run at regular intervals, from which a stretch can be rerun.
+pub struct Checkpoints {
+    every: usize,
+    states: Vec<State>,
+}
+
+impl Checkpoints {
+    /// For a run of a given duration \[s\].
+    pub fn new(study: &RunUpStudy, duration: f64) -> Self {
+        let samples = (duration * study.sample_rate + 1e-9).floor();
+        Self { every: (samples / INTERVALS as f64).ceil().max(1.0) as usize, states: Vec::new() }
+    }
+
+    /// Keeps the state of a sample if an interval begins.
+    pub fn observe(&mut self, sample: &Sample) {
+        if sample.index.is_multiple_of(self.every) {
+            self.states.push(sample.state.clone());
+        }
+    }
+}
+
+impl Machine {
+    /// Estimates the step's error in the levels of the given orders, of all probes.
+    ///
+    /// `None` for error-controlled steps, for a run that ended early, and for one too short: an order needs four cycles
+    /// within the stretch.
+    pub fn step_error(
+        &self,
+        study: &RunUpStudy,
+        reduction: &Reduction,
+        orders: &[f64],
+        (checkpoints, history, report): (&Checkpoints, &History, &Report),
+    ) -> Option<StepError> {
+        let step = report.step.filter(|_| report.end == End::Complete)?;
+        let every = checkpoints.every;
+        if every < FEWEST_SAMPLES {
+            return None;
+        }
+        let probes = self.model.probes.len();
+        let last = (history.time.len() - 1) / every;
+        let centre = largest_response(history, probes, every, last)?;
+        let explicit = study.integrator == Integrator::RungeKutta4;
+        let (lead, compared) = if explicit { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
+        let compared_from = centre.saturating_sub(1).min(last.saturating_sub(compared));
+        let begin = compared_from.saturating_sub(lead) * every;
+        let [first, end] = [compared_from * every, (compared_from + compared).min(last) * every];
+        let revolutions = (history.angle[end] - history.angle[first]).abs() / TAU;
+        let orders: Vec<f64> =
+            orders.iter().copied().filter(|order| order * revolutions >= FEWEST_CYCLES).collect();
+        if orders.is_empty() {
+            return None;
+        }
+
+        // An odd number of steps to a sample, doubled, divides two samples.
+        let substeps = (1.0 / (step * study.sample_rate)).round() as usize;
+        let every_second = !explicit && substeps % 2 == 1;
+        let thinning = if every_second { 2 } else { 1 };
+        let state = checkpoints.states.get(begin / every)?.clone();
+        let settings = Settings {
+            integrator: study.integrator,
+            step: step * if explicit { 0.5 } else { 2.0 },
+            sample_rate: study.sample_rate / thinning as f64,
+            duration: history.time[end] - history.time[begin],
+        };
+        let skipped = first - begin;
+        let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
+        let rerun = run(&reduction.system, state, &settings, |sample| {
+            if sample.index * thinning >= skipped {
+                angle.push(sample.state.spin.angle);
+                values.iter_mut().zip(sample.channels).for_each(|(to, value)| to.push(*value));
+            }
+            ControlFlow::Continue(())
+        });
+        if rerun.end != End::Complete {
+            return None;
+        }
+        // L(h) − L(0) in terms of the other level less L(h): order 4 with half the step, order 2 with twice the step.
+        let factor = if explicit { -16.0 / 15.0 } else { 1.0 / 3.0 };
+        // The record of the run at the samples of the rerun.
+        let from = first + (thinning - skipped % thinning) % thinning;
+        let at_samples =
+            |values: &[f64]| -> Vec<f64> { values[from..=end].iter().copied().step_by(thinning).collect() };
+        let own_angle = at_samples(&history.angle);
+        let mut lines = Vec::new();
+        for (channel, other) in history.channels.iter().zip(&values) {
+            let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
+                orders.iter().map(|order| line_level(angle, values, *order)).collect()
+            };
+            let [own, other] = [level(&own_angle, &at_samples(&channel.values)), level(&angle, other)];
+            let largest = own.iter().copied().fold(0.0, f64::max);
+            let named = self.order_lines(&orders).into_iter();
+            for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
+                if level > SMALLEST_SHARE * largest {
+                    let error = (other_level - level) / level * factor;
+                    let channel = channel.name.clone();
+                    lines.push(StepErrorLine { channel, line, level, other_level, error });
+                }
+            }
+        }
+        Some(StepError {
+            stretch: [history.time[first], history.time[end]],
+            speed: (history.angle[end] - history.angle[first]) / (history.time[end] - history.time[first]),
+            other_step: settings.step,
+            lines,
+            steps: rerun.steps,
+            cost: rerun.steps as f64 / report.steps.max(1) as f64,
+        })
+    }
+
+    /// Orders whose levels are checked: those of the order cuts, or 1x, 2x and the outer race of every bearing.
+    pub fn checked_orders(&self) -> Vec<f64> {
+        if let Some(study) = &self.model.studies.orders {
+            return study.cuts.clone();
+        }
+        let mut orders = vec![1.0, 2.0];
+        for ball in self.model.bearings.iter().filter_map(|site| site.bearing.ball()) {
+            let outer = ball.geometry.characteristic_orders(ball.geometry.contact_angle).bpfo;
+            if orders.iter().all(|order| (order - outer).abs() > 1e-9) {
+                orders.push(outer);
+            }
+        }
+        orders
+    }
+}
+
+/// The interval with the largest response: variance of every probe relative to its largest, summed over the probes.
+/// Intervals at standstill do not count.
+fn largest_response(history: &History, probes: usize, every: usize, intervals: usize) -> Option<usize> {
+    let moves = |k: &usize| history.angle[(k + 1) * every] != history.angle[k * every];
+    let mut sums = vec![0.0; intervals];
+    for channel in &history.channels[..probes] {
+        let variances: Vec<f64> = channel.values.chunks_exact(every).take(intervals).map(variance).collect();
+        let largest = variances.iter().copied().fold(0.0, f64::max);
+        if largest > 0.0 {
+            sums.iter_mut().zip(&variances).for_each(|(sum, v)| *sum += v / largest);
+        }
+    }
+    (0..intervals).filter(moves).max_by(|a, b| sums[*a].total_cmp(&sums[*b]))
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count
+}
+
+/// RMS level of an order in a record over the shaft angle, with a Hann window over the whole angle.
+fn line_level(angle: &[f64], values: &[f64], order: f64) -> f64 {
+    let (start, span) = match angle {
+        [first, .., last] if last != first => (*first, last - first),
+        _ => return 0.0,
+    };
+    // Weights of the trapezoidal rule over the angle times the window.
+    let weight = |k: usize| {
+        let before = if k == 0 { 0.0 } else { angle[k] - angle[k - 1] };
+        let after = angle.get(k + 1).map_or(0.0, |next| next - angle[k]);
+        (PI * (angle[k] - start) / span).sin().powi(2) * 0.5 * (before + after)
+    };
+    let weights: Vec<f64> = (0..angle.len()).map(weight).collect();
+    let total: f64 = weights.iter().sum();
+    let mean = weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>() / total;
+    let (mut re, mut im) = (0.0, 0.0);
+    for ((w, v), angle) in weights.iter().zip(values).zip(angle) {
+        let (sin, cos) = (order * (angle - start)).sin_cos();
+        re += w * (v - mean) * cos;
+        im -= w * (v - mean) * sin;
+    }
+    std::f64::consts::SQRT_2 * re.hypot(im) / total.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn level_of_a_line_over_a_varying_speed() {
+        // 12 to 24 rad/s in 5 s; 3 cos(2.5 θ) beside a constant and another order five bins away.
+        let angle: Vec<f64> =
+            (0..5000).map(|k| f64::from(k) * 1e-3).map(|t| 12.0 * t + 1.2 * t * t).collect();
+        let values: Vec<f64> =
+            angle.iter().map(|a| 7.0 + 3.0 * (2.5 * a + 0.4).cos() + 0.5 * (3.0 * a).sin()).collect();
+        let level = line_level(&angle, &values, 2.5);
+        assert!((level - 3.0 / std::f64::consts::SQRT_2).abs() < 2e-3, "{level}");
+    }
+}
