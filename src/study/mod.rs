@@ -7,6 +7,7 @@ mod order_tracking;
 mod record;
 mod responses;
 mod run_up_correlation;
+mod settling;
 pub mod signal;
 mod steady_motion;
 

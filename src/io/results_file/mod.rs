@@ -11,9 +11,9 @@
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |
 //! | `/frf` | response \[response, excitation, frequency\] (complex); requested: 1 for the requested frequencies, 0 for those added around peaks |
 //! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit; requested: as in `/frf`; peaks: speed, amplitude, amplification factor |
-//! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
+//! | `/poincare` | attributes: speed, clock, motion, settled (1 or 0), residual, decay_factor, transient_periods; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
-//! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |
+//! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |
