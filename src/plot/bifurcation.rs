@@ -111,7 +111,7 @@ fn motion_classes(
     x_label: Option<&str>,
 ) {
     let levels = [1.0, 2.0, 4.0, MAX_PERIOD_SHOWN, QUASI_PERIODIC_LEVEL, CHAOTIC_LEVEL, NOT_SETTLED_LEVEL];
-    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "not settled"];
+    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "unsettled"];
     let shown = levels.len() - usize::from(sweeps.iter().all(|s| s.not_settled.is_empty()));
     let mut axes = Axes::linear(frame, x, Range::new(0.3, levels[shown - 1] + 0.8));
     axes.y = Scale::at_ticks(axes.y, &levels[..shown]);

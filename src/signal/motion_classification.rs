@@ -72,10 +72,12 @@ pub struct Classification {
     /// Factor per forcing period by which the changes of a motion that tends to a periodic one decay, the
     /// modulus of its largest Floquet multiplier; NaN without changes above round-off.
     pub decay_factor: f64,
-    /// Variance of the section relative to the size of the orbit, and the logarithm of its change from the first
-    /// to the second half; NaN for periodic motions.
-    pub variance: f64,
-    pub variance_trend: f64,
+    /// Number of points after which a quasi-periodic or chaotic motion returns nearest to itself, the mean square of
+    /// its changes over them relative to the size of the orbit, and the logarithm of the change of that mean
+    /// square from the first to the second half; 0 and NaN for periodic motions.
+    pub nearest_return: usize,
+    pub mean_square_change: f64,
+    pub amplitude_trend: f64,
 }
 
 impl Classification {
@@ -101,7 +103,8 @@ impl Classification {
 /// 3. not settled if the changes over any k points are within the tolerance but add up to more;
 /// 4. chaotic when the 0–1 test ([`zero_one_test`]) gives K ≥ 0.5 for any channel whose section is wider than the
 ///    tolerance;
-/// 5. not settled if the variance of the section grows or decays steadily, else quasi-periodic.
+/// 5. not settled if the changes over the points after which the motion returns nearest to itself grow or decay
+///    steadily, else quasi-periodic.
 ///
 /// A slow spiral towards a point passes near its own points after some number of turns: without the
 /// extrapolation it would count as a motion of that period.
@@ -135,8 +138,9 @@ pub fn classify_motion(
         zero_one_k: f64::NAN,
         residual: f64::NAN,
         decay_factor: f64::NAN,
-        variance: f64::NAN,
-        variance_trend: f64::NAN,
+        nearest_return: 0,
+        mean_square_change: f64::NAN,
+        amplitude_trend: f64::NAN,
     };
     let tends_to = |k: usize, recurrence: f64| {
         let (residual, factor) = moving.residual(k, tolerance);
@@ -175,9 +179,14 @@ pub fn classify_motion(
             found.zero_one_k = zero_one_test(section)?.max(found.zero_one_k);
         }
     }
-    let (trend, is_trend) = moving.variance_trend();
-    found.variance = moving.variance(0, n);
-    found.variance_trend = trend;
+    // Of at most a quarter of the section, so that its two halves can be compared.
+    let nearest = (0..longest.min((n / 4).max(1)))
+        .min_by(|a, b| recurrences[*a].total_cmp(&recurrences[*b]))
+        .map_or(1, |k| k + 1);
+    let (trend, is_trend) = moving.amplitude_trend(nearest);
+    found.nearest_return = nearest;
+    found.mean_square_change = moving.mean_square_change(nearest, 0, n - nearest);
+    found.amplitude_trend = trend;
     found.motion = match found.zero_one_k {
         k if k >= CHAOS_THRESHOLD => Motion::Chaotic,
         _ if is_trend => Motion::Unsettled,

@@ -12,8 +12,8 @@ const TO_AND_FRO: f64 = 0.6;
 const REPETITIONS: usize = 4;
 /// Share of the decay rate of the changes over some periods from which those over fewer periods decay to zero too.
 const COMPARABLE_RATE: f64 = 0.25;
-/// Relative change of the variance over half a section above which a steady trend counts as not settled.
-const VARIANCE_TREND: f64 = 0.05;
+/// Relative change of the mean square change over half a section above which a steady trend counts as not settled.
+const AMPLITUDE_TREND: f64 = 0.05;
 
 /// Section values of the moving channels, each with the size of its whole orbit.
 #[derive(Clone, Debug)]
@@ -104,11 +104,12 @@ impl Sections<'_> {
         (1..k).find(|j| self.decay(*j).factor.ln() <= wanted).unwrap_or(k)
     }
 
-    /// Weighted variance, relative to the sizes, of `length` points from `start`, summed over the channels.
+    /// Weighted mean square of the changes over k points relative to the sizes, of `length` changes from `start`,
+    /// summed over the channels.
     ///
     /// The weights exp(−1/(t(1 − t))) make means over a regular motion converge faster than any power of the
     /// length. Source: Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017), "weighted Birkhoff average".
-    pub fn variance(&self, start: usize, length: usize) -> f64 {
+    pub fn mean_square_change(&self, k: usize, start: usize, length: usize) -> f64 {
         let weight = |i: usize| {
             let t = (i + 1) as f64 / (length + 1) as f64;
             (-1.0 / (t * (1.0 - t))).exp()
@@ -116,20 +117,21 @@ impl Sections<'_> {
         let weights: Vec<f64> = (0..length).map(weight).collect();
         let total: f64 = weights.iter().sum();
         let of = |(s, size): &(&[f64], f64)| {
-            let points = &s[start..start + length];
-            let mean = weights.iter().zip(points).map(|(w, x)| w * x).sum::<f64>() / total;
-            weights.iter().zip(points).map(|(w, x)| w * ((x - mean) / size).powi(2)).sum::<f64>() / total
+            let change = |i: usize| ((s[start + i + k] - s[start + i]) / size).powi(2);
+            weights.iter().enumerate().map(|(i, w)| w * change(i)).sum::<f64>() / total
         };
         self.channels.iter().map(of).sum()
     }
 
-    /// Logarithmic change of the variance from the first to the second half, and whether it is a trend: the same
-    /// in both steps over three overlapping halves, and larger than a regular motion shows.
-    pub fn variance_trend(&self) -> (f64, bool) {
-        let half = self.length / 2;
-        let [a, b, c] = [0, (self.length - half) / 2, self.length - half].map(|k| self.variance(k, half));
+    /// Logarithmic change of the mean square change over k points from the first to the second half, and whether it
+    /// is a trend: the same in both steps over three overlapping halves, and larger than a regular motion shows.
+    pub fn amplitude_trend(&self, k: usize) -> (f64, bool) {
+        let changes = self.length - k;
+        let half = changes / 2;
+        let starts = [0, (changes - half) / 2, changes - half];
+        let [a, b, c] = starts.map(|start| self.mean_square_change(k, start, half));
         let change = (c / a).ln();
         let even = ((b / a).ln() - (c / b).ln()).abs() <= 0.5 * change.abs();
-        (change, even && change.abs() > VARIANCE_TREND)
+        (change, even && change.abs() > AMPLITUDE_TREND)
     }
 }

@@ -6,16 +6,16 @@ use crate::error::Error;
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};
-use crate::signal::motion_classification::Motion;
+use crate::signal::motion_classification::{Classification, Motion};
 use crate::signal::poincare::StroboscopicSampling;
 use crate::transient::reduction::Reduction;
 use crate::transient::steady::SteadyRun;
 use crate::transient::system::State;
 
-/// Logarithmic change of a section's variance between its halves below which a motion counts as quasi-periodic at
-/// once; else a second record must have the same variance, within the second limit.
-const SURE_VARIANCE_TREND: f64 = 0.01;
-const SAME_VARIANCE: f64 = 0.05;
+/// Logarithmic change of a section's mean square change between its halves below which a motion counts as
+/// quasi-periodic at once; else a second record must have the same mean square change, within the second limit.
+const SURE_TREND: f64 = 0.01;
+const SAME_AMPLITUDE: f64 = 0.05;
 /// Number by which the estimated periods to the limit may exceed the periods left for the run to go on.
 const WORTH_CONTINUING: f64 = 3.0;
 
@@ -51,7 +51,7 @@ impl Machine {
         let mut state = state;
         let mut settings = steady.clone();
         let mut discarded = steady.transient_periods;
-        let mut variance_before: Option<f64> = None;
+        let mut before: Option<Classification> = None;
         loop {
             let perturbation = criteria.perturbation;
             let Some(run) = self.steady_run(reduction, state, &settings, probes, perturbation, progress)?
@@ -61,7 +61,7 @@ impl Machine {
             let (strobe, mut motion) =
                 sections(&run, channels, &settings, criteria.tolerance, criteria.longest_period)?;
             motion.transient_periods = discarded;
-            let unconfirmed = !confirmed(&motion, variance_before);
+            let unconfirmed = !confirmed(&motion.motion, before.as_ref());
             let left = steady.transient_limit.saturating_sub(discarded + steady.periods);
             let further = if unconfirmed {
                 further_periods(&motion, criteria.tolerance, discarded, steady)
@@ -74,7 +74,7 @@ impl Machine {
                 }
                 return Ok(Some(SettledRun { run, strobe, motion }));
             }
-            variance_before = Some(motion.motion.variance).filter(|v| v.is_finite());
+            before = Some(motion.motion);
             settings.transient_periods = (further as usize).clamp(1, left);
             discarded += steady.periods + settings.transient_periods;
             state = run.state;
@@ -82,15 +82,15 @@ impl Machine {
     }
 }
 
-/// Whether a motion has settled: a quasi-periodic one if its amplitude is the same over the record, or the same as
-/// in the record before.
-fn confirmed(motion: &SteadyMotion, variance_before: Option<f64>) -> bool {
-    let found = &motion.motion;
+/// Whether a motion has settled: a quasi-periodic one if its changes are as large in both halves of the record, or as
+/// large as in the record before.
+fn confirmed(found: &Classification, before: Option<&Classification>) -> bool {
+    let same = |before: &Classification| {
+        let ratio = found.mean_square_change / before.mean_square_change;
+        found.nearest_return == before.nearest_return && ratio.ln().abs() < SAME_AMPLITUDE
+    };
     match found.motion {
-        Motion::QuasiPeriodic => {
-            found.variance_trend.abs() < SURE_VARIANCE_TREND
-                || variance_before.is_some_and(|v| (found.variance / v).ln().abs() < SAME_VARIANCE)
-        }
+        Motion::QuasiPeriodic => found.amplitude_trend.abs() < SURE_TREND || before.is_some_and(same),
         motion => motion.is_settled(),
     }
 }

@@ -170,6 +170,25 @@ fn decaying_spirals_tend_to_period_one() {
     assert!(settled > 300 && open > 300, "{settled} settled, {open} not");
 }
 
+/// A spiral that decays towards a motion of period 3 with three distant points is no quasi-periodic motion.
+#[test]
+fn decaying_spirals_around_distant_points_are_not_quasi_periodic() {
+    for time_constant in [150.0, 400.0, 800.0] {
+        for end in [0.003, 0.03] {
+            let at = |n: usize, phase: f64| {
+                let turn = TAU * n as f64 / 3.0;
+                let rho = (-1.0_f64 / time_constant).exp();
+                (turn + phase).cos()
+                    + end * rho.powi(n as i32 - 100) * (TAU * 0.1234 * n as f64 + phase).cos()
+            };
+            let [x, y] = [0.0, 1.1].map(|phase| (0..100).map(|n| at(n, phase)).collect::<Vec<f64>>());
+            let found = classify_motion(&[&x, &y], &[2.0, 2.0], 1e-3, 32).unwrap();
+            println!("{time_constant}, {end}: {found:?}");
+            assert!(!found.motion.is_settled(), "{time_constant}, {end}: {found:?}");
+        }
+    }
+}
+
 /// The logistic map near its first doubling at r = 3: multiplier 2 − r of the fixed point below, 4 + 2r − r² of the
 /// period-2 orbit above.
 #[test]
