@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::args::ModelArgs;
 use super::failure::Failure;
+use super::forecast;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
@@ -133,6 +134,7 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         if requested.is_empty() { "none".into() } else { requested.join(", ") }
     ));
 
+    forecast::table(&found.machine, terminal);
     let rows: Vec<Vec<String>> = model
         .stations
         .iter()
@@ -219,6 +221,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
+        "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })
 }

@@ -10,6 +10,7 @@ mod diagnostics;
 mod ehl_films;
 mod export;
 mod failure;
+mod forecast;
 mod free_parameters;
 mod identify;
 mod identify_tables;
@@ -27,6 +28,7 @@ mod steady_tables;
 mod store;
 mod stored_run;
 mod studies;
+mod system;
 mod tables;
 mod terminal;
 mod update;
@@ -114,6 +116,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
             let settings = |model: &Model| {
                 settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
             };
+            noisy_frf::check(test)?;
             let outcome = run_one(study, Study::Frf, &settings)?;
             noisy_frf::run(study, test, &settings, terminal)?;
             Ok(outcome)
@@ -186,6 +189,7 @@ fn studies_of(
         false => Vec::new(),
     };
     let machine = Machine::new(loaded.model.clone())?;
+    forecast::examine(&machine, &wanted, &folder, terminal)?;
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
     job.parameter_models = family;

@@ -3,6 +3,7 @@
 mod bearing;
 mod bifurcation;
 mod ehl_film;
+pub mod forecast;
 mod order_tracking;
 mod record;
 mod responses;

@@ -3,6 +3,7 @@
 mod bearings;
 mod commands;
 mod failures;
+mod forecasts;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;

@@ -1,6 +1,7 @@
 //! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::study::{channels, integrator};
+use super::work_limits;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, positive};
 use crate::model::file::renamed::{self, renamed_path};
@@ -65,7 +66,7 @@ fn steady(
     let periods = r.count("periods", periods, 8..=10_000_000);
     let limit = DEFAULT_LIMIT_FACTOR * (transient_periods + periods);
     let default = run_up.map_or(Integrator::GeneralisedAlpha { rho_infinity: 0.8 }, |s| s.integrator);
-    SteadyRunSettings {
+    let settings = SteadyRunSettings {
         speed: r.or("speed", positive(SPEED), top),
         integrator: integrator(r, default),
         step: r.or("step", positive(TIME), run_up.map_or(1e-4, |s| s.step)),
@@ -75,7 +76,9 @@ fn steady(
         transient_periods,
         periods,
         transient_limit: r.count("transient_limit", limit, 0..=1_000_000_000),
-    }
+    };
+    work_limits::check_steady(r, &settings);
+    settings
 }
 
 fn section_trigger(r: &Reader, model: &Model) -> SectionTrigger {
