@@ -10,10 +10,10 @@ use serde_json::{Value, json};
 
 use super::args::ModelArgs;
 use super::failure::Failure;
-use super::forecast;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
+use super::{forecast, tables};
 
 /// Check result of one variant.
 struct CheckedVariant {
@@ -65,6 +65,9 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
+        for warning in tables::belt_warnings(c.machine.belt_pulls()) {
+            terminal.print_diagnostic("warning", &format!("{}: {warning}", c.name));
+        }
         super::print_model_warnings(terminal, &c.loaded);
     }
     Ok(json!({
@@ -135,6 +138,7 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     ));
 
     forecast::table(&found.machine, terminal);
+    tables::belts(terminal, found.machine.belt_pulls());
     let rows: Vec<Vec<String>> = model
         .stations
         .iter()
@@ -221,6 +225,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
+        "belts": rotordyn::io::json::belts(found.machine.belt_pulls()),
         "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

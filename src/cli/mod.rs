@@ -278,6 +278,7 @@ fn quality_warnings(job: &mut Job) {
             found.push(format!("frequency error of the reduced model is {error:.1} %: raise the cutoff"));
         }
     }
+    found.extend(tables::belt_warnings(job.machine.belt_pulls()));
     found.extend(steady_tables::settling_warnings(&job.machine.model, &job.results));
     job.results.warnings.extend(found);
 }

@@ -8,7 +8,7 @@
 //! | `schema`, `program`, `version` | "rotordyn-results-2", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
 //! | `units` | the unit of every quantity below |
-//! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
+//! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `belts` \[{name, stated_pull_n: 2, pull_n: 2, remaining_share, displacement_m: 2}\], `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
 //! | `modal` | per speed {speed_rpm, modes: \[{label, kind, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
 //! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
 //! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, damping_ratio, log_decrement, kind, label}\], also the form of `crossings`; `uncertain` \[{order, from_rpm, to_rpm}\] |
@@ -34,6 +34,7 @@ pub const SCHEMA: &str = "rotordyn-results-2";
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;
+use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::results::{
@@ -199,9 +200,21 @@ fn equilibrium(found: &Equilibrium, machine: &Machine) -> Value {
         "speed_rpm": found.speed * TO_RPM,
         "residual_n": found.residual,
         "iterations": found.iterations,
+        "belts": belts(&found.belts),
         "nodes": nodes,
         "bearings": found.bearings.iter().map(bearing).collect::<Value>(),
     })
+}
+
+/// Pulls of the belts at equilibrium.
+pub fn belts(found: &[BeltPull]) -> Value {
+    let belt = |b: &BeltPull| {
+        json!({
+            "name": b.name, "stated_pull_n": b.stated, "pull_n": b.remaining,
+            "remaining_share": b.remaining_share(), "displacement_m": b.displacement,
+        })
+    };
+    found.iter().map(belt).collect()
 }
 
 fn modal(found: &ModalResult) -> Value {

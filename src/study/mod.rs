@@ -20,6 +20,7 @@ pub use steady_motion::{Progress, RestartState};
 
 use std::ops::ControlFlow;
 
+use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::campbell;
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
@@ -66,6 +67,11 @@ impl Machine {
         self.check_tables("static", &[study.speed])?;
         let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
+    }
+
+    /// Pulls of the belts in the equilibrium at standstill, about which linear studies are linearised.
+    pub fn belt_pulls(&self) -> &[BeltPull] {
+        &self.standstill_equilibrium.belts
     }
 
     /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)

@@ -1,6 +1,7 @@
 //! Command-line tests of the binary: every model, every command, exit codes, Ctrl-C, JSON output.
 
 mod bearings;
+mod belts;
 mod commands;
 mod failures;
 mod forecasts;
