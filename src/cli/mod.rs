@@ -208,7 +208,7 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
     let terminal = job.terminal;
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
-    terminal.table("Computing time", &["", "s"], &rows);
+    terminal.table("Computing time (elapsed)", &["", "s"], &rows);
     print_written_files(terminal, &job.folder, &job.files);
     if job.files.len() > 1 {
         terminal.print("  (figures are written as SVG and PNG)");
@@ -221,7 +221,11 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
         object.insert("command".into(), command.into());
         let seconds: serde_json::Map<_, _> =
             job.seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
-        object.insert("seconds".into(), seconds.into());
+        object.insert("seconds".into(), seconds.clone().into());
+        object.insert("wall_seconds".into(), seconds.into());
+        let cpu: serde_json::Map<_, _> =
+            job.cpu_seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
+        object.insert("cpu_seconds".into(), cpu.into());
         object.insert("files".into(), json!(job.files));
     }
     Ok(Outcome { document, failures: job.failures })

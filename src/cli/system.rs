@@ -1,4 +1,4 @@
-//! Questions to the operating system: free disk space.
+//! Questions to the operating system: free disk space, processor time.
 
 use std::path::Path;
 
@@ -13,5 +13,17 @@ pub fn free_space(folder: &Path) -> Option<f64> {
 
 #[cfg(not(unix))]
 pub fn free_space(_: &Path) -> Option<f64> {
+    None
+}
+
+/// Processor time of all threads of the program so far \[s\]; `None` where it cannot be asked.
+#[cfg(unix)]
+pub fn cpu_seconds() -> Option<f64> {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+}
+
+#[cfg(not(unix))]
+pub fn cpu_seconds() -> Option<f64> {
     None
 }

@@ -398,13 +398,14 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult) {
     ));
     let e = &report.energy;
     let rows: Vec<Vec<String>> = [
-        ("energy at the start", e.start),
         ("work of loads, unbalance and drive", e.work),
         ("parametric work (cage rotation)", e.parametric),
         ("dissipated by damping", -e.damping_loss),
         ("dissipated in contacts", -e.contact_loss),
-        ("energy at the end", -(e.kinetic + e.strain + e.contact)),
-        ("residual", -e.residual()),
+        ("residual", e.residual()),
+        ("change of the stored energy, the sum of these", e.stored() - e.start),
+        ("stored at the start (kinetic, strain, contacts)", e.start),
+        ("stored at the end", e.stored()),
     ]
     .iter()
     .map(|(name, value)| vec![(*name).to_string(), number(*value, 6)])

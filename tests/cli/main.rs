@@ -10,6 +10,7 @@ mod identify;
 mod impact_test;
 mod pairing;
 mod renamed;
+mod result_documents;
 mod run_ups;
 mod runs;
 mod signal;
