@@ -63,7 +63,7 @@ pub fn examine(
                  Ctrl-C",
                 duration(seconds),
                 longest.study.replace('-', "_"),
-                number(longest.count, 3),
+                count(longest.count),
                 unit(longest.work),
                 number(time / longest.count, 2),
                 longest.keys
@@ -80,7 +80,7 @@ pub fn table(machine: &Machine, terminal: &Terminal) {
         .map(|found| {
             vec![
                 found.study.to_string(),
-                format!("{} {}", number(found.count, 4), unit(found.work)),
+                format!("{} {}", count(found.count), unit(found.work)),
                 size(found.bytes),
             ]
         })
@@ -99,6 +99,11 @@ pub fn to_json(machine: &Machine) -> Value {
         })
     };
     all.iter().map(one).collect()
+}
+
+/// "520010", "3.2e9".
+fn count(count: f64) -> String {
+    if count < 1e7 { format!("{count:.0}") } else { format!("{count:.1e}") }
 }
 
 fn unit(work: Work) -> &'static str {

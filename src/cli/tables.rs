@@ -37,7 +37,7 @@ pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
 }
 
 /// Share of the stated pull below which a warning is given.
-const LOW_PULL: f64 = 0.5;
+const LOW_PULL: f64 = 0.8;
 
 /// Warnings of belts that lose much of their pull, or go slack.
 pub fn belt_warnings(found: &[BeltPull]) -> Vec<String> {

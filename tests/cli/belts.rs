@@ -98,7 +98,7 @@ fn remaining_pull_is_printed_and_a_loss_is_reported() {
         assert!(text.contains(&format!("{:.1}", 100.0 * expected)), "{what}:\n{text}");
         let wanted = match expected {
             share if share <= 0.0 => Some("belt.main is slack".to_string()),
-            share if share < 0.5 => Some(format!("belt.main keeps {:.0} % of its pull", 100.0 * share)),
+            share if share < 0.8 => Some(format!("belt.main keeps {:.0} % of its pull", 100.0 * share)),
             _ => None,
         };
         for document in [&statics, &check] {
@@ -114,7 +114,7 @@ fn remaining_pull_is_printed_and_a_loss_is_reported() {
 fn belt_of_the_rig_on_its_block_loses_its_pull() {
     let check = json_of(rotordyn().args(["check", "models/overhung_rig.toml", "--variant", "base"]));
     let share = check["variants"][0]["belts"][0]["remaining_share"].as_f64().unwrap();
-    assert!(share > 0.5 && share < 1.0, "{share}");
+    assert!(share > 0.8 && share < 1.0, "{share}");
     let warnings = check["warnings"].to_string();
     assert!(
         warnings.matches("belt.").count() == 1 && warnings.contains("block: belt.drive keeps"),
