@@ -291,6 +291,8 @@ pub struct PoincareResult {
     pub speed: f64,
     pub clock: SectionClock,
     pub motion: Classification,
+    /// Periods discarded as transient: more than requested if the motion had not settled.
+    pub transient_periods: usize,
     /// Number of clusters of section points, all planes together.
     pub groups: usize,
     /// Shaft angle at every sample of the orbits \[rad\].
@@ -386,6 +388,8 @@ pub struct SteadyMotion {
     /// Frequency of the sections \[Hz\].
     pub frequency: f64,
     pub motion: Classification,
+    /// Periods discarded as transient: more than requested if the motion had not settled.
+    pub transient_periods: usize,
     /// Largest Lyapunov exponent, if requested.
     pub exponent: Option<LyapunovExponent>,
 }

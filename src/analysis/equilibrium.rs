@@ -1,5 +1,6 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
+use super::belt_pull::{BeltPull, belt_pulls};
 use crate::assembly::Assembly;
 use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
 use crate::error::{Error, PhysicsError};
@@ -27,6 +28,7 @@ pub struct Equilibrium {
     /// Displacements of the free DOFs \[m, rad\].
     pub q: Vec<f64>,
     pub bearings: Vec<BearingState>,
+    pub belts: Vec<BeltPull>,
     pub iterations: usize,
     /// Largest unbalanced force or moment \[N, N m\].
     pub residual: f64,
@@ -182,6 +184,7 @@ pub fn equilibrium(
     Ok(Equilibrium {
         speed,
         cage,
+        belts: belt_pulls(model, assembly, &q),
         bearings: (0..assembly.sites.len())
             .map(|k| {
                 let displacement = assembly.sites[k].relative(&q);

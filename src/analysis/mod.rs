@@ -18,6 +18,7 @@
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
 pub mod bearing_stiffness;
+pub mod belt_pull;
 pub mod campbell;
 pub mod critical_speed;
 pub mod equilibrium;

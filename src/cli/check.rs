@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
+use super::{forecast, tables};
 
 /// Check result of one variant.
 struct CheckedVariant {
@@ -64,6 +65,9 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
+        for warning in tables::belt_warnings(c.machine.belt_pulls()) {
+            terminal.print_diagnostic("warning", &format!("{}: {warning}", c.name));
+        }
         super::print_model_warnings(terminal, &c.loaded);
     }
     Ok(json!({
@@ -133,6 +137,8 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         if requested.is_empty() { "none".into() } else { requested.join(", ") }
     ));
 
+    forecast::table(&found.machine, terminal);
+    tables::belts(terminal, found.machine.belt_pulls());
     let rows: Vec<Vec<String>> = model
         .stations
         .iter()
@@ -219,6 +225,8 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
+        "belts": rotordyn::io::json::belts(found.machine.belt_pulls()),
+        "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })
 }

@@ -10,6 +10,7 @@ mod diagnostics;
 mod ehl_films;
 mod export;
 mod failure;
+mod forecast;
 mod free_parameters;
 mod identify;
 mod identify_tables;
@@ -28,6 +29,7 @@ mod steady_tables;
 mod store;
 mod stored_run;
 mod studies;
+mod system;
 mod tables;
 mod terminal;
 mod update;
@@ -115,6 +117,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
             let settings = |model: &Model| {
                 settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
             };
+            noisy_frf::check(test)?;
             let outcome = run_one(study, Study::Frf, &settings)?;
             noisy_frf::run(study, test, &settings, terminal)?;
             Ok(outcome)
@@ -190,6 +193,7 @@ fn studies_of(
         false => Vec::new(),
     };
     let machine = Machine::new(loaded.model.clone())?;
+    forecast::examine(&machine, &wanted, &folder, terminal)?;
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
     job.parameter_models = family;
@@ -208,7 +212,7 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
     let terminal = job.terminal;
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
-    terminal.table("Computing time", &["", "s"], &rows);
+    terminal.table("Computing time (elapsed)", &["", "s"], &rows);
     print_written_files(terminal, &job.folder, &job.files);
     if job.files.len() > 1 {
         terminal.print("  (figures are written as SVG and PNG)");
@@ -221,7 +225,11 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
         object.insert("command".into(), command.into());
         let seconds: serde_json::Map<_, _> =
             job.seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
-        object.insert("seconds".into(), seconds.into());
+        object.insert("seconds".into(), seconds.clone().into());
+        object.insert("wall_seconds".into(), seconds.into());
+        let cpu: serde_json::Map<_, _> =
+            job.cpu_seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
+        object.insert("cpu_seconds".into(), cpu.into());
         object.insert("files".into(), json!(job.files));
     }
     Ok(Outcome { document, failures: job.failures })
@@ -289,6 +297,8 @@ fn quality_warnings(job: &mut Job) {
             found.push(format!("frequency error of the reduced model is {error:.1} %: raise the cutoff"));
         }
     }
+    found.extend(tables::belt_warnings(job.machine.belt_pulls()));
+    found.extend(steady_tables::settling_warnings(&job.machine.model, &job.results));
     job.results.warnings.extend(found);
 }
 

@@ -12,6 +12,20 @@ use super::machine::ModelSource;
 use super::settings::Settings;
 use super::terminal::Terminal;
 
+/// Largest number of averages: more take away only noise that no longer matters.
+const MAX_AVERAGES: usize = 1_000_000;
+
+/// Refuses a number of averages that cannot be meant, before the FRFs are computed.
+///
+/// # Errors
+/// More than [`MAX_AVERAGES`].
+pub fn check(test: &NoiseArgs) -> Result<(), Failure> {
+    if test.averages > MAX_AVERAGES {
+        return Err(Failure::Input(format!("--averages {} is above {MAX_AVERAGES}", test.averages)));
+    }
+    Ok(())
+}
+
 /// Writes frf_noisy.uff with FRFs and coherence, if a signal-to-noise ratio is given.
 pub fn run(
     study: &StudyArgs,

@@ -46,6 +46,9 @@ pub struct SteadyArgs {
     /// Periods discarded as transient before recording
     #[arg(long, alias = "settle", value_name = "N")]
     pub transient_periods: Option<usize>,
+    /// Periods, transient and record, up to which a run goes on whose motion has not settled
+    #[arg(long, value_name = "N")]
+    pub transient_limit: Option<usize>,
     /// Periods recorded
     #[arg(long, value_name = "N")]
     pub periods: Option<usize>,
@@ -105,6 +108,7 @@ fn common(draft: &mut SettingsBuilder, args: &SteadyArgs) {
     draft.set_flag("bearing", args.bearing.as_ref().map(toml_string));
     draft.set_flag("phase", args.phase.as_ref().map(toml_string));
     draft.set_flag("transient_periods", args.transient_periods.map(|n| n.to_string()));
+    draft.set_flag("transient_limit", args.transient_limit.map(|n| n.to_string()));
     draft.set_flag("periods", args.periods.map(|n| n.to_string()));
     draft.set_flag("step", args.step.as_ref().map(toml_string));
     draft.set_flag("integrator", args.integrator.as_ref().map(toml_string));

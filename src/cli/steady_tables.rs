@@ -1,8 +1,9 @@
 //! Tables of Poincaré sections, Lyapunov exponents and bifurcation diagrams.
 
+use rotordyn::model::Model;
 use rotordyn::results::{
     BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
-    SectionClock, SteadyMotion,
+    Results, SectionClock, SteadyMotion,
 };
 use rotordyn::signal::lyapunov::LyapunovExponent;
 
@@ -23,8 +24,14 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
             rpm(found.speed),
             describe_clock(&found.clock)
         ),
-        &["motion", "recurrence", "K of 0-1 test", "clusters"],
-        &[vec![m.motion.name(), format!("{:.1e}", m.recurrence), chaos, found.groups.to_string()]],
+        &["motion", "recurrence", "K of 0-1 test", "clusters", "transient periods"],
+        &[vec![
+            m.motion.name(),
+            format!("{:.1e}", m.recurrence),
+            chaos,
+            found.groups.to_string(),
+            found.transient_periods.to_string(),
+        ]],
     );
     let span = |v: &mut dyn Iterator<Item = &f64>, unit: &str| {
         let (l, h) = v.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (v.min(l), v.max(h)));
@@ -106,6 +113,53 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
             found.seams, found.rerun_chunks
         ));
     }
+}
+
+/// Warnings of motions that have not settled.
+pub fn settling_warnings(model: &Model, results: &Results) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let (Some(found), Some(study)) = (&results.poincare, &model.studies.poincare)
+        && !found.motion.motion.is_settled()
+    {
+        let periods = found.transient_periods + study.steady.periods;
+        let more = match found.motion.periods_to_settle(study.tolerance) {
+            Some(needed) => format!("; about {needed:.0} more periods are needed"),
+            None => String::new(),
+        };
+        warnings.push(format!(
+            "study.poincare: the motion at {:.1} rpm has not settled after {periods} periods{more}: raise \
+             transient_limit ({})",
+            rpm(found.speed),
+            study.steady.transient_limit
+        ));
+    }
+    if let (Some(found), Some(study)) = (&results.bifurcation, &model.studies.bifurcation) {
+        for sweep in &found.sweeps {
+            let unsettled: Vec<f64> =
+                sweep.points.iter().filter(|p| is_unsettled(p)).map(|p| p.value).collect();
+            if let [first, .., last] | [first @ last] = unsettled[..] {
+                let unit = &found.parameter.unit;
+                let at = match unsettled.len() {
+                    1 => format!("{} {unit}", number(first, 6)),
+                    _ => format!("from {} to {} {unit}", number(first, 6), number(last, 6)),
+                };
+                warnings.push(format!(
+                    "study.bifurcation: {} of {} motions of the sweep {} have not settled ({}): raise \
+                     transient_limit ({} periods)",
+                    unsettled.len(),
+                    sweep.points.len(),
+                    sweep.name,
+                    at.trim_end(),
+                    study.steady.transient_limit
+                ));
+            }
+        }
+    }
+    warnings
+}
+
+fn is_unsettled(point: &BifurcationPoint) -> bool {
+    point.motion.as_ref().is_ok_and(|m| !m.motion.motion.is_settled())
 }
 
 /// Range of successive values with the same kind of motion.

@@ -16,6 +16,7 @@ use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
 use super::failure::Failure;
+use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
 use super::{bearing_tables, interrupt, run_up_tables, tables};
 
@@ -126,8 +127,10 @@ pub struct Job<'a> {
     pub folder: PathBuf,
     pub store: Store,
     pub results: Results,
-    /// Computing time of every study \[s\].
+    /// Elapsed (wall-clock) time of every study \[s\].
     pub seconds: Vec<(&'static str, f64)>,
+    /// Processor time of every study, all threads together \[s\].
+    pub cpu_seconds: Vec<(&'static str, f64)>,
     /// Files written, results.h5 included.
     pub files: Vec<PathBuf>,
     /// Warnings of the studies, shown at the end.
@@ -146,6 +149,7 @@ impl<'a> Job<'a> {
             store,
             results: Results::default(),
             seconds: Vec::new(),
+            cpu_seconds: Vec::new(),
             files: Vec::new(),
             quality_warnings: Vec::new(),
             failures: Vec::new(),
@@ -159,9 +163,11 @@ impl<'a> Job<'a> {
             if analyses_run && self.failures.iter().any(|(name, _)| *name == Study::RunUp.name()) {
                 continue;
             }
-            let start = Instant::now();
+            let (start, cpu) = (Instant::now(), cpu_seconds());
             let done = if interrupt::requested() { Err(Failure::Interrupted) } else { self.run_study(study) };
             self.seconds.push((study.name(), start.elapsed().as_secs_f64()));
+            let used = cpu_seconds().zip(cpu).map(|(now, before)| (study.name(), now - before));
+            self.cpu_seconds.extend(used);
             if let Err(failure) = done {
                 let interrupted = matches!(failure, Failure::Interrupted);
                 self.failures.push((study.name(), failure));

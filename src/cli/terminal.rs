@@ -142,8 +142,19 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-/// Aligned text table: numeric columns right-aligned, text columns left-aligned, two spaces between.
+/// A number without the sign of zero: "-0.00" becomes "0.00"; other text is unchanged.
+fn without_negative_zero(word: &str) -> &str {
+    match word.strip_prefix('-') {
+        Some(rest) if rest.parse::<f64>() == Ok(0.0) => rest,
+        _ => word,
+    }
+}
+
+/// Aligned text table: numeric columns right-aligned, text columns left-aligned, two spaces between; no number is
+/// printed as negative zero.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let plain = |text: &String| text.split(' ').map(without_negative_zero).collect::<Vec<_>>().join(" ");
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(plain).collect()).collect();
     let cell = |row: &'_ [String], k: usize| row.get(k).map(String::as_str).unwrap_or_default().to_string();
     let numeric = |k: usize| {
         rows.iter().all(|row| {
@@ -161,7 +172,7 @@ pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
         .collect();
     let mut out = String::new();
     let titles: Vec<String> = header.iter().map(|h| (*h).to_string()).collect();
-    for row in std::iter::once(&titles).chain(rows) {
+    for row in std::iter::once(&titles).chain(&rows) {
         let mut line = String::new();
         for (k, &(width, right)) in columns.iter().enumerate() {
             let text = cell(row, k);
@@ -204,6 +215,19 @@ mod tests {
     fn table_alignment() {
         let rows = vec![vec!["a".into(), "1.5".into()], vec!["long".into(), "-".into()]];
         assert_eq!(table(&["name", "Hz"], &rows), "  name   Hz\n  a     1.5\n  long    -\n");
+    }
+
+    #[test]
+    fn table_has_no_negative_zero() {
+        let row = |text: &str| vec![vec!["A".to_string(), text.to_string()]];
+        for (given, shown) in
+            [("-0.000", "0.000"), ("-0", "0"), ("-0.0e0 mm", "0.0e0 mm"), ("1 to -0.00", "1 to 0.00")]
+        {
+            assert!(table(&["", "x"], &row(given)).ends_with(&format!("  {shown}\n")), "{given}");
+        }
+        for given in ["-0.001", "-", "-0-", "- 0.0", "-1e-300"] {
+            assert!(table(&["", "x"], &row(given)).ends_with(&format!("  {given}\n")), "{given}");
+        }
     }
 
     #[test]

@@ -3,8 +3,9 @@
 /// Belt on a shaft node, to ground.
 ///
 /// With fixed centres the pull is that of the undeflected shaft and decreases as the shaft deflects: the
-/// stiffness also acts in statics. With constant pull (dead-weight or spring tensioner) the pull is
-/// independent of deflection and the stiffness only acts on deviations from the equilibrium.
+/// stiffness also acts in statics. With constant pull the stated pull is that of the machine at rest, whether
+/// a tensioner holds it or it was set after mounting, and the stiffness only acts on deviations from the
+/// equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Belt {
     pub name: String,
@@ -12,7 +13,8 @@ pub struct Belt {
     pub node: usize,
     /// Static pull on the shaft \[N\], along x and y.
     pub pull: [f64; 2],
-    /// Whether the pull is independent of shaft deflection; else it is that of the undeflected shaft.
+    /// Whether `pull` is that of the machine at rest; else it is that of the undeflected shaft and unsettled
+    /// supports, and less at equilibrium.
     pub constant_pull: bool,
     /// Stiffness along x, y and about z \[N/m, N/m, N m/rad\].
     pub stiffness: [f64; 3],

@@ -138,7 +138,8 @@ fn points(sweep: &BifurcationSweep, channel: usize, factor: f64) -> SweepPoints 
         out.x.extend(std::iter::repeat_n(value, sections[channel].len()));
         out.y.extend(sections[channel].iter().map(|v| v * factor));
         match motion.motion {
-            Motion::Periodic(k) | Motion::Settling(k) => out.period.push([value, k as f64]),
+            Motion::Periodic(k) => out.period.push([value, k as f64]),
+            Motion::Settling(_) | Motion::Unsettled => out.not_settled.push(value),
             Motion::QuasiPeriodic => out.quasi_periodic.push(value),
             Motion::Chaotic => out.chaotic.push(value),
         }

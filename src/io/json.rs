@@ -8,21 +8,22 @@
 //! | `schema`, `program`, `version` | "rotordyn-results-2", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
 //! | `units` | the unit of every quantity below |
-//! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
-//! | `modal` | per speed {speed_rpm, modes: \[{label, kind, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
-//! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
-//! | `critical_speeds` | `max_speed_rpm`, `speeds` \[{speed_rpm, order, frequency_hz, damping_ratio, log_decrement, kind, label}\], also the form of `crossings`; `uncertain` \[{order, from_rpm, to_rpm}\] |
+//! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `belts` \[{name, stated_pull_n: 2, pull_n: 2, remaining_share, displacement_m: 2}\], `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
+//! | `modal` | per speed {speed_rpm, nodes (names), modes: \[{label, kind, eigenvalue {re, im} in 1/s, shape {re, im: 6 per node} with φᴴ M φ = 1, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
+//! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement, eigenvalue {re, im}}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
+//! | `critical_speeds` | `max_speed_rpm`, `nodes` (names), `speeds` \[{speed_rpm, order, frequency_hz, damping_ratio, log_decrement, kind, label, eigenvalue {re, im}, shape {re, im: 6 per node}}\], also the form of `crossings`, without `shape`; `uncertain` \[{order, from_rpm, to_rpm}\] |
 //! | `frf` | `speed_rpm`, `quantity`, `frequency_hz`, `requested` (indices of the requested frequencies), `undamped` \[{frequency_hz, label, responses}\], `functions` \[{excitation, response, unit, re, im}\] |
 //! | `unbalance` | `speeds_rpm`, `requested` (indices of the requested speeds), `operating_speed_rpm`, `peaks` \[{response, unit, speed_rpm, amplitude, amplification_factor, half_power_rpm: 2, separation_margin, required_separation_margin}\], `undamped` \[{speed_rpm, label, responses}\], `responses` \[{name, unit, re, im}\], `orbits` \[{disc, x_re, x_im, y_re, y_im}\]; x(t) = Re(X e^{jΩt}) |
-//! | `run_up` | sizes and errors of the reduced model, `end`, `steps`, `iterations`, `halvings`, `energy_j`, `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
+//! | `run_up` | sizes and errors of the reduced model, `end`, `step_s`, `requested_step_s`, `step_error`, `cage_angles` \[{bearing, initial_rad}\], `steps`, `iterations`, `halvings`, `energy_j` (`stored_*`: kinetic, strain and contact energy, zero at rest and undeformed; stored_change = work + drive_work + parametric_work − damping_loss − contact_loss + residual), `sample_rate_hz`, `samples`, `channels` \[{name, unit, quantity, station, direction, minimum, maximum, rms}\] |
 //! | `spectrograms` | per channel {channel, unit, frames, frequencies, peak: {speed_rpm, frequency_hz, amplitude}}; the maps are in the HDF5 file |
 //! | `orders` | per channel {channel, unit, cuts: \[{label, order, speed_rpm, rms}\]} |
 //! | `cage_phases` | `bearings`, `angles_rad` per run, `channels` \[{channel, unit, cuts: \[{label, order, speed_rpm, rms, minimum, maximum, peaks}\]}\] |
-//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos}, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
+//! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos, settled, residual: estimated distance from the motion it tends to relative to the orbit, decay_factor: per period}, `transient_periods`: periods discarded, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
-//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
+//! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, transient_periods, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
 //! | `bearings` | per stand-alone ball bearing {name, load_source, prescribed: 5, rating, preload, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `warnings` | messages |
+//! | `seconds`, `wall_seconds`, `cpu_seconds` | per study: elapsed time (twice, `seconds` is the former name) and processor time of all threads |
 
 mod run_up;
 mod signal;
@@ -36,8 +37,10 @@ pub const SCHEMA: &str = "rotordyn-results-2";
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;
+use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
+use crate::linalg::Complex64;
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
     ModalResult, OrderResult, ResponsePeak, Results, SpectrogramResult, UnbalanceResult, UndampedPeak,
@@ -69,18 +72,23 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
         put("equilibrium", equilibrium(found, machine));
     }
     if !results.modal.is_empty() {
-        put("modal", results.modal.iter().map(modal).collect());
+        put("modal", results.modal.iter().map(|at| modal(at, machine)).collect());
     }
     if let Some(found) = &results.campbell {
         put("campbell", campbell(found));
     }
     if let Some(found) = &results.critical {
-        let speeds: Value = found.crossings.list.iter().map(crossing).collect();
+        let with_shape = |c: &CriticalSpeed| {
+            let mut speed = crossing(c);
+            speed["shape"] = shape(&c.mode);
+            speed
+        };
+        let speeds: Value = found.crossings.list.iter().map(with_shape).collect();
         put(
             "critical_speeds",
             json!({
-                "max_speed_rpm": found.max_speed * TO_RPM, "speeds": speeds,
-                "uncertain": uncertain_ranges(&found.crossings),
+                "max_speed_rpm": found.max_speed * TO_RPM, "nodes": machine.assembly.dofs.node_names,
+                "speeds": speeds, "uncertain": uncertain_ranges(&found.crossings),
             }),
         );
     }
@@ -203,19 +211,47 @@ fn equilibrium(found: &Equilibrium, machine: &Machine) -> Value {
         "speed_rpm": found.speed * TO_RPM,
         "residual_n": found.residual,
         "iterations": found.iterations,
+        "belts": belts(&found.belts),
         "nodes": nodes,
         "bearings": found.bearings.iter().map(bearing).collect::<Value>(),
     })
 }
 
-fn modal(found: &ModalResult) -> Value {
+/// Pulls of the belts at equilibrium.
+pub fn belts(found: &[BeltPull]) -> Value {
+    let belt = |b: &BeltPull| {
+        json!({
+            "name": b.name, "stated_pull_n": b.stated, "pull_n": b.remaining,
+            "remaining_share": b.remaining_share(), "displacement_m": b.displacement,
+        })
+    };
+    found.iter().map(belt).collect()
+}
+
+fn eigenvalue(m: &Mode) -> Value {
+    json!({ "re": m.eigenvalue.re, "im": m.eigenvalue.im })
+}
+
+/// Mode shape by node, six components each.
+fn shape(m: &Mode) -> Value {
+    let part = |of: fn(&Complex64) -> f64| -> Value {
+        m.full_shape.chunks(6).map(|node| node.iter().map(of).collect::<Value>()).collect()
+    };
+    json!({ "re": part(|v| v.re), "im": part(|v| v.im) })
+}
+
+fn modal(found: &ModalResult, machine: &Machine) -> Value {
     let mode = |m: &Mode| {
         json!({
+            "eigenvalue": eigenvalue(m), "shape": shape(m),
             "label": m.label, "kind": m.kind.name(), "frequency_hz": m.frequency_hz(),
             "damping_ratio": m.zeta(), "log_decrement": m.log_dec(), "effective_mass": m.effective_mass,
         })
     };
-    json!({ "speed_rpm": found.speed * TO_RPM, "modes": found.modes.iter().map(mode).collect::<Value>() })
+    json!({
+        "speed_rpm": found.speed * TO_RPM, "nodes": machine.assembly.dofs.node_names,
+        "modes": found.modes.iter().map(mode).collect::<Value>(),
+    })
 }
 
 fn campbell(found: &CampbellResult) -> Value {
@@ -228,6 +264,7 @@ fn campbell(found: &CampbellResult) -> Value {
         json!({
             "label": b.label, "kind": b.kind.name(), "labels": labels,
             "frequency_hz": over(Mode::frequency_hz), "log_decrement": over(Mode::log_dec),
+            "eigenvalue": { "re": over(|m| m.eigenvalue.re), "im": over(|m| m.eigenvalue.im) },
         })
     };
     let speeds: Vec<f64> = found.diagram.speeds.iter().map(|s| s * TO_RPM).collect();
@@ -260,7 +297,7 @@ fn crossing(c: &CriticalSpeed) -> Value {
     json!({
         "speed_rpm": c.speed * TO_RPM, "order": c.order, "frequency_hz": c.mode.frequency_hz(),
         "log_decrement": c.mode.log_dec(), "damping_ratio": c.mode.zeta(), "kind": c.mode.kind.name(),
-        "label": c.mode.label,
+        "label": c.mode.label, "eigenvalue": eigenvalue(&c.mode),
     })
 }
 

@@ -37,6 +37,8 @@ pub struct SteadyRunSettings {
     pub transient_periods: usize,
     /// Section periods recorded: number of points of a section.
     pub periods: usize,
+    /// Section periods, transient and record, up to which a run goes on whose motion has not settled.
+    pub transient_limit: usize,
 }
 
 /// Plane of an orbit plot and its Poincaré section: two probes, or a phase plane.

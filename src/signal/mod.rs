@@ -52,6 +52,7 @@ pub mod record;
 pub mod resample;
 pub mod ridge;
 pub mod segment;
+mod settling;
 pub mod spectrum;
 pub mod statistics;
 pub mod stft;

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::SignalError;
 use super::error::{check, check_length, check_record, check_same_length};
+use super::settling::Sections;
 
 /// Frequencies c tried by the 0–1 test, and the number retained: those of the smallest mean displacement.
 const TRIED_FREQUENCIES: usize = 100;
@@ -12,14 +13,18 @@ const RETAINED_FREQUENCIES: usize = 70;
 const CHAOS_THRESHOLD: f64 = 0.5;
 /// Ratio of the second half's to the first half's recurrence error below which the motion counts as decaying.
 const MAX_DECAY_RATIO: f64 = 0.3;
+/// Motion relative to the largest value below which a channel counts as at rest.
+const ROUND_OFF: f64 = 1e-12;
 
 /// Type of a steady motion sampled once per forcing period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// Repeats after this number of forcing periods.
     Periodic(usize),
-    /// Transient towards a motion of this period: the run should be longer.
+    /// Not settled: transient towards a motion of this period.
     Settling(usize),
+    /// Not settled: still changing, towards a motion that the section does not show.
+    Unsettled,
     /// Regular but not periodic: incommensurate frequencies (or a period longer than the longest tried).
     QuasiPeriodic,
     /// Chaotic (irregular, by the 0–1 test).
@@ -31,10 +36,16 @@ impl Motion {
     pub fn name(&self) -> String {
         match self {
             Self::Periodic(k) => format!("period {k}"),
-            Self::Settling(k) => format!("settling to period {k}"),
+            Self::Settling(k) => format!("not settled, towards period {k}"),
+            Self::Unsettled => "not settled".into(),
             Self::QuasiPeriodic => "quasi-periodic".into(),
             Self::Chaotic => "chaotic".into(),
         }
+    }
+
+    /// Whether the transient has decayed.
+    pub fn is_settled(&self) -> bool {
+        !matches!(self, Self::Settling(_) | Self::Unsettled)
     }
 
     /// Period in forcing periods, if periodic.
@@ -55,6 +66,27 @@ pub struct Classification {
     pub recurrence: f64,
     /// K of the 0–1 test, near 0 for regular, near 1 for chaotic motion; NaN if not tested (periodic motion).
     pub zero_one_k: f64,
+    /// Estimated distance of the last section points from the motion they tend to, relative to the size of the
+    /// orbit; infinite if the changes do not decay, NaN for quasi-periodic and chaotic motions.
+    pub residual: f64,
+    /// Factor per forcing period by which the changes of a motion that tends to a periodic one decay, the
+    /// modulus of its largest Floquet multiplier; NaN without changes above round-off.
+    pub decay_factor: f64,
+    /// Number of points after which a quasi-periodic or chaotic motion returns nearest to itself, the mean square of
+    /// its changes over them relative to the size of the orbit, and the logarithm of the change of that mean
+    /// square from the first to the second half; 0 and NaN for periodic motions.
+    pub nearest_return: usize,
+    pub mean_square_change: f64,
+    pub amplitude_trend: f64,
+}
+
+impl Classification {
+    /// Forcing periods after the section until the motion is within `tolerance` of the one it tends to,
+    /// ln(tolerance/residual)/ln ρ; `None` if its decay ρ is not known.
+    pub fn periods_to_settle(&self, tolerance: f64) -> Option<f64> {
+        let periods = (tolerance / self.residual).ln() / self.decay_factor.ln();
+        (periods.is_finite() && periods > 0.0).then_some(periods)
+    }
 }
 
 /// Classifies a motion from its Poincaré section.
@@ -63,12 +95,19 @@ pub struct Classification {
 /// peak, not of the section: that of a motion of period 1 is a point); `tolerance` relative to the size;
 /// `longest` period tried, N/2 at most. The criterion, in this order:
 ///
-/// 1. periodic(k): k is the smallest with |x_{n+k} − x_n| ≤ tolerance · size for every n and channel;
-/// 2. settling(k): k is the smallest whose error over the second half of the section is below a tenth of the
-///    size and below 0.3 of the error over the first half (a decaying transient);
-/// 3. chaotic when the 0–1 test ([`zero_one_test`]) gives K ≥ 0.5 for any channel whose section is wider than the
-///    tolerance, else quasi-periodic.
+/// 1. k is the smallest number with |x_{n+mk} − x_n| ≤ tolerance · size for every n, m and channel; periodic(k) if
+///    also the distance from the limit, extrapolated from the decay of the changes, is within the tolerance, else
+///    not settled;
+/// 2. not settled, towards period k: k is the smallest whose error over the second half of the section is below a
+///    tenth of the size and below 0.3 of the error over the first half (a decaying transient);
+/// 3. not settled if the changes over any k points are within the tolerance but add up to more;
+/// 4. chaotic when the 0–1 test ([`zero_one_test`]) gives K ≥ 0.5 for any channel whose section is wider than the
+///    tolerance;
+/// 5. not settled if the changes over the points after which the motion returns nearest to itself grow or decay
+///    steadily, else quasi-periodic.
 ///
+/// A slow spiral towards a point passes near its own points after some number of turns: without the
+/// extrapolation it would count as a motion of that period.
 /// Errors: NaN, unequal lengths, no channel, fewer than eight points.
 pub fn classify_motion(
     sections: &[&[f64]],
@@ -87,42 +126,73 @@ pub fn classify_motion(
     check_length("section", n, 8, "a period")?;
     check_record("sizes", sizes)?;
 
-    let moving: Vec<(&[f64], f64)> =
-        sections.iter().zip(sizes).filter(|(_, size)| **size > 0.0).map(|(s, size)| (*s, *size)).collect();
-    // Largest relative change over k points, for points from..until.
-    let change = |k: usize, from: usize, until: usize| {
-        let of = |(s, size): &(&[f64], f64)| {
-            (from..until - k).map(|i| (s[i + k] - s[i]).abs() / size).fold(0.0, f64::max)
-        };
-        moving.iter().map(of).fold(0.0, f64::max)
-    };
+    let largest = |s: &[f64]| s.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let moves = |s: &[f64], size: f64| size > ROUND_OFF * largest(s);
+    let channels =
+        sections.iter().zip(sizes).filter(|(s, size)| moves(s, **size)).map(|(s, size)| (*s, *size));
+    let moving = Sections { channels: channels.collect(), length: n };
     let longest = longest.clamp(1, n / 2);
-    let mut best = (1, f64::INFINITY);
-    for k in 1..=longest {
-        let recurrence = change(k, 0, n);
-        if recurrence <= tolerance {
-            return Ok(Classification { motion: Motion::Periodic(k), recurrence, zero_one_k: f64::NAN });
-        }
-        if recurrence < best.1 {
-            best = (k, recurrence);
-        }
+    let mut found = Classification {
+        motion: Motion::Unsettled,
+        recurrence: f64::INFINITY,
+        zero_one_k: f64::NAN,
+        residual: f64::NAN,
+        decay_factor: f64::NAN,
+        nearest_return: 0,
+        mean_square_change: f64::NAN,
+        amplitude_trend: f64::NAN,
+    };
+    let tends_to = |k: usize, recurrence: f64| {
+        let (residual, factor) = moving.residual(k, tolerance);
+        let motion = match residual {
+            r if r.is_finite() => Motion::Settling(moving.limit_period(k)),
+            _ => Motion::Unsettled,
+        };
+        let decay_factor = factor.unwrap_or(f64::NAN);
+        Classification { motion, recurrence, residual, decay_factor, ..found }
+    };
+    let recurrences: Vec<f64> = (1..=longest).map(|k| moving.change(k, 0..n - k)).collect();
+    let repeats = |k: &usize| recurrences[k - 1] <= tolerance;
+    if let Some(k) = (1..=longest).filter(repeats).find(|k| moving.spread(*k) <= tolerance) {
+        // Points of a small spiral return near themselves only after several periods of its limit.
+        let k = if moving.residual(k, tolerance).1.is_some() { moving.limit_period(k) } else { k };
+        let tending = tends_to(k, recurrences[k - 1]);
+        let settled = tending.residual <= tolerance;
+        return Ok(if settled { Classification { motion: Motion::Periodic(k), ..tending } } else { tending });
     }
     // A half must contain the period at least once.
     let half = n / 2;
-    let late = (1..=longest.min(half / 2)).map(|k| (k, change(k, half, n)));
-    let mut decays = late.filter(|(k, error)| *error < 0.1 && *error < MAX_DECAY_RATIO * change(*k, 0, half));
+    let late = (1..=longest.min(half / 2)).map(|k| (k, moving.change(k, half..n - k)));
+    let mut decays =
+        late.filter(|(k, error)| *error < 0.1 && *error < MAX_DECAY_RATIO * moving.change(*k, 0..half - k));
     if let Some((k, error)) = decays.next() {
-        return Ok(Classification { motion: Motion::Settling(k), recurrence: error, zero_one_k: f64::NAN });
+        let limit = moving.limit_period(k);
+        return Ok(Classification { motion: Motion::Settling(limit), ..tends_to(k, error) });
     }
-    let mut chaos = f64::NAN;
-    for (section, size) in &moving {
+    if let Some(k) = (1..=longest).find(repeats) {
+        return Ok(tends_to(k, recurrences[k - 1]));
+    }
+    found.recurrence = recurrences.iter().copied().fold(f64::INFINITY, f64::min);
+    for (section, size) in &moving.channels {
         let (low, high) = section.iter().fold((f64::MAX, f64::MIN), |(l, h), v| (v.min(l), v.max(h)));
         if high - low > tolerance * size {
-            chaos = zero_one_test(section)?.max(chaos);
+            found.zero_one_k = zero_one_test(section)?.max(found.zero_one_k);
         }
     }
-    let motion = if chaos >= CHAOS_THRESHOLD { Motion::Chaotic } else { Motion::QuasiPeriodic };
-    Ok(Classification { motion, recurrence: best.1, zero_one_k: chaos })
+    // Of at most a quarter of the section, so that its two halves can be compared.
+    let nearest = (0..longest.min((n / 4).max(1)))
+        .min_by(|a, b| recurrences[*a].total_cmp(&recurrences[*b]))
+        .map_or(1, |k| k + 1);
+    let (trend, is_trend) = moving.amplitude_trend(nearest);
+    found.nearest_return = nearest;
+    found.mean_square_change = moving.mean_square_change(nearest, 0, n - nearest);
+    found.amplitude_trend = trend;
+    found.motion = match found.zero_one_k {
+        k if k >= CHAOS_THRESHOLD => Motion::Chaotic,
+        _ if is_trend => Motion::Unsettled,
+        _ => Motion::QuasiPeriodic,
+    };
+    Ok(found)
 }
 
 /// The 0–1 test for chaos: K near 0 for regular, near 1 for chaotic motion.

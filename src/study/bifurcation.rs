@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::Machine;
-use super::steady_motion::{RestartState, clock_name, section_channel, sections};
+use super::settling::{Criteria, SettledRun};
+use super::steady_motion::{RestartState, clock_name, section_channel};
 use crate::error::Error;
 use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};
@@ -193,11 +194,16 @@ fn steady_motion(
     let machine = Machine::new(model.clone())?;
     let (reduction, state) = machine.steady_initial_state(&study.steady, carried)?;
     let probes: Vec<_> = study.channels.iter().collect();
-    let run = machine.steady_run(&reduction, state, &study.steady, &probes, study.perturbation, progress)?;
-    let Some(run) = run else { return Ok(None) };
     let channels: Vec<_> = study.channels.iter().map(section_channel).collect();
-    let (_, found) = sections(&run, &channels, &study.steady, study.tolerance, study.longest_period)?;
-    Ok(Some((found, RestartState::new(&reduction, &run.state))))
+    let criteria = Criteria {
+        tolerance: study.tolerance,
+        longest_period: study.longest_period,
+        perturbation: study.perturbation,
+    };
+    let shown = (&probes[..], &channels[..]);
+    let settled = machine.settled_run(&reduction, state, &study.steady, shown, criteria, progress)?;
+    let Some(SettledRun { run, motion, .. }) = settled else { return Ok(None) };
+    Ok(Some((motion, RestartState::new(&reduction, &run.state))))
 }
 
 /// Whether two motions are on the same branch: every section point of one has a near point of the other, and

@@ -4,10 +4,12 @@ mod bearing;
 mod bifurcation;
 mod cage_phases;
 mod ehl_film;
+pub mod forecast;
 mod order_tracking;
 mod record;
 mod responses;
 mod run_up_correlation;
+mod settling;
 pub mod signal;
 mod steady_motion;
 mod step_error;
@@ -21,6 +23,7 @@ pub use step_error::Checkpoints;
 
 use std::ops::ControlFlow;
 
+use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::campbell;
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
@@ -67,6 +70,11 @@ impl Machine {
         self.check_tables("static", &[study.speed])?;
         let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
+    }
+
+    /// Pulls of the belts in the equilibrium at standstill, about which linear studies are linearised.
+    pub fn belt_pulls(&self) -> &[BeltPull] {
+        &self.standstill_equilibrium.belts
     }
 
     /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)

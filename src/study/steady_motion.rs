@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use super::Machine;
+use super::settling::{Criteria, SettledRun};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
 use crate::error::Error;
@@ -23,7 +24,7 @@ use crate::transient::steady::{SteadyRun, run_steady};
 use crate::transient::system::{Channel, State};
 
 /// Number of periods of the orbit stored with its section.
-const ORBIT_PERIODS: usize = 32;
+pub(super) const ORBIT_PERIODS: usize = 32;
 
 /// Restart state: final free DOFs and angles of a run, from which a run of another model can start.
 #[derive(Clone, Debug)]
@@ -54,11 +55,12 @@ impl Machine {
         let steady = &study.steady;
         let probes: Vec<&Probe> = study.planes.iter().flat_map(|p| [&p.x, &p.y]).collect();
         let (reduction, state) = self.steady_initial_state(steady, None)?;
-        let Some(run) = self.steady_run(&reduction, state, steady, &probes, None, progress)? else {
-            return Ok(None);
-        };
         let channels: Vec<SectionChannel> = probes.iter().map(|probe| section_channel(probe)).collect();
-        let (strobe, motion) = sections(&run, &channels, steady, study.tolerance, study.longest_period)?;
+        let criteria =
+            Criteria { tolerance: study.tolerance, longest_period: study.longest_period, perturbation: None };
+        let settled =
+            self.settled_run(&reduction, state, steady, (&probes, &channels), criteria, progress)?;
+        let Some(SettledRun { run, strobe, motion }) = settled else { return Ok(None) };
         let reach: Vec<f64> =
             orbit_sizes(&motion.extremes, &channels).iter().map(|size| study.tolerance * size).collect();
         let all: Vec<&[f64]> = motion.sections.iter().map(Vec::as_slice).collect();
@@ -88,6 +90,7 @@ impl Machine {
             speed: steady.speed,
             clock: section_clock(&self.model, steady, motion.frequency),
             motion: motion.motion,
+            transient_periods: motion.transient_periods,
             groups,
             shaft_angle,
             planes,
@@ -234,7 +237,8 @@ pub(super) fn sections(
     };
     let (first, last) = (strobe.positions[0], strobe.positions[strobe.positions.len() - 1]);
     let frequency = (strobe.positions.len() - 1) as f64 / ((last - first) * run.step);
-    Ok((strobe, SteadyMotion { sections: found, extremes, frequency, motion, exponent }))
+    let transient_periods = steady.transient_periods;
+    Ok((strobe, SteadyMotion { sections: found, extremes, frequency, motion, transient_periods, exponent }))
 }
 
 /// Reference size of a channel: the largest peak-to-peak value of all channels of the same unit, so that

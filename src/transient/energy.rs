@@ -35,6 +35,11 @@ pub struct Energy {
 }
 
 impl Energy {
+    /// Stored energy, not negative: kinetic + strain + contact, zero at rest and undeformed \[J\].
+    pub fn stored(&self) -> f64 {
+        self.kinetic + self.strain + self.contact
+    }
+
     /// Residual of the energy balance \[J\].
     pub fn residual(&self) -> f64 {
         self.kinetic + self.strain + self.contact - self.start - self.work - self.drive - self.parametric

@@ -23,7 +23,7 @@ const LAYERS: [&[&str]; 13] = [
 ];
 
 /// Foreign crates and the modules that may use them.
-const OWNERS: [(&[&str], &[&str]); 8] = [
+const OWNERS: [(&[&str], &[&str]); 9] = [
     (&["faer"], &["linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["geometry/rapier"]),
     (&["parry3d", "parry3d_f64"], &["geometry/parry"]),
@@ -31,6 +31,7 @@ const OWNERS: [(&[&str], &[&str]); 8] = [
     (&["flate2"], &["io/inflate"]),
     (&["hound"], &["io/wav"]),
     (&["resvg", "usvg", "tiny_skia", "png"], &["plot"]),
+    (&["rustix"], &["cli/system"]),
     (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
 ];
 

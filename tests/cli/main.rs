@@ -1,13 +1,16 @@
 //! Command-line tests of the binary: every model, every command, exit codes, Ctrl-C, JSON output.
 
 mod bearings;
+mod belts;
 mod commands;
 mod failures;
+mod forecasts;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;
 mod pairing;
 mod renamed;
+mod result_documents;
 mod run_ups;
 mod runs;
 mod signal;

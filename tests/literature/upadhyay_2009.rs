@@ -326,6 +326,7 @@ fn largest_lyapunov_exponents() {
             transient_periods: 150,
             // The chaotic one needs an average.
             periods: if expected.is_none() { 600 } else { 100 },
+            transient_limit: 0,
         };
         let mut go = |_| ControlFlow::Continue(());
         let run = run_steady(&reduction.system, start, &steady, &[], Some(1e-9), &mut go).unwrap().unwrap();

@@ -122,6 +122,122 @@ fn logistic_map_period_doubling_to_chaos() {
     assert_eq!(motion(&logistic(2.9, 0, 60)), Motion::Settling(1));
 }
 
+/// A decaying spiral x_n = a ρⁿ cos(2πνn + φ) beside a steady motion of period 1 tends to period 1, whatever the
+/// number k of points after which νk is nearly whole: a record is settled when a ρᴺ is below the tolerance.
+#[test]
+fn decaying_spirals_tend_to_period_one() {
+    const TOLERANCE: f64 = 1e-3;
+    let (mut settled, mut open) = (0, 0);
+    for points in [60, 100, 300] {
+        for case in 0..600 {
+            let part = |factor: f64| (f64::from(case) * factor + 0.37).fract();
+            // Rotations of nearly a whole number of turns in up to 32 periods, real multipliers, and any other.
+            let rotation = match case % 4 {
+                0 => (1.0 + (15.0 * part(0.618)).floor()) / 32.0 + 1e-4 * part(0.271),
+                1 => 11.0 / 25.0 + 1e-5,
+                2 => [0.0, 0.5][case as usize / 4 % 2],
+                _ => 0.03 + 0.45 * part(0.618),
+            };
+            // Time constants from 30 to 3000 periods, amplitudes at the end from 1e-5 to 0.3.
+            let rho = (-1.0 / (30.0 * 100f64.powf(part(0.414)))).exp();
+            let end = 1e-5 * 3e4f64.powf(part(0.732));
+            let at = |n: i32, phase: f64| {
+                end * rho.powi(n - points) * (TAU * rotation * f64::from(n) + phase).cos()
+            };
+            let x: Vec<f64> = (0..points).map(|n| 0.3 + at(n, 0.2)).collect();
+            let y: Vec<f64> = (0..points).map(|n| -0.1 + at(n, 1.3)).collect();
+            let found = classify_motion(&[&x, &y], &[1.0, 1.0], TOLERANCE, 32).unwrap();
+            let what =
+                format!("{points} points, rotation {rotation:.5}, rho {rho:.5}, end {end:.1e}: {found:?}");
+            match found.motion {
+                Motion::Periodic(k) => {
+                    assert_eq!(k, 1, "{what}");
+                    // The estimate is from the largest of few points.
+                    assert!(end < 2.0 * TOLERANCE, "{what}");
+                    settled += 1;
+                }
+                Motion::Settling(k) => {
+                    assert!(k == 1 && end > 0.3 * TOLERANCE * rho.powi(points), "{what}");
+                    open += 1;
+                }
+                // Allowed if the changes hardly decay over the record, or differ between its halves, so that a second
+                // record must confirm it.
+                Motion::QuasiPeriodic => {
+                    assert!(rho.powi(points) > 0.98 || found.amplitude_trend.abs() > 0.01, "{what}");
+                }
+                Motion::Unsettled => assert!(end > 0.3 * TOLERANCE * rho.powi(points), "{what}"),
+                Motion::Chaotic => panic!("{what}"),
+            }
+        }
+    }
+    assert!(settled > 300 && open > 300, "{settled} settled, {open} not");
+}
+
+/// A spiral that decays towards a motion of period 3 with three distant points is no quasi-periodic motion.
+#[test]
+fn decaying_spirals_around_distant_points_are_not_quasi_periodic() {
+    for time_constant in [150.0, 400.0, 800.0] {
+        for end in [0.003, 0.03] {
+            let at = |n: usize, phase: f64| {
+                let turn = TAU * n as f64 / 3.0;
+                let rho = (-1.0_f64 / time_constant).exp();
+                (turn + phase).cos()
+                    + end * rho.powi(n as i32 - 100) * (TAU * 0.1234 * n as f64 + phase).cos()
+            };
+            let [x, y] = [0.0, 1.1].map(|phase| (0..100).map(|n| at(n, phase)).collect::<Vec<f64>>());
+            let found = classify_motion(&[&x, &y], &[2.0, 2.0], 1e-3, 32).unwrap();
+            println!("{time_constant}, {end}: {found:?}");
+            assert!(!found.motion.is_settled(), "{time_constant}, {end}: {found:?}");
+        }
+    }
+}
+
+/// The logistic map near its first doubling at r = 3: multiplier 2 − r of the fixed point below, 4 + 2r − r² of the
+/// period-2 orbit above.
+#[test]
+fn slow_decay_near_a_period_doubling_is_not_settled() {
+    for (r, limit, multiplier) in
+        [(2.99_f64, 1, 0.99_f64), (2.998, 1, 0.998), (3.003, 2, (4.0 + 6.006 - 3.003_f64.powi(2)).sqrt())]
+    {
+        let mut was_open = false;
+        for settle in [20, 100, 400, 1600, 6400] {
+            let x = logistic(r, settle, 100);
+            let found = classify_motion(&[&x], &[1.0], 1e-3, 32).unwrap();
+            println!("r = {r} after {settle}: {found:?}");
+            // Distance of the last points from the exact orbit.
+            let fixed = 1.0 - 1.0 / r;
+            let pair = ((r - 3.0) * (r + 1.0)).max(0.0).sqrt();
+            let orbit = [(r + 1.0 + pair) / (2.0 * r), (r + 1.0 - pair) / (2.0 * r)];
+            let points: &[f64] = if limit == 1 { &[fixed] } else { &orbit };
+            let away = |v: &f64| points.iter().map(|p| (v - p).abs()).fold(f64::INFINITY, f64::min);
+            let distance = x[96..].iter().map(away).fold(0.0, f64::max);
+            match found.motion {
+                Motion::Periodic(k) => assert!(k == limit && distance < 1.5e-3, "r = {r}: {distance}"),
+                motion => {
+                    assert!(!motion.is_settled(), "r = {r} after {settle}: {motion:?}, off by {distance}");
+                    was_open = true;
+                }
+            }
+            if found.decay_factor.is_finite() && distance < 0.003 {
+                // Of a small distance the decay is that of the linearised map.
+                let rate = found.decay_factor.ln() / multiplier.ln();
+                assert!((0.8..1.3).contains(&rate), "r = {r}: {rate} of the decay rate");
+                assert!(
+                    (0.4..5.0).contains(&(found.residual / distance)),
+                    "{} for {distance}",
+                    found.residual
+                );
+            }
+        }
+        assert!(was_open);
+        assert_eq!(motion(&logistic(r, 6400, 100)), Motion::Periodic(limit), "r = {r}");
+    }
+    // At the doubling itself the distance decays as n^(−1/2): after 700 iterations it is 0.02.
+    for settle in [50, 600, 3000] {
+        assert!(!motion(&logistic(3.0, settle, 100)).is_settled(), "{settle}");
+    }
+}
+
 /// ẍ + δ ẋ − x + x³ = γ cos ωt, sampled 100 times a period.
 fn duffing(gamma: f64, delta: f64, omega: f64, settle: usize, periods: usize) -> [Vec<f64>; 3] {
     let f = |t: f64, s: &[f64; 2]| [s[1], gamma * (omega * t).cos() - delta * s[1] + s[0] - s[0].powi(3)];

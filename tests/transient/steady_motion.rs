@@ -41,6 +41,7 @@ fn steady(speed: f64, clock: SectionTrigger, step: f64, [settle, periods]: [usiz
         phase: 0.0,
         transient_periods: settle,
         periods,
+        transient_limit: 0,
     }
 }
 
@@ -248,4 +249,112 @@ fn rig_with_clearance() {
         if calls == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert!(stopped.unwrap().is_none());
+}
+
+fn poincare_after(
+    machine: &Machine,
+    speed: f64,
+    change: impl Fn(&mut PoincareStudy),
+) -> rotordyn::results::PoincareResult {
+    let mut study = machine.model.studies.poincare.clone().expect("a study");
+    study.steady.speed = speed;
+    change(&mut study);
+    machine.poincare(&study, &mut go).unwrap().unwrap()
+}
+
+/// A lightly damped linear rotor whose unbalance acts from t = 0: its free vibration decays as e^(−ζωt) towards one
+/// point, slowly. A short run is not settled, and its decay per revolution is e^(−ζωT); a run that may go on ends
+/// at period 1.
+#[test]
+fn lightly_damped_rotor_settles_slowly_to_period_one() {
+    let speed = 2000.0 * RPM;
+    for ratio in ["0.0005", "0.002"] {
+        let machine = Machine::new(jeffcott(&[("damping.modal.ratio", ratio)])).unwrap();
+        let modes = machine.modal(&ModalStudy { speeds: vec![speed], modes: 12 }).unwrap();
+        let slowest = modes[0].modes.iter().map(|m| m.eigenvalue.re).fold(f64::NEG_INFINITY, f64::max);
+        let per_revolution = slowest * TAU / speed;
+        let mut steady = steady(speed, SectionTrigger::Shaft, 2e-4, [60, 100]);
+        steady.cutoff = 150.0;
+        let planes = vec![plane(&machine.model, "disc_x", "disc_y")];
+        let mut study = PoincareStudy { steady, planes, tolerance: 1e-3, longest_period: 32 };
+        let short = machine.poincare(&study, &mut go).unwrap().unwrap();
+        println!("{ratio}: {:?}, decay {per_revolution:.5} per revolution", short.motion);
+        assert!(!short.motion.motion.is_settled(), "{:?}", short.motion.motion);
+        assert_eq!(short.transient_periods, 60);
+        study.steady.transient_limit = 20_000;
+        let long = machine.poincare(&study, &mut go).unwrap().unwrap();
+        println!("{ratio}: {:?} after {}", long.motion, long.transient_periods);
+        assert_eq!(long.motion.motion, Motion::Periodic(1));
+        // From the size of the orbit to the tolerance, ln(1000) time constants.
+        let needed = 1e3_f64.ln() / per_revolution.abs();
+        let factor = long.transient_periods as f64 / needed;
+        assert!((0.5..2.0).contains(&factor), "{} periods, {needed:.0} expected", long.transient_periods);
+        let rate = long.motion.decay_factor.ln() / per_revolution;
+        assert!((rate - 1.0).abs() < 0.1, "{rate} of the decay rate");
+    }
+}
+
+/// The varying-compliance machine above its resonances moves with period 1: its orbit decays by e^(−cT/2m) per ball
+/// passage, the sum of its Floquet exponents being −2c/m for two pairs. After 300 passages this is not yet visible.
+#[test]
+fn varying_compliance_is_not_called_periodic_while_it_decays() {
+    let text = include_str!("../../models/varying_compliance.toml");
+    let machine = Machine::new(load("model.toml", text, &Options::default()).unwrap().model).unwrap();
+    for rpm in [4800.0, 5000.0, 5100.0, 5600.0] {
+        let short = poincare_after(&machine, rpm * RPM, |study| {
+            study.steady.transient_periods = 300;
+            study.steady.periods = 100;
+            study.steady.transient_limit = 0;
+        });
+        let exponent = short.motion.decay_factor.ln() * short.clock.frequency;
+        println!("{rpm}: {:?}, exponent {exponent:.2} 1/s", short.motion);
+        assert!(!short.motion.motion.is_settled(), "{rpm} rpm: {:?}", short.motion.motion);
+        // c/2m = 5 1/s; the largest changes of a few points beat between the two directions.
+        assert!((exponent / -5.0 - 1.0).abs() < 0.15, "{rpm} rpm: {exponent} 1/s");
+        let long = poincare_after(&machine, rpm * RPM, |study| {
+            study.steady.transient_periods = 300;
+            study.steady.periods = 100;
+        });
+        println!("    {:?} after {}", long.motion, long.transient_periods);
+        let very_long = poincare_after(&machine, rpm * RPM, |study| study.steady.transient_periods = 1500);
+        assert_eq!(long.motion.motion, very_long.motion.motion, "{rpm} rpm");
+        assert!((400..3000).contains(&long.transient_periods), "{}", long.transient_periods);
+    }
+}
+
+/// Balls with their own degrees of freedom and little damping: the motion agrees with that after a much
+/// longer run, or is not settled.
+#[test]
+fn radial_balls_are_not_called_periodic_while_they_decay() {
+    let text = include_str!("../../models/upadhyay_2009.toml");
+    let mut was_open = 0;
+    for (variant, damping) in
+        [("balls_13", "1e-6 s"), ("balls_13", "5e-6 s"), ("balls_16", "5e-6 s"), ("balls_8", "5e-6 s")]
+    {
+        let mut set =
+            ["x", "y"].map(|axis| (format!("bushing.damper.c_{axis}"), "50 N s/m".to_string())).to_vec();
+        set.push(("bearing.B.stiffness_damping".into(), damping.into()));
+        let options = Options { set, variant: Some(variant.into()), ..Options::default() };
+        let machine = Machine::new(load("model.toml", text, &options).unwrap().model).unwrap();
+        let speed = machine.model.studies.poincare.as_ref().unwrap().steady.speed;
+        let at = |transient: usize, limit: usize| {
+            poincare_after(&machine, speed, |study| {
+                study.steady.transient_periods = transient;
+                study.steady.periods = 60;
+                study.steady.transient_limit = limit;
+            })
+            .motion
+        };
+        let truth = at(1500, 0);
+        println!("{variant}, {damping}: {truth:?}");
+        assert!(truth.motion.is_settled(), "{truth:?}");
+        for transient in [20, 60, 150] {
+            let (short, long) = (at(transient, 0), at(transient, 3000));
+            println!("    after {transient}: {:?}, {:?}", short.motion, long.motion);
+            assert!(!short.motion.is_settled() || short.motion == truth.motion);
+            assert_eq!(long.motion, truth.motion);
+            was_open += usize::from(!short.motion.is_settled());
+        }
+    }
+    assert!(was_open >= 3, "{was_open}");
 }

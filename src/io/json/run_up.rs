@@ -34,6 +34,9 @@ pub(super) fn run_up(found: &RunUpResult) -> Value {
         "energy_j": {
             "work": energy.work, "drive_work": energy.drive, "parametric_work": energy.parametric, "damping_loss": energy.damping_loss,
             "contact_loss": energy.contact_loss, "residual": energy.residual(),
+            "stored_start": energy.start, "stored_end": energy.stored(),
+            "stored_change": energy.stored() - energy.start, "kinetic_end": energy.kinetic,
+            "strain_end": energy.strain, "contact_end": energy.contact,
         },
         "sample_rate_hz": found.history.sample_rate,
         "samples": found.history.time.len(),

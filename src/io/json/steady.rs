@@ -28,6 +28,7 @@ pub fn poincare(found: &PoincareResult) -> Value {
     };
     json!({
         "speed_rpm": found.speed * TO_RPM, "clock": clock(&found.clock), "motion": motion(&found.motion),
+        "transient_periods": found.transient_periods,
         "groups": found.groups, "planes": found.planes.iter().map(plane).collect::<Value>(),
     })
 }
@@ -57,6 +58,7 @@ pub fn bifurcation(found: &BifurcationResult) -> Value {
 fn steady_motion(value: f64, found: &SteadyMotion) -> Value {
     json!({
         "value": value, "motion": motion(&found.motion), "frequency_hz": found.frequency,
+        "transient_periods": found.transient_periods,
         "sections": found.sections, "extremes": found.extremes,
         "exponent": found.exponent.as_ref().map(exponent),
     })
@@ -65,7 +67,8 @@ fn steady_motion(value: f64, found: &SteadyMotion) -> Value {
 fn motion(found: &Classification) -> Value {
     json!({
         "kind": found.motion.name(), "period": found.motion.period(), "recurrence": found.recurrence,
-        "zero_one": found.zero_one_k,
+        "zero_one": found.zero_one_k, "settled": found.motion.is_settled(), "residual": found.residual,
+        "decay_factor": found.decay_factor,
     })
 }
 

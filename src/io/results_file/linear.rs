@@ -27,6 +27,12 @@ pub fn equilibrium(store: &Store, found: &Equilibrium, machine: &Machine) -> Res
     writer.set_attribute("residual", found.residual)?;
     let q = machine.assembly.dofs.expand(&found.q);
     writer.write_array("displacement", &[q.len() / 6, 6], &q, "m, rad")?;
+    for belt in &found.belts {
+        let at = writer.subgroup(&format!("belts/{}", belt.name))?;
+        at.write_array("stated_pull", &[2], &belt.stated, "N")?;
+        at.write_array("pull", &[2], &belt.remaining, "N")?;
+        at.write_array("displacement", &[2], &belt.displacement, "m")?;
+    }
     for bearing in &found.bearings {
         let at = writer.subgroup(&format!("bearings/{}", bearing.name))?;
         at.set_attribute("largest_ball_load", bearing.largest_ball_load)?;

@@ -5,15 +5,15 @@
 //! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units |
 //! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
-//! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls |
+//! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls; per belt stated and remaining pull |
 //! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
 //! | `/campbell` | \[branch, speed\]: frequency, zeta, log_dec; order lines, crossings, thresholds |
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |
 //! | `/frf` | response \[response, excitation, frequency\] (complex); requested: 1 for the requested frequencies, 0 for those added around peaks |
 //! | `/unbalance` | complex amplitude over speed of every response and of every disc's orbit; requested: as in `/frf`; peaks: speed, amplitude, amplification factor |
-//! | `/poincare` | attributes: speed, clock, motion; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
+//! | `/poincare` | attributes: speed, clock, motion, settled (1 or 0), residual, decay_factor, transient_periods; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
-//! | `/bifurcation/<sweep>` | over `value`: motion, period, exponent; per channel `section` \[value, point\] and extremes |
+//! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |

@@ -11,6 +11,7 @@ pub fn poincare(store: &Store, found: &PoincareResult) -> Result<(), Error> {
     writer.set_attribute("speed", found.speed)?;
     clock(&writer, &found.clock)?;
     motion(&writer, &found.motion)?;
+    writer.set_attribute("transient_periods", found.transient_periods as i64)?;
     writer.set_attribute("groups", found.groups as i64)?;
     writer.write_array("shaft_angle", &[found.shaft_angle.len()], &found.shaft_angle, "rad")?;
     for plane in &found.planes {
@@ -82,6 +83,10 @@ pub fn bifurcation(store: &Store, found: &BifurcationResult) -> Result<(), Error
             ),
             ("recurrence", "1", over(&|m| m.motion.recurrence)),
             ("zero_one", "1", over(&|m| m.motion.zero_one_k)),
+            ("settled", "1", over(&|m| f64::from(m.motion.motion.is_settled()))),
+            ("residual", "1", over(&|m| m.motion.residual)),
+            ("decay_factor", "1", over(&|m| m.motion.decay_factor)),
+            ("transient_periods", "periods of the clock", over(&|m| m.transient_periods as f64)),
             ("frequency", "Hz", over(&|m| m.frequency)),
         ];
         if sweep.points.iter().any(|p| p.motion.as_ref().is_ok_and(|m| m.exponent.is_some())) {
@@ -134,5 +139,8 @@ fn clock(writer: &GroupWriter, clock: &SectionClock) -> Result<(), Error> {
 fn motion(writer: &GroupWriter, found: &Classification) -> Result<(), Error> {
     writer.set_attribute("motion", found.motion.name())?;
     writer.set_attribute("recurrence", found.recurrence)?;
-    writer.set_attribute("zero_one", found.zero_one_k)
+    writer.set_attribute("zero_one", found.zero_one_k)?;
+    writer.set_attribute("settled", i64::from(found.motion.is_settled()))?;
+    writer.set_attribute("residual", found.residual)?;
+    writer.set_attribute("decay_factor", found.decay_factor)
 }

@@ -20,6 +20,7 @@ mod springs;
 mod steady;
 mod study;
 mod topology;
+mod work_limits;
 
 use super::file::diagnostic::{Kind, Log, Problem};
 use super::file::reader::{Reader, any, not_negative, positive};

@@ -1,6 +1,7 @@
 //! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::study::{channels, integrator};
+use super::work_limits;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, positive};
 use crate::model::file::renamed::{self, renamed_path};
@@ -16,6 +17,8 @@ use crate::units::{ANGLE, FREQUENCY, LENGTH, NUMBER, SPEED, TIME, leading_number
 const DEFAULT_PERTURBATION: f64 = 1e-9;
 const DEFAULT_TOLERANCE: f64 = 1e-3;
 const DEFAULT_LONGEST_PERIOD: usize = 32;
+/// Default limit of a run whose motion does not settle, as a multiple of its transient and recorded periods.
+const DEFAULT_LIMIT_FACTOR: usize = 10;
 
 pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     if let Some(r) = all.table("poincare") {
@@ -59,17 +62,23 @@ fn steady(
         let problem = Problem::new(Kind::Conflict, &r.span, message);
         r.log.error(problem.hint("set drive.kind = \"prescribed\""));
     }
+    let transient_periods = r.count("transient_periods", transient_periods, 0..=10_000_000);
+    let periods = r.count("periods", periods, 8..=10_000_000);
+    let limit = DEFAULT_LIMIT_FACTOR * (transient_periods + periods);
     let default = run_up.map_or(Integrator::GeneralisedAlpha { rho_infinity: 0.8 }, |s| s.integrator);
-    SteadyRunSettings {
+    let settings = SteadyRunSettings {
         speed: r.or("speed", positive(SPEED), top),
         integrator: integrator(r, default),
         step: r.or("step", positive(TIME), run_up.map_or(1e-4, |s| s.step)),
         cutoff: r.or("cutoff", positive(FREQUENCY), run_up.map_or(f64::INFINITY, |s| s.cutoff)),
         trigger: section_trigger(r, model),
         phase: r.or("phase", any(ANGLE), 0.0),
-        transient_periods: r.count("transient_periods", transient_periods, 0..=10_000_000),
-        periods: r.count("periods", periods, 8..=10_000_000),
-    }
+        transient_periods,
+        periods,
+        transient_limit: r.count("transient_limit", limit, 0..=1_000_000_000),
+    };
+    work_limits::check_steady(r, &settings);
+    settings
 }
 
 fn section_trigger(r: &Reader, model: &Model) -> SectionTrigger {

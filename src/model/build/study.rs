@@ -4,6 +4,7 @@ use super::bearing_study;
 use super::loading::{QUANTITIES, anchor_and_direction, check_increasing};
 use super::places::Places;
 use super::steady;
+use super::work_limits;
 use crate::bearing::{Bearing, Cage};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, not_negative, positive};
@@ -59,7 +60,9 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         r.finish();
     }
     if let Some(r) = all.table("run_up") {
-        studies.run_up = Some(run_up(top, &r, model));
+        let study = run_up(top, &r, model);
+        work_limits::check_run_up(&r, &study, model.profile.duration());
+        studies.run_up = Some(study);
         r.finish();
     }
     let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
