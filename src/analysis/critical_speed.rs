@@ -2,9 +2,9 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`search`] | all crossings over a range of speeds, without tracking of modes |
-//! | [`refine`] | one crossing, refined on its own mode by inverse iteration |
-//! | [`undamped`] | undamped critical speeds with constant bearings, solved directly or counted |
+//! | `search` | all crossings over a range of speeds, without tracking of modes |
+//! | `refine` | one crossing, refined on its own mode by inverse iteration |
+//! | `undamped` | undamped critical speeds with constant bearings, solved directly or counted |
 
 mod refine;
 mod search;

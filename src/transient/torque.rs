@@ -57,7 +57,7 @@ pub struct RotatingUnbalance {
 /// What a state has under a torque drive in addition.
 #[derive(Clone, Debug, Default)]
 pub struct DrivenState {
-    /// Load of the coupling at the state ([`TorqueDrive::coupling`]).
+    /// Load of the coupling at the state (see [`coupling`]).
     pub load: DVector<f64>,
     /// ẍ of the equations of motion at the state's time (the integrator's own acceleration may be shifted in time).
     pub acceleration: DVector<f64>,

@@ -318,7 +318,7 @@ fn labels_are_those_at_the_point_shown() {
 #[test]
 fn a_mode_that_becomes_oscillatory_is_no_crossing() {
     let (mass, stiffness) = (10.0, 4e6);
-    let critical = 2.0 * (mass * stiffness as f64).sqrt();
+    let critical = 2.0 * f64::sqrt(mass * stiffness);
     // ζ = 1.6 at standstill, 0.01 from 300 rad/s on; ω = 632 rad/s is crossed by order 1 only at the end.
     let row = |speed: f64, zeta: f64| {
         let [mut k, mut c] = [[[0.0; 6]; 6]; 2];

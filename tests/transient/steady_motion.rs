@@ -334,7 +334,7 @@ fn radial_balls_are_not_called_periodic_while_they_decay() {
         let mut set =
             ["x", "y"].map(|axis| (format!("bushing.damper.c_{axis}"), "50 N s/m".to_string())).to_vec();
         set.push(("bearing.B.stiffness_damping".into(), damping.into()));
-        let options = Options { set, variant: Some(variant.into()), ..Options::default() };
+        let options = Options { set, variant: Some(variant.into()) };
         let machine = Machine::new(load("model.toml", text, &options).unwrap().model).unwrap();
         let speed = machine.model.studies.poincare.as_ref().unwrap().steady.speed;
         let at = |transient: usize, limit: usize| {
