@@ -86,7 +86,7 @@ pub fn table(machine: &Machine, terminal: &Terminal) {
         })
         .collect();
     if !rows.is_empty() {
-        terminal.table("Forecast of the studies", &["study", "work", "results at most"], &rows);
+        terminal.table("Forecast of the studies", &["study", "work", "size of the results"], &rows);
     }
 }
 
