@@ -126,7 +126,8 @@ pub enum Drive {
     /// profile's speed and its torsion is free.
     Prescribed { node: Option<usize> },
     /// Drive torque at this node, a torque-speed characteristic: (speed \[rad/s\], torque \[N m\]) table. The
-    /// speed follows from the equation of rotation; `drag` \[N m s/rad\] is viscous resistance to ground.
+    /// speed follows from the equation of rotation, coupled to the other motions by unbalance, tilting inertias and
+    /// damping; `drag` \[N m s/rad\] is viscous resistance to ground.
     Torque { node: usize, table: Vec<[f64; 2]>, drag: f64 },
 }
 
