@@ -5,6 +5,7 @@ use rotordyn::analysis::ModeKind;
 use rotordyn::analysis::campbell::campbell;
 use rotordyn::analysis::critical_speed::{crossings, undamped_critical_speeds};
 use rotordyn::assembly::{Assembly, LinearSystem};
+use rotordyn::bearing::Bearing;
 
 const CASES: [&str; 6] = [
     "friswell_5_9_1",
@@ -58,7 +59,14 @@ fn crossings_of_tracked_branches_agree() {
         let tangents = |speed: f64| Ok(ross::tangents(&model, speed));
         let diagram = campbell(&assembly, &speeds, 12, &tangents).unwrap();
         let ours = crossings(&assembly, &diagram, &[1.0], &tangents).unwrap().list;
-        for reference in &theirs {
+        // ROSS goes on linearly beyond a table of bearing coefficients, here the values of its end hold.
+        let table_end = model.bearings.iter().map(|site| match &site.bearing {
+            Bearing::Linear(linear) => linear.table_range().map_or(f64::INFINITY, |range| range[1]),
+            _ => f64::INFINITY,
+        });
+        let table_end = table_end.fold(f64::INFINITY, f64::min);
+        assert!(theirs[0] < table_end, "{name}: no reference within the table");
+        for reference in theirs.iter().filter(|speed| **speed <= table_end) {
             let nearest =
                 ours.iter().map(|c| (c.speed / reference - 1.0).abs()).fold(f64::INFINITY, f64::min);
             assert!(nearest < 1e-6, "{name} {reference}: {nearest:e}");
