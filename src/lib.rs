@@ -65,7 +65,7 @@
 //!
 //! // Linearised about it: modes labelled by whirl and energy, and a Campbell diagram with MAC mode tracking.
 //! let modes = machine.modal(&study::ModalStudy { speeds: vec![0.0, TAU * 20.0], modes: 6 })?;
-//! let bending = modes[1].modes.iter().find(|m| m.label == "1st bending forward");
+//! let bending = modes[1].modes.iter().find(|m| m.label == "1st bending y");
 //! assert!(bending.is_some_and(|m| m.frequency_hz() > 20.0));
 //! let speeds = (0..5).map(|k| TAU * 5.0 * k as f64).collect();
 //! let orders = vec![1.0];

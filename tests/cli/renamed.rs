@@ -15,7 +15,9 @@ fn run(folder: &Path, args: &[&str]) -> (Value, Vec<String>) {
     command.args(args).args(["--no-figures", "--json", "--out"]).arg(folder);
     let output = command.assert().success().get_output().clone();
     let mut document: Value = serde_json::from_slice(&output.stdout).unwrap();
-    document.as_object_mut().unwrap().remove("seconds");
+    for key in ["seconds", "wall_seconds", "cpu_seconds"] {
+        document.as_object_mut().unwrap().remove(key);
+    }
     (document, notes(&output.stderr))
 }
 

@@ -125,7 +125,9 @@ fn json_contains_finite_numbers_and_units() {
     assert_eq!(document["modal"][1]["speed_rpm"].as_f64().map(|rpm| (rpm - 1200.0).abs() < 1e-9), Some(true));
     let mut all = Vec::new();
     numbers(&document, "", &mut all);
-    let missing: Vec<_> = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches")).collect();
+    let missing: Vec<_> = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches"));
+    // No rerun of a stretch: this run-up was not made by the command.
+    let missing: Vec<_> = missing.filter(|(path, _)| path != ".run_up.step_error").collect();
     assert!(all.len() > 10_000 && missing.is_empty(), "{missing:?}");
 
     // Non-finite numbers become null instead of invalid JSON.
@@ -161,6 +163,9 @@ fn geometry_and_mode_shapes_are_exported() {
     };
     let square = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
     let (now, later) = (vectors("displacement"), vectors("displacement_quarter"));
-    let largest = now.iter().zip(&later).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
+    // The points of the shaft's nodes come first.
+    let nodes = machine.model.node_z.len();
+    let largest =
+        now.iter().zip(&later).take(nodes).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
     assert!((largest - 0.0625).abs() < 1e-12, "{largest}");
 }

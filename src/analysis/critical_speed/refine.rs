@@ -9,10 +9,11 @@ use crate::linalg::{BandLayout, Complex64};
 const TOLERANCE: f64 = 1e-13;
 /// Relative change that is round-off if it does not decrease further.
 const ROUND_OFF: f64 = 1e-8;
-const MAX_ITERATIONS: usize = 12;
-const MAX_RESIDUAL_ITERATIONS: usize = 60;
-/// Relative change of a shape at which the residual iteration may end.
-const MAX_SHAPE_CHANGE: f64 = 1e-7;
+const MAX_ITERATIONS: usize = 16;
+/// Relative changes of shape and λ at which the residual iteration ends, and its shift from λ.
+const MAX_SHAPE_CHANGE: f64 = 1e-6;
+const MAX_VALUE_CHANGE: f64 = 1e-12;
+const RELATIVE_SHIFT: f64 = 1e-4;
 const MAX_SECANT_STEPS: usize = 20;
 
 /// The eigenpair of P(λ) φ = (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
@@ -69,8 +70,8 @@ fn derivative(system: &LinearSystem, value: Complex64, shape: &[Complex64]) -> V
     mass.iter().zip(system.damp(shape)).map(|(m, d)| 2.0 * value * m + d).collect()
 }
 
-/// With modal damping, which is dense: residual inverse iteration φ ← φ − P̃⁻¹ P(λ) φ, φᴴ P(λ) φ = 0. P̃ is a band
-/// matrix at a fixed λ next to the start, with proportional damping of the same ratio there.
+/// With modal damping, which is dense: residual inverse iteration φ ← φ − P̃⁻¹ P(λ) φ, φᴴ P(λ) φ = 0. P̃ is the band
+/// matrix next to λ with proportional damping of the same ratio there.
 /// Source: Neumaier 1985.
 fn residual_iteration(
     system: &LinearSystem,
@@ -80,14 +81,8 @@ fn residual_iteration(
 ) -> Option<Eigenpair> {
     let [m, d, s, k] =
         [&system.mass, &system.damping, &system.stiffness, &modal.stiffness].map(|a| layout.scatter(a));
-    let shift = value * (1.0 + 1e-4);
-    let omega = shift.norm();
-    let factor = shift * (modal.ratio(omega) / omega);
     let mut lu = layout.workspace::<Complex64>();
-    lu.refactor(|i| shift * shift * m[i] + shift * d[i] + s[i] + factor * (omega * omega * m[i] + k[i]))
-        .ok()?;
-    let mut last = f64::INFINITY;
-    for _ in 0..MAX_RESIDUAL_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let (mass, damping) = (system.mass.mul_complex(&shape), system.damp(&shape));
         let stiffness = system.stiffness.mul_complex(&shape);
         let [a, b, c] = [&mass, &damping, &stiffness].map(|v| inner(&shape, v));
@@ -95,22 +90,27 @@ fn residual_iteration(
         for _ in 0..3 {
             value -= (a * value * value + b * value + c) / (2.0 * a * value + b);
         }
+        // At λ itself P̃ would return φ.
+        let shift = value * (1.0 + RELATIVE_SHIFT);
+        let omega = shift.norm();
+        let factor = shift * (modal.ratio(omega) / omega);
+        let square = shift * shift;
+        lu.refactor(|i| square * m[i] + shift * d[i] + s[i] + factor * (omega * omega * m[i] + k[i])).ok()?;
         let mut rest: Vec<Complex64> =
             (0..shape.len()).map(|i| value * value * mass[i] + value * damping[i] + stiffness[i]).collect();
         lu.solve(&mut rest);
+        let [moved, largest] = [&rest, &shape].map(|v| v.iter().map(|v| v.norm()).fold(0.0, f64::max));
         shape.iter_mut().zip(&rest).for_each(|(v, r)| *v -= r);
         shape = mass_normalised(shape, &system.mass);
         let size = (value - before).norm() / value.norm();
         if !size.is_finite() {
             return None;
         }
-        // The change of λ is of second order in that of φ.
-        let moved = rest.iter().map(|v| v.norm()).fold(0.0, f64::max)
-            / shape.iter().map(|v| v.norm()).fold(0.0, f64::max);
-        if moved < MAX_SHAPE_CHANGE && has_converged(size, last) {
+        // The error of λ is of second order in that of φ.
+        // It converges linearly, so that no size can be told from round-off.
+        if moved < MAX_SHAPE_CHANGE * largest && size < MAX_VALUE_CHANGE {
             return Some((value, shape));
         }
-        last = size;
     }
     None
 }

@@ -25,8 +25,9 @@ const HEAVY_DAMPING: f64 = 0.3;
 const ON_LINE: f64 = 1e-8;
 /// Largest number of halvings of a step in which N changes twice.
 const MAX_HALVINGS: usize = 6;
-/// Largest number of halvings to isolate a crossing or the speed at which a mode becomes oscillatory.
-const MAX_BISECTIONS: usize = 34;
+/// Largest number of halvings of a step to separate its crossings, before each is bracketed.
+const MAX_BISECTIONS: usize = 4;
+const MAX_BRACKETINGS: usize = 80;
 /// Modes in addition to the number searched, whose frequency may fall below that of the last.
 const EXTRA_MODES: usize = 4;
 /// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](crate::linalg::krylov).
@@ -285,19 +286,48 @@ impl<'a, T: Tangents> Search<'a, T> {
             }
         }
         found.retain(|place, _| places.contains(place));
-        if found.len() < places.len() && (depth == 0 || b.speed - a.speed < ON_LINE * b.speed) {
-            // A frequency that crosses the line here without a refined crossing, unless it begins or ends by a jump.
-            self.modes_near_line(b.speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
+        if depth == 0 {
+            for place in places.clone() {
+                if !found.contains_key(&place)
+                    && let Some(speed) = self.bracketed(a, b, place, order)?
+                {
+                    self.modes_near_line(speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
+                }
+            }
             found.retain(|place, _| places.contains(place));
-            return Ok(found.into_values().collect());
         }
-        if found.len() == places.len() {
+        if found.len() == places.len() || depth == 0 {
             return Ok(found.into_values().collect());
         }
         let middle = self.spectrum(0.5 * (a.speed + b.speed), end.pairs.len().max(2) - 1)?;
         let mut found = self.crossings(a, &middle, order, depth - 1)?;
         found.extend(self.crossings(&middle, b, order, depth - 1)?);
         Ok(found)
+    }
+
+    /// The speed at which the frequency at a place crosses the line, from the spectra alone: false position with
+    /// bisection. `None` where it jumps over the line, as a mode below becomes oscillatory or overdamped.
+    fn bracketed(&self, a: &Spectrum, b: &Spectrum, place: usize, order: f64) -> Result<Option<f64>, Error> {
+        let count = a.pairs.len().max(b.pairs.len());
+        let mut ends = [a, b].map(|end| (end.speed, end.gap(place, order)));
+        for step in 0..MAX_BRACKETINGS {
+            let [(left, ga), (right, gb)] = ends;
+            let speed = match (ga, gb) {
+                (Some(ga), Some(gb)) if step % 3 != 2 => left + (right - left) * ga / (ga - gb),
+                _ => 0.5 * (left + right),
+            };
+            let gap = self.spectrum(speed, count.max(2) - 1)?.gap(place, order);
+            if gap.is_some_and(|gap| gap.abs() < 0.1 * ON_LINE * order * speed) {
+                return Ok(Some(speed));
+            }
+            if right - left < 1e-12 * right {
+                break;
+            }
+            // A place beyond the modes computed lies above the line.
+            let above = |gap: Option<f64>| gap.is_none_or(|gap| gap > 0.0);
+            ends[usize::from(above(gap) != above(ga))] = (speed, gap);
+        }
+        Ok(None)
     }
 
     /// Adds the modes within a relative distance of an order line at a speed, by their places.
