@@ -125,7 +125,7 @@ fn json_contains_finite_numbers_and_units() {
     assert_eq!(document["modal"][1]["speed_rpm"].as_f64().map(|rpm| (rpm - 1200.0).abs() < 1e-9), Some(true));
     let mut all = Vec::new();
     numbers(&document, "", &mut all);
-    let missing: Vec<_> = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches"));
+    let missing = all.iter().filter(|(path, v)| v.is_none() && !path.contains("branches"));
     // No rerun of a stretch: this run-up was not made by the command.
     let missing: Vec<_> = missing.filter(|(path, _)| path != ".run_up.step_error").collect();
     assert!(all.len() > 10_000 && missing.is_empty(), "{missing:?}");
