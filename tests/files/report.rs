@@ -153,7 +153,7 @@ fn geometry_and_mode_shapes_are_exported() {
     let text = std::fs::read_to_string(&series[1]).unwrap();
     assert_eq!(text.matches("<DataSet").count(), 12);
     assert!(text.contains("timestep=\"1e0\" part=\"0\" file=\"modes_1200rpm_01.vtu\""), "{text}");
-    // The first mode is a bending mode: its largest orbit radius is a tenth of the shaft's 625 mm.
+    // The first mode is a bending mode: the largest motion of any point is a tenth of the shaft's 625 mm.
     let vtu = std::fs::read_to_string(folder.path().join("modes_1200rpm_01.vtu")).unwrap();
     let vectors = |name: &str| -> Vec<[f64; 3]> {
         let body = vtu.split(&format!("Name=\"{name}\"")).nth(1).unwrap();
@@ -163,9 +163,7 @@ fn geometry_and_mode_shapes_are_exported() {
     };
     let square = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
     let (now, later) = (vectors("displacement"), vectors("displacement_quarter"));
-    // The points of the shaft's nodes come first.
-    let nodes = machine.model.node_z.len();
-    let largest =
-        now.iter().zip(&later).take(nodes).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
-    assert!((largest - 0.0625).abs() < 1e-12, "{largest}");
+    let largest = now.iter().zip(&later).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
+    // The written coordinates of the surfaces are rounded.
+    assert!((largest - 0.0625).abs() < 1e-8, "{largest}");
 }
