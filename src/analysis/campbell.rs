@@ -9,7 +9,7 @@ use crate::linalg::Complex64;
 use rayon::prelude::*;
 
 /// Modes computed in addition to the requested ones, so that a branch continues when others drop below it.
-const EXTRA_MODES: usize = 4;
+pub(super) const EXTRA_MODES: usize = 4;
 /// Below this MAC the speed step is halved.
 const CERTAIN_MAC: f64 = 0.7;
 /// Below this MAC a branch is lost.

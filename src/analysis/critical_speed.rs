@@ -15,7 +15,7 @@ pub use undamped::undamped_critical_speeds;
 use super::campbell::{Campbell, Tangents};
 use super::modal::Mode;
 use super::mode_kind::ModeKind;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, LinearSystem};
 use crate::error::Error;
 use search::{Search, Spectrum};
 
@@ -28,6 +28,23 @@ pub struct CriticalSpeed {
     pub order: f64,
     /// The mode at this speed, with its kind and label there.
     pub mode: Mode,
+}
+
+impl CriticalSpeed {
+    /// dω_d/dΩ of the mode, by a central difference; 0 if the mode is not found beside the crossing.
+    ///
+    /// # Errors
+    /// Errors of the linearised system.
+    pub fn frequency_slope(&self, assembly: &Assembly, tangents: &impl Tangents) -> Result<f64, Error> {
+        let start = (self.mode.eigenvalue, self.mode.shape.clone());
+        let omega_at = |speed: f64| -> Result<Option<f64>, Error> {
+            let system = LinearSystem::new(assembly, &tangents(speed)?, speed)?;
+            Ok(refine::nearest_eigenpair(&system, &start).map(|(value, _)| value.im))
+        };
+        let step = SLOPE_STEP * self.speed;
+        let [below, above] = [omega_at(self.speed - step)?, omega_at(self.speed + step)?];
+        Ok(above.zip(below).map_or(0.0, |(above, below)| 0.5 * (above - below) / step))
+    }
 }
 
 /// Crossings over a range of speeds, and what the list lacks.
@@ -50,10 +67,12 @@ pub struct UncertainRange {
     pub to: f64,
 }
 
-/// Number of speeds of the search, standstill included.
+/// Number of speeds of the search, both ends included.
 const SPEEDS: usize = 33;
+/// Relative step of speed for the derivative of a frequency.
+const SLOPE_STEP: f64 = 1e-5;
 
-/// All crossings of damped modes with the lines ω_d = n Ω up to a speed; damping and bearings included.
+/// All crossings of damped modes with the lines ω_d = n Ω from one speed to another; damping and bearings included.
 ///
 /// Modes with a damping ratio above 0.6 are searched only if damping ratios above 0.3 occur, up to 0.94.
 ///
@@ -61,12 +80,12 @@ const SPEEDS: usize = 33;
 /// Errors of the tangents or of an eigenvalue computation.
 pub fn critical_speeds(
     assembly: &Assembly,
-    max_speed: f64,
+    [from, to]: [f64; 2],
     orders: &[f64],
     tangents: &impl Tangents,
 ) -> Result<CrossingList, Error> {
     let search = Search::new(assembly, tangents, orders, None);
-    let speeds: Vec<f64> = (0..SPEEDS).map(|k| max_speed * k as f64 / (SPEEDS - 1) as f64).collect();
+    let speeds: Vec<f64> = (0..SPEEDS).map(|k| from + (to - from) * k as f64 / (SPEEDS - 1) as f64).collect();
     search.run(search.spectra(&speeds)?, orders)
 }
 

@@ -104,6 +104,25 @@ pub(super) fn eigenpairs(
     Ok(pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &assembly.mass))).collect())
 }
 
+/// The lowest eigenpairs, at least `count`, raised until the last lies at |λ| = `reach` of those found or beyond.
+///
+/// # Errors
+/// As [`modes`].
+pub(super) fn eigenpairs_up_to(
+    assembly: &Assembly,
+    system: &LinearSystem,
+    mut count: usize,
+    reach: impl Fn(&[Eigenpair]) -> f64,
+) -> Result<Vec<Eigenpair>, Error> {
+    loop {
+        let pairs = eigenpairs(assembly, system, count)?;
+        if pairs.get(count - 1).is_none_or(|last| last.0.norm() >= reach(&pairs)) {
+            return Ok(pairs);
+        }
+        count += 4 + count / 2;
+    }
+}
+
 /// The undamped modes of a system: C and the circulatory part dropped, gyroscopic effect kept.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! Stability threshold (onset speed of instability): the speed where a mode's damping vanishes.
 
-use super::campbell::{Campbell, Tangents, Tracker};
+use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
 use super::modal::Mode;
 use crate::assembly::Assembly;
 use crate::error::Error;
@@ -25,7 +25,7 @@ pub fn thresholds(
     diagram: &Campbell,
     tangents: &impl Tangents,
 ) -> Result<Vec<Threshold>, Error> {
-    let tracker = Tracker { assembly, tangents, count: diagram.branches.len() + 4 };
+    let tracker = Tracker { assembly, tangents, count: diagram.count + EXTRA_MODES };
     let mut found = Vec::new();
     for branch in &diagram.branches {
         for (k, pair) in branch.modes.windows(2).enumerate() {

@@ -166,7 +166,8 @@ impl Machine {
         self.check_tables("critical", &[0.0, study.max_speed])?;
         let tangents = |speed| self.tangents(speed, true);
         let (assembly, max_speed) = (&self.assembly, study.max_speed);
-        let crossings = critical_speed::critical_speeds(assembly, max_speed, &study.orders, &tangents)?;
+        let crossings =
+            critical_speed::critical_speeds(assembly, [0.0, max_speed], &study.orders, &tangents)?;
         Ok(CriticalResult { max_speed, crossings })
     }
 

@@ -42,14 +42,14 @@ impl Energy {
 
     /// Residual of the energy balance \[J\].
     pub fn residual(&self) -> f64 {
-        self.kinetic + self.strain + self.contact - self.start - self.work - self.drive - self.parametric
+        self.stored() - self.start - self.work - self.drive - self.parametric
             + self.damping_loss
             + self.contact_loss
     }
 
     /// Reference for the residual \[J\]: losses plus change of stored energy.
     pub fn exchanged(&self) -> f64 {
-        self.damping_loss + self.contact_loss + (self.kinetic + self.strain + self.contact - self.start).abs()
+        self.damping_loss + self.contact_loss + (self.stored() - self.start).abs()
     }
 }
 
@@ -89,8 +89,7 @@ impl EnergyBalance {
         };
         effective_load(system, state, &mut balance.scratch, &mut balance.previous_load);
         balance.update_stored_energy(system, state);
-        let e = &mut balance.energy;
-        e.start = e.kinetic + e.strain + e.contact;
+        balance.energy.start = balance.energy.stored();
         balance
     }
 

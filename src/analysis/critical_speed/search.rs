@@ -1,14 +1,15 @@
 //! All crossings of the modes with order lines over a range of speeds.
 //!
 //! The modes at each speed, sorted by damped frequency, are continuous functions of speed whichever mode has which
-//! place. The k-th frequency therefore crosses an order line between two speeds where the number N of modes below the
-//! line differs: for every place between both numbers one crossing is refined. No mode has to be tracked.
+//! index. The k-th frequency therefore crosses an order line between two speeds where the number N of modes below the
+//! line differs: for every index between both numbers one crossing is refined. No mode has to be tracked.
 //!
 //! Two crossings within one step leave N unchanged. With constant bearings N at the end is compared with the number
 //! of undamped modes, which cannot decrease with speed; otherwise steps are halved until N changes in one direction
 //! only and no frequency turns towards the line within a step.
 
-use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine};
+use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
+use crate::analysis::campbell::EXTRA_MODES;
 use crate::analysis::modal::{self, Eigenpair, Mode};
 use crate::assembly::{Assembly, LinearSystem};
 use crate::bearing::SiteTangent;
@@ -28,8 +29,6 @@ const MAX_HALVINGS: usize = 6;
 /// Largest number of halvings of a step to separate its crossings, before each is bracketed.
 const MAX_BISECTIONS: usize = 4;
 const MAX_BRACKETINGS: usize = 80;
-/// Modes in addition to the number searched, whose frequency may fall below that of the last.
-const EXTRA_MODES: usize = 4;
 /// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](crate::linalg::krylov).
 const RIGID_BODY: f64 = 1e-3 * modal::SHIFT;
 
@@ -50,10 +49,23 @@ impl Spectrum {
         Self::new(speed, modes.iter().map(|m| (m.eigenvalue, m.shape.clone())).collect())
     }
 
-    /// ω_d − n Ω of the mode at a place.
-    fn gap(&self, place: usize, order: f64) -> Option<f64> {
-        self.pairs.get(place).map(|pair| pair.0.im - order * self.speed)
+    /// Number of modes below an order line.
+    fn below(&self, order: f64) -> usize {
+        self.pairs.partition_point(|pair| pair.0.im < order * self.speed)
     }
+
+    /// ω_d − n Ω of the mode at an index.
+    fn gap(&self, index: usize, order: f64) -> Option<f64> {
+        self.pairs.get(index).map(|pair| pair.0.im - order * self.speed)
+    }
+}
+
+/// Number of modes below every order line at one speed.
+struct AllBelow {
+    speed: f64,
+    /// `None` at standstill.
+    system: Option<LinearSystem>,
+    counts: Vec<usize>,
 }
 
 /// Search with one set of orders.
@@ -65,8 +77,8 @@ pub(super) struct Search<'a, T> {
     limit: Option<usize>,
 }
 
-/// Crossings in a step in which every place has one at most.
-type ByPlace = BTreeMap<usize, CriticalSpeed>;
+/// Crossings in a step in which every index has one at most.
+type ByIndex = BTreeMap<usize, CriticalSpeed>;
 
 impl<'a, T: Tangents> Search<'a, T> {
     pub fn new(assembly: &'a Assembly, tangents: &'a T, orders: &[f64], limit: Option<usize>) -> Self {
@@ -95,35 +107,34 @@ impl<'a, T: Tangents> Search<'a, T> {
             // No order line crosses at standstill.
             return Ok(Spectrum::new(speed, Vec::new()));
         }
-        let (system, count) = (self.system(speed)?, self.limit.map_or(guess, |limit| limit + EXTRA_MODES));
-        Ok(Spectrum::new(speed, self.pairs(&system, count, self.limit.is_none())?))
+        Ok(Spectrum::new(speed, self.pairs(&self.system(speed)?, guess)?))
     }
 
     fn system(&self, speed: f64) -> Result<LinearSystem, Error> {
         LinearSystem::new(self.assembly, &(self.tangents)(speed)?, speed)
     }
 
-    /// The lowest `count` eigenpairs; with `all`, `count` is raised until the last lies beyond the reach of the
-    /// search.
-    fn pairs(&self, system: &LinearSystem, mut count: usize, all: bool) -> Result<Vec<Eigenpair>, Error> {
-        loop {
-            let pairs = modal::eigenpairs(self.assembly, system, count)?;
-            let Some(last) = pairs.get(count - 1).filter(|_| all) else {
-                return Ok(pairs);
-            };
+    /// All eigenpairs within the reach of the search.
+    fn all_pairs(&self, system: &LinearSystem, count: usize) -> Result<Vec<Eigenpair>, Error> {
+        let reach = |pairs: &[Eigenpair]| {
             let heavy = pairs.iter().any(|(value, _)| -value.re > HEAVY_DAMPING * value.norm());
-            let reach = if heavy { HEAVY_REACH } else { REACH } * self.highest_order * system.speed;
-            if last.0.norm() >= reach {
-                return Ok(pairs);
-            }
-            count += 4 + count / 2;
+            let factor = if heavy { HEAVY_REACH } else { REACH };
+            factor * self.highest_order * system.speed
+        };
+        modal::eigenpairs_up_to(self.assembly, system, count, reach)
+    }
+
+    /// As many eigenpairs as are searched.
+    fn pairs(&self, system: &LinearSystem, guess: usize) -> Result<Vec<Eigenpair>, Error> {
+        match self.limit {
+            Some(limit) => modal::eigenpairs(self.assembly, system, limit + EXTRA_MODES),
+            None => self.all_pairs(system, guess),
         }
     }
 
     /// Number of modes below an order line, at most as many as are searched.
     fn below(&self, at: &Spectrum, order: f64) -> usize {
-        let count = at.pairs.partition_point(|pair| pair.0.im < order * at.speed);
-        self.limit.map_or(count, |limit| count.min(limit))
+        at.below(order).min(self.limit.unwrap_or(usize::MAX))
     }
 
     /// All crossings between the first and the last of the spectra.
@@ -132,9 +143,9 @@ impl<'a, T: Tangents> Search<'a, T> {
         let (Some(first), Some(last)) = (spectra.first(), spectra.last()) else {
             return Ok(CrossingList::default());
         };
-        let (first, top) = (first.speed, last.speed);
-        let mut out = CrossingList::default();
-        let complete = self.number_is_monotonic(orders, first, top, &mut out)?;
+        let (first, top) = (first.speed, self.all_below(last.speed, orders)?);
+        let mut out = CrossingList { omitted: self.omitted(&top, orders), ..CrossingList::default() };
+        let complete = self.number_is_monotonic(orders, first, &top)?;
         let spectra = match complete {
             true => spectra,
             false => self.halve_steps(spectra, orders, &mut out.uncertain)?,
@@ -150,43 +161,43 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(out)
     }
 
-    /// Whether the number of modes below every order line only increases: constant bearings, and as many modes below
-    /// the line as without damping. Notes the modes beyond the limit of the search.
-    fn number_is_monotonic(
-        &self,
-        orders: &[f64],
-        first: f64,
-        top: f64,
-        out: &mut CrossingList,
-    ) -> Result<bool, Error> {
-        let system = self.system(top)?;
-        let start = self.limit.map_or(8, |limit| limit + EXTRA_MODES);
-        let all = Spectrum::new(top, self.pairs(&system, start, true)?);
-        let unlimited = |at: &Spectrum, order: f64| at.pairs.partition_point(|p| p.0.im < order * at.speed);
-        if let Some(limit) = self.limit {
-            let beyond = |order: &f64| (*order, unlimited(&all, *order).saturating_sub(limit));
-            out.omitted = orders.iter().map(beyond).filter(|(_, count)| *count > 0).collect();
+    /// The number of all modes below every order line at a speed, whatever the limit of the search.
+    fn all_below(&self, speed: f64, orders: &[f64]) -> Result<AllBelow, Error> {
+        if speed <= 0.0 {
+            return Ok(AllBelow { speed, system: None, counts: vec![0; orders.len()] });
         }
+        let system = self.system(speed)?;
+        let all = Spectrum::new(speed, self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?);
+        let counts = orders.iter().map(|&order| all.below(order)).collect();
+        Ok(AllBelow { speed, system: Some(system), counts })
+    }
+
+    /// Modes below the order lines beyond the limit of the search.
+    fn omitted(&self, top: &AllBelow, orders: &[f64]) -> Vec<(f64, usize)> {
+        let Some(limit) = self.limit else { return Vec::new() };
+        let beyond =
+            orders.iter().zip(&top.counts).map(|(order, count)| (*order, count.saturating_sub(limit)));
+        beyond.filter(|(_, count)| *count > 0).collect()
+    }
+
+    /// Whether the number of modes below every order line only increases: constant bearings of symmetric stiffness, and
+    /// at both ends as many modes below the lines as without damping.
+    fn number_is_monotonic(&self, orders: &[f64], first: f64, top: &AllBelow) -> Result<bool, Error> {
+        let speeds = [first, 0.5 * (first + top.speed), top.speed];
         let tangents: Vec<Vec<SiteTangent>> =
-            [first, 0.5 * (first + top), top].into_iter().map(self.tangents).collect::<Result<_, Error>>()?;
-        let stiffness = &system.stiffness;
-        let skew = stiffness.iter().map(|(i, j, v)| (v - stiffness.get(j, i)).abs()).fold(0.0, f64::max);
-        if tangents[0] != tangents[1] || tangents[1] != tangents[2] || skew > 1e-9 * stiffness.max_abs() {
+            speeds.into_iter().map(self.tangents).collect::<Result<_, Error>>()?;
+        if tangents[0] != tangents[1] || tangents[1] != tangents[2] {
             return Ok(false);
         }
-        let same = |system: &LinearSystem, at: &Spectrum| {
-            orders.iter().all(|&order| {
-                super::undamped::undamped_modes_below(self.assembly, system, order, RIGID_BODY)
-                    == unlimited(at, order)
-            })
+        let as_undamped = |at: &AllBelow| {
+            let Some(system) = &at.system else { return true };
+            let stiffness = &system.stiffness;
+            let skew = stiffness.iter().map(|(i, j, v)| (v - stiffness.get(j, i)).abs()).fold(0.0, f64::max);
+            let undamped = |order| undamped::undamped_modes_below(self.assembly, system, order, RIGID_BODY);
+            skew <= 1e-9 * stiffness.max_abs()
+                && orders.iter().zip(&at.counts).all(|(&order, count)| undamped(order) == *count)
         };
-        if first > 0.0 {
-            let system = self.system(first)?;
-            if !same(&system, &Spectrum::new(first, self.pairs(&system, start, true)?)) {
-                return Ok(false);
-            }
-        }
-        Ok(same(&system, &all))
+        Ok(as_undamped(top) && as_undamped(&self.all_below(first, orders)?))
     }
 
     /// Halves the steps in which N changes in both directions, or a frequency turns towards the line.
@@ -242,9 +253,9 @@ impl<'a, T: Tangents> Search<'a, T> {
         if nm < na.min(nb) || nm > na.max(nb) {
             return true;
         }
-        let near = |place: usize| {
+        let near = |index: usize| {
             let (Some(p), Some(q), Some(r)) =
-                (a.gap(place, order), middle.gap(place, order), b.gap(place, order))
+                (a.gap(index, order), middle.gap(index, order), b.gap(index, order))
             else {
                 return false;
             };
@@ -257,7 +268,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         na == nb && na == nm && (near(na) || na > 0 && near(na - 1))
     }
 
-    /// Crossings between two neighbouring speeds: one for every place between the numbers of modes below the line.
+    /// Crossings between two neighbouring speeds: one for every index between the numbers of modes below the line.
     fn crossings(
         &self,
         a: &Spectrum,
@@ -266,16 +277,16 @@ impl<'a, T: Tangents> Search<'a, T> {
         depth: usize,
     ) -> Result<Vec<CriticalSpeed>, Error> {
         let (na, nb) = (self.below(a, order), self.below(b, order));
-        let places = na.min(nb)..na.max(nb);
-        // The end at which the modes of these places lie below the line, so that both are known there.
+        let indices = na.min(nb)..na.max(nb);
+        // The end at which the modes of these indices lie below the line, so that both are known there.
         let end = if nb > na { b } else { a };
-        let mut found = ByPlace::new();
-        for place in places.clone() {
-            if !found.contains_key(&place) {
-                let start = (end.speed, &end.pairs[place]);
+        let mut found = ByIndex::new();
+        for index in indices.clone() {
+            if !found.contains_key(&index) {
+                let start = (end.speed, &end.pairs[index]);
                 let ends = (a.speed, b.speed);
                 // Linear between both ends, or constant if the frequency is not known at the other.
-                let trial = match (a.gap(place, order), b.gap(place, order)) {
+                let trial = match (a.gap(index, order), b.gap(index, order)) {
                     (Some(ga), Some(gb)) => a.speed + (b.speed - a.speed) * ga / (ga - gb),
                     _ => start.1.0.im / order,
                 };
@@ -285,18 +296,18 @@ impl<'a, T: Tangents> Search<'a, T> {
                 }
             }
         }
-        found.retain(|place, _| places.contains(place));
+        found.retain(|index, _| indices.contains(index));
         if depth == 0 {
-            for place in places.clone() {
-                if !found.contains_key(&place)
-                    && let Some(speed) = self.bracketed(a, b, place, order)?
+            for index in indices.clone() {
+                if !found.contains_key(&index)
+                    && let Some(speed) = self.bracketed(a, b, index, order)?
                 {
                     self.modes_near_line(speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
                 }
             }
-            found.retain(|place, _| places.contains(place));
+            found.retain(|index, _| indices.contains(index));
         }
-        if found.len() == places.len() || depth == 0 {
+        if found.len() == indices.len() || depth == 0 {
             return Ok(found.into_values().collect());
         }
         let middle = self.spectrum(0.5 * (a.speed + b.speed), end.pairs.len().max(2) - 1)?;
@@ -305,48 +316,48 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(found)
     }
 
-    /// The speed at which the frequency at a place crosses the line, from the spectra alone: false position with
+    /// The speed at which the frequency at an index crosses the line, from the spectra alone: false position with
     /// bisection. `None` where it jumps over the line, as a mode below becomes oscillatory or overdamped.
-    fn bracketed(&self, a: &Spectrum, b: &Spectrum, place: usize, order: f64) -> Result<Option<f64>, Error> {
+    fn bracketed(&self, a: &Spectrum, b: &Spectrum, index: usize, order: f64) -> Result<Option<f64>, Error> {
         let count = a.pairs.len().max(b.pairs.len());
-        let mut ends = [a, b].map(|end| (end.speed, end.gap(place, order)));
+        let mut ends = [a, b].map(|end| (end.speed, end.gap(index, order)));
         for step in 0..MAX_BRACKETINGS {
             let [(left, ga), (right, gb)] = ends;
             let speed = match (ga, gb) {
                 (Some(ga), Some(gb)) if step % 3 != 2 => left + (right - left) * ga / (ga - gb),
                 _ => 0.5 * (left + right),
             };
-            let gap = self.spectrum(speed, count.max(2) - 1)?.gap(place, order);
+            let gap = self.spectrum(speed, count.max(2) - 1)?.gap(index, order);
             if gap.is_some_and(|gap| gap.abs() < 0.1 * ON_LINE * order * speed) {
                 return Ok(Some(speed));
             }
             if right - left < 1e-12 * right {
                 break;
             }
-            // A place beyond the modes computed lies above the line.
+            // An index beyond the modes computed lies above the line.
             let above = |gap: Option<f64>| gap.is_none_or(|gap| gap > 0.0);
             ends[usize::from(above(gap) != above(ga))] = (speed, gap);
         }
         Ok(None)
     }
 
-    /// Adds the modes within a relative distance of an order line at a speed, by their places.
+    /// Adds the modes within a relative distance of an order line at a speed, by their indices.
     fn modes_near_line(
         &self,
         speed: f64,
         order: f64,
         distance: f64,
         count: usize,
-        found: &mut ByPlace,
+        found: &mut ByIndex,
     ) -> Result<(), Error> {
         let system = self.system(speed)?;
-        let pairs = self.pairs(&system, count.max(2) - 1, self.limit.is_none())?;
+        let pairs = self.pairs(&system, count.max(2) - 1)?;
         let mut modes = modal::modes_of(self.assembly, &system, pairs);
         modes.sort_by(|a, b| a.omega().total_cmp(&b.omega()));
         let line = order * speed;
-        for (place, mode) in modes.into_iter().enumerate() {
+        for (index, mode) in modes.into_iter().enumerate() {
             if (mode.omega() - line).abs() <= distance * line {
-                found.entry(place).or_insert(CriticalSpeed { speed, order, mode });
+                found.entry(index).or_insert(CriticalSpeed { speed, order, mode });
             }
         }
         Ok(())
