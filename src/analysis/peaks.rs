@@ -21,7 +21,7 @@ pub struct Peak {
 impl Peak {
     /// Amplification factor AF = N_c/(N_2 − N_1).
     ///
-    /// Source: API 684, 2.
+    /// Source: API 617 and API 684, SP 6.8.2.1.
     pub fn amplification(&self) -> Option<f64> {
         self.half_power.map(|[low, high]| self.at / (high - low))
     }
@@ -34,7 +34,7 @@ impl Peak {
     /// Separation margin required by API 617: 0 for AF < 2.5, else 17 % (1 − 1/(AF − 1.5)) up to 16 % below the
     /// operating speed, 10 % more above it.
     ///
-    /// `None` without an amplification factor. Source: API 617 (2014), part 1, 4.8.2.
+    /// `None` without an amplification factor. Source: API 617 and API 684, SP 6.8.2.10.
     pub fn required_separation(&self, operating: f64) -> Option<f64> {
         let factor = self.amplification()?;
         if factor < CRITICALLY_DAMPED {
