@@ -6,7 +6,7 @@ use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::{mapping, run_up};
-use rotordyn::io::{machine_records, results_file};
+use rotordyn::io::{json, machine_records, results_file};
 use rotordyn::model::Model;
 use rotordyn::results::{CampbellResult, ChannelPair, CutPair, level_difference_db};
 use rotordyn::study::{Machine, MeasuredRun};
@@ -20,7 +20,7 @@ use super::signal::input::{File, InputProblems, cut_time_range};
 use super::signal::shaft_source::ShaftSource;
 use super::studies::{Job, Study};
 use super::terminal::{Terminal, number, rpm};
-use super::{ehl_films, settings, store};
+use super::{ehl_films, run_up_tables, settings, store};
 
 /// Largest number of rows printed.
 const MAX_ROWS: usize = 40;
@@ -170,10 +170,16 @@ pub fn compare(
         )?);
         spinner.finish_and_clear();
     }
+    for warning in run_up_tables::quality_warnings(computed) {
+        terminal.print_diagnostic("warning", &format!("the simulated run-up: {warning}"));
+    }
     let document = json!({
         "rpm": found.rpm,
         "speed_source": found.source,
         "seconds": found.run.profile.duration(),
+        "step_s": computed.report.step,
+        "requested_step_s": computed.requested_step,
+        "step_error": json::run_up_step_error(computed),
         "channels": pairs.iter().map(to_json).collect::<Vec<_>>(),
     });
     Ok((document, files))

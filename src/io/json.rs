@@ -29,6 +29,7 @@ mod run_up;
 mod signal;
 mod steady;
 
+pub use run_up::run_up_step_error;
 pub use signal::signal_to_json;
 
 /// Name and version of the document's schema.

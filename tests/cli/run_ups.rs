@@ -86,6 +86,12 @@ fn run_up_of_the_unchanged_model_agrees() {
     let document = json_of(&mut validate(&AS_MODELLED.1, &out, &[]));
     let run = &document["run_ups"][0];
     assert!(number(&run["rpm"][1]) > 2950.0 && number(&run["rpm"][1]) < 3010.0, "{run}");
+    // The simulation has the run-up's step and estimate of its error.
+    let error = number(&run["step_error"]["largest_relative_error"]);
+    assert!(
+        error > 0.0 && error < 0.05 && number(&run["step_s"]) <= number(&run["requested_step_s"]),
+        "{run}"
+    );
     for channel in run["channels"].as_array().unwrap() {
         let level = 20.0 * (number(&channel["computed_rms"]) / number(&channel["measured_rms"])).log10();
         println!("{} {level:.4} dB", channel["channel"]);

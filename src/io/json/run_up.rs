@@ -26,7 +26,7 @@ pub(super) fn run_up(found: &RunUpResult) -> Value {
         "reduced_modes": found.modes, "static_correction_modes": found.corrections,
         "static_error": found.static_error, "frequency_error": found.frequency_error,
         "end": end, "step_s": report.step, "requested_step_s": found.requested_step,
-        "step_error": found.step_error.as_ref().map(step_error),
+        "step_error": run_up_step_error(found),
         "cage_angles": found.cage_angles.iter().map(|(bearing, angle)| {
             json!({ "bearing": bearing, "initial_rad": angle })
         }).collect::<Value>(),
@@ -42,6 +42,11 @@ pub(super) fn run_up(found: &RunUpResult) -> Value {
         "samples": found.history.time.len(),
         "channels": found.history.channels.iter().map(channel).collect::<Value>(),
     })
+}
+
+/// Estimated error of the order levels by the time step; null without an estimate.
+pub fn run_up_step_error(found: &RunUpResult) -> Value {
+    found.step_error.as_ref().map(step_error).into()
 }
 
 fn step_error(found: &StepError) -> Value {
