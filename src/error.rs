@@ -73,6 +73,10 @@ pub enum PhysicsError {
         table_rpm[0], table_rpm[1], study_rpm[0], study_rpm[1]
     )]
     BeyondTable { bearing: String, study: String, table_rpm: [f64; 2], study_rpm: [f64; 2] },
+    #[error(
+        "no interference of bearing {item} gives its mounted preload of {force:.4} N: it carries {reached:.4} N in the machine at standstill; the shaft's other axial supports or its axial load limit it"
+    )]
+    NoMountedPreload { item: String, force: f64, reached: f64 },
     #[error("bearing {bearing}, {race} race: {reason}")]
     Film { bearing: String, race: String, reason: String },
     #[error("no derivative with respect to the parameter: {reason}")]

@@ -1,6 +1,7 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
 use super::belt_pull::{BeltPull, belt_pulls};
+use super::preload::{MountedPreload, mounted_preloads};
 use crate::assembly::Assembly;
 use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
 use crate::error::{Error, PhysicsError};
@@ -9,6 +10,8 @@ use crate::model::Model;
 
 /// Number of cage angles per ball pitch over which a bearing is averaged.
 pub const CAGE_ANGLES_PER_PITCH: usize = 12;
+/// Residual over the largest load or bearing force.
+const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
 
@@ -29,6 +32,7 @@ pub struct Equilibrium {
     pub q: Vec<f64>,
     pub bearings: Vec<BearingState>,
     pub belts: Vec<BeltPull>,
+    pub preloads: Vec<MountedPreload>,
     pub iterations: usize,
     /// Largest unbalanced force or moment \[N, N m\].
     pub residual: f64,
@@ -104,7 +108,7 @@ impl Sites {
 ///
 /// # Errors
 /// [`PhysicsError::Singular`] when a load excites a rigid-body mode, [`PhysicsError::NoEquilibrium`] when
-/// Newton ends before the residual is below 1e-9 of the loads.
+/// Newton ends before the residual is below 1e-9 of the loads and bearing forces.
 pub fn equilibrium(
     model: &Model,
     assembly: &Assembly,
@@ -115,8 +119,7 @@ pub fn equilibrium(
     let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
     let load = external_load(assembly);
-    let load_size = max_abs(&load).max(1e-6);
-    let tolerance = 1e-10 * load_size;
+    let external = max_abs(&load).max(1e-6);
     let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
     let stiffness = layout.scatter(&assembly.stiffness);
     let mass = layout.scatter(&assembly.mass);
@@ -124,15 +127,21 @@ pub fn equilibrium(
     let residual_of =
         |q: &[f64], reactions: &[Reaction]| residual_force(assembly, load.clone(), q, reactions);
 
+    // Forces of preloaded bearings may exceed the load.
+    let size_of = |reactions: &[Reaction]| {
+        reactions.iter().flat_map(|r| &r.force[..3]).fold(external, |size, force| size.max(force.abs()))
+    };
+
     let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
     let mut reactions = sites.reactions(assembly, &q);
     let mut residual = residual_of(&q, &reactions);
     let mut iterations = 0;
     let mut stalled = 0;
-    while max_abs(&residual) > tolerance && iterations < MAX_ITERATIONS && stalled < 3 {
+    while max_abs(&residual) > TOLERANCE * size_of(&reactions) && iterations < MAX_ITERATIONS && stalled < 3 {
         iterations += 1;
+        let size = size_of(&reactions);
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
-        let shift = 350.0 * (max_abs(&residual) / load_size).min(1.0) + 1e-4;
+        let shift = 350.0 * (max_abs(&residual) / size).min(1.0) + 1e-4;
         let tangent = layout.scatter(&bearing_stiffness_matrix(assembly, &reactions));
         let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
         let lu = layout
@@ -153,7 +162,7 @@ pub fn equilibrium(
             if along.abs() <= 0.9 * before.abs() || at_solution || halving + 1 == MAX_HALVINGS {
                 let (now, then) = (max_abs(&trial_residual), max_abs(&residual));
                 // Stagnation at round-off level: stop after three steps without progress near convergence.
-                stalled = if now > 0.999 * then && then <= 1e3 * tolerance { stalled + 1 } else { 0 };
+                stalled = if now > 0.999 * then && then <= 1e3 * TOLERANCE * size { stalled + 1 } else { 0 };
                 (q, reactions, residual) = (trial, trial_reactions, trial_residual);
                 break;
             }
@@ -172,7 +181,7 @@ pub fn equilibrium(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
     }
-    if left > 1e-9 * load_size || left.is_nan() {
+    if left > 10.0 * TOLERANCE * size_of(&reactions) || left.is_nan() {
         return Err(PhysicsError::NoEquilibrium {
             item: assembly.dofs.name(worst),
             speed_rpm: speed * 30.0 / std::f64::consts::PI,
@@ -181,25 +190,27 @@ pub fn equilibrium(
         }
         .into());
     }
+    let bearings: Vec<BearingState> = (0..assembly.sites.len())
+        .map(|k| {
+            let displacement = assembly.sites[k].relative(&q);
+            let (element, rotation) = &sites.elements[k];
+            BearingState {
+                name: assembly.sites[k].name.clone(),
+                displacement,
+                force: reactions[k].force,
+                tangent: SiteTangent::from(&reactions[k]),
+                balls: element.ball_loads(&displacement, rotation),
+                largest_ball_load: largest_ball_load(element, &displacement, rotation),
+                preload: element.preload_state(speed),
+            }
+        })
+        .collect();
     Ok(Equilibrium {
         speed,
         cage,
         belts: belt_pulls(model, assembly, &q),
-        bearings: (0..assembly.sites.len())
-            .map(|k| {
-                let displacement = assembly.sites[k].relative(&q);
-                let (element, rotation) = &sites.elements[k];
-                BearingState {
-                    name: assembly.sites[k].name.clone(),
-                    displacement,
-                    force: reactions[k].force,
-                    tangent: SiteTangent::from(&reactions[k]),
-                    balls: element.ball_loads(&displacement, rotation),
-                    largest_ball_load: largest_ball_load(element, &displacement, rotation),
-                    preload: element.preload_state(speed),
-                }
-            })
-            .collect(),
+        preloads: mounted_preloads(model, &sites.elements, &bearings, cage),
+        bearings,
         q,
         iterations,
         residual: left,

@@ -3,6 +3,7 @@
 //! | module | result |
 //! |---|---|
 //! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangent stiffness and damping |
+//! | [`preload`] | axial force of preloaded bearings in the machine; preload stated by that force |
 //! | [`bearing_stiffness`] | load-displacement relation and stiffness matrix of a single bearing |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | modes over speed (Campbell diagram), tracked by MAC |
@@ -28,6 +29,7 @@ pub mod modal;
 pub mod mode_kind;
 pub mod peaks;
 pub mod poles;
+pub mod preload;
 pub mod refine;
 pub mod sensitivity;
 pub mod stability;

@@ -12,6 +12,7 @@ use super::equilibrium::{
 };
 use super::harmonic::HarmonicSystem;
 use super::modal::inner;
+use super::preload::with_mounted_preload;
 use super::table_range;
 use crate::assembly::{Assembly, LinearSystem};
 use crate::bearing::{Reaction, SiteTangent};
@@ -41,6 +42,7 @@ impl Linearised {
     pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, Error> {
         table_range::check_tables(&model, "the linearised machine", [speed; 2])?;
         let mut assembly = Assembly::new(&model)?;
+        let model = with_mounted_preload(&model, &assembly)?.unwrap_or(model);
         let start = start.filter(|q| q.len() == assembly.dofs.len());
         let found = equilibrium(&model, &assembly, speed, CageTreatment::Averaged, start)?;
         // Modal damping is that of the machine at standstill.
@@ -65,6 +67,8 @@ impl Linearised {
                 let reason = "it changes the mesh or which motions are free".into();
                 return Err(PhysicsError::NoDerivative { reason }.into());
             }
+            let solved = with_mounted_preload(model, &assembly)?;
+            let model = solved.as_ref().unwrap_or(model);
             let sites = |at: &Equilibrium| Sites::new(model, at.speed, CageTreatment::Averaged);
             Ok(PerturbedAssembly {
                 assembly,

@@ -148,9 +148,12 @@ impl BallBearing {
             "the preload spring's stiffness is negative",
         );
         refuse(
-            matches!(self.preload, Preload::DryForce(f) | Preload::Force(f) | Preload::Spring { force: f, .. }
-                if f < 0.0 || f.is_nan()),
+            self.preload.force().is_some_and(|f| f < 0.0 || f.is_nan()),
             "a preload force is negative; the bearing carries thrust in one direction only",
+        );
+        refuse(
+            self.duplex.is_some() && matches!(self.preload, Preload::Mounted { .. }),
+            "a mounted preload is the axial force of a single row; a matched pair is preloaded within itself (force)",
         );
         refuse(
             self.duplex.is_some_and(|pair| pair.spacing <= 0.0 || pair.spacing.is_nan()),
@@ -190,6 +193,22 @@ pub enum Preload {
     /// Constant-pressure (spring) preload on a massless, axially sliding outer ring: axial force F₀ − k e,
     /// e the ring's displacement in the thrust direction.
     Spring { stiffness: f64, force: f64 },
+    /// Rigid: the axial force \[N\] that the bearing carries in the assembled machine at standstill, with the
+    /// interference that gives it; where that is not known yet, the bearing is as with [`Preload::DryForce`].
+    Mounted { force: f64, interference: Option<f64> },
+}
+
+impl Preload {
+    /// The stated axial force \[N\]; `None` without preload or with an interference.
+    pub fn force(&self) -> Option<f64> {
+        match *self {
+            Self::None | Self::Interference(_) => None,
+            Self::DryForce(force)
+            | Self::Force(force)
+            | Self::Spring { force, .. }
+            | Self::Mounted { force, .. } => Some(force),
+        }
+    }
 }
 
 /// Duplex (matched) pair: two equal rows.

@@ -41,8 +41,12 @@ impl PreloadMechanism {
         };
         match *preload {
             Preload::None => Self::Fixed(0.0),
-            Preload::Interference(offset) => Self::Fixed(offset),
-            Preload::DryForce(force) => Self::Fixed(offset_at_force(force)),
+            Preload::Interference(offset) | Preload::Mounted { interference: Some(offset), .. } => {
+                Self::Fixed(offset)
+            }
+            Preload::DryForce(force) | Preload::Mounted { force, interference: None } => {
+                Self::Fixed(offset_at_force(force))
+            }
             Preload::Force(force) => Self::Force { force, dry: offset_at_force(force) },
             Preload::Spring { stiffness, force } => {
                 let offset = root_finding::increasing_root(

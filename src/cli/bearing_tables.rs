@@ -5,6 +5,7 @@ use rotordyn::bearing::life::hours;
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};
 use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
+use super::equilibrium_loads::stated;
 use super::terminal::{Terminal, number, rpm, table};
 
 /// Rows printed of a sweep; results.h5 contains all points.
@@ -57,9 +58,17 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     }
     if found.bearing.preload != Preload::None {
         terminal.print(&format!(
-            "  preload at this speed: {} N axial, ring offset {:.3} um from the nominal position",
+            "  preload {}: with centred rings at this speed {} N axial, ring offset {:.3} um from the nominal position",
+            stated(&found.bearing.preload),
             number(found.preload.axial_force, 4),
             1e6 * found.preload.offset
+        ));
+    }
+    if let Some(mounted) = &found.mounted_preload {
+        let rows: Vec<String> = mounted.rows.iter().map(|force| number(*force, 4)).collect();
+        terminal.print(&format!(
+            "  axial force of every row in the machine at this speed: {} N",
+            rows.join(", ")
         ));
     }
     balls(terminal, point);

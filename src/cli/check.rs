@@ -13,7 +13,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
-use super::{forecast, tables};
+use super::{equilibrium_loads, forecast};
 
 /// Check result of one variant.
 struct CheckedVariant {
@@ -65,7 +65,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
-        for warning in tables::belt_warnings(c.machine.belt_pulls()) {
+        for warning in equilibrium_loads::warnings(&c.machine) {
             terminal.print_diagnostic("warning", &format!("{}: {warning}", c.name));
         }
         super::print_model_warnings(terminal, &c.loaded);
@@ -138,7 +138,8 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     ));
 
     forecast::table(&found.machine, terminal);
-    tables::belts(terminal, found.machine.belt_pulls());
+    equilibrium_loads::belts(terminal, found.machine.belt_pulls());
+    equilibrium_loads::preloads(terminal, found.machine.mounted_preloads());
     let rows: Vec<Vec<String>> = model
         .stations
         .iter()
@@ -226,6 +227,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
         "belts": rotordyn::io::json::belts(found.machine.belt_pulls()),
+        "preloads": rotordyn::io::json::preloads(found.machine.mounted_preloads()),
         "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

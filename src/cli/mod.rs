@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod diagnostics;
 mod ehl_films;
+mod equilibrium_loads;
 mod export;
 mod failure;
 mod forecast;
@@ -273,7 +274,7 @@ fn quality_warnings(job: &mut Job) {
         }));
     }
     found.extend(job.results.run_up.iter().flat_map(run_up_tables::quality_warnings));
-    found.extend(tables::belt_warnings(job.machine.belt_pulls()));
+    found.extend(equilibrium_loads::warnings(&job.machine));
     found.extend(steady_tables::settling_warnings(&job.machine.model, &job.results));
     job.results.warnings.extend(found);
 }

@@ -1,7 +1,6 @@
 //! Tables of study results on the terminal.
 
 use rotordyn::analysis::Mode;
-use rotordyn::analysis::belt_pull::BeltPull;
 use rotordyn::analysis::critical_speed::CriticalSpeed;
 use rotordyn::analysis::equilibrium::{CageTreatment, Equilibrium};
 use rotordyn::analysis::unbalance::Orbit;
@@ -12,68 +11,19 @@ use rotordyn::results::{
     UnbalanceResult, UndampedPeak, unit_of,
 };
 
+use super::equilibrium_loads;
 use super::terminal::{Terminal, number, rpm};
 
 /// Largest number of rows printed; the rest is in results.h5.
 const MAX_ROWS: usize = 40;
-
-/// Pull of the belts at equilibrium beside the stated one.
-pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
-    let rows: Vec<Vec<String>> = found
-        .iter()
-        .map(|belt| {
-            let share = belt.remaining_share().map_or("-".into(), |share| format!("{:.1}", 100.0 * share));
-            let mut row = vec![belt.name.clone()];
-            row.extend(belt.stated.iter().chain(&belt.remaining).map(|pull| number(*pull, 4)));
-            row.push(share);
-            row.extend(belt.displacement.iter().map(|d| format!("{:.2}", 1e6 * d)));
-            row
-        })
-        .collect();
-    if !rows.is_empty() {
-        let header = ["belt", "stated x N", "y N", "remaining x N", "y N", "share %", "u_x um", "u_y um"];
-        terminal.table("Belt pull on the shaft at equilibrium", &header, &rows);
-    }
-}
-
-/// Share of the stated pull below which a warning is given.
-const LOW_PULL: f64 = 0.8;
-
-/// Warnings of belts that lose much of their pull, or go slack.
-pub fn belt_warnings(found: &[BeltPull]) -> Vec<String> {
-    let warning = |belt: &BeltPull| {
-        let share = belt.remaining_share().filter(|share| *share < LOW_PULL)?;
-        let size = |v: &[f64; 2]| number(v[0].hypot(v[1]), 4);
-        let advice = "if the stated pull is that of the machine at rest, set constant_pull = true";
-        Some(match share {
-            share if share <= 0.0 => format!(
-                "belt.{} is slack: the pulley yields by {} um along the pull of {} N, which then pushes with {} N; \
-                 a belt cannot push, and the results hold only for a taut one; {advice}",
-                belt.name,
-                number(1e6 * belt.displacement[0].hypot(belt.displacement[1]), 4),
-                size(&belt.stated),
-                size(&belt.remaining)
-            ),
-            share => format!(
-                "belt.{} keeps {:.0} % of its pull at equilibrium, {} of {} N, as shaft and supports yield by {} um; \
-                 {advice}",
-                belt.name,
-                100.0 * share,
-                size(&belt.remaining),
-                size(&belt.stated),
-                number(1e6 * belt.displacement[0].hypot(belt.displacement[1]), 4)
-            ),
-        })
-    };
-    found.iter().filter_map(warning).collect()
-}
 
 pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
     let cage = match found.cage {
         CageTreatment::FixedAngle => "at the cage angle of the model",
         CageTreatment::Averaged => "averaged over the cage angle",
     };
-    belts(terminal, &found.belts);
+    equilibrium_loads::belts(terminal, &found.belts);
+    equilibrium_loads::preloads(terminal, &found.preloads);
     if found.bearings.is_empty() {
         terminal.heading("Static equilibrium: the machine has only joints and springs, no bearings");
         return;

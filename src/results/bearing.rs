@@ -1,6 +1,7 @@
 //! Results of a study of single ball bearings.
 
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
+use crate::analysis::preload::MountedPreload;
 use crate::bearing::life::LoadRating;
 use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
 use crate::contact::ehl::Solution;
@@ -17,6 +18,8 @@ pub struct BearingResult {
     pub prescribed: [bool; 5],
     /// Preload of the centred bearing at the operating speed.
     pub preload: PreloadState,
+    /// Axial force of its preload in the machine at the operating point; `None` without preload or machine.
+    pub mounted_preload: Option<MountedPreload>,
     /// Ratings of all rows together.
     pub rating: LoadRating,
     /// Orders at the nominal contact angle.

@@ -3,6 +3,7 @@
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::analysis::preload::MountedPreload;
 use crate::bearing::life::{
     LoadRating, basic_life, combined_life, equivalent_load, life_modification, reference_life,
     reference_viscosity, reliability_factor,
@@ -50,7 +51,8 @@ impl Machine {
             let is_prescribed = study.constrained.unwrap_or([false, false, true, true, true]);
             let place = state.map_or([0.0; 6], |b| b.displacement);
             let held = std::array::from_fn(|k| is_prescribed[k].then_some(place[k]));
-            let operating = OperatingPoint { load, prescribed: held, load_source: words };
+            let mounted_preload = found.preloads.iter().find(|preload| preload.bearing == *name).cloned();
+            let operating = OperatingPoint { load, prescribed: held, load_source: words, mounted_preload };
             SingleBearingStudy::new(name, ball, &study).study(operating)
         };
         balls.iter().filter(|(name, _)| is_requested(&study, name)).map(one).collect()
@@ -89,6 +91,7 @@ struct OperatingPoint {
     prescribed: [Option<f64>; 5],
     /// Description of the load's source.
     load_source: String,
+    mounted_preload: Option<MountedPreload>,
 }
 
 /// Study of one bearing.
@@ -141,7 +144,12 @@ impl<'a> SingleBearingStudy<'a> {
         let [m_x, m_y] = self.study.moment.unwrap_or_default();
         let [x, y, z] = force;
         let held = self.study.constrained.unwrap_or(default).map(|held| held.then_some(0.0));
-        OperatingPoint { load: [x, y, z, m_x, m_y], prescribed: held, load_source: words }
+        OperatingPoint {
+            load: [x, y, z, m_x, m_y],
+            prescribed: held,
+            load_source: words,
+            mounted_preload: None,
+        }
     }
 
     /// Number of rows that carry thrust in the same direction; `None` for opposed rows.
@@ -234,6 +242,7 @@ impl<'a> SingleBearingStudy<'a> {
             load_source: operating.load_source,
             prescribed: operating.prescribed.map(|held| held.is_some()),
             preload: self.preload(self.speed),
+            mounted_preload: operating.mounted_preload,
             rating: self.rating(),
             nominal_orders: g.characteristic_orders(g.contact_angle),
             point,

@@ -27,6 +27,7 @@ use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::campbell;
 use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
+use crate::analysis::preload::{MountedPreload, with_mounted_preload};
 use crate::analysis::table_range::{check_tables, speed_range};
 use crate::analysis::{modal, stability};
 use crate::assembly::{Assembly, LinearSystem, rigid_body_modes};
@@ -55,6 +56,8 @@ impl Machine {
     /// A mass matrix that is not definite, or no equilibrium.
     pub fn new(model: Model) -> Result<Self, Error> {
         let mut assembly = Assembly::new(&model)?;
+        let named = |error| name_rigid_body_mode(error, &model, &assembly);
+        let model = with_mounted_preload(&model, &assembly).map_err(named)?.unwrap_or(model);
         let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
             .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
         assembly.set_standstill(&base.tangents())?;
@@ -75,6 +78,11 @@ impl Machine {
     /// Pulls of the belts in the equilibrium at standstill, about which linear studies are linearised.
     pub fn belt_pulls(&self) -> &[BeltPull] {
         &self.standstill_equilibrium.belts
+    }
+
+    /// Axial forces of the preloaded bearings in the equilibrium at standstill.
+    pub fn mounted_preloads(&self) -> &[MountedPreload] {
+        &self.standstill_equilibrium.preloads
     }
 
     /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)

@@ -9,6 +9,7 @@ mod hit_beside_shaft;
 mod identify;
 mod impact_test;
 mod pairing;
+mod preloads;
 mod renamed;
 mod result_documents;
 mod run_ups;

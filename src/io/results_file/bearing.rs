@@ -11,6 +11,9 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
         writer.set_attribute("load_source", bearing.load_source.as_str())?;
         writer.set_attribute("preload_offset", bearing.preload.offset)?;
         writer.set_attribute("preload_force", bearing.preload.axial_force)?;
+        if let Some(mounted) = &bearing.mounted_preload {
+            writer.write_array("mounted_preload", &[mounted.rows.len()], &mounted.rows, "N")?;
+        }
         for (name, value) in [
             ("dynamic_rating", bearing.rating.dynamic),
             ("static_rating", bearing.rating.static_rating),

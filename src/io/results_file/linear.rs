@@ -33,6 +33,13 @@ pub fn equilibrium(store: &Store, found: &Equilibrium, machine: &Machine) -> Res
         at.write_array("pull", &[2], &belt.remaining, "N")?;
         at.write_array("displacement", &[2], &belt.displacement, "m")?;
     }
+    for preload in &found.preloads {
+        let at = writer.subgroup(&format!("preloads/{}", preload.bearing))?;
+        at.write_array("axial_force", &[preload.rows.len()], &preload.rows, "N")?;
+        if let Some(force) = preload.stated.force() {
+            at.set_attribute("stated_force", force)?;
+        }
+    }
     for bearing in &found.bearings {
         let at = writer.subgroup(&format!("bearings/{}", bearing.name))?;
         at.set_attribute("largest_ball_load", bearing.largest_ball_load)?;

@@ -5,7 +5,7 @@
 //! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units |
 //! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
-//! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls; per belt stated and remaining pull |
+//! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls; per belt stated and remaining pull; per preloaded bearing stated and carried axial force |
 //! | `/modes` | \[speed, mode, ...\]: omega, zeta, log_dec, shapes (complex), whirl, kind, label |
 //! | `/campbell` | \[branch, speed\]: frequency, zeta, log_dec; order lines, crossings, thresholds |
 //! | `/critical_speeds` | speed, order, frequency, whirl, label |

@@ -86,6 +86,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         topology::check(&top, &model);
         mounting::check_axial_location(&top, &model);
         mounting::check_free_rotation(&top, &model);
+        mounting::check_mounted_preloads(&top, model.bearings.iter().map(|s| (&*s.name, &s.bearing)), true);
     }
     top.finish();
     model
@@ -98,6 +99,7 @@ pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(S
     let materials = materials(&top);
     let bearings = bearing::read_bearings_only(&top, &materials, &contact::lubricants(&top), gravity);
     let studies = study::read_for_bearings(&top, &bearings);
+    mounting::check_mounted_preloads(&top, bearings.iter().map(|(name, b)| (&**name, b)), false);
     top.finish();
     (name, title, bearings, studies)
 }

@@ -39,12 +39,12 @@ pub(super) fn duplex(r: &Reader, contact_angle: f64) -> Option<Duplex> {
     arrangement.map(|arrangement| Duplex { arrangement, spacing })
 }
 
-/// Preload: `preload = { force = "150 N" }`, `{ dry_force = "150 N" }`, `{ interference = "1.5 um" }` or
-/// `{ spring = "2e5 N/m", force = "150 N" }`.
+/// Preload: `preload = { force = "150 N" }`, `{ dry_force = "150 N" }`, `{ mounted_force = "150 N" }`,
+/// `{ interference = "1.5 um" }` or `{ spring = "2e5 N/m", force = "150 N" }`.
 pub(super) fn preload(r: &Reader) -> Preload {
     let Some(p) = r.table("preload") else { return Preload::None };
     let preload = if p.has("spring") {
-        p.one_of(&["spring", "interference", "dry_force"]);
+        p.one_of(&["spring", "interference", "dry_force", "mounted_force"]);
         let stiffness = p.get("spring", any(STIFFNESS)).unwrap_or(1.0);
         if stiffness <= 0.0 {
             let message = format!("{} must be greater than zero", p.name("spring"));
@@ -53,14 +53,17 @@ pub(super) fn preload(r: &Reader) -> Preload {
         }
         Preload::Spring { stiffness, force: p.need("force", positive(FORCE)) }
     } else {
-        match p.one_of(&["force", "dry_force", "interference"]) {
+        match p.one_of(&["force", "dry_force", "mounted_force", "interference"]) {
             Some("force") => Preload::Force(p.need("force", positive(FORCE))),
+            Some("mounted_force") => {
+                Preload::Mounted { force: p.need("mounted_force", positive(FORCE)), interference: None }
+            }
             Some("dry_force") => Preload::DryForce(p.need("dry_force", positive(FORCE))),
             Some(_) => Preload::Interference(p.need("interference", any(LENGTH))),
             None => {
                 p.missing(
                     "force",
-                    "\"150 N\", or dry_force = \"150 N\", interference = \"1.5 um\", or spring and force",
+                    "\"150 N\", or dry_force, mounted_force = \"150 N\", interference = \"1.5 um\", or spring and force",
                 );
                 Preload::None
             }
@@ -164,6 +167,49 @@ pub(super) fn check_axial_location(top: &Reader, model: &Model) {
                 "add a bearing with thrust = \"{other}\", make this one a pair (arrangement = \"back_to_back\"), or give a linear bearing or bushing axial stiffness"
             ));
         top.log.error(problem);
+    }
+}
+
+/// Report mounted preloads that do not determine the axial position: more than one, or without the machine.
+pub(super) fn check_mounted_preloads<'a>(
+    top: &Reader,
+    bearings: impl Iterator<Item = (&'a str, &'a Bearing)>,
+    in_machine: bool,
+) {
+    let is_mounted = |bearing: &Bearing| match bearing {
+        Bearing::Ball(ball) => matches!(ball.preload, Preload::Mounted { .. }),
+        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
+    };
+    let names: Vec<&str> =
+        bearings.filter(|(_, bearing)| is_mounted(bearing)).map(|(name, _)| name).collect();
+    let (first, others) = match names.split_first() {
+        None => return,
+        Some(_) if !in_machine => (None, names.as_slice()),
+        Some((first, others)) => (Some(first), others),
+    };
+    for name in others {
+        let span = top
+            .items("bearing")
+            .into_iter()
+            .find(|(item, _)| item == name)
+            .map_or(0..0, |(_, r)| r.span_of("preload"));
+        top.log.error(match first {
+            Some(first) => Problem::new(
+                Kind::Conflict,
+                &span,
+                format!("bearing.{first} and bearing.{name} both have a mounted_force on one shaft"),
+            )
+            .expected("one, whose interference gives the axial force in the machine")
+            .hint("the shaft's equilibrium gives the axial force of the other bearing; remove this preload"),
+            None => Problem::new(
+                Kind::Conflict,
+                &span,
+                format!(
+                    "the mounted_force of bearing.{name} needs the machine, and the file has bearings only"
+                ),
+            )
+            .expected("force or dry_force, the axial force of the bearing with centred rings"),
+        });
     }
 }
 
