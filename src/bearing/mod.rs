@@ -13,6 +13,7 @@ pub mod geometry;
 pub mod imperfections;
 mod inertial_ball;
 pub mod life;
+pub mod limits;
 pub mod linear;
 mod massless;
 mod preload;

@@ -65,7 +65,9 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
     }
     for c in &checked {
-        for warning in equilibrium_loads::warnings(&c.machine) {
+        let mut warnings = equilibrium_loads::warnings(&c.machine);
+        warnings.extend(c.machine.bearing_warnings(&[c.machine.model.profile.top_speed()])?);
+        for warning in warnings {
             terminal.print_diagnostic("warning", &format!("{}: {warning}", c.name));
         }
         super::print_model_warnings(terminal, &c.loaded);

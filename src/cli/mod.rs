@@ -200,15 +200,15 @@ fn studies_of(
     job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);
-    let outcome = finish(job, !args.no_figures, study.map_or("run", Study::name))?;
+    let outcome = finish(job, &wanted, !args.no_figures, study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
     Ok(outcome)
 }
 
 /// Writes the results and figures of a job, prints the file list and the quality warnings.
-fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Failure> {
+fn finish(mut job: Job, studies: &[Study], draw: bool, command: &'static str) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
-    quality_warnings(&mut job);
+    quality_warnings(&mut job, studies);
     job.write(draw)?;
     let terminal = job.terminal;
     let rows: Vec<Vec<String>> =
@@ -237,8 +237,16 @@ fn finish(mut job: Job, draw: bool, command: &'static str) -> Result<Outcome, Fa
 }
 
 /// Quality warnings: unstable modes, energy balance of the run-up, error of the reduced model.
-fn quality_warnings(job: &mut Job) {
+fn quality_warnings(job: &mut Job, studies: &[Study]) {
     let mut found = std::mem::take(&mut job.quality_warnings);
+    let speeds: Vec<f64> = studies.iter().flat_map(|study| study.speeds(&job.machine.model)).collect();
+    // Post-processing of a stored run computes nothing of the machine.
+    if !studies.is_empty() {
+        match job.machine.bearing_warnings(&speeds) {
+            Ok(warnings) => found.extend(warnings),
+            Err(error) => found.push(format!("the limits of the bearings are not checked: {error}")),
+        }
+    }
     for at in &job.results.modal {
         for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
             let speed = terminal::rpm(at.speed);

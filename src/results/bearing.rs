@@ -169,9 +169,14 @@ impl BearingPoint {
         self.balls.iter().flat_map(|ball| [&ball.inner, &ball.outer])
     }
 
-    /// Number of balls under load.
+    /// Number of balls that carry load between the rings.
     pub fn loaded(&self) -> usize {
-        self.balls.iter().filter(|ball| ball.outer.load.max(ball.inner.load) > 0.0).count()
+        self.balls.iter().filter(|ball| ball.inner.load > 0.0).count()
+    }
+
+    /// Number of balls that centrifugal force alone holds on the outer race.
+    pub fn held_by_centrifugal_force(&self) -> usize {
+        self.balls.iter().filter(|ball| ball.inner.load <= 0.0 && ball.outer.load > 0.0).count()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Single ball bearings: operating point, sweeps, contacts, film, rating life, characteristic frequencies.
 
+mod limits;
+
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
@@ -18,8 +20,6 @@ use crate::results::{BallState, BearingLife, BearingPoint, BearingResult, Bearin
 const SWEEP_POINTS: usize = 41;
 /// Default speed parameter n·d_m (speed times pitch diameter) \[mm/min\]: half the limit for grease.
 const DEFAULT_NDM: f64 = 2.5e5;
-/// Contact stress of the static load rating \[Pa\] (ISO 76): permanent dent of 1e-4 of the ball diameter.
-const STATIC_CONTACT_STRESS: f64 = 4.2e9;
 
 impl Machine {
     /// Every requested ball bearing, under its load in the machine or the given load.
@@ -221,7 +221,7 @@ impl<'a> SingleBearingStudy<'a> {
         };
         let state = self.solver.solve(&condition, None)?;
         let point = self.point(state);
-        let mut warnings = self.quality_warnings(&point);
+        let mut warnings = self.warnings(&point);
         let depends_on_speed = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
         let speed = depends_on_speed.then_some(SweepVariable::Speed);
         let defaults =
@@ -430,59 +430,6 @@ impl<'a> SingleBearingStudy<'a> {
             _ => point.minimum_film() / self.study.roughness,
         };
         point
-    }
-
-    /// Quality warnings at the operating point.
-    fn quality_warnings(&self, point: &BearingPoint) -> Vec<String> {
-        let name = self.name;
-        let mut found = Vec::new();
-        let loads = || point.balls.iter().map(|b| b.inner.load).filter(|load| *load > 0.0);
-        if let ContactLaw::PowerLaw(law) = &self.bearing.contact {
-            let [low, high] = law.range;
-            let outside = loads().filter(|load| *load < low || *load > high).count();
-            if outside > 0 {
-                found.push(format!(
-                    "bearing {name}: {outside} of {} loaded balls are outside the range {low} to {high} N of their fitted power law",
-                    loads().count()
-                ));
-            }
-        }
-        let imperfections = &self.bearing.imperfections;
-        if self.study.cage_average && !imperfections.is_empty() {
-            found.push(format!(
-                "bearing {name} ({}) is averaged over the cage angle as if it had no defects; ball loads are those at the cage angle of the model",
-                imperfections.condition()
-            ));
-        }
-        let pressure = point.largest_pressure();
-        if pressure > STATIC_CONTACT_STRESS {
-            found.push(format!(
-                "bearing {name}: contact pressure {:.2} GPa, above the 4.2 GPa of the static load rating (ISO 76)",
-                1e-9 * pressure
-            ));
-        }
-        let rotating = point.state.condition.speed > 0.0;
-        if rotating && self.bearing.lubricant().is_some() && point.film_ratio < 1.0 {
-            found.push(format!(
-                "bearing {name}: film ratio {:.2} at {:.0} rpm below 1: asperity contact (roughness {:.2} um)",
-                point.film_ratio,
-                point.state.condition.speed * TO_RPM,
-                1e6 * self.study.roughness
-            ));
-        }
-        let g = &self.bearing.geometry;
-        let on_open_side =
-            |ball: &&BallState| ball.outer.load > 0.0 && ball.outer.angle * g.thrust_direction < 0.0;
-        if g.contact_angle > 0.0
-            && self.bearing.duplex.is_none()
-            && point.balls.iter().filter(on_open_side).count() > 0
-        {
-            found.push(format!("bearing {name}: the load presses balls onto the open side (no shoulder)"));
-        }
-        if point.loaded() == 0 {
-            found.push(format!("bearing {name}: no ball carries load"));
-        }
-        found
     }
 }
 
