@@ -47,10 +47,12 @@ pub(super) struct BallInertiaData {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BallInertiaLoads {
     pub balls: BallInertiaData,
-    /// Centrifugal force F_c \[N\].
+    /// Centrifugal force F_c \[N\], and ∂F_c/∂ω_c.
     pub force: f64,
-    /// (Ω − ω_c)/ω_c.
+    pub force_by_orbit: f64,
+    /// (Ω − ω_c)/ω_c, and its derivative by ω_c.
     relative_cage_ratio: f64,
+    relative_by_orbit: f64,
     /// Approach of the outer contact under F_c alone \[m\].
     centrifugal_approach: f64,
 }
@@ -88,7 +90,7 @@ struct InitialGuess {
 
 /// Race forces on a ball, R = Q n + f t at each contact, with derivatives by x and y.
 pub(super) struct RaceForces {
-    inner: [f64; 2],
+    pub inner: [f64; 2],
     outer: [f64; 2],
     /// By x and by y.
     pub inner_by: [Matrix; 2],
@@ -129,7 +131,9 @@ impl BallInertiaData {
         (force > 0.0).then(|| BallInertiaLoads {
             balls: *self,
             force,
+            force_by_orbit: 2.0 * self.centrifugal * cage_speed,
             relative_cage_ratio: (rotation.shaft_speed - cage_speed) / cage_speed,
+            relative_by_orbit: -rotation.shaft_speed / (cage_speed * cage_speed),
             centrifugal_approach: root_finding::increasing_root(
                 |x| {
                     let at = outer_at(x);
@@ -181,7 +185,7 @@ impl BallInertiaLoads {
     }
 
     /// Share φ of the inner race in the friction, and its derivatives by Q_i and Q_o.
-    fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
+    pub fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
         match self.balls.control {
             BallInertia::None | BallInertia::OuterRaceControl => (0.0, 0.0, 0.0),
             BallInertia::InnerRaceControl => {
@@ -198,11 +202,40 @@ impl BallInertiaLoads {
         }
     }
 
+    /// M/D over sin α for rolling on the inner and on the outer race alone: J ω_c²/(γ′ D) = F_c/5.
+    #[inline(always)]
+    fn unit_moments(&self) -> [f64; 2] {
+        [0.2 * self.force * self.relative_cage_ratio, 0.2 * self.force]
+    }
+
+    /// Derivatives of friction forces (inner, outer) and share by ω_c at a fixed ball.
+    pub fn friction_by_orbit(&self, inner: &RaceContact, outer: &RaceContact) -> ([f64; 2], f64) {
+        let (share, ..) = self.share(inner.loaded.load, outer.loaded.load);
+        let by_orbit = self.force_by_orbit;
+        let share_by = match self.balls.control {
+            BallInertia::InnerRaceControl => {
+                let x = (inner.loaded.load / self.force).min(1.0);
+                -6.0 * x * x * (1.0 - x) * by_orbit / self.force
+            }
+            _ => 0.0,
+        };
+        let [ui, uo] = self.unit_moments();
+        let relative = by_orbit * self.relative_cage_ratio + self.force * self.relative_by_orbit;
+        let [mi, mo] = [ui * inner.n[1], uo * outer.n[1]];
+        let moment = share * mi + (1.0 - share) * mo;
+        let moment_by = share_by * (mi - mo)
+            + 0.2 * (share * relative * inner.n[1] + (1.0 - share) * by_orbit * outer.n[1]);
+        let friction = [
+            2.0 * (share_by * moment + share * moment_by),
+            2.0 * ((1.0 - share) * moment_by - share_by * moment),
+        ];
+        (friction, share_by)
+    }
+
     #[inline(always)]
     pub fn forces(&self, inner: &RaceContact, outer: &RaceContact) -> RaceForces {
         let (share, by_inner, by_outer) = self.share(inner.loaded.load, outer.loaded.load);
-        // M/D for rolling on one race alone: J ω_c²/(γ′ D) = F_c/5.
-        let unit = [0.2 * self.force * self.relative_cage_ratio, 0.2 * self.force];
+        let unit = self.unit_moments();
         let moments = [unit[0] * inner.n[1], unit[1] * outer.n[1]];
         let moment = share * moments[0] + (1.0 - share) * moments[1];
         let friction = [2.0 * share * moment, 2.0 * (1.0 - share) * moment];

@@ -10,7 +10,7 @@ use rotordyn::contact::ContactLaw;
 const CAGE: f64 = 0.4;
 
 fn at_speed(speed: f64) -> Rotation {
-    Rotation { cage_angle: 0.3, cage_speed: CAGE * speed, shaft_speed: speed, ..Rotation::default() }
+    Rotation { cage_angle: 0.3, cage_speed: Some(CAGE * speed), shaft_speed: speed, ..Rotation::default() }
 }
 
 /// Residual force of a ball \[N\], with Harris' attitude angle β and gyroscopic moment J ω_R ω_m sin β.
