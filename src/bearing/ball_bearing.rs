@@ -1,6 +1,6 @@
 //! Ball bearing input data: geometry, materials, contact law, preload, fits, cage, imperfections, service.
 
-use super::{BallGeometry, DefectLaw, Fit, FitMaterials, Imperfections};
+use super::{BallGeometry, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;
 
@@ -96,6 +96,22 @@ impl BallBearing {
             &self.ring_material,
         )
         .with_stiffness(self.contact_stiffness)
+    }
+
+    /// Characteristic orders under load, at a load-weighted mean cos α; cage and ball passages at the cage's ratio
+    /// if that is given.
+    pub fn loaded_orders(&self, mean_cos: f64) -> CharacteristicOrders {
+        let orders = self.geometry.characteristic_orders_at(mean_cos);
+        let balls = self.geometry.balls as f64;
+        match self.cage {
+            Cage::Rolling => orders,
+            Cage::Ratio(ratio) => CharacteristicOrders {
+                ftf: ratio,
+                bpfo: balls * ratio,
+                bpfi: balls * (1.0 - ratio),
+                ..orders
+            },
+        }
     }
 
     /// Change of the diametral clearance by fits, temperatures and a speed Ω \[rad/s\] \[m\]; shaft and housing of the
