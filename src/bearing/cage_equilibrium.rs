@@ -218,9 +218,13 @@ impl Row {
         at_orbit(0.5 * (low + high) * rotation.shaft_speed)
     }
 
+    fn depends_on_orbit(&self) -> bool {
+        self.inertia.is_some_and(|balls| balls.control.depends_on_speed())
+    }
+
     /// Whether the static cage speed follows from an equilibrium: a rolling cage of turning balls with inertia.
     pub fn cage_speed_is_solved(&self, rotation: &Rotation) -> bool {
-        self.inertia.is_some() && self.cage.is_rolling() && rotation.shaft_speed != 0.0
+        self.depends_on_orbit() && self.cage.is_rolling() && rotation.shaft_speed != 0.0
     }
 }
 

@@ -4,6 +4,7 @@ pub mod ball;
 pub mod ball_bearing;
 mod ball_change;
 mod ball_equilibrium;
+pub mod ball_inertia;
 mod ball_sum;
 mod cage;
 mod cage_equilibrium;
@@ -29,7 +30,8 @@ mod row;
 mod spall;
 
 pub use ball::{BallElement, BallLoad};
-pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Service};
+pub use ball_bearing::{Arrangement, BallBearing, Cage, Duplex, Preload, Service};
+pub use ball_inertia::{BallInertia, InertiaDecision};
 pub use element::BearingElement;
 pub use fit::{Fit, FitMaterials};
 pub use geometry::{BallGeometry, CharacteristicOrders};
