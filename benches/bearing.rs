@@ -16,7 +16,7 @@ const PLACE: [f64; 6] = [7.7e-6, -8.8e-6, 7.2e-6, 8.0e-4, -2.7e-4, 0.0];
 fn reaction(c: &mut Criterion) {
     let dry = BallElement::new(&bearing::rig_6205());
     let still = Rotation { cage_angle: 0.3, ..Rotation::default() };
-    let moving = Rotation { cage_angle: 0.3, cage_speed: 50.0, shaft_angle: 0.7, shaft_speed: 125.0 };
+    let moving = Rotation { cage_angle: 0.3, cage_speed: Some(50.0), shaft_angle: 0.7, shaft_speed: 125.0 };
     // Thrust loads all nine balls.
     let thrust = [1e-6, 2e-6, 1e-4, 1e-5, 2e-5, 0.0];
     for (name, place) in [("some", PLACE), ("all", thrust)] {
@@ -27,7 +27,7 @@ fn reaction(c: &mut Criterion) {
     c.bench_function("dry_9_balls_moving", |b| {
         b.iter(|| dry.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &moving));
     });
-    let fast = Rotation { cage_angle: 0.3, cage_speed: 600.0, shaft_angle: 0.7, shaft_speed: 1500.0 };
+    let fast = Rotation { cage_angle: 0.3, cage_speed: Some(600.0), shaft_angle: 0.7, shaft_speed: 1500.0 };
     for (name, inertia) in [
         ("outer_race_control", BallInertia::OuterRaceControl),
         ("inner_race_control", BallInertia::InnerRaceControl),

@@ -34,7 +34,7 @@ fn runs(c: &mut Criterion) {
 fn force(c: &mut Criterion) {
     let d = [1.2e-6, 0.3e-6, 0.0, 0.0, 0.0, 0.0];
     let v = [1e-4, -2e-4, 0.0, 0.0, 0.0, 0.0];
-    let rotation = Rotation { cage_angle: 0.3, cage_speed: 75.0, shaft_angle: 0.7, shaft_speed: 188.0 };
+    let rotation = Rotation { cage_angle: 0.3, cage_speed: Some(75.0), shaft_angle: 0.7, shaft_speed: 188.0 };
     for variant in [None, Some("two_dents")] {
         let element = BearingElement::new(&machine(variant).model.bearings[0].bearing);
         let mut out = Reaction::default();

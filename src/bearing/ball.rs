@@ -3,11 +3,12 @@
 //! Force law of Cakmak & Sanliturk 2010 §2.1 and §3.1 with massless balls: the groove centres of ball j are
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line joining them.
 
+use super::cage::CageKinematics;
 use super::duplex::{displacement_at_offset, transform_to_station};
 use super::force_kernel::RowForce;
 use super::ring_motion::RingMotion;
 use super::row::Row;
-use super::{BallBearing, Cage, PreloadState, Reaction, Rotation};
+use super::{BallBearing, PreloadState, Reaction, Rotation};
 use crate::contact::{ContactPatch, HertzPair};
 
 /// A ball bearing prepared for evaluation: one row, or the two of a matched pair.
@@ -17,9 +18,7 @@ pub struct BallElement {
     pub contacts: HertzPair,
     /// Rows with their axial offsets from the bearing's station \[m\].
     rows: Vec<(f64, Row)>,
-    cage: Cage,
-    ball_to_pitch: f64,
-    nominal_cos: f64,
+    pub(super) cage: CageKinematics,
 }
 
 /// Load state of one ball: contact loads, contact angles, deflection, film thickness.
@@ -54,19 +53,13 @@ impl BallElement {
     /// Prepares a bearing for evaluation.
     pub fn new(bearing: &BallBearing) -> Self {
         let g = &bearing.geometry;
-        let mut out = Self {
-            contacts: bearing.hertz(),
-            rows: Vec::new(),
-            cage: bearing.cage,
-            ball_to_pitch: g.ball_diameter / g.pitch_diameter,
-            nominal_cos: g.contact_angle.cos(),
-        };
-        let ratio = out.cage_ratio(out.nominal_cos);
+        let mut out =
+            Self { contacts: bearing.hertz(), rows: Vec::new(), cage: CageKinematics::new(bearing) };
         out.rows = match &bearing.duplex {
-            None => vec![(0.0, Row::new(bearing, 0, g.thrust_direction, ratio))],
+            None => vec![(0.0, Row::new(bearing, 0, g.thrust_direction))],
             Some(pair) => {
                 let rows = pair.rows(g.thrust_direction).into_iter().enumerate();
-                rows.map(|(k, (place, direction))| (place, Row::new(bearing, k, direction, ratio))).collect()
+                rows.map(|(k, (place, direction))| (place, Row::new(bearing, k, direction))).collect()
             }
         };
         out
@@ -81,15 +74,12 @@ impl BallElement {
     ///
     /// Source: Cakmak & Sanliturk 2010 eq. 20 with the outer ring at rest.
     pub fn cage_ratio(&self, mean_cos: f64) -> f64 {
-        match self.cage {
-            Cage::Rolling => 0.5 * (1.0 - self.ball_to_pitch * mean_cos),
-            Cage::Ratio(ratio) => ratio,
-        }
+        self.cage.ratio(mean_cos)
     }
 
     /// Cosine of the nominal contact angle.
     pub fn nominal_cos(&self) -> f64 {
-        self.nominal_cos
+        self.cage.nominal_cos
     }
 
     /// Whether the force at given displacement and velocity depends on speed: film, ball inertia, ring
@@ -101,7 +91,8 @@ impl BallElement {
     /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset and resulting axial force.
     pub fn preload_state(&self, speed: f64) -> PreloadState {
         let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
-        self.rows.first().map_or_else(PreloadState::default, |(_, row)| row.preload_state(&rotation))
+        let orbit = self.cage_equilibrium(&[0.0; 6], &rotation, false, None).orbit;
+        self.rows.first().map_or_else(PreloadState::default, |(_, row)| row.preload_state(&rotation, orbit))
     }
 
     /// Force on the shaft and both tangents at a displacement of the inner ring relative to the outer one.
@@ -112,23 +103,37 @@ impl BallElement {
     /// inertia the ball equilibrium is solved first. δ̇ is the full approach rate: motion of rings and cage,
     /// passing waves and defects (defects unless their law excludes them from damping).
     ///
+    /// In statics (no cage speed given) the cage speed is solved with the balls, and the stiffness contains the
+    /// part through it; ∂f/∂ω_c of the damping force is neglected there, which vanishes at rest.
+    ///
     /// `d`, `v`: displacement \[m, rad\] and velocity of the shaft relative to the housing (θ_z is ignored).
     /// Limits: all balls unloaded gives zero force and zero tangents; no ball transmits tension.
     pub fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
-        self.reaction_with(&RingMotion {
-            d,
-            v,
-            rotation,
-            cage_speed: rotation.cage_speed,
-            with_defects: true,
-        })
+        match rotation.cage_speed {
+            None => self.static_reaction(d, v, rotation),
+            Some(orbit) => self.reaction_with(&RingMotion {
+                d,
+                v,
+                rotation,
+                cage_speed: Some(orbit),
+                orbit,
+                with_defects: true,
+            }),
+        }
     }
 
     /// The force of [`BallElement::reaction`] with its energy, powers and mean contact angle, to `out`.
     ///
     /// The tangents of `out` are unspecified; the force agrees up to round-off.
     pub fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
-        let station = RingMotion { d, v, rotation, cage_speed: rotation.cage_speed, with_defects: true };
+        let station = RingMotion {
+            d,
+            v,
+            rotation,
+            cage_speed: rotation.cage_speed,
+            orbit: rotation.cage_speed.unwrap_or(0.0),
+            with_defects: true,
+        };
         let mut sum = RowForce::default();
         for (place, row) in &self.rows {
             let ring = RingMotion {
@@ -139,7 +144,7 @@ impl BallElement {
             match row.force(&ring) {
                 Some(part) => sum.add(&part, *place),
                 None => {
-                    *out = self.reaction_with(&station);
+                    *out = self.reaction(d, v, rotation);
                     return;
                 }
             }
@@ -148,10 +153,14 @@ impl BallElement {
         out.elastic_energy = sum.energy;
         out.parametric_power = sum.power;
         out.dissipated_power = sum.dissipated;
-        out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.nominal_cos };
+        out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.cage.nominal_cos };
     }
 
-    fn reaction_with(&self, ring: &RingMotion) -> Reaction {
+    pub(super) fn rows(&self) -> &[(f64, Row)] {
+        &self.rows
+    }
+
+    pub(super) fn reaction_with(&self, ring: &RingMotion) -> Reaction {
         let (mut load, mut load_cos) = (0.0, 0.0);
         let mut row_reaction = |place: f64, row: &Row| {
             let (d, v) = (displacement_at_offset(place, ring.d), displacement_at_offset(place, ring.v));
@@ -169,31 +178,18 @@ impl BallElement {
                 }
             }
         }
-        out.mean_cos = if load > 0.0 { load_cos / load } else { self.nominal_cos };
-        out
-    }
-
-    /// Elastic force and stiffness averaged over one ball pitch of cage angles at fixed ring displacement.
-    ///
-    /// f̄(d) = (1/N) Σ_k f(d, ψ₀ + (2π/Z) k/N); the average of massless balls is a potential force, so its tangent is
-    /// symmetric. Waviness, defects and off-size balls are left out (average over many revolutions,
-    /// neglecting the small mean of a dent); [`BallElement::reaction`] includes them.
-    pub fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
-        let pitch = std::f64::consts::TAU / self.balls() as f64;
-        let mut out = Reaction::default();
-        for k in 0..angles {
-            let at =
-                Rotation { cage_angle: rotation.cage_angle + pitch * k as f64 / angles as f64, ..*rotation };
-            out.add(&self.reaction_with(&RingMotion::at_rest(d, &at, false)), 1.0 / angles as f64);
-        }
+        out.mean_cos = if load > 0.0 { load_cos / load } else { self.cage.nominal_cos };
         out
     }
 
     /// Loads, contact angles, approach and film of every ball of every row under elastic forces alone.
     pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
         let mut out = Vec::with_capacity(self.balls() * self.rows.len());
+        let orbit =
+            rotation.cage_speed.unwrap_or_else(|| self.cage_equilibrium(d, rotation, true, None).orbit);
         for (k, (place, row)) in self.rows.iter().enumerate() {
-            row.ball_loads(&displacement_at_offset(*place, d), rotation, k, &mut out);
+            let d = displacement_at_offset(*place, d);
+            row.ball_loads(&RingMotion::at_rest(&d, rotation, orbit, true), k, &mut out);
         }
         out
     }

@@ -1,6 +1,6 @@
 //! Ball bearing input data: geometry, materials, contact law, preload, fits, cage, imperfections, service.
 
-use super::{BallGeometry, DefectLaw, Fit, FitMaterials, Imperfections};
+use super::{BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;
 
@@ -81,7 +81,7 @@ impl BallBearing {
     /// growth.
     pub fn depends_on_speed(&self) -> bool {
         let dry = matches!(self.contact, ContactLaw::Hertz | ContactLaw::PowerLaw(_));
-        !dry || self.inertia != BallInertia::None || self.fit.speed_growth
+        !dry || self.inertia.depends_on_speed() || self.fit.speed_growth
     }
 
     /// The dry contacts of a ball at the nominal contact angle.
@@ -96,6 +96,22 @@ impl BallBearing {
             &self.ring_material,
         )
         .with_stiffness(self.contact_stiffness)
+    }
+
+    /// Characteristic orders under load, at a load-weighted mean cos α; cage and ball passages at the cage's ratio
+    /// if that is given.
+    pub fn loaded_orders(&self, mean_cos: f64) -> CharacteristicOrders {
+        let orders = self.geometry.characteristic_orders_at(mean_cos);
+        let balls = self.geometry.balls as f64;
+        match self.cage {
+            Cage::Rolling => orders,
+            Cage::Ratio(ratio) => CharacteristicOrders {
+                ftf: ratio,
+                bpfo: balls * ratio,
+                bpfi: balls * (1.0 - ratio),
+                ..orders
+            },
+        }
     }
 
     /// Change of the diametral clearance by fits, temperatures and a speed Ω \[rad/s\] \[m\]; shaft and housing of the
@@ -114,7 +130,7 @@ impl BallBearing {
                 out.push(why.to_string());
             }
         };
-        let split = self.inertia != BallInertia::None;
+        let split = self.inertia.is_on();
         refuse(
             split && matches!(self.contact, ContactLaw::PowerLaw(_)),
             "ball inertia needs a contact law for each race; a fitted power law gives only both in series",
@@ -161,20 +177,6 @@ impl BallBearing {
         );
         out
     }
-}
-
-/// Ball inertia model: centrifugal force and gyroscopic moment, raceway control hypothesis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BallInertia {
-    /// Massless balls: equal load and contact angle at both races.
-    #[default]
-    None,
-    /// Two contact angles per ball; the outer race alone resists the gyroscopic moment.
-    OuterRaceControl,
-    /// The inner race alone resists it.
-    InnerRaceControl,
-    /// d'Alembert: shared in proportion to the contact loads.
-    Shared,
 }
 
 /// Axial preload, in the direction of the bearing's thrust.

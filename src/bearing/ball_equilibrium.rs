@@ -13,6 +13,7 @@
 //! race ω_r = (Ω − ω_c) sin α_i / γ′: the same as Harris' attitude (pitch) angles
 //! tan β = sin α_o/(cos α_o + γ′) and sin α_i/(cos α_i − γ′). The share φ of the inner race is 0 for outer-race
 //! control, 1 for inner-race control and Q_i/(Q_i + Q_o) when shared, with ω_r the mean by the same shares.
+//! After Harris both races share the friction alike under inner-race control, f_i = f_o = M/D.
 //! Inner-race control fades smoothly as Q_i falls below F_c, since an unloaded race has no friction.
 //!
 //! The signs follow from dL/dt, as for a ball rolling in a bowl: on the outer race alone, friction adds 2/5
@@ -33,6 +34,12 @@ pub(super) type Matrix = [[f64; 2]; 2];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BallInertiaData {
     pub control: BallInertia,
+    /// Centrifugal force, if it is given \[N\].
+    given_force: Option<f64>,
+    /// Share of the controlling race in the friction where it carries the ball's rolling.
+    friction_share: f64,
+    /// M/(D F_c sin α) of rolling on the outer race: 1/5, or 0 without gyroscopic moment.
+    moment: f64,
     /// ½ m D_pw, the centrifugal force per ω_c² \[kg m\].
     centrifugal: f64,
     /// D/D_pw.
@@ -47,10 +54,12 @@ pub(super) struct BallInertiaData {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BallInertiaLoads {
     pub balls: BallInertiaData,
-    /// Centrifugal force F_c \[N\].
+    /// Centrifugal force F_c \[N\], and ∂F_c/∂ω_c.
     pub force: f64,
-    /// (Ω − ω_c)/ω_c.
+    pub force_by_orbit: f64,
+    /// (Ω − ω_c)/ω_c, and its derivative by ω_c.
     relative_cage_ratio: f64,
+    relative_by_orbit: f64,
     /// Approach of the outer contact under F_c alone \[m\].
     centrifugal_approach: f64,
 }
@@ -88,7 +97,7 @@ struct InitialGuess {
 
 /// Race forces on a ball, R = Q n + f t at each contact, with derivatives by x and y.
 pub(super) struct RaceForces {
-    inner: [f64; 2],
+    pub inner: [f64; 2],
     outer: [f64; 2],
     /// By x and by y.
     pub inner_by: [Matrix; 2],
@@ -103,13 +112,19 @@ pub(super) struct RaceForces {
 impl BallInertiaData {
     /// `None` for massless balls.
     pub fn new(geometry: &BallGeometry, material: &Material, control: BallInertia) -> Option<Self> {
-        if control == BallInertia::None {
-            return None;
-        }
+        let control = control.in_effect();
+        let given_force = match control {
+            BallInertia::None => return None,
+            BallInertia::CentrifugalForce(force) => Some(force),
+            _ => None,
+        };
         let d = geometry.ball_diameter;
         let mass = material.density * std::f64::consts::PI / 6.0 * d.powi(3);
         Some(Self {
             control,
+            given_force,
+            friction_share: control.friction_share(),
+            moment: if control.has_moment() { 0.2 } else { 0.0 },
             centrifugal: 0.5 * mass * geometry.pitch_diameter,
             gamma: d / geometry.pitch_diameter,
             lengths: [geometry.inner_groove_radius - 0.5 * d, geometry.outer_groove_radius - 0.5 * d],
@@ -125,11 +140,17 @@ impl BallInertiaData {
         outer_at: impl Fn(f64) -> ContactLoad,
         guess: impl Fn(f64) -> f64,
     ) -> Option<BallInertiaLoads> {
-        let force = self.centrifugal * cage_speed * cage_speed;
+        let (force, force_by_orbit) = match self.given_force {
+            Some(force) => (force, 0.0),
+            None => (self.centrifugal * cage_speed * cage_speed, 2.0 * self.centrifugal * cage_speed),
+        };
+        let relative = if self.moment > 0.0 { rotation.shaft_speed / cage_speed } else { 1.0 };
         (force > 0.0).then(|| BallInertiaLoads {
             balls: *self,
             force,
-            relative_cage_ratio: (rotation.shaft_speed - cage_speed) / cage_speed,
+            force_by_orbit,
+            relative_cage_ratio: relative - 1.0,
+            relative_by_orbit: if self.moment > 0.0 { -relative / cage_speed } else { 0.0 },
             centrifugal_approach: root_finding::increasing_root(
                 |x| {
                     let at = outer_at(x);
@@ -177,14 +198,13 @@ impl RaceContact {
 impl BallInertiaLoads {
     /// Whether the inner race may carry part of the friction, and so transmit a friction moment.
     pub fn inner_race_has_friction(&self) -> bool {
-        self.balls.control != BallInertia::OuterRaceControl
+        self.balls.moment > 0.0 && self.balls.control != BallInertia::OuterRaceControl
     }
 
     /// Share φ of the inner race in the friction, and its derivatives by Q_i and Q_o.
-    fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
+    pub fn share(&self, inner: f64, outer: f64) -> (f64, f64, f64) {
         match self.balls.control {
-            BallInertia::None | BallInertia::OuterRaceControl => (0.0, 0.0, 0.0),
-            BallInertia::InnerRaceControl => {
+            BallInertia::InnerRaceControl | BallInertia::HarrisInnerRaceControl => {
                 let x = (inner / self.force).min(1.0);
                 (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / self.force, 0.0)
             }
@@ -195,17 +215,50 @@ impl BallInertiaLoads {
                 }
                 (inner / sum, outer / (sum * sum), -inner / (sum * sum))
             }
+            _ => (0.0, 0.0, 0.0),
         }
+    }
+
+    /// M/D over sin α for rolling on the inner and on the outer race alone: J ω_c²/(γ′ D) = F_c/5; 0 without
+    /// gyroscopic moment.
+    #[inline(always)]
+    fn unit_moments(&self) -> [f64; 2] {
+        [self.balls.moment * self.force * self.relative_cage_ratio, self.balls.moment * self.force]
+    }
+
+    /// Derivatives of friction forces (inner, outer) and share by ω_c at a fixed ball.
+    pub fn friction_by_orbit(&self, inner: &RaceContact, outer: &RaceContact) -> ([f64; 2], f64) {
+        let (share, ..) = self.share(inner.loaded.load, outer.loaded.load);
+        let by_orbit = self.force_by_orbit;
+        let share_by = match self.balls.control {
+            BallInertia::InnerRaceControl | BallInertia::HarrisInnerRaceControl => {
+                let x = (inner.loaded.load / self.force).min(1.0);
+                -6.0 * x * x * (1.0 - x) * by_orbit / self.force
+            }
+            _ => 0.0,
+        };
+        let [ui, uo] = self.unit_moments();
+        let relative = by_orbit * self.relative_cage_ratio + self.force * self.relative_by_orbit;
+        let [mi, mo] = [ui * inner.n[1], uo * outer.n[1]];
+        let moment = share * mi + (1.0 - share) * mo;
+        let moment_by = share_by * (mi - mo)
+            + self.balls.moment * (share * relative * inner.n[1] + (1.0 - share) * by_orbit * outer.n[1]);
+        let part = self.balls.friction_share;
+        let friction = [
+            2.0 * part * (share_by * moment + share * moment_by),
+            2.0 * ((1.0 - part * share) * moment_by - part * share_by * moment),
+        ];
+        (friction, share_by)
     }
 
     #[inline(always)]
     pub fn forces(&self, inner: &RaceContact, outer: &RaceContact) -> RaceForces {
         let (share, by_inner, by_outer) = self.share(inner.loaded.load, outer.loaded.load);
-        // M/D for rolling on one race alone: J ω_c²/(γ′ D) = F_c/5.
-        let unit = [0.2 * self.force * self.relative_cage_ratio, 0.2 * self.force];
+        let unit = self.unit_moments();
         let moments = [unit[0] * inner.n[1], unit[1] * outer.n[1]];
         let moment = share * moments[0] + (1.0 - share) * moments[1];
-        let friction = [2.0 * share * moment, 2.0 * (1.0 - share) * moment];
+        let part = self.balls.friction_share;
+        let friction = [2.0 * part * share * moment, 2.0 * (1.0 - part * share) * moment];
         let (ti, to) = (inner.t(), outer.t());
         let mut out = RaceForces {
             inner: [0, 1].map(|k| inner.loaded.load * inner.n[k] + friction[0] * ti[k]),
@@ -227,8 +280,8 @@ impl BallInertiaLoads {
             for k in 0..2 {
                 let moment_by = angle[v] * t[k] + load[v] * spread * n[k];
                 let share_by = load[v] * n[k];
-                let fi = 2.0 * (share_by * moment + share * moment_by);
-                let fo = 2.0 * ((1.0 - share) * moment_by - share_by * moment);
+                let fi = 2.0 * part * (share_by * moment + share * moment_by);
+                let fo = 2.0 * ((1.0 - part * share) * moment_by - part * share_by * moment);
                 out.friction_by[v][k] = fi;
                 for r in 0..2 {
                     out.inner_by[v][r][k] += ti[r] * fi;

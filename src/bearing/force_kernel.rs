@@ -58,7 +58,7 @@ impl ForceKernel {
         };
         let balls: Vec<_> = spacing.chunks(LANES).map(lane).collect();
         let common = KernelParameters {
-            offset: row.operating(&RingMotion::at_rest(&[0.0; 6], &Rotation::default(), false)).offset,
+            offset: row.operating(&RingMotion::at_rest(&[0.0; 6], &Rotation::default(), 0.0, false)).offset,
             arm: row.arm,
             centre_distance: row.centre_distance,
             stiffness: pair.stiffness,
@@ -129,7 +129,7 @@ impl Row {
             lanes: &force_kernel.balls,
             common: &force_kernel.common,
             motion: [ring.d, ring.v],
-            cage: [cos, sin, ring.cage_speed],
+            cage: [cos, sin, ring.cage_speed.unwrap_or(0.0)],
             deviations: deviations.as_ref(),
             sums: &mut sums,
         });

@@ -45,7 +45,13 @@ impl BallGeometry {
     /// Bearing characteristic (defect) frequencies in orders of the inner ring speed at contact angle α,
     /// outer ring stationary.
     pub fn characteristic_orders(&self, contact_angle: f64) -> CharacteristicOrders {
-        let gamma = self.ball_diameter * contact_angle.cos() / self.pitch_diameter;
+        self.characteristic_orders_at(contact_angle.cos())
+    }
+
+    /// [`Self::characteristic_orders`] at a mean cos α; beyond ±1 where the two contact angles of balls with
+    /// inertia give a cage speed that no common angle has.
+    pub fn characteristic_orders_at(&self, mean_cos: f64) -> CharacteristicOrders {
+        let gamma = self.ball_diameter * mean_cos / self.pitch_diameter;
         let z = self.balls as f64;
         CharacteristicOrders {
             ftf: 0.5 * (1.0 - gamma),

@@ -106,7 +106,7 @@ impl BallInertiaLoads {
     ///
     /// Harris cage speed, rolling on both races: ω_c/Ω = (1 − γ′ cos α_i)/(1 + cos Δ) for outer-race control
     /// and (cos Δ − γ′ cos α_o)/(1 + cos Δ) for inner-race control, Δ = α_i − α_o. Source: Harris.
-    fn cage_cosine(&self, inner: &RaceContact, outer: &RaceContact, share: f64) -> f64 {
+    pub fn cage_cosine(&self, inner: &RaceContact, outer: &RaceContact, share: f64) -> f64 {
         let gamma = self.balls.gamma;
         let cos = dot(inner.n, outer.n);
         let ratio =

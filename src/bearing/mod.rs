@@ -2,8 +2,12 @@
 
 pub mod ball;
 pub mod ball_bearing;
+mod ball_change;
 mod ball_equilibrium;
+pub mod ball_inertia;
 mod ball_sum;
+mod cage;
+mod cage_equilibrium;
 mod defect_force;
 mod duplex;
 pub mod element;
@@ -26,7 +30,8 @@ mod row;
 mod spall;
 
 pub use ball::{BallElement, BallLoad};
-pub use ball_bearing::{Arrangement, BallBearing, BallInertia, Cage, Duplex, Preload, Service};
+pub use ball_bearing::{Arrangement, BallBearing, Cage, Duplex, Preload, Service};
+pub use ball_inertia::{BallInertia, InertiaDecision};
 pub use element::BearingElement;
 pub use fit::{Fit, FitMaterials};
 pub use geometry::{BallGeometry, CharacteristicOrders};
@@ -41,9 +46,11 @@ pub use radial::{RadialBallBearing, RadialElement};
 /// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Rotation {
-    /// Cage angle ψ \[rad\] and speed ψ̇ \[rad/s\].
+    /// Cage angle ψ \[rad\].
     pub cage_angle: f64,
-    pub cage_speed: f64,
+    /// Cage speed ψ̇ \[rad/s\]; `None` in statics: the contacts do not move past the rings, and the balls have
+    /// the inertial loads of the cage speed at which they roll under the contact angles of the equilibrium.
+    pub cage_speed: Option<f64>,
     /// Shaft (inner race) angle θ \[rad\] and speed θ̇ \[rad/s\].
     pub shaft_angle: f64,
     pub shaft_speed: f64,

@@ -77,7 +77,7 @@ impl Row {
         let operating = self.operating(ring);
         let evaluate = |ring: &RingMotion| {
             let sum = self.sum(ring, &operating);
-            let reaction = sum.reaction(self.arm, ring.cage_speed);
+            let reaction = sum.reaction(self.arm, ring.cage_speed.unwrap_or(0.0));
             RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
         };
         let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism else {
@@ -85,15 +85,15 @@ impl Row {
         };
         let shift = self.ring_displacement(ring);
         let moved = shifted(ring.d, self.direction * shift);
-        let still = RingMotion::at_rest(&moved, ring.rotation, ring.with_defects);
+        let still = ring.stopped_at(&moved);
         let sum = self.sum(&still, &self.operating(&still));
-        let elastic = sum.reaction(self.arm, still.cage_speed);
+        let elastic = sum.reaction(self.arm, 0.0);
         let whole = elastic.stiffness[2][2] + stiffness;
         // Axial ring displacement per shaft displacement; zero for an unloaded ring without spring.
         let ring_tangent: [f64; 6] =
             std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
         let slip = dot(&ring_tangent, ring.v);
-        let mut out = if ring.cage_speed == 0.0 && ring.v.iter().all(|v| *v == 0.0) {
+        let mut out = if ring.cage_speed.is_none() && ring.v.iter().all(|v| *v == 0.0) {
             RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
         } else {
             evaluate(&RingMotion { d: &moved, v: &shifted(ring.v, slip), ..*ring })
@@ -105,13 +105,13 @@ impl Row {
 
     /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
     /// e.
-    fn ring_displacement(&self, ring: &RingMotion) -> f64 {
+    pub fn ring_displacement(&self, ring: &RingMotion) -> f64 {
         let PreloadMechanism::Spring { stiffness, force, dry, ring_motion_ratio: follows } =
             self.preload_mechanism
         else {
             return 0.0;
         };
-        let still = RingMotion::at_rest(ring.d, ring.rotation, ring.with_defects);
+        let still = ring.stopped_at(ring.d);
         let operating = self.operating(&still);
         root_finding::increasing_root(
             |e| {
@@ -128,9 +128,9 @@ impl Row {
         shifted(ring.d, self.direction * self.ring_displacement(ring))
     }
 
-    /// Offset and axial force of the centred bearing.
-    pub fn preload_state(&self, rotation: &Rotation) -> PreloadState {
-        let centred = RingMotion::at_rest(&[0.0; 6], rotation, false);
+    /// Offset and axial force of the centred bearing with the inertial loads of a cage speed \[rad/s\].
+    pub fn preload_state(&self, rotation: &Rotation, orbit: f64) -> PreloadState {
+        let centred = RingMotion::at_rest(&[0.0; 6], rotation, orbit, false);
         let operating = self.operating(&centred);
         let offset = match self.preload_mechanism {
             PreloadMechanism::Fixed(offset) => offset,

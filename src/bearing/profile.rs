@@ -190,6 +190,7 @@ impl Profile {
     /// The profile at the given cage and shaft angles, with rates from their speeds.
     pub fn at_rotation(&self, rotation: &Rotation) -> ProfileState<'_> {
         let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
+        let cage_speed = cage_speed.unwrap_or(0.0);
         let [by_cage, by_shaft] = self.spin;
         let race = |race: &Raceway, angle, rate| match race.has_waves() {
             true => SurfaceAngle::new(angle, rate),

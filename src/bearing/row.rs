@@ -6,7 +6,7 @@ use super::force_kernel::ForceKernel;
 use super::preload::PreloadMechanism;
 use super::ring_motion::RingMotion;
 use super::{BallBearing, BallLoad, Deviation, Profile, ProfileState, Rotation};
-use super::{defect_force, massless, root_finding};
+use super::{cage::CageKinematics, defect_force, massless};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
 /// A row of balls prepared for evaluation: constants and per-ball data laid out as arrays.
@@ -25,8 +25,7 @@ pub(super) struct Row {
     pub damping: ContactDamping,
     /// Inertia of the balls; `None` for massless balls.
     pub inertia: Option<BallInertiaData>,
-    /// Cage speed over shaft speed at the nominal contact angle, for statics.
-    cage_ratio: f64,
+    pub cage: CageKinematics,
     /// ±1: direction of preload (thrust) on the inner ring.
     pub direction: f64,
     pub preload_mechanism: PreloadMechanism,
@@ -49,7 +48,7 @@ pub(super) struct OperatingState<'a> {
     /// Rigid preload contained in `offset`, in the direction of thrust \[m\].
     pub preload: f64,
     /// Centrifugal force and gyroscopic moment of the balls; `None` at rest and for massless balls.
-    inertial_loads: Option<BallInertiaLoads>,
+    pub inertial_loads: Option<BallInertiaLoads>,
 }
 
 /// Position of a ball's inner groove centre relative to the outer one, in the plane (radial, axial).
@@ -64,9 +63,8 @@ pub(super) struct PlaneMotion {
 }
 
 impl Row {
-    /// Row `number` of a matched pair with its thrust direction and the cage speed ratio at the nominal
-    /// contact angle.
-    pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64, cage_ratio: f64) -> Self {
+    /// Row `number` of a matched pair with its thrust direction.
+    pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64) -> Self {
         let g = &bearing.geometry;
         let a = g.inner_groove_radius + g.outer_groove_radius - g.ball_diameter;
         let gamma = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
@@ -87,7 +85,7 @@ impl Row {
             speed_dependent_bearing: bearing.fit.speed_growth.then(|| Box::new(bearing.clone())),
             damping: bearing.damping,
             inertia: BallInertiaData::new(g, &bearing.ball_material, bearing.inertia),
-            cage_ratio,
+            cage: CageKinematics::new(bearing),
             direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
             preload_mechanism: PreloadMechanism::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
@@ -134,26 +132,17 @@ impl Row {
     /// Whether the force at given displacement and velocity depends on shaft speed.
     pub fn depends_on_speed(&self) -> bool {
         let dry = |contacts| matches!(contacts, SpeedContacts::Hertz(_) | SpeedContacts::Power { .. });
-        !dry(self.contacts.at_speed(1.0)) || self.speed_dependent_bearing.is_some() || self.inertia.is_some()
+        !dry(self.contacts.at_speed(1.0))
+            || self.speed_dependent_bearing.is_some()
+            || self.inertia.is_some_and(|balls| balls.control.depends_on_speed())
     }
 
     /// Operating conditions of all balls at a motion of the ring.
-    ///
-    /// The inertial loads use the cage speed, or if it is zero (statics) the shaft speed times the nominal
-    /// cage ratio.
     pub fn operating(&self, ring: &RingMotion) -> OperatingState<'_> {
         let rotation = ring.rotation;
         let speed = self.entrainment * rotation.shaft_speed.abs();
         let contacts = self.contacts.at_speed(speed);
-        let orbit = if rotation.cage_speed != 0.0 {
-            rotation.cage_speed
-        } else {
-            self.cage_ratio * rotation.shaft_speed
-        };
-        let loads = self.inertia.and_then(|balls| {
-            let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
-            balls.inertial_loads(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
-        });
+        let loads = self.inertial_loads(ring.orbit, rotation, &contacts);
         let mut offset = self.offset;
         if let Some(bearing) = &self.speed_dependent_bearing {
             let change = bearing.clearance_change(rotation.shaft_speed) - bearing.clearance_change(0.0);
@@ -163,23 +152,32 @@ impl Row {
         out.preload = match self.preload_mechanism {
             PreloadMechanism::Fixed(offset) => offset,
             PreloadMechanism::Spring { .. } => 0.0,
-            PreloadMechanism::Force { force, dry } => root_finding::increasing_root(
-                |offset| {
-                    let s = [out.offset[0], out.offset[1] + self.direction * offset];
-                    let (n, slope) = self.centred_axial(s, &out);
-                    [self.direction * n - force, slope]
-                },
-                dry,
-            ),
+            PreloadMechanism::Force { force, dry } => self.offset_at_force(force, dry, rotation, &out),
         };
         out.offset[1] += self.direction * out.preload;
         out
     }
 
+    /// Inertial loads of the balls at a cage speed `orbit` \[rad/s\]; `None` at rest and for massless balls.
+    pub fn inertial_loads(
+        &self,
+        orbit: f64,
+        rotation: &Rotation,
+        contacts: &SpeedContacts,
+    ) -> Option<BallInertiaLoads> {
+        let guess = |load| dry_approach(&self.contacts.hertz, Race::Outer, load);
+        self.inertia?.inertial_loads(orbit, rotation, |x| contacts.single(Race::Outer, x), guess)
+    }
+
     /// Axial force and stiffness of a centred row, where all balls carry the same load.
-    fn centred_axial(&self, s: [f64; 2], operating: &OperatingState) -> (f64, f64) {
+    pub fn centred_axial(
+        &self,
+        s: [f64; 2],
+        operating: &OperatingState,
+        loads: Option<&BallInertiaLoads>,
+    ) -> (f64, f64) {
         let motion = PlaneMotion { s, ..PlaneMotion::default() };
-        let ball = match &operating.inertial_loads {
+        let ball = match loads {
             None => massless::ball_force(
                 |approach| operating.contacts.series(approach),
                 &operating.contacts,
@@ -270,7 +268,7 @@ impl Row {
         loads.inner_ring_reaction(&equilibrium, &operating.contacts, &self.damping, stiffness, motion)
     }
 
-    fn solve_equilibrium(
+    pub fn solve_equilibrium(
         &self,
         loads: &BallInertiaLoads,
         operating: &OperatingState,
@@ -302,14 +300,14 @@ impl Row {
     /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate due to cage
     /// rotation.
     #[inline(always)]
-    fn for_each_ball(
+    pub fn for_each_ball(
         &self,
         ring: &RingMotion,
         operating: &OperatingState,
         mut visit: impl FnMut([f64; 2], PlaneMotion, [f64; 2]),
     ) {
-        let RingMotion { d, v, rotation, cage_speed, .. } = *ring;
-        let r = self.arm;
+        let RingMotion { d, v, rotation, .. } = *ring;
+        let (r, cage_speed) = (self.arm, ring.cage_speed.unwrap_or(0.0));
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
         let passing = self.profile_state(ring);
         for (j, [cj, sj]) in self.spacing.iter().enumerate() {
@@ -338,11 +336,10 @@ impl Row {
     }
 
     /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.
-    pub fn ball_loads(&self, d: &[f64; 6], rotation: &Rotation, row: usize, out: &mut Vec<BallLoad>) {
-        let at_rest = RingMotion::at_rest(d, rotation, true);
-        let operating = self.operating(&at_rest);
-        let d = self.with_ring_displacement(&at_rest);
-        let ring = RingMotion { d: &d, ..at_rest };
+    pub fn ball_loads(&self, at_rest: &RingMotion, row: usize, out: &mut Vec<BallLoad>) {
+        let operating = self.operating(at_rest);
+        let d = self.with_ring_displacement(at_rest);
+        let ring = RingMotion { d: &d, ..*at_rest };
         self.for_each_ball(&ring, &operating, |[cos, sin], motion, _| {
             let equilibrium =
                 operating.inertial_loads.map(|loads| self.solve_equilibrium(&loads, &operating, &motion));

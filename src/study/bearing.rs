@@ -418,7 +418,7 @@ impl<'a> SingleBearingStudy<'a> {
         let mut point = BearingPoint {
             radial_stiffness: both(&along),
             axial_stiffness: both(&axis),
-            orders: g.characteristic_orders(state.mean_cos.clamp(-1.0, 1.0).acos()),
+            orders: self.bearing.loaded_orders(state.mean_cos),
             preload_force: self.preload(state.condition.speed).axial_force,
             life: self.life(&state, &balls),
             film_ratio: 0.0,

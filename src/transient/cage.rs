@@ -17,7 +17,7 @@ pub fn advance(system: &System, state: &State, spin: &Spin, out: &mut [Rotation]
         let ratio = interface.element.cage_ratio(reaction.mean_cos);
         *after = Rotation {
             cage_angle: before.cage_angle + ratio * turned,
-            cage_speed: ratio * spin.speed,
+            cage_speed: Some(ratio * spin.speed),
             shaft_angle: spin.angle,
             shaft_speed: spin.speed,
         };

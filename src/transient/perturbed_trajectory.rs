@@ -136,7 +136,7 @@ fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
         let rows = interface.element.relative_dofs();
         let mut d = [0.0; 6];
         d[..rows].copy_from_slice(&state.d[interface.first_row..interface.first_row + rows]);
-        let still = Rotation { cage_speed: 0.0, ..*rotation };
+        let still = Rotation { cage_speed: None, ..*rotation };
         let k = interface.element.reaction(&d, &[0.0; 6], &still).stiffness;
         let map = system.interface_map.rows(interface.first_row, rows);
         let symmetric = DMatrix::from_fn(rows, rows, |a, b| 0.5 * (k[a][b] + k[b][a]));

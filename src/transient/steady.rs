@@ -45,10 +45,11 @@ pub fn phase(clock: SectionTrigger, state: &State) -> f64 {
 }
 
 fn phase_rate(clock: SectionTrigger, state: &State) -> f64 {
+    let cage_speed = |bearing: usize| state.rotations[bearing].cage_speed.unwrap_or(0.0);
     match clock {
         SectionTrigger::Shaft => state.spin.speed,
-        SectionTrigger::Cage { bearing } => state.rotations[bearing].cage_speed,
-        SectionTrigger::BallPass { bearing, balls } => balls as f64 * state.rotations[bearing].cage_speed,
+        SectionTrigger::Cage { bearing } => cage_speed(bearing),
+        SectionTrigger::BallPass { bearing, balls } => balls as f64 * cage_speed(bearing),
     }
 }
 

@@ -425,7 +425,7 @@ impl System {
             .iter()
             .map(|i| Rotation {
                 cage_angle: i.cage_angle,
-                cage_speed: i.element.cage_ratio(i.element.nominal_cos()) * spin.speed,
+                cage_speed: Some(i.element.cage_ratio(i.element.nominal_cos()) * spin.speed),
                 shaft_angle: spin.angle,
                 shaft_speed: spin.speed,
             })

@@ -38,7 +38,7 @@ fn film_thickness_at_entrainment_speed() {
         let contacts = BallContacts::new(bearing.hertz(), contact.clone());
         let element = BallElement::new(&bearing);
         let d = [12e-6, 0.0, if angle > 0.0 { 10e-6 } else { 0.0 }, 0.0, 0.0, 0.0];
-        let rotation = Rotation { shaft_speed: shaft, cage_speed: cage, ..Rotation::default() };
+        let rotation = Rotation { shaft_speed: shaft, cage_speed: Some(cage), ..Rotation::default() };
         let mut loaded = 0;
         for ball in element.ball_loads(&d, &rotation).iter().filter(|ball| ball.load > 1.0) {
             for (k, race) in [Race::Inner, Race::Outer].into_iter().enumerate() {

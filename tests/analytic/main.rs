@@ -11,6 +11,7 @@ mod effective_mass;
 mod fits;
 mod hertz;
 mod hunt_crossley;
+mod jones_thrust;
 mod kinematics;
 mod precession;
 mod responses;

@@ -54,7 +54,7 @@ fn newton_euler(bearing: &BallBearing, ball: &BallLoad, control: Control, rotati
     let mass = bearing.ball_material.density * std::f64::consts::PI / 6.0 * d.powi(3);
     let inertia = 0.4 * mass * (0.5 * d).powi(2);
     let axis = V::new(0.0, 0.0, 1.0);
-    let (cage, shaft) = (axis * rotation.cage_speed, axis * rotation.shaft_speed);
+    let (cage, shaft) = (axis * rotation.cage_speed.unwrap(), axis * rotation.shaft_speed);
     let centre = V::new(0.5 * pitch, 0.0, 0.0);
     let (inner, outer) = (normal(ball.contact_angle), normal(ball.outer_contact_angle));
 
@@ -101,7 +101,7 @@ fn for_each_case(mut visit: impl FnMut(Control, f64, &BallBearing, &[f64; 6], &R
                 let d = [d[0], d[1], thrust * d[2], d[3], d[4], 0.0];
                 let rotation = Rotation {
                     cage_angle: 0.3,
-                    cage_speed: 0.4 * speed,
+                    cage_speed: Some(0.4 * speed),
                     shaft_speed: speed,
                     ..Rotation::default()
                 };

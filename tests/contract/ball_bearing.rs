@@ -40,7 +40,7 @@ fn tangents_match_finite_differences() {
             let (d, v) = (random.scaled(LENGTHS), random.scaled(SPEEDS));
             let rotation = Rotation {
                 cage_angle: 3.0 * random.next(),
-                cage_speed: 40.0,
+                cage_speed: Some(40.0),
                 shaft_angle: 3.0 * random.next(),
                 shaft_speed: 100.0,
             };
@@ -125,7 +125,7 @@ fn power_balance_closes() {
                 }
                 let rotation = Rotation {
                     cage_angle: 0.3 + 40.0 * t,
-                    cage_speed: 40.0,
+                    cage_speed: Some(40.0),
                     shaft_angle: 0.1 + 100.0 * t,
                     shaft_speed: 100.0,
                 };

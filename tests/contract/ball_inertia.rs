@@ -9,8 +9,17 @@ use rotordyn::contact::ContactLaw;
 
 const CAGE: f64 = 0.4;
 
+const CONTROLS: [BallInertia; 6] = [
+    BallInertia::OuterRaceControl,
+    BallInertia::InnerRaceControl,
+    BallInertia::HarrisInnerRaceControl,
+    BallInertia::Shared,
+    BallInertia::Centrifugal,
+    BallInertia::CentrifugalForce(60.0),
+];
+
 fn at_speed(speed: f64) -> Rotation {
-    Rotation { cage_angle: 0.3, cage_speed: CAGE * speed, shaft_speed: speed, ..Rotation::default() }
+    Rotation { cage_angle: 0.3, cage_speed: Some(CAGE * speed), shaft_speed: speed, ..Rotation::default() }
 }
 
 /// Residual force of a ball \[N\], with Harris' attitude angle β and gyroscopic moment J ω_R ω_m sin β.
@@ -18,7 +27,10 @@ fn force_residual(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
     let (d, pitch) = (bearing.geometry.ball_diameter, bearing.geometry.pitch_diameter);
     let mass = bearing.ball_material.density * std::f64::consts::PI / 6.0 * d.powi(3);
     let (gamma, orbit) = (d / pitch, CAGE * shaft);
-    let centrifugal = 0.5 * mass * pitch * orbit * orbit;
+    let centrifugal = match bearing.inertia {
+        BallInertia::CentrifugalForce(given) => given,
+        _ => 0.5 * mass * pitch * orbit * orbit,
+    };
     let (ai, ao) = (ball.contact_angle, ball.outer_contact_angle);
     // Spin relative to the cage from rolling on one race, about an axis at β without pivoting on that race.
     let moment = |beta: f64, spin: f64| 0.1 * mass * d * d * spin * orbit * beta.sin();
@@ -30,16 +42,24 @@ fn force_residual(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
         let beta = (ai.sin() / (ai.cos() - gamma)).atan();
         moment(beta, (shaft - orbit) * (1.0 - gamma * ai.cos()) / (gamma * (beta - ai).cos()))
     };
+    // Share of the inner race in the rolling that sets the moment, λ_i M/D and λ_o M/D its friction.
     let share = match bearing.inertia {
-        BallInertia::None | BallInertia::OuterRaceControl => 0.0,
-        BallInertia::InnerRaceControl => {
+        BallInertia::InnerRaceControl | BallInertia::HarrisInnerRaceControl => {
             let x = (ball.load / centrifugal).min(1.0);
             x * x * (3.0 - 2.0 * x)
         }
         BallInertia::Shared => ball.load / (ball.load + ball.outer_load),
+        _ => 0.0,
     };
-    let moment = share * inner + (1.0 - share) * outer;
-    let (fi, fo) = (2.0 * share * moment / d, 2.0 * (1.0 - share) * moment / d);
+    let moment = match bearing.inertia {
+        BallInertia::Centrifugal | BallInertia::CentrifugalForce(_) => 0.0,
+        _ => share * inner + (1.0 - share) * outer,
+    };
+    let lambda = match bearing.inertia {
+        BallInertia::HarrisInnerRaceControl => [share, 2.0 - share],
+        _ => [2.0 * share, 2.0 * (1.0 - share)],
+    };
+    let [fi, fo] = lambda.map(|lambda| lambda * moment / d);
     let radial =
         ball.load * ai.cos() - ball.outer_load * ao.cos() - fi * ai.sin() + fo * ao.sin() + centrifugal;
     let axial = ball.load * ai.sin() - ball.outer_load * ao.sin() + fi * ai.cos() - fo * ao.cos();
@@ -50,7 +70,7 @@ fn force_residual(bearing: &BallBearing, ball: &BallLoad, shaft: f64) -> f64 {
 fn ball_force_balance() {
     let mut random = Random(17);
     let (mut loaded, mut unloaded) = (0, 0);
-    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+    for inertia in CONTROLS {
         for law in [ContactLaw::Hertz, film()] {
             for base in [rig_6205(), angular()] {
                 let bearing = BallBearing { inertia, contact: law.clone(), ..base };
@@ -75,7 +95,8 @@ fn ball_force_balance() {
 
 #[test]
 fn outer_contact_angle_falls_and_inner_rises_with_speed() {
-    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+    for inertia in &CONTROLS[..5] {
+        let inertia = *inertia;
         let element = BallElement::new(&BallBearing { inertia, ..angular() });
         let mut before: Option<BallLoad> = None;
         for k in 0..60 {
@@ -95,7 +116,8 @@ fn outer_contact_angle_falls_and_inner_rises_with_speed() {
 #[test]
 fn force_is_continuous_at_loss_of_inner_contact() {
     // Radial displacement of the inner ring at speed, from no inner contact to load.
-    for inertia in [BallInertia::OuterRaceControl, BallInertia::InnerRaceControl, BallInertia::Shared] {
+    for inertia in &CONTROLS[..5] {
+        let inertia = *inertia;
         let element = BallElement::new(&BallBearing { inertia, ..rig_6205() });
         let force =
             |x: f64| element.reaction(&[x, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6], &at_speed(2000.0)).force[0];
@@ -141,4 +163,32 @@ fn speed_dependence_is_reported() {
         assert!(element.depends_on_speed());
         assert!(energy(500.0).elastic_energy != energy(1500.0).elastic_energy);
     }
+}
+
+#[test]
+fn given_centrifugal_force_is_that_of_its_speed() {
+    // F_c = ½ m D_pw ω_c² given as a number: the same balls as with centrifugal force alone at that speed, and at
+    // any other speed.
+    let base = angular();
+    let g = &base.geometry;
+    let mass = base.ball_material.density * std::f64::consts::PI / 6.0 * g.ball_diameter.powi(3);
+    let force = 0.5 * mass * g.pitch_diameter * (CAGE * 2000.0f64).powi(2);
+    let with = |inertia| BallElement::new(&BallBearing { inertia, ..angular() });
+    let (given, own) = (with(BallInertia::CentrifugalForce(force)), with(BallInertia::Centrifugal));
+    let d = [3e-6, -2e-6, 15e-6, 1e-4, -1e-4, 0.0];
+    let expected = own.reaction(&d, &[0.0; 6], &at_speed(2000.0));
+    for speed in [0.0, 300.0, 2000.0] {
+        let still = Rotation { cage_angle: 0.3, shaft_speed: speed, ..Rotation::default() };
+        let found = given.reaction(&d, &[0.0; 6], &still);
+        for (a, b) in found.force.iter().zip(expected.force) {
+            // The moving contacts of the other have damping by the turning cage.
+            let elastic = own.ball_loads(&d, &at_speed(2000.0)).iter().map(|b| b.load).sum::<f64>();
+            assert!((a - b).abs() < 0.02 * elastic, "{a} {b}");
+        }
+        for (a, b) in given.ball_loads(&d, &still).iter().zip(own.ball_loads(&d, &at_speed(2000.0))) {
+            assert!((a.load - b.load).abs() < 1e-9 * (1.0 + b.load), "{a:?} {b:?}");
+            assert!((a.outer_load - b.outer_load).abs() < 1e-9 * (1.0 + b.outer_load));
+        }
+    }
+    assert!(!given.depends_on_speed() && own.depends_on_speed());
 }

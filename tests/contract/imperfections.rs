@@ -231,7 +231,7 @@ fn ball_defect_passes_each_race_once_per_spin_revolution() {
                 shaft_angle: shaft,
                 shaft_speed: 1.0,
                 cage_angle: orders.ftf * shaft,
-                cage_speed: orders.ftf,
+                cage_speed: Some(orders.ftf),
             };
             let at = profile.at_rotation(&rotation).ball(0);
             for contact in 0..2 {
@@ -263,7 +263,7 @@ fn reaction_at_rest_is_the_sum_of_ball_loads() {
     let mut negative = 0;
     for_each_with_imperfections(|name, bearing| {
         let (d, _, rotation) = sample(&mut random);
-        let rotation = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..rotation };
+        let rotation = Rotation { cage_speed: None, shaft_speed: 0.0, ..rotation };
         let element = BallElement::new(bearing);
         let reaction = element.reaction(&d, &[0.0; 6], &rotation);
         let loads = element.ball_loads(&d, &rotation);

@@ -10,6 +10,7 @@ mod ball_bearing;
 mod ball_combinations;
 mod ball_inertia;
 mod bearing_solver;
+mod cage_in_statics;
 mod contact_laws;
 mod ehl_table;
 mod force_only;

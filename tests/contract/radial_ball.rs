@@ -60,7 +60,7 @@ impl State {
 fn spinning(random: &mut Random) -> Rotation {
     Rotation {
         cage_angle: 3.0 * random.next(),
-        cage_speed: 200.0,
+        cage_speed: Some(200.0),
         shaft_angle: 3.0 * random.next(),
         shaft_speed: 520.0,
     }
@@ -224,7 +224,7 @@ fn linear_momentum_balance_closes() {
         let forces = state.forces(&element, &rotation);
         let h_accel = [3.0 * random.next(), 3.0 * random.next()];
         let (h, v) = (&state.q[2..4], &state.rate[2..4]);
-        let w = rotation.cage_speed;
+        let w = rotation.cage_speed.unwrap();
         let (mut total, mut weight) = ([0.0; 2], 0.0);
         for j in 0..z {
             let (sin, cos) = (rotation.cage_angle + std::f64::consts::TAU * j as f64 / z as f64).sin_cos();
@@ -260,7 +260,7 @@ fn power_balance_closes() {
         let energy = |t: f64| {
             let q: Vec<f64> = state.q.iter().zip(&state.rate).map(|(q, v)| q + t * v).collect();
             let rotation = Rotation {
-                cage_angle: rotation.cage_angle + t * rotation.cage_speed,
+                cage_angle: rotation.cage_angle + t * rotation.cage_speed.unwrap(),
                 shaft_angle: rotation.shaft_angle + t * rotation.shaft_speed,
                 ..rotation
             };

@@ -18,7 +18,7 @@ fn bearing(lines: &str) -> BallBearing {
 #[test]
 fn contact_laws() {
     let default = bearing("thrust = \"+z\"");
-    assert_eq!((default.contact, default.inertia), (ContactLaw::Hertz, BallInertia::None));
+    assert_eq!((default.contact, default.inertia), (ContactLaw::Hertz, BallInertia::Auto(None)));
     let film = bearing("thrust = \"+z\"\ncontact = \"film\"\nlubricant = \"thin\"\nspeed_factor = 0.5");
     let thin = Lubricant { name: "thin".into(), viscosity: 0.04, pressure_viscosity: 2.3e-8, density: 850.0 };
     assert_eq!(film.contact, ContactLaw::Film { lubricant: thin, speed_factor: 0.5 });
@@ -64,6 +64,9 @@ fn damping_and_inertia() {
         ("outer_race_control", BallInertia::OuterRaceControl),
         ("inner_race_control", BallInertia::InnerRaceControl),
         ("shared", BallInertia::Shared),
+        ("auto", BallInertia::Auto(None)),
+        ("harris_inner_race_control", BallInertia::HarrisInnerRaceControl),
+        ("centrifugal", BallInertia::Centrifugal),
     ] {
         assert_eq!(with(&format!("ball_inertia = \"{word}\"")).inertia, inertia);
     }

@@ -12,6 +12,7 @@ mod imperfections;
 mod measured_run_up;
 mod radial_balls;
 mod run_up;
+mod static_and_steady;
 mod steady_motion;
 mod torque;
 mod torque_coupling;

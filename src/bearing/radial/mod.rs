@@ -184,7 +184,7 @@ impl RadialElement {
                     housing_displacement: local(&rings.housing_displacement),
                     relative_velocity: local(&rings.relative_velocity),
                     housing_velocity: local(&rings.housing_velocity),
-                    cage_speed: rotation.cage_speed,
+                    cage_speed: rotation.cage_speed.unwrap_or(0.0),
                     weight: self.mass * local(&self.gravity)[0],
                     deviation: deviation.height,
                     deviation_rate: deviation.rate,

@@ -138,13 +138,9 @@ impl RadialElement {
         1.5 * (self.stiffness[1] * self.stiffness[1] * load).cbrt()
     }
 
-    /// Cage speed, or if it is zero (statics) the one from the shaft speed and the cage ratio \[rad/s\].
+    /// Cage speed, in statics from the shaft speed and the cage ratio \[rad/s\].
     fn cage_speed(&self, rotation: &Rotation) -> f64 {
-        if rotation.cage_speed != 0.0 {
-            rotation.cage_speed
-        } else {
-            self.cage_ratio() * rotation.shaft_speed
-        }
+        rotation.cage_speed.unwrap_or(self.cage_ratio() * rotation.shaft_speed)
     }
 
     /// Calls `visit` for every ball in static equilibrium of contact forces, centrifugal force and weight.
@@ -154,9 +150,9 @@ impl RadialElement {
         rotation: &Rotation,
         mut visit: impl FnMut(&LocalMotion, f64, &BallState),
     ) {
-        // Cage speed zero, so that contacts have no rates; the centrifugal force is added below.
+        // No cage speed, so that contacts have no rates; the centrifugal force is added below.
         let rings_at_rest = Rings { relative_velocity: [0.0; 2], housing_velocity: [0.0; 2], ..*rings };
-        let rotation_at_rest = Rotation { cage_speed: 0.0, shaft_speed: 0.0, ..*rotation };
+        let rotation_at_rest = Rotation { cage_speed: None, shaft_speed: 0.0, ..*rotation };
         let cage_speed = self.cage_speed(rotation);
         self.for_each_ball(&rings_at_rest, &rotation_at_rest, |_, seen| {
             let centrifugal_force =

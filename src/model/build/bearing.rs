@@ -19,15 +19,29 @@ use crate::model::BearingSite;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
-use crate::units::{ANGLE, LENGTH, NUMBER, SPEED};
+use crate::units::{ANGLE, FORCE, LENGTH, NUMBER, SPEED};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const INERTIAS: [(&str, BallInertia); 4] = [
+const INERTIAS: [(&str, BallInertia); 7] = [
+    ("auto", BallInertia::Auto(None)),
     ("none", BallInertia::None),
     ("outer_race_control", BallInertia::OuterRaceControl),
     ("inner_race_control", BallInertia::InnerRaceControl),
+    ("harris_inner_race_control", BallInertia::HarrisInnerRaceControl),
     ("shared", BallInertia::Shared),
+    ("centrifugal", BallInertia::Centrifugal),
 ];
+
+/// Ball inertia: a keyword, or `{ centrifugal_force = "120 N" }`.
+fn ball_inertia(r: &Reader) -> BallInertia {
+    if !matches!(r.entry("ball_inertia").map(|e| &e.node.value), Some(Value::Table(_))) {
+        return r.choice("ball_inertia", &INERTIAS).unwrap_or_default();
+    }
+    let Some(given) = r.table("ball_inertia") else { return BallInertia::default() };
+    let force = given.need("centrifugal_force", positive(FORCE));
+    given.finish();
+    BallInertia::CentrifugalForce(force)
+}
 
 pub(super) fn read(
     top: &Reader,
@@ -130,12 +144,12 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     let mut bearing = common_properties(r, materials, designation(r).as_ref(), None);
     bearing.service = contact::service(r, lubricants);
     bearing.damping = contact::damping(r);
-    bearing.inertia = r.choice("ball_inertia", &INERTIAS).unwrap_or_default();
+    bearing.inertia = ball_inertia(r);
     bearing.preload = mounting::preload(r);
     bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
     bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::contact_law(r, lubricants, &bearing.hertz());
-    if bearing.inertia != BallInertia::None && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+    if bearing.inertia.is_on() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
         let message = format!(
             "{} needs separate inner and outer contacts, which a fitted power law does not have",
             r.name("ball_inertia")

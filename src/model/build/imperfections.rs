@@ -3,8 +3,7 @@
 
 use super::{contact, defects};
 use crate::bearing::{
-    BallBearing, BallGeometry, BallInertia, BallSpin, BallWave, DefectLaw, Imperfections, OffSize, Preload,
-    Wave,
+    BallBearing, BallGeometry, BallSpin, BallWave, DefectLaw, Imperfections, OffSize, Preload, Wave,
 };
 use crate::contact::ContactLaw;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -226,7 +225,7 @@ pub(super) fn check_force_law(r: &Reader, bearing: &BallBearing) {
         ));
     };
     let law = r.name("defect_law");
-    if bearing.inertia != BallInertia::None {
+    if bearing.inertia.is_on() {
         conflict(
             "ball_inertia",
             format!("{law} does not define on which contact of a ball with inertia the force acts"),
