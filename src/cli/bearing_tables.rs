@@ -20,6 +20,9 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     if !constrained.is_empty() {
         terminal.print(&format!("  constrained DOFs: {}", constrained.join(", ")));
     }
+    if let Some(how) = found.bearing.estimated_geometry {
+        terminal.print(&format!("  internal geometry {how}"));
+    }
     let imperfections = &found.bearing.imperfections;
     if !imperfections.is_empty() {
         terminal.print(&format!("  imperfections of races and balls: {}", imperfections.condition()));
