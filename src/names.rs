@@ -13,6 +13,11 @@ pub fn nearest<'n>(word: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
     (close || score(best) > 0.87).then_some(best)
 }
 
+/// Similarity of two names from 0 to 1 (Jaro-Winkler), case ignored.
+pub fn similarity(a: &str, b: &str) -> f64 {
+    strsim::jaro_winkler(&a.to_lowercase(), &b.to_lowercase())
+}
+
 /// Portable file name: characters other than letters, digits, dot, underscore and dash become `_`.
 pub fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect()

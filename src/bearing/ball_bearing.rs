@@ -29,6 +29,8 @@ pub struct BallBearing {
     /// Cage pocket diameter and cage width \[m\] for the overlap check and drawings.
     pub cage_pocket_diameter: f64,
     pub service: Service,
+    /// How the internal geometry was estimated; `None` if it is given or has a source.
+    pub estimated_geometry: Option<&'static str>,
 }
 
 /// Service conditions for the rating life (ISO 281): load ratings, lubricant, contamination, reliability.

@@ -1,118 +1,15 @@
-//! Load ratings and rating lives of radial ball bearings after ISO 281 and ISO/TS 16281.
+//! Rating lives of radial ball bearings after ISO 281 and ISO/TS 16281.
 //!
 //! Lives are in millions of revolutions at 90 % reliability (L10) unless stated otherwise.
 
 use super::BallGeometry;
-use crate::contact::{HertzPair, Race};
+use crate::contact::Race;
 use crate::linalg::{Outside, piecewise};
-
-/// Load ratings: basic dynamic, basic static, fatigue load limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadRating {
-    /// Basic dynamic load rating C_r \[N\].
-    pub dynamic: f64,
-    /// Basic static load rating C_0r \[N\].
-    pub static_rating: f64,
-    /// Fatigue load limit C_u \[N\].
-    pub fatigue: f64,
-}
-
-impl LoadRating {
-    /// Ratings from the internal geometry, for use without catalogue values; i rows of Z balls.
-    ///
-    /// C_r = b_m f_c (i cos α)^0.7 Z^{2/3} D_w^1.8 with b_m = 1.3, D_w in mm, and beyond 25.4 mm 3.647 D_w^1.4;
-    /// C_0r = (1/5) i Z Q₄₂₀₀ cos α with the load Q₄₂₀₀ of a ball at 4200 MPa; C_u = C_0r/22, for pitch diameters
-    /// above 100 mm times √(100 mm/D_pw).
-    ///
-    /// Source: ISO 281 clause 5 and annex B; ISO 76 with the actual groove radii instead of its factor f₀.
-    pub fn new(g: &BallGeometry, hertz: &HertzPair, rows: usize) -> Self {
-        let (rows, balls) = (rows as f64, g.balls as f64);
-        let cos = g.contact_angle.cos();
-        let size = g.ball_diameter * 1e3;
-        let size = if size <= 25.4 { size.powf(1.8) } else { 3.647 * size.powf(1.4) };
-        let dynamic = 1.3 * capacity_factor(g) * (rows * cos).powf(0.7) * balls.powf(2.0 / 3.0) * size;
-        // p₀ ∝ Q^{1/3}.
-        let limit = |race| (4.2e9 / hertz.of(race).patch(1.0).maximum_pressure).powi(3);
-        let stationary = 0.2 * rows * balls * limit(Race::Inner).min(limit(Race::Outer)) * cos;
-        let fatigue = stationary / 22.0 * (0.1 / g.pitch_diameter).sqrt().min(1.0);
-        Self { dynamic, static_rating: stationary, fatigue }
-    }
-}
-
-/// f_c = 38.2 (1 + (1.04 Γ^1.72 ρ^0.41)^{10/3})^{−3/10} γ^0.3 (1 − γ)^1.39 (1 + γ)^{−1/3} (2f_i/(2f_i − 1))^0.41.
-///
-/// γ = D_w cos α/D_pw, Γ = (1 − γ)/(1 + γ), ρ = f_i (2f_e − 1)/(f_e (2f_i − 1)). With f_i = f_e = 0.52 this is
-/// table 2 of ISO 281 to its rounding; smaller grooves count as 0.52 D_w (inner) and 0.53 D_w (outer), as
-/// there.
-fn capacity_factor(g: &BallGeometry) -> f64 {
-    let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
-    let inner = (g.inner_groove_radius / g.ball_diameter).max(0.52);
-    let outer = g.outer_groove_radius / g.ball_diameter;
-    // 0.53 within round-off counts as 0.53.
-    let outer = if outer <= 0.53 + 1e-9 { inner } else { outer };
-    let rings = 1.04 * ring_ratio(gamma, inner, outer);
-    38.2 * (1.0 + rings.powf(10.0 / 3.0)).powf(-0.3) * gamma.powf(0.3) * (1.0 - gamma).powf(1.39)
-        / (1.0 + gamma).cbrt()
-        * (2.0 * inner / (2.0 * inner - 1.0)).powf(0.41)
-}
 
 /// Ratio of inner to outer ring capacity up to a constant factor: ((1 − γ)/(1 + γ))^1.72 ρ^0.41.
 fn ring_ratio(gamma: f64, inner: f64, outer: f64) -> f64 {
     let grooves = inner * (2.0 * outer - 1.0) / (outer * (2.0 * inner - 1.0));
     ((1.0 - gamma) / (1.0 + gamma)).powf(1.72) * grooves.powf(0.41)
-}
-
-/// Dynamic equivalent radial load P = X F_r + Y F_a \[N\], or F_r where F_a/F_r ≤ e, of i rows in tandem.
-///
-/// X, Y, e from the contact angle and, up to 20°, the relative axial load F_a/(i Z D_w²), interpolated
-/// between the rows of the table. Source: ISO 281 table 3, single-row bearings.
-pub fn equivalent_load(g: &BallGeometry, rows: usize, radial: f64, axial: f64) -> f64 {
-    let (radial, axial) = (radial.abs(), axial.abs());
-    let size = (g.ball_diameter * 1e3).powi(2) * (rows * g.balls) as f64;
-    let [x, y, e] = load_factors(g.contact_angle.abs().to_degrees(), axial / size);
-    if axial <= e * radial { radial } else { x * radial + y * axial }
-}
-
-/// X, Y, e at a contact angle \[°\] and a relative axial load \[N/mm²\].
-fn load_factors(angle: f64, relative: f64) -> [f64; 3] {
-    // Relative axial load, Y and e.
-    const DEEP_GROOVE: [[f64; 3]; 9] = [
-        [0.172, 2.30, 0.19],
-        [0.345, 1.99, 0.22],
-        [0.689, 1.71, 0.26],
-        [1.03, 1.55, 0.28],
-        [1.38, 1.45, 0.30],
-        [2.07, 1.31, 0.34],
-        [3.45, 1.15, 0.38],
-        [5.17, 1.04, 0.42],
-        [6.89, 1.00, 0.44],
-    ];
-    const ANGULAR_CONTACT_15: [[f64; 3]; 9] = [
-        [0.172, 1.47, 0.38],
-        [0.345, 1.40, 0.40],
-        [0.689, 1.30, 0.43],
-        [1.03, 1.23, 0.46],
-        [1.38, 1.19, 0.47],
-        [2.07, 1.12, 0.50],
-        [3.45, 1.02, 0.55],
-        [5.17, 1.00, 0.56],
-        [6.89, 1.00, 0.56],
-    ];
-    let [_, y0, e0] = piecewise(&DEEP_GROOVE, relative, Outside::Constant);
-    let [_, y15, e15] = piecewise(&ANGULAR_CONTACT_15, relative, Outside::Constant);
-    // Angle, X, Y, e.
-    let table = [
-        [0.0, 0.56, y0, e0],
-        [15.0, 0.44, y15, e15],
-        [20.0, 0.43, 1.00, 0.57],
-        [25.0, 0.41, 0.87, 0.68],
-        [30.0, 0.39, 0.76, 0.80],
-        [35.0, 0.37, 0.66, 0.95],
-        [40.0, 0.35, 0.57, 1.14],
-        [45.0, 0.33, 0.50, 1.34],
-    ];
-    let [_, x, y, e] = piecewise(&table, angle, Outside::Constant);
-    [x, y, e]
 }
 
 /// Basic rating life L₁₀ = (C/P)³; infinite without load. Source: ISO 281 eq. 4.

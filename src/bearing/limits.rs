@@ -1,13 +1,12 @@
 //! Limits of a ball bearing under its load: where an assumption of the model fails, or the bearing is misused.
 
 use super::life::reference_viscosity;
+use super::rating::STATIC_CONTACT_STRESS;
 use super::{BallBearing, BallInertia, BallLoad};
 use crate::contact::ContactLaw;
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
-/// Contact pressure of the static load rating \[Pa\], at which a dent of 1e-4 of the ball diameter remains (ISO 76).
-pub const STATIC_PRESSURE: f64 = 4.2e9;
 /// Film ratio λ below which asperities touch.
 const LOWEST_FILM_RATIO: f64 = 1.0;
 /// Share of the nominal contact angle below which a single row has lost it.
@@ -99,7 +98,7 @@ impl BearingLoad<'_> {
         let pressures =
             self.balls.iter().flat_map(|ball| ball.patches(&contacts)).map(|p| p.maximum_pressure);
         let pressure = pressures.fold(0.0, f64::max);
-        (pressure > STATIC_PRESSURE).then_some(ExceededLimit::Pressure { pressure })
+        (pressure > STATIC_CONTACT_STRESS).then_some(ExceededLimit::Pressure { pressure })
     }
 
     fn film(&self) -> Option<ExceededLimit> {

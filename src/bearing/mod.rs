@@ -24,6 +24,7 @@ mod preload;
 pub mod profile;
 mod raceway;
 pub mod radial;
+pub mod rating;
 mod ring_motion;
 mod root_finding;
 mod row;

@@ -21,6 +21,9 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     if !constrained.is_empty() {
         terminal.print(&format!("  constrained DOFs: {}", constrained.join(", ")));
     }
+    if let Some(how) = found.bearing.estimated_geometry {
+        terminal.print(&format!("  internal geometry {how}"));
+    }
     let imperfections = &found.bearing.imperfections;
     if !imperfections.is_empty() {
         terminal.print(&format!("  imperfections of races and balls: {}", imperfections.condition()));
@@ -179,7 +182,8 @@ fn life(terminal: &Terminal, found: &BearingResult) {
     let modified = format!("modified L_nmr at {} % (a_ISO)", number(100.0 * service.reliability, 3));
     let rows: Vec<Vec<String>> = [
         ("basic L_10 (ISO 281)", life.basic),
-        ("reference L_10r (ISO/TS 16281)", life.reference),
+        ("reference L_10r (load distribution of ISO/TS 16281)", life.reference),
+        ("the same by the ball loads above", life.by_ball_loads),
         (modified.as_str(), life.modified),
     ]
     .iter()
@@ -189,21 +193,51 @@ fn life(terminal: &Terminal, found: &BearingResult) {
         vec![(*name).to_string(), number(*life, 4), time]
     })
     .collect();
-    if rows.is_empty() {
-        return;
+    if !rows.is_empty() {
+        terminal.table("Rating life", &["", "10^6 revolutions", "hours"], &rows);
     }
-    terminal.table("Rating life", &["", "10^6 revolutions", "hours"], &rows);
     let r = &found.rating;
-    let [c, c0, cu] = [r.dynamic, r.static_rating, r.fatigue].map(|f| number(f, 4));
-    let source = if service.dynamic_rating.is_some() { "as given" } else { "from the internal geometry" };
-    let mut line = format!("  C {c} N ({source}), C_0 {c0} N, C_u {cu} N");
+    let given = [service.dynamic_rating, service.static_rating, service.fatigue_limit].map(|x| x.is_some());
+    let source = |given: bool| if given { "as given" } else { "from the internal geometry" };
+    let values = [r.dynamic, r.static_rating, r.fatigue].map(|f| number(f, 4));
+    let ratings: Vec<String> = (0..3)
+        .map(|k| {
+            // A source is said once for ratings that share it with the next.
+            let same = given.get(k + 1) == Some(&given[k]);
+            let source = if same { String::new() } else { format!(" ({})", source(given[k])) };
+            format!("{} {} N{source}", ["C", "C_0", "C_u"][k], values[k])
+        })
+        .collect();
+    let pair = if found.bearing.duplex.is_some() { " of the pair" } else { "" };
+    terminal.print(&format!("  ratings{pair}: {}", ratings.join(", ")));
     if life.equivalent_load.is_finite() {
-        line += &format!(", P {} N", number(life.equivalent_load, 4));
+        let [x, y, e] = life.factors;
+        terminal.print(&format!(
+            "  equivalent loads: P {} N (X {}, Y {}, e {}), static P_0 {} N{}",
+            number(life.equivalent_load, 4),
+            number(x, 3),
+            number(y, 3),
+            number(e, 3),
+            number(life.static_load, 4),
+            match life.static_safety.is_finite() {
+                true => format!(", static safety s_0 = C_0/P_0 = {}", number(life.static_safety, 3)),
+                false => String::new(),
+            }
+        ));
     }
     if life.viscosity_ratio.is_finite() {
-        line += &format!(", kappa {:.2}", life.viscosity_ratio);
+        let mut line = format!(
+            "  a_ISO {}: kappa {:.2} (nu_1 {} mm2/s), e_C {}",
+            if life.modification.is_finite() { number(life.modification, 3) } else { "none".into() },
+            life.viscosity_ratio,
+            number(1e6 * life.reference_viscosity, 3),
+            number(life.contamination, 2)
+        );
+        if life.reference_load.is_finite() {
+            line += &format!(", C_u/P_ref {}", number(r.fatigue / life.reference_load, 3));
+        }
+        terminal.print(&line);
     }
-    terminal.print(&line);
 }
 
 fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepResult) {

@@ -1,7 +1,10 @@
 //! `catalogue`: the built-in bearing catalogue.
 
 use rotordyn::bearing::BallGeometry;
-use rotordyn::model::catalogue::{CLEARANCE_CLASSES, CatalogueEntry, clearance, entries, find};
+use rotordyn::bearing::rating::LoadRating;
+use rotordyn::model::catalogue::{
+    CLEARANCE_CLASSES, CatalogueEntry, angle_note, bearing_steel, clearance, entries, find, nearest,
+};
 use serde_json::{Value, json};
 
 use super::failure::Failure;
@@ -15,7 +18,10 @@ pub fn run(wanted: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> 
     };
     match found.as_slice() {
         [] => {
-            let message = format!("the catalogue has no bearing `{wanted}`; `rotordyn catalogue` lists all");
+            let message = format!(
+                "the catalogue has no bearing `{wanted}`; nearest: {}; `rotordyn catalogue` lists all",
+                nearest(wanted, 6).join(", ")
+            );
             return Err(Failure::Input(message));
         }
         [one] => print_data_sheet(terminal, one),
@@ -63,6 +69,7 @@ fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
                 format!("{:.0}", e.contact_angle.to_degrees()),
                 format!("{:.3}", orders.bpfo),
                 format!("{:.3}", orders.bpfi),
+                if e.estimated { "estimated" } else { "" }.to_string(),
             ]
         })
         .collect();
@@ -77,6 +84,7 @@ fn list(terminal: &Terminal, found: &[CatalogueEntry]) {
         "angle deg",
         "BPFO",
         "BPFI",
+        "internal geometry",
     ];
     terminal.table(
         &format!("{} bearings: lengths in mm, defect frequencies per revolution", found.len()),
@@ -93,15 +101,26 @@ fn print_data_sheet(terminal: &Terminal, e: &CatalogueEntry) {
         row("bore", mm(e.bore)),
         row("outside diameter", mm(e.outside_diameter)),
         row("width", mm(e.width)),
+        row("smallest chamfer", mm(e.chamfer)),
         row("balls", e.balls.to_string()),
         row("ball diameter", mm(e.ball_diameter)),
         row("pitch diameter", mm(e.pitch_diameter)),
         row("groove radius / ball diameter", format!("inner {}, outer {}", e.osculation[0], e.osculation[1])),
-        row("contact angle", format!("{:.1} deg", e.contact_angle.to_degrees())),
+        row(
+            "contact angle",
+            angle_note(e).unwrap_or_else(|| format!("{:.1} deg", e.contact_angle.to_degrees())),
+        ),
         row("FTF, BPFO", format!("{:.4}, {:.4} per revolution", orders.ftf, orders.bpfo)),
         row("BPFI, BSF", format!("{:.4}, {:.4} per revolution", orders.bpfi, orders.bsf)),
     ];
-    rows.extend(e.static_rating.map(|c0| row("static load rating", format!("{} kN", number(1e-3 * c0, 4)))));
+    let kn = |force: f64| format!("{} kN", number(1e-3 * force, 4));
+    let steel = bearing_steel();
+    let found = LoadRating::new(&geometry(e), &steel, &steel, None);
+    rows.push(row("C, C_0 of this geometry", format!("{}, {}", kn(found.dynamic), kn(found.static_rating))));
+    rows.extend(e.published.map(|p| {
+        let values = format!("{}, {} ({})", kn(p.dynamic), kn(p.static_rating), p.source);
+        row("C, C_0 published", values)
+    }));
     for class in CLEARANCE_CLASSES {
         let range = clearance(class, e.bore).filter(|_| e.contact_angle == 0.0);
         rows.extend(range.map(|[least, most]| {
@@ -115,6 +134,8 @@ fn print_data_sheet(terminal: &Terminal, e: &CatalogueEntry) {
 
 fn to_json(e: &CatalogueEntry) -> Value {
     let orders = geometry(e).characteristic_orders(e.contact_angle);
+    let steel = bearing_steel();
+    let computed = LoadRating::new(&geometry(e), &steel, &steel, None);
     let clearances: serde_json::Map<String, Value> = CLEARANCE_CLASSES
         .iter()
         .filter_map(|class| Some(((*class).to_string(), json!(clearance(class, e.bore)?))))
@@ -129,7 +150,14 @@ fn to_json(e: &CatalogueEntry) -> Value {
         "pitch_diameter": e.pitch_diameter,
         "osculation": e.osculation,
         "contact_angle": e.contact_angle,
-        "static_rating": e.static_rating,
+        "chamfer": e.chamfer,
+        "static_rating": e.published.map(|p| p.static_rating),
+        "dynamic_rating": e.published.map(|p| p.dynamic),
+        "fatigue_limit": e.published.and_then(|p| p.fatigue),
+        "rating_source": e.published.map(|p| p.source),
+        "computed_rating": { "dynamic": computed.dynamic, "static": computed.static_rating, "fatigue": computed.fatigue },
+        "contact_angle_note": angle_note(e),
+        "estimated": e.estimated,
         "radial_clearance": clearances,
         "orders": { "ftf": orders.ftf, "bpfo": orders.bpfo, "bpfi": orders.bpfi, "bsf": orders.bsf },
         "geometry_source": e.origin,

@@ -184,6 +184,11 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         let balls = rows.iter().any(|row| row.len() > 2);
         let header = if balls { &header[..] } else { &header[..2] };
         terminal.table("Bearings and their defect frequencies per revolution", header, &rows);
+        for site in &model.bearings {
+            if let Some(how) = site.bearing.ball().and_then(|ball| ball.estimated_geometry) {
+                terminal.print(&format!("  internal geometry of {} {how}", site.name));
+            }
+        }
     }
 }
 
@@ -215,6 +220,7 @@ fn to_json(found: &CheckedVariant) -> Value {
                     "ball_diameter": g.ball_diameter,
                     "pitch_diameter": g.pitch_diameter,
                     "radial_clearance": g.radial_clearance,
+                    "estimated_geometry": ball.estimated_geometry,
                     "orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
                 })
             }

@@ -20,7 +20,9 @@ pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
     let moments =
         if m_x != 0.0 || m_y != 0.0 { format!(", moments {m_x}, {m_y} N·m") } else { String::new() };
     let rpm = state.condition.speed * TO_RPM;
-    let note = format!("{rpm:.0} rpm, load {x}, {y}, {z} N{moments} ({title})");
+    let estimated =
+        if found.bearing.estimated_geometry.is_some() { ", estimated internal geometry" } else { "" };
+    let note = format!("{rpm:.0} rpm, load {x}, {y}, {z} N{moments}{estimated} ({title})");
     let mut figures = vec![
         (name("ball_loads"), Figure::BallLoads(ball_loads(found, &note))),
         (name("contact_angles"), Figure::Lines(contact_angles(found, &note))),

@@ -149,6 +149,7 @@ fn bearing(found: &BearingResult) -> Value {
     json!({
         "name": found.name,
         "load_source": found.load_source,
+        "estimated_geometry": found.bearing.estimated_geometry,
         "prescribed": found.prescribed,
         "rating": {
             "dynamic": found.rating.dynamic, "static": found.rating.static_rating, "fatigue": found.rating.fatigue,

@@ -2,7 +2,7 @@
 
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
-use crate::bearing::life::LoadRating;
+use crate::bearing::rating::LoadRating;
 use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
 use crate::contact::ehl::Solution;
 use crate::model::study::SweepVariable;
@@ -68,14 +68,30 @@ pub struct BearingPoint {
 /// defines none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BearingLife {
-    /// Dynamic equivalent load P \[N\] and basic rating life L₁₀ = (C/P)³ (ISO 281); none for opposed rows.
+    /// Dynamic equivalent load P = X F_r + Y F_a \[N\] (ISO 281).
     pub equivalent_load: f64,
+    /// X, Y and the limit e of F_a/F_r.
+    pub factors: [f64; 3],
+    /// Basic rating life L₁₀ = (C/P)³.
     pub basic: f64,
-    /// Basic reference rating life L₁₀ᵣ by the loads of the balls (ISO/TS 16281).
+    /// Static equivalent load P₀ \[N\] and static safety factor s₀ = C₀/P₀ (ISO 76).
+    pub static_load: f64,
+    pub static_safety: f64,
+    /// Basic reference rating life L₁₀ᵣ with the load distribution of ISO/TS 16281: rigid rings, massless balls, dry
+    /// contacts, moment arm D_pw/2.
     pub reference: f64,
-    /// Viscosity ratio κ, and L₁₀ᵣ times a₁ for reliability and a_ISO for lubrication and contamination; none without
-    /// a lubricant.
+    /// Dynamic equivalent reference load P_ref = C/L₁₀ᵣ^{1/3} \[N\].
+    pub reference_load: f64,
+    /// The same life from the ball loads of the bearing in equilibrium: ball inertia, film, imperfections, moment
+    /// arm to the groove centres.
+    pub by_ball_loads: f64,
+    /// Required kinematic viscosity ν₁ \[m²/s\] and viscosity ratio κ = ν/ν₁; none without a lubricant.
+    pub reference_viscosity: f64,
     pub viscosity_ratio: f64,
+    /// Contamination factor e_C and life modification factor a_ISO(κ, e_C C_u/P_ref); none for κ < 0.1.
+    pub contamination: f64,
+    pub modification: f64,
+    /// L_nmr = a₁ a_ISO L₁₀ᵣ.
     pub modified: f64,
 }
 
@@ -125,7 +141,7 @@ impl ContactState {
 
 impl BearingPoint {
     /// Every scalar with its name in files.
-    pub const COLUMNS: [Column<Self>; 21] = [
+    pub const COLUMNS: [Column<Self>; 31] = [
         ("speed", "rad/s", |p| p.state.condition.speed),
         ("cage_angle", "rad", |p| p.state.condition.cage_angle),
         ("radial_stiffness", "N/m", |p| p.radial_stiffness[0]),
@@ -139,9 +155,19 @@ impl BearingPoint {
         ("film_ratio", "1", |p| p.film_ratio),
         ("preload_force", "N", |p| p.preload_force),
         ("equivalent_load", "N", |p| p.life.equivalent_load),
+        ("radial_factor_x", "1", |p| p.life.factors[0]),
+        ("axial_factor_y", "1", |p| p.life.factors[1]),
+        ("load_ratio_limit_e", "1", |p| p.life.factors[2]),
         ("basic_life", "1e6 revolutions", |p| p.life.basic),
+        ("static_equivalent_load", "N", |p| p.life.static_load),
+        ("static_safety", "1", |p| p.life.static_safety),
         ("reference_life", "1e6 revolutions", |p| p.life.reference),
+        ("reference_load", "N", |p| p.life.reference_load),
+        ("life_by_ball_loads", "1e6 revolutions", |p| p.life.by_ball_loads),
+        ("reference_viscosity", "m2/s", |p| p.life.reference_viscosity),
         ("viscosity_ratio", "1", |p| p.life.viscosity_ratio),
+        ("contamination", "1", |p| p.life.contamination),
+        ("life_modification", "1", |p| p.life.modification),
         ("modified_life", "1e6 revolutions", |p| p.life.modified),
         ("ftf", "1/revolution", |p| p.orders.ftf),
         ("bpfo", "1/revolution", |p| p.orders.bpfo),

@@ -2,19 +2,17 @@
 
 mod limits;
 
+use super::bearing_life::BearingRating;
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::analysis::preload::MountedPreload;
-use crate::bearing::life::{
-    LoadRating, basic_life, combined_life, equivalent_load, life_modification, reference_life,
-    reference_viscosity, reliability_factor,
-};
-use crate::bearing::{Arrangement, BallBearing, BallLoad, Bearing, Preload, PreloadState};
+use crate::bearing::rating::LoadRating;
+use crate::bearing::{BallBearing, BallLoad, Bearing, Preload, PreloadState};
 use crate::contact::{BallContacts, ContactLaw, EllipticContact, Race};
 use crate::error::Error;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
-use crate::results::{BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState};
+use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState};
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
@@ -102,6 +100,7 @@ struct SingleBearingStudy<'a> {
     solver: BearingSolver,
     /// Contacts with a film of the bearing's lubricant, also for a dry contact law: for the film thickness.
     contacts: BallContacts,
+    rating: BearingRating<'a>,
     speed: f64,
 }
 
@@ -114,6 +113,7 @@ impl<'a> SingleBearingStudy<'a> {
             study,
             solver: BearingSolver::new(name, bearing),
             contacts: BallContacts::new(bearing.hertz(), film_law(bearing)),
+            rating: BearingRating::new(name, bearing),
             speed: study.speed.unwrap_or(round_to_two_digits(mean) / TO_RPM),
         }
     }
@@ -152,63 +152,9 @@ impl<'a> SingleBearingStudy<'a> {
         }
     }
 
-    /// Number of rows that carry thrust in the same direction; `None` for opposed rows.
-    fn tandem_rows(&self) -> Option<usize> {
-        match self.bearing.duplex.map(|pair| pair.arrangement) {
-            None => Some(1),
-            Some(Arrangement::Tandem) => Some(2),
-            Some(Arrangement::BackToBack | Arrangement::FaceToFace) => None,
-        }
-    }
-
     /// Ratings of all rows together.
     fn rating(&self) -> LoadRating {
-        let rows = if self.bearing.duplex.is_some() { 2 } else { 1 };
-        let found = LoadRating::new(&self.bearing.geometry, &self.contacts.hertz, rows);
-        let service = &self.bearing.service;
-        LoadRating {
-            dynamic: service.dynamic_rating.unwrap_or(found.dynamic),
-            static_rating: service.static_rating.unwrap_or(found.static_rating),
-            fatigue: service.fatigue_limit.unwrap_or(found.fatigue),
-        }
-    }
-
-    /// Rating lives (ISO 281, ISO/TS 16281) under the ball loads; the load is stationary, the inner ring
-    /// rotates.
-    fn life(&self, state: &BearingEquilibrium, balls: &[BallState]) -> BearingLife {
-        let g = &self.bearing.geometry;
-        let [x, y, z, ..] = state.load;
-        let speed = state.condition.speed.abs();
-        let equivalent_load =
-            self.tandem_rows().map_or(f64::NAN, |rows| equivalent_load(g, rows, x.hypot(y), z));
-        let rating = self.rating();
-        let rows = balls.iter().map(|ball| ball.row + 1).max().unwrap_or(0);
-        // C of i rows is i^0.7 times that of one (ISO 281).
-        let row_rating = rating.dynamic / (rows.max(1) as f64).powf(0.7);
-        let of_row = |row: usize| {
-            let loads = |pick: fn(&BallState) -> f64| -> Vec<f64> {
-                balls.iter().filter(|ball| ball.row == row).map(pick).collect()
-            };
-            let (inner, outer) = (loads(|ball| ball.inner.load), loads(|ball| ball.outer.load));
-            reference_life(g, row_rating, &inner, &outer, Race::Inner).life
-        };
-        let reference = combined_life(&(0..rows).map(of_row).collect::<Vec<_>>());
-        let service = &self.bearing.service;
-        let oil = self.bearing.lubricant().filter(|_| speed > 0.0);
-        let viscosity_ratio = oil.map_or(f64::NAN, |oil| {
-            oil.viscosity / oil.density / reference_viscosity(g.pitch_diameter, speed)
-        });
-        let reference_load = rating.dynamic / reference.cbrt();
-        let factor =
-            life_modification(viscosity_ratio, service.contamination, rating.fatigue, reference_load);
-        BearingLife {
-            equivalent_load,
-            basic: basic_life(rating.dynamic, equivalent_load),
-            reference,
-            viscosity_ratio,
-            modified: factor
-                .map_or(f64::NAN, |factor| reliability_factor(service.reliability) * factor * reference),
-        }
+        self.rating.rating
     }
 
     fn study(&self, operating: OperatingPoint) -> Result<BearingResult, Error> {
@@ -408,7 +354,8 @@ impl<'a> SingleBearingStudy<'a> {
                 outer: contact(Race::Outer, &pair.outer, ball.outer_load, ball.outer_contact_angle),
             }
         };
-        let balls: Vec<BallState> = self.solver.ball_loads(&state).iter().map(ball).collect();
+        let loads = self.solver.ball_loads(&state);
+        let balls: Vec<BallState> = loads.iter().map(ball).collect();
         let [x, y, ..] = state.load;
         let radial = x.hypot(y);
         let along =
@@ -420,7 +367,7 @@ impl<'a> SingleBearingStudy<'a> {
             axial_stiffness: both(&axis),
             orders: self.bearing.loaded_orders(state.mean_cos),
             preload_force: self.preload(state.condition.speed).axial_force,
-            life: self.life(&state, &balls),
+            life: self.rating.life(&state, &loads),
             film_ratio: 0.0,
             balls,
             state,

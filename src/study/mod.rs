@@ -1,6 +1,7 @@
 //! The studies: each computes results from a model, one method of [`Machine`] each.
 
 mod bearing;
+mod bearing_life;
 mod bifurcation;
 mod cage_phases;
 mod ehl_film;

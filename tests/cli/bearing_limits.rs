@@ -28,7 +28,8 @@ fn has(warnings: &[String], text: &str) -> bool {
 #[test]
 fn angular_contact_row_without_thrust_slides() {
     let of = |load: &str| {
-        let flags = ["--load", load, "--constrain", "theta_x,theta_y", "--speed", "1500 rpm", "--sweep", "speed"];
+        let flags =
+            ["--load", load, "--constrain", "theta_x,theta_y", "--speed", "1500 rpm", "--sweep", "speed"];
         found(&alone("7206B", "ball_inertia = \"none\""), "bearing", &flags)
     };
     // 1000 N needs 1.25 · 1000 N · tan 40° for half the balls; a twentieth of it leaves none at its angle.
@@ -69,7 +70,8 @@ fn pressure_above_the_static_rating() {
 #[test]
 fn load_below_the_minimum_load() {
     let oil = "[lubricant.oil]\nviscosity = \"0.0261 Pa s\"\ndensity = \"870 kg/m^3\"\npressure_viscosity = \"2e-8 1/Pa\"\n";
-    let model = alone("6206", "lubricant = \"oil\"\nradial_clearance = \"10 um\"\nball_inertia = \"none\"") + oil;
+    let model =
+        alone("6206", "lubricant = \"oil\"\nradial_clearance = \"10 um\"\nball_inertia = \"none\"") + oil;
     let pitch = 46.0f64;
     let minimum = 25.0 * (30.0 * 6000.0 / 1e3f64).powf(2.0 / 3.0) * (pitch / 100.0).powi(2);
     for (share, below) in [(0.7, true), (1.4, false)] {
@@ -136,5 +138,8 @@ fn fitted_law_outside_its_range_in_a_linear_study() {
         document["warnings"].to_string()
     };
     let outside = of("dry10");
-    assert!(outside.contains("bearing A") && outside.contains("outside the range 600 to 2000 N"), "{outside}");
+    assert!(
+        outside.contains("bearing A") && outside.contains("outside the range 600 to 2000 N"),
+        "{outside}"
+    );
 }

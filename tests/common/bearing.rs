@@ -40,5 +40,6 @@ pub fn rig_6205() -> BallBearing {
         imperfections: Default::default(),
         cage_pocket_diameter: 8.1e-3,
         service: Default::default(),
+        estimated_geometry: None,
     }
 }

@@ -45,6 +45,7 @@ fn bearing(contact: ContactLaw, preload: Preload) -> BallElement {
         imperfections: Default::default(),
         cage_pocket_diameter: 9.7e-3,
         service: Default::default(),
+        estimated_geometry: None,
     })
 }
 

@@ -24,6 +24,7 @@ mod cakmak_2010_modes;
 mod cwru_6205;
 mod iso16281;
 mod iso_281_life;
+mod iso_281_ratings;
 mod iso_vg_oils;
 mod nelson_mcvaugh_1976;
 mod ross_critical;

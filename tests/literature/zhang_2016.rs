@@ -57,6 +57,7 @@ fn bearing([stiffness, exponent, offset]: [f64; 3]) -> BallElement {
         imperfections: Default::default(),
         cage_pocket_diameter: 17.2e-3,
         service: Default::default(),
+        estimated_geometry: None,
     })
 }
 

@@ -41,13 +41,17 @@ pub fn find(
         return Ok(Some(of_geometry(name, from, &ball.geometry)));
     }
     if let Some(entry) = catalogue::find(name) {
-        return Ok(Some(of_geometry(entry.designation, "catalogue".into(), &catalogue_geometry(&entry))));
+        let source = if entry.estimated { "catalogue, estimated internal geometry" } else { "catalogue" };
+        return Ok(Some(of_geometry(entry.designation, source.into(), &catalogue_geometry(&entry))));
     }
     let designations: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
     let known = of_model.iter().map(|(name, _)| name.as_str()).chain(designations);
     let hint = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`rotordyn catalogue` lists all; use --bearing-orders for any other".into(),
+        None => format!(
+            "nearest in the catalogue: {}; use --bearing-orders for any other",
+            catalogue::nearest(name, 6).join(", ")
+        ),
     };
     let places = if of_model.is_empty() { "in the catalogue" } else { "in the model or the catalogue" };
     findings.problem(format!("there is no bearing `{name}` {places}; {hint}"));

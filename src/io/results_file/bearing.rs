@@ -9,6 +9,9 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
     for bearing in found {
         let writer = GroupWriter::new(store, &format!("/bearings/{}", bearing.name))?;
         writer.set_attribute("load_source", bearing.load_source.as_str())?;
+        if let Some(how) = bearing.bearing.estimated_geometry {
+            writer.set_attribute("estimated_geometry", how)?;
+        }
         writer.set_attribute("preload_offset", bearing.preload.offset)?;
         writer.set_attribute("preload_force", bearing.preload.axial_force)?;
         if let Some(mounted) = &bearing.mounted_preload {

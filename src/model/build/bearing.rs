@@ -128,18 +128,6 @@ fn linear(r: &Reader) -> LinearBearing {
     }
 }
 
-/// Default material: bearing steel.
-fn bearing_steel() -> Material {
-    let (young, poisson) = (207e9, 0.3);
-    Material {
-        name: "bearing steel".into(),
-        young,
-        shear: young / (2.0 * (1.0 + poisson)),
-        poisson,
-        density: 7850.0,
-    }
-}
-
 fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBearing {
     let mut bearing = common_properties(r, materials, designation(r).as_ref(), None);
     bearing.service = contact::service(r, lubricants);
@@ -187,7 +175,7 @@ pub(super) fn common_properties(
         (_, true) => material(r, "material", materials),
         _ => None,
     };
-    let steel = bearing_steel();
+    let steel = catalogue::bearing_steel();
     let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
     let free = (spacing - geometry.ball_diameter).max(0.0);
     let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
@@ -206,6 +194,7 @@ pub(super) fn common_properties(
         cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
         imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
         cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
+        estimated_geometry: entry.filter(|e| e.estimated && !gives_geometry(r)).map(|e| e.origin),
         geometry,
     }
 }
@@ -216,12 +205,21 @@ pub(super) fn designation(r: &Reader) -> Option<CatalogueEntry> {
     if found.is_none() {
         let message = format!("unknown bearing designation `{name}`");
         let problem = Problem::new(Kind::UnknownName, &r.span_of("designation"), message);
-        let names: Vec<&str> = catalogue::entries().map(|e| e.designation).collect();
         r.log.error(
-            problem.suggest(name, names).expected("a bearing of assets/bearings.csv, or its geometry"),
+            problem
+                .expected("a bearing of assets/bearings.csv, or its geometry")
+                .hint(format!("nearest in the catalogue: {}", catalogue::nearest(name, 6).join(", "))),
         );
     }
     found
+}
+
+/// Whether the file itself gives all of the internal geometry.
+fn gives_geometry(r: &Reader) -> bool {
+    let groove = |keys: [&str; 2]| keys.iter().any(|key| r.has(key));
+    ["balls", "ball_diameter", "pitch_diameter"].iter().all(|key| r.has(key))
+        && groove(["inner_osculation", "inner_groove_radius"])
+        && groove(["outer_osculation", "outer_groove_radius"])
 }
 
 /// Geometry from the catalogue; the file may override each field.

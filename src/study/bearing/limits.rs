@@ -81,8 +81,8 @@ impl SingleBearingStudy<'_> {
     /// Warnings at the operating point.
     pub(super) fn warnings(&self, point: &BearingPoint) -> Vec<String> {
         let speed = point.state.condition.speed;
-        let mut found: Vec<String> =
-            self.exceeded_limits(point).iter().map(|limit| message(self.name, speed, limit)).collect();
+        let mut found = self.rating.warnings(self.name, &point.life);
+        found.extend(self.exceeded_limits(point).iter().map(|limit| message(self.name, speed, limit)));
         let imperfections = &self.bearing.imperfections;
         if self.study.cage_average && !imperfections.is_empty() {
             found.push(format!(
