@@ -17,6 +17,7 @@ pub use signal::{
 };
 
 use crate::analysis::Mode;
+use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::campbell::Campbell;
 use crate::analysis::critical_speed::CrossingList;
 use crate::analysis::equilibrium::Equilibrium;
@@ -51,6 +52,8 @@ pub struct Results {
     pub lyapunov: Option<LyapunovResult>,
     pub bifurcation: Option<BifurcationResult>,
     pub bearings: Vec<BearingResult>,
+    /// Ball inertia used in every study, by its name.
+    pub ball_inertia: Vec<(&'static str, Vec<InertiaUse>)>,
     /// Warnings for the user, once each.
     pub warnings: Vec<String>,
 }

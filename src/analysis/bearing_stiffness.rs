@@ -14,6 +14,10 @@ const TOLERANCE: f64 = 1e-13;
 /// Residual accepted as equilibrium where round-off or a kink in the contact law prevents full convergence.
 const ACCEPTED_RESIDUAL: f64 = 1e-8;
 
+/// Resolution of the groove centres' distance in double precision \[m\]: times the stiffness the force left by
+/// round-off, also without any load.
+const RESOLUTION: f64 = 1e-18;
+
 /// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
 /// or the prescribed displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,11 +170,15 @@ impl BearingSolver {
         // Reference force: of the load or, under preload, of the balls.
         let size_of = |t: &Trial| {
             let force: [f64; 5] = std::array::from_fn(|a| unit[a] * t.reaction.force[a]);
-            load_size.max(max_abs(&force)).max(1e-9)
+            load_size.max(max_abs(&force)).max(f64::MIN_POSITIVE)
         };
         let hertz = (self.contact_stiffness.powi(2) * size_of(&now).max(1e-3)).cbrt();
         let mut iterations = 0;
         let mut stalled = 0;
+        let round_off = |t: &Trial| {
+            let stiffness = |a: usize| (unit[a] * t.reaction.stiffness[a][a] * unit[a]).abs();
+            RESOLUTION * (0..5).map(stiffness).fold(0.0, f64::max)
+        };
         while max_abs(&now.residual) > TOLERANCE * size_of(&now) && iterations < MAX_ITERATIONS && stalled < 3
         {
             iterations += 1;
@@ -200,7 +208,7 @@ impl BearingSolver {
                 let force_along = along(&next.residual);
                 if force_along.abs() <= 0.9 * first.abs() || at_solution || halving + 1 == MAX_HALVINGS {
                     let after = max_abs(&next.residual);
-                    let near = before <= ACCEPTED_RESIDUAL * size_of(&now);
+                    let near = before <= (ACCEPTED_RESIDUAL * size_of(&now)).max(round_off(&now));
                     stalled = if near && after > 0.5 * before { stalled + 1 } else { 0 };
                     // At round-off level: keep the smaller residual.
                     if !(near && after >= before) {
@@ -218,7 +226,8 @@ impl BearingSolver {
         }
         let residual = max_abs(&now.residual);
         let lost = max_abs(&now.x) > 10.0 * self.radius;
-        if residual > ACCEPTED_RESIDUAL * size_of(&now) || residual.is_nan() || lost {
+        let accepted = (ACCEPTED_RESIDUAL * size_of(&now)).max(round_off(&now));
+        if residual > accepted || residual.is_nan() || lost {
             return Err(PhysicsError::NoBearingEquilibrium {
                 bearing: self.name.clone(),
                 load: condition.load,

@@ -14,6 +14,10 @@ pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
+/// Relative round-off of a sum of structural forces.
+const ROUND_OFF: f64 = 1e-14;
+/// Resolution of the groove centres' distance in double precision \[m\].
+const RESOLUTION: f64 = 1e-18;
 
 /// Bearing forces at the cage angle of the model (`FixedAngle`), or averaged over one ball pitch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,11 +108,11 @@ impl Sites {
 /// The structure and the Hertz contacts have a convex energy, so a Newton step shortened until the force along
 /// it has fallen converges for any clearance and any number of unloaded balls. While no ball carries load
 /// (all within the clearance) a vanishing multiple of M regularises the step.
-/// Elastic forces only: no damping, cage fixed.
+/// Elastic forces only: no damping, no cage motion past the rings.
 ///
 /// # Errors
 /// [`PhysicsError::Singular`] when a load excites a rigid-body mode, [`PhysicsError::NoEquilibrium`] when
-/// Newton ends before the residual is below 1e-9 of the loads and bearing forces.
+/// Newton ends before the residual is below 1e-9 of the loads and bearing forces, or below round-off.
 pub fn equilibrium(
     model: &Model,
     assembly: &Assembly,
@@ -132,12 +136,22 @@ pub fn equilibrium(
         reactions.iter().flat_map(|r| &r.force[..3]).fold(external, |size, force| size.max(force.abs()))
     };
 
+    // Round-off of the forces, also without any load: of structure and bearings at these displacements.
+    let round_off = |q: &[f64], reactions: &[Reaction]| {
+        let structure = (0..n).map(|i| (assembly.stiffness.get(i, i) * q[i]).abs()).fold(0.0, f64::max);
+        let contacts = reactions.iter().flat_map(|r| (0..3).map(|a| r.stiffness[a][a].abs()));
+        ROUND_OFF * structure + RESOLUTION * contacts.fold(0.0, f64::max)
+    };
+
     let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
     let mut reactions = sites.reactions(assembly, &q);
     let mut residual = residual_of(&q, &reactions);
     let mut iterations = 0;
     let mut stalled = 0;
-    while max_abs(&residual) > TOLERANCE * size_of(&reactions) && iterations < MAX_ITERATIONS && stalled < 3 {
+    while max_abs(&residual) > (TOLERANCE * size_of(&reactions)).max(0.1 * round_off(&q, &reactions))
+        && iterations < MAX_ITERATIONS
+        && stalled < 3
+    {
         iterations += 1;
         let size = size_of(&reactions);
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
@@ -181,7 +195,7 @@ pub fn equilibrium(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
     }
-    if left > 10.0 * TOLERANCE * size_of(&reactions) || left.is_nan() {
+    if left > (10.0 * TOLERANCE * size_of(&reactions)).max(round_off(&q, &reactions)) || left.is_nan() {
         return Err(PhysicsError::NoEquilibrium {
             item: assembly.dofs.name(worst),
             speed_rpm: speed * 30.0 / std::f64::consts::PI,
@@ -237,7 +251,7 @@ pub(super) fn residual_force(
 }
 
 /// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
-fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
+pub(super) fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
     let balls = element.balls();
     (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
         .flat_map(|k| {

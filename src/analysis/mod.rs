@@ -18,6 +18,7 @@
 //! | [`table_range`] | speeds beyond the tables of bearings |
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
+pub mod ball_inertia;
 pub mod bearing_stiffness;
 pub mod belt_pull;
 pub mod campbell;

@@ -116,6 +116,21 @@ impl BallBearing {
         }
     }
 
+    /// Centrifugal force F_c = ½ m D_pw ω_c² of a ball \[N\] at a shaft speed \[rad/s\] and the cage ratio of the nominal
+    /// contact angle; the given one if it is given.
+    pub fn centrifugal_force(&self, speed: f64) -> f64 {
+        if let BallInertia::CentrifugalForce(given) = self.inertia {
+            return given;
+        }
+        let g = &self.geometry;
+        let ratio = match self.cage {
+            Cage::Rolling => g.characteristic_orders(g.contact_angle).ftf,
+            Cage::Ratio(ratio) => ratio,
+        };
+        let mass = self.ball_material.density * std::f64::consts::PI / 6.0 * g.ball_diameter.powi(3);
+        0.5 * mass * g.pitch_diameter * (ratio * speed).powi(2)
+    }
+
     /// Change of the diametral clearance by fits, temperatures and a speed Ω \[rad/s\] \[m\]; shaft and housing of the
     /// rings' material.
     pub fn clearance_change(&self, speed: f64) -> f64 {

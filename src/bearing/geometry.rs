@@ -42,6 +42,14 @@ impl BallGeometry {
             - 0.25 * self.radial_clearance
     }
 
+    /// Cage pocket diameter if none is stated \[m\]: the ball with a clearance of 4 %, at most 40 % of the gap between
+    /// neighbouring balls.
+    pub fn default_cage_pocket(&self) -> f64 {
+        let spacing = self.pitch_diameter * (std::f64::consts::PI / self.balls as f64).sin();
+        let free = (spacing - self.ball_diameter).max(0.0);
+        self.ball_diameter + (0.04 * self.ball_diameter).min(0.4 * free)
+    }
+
     /// Bearing characteristic (defect) frequencies in orders of the inner ring speed at contact angle α,
     /// outer ring stationary.
     pub fn characteristic_orders(&self, contact_angle: f64) -> CharacteristicOrders {

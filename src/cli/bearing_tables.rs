@@ -28,6 +28,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     if !imperfections.is_empty() {
         terminal.print(&format!("  imperfections of races and balls: {}", imperfections.condition()));
     }
+    terminal.print(&format!("  {}", found.ball_inertia.sentence()));
     let arm = 0.5 * found.bearing.geometry.pitch_diameter;
     let size = |a: usize| if a > 2 { arm } else { 1.0 };
     let largest = (0..5).map(|a| (state.load[a] / size(a)).abs()).fold(0.0, f64::max);

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use rotordyn::bearing::BallBearing;
-use rotordyn::geometry::parry::BearingShapes;
+use rotordyn::geometry::parry::{BearingShapes, Part};
 use rotordyn::io::external_file;
 use rotordyn::model::{
     self, Diagnostic, ExternalFile, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source,
@@ -102,8 +102,13 @@ fn check_overlaps<'a>(
     let mut diagnostics = Vec::new();
     for (name, ball) in bearings {
         let shapes = BearingShapes::new(&ball.geometry, ball.cage_pocket_diameter);
-        let found = shapes
+        let mut found = shapes
             .overlaps(&shapes.centred(ball.cage_angle), MAX_BALL_RACE_OVERLAP * ball.geometry.ball_diameter);
+        // Only a stated cage refuses a bearing, not the one assumed for drawings.
+        if ball.cage_pocket_diameter == ball.geometry.default_cage_pocket() {
+            let of_cage = |part| matches!(part, Part::Pocket(_) | Part::Cage);
+            found.retain(|overlap| !of_cage(overlap.first) && !of_cage(overlap.second));
+        }
         let Some(worst) = found.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)) else { continue };
         let more = match found.len() {
             1 => String::new(),

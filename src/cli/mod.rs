@@ -247,6 +247,16 @@ fn quality_warnings(job: &mut Job, studies: &[Study]) {
             Err(error) => found.push(format!("the limits of the bearings are not checked: {error}")),
         }
     }
+    let used: Vec<_> = job.results.ball_inertia.iter().flat_map(|(_, used)| used).collect();
+    for (k, bearing) in used.iter().enumerate() {
+        // Once per bearing, at the highest ratio.
+        let ratio = bearing.compared.ratio();
+        let others = used.iter().enumerate().filter(|(_, other)| other.bearing == bearing.bearing);
+        let largest = others.rev().max_by(|a, b| a.1.compared.ratio().total_cmp(&b.1.compared.ratio()));
+        if ratio > 0.0 && largest.is_some_and(|(at, _)| at == k) {
+            found.extend(bearing.warning());
+        }
+    }
     for at in &job.results.modal {
         for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
             let speed = terminal::rpm(at.speed);

@@ -184,6 +184,7 @@ impl<'a> Job<'a> {
             speeds = self.parameter_models.iter().flat_map(|model| study.speeds(model)).collect();
         }
         self.quality_warnings.extend(self.machine.check_tables(study.name(), &speeds)?);
+        self.ball_inertia(study, speeds);
         let (machine, terminal) = (&self.machine, self.terminal);
         let studies = &machine.model.studies;
         let spinner = terminal.spinner(study.name());
@@ -290,6 +291,37 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
+    /// States the ball inertia of the bearings in a study.
+    fn ball_inertia(&mut self, study: Study, mut speeds: Vec<f64>) {
+        if study == Study::RunUp {
+            speeds.push(self.machine.top_speed_of_run());
+        }
+        if speeds.is_empty() {
+            return;
+        }
+        let used = self.machine.ball_inertia(&speeds);
+        for bearing in &used {
+            self.terminal.print(&format!("  {}: {}", study.name(), bearing.sentence()));
+        }
+        if !used.is_empty() {
+            self.results.ball_inertia.push((study.name(), used));
+        }
+    }
+
+    /// Compares the ball inertia of a run under torque with the speed it reached.
+    fn note_reached_speed(&mut self, speeds: &[f64]) {
+        let reached = self.machine.ball_inertia(speeds);
+        let Some((_, used)) = self.results.ball_inertia.iter_mut().find(|(s, _)| *s == Study::RunUp.name())
+        else {
+            return;
+        };
+        for (used, reached) in used.iter_mut().zip(reached) {
+            if reached.compared.speed > used.compared.speed {
+                used.compared = reached.compared;
+            }
+        }
+    }
+
     /// Transient run-up, streamed to the file sample by sample.
     fn run_up(&mut self) -> Result<(), Failure> {
         let machine = &self.machine;
@@ -368,6 +400,9 @@ impl<'a> Job<'a> {
         };
         if failure.is_none() && settings.cage_phases > 1 {
             self.results.cage_phases = self.cage_phases(settings, &found)?;
+        }
+        if matches!(machine.model.drive, Drive::Torque { .. }) {
+            self.note_reached_speed(&found.history.speed);
         }
         self.results.run_up = Some(found);
         failure.map_or(Ok(()), Err)

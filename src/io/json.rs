@@ -21,7 +21,8 @@
 //! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos, settled, residual: estimated distance from the motion it tends to relative to the orbit, decay_factor: per period}, `transient_periods`: periods discarded, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, transient_periods, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
-//! | `bearings` | per stand-alone ball bearing {name, load_source, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `bearings` | per stand-alone ball bearing {name, load_source, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `ball_inertia` | per study and bearing {study, bearing, stated, used, speed_rpm, centrifugal_force_n, largest_contact_load_n, ratio, limit}: ball inertia used at the highest speed, and why; one entry in `bearings` |
 //! | `warnings` | messages |
 //! | `seconds`, `wall_seconds`, `cpu_seconds` | per study: elapsed time (twice, `seconds` is the former name) and processor time of all threads |
 
@@ -38,11 +39,13 @@ pub const SCHEMA: &str = "rotordyn-results-2";
 use serde_json::{Map, Value, json};
 
 use crate::analysis::Mode;
+use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::analysis::equilibrium::{BearingState, Equilibrium};
 use crate::analysis::preload::MountedPreload;
 use crate::bearing::Preload;
+use crate::bearing::ball_inertia::INERTIA_LIMIT;
 use crate::linalg::Complex64;
 use crate::results::{
     BallState, BearingPoint, BearingResult, BearingSweepResult, CampbellResult, ContactState, FrfResult,
@@ -71,6 +74,18 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
             "energy": "J", "angle": "rad",
         }),
     );
+    if !results.ball_inertia.is_empty() {
+        let all = results.ball_inertia.iter().flat_map(|(study, used)| used.iter().map(move |u| (study, u)));
+        put(
+            "ball_inertia",
+            all.map(|(study, used)| {
+                let mut entry = inertia_use(used);
+                entry["study"] = json!(study);
+                entry
+            })
+            .collect(),
+        );
+    }
     if let Some(found) = &results.equilibrium {
         put("equilibrium", equilibrium(found, machine));
     }
@@ -150,6 +165,7 @@ fn bearing(found: &BearingResult) -> Value {
         "name": found.name,
         "load_source": found.load_source,
         "estimated_geometry": found.bearing.estimated_geometry,
+        "ball_inertia": inertia_use(&found.ball_inertia),
         "prescribed": found.prescribed,
         "rating": {
             "dynamic": found.rating.dynamic, "static": found.rating.static_rating, "fatigue": found.rating.fatigue,
@@ -411,4 +427,15 @@ fn orders(found: &OrderResult) -> Value {
         json!({ "label": line.label, "order": cut.order, "speed_rpm": cut.rpm, "rms": cut.rms })
     });
     json!({ "channel": found.channel, "unit": found.unit, "cuts": cuts.collect::<Value>() })
+}
+
+/// Ball inertia of one bearing, and why.
+fn inertia_use(used: &InertiaUse) -> Value {
+    let compared = &used.compared;
+    json!({
+        "bearing": used.bearing, "stated": used.inertia.keyword(), "used": used.inertia.in_effect().keyword(),
+        "speed_rpm": compared.speed * TO_RPM, "centrifugal_force_n": compared.centrifugal,
+        "largest_contact_load_n": compared.contact_load, "ratio": compared.ratio(),
+        "limit": INERTIA_LIMIT,
+    })
 }

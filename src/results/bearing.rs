@@ -1,5 +1,6 @@
 //! Results of a study of single ball bearings.
 
+use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
 use crate::bearing::rating::LoadRating;
@@ -20,6 +21,8 @@ pub struct BearingResult {
     pub preload: PreloadState,
     /// Axial force of its preload in the machine at the operating point; `None` without preload or machine.
     pub mounted_preload: Option<MountedPreload>,
+    /// Ball inertia used, and why.
+    pub ball_inertia: InertiaUse,
     /// Ratings of all rows together.
     pub rating: LoadRating,
     /// Orders at the nominal contact angle.

@@ -1,5 +1,6 @@
 //! Single ball bearings: operating point, sweeps, contacts, film, rating life, characteristic frequencies.
 
+mod inertia;
 mod limits;
 
 use super::bearing_life::BearingRating;
@@ -38,6 +39,9 @@ impl Machine {
         if study.force.is_some() || study.moment.is_some() {
             return single_bearings(&balls, &study);
         }
+        if let Some(machine) = self.decided(&inertia::speeds(&study, speed))? {
+            return machine.bearings(&study);
+        }
         let cage = cage_treatment(&study);
         let found =
             equilibrium(&self.model, &self.assembly, speed, cage, Some(&self.standstill_equilibrium.q))?;
@@ -67,6 +71,8 @@ pub fn single_bearings(
 ) -> Result<Vec<BearingResult>, Error> {
     let one = |(name, ball): &(String, BallBearing)| {
         let work = SingleBearingStudy::new(name, ball, study);
+        let decided = work.decided();
+        let work = SingleBearingStudy::new(name, &decided, study);
         let operating = work.operating();
         work.study(operating)
     };
@@ -168,6 +174,8 @@ impl<'a> SingleBearingStudy<'a> {
         let state = self.solver.solve(&condition, None)?;
         let point = self.point(state);
         let mut warnings = self.warnings(&point);
+        let ball_inertia = self.inertia_use(&point);
+        warnings.extend(ball_inertia.warning());
         let depends_on_speed = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
         let speed = depends_on_speed.then_some(SweepVariable::Speed);
         let defaults =
@@ -189,6 +197,7 @@ impl<'a> SingleBearingStudy<'a> {
             prescribed: operating.prescribed.map(|held| held.is_some()),
             preload: self.preload(self.speed),
             mounted_preload: operating.mounted_preload,
+            ball_inertia,
             rating: self.rating(),
             nominal_orders: g.characteristic_orders(g.contact_angle),
             point,

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::Machine;
 use super::settling::{Criteria, SettledRun};
 use super::steady_motion::{RestartState, clock_name, section_channel};
+use crate::analysis::ball_inertia::decided_together;
 use crate::error::Error;
 use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};
@@ -42,6 +43,11 @@ pub fn bifurcation(
     let study = models.first().and_then(|m| m.studies.bifurcation.as_ref()).ok_or(Error::Signal(
         crate::signal::SignalError::Empty { name: "list of models with a bifurcation study" },
     ))?;
+    let speeds: Vec<f64> = models
+        .iter()
+        .map(|model| model.studies.bifurcation.as_ref().map_or(0.0, |study| study.steady.speed))
+        .collect();
+    let models = &decided_together(models, &speeds)[..];
     let n = models.len();
     let directions: &[&'static str] = match (study.continuation, study.sweep) {
         (Continuation::Equilibrium, _) => &["from equilibrium"],

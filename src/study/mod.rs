@@ -24,6 +24,7 @@ pub use step_error::Checkpoints;
 
 use std::ops::ControlFlow;
 
+use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::campbell;
 use crate::analysis::critical_speed;
@@ -66,11 +67,38 @@ impl Machine {
         Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
     }
 
+    /// Ball inertia of every ball bearing in a study of these speeds \[rad/s\], decided at the highest.
+    pub fn ball_inertia(&self, speeds: &[f64]) -> Vec<InertiaUse> {
+        let top = speeds.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+        ball_inertia(&self.model, &self.assembly, top, Some(&self.standstill_equilibrium.q))
+    }
+
+    /// The machine with its automatic ball inertia decided at the highest of a study's speeds \[rad/s\]; `None` if it
+    /// is decided.
+    fn decided(&self, speeds: &[f64]) -> Result<Option<Self>, Error> {
+        if !is_undecided(&self.model) {
+            return Ok(None);
+        }
+        Self::new(with_decisions(&self.model, &self.ball_inertia(speeds))).map(Some)
+    }
+
+    /// Highest speed of a run \[rad/s\]: of the speed profile, or of the torque table's last row.
+    pub fn top_speed_of_run(&self) -> f64 {
+        let top = self.model.profile.top_speed();
+        match &self.model.drive {
+            Drive::Torque { table, .. } => table.iter().fold(top, |top, row| top.max(row[0].abs())),
+            _ => top,
+        }
+    }
+
     /// Static equilibrium with the settings of the study.
     ///
     /// # Errors
     /// No equilibrium.
     pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, Error> {
+        if let Some(machine) = self.decided(&[study.speed])? {
+            return machine.equilibrium(study);
+        }
         self.check_tables("static", &[study.speed])?;
         let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
         equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
@@ -95,6 +123,9 @@ impl Machine {
     /// # Errors
     /// No equilibrium at that speed.
     pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, Error> {
+        if speed_dependent && let Some(machine) = self.decided(&[speed])? {
+            return machine.tangents(speed, speed_dependent);
+        }
         if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
             let found = equilibrium(
                 &self.model,
@@ -146,6 +177,9 @@ impl Machine {
     /// # Errors
     /// An eigenvalue computation that fails.
     pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, Error> {
+        if let Some(machine) = self.decided(&study.speeds)? {
+            return machine.modal(study);
+        }
         self.check_tables("modal", &study.speeds)?;
         let at = |&speed: &f64| {
             let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, study.modes)?;
@@ -159,6 +193,9 @@ impl Machine {
     /// # Errors
     /// As [`campbell::campbell`].
     pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, Error> {
+        if let Some(machine) = self.decided(&study.speeds)? {
+            return machine.campbell(study);
+        }
         self.check_tables("campbell", &study.speeds)?;
         let tangents = |speed| self.tangents(speed, study.speed_dependent_bearings);
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
@@ -172,6 +209,9 @@ impl Machine {
     /// # Errors
     /// As [`critical_speed::critical_speeds`].
     pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, Error> {
+        if let Some(machine) = self.decided(&[study.max_speed])? {
+            return machine.critical(study);
+        }
         self.check_tables("critical", &[0.0, study.max_speed])?;
         let tangents = |speed| self.tangents(speed, true);
         let (assembly, max_speed) = (&self.assembly, study.max_speed);
@@ -185,6 +225,9 @@ impl Machine {
     /// # Errors
     /// No equilibrium, or no modes.
     pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, Error> {
+        if let Some(machine) = self.decided(&[self.top_speed_of_run()])? {
+            return machine.reduce(study);
+        }
         if matches!(self.model.drive, Drive::Prescribed { .. }) {
             self.check_tables("run-up", &self.model.profile.speed_range())?;
         }
@@ -203,6 +246,9 @@ impl Machine {
     /// # Errors
     /// An eigenvalue computation that fails.
     pub fn reduction_error(&self, reduction: &Reduction, cutoff: f64, speed: f64) -> Result<f64, Error> {
+        if let Some(machine) = self.decided(&[speed])? {
+            return machine.reduction_error(reduction, cutoff, speed);
+        }
         const MODES: usize = 24;
         let full = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
         let basis = &reduction.basis;

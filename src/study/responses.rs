@@ -24,6 +24,9 @@ impl Machine {
     /// # Errors
     /// A singular dynamic stiffness.
     pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, Error> {
+        if let Some(machine) = self.decided(&[study.speed])? {
+            return machine.frf(study);
+        }
         self.check_tables("frf", &[study.speed])?;
         let system = self.linear_system(study.speed)?;
         let row = |at: &Anchor, direction| self.assembly.direction_row(at, direction);
@@ -82,6 +85,9 @@ impl Machine {
     /// # Errors
     /// A singular dynamic stiffness.
     pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, Error> {
+        if let Some(machine) = self.decided(&study.speeds)? {
+            return machine.unbalance(study);
+        }
         self.check_tables("unbalance", &study.speeds)?;
         let tangents = |speed| self.tangents(speed, true);
         let probe_rows: Vec<SparseRow> =

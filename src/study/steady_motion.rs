@@ -128,6 +128,9 @@ impl Machine {
         steady: &SteadyRunSettings,
         carried: Option<&RestartState>,
     ) -> Result<(Reduction, State), Error> {
+        if let Some(machine) = self.decided(&[steady.speed])? {
+            return machine.steady_initial_state(steady, carried);
+        }
         self.check_tables("steady motion", &[steady.speed])?;
         let cage = CageTreatment::FixedAngle;
         let static_equilibrium = equilibrium(

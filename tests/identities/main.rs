@@ -7,12 +7,14 @@ mod machine;
 #[path = "../common/rig.rs"]
 mod rig;
 
+mod automatic_ball_inertia;
 mod complete_crossings;
 mod double_eigenvalues;
 mod ehl;
 mod linear;
 mod modal_damping;
 mod planes;
+mod random_bearings;
 mod refined_grids;
 mod sensitivity;
 mod speed_dependent_bearings;

@@ -87,6 +87,10 @@ impl BearingShapes {
         let shoulder = g.ball_diameter * SHOULDER_HEIGHT_RATIO.max(0.52 * (1.0 - cos) + 0.12);
         let faces = [ball_z - 0.5 * g.width, ball_z + 0.5 * g.width];
         let wall = CAGE_HALF_WALL_RATIO * g.ball_diameter;
+        // A default cage is as thin as its pockets need to stay apart at its inner radius.
+        let apart = 0.5 * pocket_diameter / (std::f64::consts::PI / g.balls as f64).sin();
+        let default_pocket = pocket_diameter <= g.default_cage_pocket() * (1.0 + 1e-12);
+        let inside = if default_pocket { (1.001 * apart).min(pitch_radius) } else { 0.0 };
         Self {
             inner: Ring {
                 seat_radius: 0.5 * g.bore,
@@ -105,7 +109,7 @@ impl BearingShapes {
                 faces,
             },
             cage: CageShape {
-                radii: [pitch_radius - wall, pitch_radius + wall],
+                radii: [(pitch_radius - wall).max(inside), pitch_radius + wall],
                 centre_z: ball_z,
                 width: (CAGE_WIDTH_RATIO * pocket_diameter).min(0.9 * g.width),
                 pocket_radius: 0.5 * pocket_diameter,

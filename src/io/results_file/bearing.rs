@@ -1,6 +1,8 @@
 //! Stand-alone ball bearings as data sets.
 
 use super::GroupWriter;
+use crate::analysis::ball_inertia::InertiaUse;
+use crate::bearing::ball_inertia::INERTIA_LIMIT;
 use crate::error::Error;
 use crate::io::hdf5::Store;
 use crate::results::{BallState, BearingPoint, BearingResult, ContactState};
@@ -12,6 +14,8 @@ pub fn write(store: &Store, found: &[BearingResult]) -> Result<(), Error> {
         if let Some(how) = bearing.bearing.estimated_geometry {
             writer.set_attribute("estimated_geometry", how)?;
         }
+        let inertia = writer.subgroup("ball_inertia")?;
+        inertia_use(&inertia, &bearing.ball_inertia)?;
         writer.set_attribute("preload_offset", bearing.preload.offset)?;
         writer.set_attribute("preload_force", bearing.preload.axial_force)?;
         if let Some(mounted) = &bearing.mounted_preload {
@@ -87,6 +91,23 @@ fn points(writer: &GroupWriter, points: &[BearingPoint], axis: Option<&str>) -> 
             let data = points.iter().flat_map(|p| &p.balls).map(|b| value(&pick(b))).collect();
             array(&format!("balls/{race}/{name}"), &[balls], unit, data)?;
         }
+    }
+    Ok(())
+}
+
+/// Ball inertia of one bearing, and why, as attributes of a group.
+pub fn inertia_use(writer: &GroupWriter, used: &InertiaUse) -> Result<(), Error> {
+    let compared = &used.compared;
+    writer.set_attribute("stated", used.inertia.keyword())?;
+    writer.set_attribute("used", used.inertia.in_effect().keyword())?;
+    for (name, value) in [
+        ("speed", compared.speed),
+        ("centrifugal_force", compared.centrifugal),
+        ("largest_contact_load", compared.contact_load),
+        ("ratio", compared.ratio()),
+        ("limit", INERTIA_LIMIT),
+    ] {
+        writer.set_attribute(name, value)?;
     }
     Ok(())
 }

@@ -14,6 +14,7 @@
 //! | `/poincare` | attributes: speed, clock, motion, settled (1 or 0), residual, decay_factor, transient_periods; `shaft_angle`, per plane `orbit_x`, `orbit_y`, `section_x`, `section_y` |
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
+//! | `/ball_inertia/<study>/<bearing>` | attributes: stated and used ball inertia; speed, centrifugal_force, largest_contact_load, ratio, limit: why |
 //! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |
@@ -124,6 +125,10 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
     results.lyapunov.iter().try_for_each(|found| steady::lyapunov(store, found))?;
     results.bifurcation.iter().try_for_each(|found| steady::bifurcation(store, found))?;
     bearing::write(store, &results.bearings)?;
+    for (study, used) in &results.ball_inertia {
+        let writer = GroupWriter::new(store, &format!("/ball_inertia/{study}"))?;
+        used.iter().try_for_each(|used| bearing::inertia_use(&writer.subgroup(&used.bearing)?, used))?;
+    }
     write_warnings(store, &results.warnings)?;
     store.flush()
 }

@@ -176,9 +176,7 @@ pub(super) fn common_properties(
         _ => None,
     };
     let steel = catalogue::bearing_steel();
-    let spacing = geometry.pitch_diameter * (PI / geometry.balls as f64).sin();
-    let free = (spacing - geometry.ball_diameter).max(0.0);
-    let pocket = geometry.ball_diameter + (0.04 * geometry.ball_diameter).min(0.4 * free);
+    let pocket = geometry.default_cage_pocket();
     BallBearing {
         ball_material: part("ball_material").unwrap_or_else(|| steel.clone()),
         ring_material: part("ring_material").unwrap_or(steel),

@@ -17,6 +17,9 @@ impl Machine {
     /// # Errors
     /// No equilibrium.
     pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<String>, Error> {
+        if let Some(machine) = self.decided(speeds)? {
+            return machine.bearing_warnings(speeds);
+        }
         let top = speeds.iter().copied().fold(0.0, |top: f64, speed| top.max(speed.abs()));
         let mut found: Vec<(&str, f64, ExceededLimit)> = Vec::new();
         for speed in if top > 0.0 { vec![top, 0.0] } else { vec![0.0] } {
