@@ -18,6 +18,9 @@ const ACCEPTED_RESIDUAL: f64 = 1e-8;
 /// round-off, also without any load.
 const RESOLUTION: f64 = 1e-18;
 
+/// Force accepted as none \[N\] where Newton's method does not converge.
+const SMALLEST_FORCE: f64 = 2e-9;
+
 /// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
 /// or the prescribed displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,10 +148,23 @@ impl BearingSolver {
         condition: &Condition,
         start: Option<&[f64; 5]>,
     ) -> Result<BearingEquilibrium, PhysicsError> {
-        match (self.newton(condition, start.unwrap_or(&[0.0; 5])), start) {
+        let found = match (self.newton(condition, start.unwrap_or(&[0.0; 5])), start) {
             (Err(_), Some(_)) => self.newton(condition, &[0.0; 5]),
             (found, _) => found,
+        };
+        found.or_else(|error| self.from_larger_loads(condition).ok_or(error))
+    }
+
+    /// Equilibrium by way of those under larger loads, where contacts are less abrupt; `None` if it is not found.
+    fn from_larger_loads(&self, condition: &Condition) -> Option<BearingEquilibrium> {
+        let mut start = [0.0; 5];
+        let mut found = None;
+        for factor in [1e6, 1e5, 1e4, 1e3, 1e2, 1e1, 1.0] {
+            let larger = Condition { load: condition.load.map(|f| f * factor), ..*condition };
+            found = self.newton(&larger, &start).ok();
+            start = found.as_ref().map_or(start, |found| found.displacement);
         }
+        found
     }
 
     fn newton(&self, condition: &Condition, start: &[f64; 5]) -> Result<BearingEquilibrium, PhysicsError> {
@@ -226,7 +242,7 @@ impl BearingSolver {
         }
         let residual = max_abs(&now.residual);
         let lost = max_abs(&now.x) > 10.0 * self.radius;
-        let accepted = (ACCEPTED_RESIDUAL * size_of(&now)).max(round_off(&now));
+        let accepted = (ACCEPTED_RESIDUAL * size_of(&now)).max(round_off(&now)).max(SMALLEST_FORCE);
         if residual > accepted || residual.is_nan() || lost {
             return Err(PhysicsError::NoBearingEquilibrium {
                 bearing: self.name.clone(),

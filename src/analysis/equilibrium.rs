@@ -14,6 +14,8 @@ pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
+/// Force accepted as none \[N\] where Newton's method does not converge.
+const SMALLEST_FORCE: f64 = 2e-9;
 /// Relative round-off of a sum of structural forces.
 const ROUND_OFF: f64 = 1e-14;
 /// Resolution of the groove centres' distance in double precision \[m\].
@@ -148,10 +150,7 @@ pub fn equilibrium(
     let mut residual = residual_of(&q, &reactions);
     let mut iterations = 0;
     let mut stalled = 0;
-    while max_abs(&residual) > (TOLERANCE * size_of(&reactions)).max(0.1 * round_off(&q, &reactions))
-        && iterations < MAX_ITERATIONS
-        && stalled < 3
-    {
+    while max_abs(&residual) > TOLERANCE * size_of(&reactions) && iterations < MAX_ITERATIONS && stalled < 3 {
         iterations += 1;
         let size = size_of(&reactions);
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
@@ -195,7 +194,8 @@ pub fn equilibrium(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
     }
-    if left > (10.0 * TOLERANCE * size_of(&reactions)).max(round_off(&q, &reactions)) || left.is_nan() {
+    let accepted = (10.0 * TOLERANCE * size_of(&reactions)).max(round_off(&q, &reactions));
+    if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {
         return Err(PhysicsError::NoEquilibrium {
             item: assembly.dofs.name(worst),
             speed_rpm: speed * 30.0 / std::f64::consts::PI,

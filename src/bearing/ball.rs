@@ -3,7 +3,7 @@
 //! Force law of Cakmak & Sanliturk 2010 §2.1 and §3.1 with massless balls: the groove centres of ball j are
 //! A + δ_j apart, A = r_i + r_o − D_w, and the ball carries Q(δ_j) along the line joining them.
 
-use super::cage::CageKinematics;
+use super::cage::{CageKinematics, MeanCos};
 use super::duplex::{displacement_at_offset, transform_to_station};
 use super::force_kernel::RowForce;
 use super::ring_motion::RingMotion;
@@ -178,7 +178,8 @@ impl BallElement {
                 }
             }
         }
-        out.mean_cos = if load > 0.0 { load_cos / load } else { self.cage.nominal_cos };
+        let centrifugal = self.rows.iter().map(|(_, row)| row.centrifugal_sum(ring.orbit)).sum();
+        out.mean_cos = MeanCos::new(load, load_cos, centrifugal, self.cage.nominal_cos).value;
         out
     }
 

@@ -132,6 +132,15 @@ impl BallInertiaData {
         })
     }
 
+    /// F_c at a cage speed \[rad/s\], and its derivative.
+    #[inline]
+    pub fn centrifugal_force(&self, cage_speed: f64) -> [f64; 2] {
+        match self.given_force {
+            Some(force) => [force, 0.0],
+            None => [self.centrifugal * cage_speed * cage_speed, 2.0 * self.centrifugal * cage_speed],
+        }
+    }
+
     /// Inertial loads (centrifugal, gyroscopic) at a cage speed `orbit` \[rad/s\]; `None` at rest.
     pub fn inertial_loads(
         &self,
@@ -140,10 +149,7 @@ impl BallInertiaData {
         outer_at: impl Fn(f64) -> ContactLoad,
         guess: impl Fn(f64) -> f64,
     ) -> Option<BallInertiaLoads> {
-        let (force, force_by_orbit) = match self.given_force {
-            Some(force) => (force, 0.0),
-            None => (self.centrifugal * cage_speed * cage_speed, 2.0 * self.centrifugal * cage_speed),
-        };
+        let [force, force_by_orbit] = self.centrifugal_force(cage_speed);
         let relative = if self.moment > 0.0 { rotation.shaft_speed / cage_speed } else { 1.0 };
         (force > 0.0).then(|| BallInertiaLoads {
             balls: *self,

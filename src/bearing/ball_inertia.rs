@@ -2,8 +2,8 @@
 
 /// Limit of F_c over the largest contact load above which automatic ball inertia is on.
 ///
-/// Below it the neglected inertia changes displacements and stiffnesses by some tenths of a percent, and by up to
-/// 3 % where radial load leaves balls of a steep contact angle nearly unloaded.
+/// Below it the neglected inertia changes displacements and stiffnesses by up to 0.2 %, and by up to 1.2 % where radial
+/// load leaves balls of a steep contact angle (40°) nearly unloaded.
 pub const INERTIA_LIMIT: f64 = 0.003;
 
 /// Ball inertia model: centrifugal force, gyroscopic moment, raceway control hypothesis.

@@ -8,6 +8,7 @@
 
 use super::ball_change::{BallChange, BallChanges};
 use super::ball_equilibrium::solve_2x2;
+use super::cage::MeanCos;
 use super::duplex::displacement_at_offset;
 use super::preload::PreloadMechanism;
 use super::ring_motion::RingMotion;
@@ -24,7 +25,10 @@ struct LoadSums {
     /// Σ Q_i and Σ Q_i cos α.
     load: f64,
     load_cos: f64,
-    /// Their derivatives by the ring displacement and by the cage speed.
+    /// Σ F_c and its derivative by the cage speed.
+    centrifugal: f64,
+    centrifugal_by_orbit: f64,
+    /// Derivatives of the loads by the ring displacement and by the cage speed.
     load_by: [f64; 6],
     load_cos_by: [f64; 6],
     load_by_orbit: f64,
@@ -83,6 +87,8 @@ impl LoadSums {
     fn add_row(&mut self, row: &Self, place: f64) {
         self.load += row.load;
         self.load_cos += row.load_cos;
+        self.centrifugal += row.centrifugal;
+        self.centrifugal_by_orbit += row.centrifugal_by_orbit;
         self.load_by_orbit += row.load_by_orbit;
         self.load_cos_by_orbit += row.load_cos_by_orbit;
         for (sum, by) in [
@@ -96,15 +102,14 @@ impl LoadSums {
         }
     }
 
-    /// Mean cos α and its derivatives by the displacement and by the cage speed; `None` without load.
-    fn mean_cos(&self) -> Option<(f64, [f64; 6], f64)> {
-        if self.load <= 0.0 {
-            return None;
-        }
-        let mean = self.load_cos / self.load;
-        let of = |by_cos: f64, by_load: f64| (by_cos - mean * by_load) / self.load;
-        let by = std::array::from_fn(|k| of(self.load_cos_by[k], self.load_by[k]));
-        Some((mean, by, of(self.load_cos_by_orbit, self.load_by_orbit)))
+    /// Mean cos α and its derivatives by the displacement and by the cage speed.
+    fn mean_cos(&self, nominal: f64) -> (f64, [f64; 6], f64) {
+        let mean = MeanCos::new(self.load, self.load_cos, self.centrifugal, nominal);
+        let of = |load: f64, load_cos: f64| mean.by_load * load + mean.by_load_cos * load_cos;
+        let by = std::array::from_fn(|k| of(self.load_by[k], self.load_cos_by[k]));
+        let by_orbit =
+            of(self.load_by_orbit, self.load_cos_by_orbit) + mean.by_centrifugal * self.centrifugal_by_orbit;
+        (mean.value, by, by_orbit)
     }
 }
 
@@ -135,6 +140,8 @@ impl Row {
         let mut sums = LoadSums::default();
         let operating = self.operating(ring);
         let Some(loads) = operating.inertial_loads else { return sums };
+        let balls = self.balls() as f64;
+        (sums.centrifugal, sums.centrifugal_by_orbit) = (balls * loads.force, balls * loads.force_by_orbit);
         let d = self.with_ring_displacement(ring);
         self.for_each_ball(&ring.stopped_at(&d), &operating, |[cos, sin], motion, _| {
             let ball = loads.changes(&self.solve_equilibrium(&loads, &operating, &motion));
@@ -170,27 +177,31 @@ impl Row {
         if !self.cage_speed_is_solved(rotation) {
             return at_orbit(nominal);
         }
+        let nominal_cos = self.cage.nominal_cos;
         let centred = |offset: f64, orbit: f64| {
             let loads = self.inertial_loads(orbit, rotation, &operating.contacts)?;
             let motion = PlaneMotion { s: s(offset), ..PlaneMotion::default() };
             let ball = loads.changes(&self.solve_equilibrium(&loads, operating, &motion));
-            (ball.load > 0.0).then_some(ball)
+            let mean = MeanCos::new(ball.load, ball.load_cos, loads.force, nominal_cos);
+            (ball.load > 0.0).then_some((ball, mean, loads.force_by_orbit))
         };
         // Newton's method in offset and cage speed together.
         let (balls, turn) = (self.balls() as f64, rotation.shaft_speed * self.cage.ratio_by_cos());
         let (mut offset, mut orbit) = (guess, nominal);
         for _ in 0..30 {
-            let Some(ball) = centred(offset, orbit) else { break };
-            let mean = ball.load_cos / ball.load;
-            let mean_by = |by: &BallChange| (by.load_cos - mean * by.load) / ball.load;
+            let Some((ball, mean, force_by_orbit)) = centred(offset, orbit) else { break };
+            let mean_by = |by: &BallChange| mean.by_load * by.load + mean.by_load_cos * by.load_cos;
             let [_, by_axial, by_orbit] = &ball.by;
             let jacobian = [
                 [balls * by_axial.force[1], balls * self.direction * by_orbit.force[1]],
-                [-turn * self.direction * mean_by(by_axial), 1.0 - turn * mean_by(by_orbit)],
+                [
+                    -turn * self.direction * mean_by(by_axial),
+                    1.0 - turn * (mean_by(by_orbit) + mean.by_centrifugal * force_by_orbit),
+                ],
             ];
             let residual = [
                 force - balls * self.direction * ball.force[1],
-                rotation.shaft_speed * self.cage.ratio(mean) - orbit,
+                rotation.shaft_speed * self.cage.ratio(mean.value) - orbit,
             ];
             let step = solve_2x2(&jacobian, residual);
             offset += step[0];
@@ -207,8 +218,7 @@ impl Row {
         for _ in 0..60 {
             let ratio = 0.5 * (low + high);
             let orbit = ratio * rotation.shaft_speed;
-            let rolling =
-                centred(at_orbit(orbit), orbit).map(|ball| self.cage.ratio(ball.load_cos / ball.load));
+            let rolling = centred(at_orbit(orbit), orbit).map(|(_, mean, _)| self.cage.ratio(mean.value));
             if ratio > rolling.unwrap_or(self.cage.nominal_ratio()) {
                 high = ratio;
             } else {
@@ -232,7 +242,7 @@ impl BallElement {
     /// Cage speed of a static state: that of rolling at the loaded contact angles.
     ///
     /// Newton's method on the ratio, bracketed and with bisection where it fails; a bearing without load has
-    /// the nominal contact angle. `guess`: ratio of cage to shaft speed to start from.
+    /// the nominal contact angle, see [`MeanCos`]. `guess`: ratio of cage to shaft speed to start from.
     pub(super) fn cage_equilibrium(
         &self,
         d: &[f64; 6],
@@ -257,17 +267,15 @@ impl BallElement {
         let mut ratio = guess.unwrap_or(nominal);
         for _ in 0..100 {
             let at = sums(ratio * speed);
-            let (mean, by, by_orbit) = at.mean_cos().unwrap_or((self.cage.nominal_cos, [0.0; 6], 0.0));
+            let (mean, by, by_orbit) = at.mean_cos(self.cage.nominal_cos);
             let turn = speed * self.cage.ratio_by_cos();
             let (value, slope) = (ratio - self.cage.ratio(mean), 1.0 - turn * by_orbit);
             let newton = ratio - value / slope;
             let done = (newton - ratio).abs() <= 1e-9 && slope > 0.0;
             if done || high - low <= 1e-15 {
-                return CageEquilibrium {
-                    orbit: if done { newton } else { ratio } * speed,
-                    force_by: at.force_by_orbit,
-                    orbit_by: by.map(|by| turn * by / slope),
-                };
+                let orbit_by = if done { by.map(|by| turn * by / slope) } else { [0.0; 6] };
+                let ratio = if done { newton } else { ratio };
+                return CageEquilibrium { orbit: ratio * speed, force_by: at.force_by_orbit, orbit_by };
             }
             if value > 0.0 {
                 high = ratio;

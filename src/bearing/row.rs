@@ -158,6 +158,11 @@ impl Row {
         out
     }
 
+    /// Σ F_c of the row at a cage speed \[N\].
+    pub fn centrifugal_sum(&self, orbit: f64) -> f64 {
+        self.inertia.map_or(0.0, |balls| self.balls() as f64 * balls.centrifugal_force(orbit)[0])
+    }
+
     /// Inertial loads of the balls at a cage speed `orbit` \[rad/s\]; `None` at rest and for massless balls.
     pub fn inertial_loads(
         &self,

@@ -107,7 +107,9 @@ fn check_overlaps<'a>(
         // Only a stated cage refuses a bearing, not the one assumed for drawings.
         if ball.cage_pocket_diameter == ball.geometry.default_cage_pocket() {
             let of_cage = |part| matches!(part, Part::Pocket(_) | Part::Cage);
-            found.retain(|overlap| !of_cage(overlap.first) && !of_cage(overlap.second));
+            found.retain(|overlap| {
+                overlap.second == Part::SideFace || !of_cage(overlap.first) && !of_cage(overlap.second)
+            });
         }
         let Some(worst) = found.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)) else { continue };
         let more = match found.len() {

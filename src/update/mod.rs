@@ -24,7 +24,9 @@ pub mod target;
 
 use rayon::prelude::*;
 
+use crate::analysis::ball_inertia::{ball_inertia, is_undecided, with_decisions};
 use crate::analysis::sensitivity::SystemDerivative;
+use crate::assembly::Assembly;
 use crate::error::Error;
 use crate::model::Model;
 use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
@@ -119,6 +121,14 @@ pub struct Update {
 /// # Errors
 /// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
 pub fn update(job: &UpdateJob) -> Result<Update, Error> {
+    // Ball inertia is decided once, with the first model, for all steps.
+    let first = (job.load)(&settings(job.parameters, &parameter::prior(job.parameters).mean))?;
+    if is_undecided(&first) {
+        let used = ball_inertia(&first, &Assembly::new(&first)?, job.target.speed, None);
+        let load =
+            |settings: &[(String, String)]| (job.load)(settings).map(|model| with_decisions(&model, &used));
+        return update(&UpdateJob { load: &load, ..*job });
+    }
     let prior = parameter::prior(job.parameters);
     let start: Vec<f64> = prior.mean.clone();
     let before = ModelState::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;

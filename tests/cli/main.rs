@@ -1,5 +1,6 @@
 //! Command-line tests of the binary: every model, every command, exit codes, Ctrl-C, JSON output.
 
+mod ball_inertia;
 mod bearing_limits;
 mod bearings;
 mod belts;
