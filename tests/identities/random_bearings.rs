@@ -3,7 +3,7 @@
 use crate::speed_dependent_bearings::spindle;
 use rotordyn::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
-use rotordyn::bearing::life::LoadRating;
+use rotordyn::bearing::rating::LoadRating;
 use rotordyn::bearing::{
     Arrangement, BallBearing, BallGeometry, BallInertia, Bearing, Cage, Duplex, Fit, Preload,
 };
@@ -89,10 +89,9 @@ fn bearing(random: &mut Random) -> BallBearing {
 /// A condition: a load of 1e-6 to 3 times the static rating in a random direction, one-way bearings with enough
 /// thrust to hold together, at up to 2 million mm/min.
 fn condition(random: &mut Random, bearing: &BallBearing) -> Condition {
-    let rows = if bearing.duplex.is_some() { 2 } else { 1 };
-    let rating = LoadRating::new(&bearing.geometry, &bearing.hertz(), rows).static_rating;
-    let size = rating * 10f64.powf(random.between(-6.0, 0.477));
     let (g, pair) = (&bearing.geometry, bearing.duplex.map(|pair| pair.arrangement));
+    let rating = LoadRating::new(g, &bearing.ball_material, &bearing.ring_material, pair).static_rating;
+    let size = rating * 10f64.powf(random.between(-6.0, 0.477));
     let (azimuth, mut rise) = (random.between(0.0, TAU), random.between(-1.0, 1.0));
     let one_way = g.contact_angle > 0.0 && matches!(pair, None | Some(Arrangement::Tandem));
     if one_way {

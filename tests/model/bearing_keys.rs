@@ -70,6 +70,8 @@ fn damping_and_inertia() {
     ] {
         assert_eq!(with(&format!("ball_inertia = \"{word}\"")).inertia, inertia);
     }
+    let given = with("ball_inertia = { centrifugal_force = \"0.12 kN\" }").inertia;
+    assert_eq!(given, BallInertia::CentrifugalForce(120.0));
 }
 
 #[test]
