@@ -238,9 +238,9 @@ fn designations_are_found_under_their_other_names() {
     assert_eq!(catalogue::angle_note(&entry("6014")), None);
     // In the catalogue the codes go 22, 24; the nearest of 6223 are its neighbours.
     assert!(catalogue::find("6223").is_none());
-    let mut near = catalogue::nearest("6223", 2);
-    near.sort();
-    assert_eq!(near, ["6222", "6224"]);
+    let near = catalogue::nearest("6223", 3);
+    assert!(near.contains(&"6222") && near.contains(&"6224"), "{near:?}");
+    assert_eq!(catalogue::nearest("6250", 2), ["6205", "6240"]);
     assert!(catalogue::nearest("7223C", 2).iter().all(|name| name.ends_with('C')));
     assert_eq!(catalogue::nearest("nonsense", 6).len(), 6);
 }

@@ -131,8 +131,8 @@ fn standard_name(name: &str) -> String {
     number + suffix
 }
 
-/// Designations nearest to one that is not in the catalogue: of its series those with the nearest bores, else those with
-/// the most similar spelling.
+/// Designations nearest to one that is not in the catalogue: the one that it may be a misspelling of, then of its series
+/// those with the nearest bores, else those with the most similar spelling.
 pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
     let wanted = standard_name(&designation.split_whitespace().collect::<String>().to_uppercase());
     let mut all: Vec<CatalogueEntry> = entries().collect();
@@ -156,7 +156,9 @@ pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
         let (a, b) = (score(a.designation), score(b.designation));
         a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1))
     });
-    all.iter().take(count).map(|e| e.designation).collect()
+    let sorted = || all.iter().map(|e| e.designation);
+    let meant = crate::names::nearest(&wanted, sorted());
+    meant.into_iter().chain(sorted().filter(|name| Some(*name) != meant)).take(count).collect()
 }
 
 /// What the suffix of a designation says of the contact angle; none for a deep groove bearing.
