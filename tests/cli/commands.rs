@@ -190,7 +190,7 @@ fn catalogue_lists_all_bearings_and_one() {
     rotordyn().args(["catalogue", "nonsense"]).assert().code(2);
     // A size without suffix says which contact angle it means, and lists no other.
     let sheet = output_of(rotordyn().args(["catalogue", "7016"]));
-    assert!(sheet.contains("30 deg (no suffix; no suffix 30, C 15, AC 25, B 40 deg)"), "{sheet}");
+    assert!(sheet.contains("30 deg without suffix (C 15 deg, AC 25 deg, B 40 deg)"), "{sheet}");
     assert!(
         sheet.contains("estimated from published ratings") && sheet.contains("NTN CAT. No. 2203/E"),
         "{sheet}"

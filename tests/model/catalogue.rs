@@ -233,7 +233,7 @@ fn designations_are_found_under_their_other_names() {
     ] {
         assert_eq!(entry(name).designation, designation, "{name}");
     }
-    assert!(catalogue::angle_note(&entry("7014")).unwrap().starts_with("30 deg (no suffix"));
+    assert!(catalogue::angle_note(&entry("7014")).unwrap().starts_with("30 deg without suffix"));
     assert!(catalogue::angle_note(&entry("7014C")).unwrap().starts_with("15 deg"));
     assert_eq!(catalogue::angle_note(&entry("6014")), None);
     // In the catalogue the codes go 22, 24; the nearest of 6223 are its neighbours.

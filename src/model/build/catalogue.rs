@@ -163,17 +163,11 @@ pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
 
 /// What the suffix of a designation says of the contact angle; none for a deep groove bearing.
 pub fn angle_note(entry: &CatalogueEntry) -> Option<String> {
-    let angular = entry.designation.starts_with('7');
-    angular.then(|| {
-        format!(
-            "{:.0} deg ({}; no suffix 30, C 15, AC 25, B 40 deg)",
-            entry.contact_angle.to_degrees(),
-            if entry.designation.ends_with(|c: char| c.is_ascii_digit()) {
-                "no suffix"
-            } else {
-                "by the suffix"
-            }
-        )
+    let suffix = entry.designation.trim_start_matches(|c: char| c.is_ascii_digit());
+    let angle = entry.contact_angle.to_degrees();
+    entry.designation.starts_with('7').then(|| match suffix {
+        "" => format!("{angle:.0} deg without suffix (C 15 deg, AC 25 deg, B 40 deg)"),
+        _ => format!("{angle:.0} deg by the suffix (30 deg without)"),
     })
 }
 
