@@ -71,6 +71,11 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
             "energy": "J", "angle": "rad",
         }),
     );
+    let estimated: serde_json::Map<String, Value> =
+        machine.model.estimated_geometries().map(|(name, how)| (name.to_string(), how.into())).collect();
+    if !estimated.is_empty() {
+        put("estimated_geometry", estimated.into());
+    }
     if let Some(found) = &results.equilibrium {
         put("equilibrium", equilibrium(found, machine));
     }

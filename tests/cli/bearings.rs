@@ -189,6 +189,19 @@ fn run_computes_the_bearing_study() {
     command.arg("run").arg(&model).arg("--out").arg(folder.path());
     let document = json_of(&mut command);
     assert!(document["equilibrium"].is_object());
+    // The bearings of the catalogue with estimated geometry are named in every document and results file.
+    for name in ["A", "B"] {
+        assert!(
+            document["estimated_geometry"][name].as_str().unwrap().starts_with("estimated"),
+            "{document}"
+        );
+    }
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    let mark = store.attribute("/meta", "estimated_geometry").unwrap();
+    assert!(format!("{mark:?}").contains("A: estimated from published ratings"), "{mark:?}");
+    drop(store);
+    let text = output_of(rotordyn().arg("static").arg(&model).arg("--out").arg(folder.path()));
+    assert!(text.contains("internal geometry of bearing A estimated"), "{text}");
     let bearing = &document["bearings"][0];
     assert_eq!(bearing["name"], "B");
     let of: Vec<&str> =
