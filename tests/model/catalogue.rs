@@ -276,6 +276,34 @@ fn every_bearing_has_an_equilibrium() {
     assert_eq!(found.len() - estimated, 4, "bearings whose geometry has a source");
 }
 
+/// The catalogue is what the sources say: dimensions, contact angle and ratings of every row of ratings.csv.
+#[test]
+fn catalogue_has_the_values_of_its_sources() {
+    let text = include_str!("../../assets/ratings.csv");
+    let mut rows = 0;
+    for line in text.lines().filter(|line| !line.starts_with('#') && !line.starts_with("designation")) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| fields[k].parse::<f64>().ok();
+        let e = entry(fields[0]);
+        assert_eq!(e.designation, fields[0]);
+        let here = [
+            e.contact_angle.to_degrees(),
+            1e3 * e.bore,
+            1e3 * e.outside_diameter,
+            1e3 * e.width,
+            1e3 * e.chamfer,
+        ];
+        for (k, value) in here.iter().enumerate() {
+            assert!((value - number(k + 1).unwrap()).abs() < 1e-9, "{line}: {value}");
+        }
+        let ratings = e.published.map(|p| (p.dynamic, p.static_rating, p.fatigue));
+        assert_eq!(ratings, number(6).map(|c| (c, number(7).unwrap(), number(8))), "{line}");
+        rows += 1;
+    }
+    // Two more, 6205-2RS and 7206-B-XL, are of one maker.
+    assert_eq!(rows + 2, catalogue::row_count());
+}
+
 /// Geometry of the file is no estimate.
 #[test]
 fn given_geometry_is_not_marked_as_estimated() {
