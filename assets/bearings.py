@@ -31,12 +31,9 @@ ORIGINS = {
     "cwru": "balls and pitch as stated by the CWRU bearing data centre (SKF 6205-2RS JEM); grooves 0.52/0.53 of ISO 76",
     "iso": "ISO/TS 16281 example of seven 11.5 mm balls on 43.5 mm with grooves 0.52/0.53",
     "bal": "as table A1 of Bal et al. 2022 prints it for a FAG 7206 X-life: balls; pitch; groove radii 4.876 and 5.057 mm",
-    "fit": "estimated: balls whose ratings by ISO 76 and ISO 281 are the published ones (steps of 1/64 in); pitch (d+D)/2; "
-           "grooves 0.52/0.53 of ISO 76",
-    "size": "estimated: balls of the bearing of the same size with another contact angle, whose ratings by ISO 76 and "
-            "ISO 281 are the published ones; pitch (d+D)/2; grooves 0.52/0.53 of ISO 76",
-    "rule": "estimated: D_w 0.28 (D-d) in steps of 1/64 in; balls fill 0.79 of the pitch circle; pitch (d+D)/2; grooves "
-            "0.52/0.53 of ISO 76",
+    "fit": "estimated from published ratings by ISO 76 and ISO 281; pitch (d+D)/2; grooves 0.52/0.53",
+    "size": "estimated as for another contact angle of this size; pitch (d+D)/2; grooves 0.52/0.53",
+    "rule": "estimated: D_w 0.28 (D-d); balls fill 0.79 of the pitch circle; pitch (d+D)/2; grooves 0.52/0.53",
 }
 
 

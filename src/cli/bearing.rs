@@ -29,7 +29,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
             }
         }
     }
-    let text = ModelText { model: &loaded.text, title: &loaded.title };
+    let text = ModelText { model: &loaded.text, title: &loaded.title, estimated: String::new() };
     let start = Instant::now();
     let spinner = terminal.spinner("bearing");
     let bearings_or_error = compute(&loaded);

@@ -184,10 +184,8 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         let balls = rows.iter().any(|row| row.len() > 2);
         let header = if balls { &header[..] } else { &header[..2] };
         terminal.table("Bearings and their defect frequencies per revolution", header, &rows);
-        for site in &model.bearings {
-            if let Some(how) = site.bearing.ball().and_then(|ball| ball.estimated_geometry) {
-                terminal.print(&format!("  internal geometry of {} {how}", site.name));
-            }
+        for (name, how) in model.estimated_geometries() {
+            terminal.print(&format!("  internal geometry of {name} {how}"));
         }
     }
 }

@@ -211,6 +211,9 @@ fn finish(mut job: Job, studies: &[Study], draw: bool, command: &'static str) ->
     quality_warnings(&mut job, studies);
     job.write(draw)?;
     let terminal = job.terminal;
+    for (name, how) in job.machine.model.estimated_geometries() {
+        terminal.print(&format!("  internal geometry of bearing {name} {how}"));
+    }
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
     terminal.table("Computing time (elapsed)", &["", "s"], &rows);

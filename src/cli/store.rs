@@ -14,16 +14,24 @@ use super::terminal::Terminal;
 pub const FILE: &str = "results.h5";
 
 /// Model text and title stored in a results file.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct ModelText<'a> {
     /// Text of the model file.
     pub model: &'a str,
     pub title: &'a str,
+    /// Bearings with estimated internal geometry, "name: how" a line.
+    pub estimated: String,
+}
+
+/// One line "name: how" for every bearing with estimated internal geometry.
+pub fn estimated_lines<'b>(bearings: impl Iterator<Item = (&'b str, &'static str)>) -> String {
+    bearings.map(|(name, how)| format!("{name}: {how}")).collect::<Vec<_>>().join("\n")
 }
 
 impl<'a> From<&'a Loaded> for ModelText<'a> {
     fn from(loaded: &'a Loaded) -> Self {
-        Self { model: &loaded.text, title: &loaded.model.title }
+        let estimated = estimated_lines(loaded.model.estimated_geometries());
+        Self { model: &loaded.text, title: &loaded.model.title, estimated }
     }
 }
 
@@ -64,6 +72,9 @@ pub fn open(
         settings: &settings,
     };
     results_file::write_meta(&store, &meta)?;
+    if !text.estimated.is_empty() {
+        store.set_attribute("/meta", "estimated_geometry", text.estimated.as_str())?;
+    }
     results_file::write_external_files(&store, &origin.side_files(&origin.options))?;
     Ok(store)
 }

@@ -254,6 +254,11 @@ fn life(found: &BearingResult, sweep: &BearingSweepResult, note: &str) -> Lines 
         of("reference L₁₀ᵣ (ISO/TS 16281)", |p| p.life.reference),
         of("modified Lₙₘᵣ", |p| p.life.modified),
     ];
+    // Shown where ball inertia, film or the moment arm matter.
+    let differs = |p: &BearingPoint| (p.life.by_ball_loads / p.life.reference - 1.0).abs() > 0.01;
+    if sweep.points.iter().any(differs) {
+        curves.insert(2, of("the same by the ball loads", |p| p.life.by_ball_loads));
+    }
     curves.retain(|c| c.y.iter().any(|v| v.is_finite()));
     let (x_name, x_unit, _) = abscissa(sweep);
     Lines {

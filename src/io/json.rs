@@ -8,6 +8,7 @@
 //! | `schema`, `program`, `version` | "rotordyn-results-2", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
 //! | `units` | the unit of every quantity below |
+//! | `estimated_geometry` | if the internal geometry of bearings is estimated: name of the bearing, how |
 //! | `equilibrium` | `speed_rpm`, `residual_n`, `iterations`, `belts` \[{name, stated_pull_n: 2, pull_n: 2, remaining_share, displacement_m: 2}\], `preloads` \[{bearing, kind, stated_force_n, interference_m, spring_n_per_m, axial_force_n: per row, share: the least over the stated}\], `nodes` \[{node, displacement: 6}\], `bearings` \[{name, displacement: 6, force: 6, stiffness: 6×6, damping: 6×6, largest_ball_load_n, balls: \[{position_rad, load_n, contact_angle_rad, deflection_m}\]}\] |
 //! | `modal` | per speed {speed_rpm, nodes (names), modes: \[{label, kind, eigenvalue {re, im} in 1/s, shape {re, im: 6 per node} with φᴴ M φ = 1, frequency_hz, damping_ratio, log_decrement, effective_mass: 3}\]} |
 //! | `campbell` | `speeds_rpm`, `branches` \[{label, kind, labels, frequency_hz, log_decrement, eigenvalue {re, im}}\] over the speeds, `orders` \[{label, order}\], `crossings`, `crossings_omitted` \[{order, modes}\], `uncertain`, `lost_branches` \[{branch, from_rpm, to_rpm, continued_by}\], `thresholds` \[{speed_rpm, unstable_above, label}\] |
@@ -21,7 +22,7 @@
 //! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos, settled, residual: estimated distance from the motion it tends to relative to the orbit, decay_factor: per period}, `transient_periods`: periods discarded, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, transient_periods, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
-//! | `bearings` | per stand-alone ball bearing {name, load_source, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `bearings` | per stand-alone ball bearing {name, load_source, estimated_geometry: if the internal geometry is estimated, how, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
 //! | `ball_inertia` | per study and bearing {study, bearing, stated, used, speed_rpm, centrifugal_force_n, largest_contact_load_n, ratio, limit}: ball inertia used at the highest speed, and why; one entry in `bearings` |
 //! | `warnings` | messages |
 //! | `seconds`, `wall_seconds`, `cpu_seconds` | per study: elapsed time (twice, `seconds` is the former name) and processor time of all threads |
@@ -85,6 +86,11 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
             })
             .collect(),
         );
+    }
+    let estimated: serde_json::Map<String, Value> =
+        machine.model.estimated_geometries().map(|(name, how)| (name.to_string(), how.into())).collect();
+    if !estimated.is_empty() {
+        put("estimated_geometry", estimated.into());
     }
     if let Some(found) = &results.equilibrium {
         put("equilibrium", equilibrium(found, machine));
@@ -161,17 +167,15 @@ fn bearing(found: &BearingResult) -> Value {
             "points": s.points.iter().map(point).collect::<Value>(),
         })
     };
-    json!({
+    let mut out = json!({
         "name": found.name,
         "load_source": found.load_source,
-        "estimated_geometry": found.bearing.estimated_geometry,
         "ball_inertia": inertia_use(&found.ball_inertia),
         "prescribed": found.prescribed,
         "rating": {
             "dynamic": found.rating.dynamic, "static": found.rating.static_rating, "fatigue": found.rating.fatigue,
         },
         "preload": { "offset": found.preload.offset, "axial_force": found.preload.axial_force },
-        "mounted_preload": found.mounted_preload.as_ref().map(preload),
         "nominal_orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
         "operating": point(&found.point),
         "sweeps": found.sweeps.iter().map(sweep).collect::<Value>(),
@@ -185,7 +189,15 @@ fn bearing(found: &BearingResult) -> Value {
             "rolling_force": f.solution.rolling_force,
         })).collect::<Value>(),
         "warnings": found.warnings,
-    })
+    });
+    // What a bearing does not have is omitted.
+    if let Some(mounted) = &found.mounted_preload {
+        out["mounted_preload"] = preload(mounted);
+    }
+    if let Some(how) = found.bearing.estimated_geometry {
+        out["estimated_geometry"] = how.into();
+    }
+    out
 }
 
 fn point(p: &BearingPoint) -> Value {

@@ -65,6 +65,13 @@ impl Model {
     pub fn rotating_inertias(&self) -> impl Iterator<Item = &Disc> {
         self.discs.iter().chain(&self.rigid_rotor)
     }
+
+    /// Names of the bearings with estimated internal geometry, and how each was estimated.
+    pub fn estimated_geometries(&self) -> impl Iterator<Item = (&str, &'static str)> {
+        self.bearings
+            .iter()
+            .filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?.estimated_geometry?)))
+    }
 }
 
 /// Named shaft station.

@@ -62,6 +62,8 @@ fn bearing_only_file_under_a_given_load() {
         "Bearing front at",
         "a tenth of the dynamic load rating",
         "theta_y",
+        "internal geometry estimated",
+        "static safety s_0",
         "Loaded balls",
         "BPFI",
         "No speed sweep",
@@ -93,6 +95,59 @@ fn bearing_only_file_under_a_given_load() {
     let point = &pushed["sweeps"][0]["points"][40];
     assert_eq!(numbers(&point["displacement"]), [0.0, 0.0, 20e-6, 0.0, 0.0]);
     assert!(numbers(&point["load"])[2] > 0.0);
+}
+
+/// A pair has P, P_0, L_10 and s_0 of its double row, and the mark of its estimated geometry, in table, JSON and HDF5.
+#[test]
+fn ratings_of_a_pair_in_every_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("pair.toml");
+    let text = "[model]\nname = \"pair\"\n[lubricant.oil]\ngrade = \"ISO VG 32\"\ntemperature = \"50 degC\"\n\
+                [bearing.front]\nmodel = \"ball\"\ndesignation = \"7012AC\"\narrangement = \"face_to_face\"\n\
+                row_spacing = \"18 mm\"\nlubricant = \"oil\"\n";
+    std::fs::write(&model, text).unwrap();
+    let run = |flags: &[&str]| {
+        let mut command = rotordyn();
+        command.arg("bearing").arg(&model).args(["--no-figures", "--speed", "8000 rpm", "--out"]);
+        command.arg(folder.path()).args([
+            "--load",
+            "0, -1500, 2500 N",
+            "--sweep",
+            "cage_angle=0 deg .. 9 deg",
+        ]);
+        command.args(flags);
+        command
+    };
+    let document = json_of(&mut run(&[]));
+    let bearing = &document["bearings"][0];
+    let of = |key: &str| bearing["operating"][key].as_f64().unwrap_or_else(|| panic!("{key}: {bearing}"));
+    // 25 deg, F_a/F_r above e = 0.68: double row X_2 = 0.67, Y_2 = 1.41, static 1 and 0.76.
+    let p = 0.67 * 1500.0 + 1.41 * 2500.0;
+    assert!((of("equivalent_load") - p).abs() < 1e-6);
+    assert!((of("static_equivalent_load") - (1500.0 + 0.76 * 2500.0)).abs() < 1e-6);
+    let rating = |key: &str| bearing["rating"][key].as_f64().unwrap();
+    assert!((of("basic_life") / (rating("dynamic") / p).powi(3) - 1.0).abs() < 1e-12);
+    assert!((of("static_safety") * of("static_equivalent_load") / rating("static") - 1.0).abs() < 1e-12);
+    let [ratio, required] = ["viscosity_ratio", "reference_viscosity"].map(of);
+    // 32 mm2/s at 40 degC is about 20 at 50 degC.
+    assert!((15e-6..24e-6).contains(&(ratio * required)), "{ratio} {required}");
+    assert_eq!(of("contamination"), 0.5);
+    let modified = of("life_modification") * of("reference_life");
+    assert!((of("modified_life") / modified - 1.0).abs() < 1e-12);
+    assert!(bearing["estimated_geometry"].as_str().unwrap().starts_with("estimated"));
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    for key in ["equivalent_load", "static_safety", "basic_life", "life_by_ball_loads", "contamination"] {
+        let stored = store.read(&format!("/bearings/front/operating/{key}")).unwrap();
+        assert_eq!(stored.data, [of(key)], "{key}");
+    }
+    let mark = store.attribute("/bearings/front", "estimated_geometry").unwrap();
+    assert!(format!("{mark:?}").contains("estimated as for another contact angle"), "{mark:?}");
+    let table = output_of(&mut run(&[]));
+    for part in
+        ["of the pair", "X 0.67", "Y 1.41", "s_0 = C_0/P_0", "kappa", "e_C 0.50", "geometry estimated"]
+    {
+        assert!(table.contains(part), "{part} is not in\n{table}");
+    }
 }
 
 #[test]
@@ -134,6 +189,19 @@ fn run_computes_the_bearing_study() {
     command.arg("run").arg(&model).arg("--out").arg(folder.path());
     let document = json_of(&mut command);
     assert!(document["equilibrium"].is_object());
+    // The bearings of the catalogue with estimated geometry are named in every document and results file.
+    for name in ["A", "B"] {
+        assert!(
+            document["estimated_geometry"][name].as_str().unwrap().starts_with("estimated"),
+            "{document}"
+        );
+    }
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    let mark = store.attribute("/meta", "estimated_geometry").unwrap();
+    assert!(format!("{mark:?}").contains("A: estimated from published ratings"), "{mark:?}");
+    drop(store);
+    let text = output_of(rotordyn().arg("static").arg(&model).arg("--out").arg(folder.path()));
+    assert!(text.contains("internal geometry of bearing A estimated"), "{text}");
     let bearing = &document["bearings"][0];
     assert_eq!(bearing["name"], "B");
     let of: Vec<&str> =

@@ -188,6 +188,21 @@ fn catalogue_lists_all_bearings_and_one() {
     let sheet = output_of(rotordyn().args(["catalogue", "6205"]));
     assert!(sheet.contains("radial clearance C3") && sheet.contains("13 to 28 um"), "{sheet}");
     rotordyn().args(["catalogue", "nonsense"]).assert().code(2);
+    // A size without suffix says which contact angle it means, and lists no other.
+    let sheet = output_of(rotordyn().args(["catalogue", "7016"]));
+    assert!(sheet.contains("30 deg without suffix (C 15 deg, AC 25 deg, B 40 deg)"), "{sheet}");
+    assert!(
+        sheet.contains("estimated from published ratings") && sheet.contains("NTN CAT. No. 2203/E"),
+        "{sheet}"
+    );
+    let one = json_of(rotordyn().args(["catalogue", "7016ac"]));
+    assert_eq!(
+        (&one["bearings"][0]["estimated"], &one["bearings"][0]["designation"]),
+        (&true.into(), &"7016AC".into())
+    );
+    let unknown = rotordyn().args(["catalogue", "6225"]).assert().code(2);
+    let text = String::from_utf8_lossy(&unknown.get_output().stderr).to_string();
+    assert!(text.contains("6224") && text.contains("6226"), "{text}");
 }
 
 /// The README's example model works, every command is mentioned and every link resolves.

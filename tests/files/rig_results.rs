@@ -56,6 +56,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             step_error: None,
         }),
         cage_phases: None,
+        ball_inertia: Vec::new(),
         warnings: vec!["a warning".into()],
         poincare: None,
         lyapunov: None,

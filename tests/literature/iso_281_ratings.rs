@@ -215,3 +215,59 @@ fn static_equivalent_loads() {
         assert!((static_equivalent_load(&deep, arrangement, 100.0, 500.0) - 310.0).abs() < 1e-9);
     }
 }
+
+/// 200 random bearings and pairs under loads from 0.003 to 3 C_0 in any direction: every rating exists, in its bounds.
+#[test]
+fn ratings_of_random_bearings() {
+    use rotordyn::bearing::{BallBearing, Duplex};
+    use rotordyn::model::study::{BearingStudy, BearingSweep, SweepVariable};
+    use rotordyn::study::single_bearings;
+    let mut state = 0x2545_f491_4f6c_dd1du64;
+    let mut random = move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for k in 0..200 {
+        let pitch = 15.0 * 20f64.powf(random());
+        let ball = pitch * (0.08 + 0.17 * random());
+        let most = std::f64::consts::PI / (1.08 * ball / pitch).asin();
+        let balls = ((0.6 + 0.38 * random()) * most) as usize;
+        let angle = if k % 3 == 0 { 0.0 } else { 45.0 * random() };
+        let grooves = [0.505 + 0.03 * random(), 0.505 + 0.04 * random()];
+        let geometry = BallGeometry {
+            radial_clearance: if angle == 0.0 { 1e-6 * pitch * 0.3 * random() } else { 0.0 },
+            thrust_direction: if random() < 0.5 { 1.0 } else { -1.0 },
+            ..bearing(balls.max(5), ball, pitch, grooves, angle)
+        };
+        let arrangement = match k % 4 {
+            0 | 1 => None,
+            2 => Some(Arrangement::Tandem),
+            _ => Some(OPPOSED[k / 4 % 2]),
+        };
+        let duplex = arrangement.map(|arrangement| Duplex { arrangement, spacing: 1.6e-3 * ball });
+        let ball = BallBearing { geometry, duplex, ..rig_6205() };
+        let g = &ball.geometry;
+        let rating = LoadRating::new(g, &ball.ball_material, &ball.ring_material, arrangement);
+        assert!(rating.dynamic > 0.0 && rating.static_rating > 0.0 && rating.fatigue > 0.0);
+        let size = rating.static_rating * 3e-3 * 1e3f64.powf(random());
+        let [turn, slope] = [std::f64::consts::TAU * random(), std::f64::consts::PI * (random() - 0.5)];
+        let force = [slope.cos() * turn.cos(), slope.cos() * turn.sin(), slope.sin()].map(|part| size * part);
+        let sweep = BearingSweep { variable: SweepVariable::CageAngle, values: vec![0.0] };
+        let study = BearingStudy { force: Some(force), sweeps: vec![sweep], ..BearingStudy::default() };
+        let found = &single_bearings(&[("random".into(), ball.clone())], &study)
+            .unwrap_or_else(|e| panic!("{k}: {force:?} {g:?}: {e}"))[0];
+        let life = &found.point.life;
+        let radial = force[0].hypot(force[1]);
+        assert!(life.equivalent_load > 0.0 && life.static_load >= radial, "{k}: {life:?}");
+        assert!((life.static_safety * life.static_load / rating.static_rating - 1.0).abs() < 1e-12);
+        assert!(life.reference > 0.0 && life.reference.is_finite(), "{k}: {life:?}");
+        assert!(life.by_ball_loads > 0.0 && life.by_ball_loads.is_finite(), "{k}: {life:?}");
+        // P grows with the axial load.
+        let p = |axial: f64| equivalent_load(g, arrangement, radial, axial).load;
+        let axial = force[2].abs().max(1e-3 * radial);
+        let steps: Vec<f64> = (0..60).map(|j| p(axial * 1.1f64.powi(j - 30))).collect();
+        assert!(steps.windows(2).all(|w| w[1] > 0.975 * w[0]), "{k}: {steps:?}");
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! | group | contents |
 //! |---|---|
-//! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units |
+//! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units, estimated_geometry (bearings whose internal geometry is estimated) |
 //! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
 //! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls; per belt stated and remaining pull; per preloaded bearing stated and carried axial force |

@@ -131,8 +131,8 @@ fn standard_name(name: &str) -> String {
     number + suffix
 }
 
-/// Designations nearest to one that is not in the catalogue: of its series those with the nearest bores, else those with
-/// the most similar spelling.
+/// Designations nearest to one that is not in the catalogue: the one that it may be a misspelling of, then of its series
+/// those with the nearest bores, else those with the most similar spelling.
 pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
     let wanted = standard_name(&designation.split_whitespace().collect::<String>().to_uppercase());
     let mut all: Vec<CatalogueEntry> = entries().collect();
@@ -156,22 +156,18 @@ pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
         let (a, b) = (score(a.designation), score(b.designation));
         a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1))
     });
-    all.iter().take(count).map(|e| e.designation).collect()
+    let sorted = || all.iter().map(|e| e.designation);
+    let meant = crate::names::nearest(&wanted, sorted());
+    meant.into_iter().chain(sorted().filter(|name| Some(*name) != meant)).take(count).collect()
 }
 
 /// What the suffix of a designation says of the contact angle; none for a deep groove bearing.
 pub fn angle_note(entry: &CatalogueEntry) -> Option<String> {
-    let angular = entry.designation.starts_with('7');
-    angular.then(|| {
-        format!(
-            "{:.0} deg ({}; no suffix 30, C 15, AC 25, B 40 deg)",
-            entry.contact_angle.to_degrees(),
-            if entry.designation.ends_with(|c: char| c.is_ascii_digit()) {
-                "no suffix"
-            } else {
-                "by the suffix"
-            }
-        )
+    let suffix = entry.designation.trim_start_matches(|c: char| c.is_ascii_digit());
+    let angle = entry.contact_angle.to_degrees();
+    entry.designation.starts_with('7').then(|| match suffix {
+        "" => format!("{angle:.0} deg without suffix (C 15 deg, AC 25 deg, B 40 deg)"),
+        _ => format!("{angle:.0} deg by the suffix (30 deg without)"),
     })
 }
 
