@@ -179,7 +179,7 @@ pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrap
         let f = figure(&fine);
         coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
     };
-    let [central_film, minimum_film] = [limit(|s| s.central_film), limit(|s| s.minimum_film)];
+    let [central_film, minimum_film] = [limit(|s| s.central_film), limit(|s| s.interpolated_minimum)];
     if !(minimum_film > 0.0 && central_film > 0.0) {
         return Err(EhlError::new(problem, fine));
     }

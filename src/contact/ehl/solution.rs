@@ -17,7 +17,7 @@ pub struct Solution {
     pub film: Vec<f64>,
     /// Film at the centre of the dry ellipse h_c \[m\].
     pub central_film: f64,
-    /// Minimum film h_min \[m\]: the least node, and below it the parabolas through its neighbours.
+    /// Minimum film of all nodes \[m\]; extrapolated to zero mesh width in [`super::Extrapolated`].
     pub minimum_film: f64,
     /// Mutual approach δ = w − h at the centre = −h₀ \[m\]; negative where the film exceeds the deflection.
     ///
@@ -31,6 +31,8 @@ pub struct Solution {
     pub iterations: usize,
     /// RMS residual of film equation and cavitation condition, relative to the dry maximum pressure.
     pub residual: f64,
+    /// Minimum film below the least node, by parabolas through its neighbours \[m\].
+    pub(super) interpolated_minimum: f64,
     /// Dry semi-axes along and across \[m\], dry maximum pressure \[Pa\].
     scales: [f64; 3],
 }
@@ -53,7 +55,8 @@ impl Solution {
             x: s.x.iter().map(|x| x * s.axes[0]).collect(),
             y: s.y[1..].iter().rev().map(|y| -y).chain(s.y.iter().copied()).map(|y| y * s.axes[1]).collect(),
             central_film: s.film * at_zero(&s.x, &line),
-            minimum_film: s.film * minimum(s, &film),
+            minimum_film: s.film * film.iter().copied().fold(f64::INFINITY, f64::min),
+            interpolated_minimum: s.film * minimum(s, &film),
             approach: -s.film * separation,
             dry_approach: problem.contact.patch(problem.load).deflection,
             // Σ w P dA is in units of the load, h/x in those of film and semi-axis.
