@@ -6,7 +6,7 @@ use crate::contact::Race;
 /// Shoulder height over the ball diameter where none is given.
 const SHOULDER_HEIGHT: f64 = 0.2;
 /// Least angle of the shoulder beyond the nominal contact angle, where none is given \[rad\].
-const BEYOND_CONTACT_ANGLE: f64 = 15.0 * std::f64::consts::PI / 180.0;
+const BEYOND_CONTACT_ANGLE: f64 = 25.0 * std::f64::consts::PI / 180.0;
 
 /// Contact ellipse and shoulder of one race, as angles about the groove's centre from the groove's bottom.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,8 +50,8 @@ impl BallGeometry {
 
 /// Height of a race's shoulder above the bottom of its groove \[m\].
 ///
-/// From the shoulder diameter if given; else 0.2 D_w, and at least up to 15 deg beyond the nominal contact angle: r (1 −
-/// cos(α₀ + 15 deg)). The lower shoulder of an angular contact bearing is not described.
+/// From the shoulder diameter if given; else 0.2 D_w, and at least up to 25 deg beyond the nominal contact angle: r (1 −
+/// cos(α₀ + 25 deg)). The lower shoulder of an angular contact bearing is not described.
 pub fn shoulder_height(bearing: &BallBearing, race: Race) -> f64 {
     let g = &bearing.geometry;
     let (given, sign) = match race {
