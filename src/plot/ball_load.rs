@@ -113,14 +113,15 @@ fn direction_arrows(svg: &mut Svg, at: Point) {
     }
 }
 
-/// Direction of the radial load, through the bearing centre.
+/// Direction of the radial load, from the bearing centre; beyond the names of the axes if it points to one of them.
 fn load_arrow(svg: &mut Svg, center: Point, [x, y]: [f64; 2], radius: f64) {
     let size = x.hypot(y);
     if !(size > 0.0 && size.is_finite()) {
         return;
     }
     let at = |r: f64| [center[0] + r * x / size, center[1] - r * y / size];
-    svg.arrow(at(-0.8 * radius), at(0.95 * radius), 8.0, RED, 2.0);
+    let start = if x.max(y) > 0.8 * size { 35.0 } else { 0.0 };
+    svg.arrow(at(start), at(0.97 * radius), 8.0, RED, 2.0);
     // Beside the arrow, away from the names of the axes.
     let side = if x * y < 0.0 { [-1.0, -1.0] } else { [-1.0, 1.0] };
     let label = [center[0] + 0.3 * radius * side[0] - 4.0, center[1] - 0.3 * radius * side[1]];
