@@ -220,7 +220,13 @@ pub fn ball_loads() -> Figure {
         let angle_deg: Vec<f64> = (0..count).map(|k| turn + 360.0 * k as f64 / count as f64).collect();
         let load =
             angle_deg.iter().map(|a| pull * (-(a.to_radians().sin()) - 0.15).max(0.0).powf(1.5)).collect();
-        BallRow { title: title.to_string(), note: note.to_string(), angle_deg, load }
+        BallRow {
+            title: title.to_string(),
+            note: note.to_string(),
+            angle_deg,
+            load,
+            radial_load: [0.0, -pull],
+        }
     };
     Figure::BallLoads(BallLoads {
         title: "Static ball loads at standstill".to_string(),

@@ -33,7 +33,7 @@ pub struct BallBearing {
     pub estimated_geometry: Option<&'static str>,
 }
 
-/// Service conditions for the rating life (ISO 281): load ratings, lubricant, contamination, reliability.
+/// Catalogue data and service conditions: load ratings, shoulders; lubricant, contamination, reliability (ISO 281).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Service {
     /// Load ratings C and C₀ and fatigue load limit C_u from the catalogue \[N\]; `None`: from the geometry.
@@ -46,6 +46,9 @@ pub struct Service {
     pub contamination: f64,
     /// Reliability from 0.9 to 0.999.
     pub reliability: f64,
+    /// Diameters of the shoulders of inner and outer race \[m\]; `None`: by the rule of
+    /// [`shoulder_height`](super::shoulder::shoulder_height).
+    pub shoulder_diameters: [Option<f64>; 2],
 }
 
 impl Default for Service {
@@ -58,6 +61,7 @@ impl Default for Service {
             lubricant: None,
             contamination: 0.5,
             reliability: 0.9,
+            shoulder_diameters: [None; 2],
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::life::reference_viscosity;
 use super::rating::STATIC_CONTACT_STRESS;
-use super::{BallBearing, BallInertia, BallLoad};
-use crate::contact::ContactLaw;
+use super::shoulder::{ShoulderMargin, shoulder_margin};
+use super::{BallBearing, BallLoad};
+use crate::contact::{ContactLaw, Race};
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
@@ -46,6 +47,8 @@ pub enum ExceededLimit {
     FittedLaw { outside: usize, loaded: usize, range: [f64; 2] },
     /// Contact pressure above that of the static load rating \[Pa\].
     Pressure { pressure: f64 },
+    /// Share of a contact ellipse beyond the shoulder of its groove, angles of the edges of both \[rad\].
+    Shoulder { race: Race, share: f64, ellipse_angle: f64, shoulder_angle: f64 },
     /// Smallest film below the roughness \[m\].
     Film { film: f64, roughness: f64 },
     /// A single row with a contact angle slides until its balls carry at a much smaller one \[rad, m\].
@@ -71,6 +74,7 @@ impl BearingLoad<'_> {
         [
             self.fitted_law(loaded),
             self.pressure(),
+            self.shoulder(),
             self.film(),
             self.lost_contact_angle(),
             self.open_side(),
@@ -150,19 +154,34 @@ impl BearingLoad<'_> {
         (load < minimum).then_some(ExceededLimit::MinimumLoad { load, minimum })
     }
 
-    /// μ = 2 M/(D Q_o) with M/D = F_c sin α_o/5 on the outer race, of the balls that carry at the inner one.
+    /// μ = Σ 2 M/D / Σ Q_o with M/D = F_c sin α_o/5 on the outer race, over the balls that carry at the inner one: a
+    /// lightly loaded ball at the end of the loaded zone may slide for a moment.
     fn gyroscopic_sliding(&self) -> Option<ExceededLimit> {
         let g = &self.bearing.geometry;
-        if self.bearing.inertia == BallInertia::None {
+        if !self.bearing.inertia.has_moment() {
             return None;
         }
         let mass = self.bearing.ball_material.density * PI / 6.0 * g.ball_diameter.powi(3);
         let centrifugal = 0.5 * mass * g.pitch_diameter * self.cage_speed.powi(2);
-        let needed =
-            |ball: &BallLoad| 0.4 * centrifugal * ball.outer_contact_angle.sin().abs() / ball.outer_load;
-        let carrying = self.balls.iter().filter(|ball| ball.load > 0.0);
-        let coefficient = carrying.map(needed).fold(0.0, f64::max);
+        let carrying = || self.balls.iter().filter(|ball| ball.load > 0.0);
+        let friction: f64 =
+            carrying().map(|ball| 0.4 * centrifugal * ball.outer_contact_angle.sin().abs()).sum();
+        let coefficient = friction / carrying().map(|ball| ball.outer_load).sum::<f64>();
         (coefficient > TRACTION).then_some(ExceededLimit::GyroscopicSliding { coefficient })
+    }
+
+    /// The contact with the largest share of its ellipse beyond the shoulder of the groove.
+    fn shoulder(&self) -> Option<ExceededLimit> {
+        let contacts = self.balls.iter().flat_map(|ball| {
+            let margins = shoulder_margin(self.bearing, ball);
+            let loads = [ball.load, ball.outer_load];
+            [Race::Inner, Race::Outer].into_iter().zip(margins).zip(loads).filter(|(_, load)| *load > 0.0)
+        });
+        let worst = contacts
+            .map(|(contact, _)| contact)
+            .max_by(|(_, a), (_, b)| a.fraction_beyond.total_cmp(&b.fraction_beyond))?;
+        let (race, ShoulderMargin { ellipse_angle, shoulder_angle, fraction_beyond: share, .. }) = worst;
+        (share > 0.0).then_some(ExceededLimit::Shoulder { race, share, ellipse_angle, shoulder_angle })
     }
 }
 
@@ -205,6 +224,18 @@ impl Display for ExceededLimit {
                 "contact pressure {:.2} GPa above the 4.2 GPa of the static load rating (ISO 76): the races are \
                  dented, and the elastic contact is invalid",
                 1e-9 * pressure
+            ),
+            Self::Shoulder { race, share, ellipse_angle, shoulder_angle } => write!(
+                f,
+                "{:.0} % of a contact ellipse of the {} race lies beyond the shoulder of the groove: it reaches to \
+                 {:.1} deg, the shoulder is at {:.1} deg (inner_ and outer_shoulder_diameter); loads and pressures there are invalid",
+                100.0 * share,
+                match race {
+                    Race::Inner => "inner",
+                    Race::Outer => "outer",
+                },
+                ellipse_angle.to_degrees(),
+                shoulder_angle.to_degrees()
             ),
             Self::Film { film, roughness } => write!(
                 f,

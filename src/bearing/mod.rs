@@ -13,9 +13,11 @@ mod duplex;
 pub mod element;
 pub mod fit;
 mod force_kernel;
+pub mod friction;
 pub mod geometry;
 pub mod imperfections;
 mod inertial_ball;
+pub mod kinematics;
 pub mod life;
 pub mod limits;
 pub mod linear;
@@ -28,6 +30,7 @@ pub mod rating;
 mod ring_motion;
 mod root_finding;
 mod row;
+pub mod shoulder;
 mod spall;
 
 pub use ball::{BallElement, BallLoad};
@@ -35,14 +38,17 @@ pub use ball_bearing::{Arrangement, BallBearing, Cage, Duplex, Preload, Service}
 pub use ball_inertia::{BallInertia, InertiaDecision};
 pub use element::BearingElement;
 pub use fit::{Fit, FitMaterials};
+pub use friction::FrictionTorque;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfections::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Imperfections, OffSize, Shape, Surface, Wave,
 };
+pub use kinematics::{BallMotion, MountedGeometry};
 pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;
 pub use profile::{Deviation, Profile, ProfileState};
 pub use radial::{RadialBallBearing, RadialElement};
+pub use shoulder::{ShoulderMargin, shoulder_margin};
 
 /// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

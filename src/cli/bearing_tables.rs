@@ -5,6 +5,7 @@ use rotordyn::bearing::life::hours;
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};
 use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
+use super::ball_motion_tables as ball_motion;
 use super::equilibrium_loads::stated;
 use super::terminal::{Terminal, number, rpm, table};
 
@@ -76,6 +77,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
         ));
     }
     balls(terminal, point);
+    ball_motion::print(terminal, found);
     frequencies(terminal, found);
     life(terminal, found);
     let speed_dependent = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
@@ -102,6 +104,15 @@ fn fixed_decimals(value: f64, decimals: usize) -> String {
     }
 }
 
+/// Number of ball `j` from 1; in a pair with the number of its row.
+pub fn ball_number(point: &BearingPoint, j: usize) -> String {
+    let per_row = point.balls.iter().filter(|other| other.row == 0).count().max(1);
+    match point.balls.iter().any(|other| other.row > 0) {
+        true => format!("{}.{}", point.balls[j].row + 1, j % per_row + 1),
+        false => (j + 1).to_string(),
+    }
+}
+
 fn balls(terminal: &Terminal, point: &BearingPoint) {
     let with_film = point.minimum_film() > 0.0;
     let rows: Vec<Vec<String>> = point
@@ -111,12 +122,7 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
         .filter(|(_, ball)| ball.outer.load > 0.0)
         .map(|(j, ball)| {
             let (i, o) = (&ball.inner, &ball.outer);
-            let per_row = point.balls.iter().filter(|other| other.row == 0).count().max(1);
-            let number_of = match point.balls.iter().any(|other| other.row > 0) {
-                true => format!("{}.{}", ball.row + 1, j % per_row + 1),
-                false => (j + 1).to_string(),
-            };
-            let mut row = vec![number_of, format!("{:.1}", ball.position.to_degrees())];
+            let mut row = vec![ball_number(point, j), format!("{:.1}", ball.position.to_degrees())];
             row.extend([i, o].map(|c| number(c.load, 4)));
             row.extend([i, o].map(|c| format!("{:.2}", c.angle.to_degrees())));
             row.extend([i, o].map(|c| format!("{:.3}", 1e-9 * c.pressure)));

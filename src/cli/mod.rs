@@ -1,6 +1,7 @@
 //! Command-line interface: parses arguments, runs studies, prints tables, writes files, sets the exit code.
 
 mod args;
+mod ball_motion_tables;
 mod bearing;
 mod bearing_tables;
 mod catalogue;

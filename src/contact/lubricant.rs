@@ -81,7 +81,10 @@ impl Lubricant {
     }
 
     /// Roelands' reference pressure p_r \[Pa\].
-    const ROELANDS_PRESSURE: f64 = 1.96e8;
+    pub(super) const ROELANDS_PRESSURE: f64 = 1.96e8;
+
+    /// ln η₀ + this is ln(η₀/η_p), η_p = 6.315e-5 Pa s.
+    pub(super) const ROELANDS_LOG_VISCOSITY: f64 = 9.67;
 
     /// Roelands' exponent z = α p_r / (ln η₀ + 9.67), η₀ in Pa s.
     pub fn roelands_exponent(&self) -> f64 {

@@ -127,7 +127,7 @@ impl BallContacts {
             Law::Power(spring) => SpeedContacts::Power { pair: &self.hertz, spring },
             Law::Ehl(law) => match &law.tables {
                 Some(tables) if speed > 0.0 => {
-                    let pair = law.at_speed(tables, &self.hertz, speed * law.speed_factor);
+                    let pair = law.at_speed(tables, speed * law.speed_factor);
                     SpeedContacts::Ehl(Box::new(pair))
                 }
                 _ => SpeedContacts::Hertz(&self.hertz),

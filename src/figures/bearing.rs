@@ -5,7 +5,9 @@ use super::display_unit::unit;
 use super::{Named, TO_RPM};
 use crate::linalg::piecewise_within;
 use crate::model::study::SweepVariable;
-use crate::plot::{BallLoads, BallRow, Curve, Figure, FilmMap, Grid, GridPanel, Lines};
+use crate::plot::{
+    BallLoads, BallRow, BearingSection, Curve, Figure, FilmMap, Grid, GridPanel, GrooveSection, Lines,
+};
 use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState, EhlFilm};
 
 /// Cross-coupling stiffnesses below this fraction of √(k_ii k_jj) at all points are not drawn.
@@ -27,6 +29,7 @@ pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
         (name("ball_loads"), Figure::BallLoads(ball_loads(found, &note))),
         (name("contact_angles"), Figure::Lines(contact_angles(found, &note))),
     ];
+    figures.extend(section(found, &note).map(|section| (name("section"), Figure::BearingSection(section))));
     for sweep in found.sweeps.iter().filter(|sweep| sweep.points.len() > 1) {
         let over = sweep.of.name();
         for (what, grid) in [
@@ -95,6 +98,7 @@ fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
             note: format!("maximum contact pressure {:.2} GPa", 1e-9 * most),
             angle_deg: side.balls.iter().map(|(b, _)| b.position.to_degrees()).collect(),
             load: side.balls.iter().map(|(_, c)| c.load).collect(),
+            radial_load: [found.point.state.load[0], found.point.state.load[1]],
             title: side.name,
         }
     };
@@ -122,6 +126,20 @@ fn contact_angles(found: &BearingResult, note: &str) -> Lines {
         curves = curves.into_iter().step_by(2).collect();
         curves.iter_mut().for_each(|c| c.label = c.label.replace("inner race", "both races"));
     }
+    let angle = found.bearing.geometry.contact_angle;
+    let nominal = match found.bearing.duplex {
+        // Rows of a pair in opposite directions have their own signs.
+        Some(_) => vec![angle, -angle],
+        None => vec![angle * found.bearing.geometry.thrust_direction],
+    };
+    for (k, angle) in nominal.iter().enumerate().filter(|(k, angle)| *k == 0 || **angle != 0.0) {
+        curves.push(Curve {
+            x: vec![-180.0, 180.0],
+            y: vec![angle.to_degrees(); 2],
+            label: if k == 0 { "nominal contact angle".into() } else { "of the other direction".into() },
+            ..Curve::default()
+        });
+    }
     Lines {
         title: format!("Contact angles of the loaded balls of bearing {}", found.name),
         note: note.into(),
@@ -133,6 +151,55 @@ fn contact_angles(found: &BearingResult, note: &str) -> Lines {
         x_range: Some([-180.0, 180.0]),
         ..Lines::default()
     }
+}
+
+/// Section through the most heavily loaded ball; none without load.
+fn section(found: &BearingResult, note: &str) -> Option<BearingSection> {
+    let g = &found.bearing.geometry;
+    let load = |b: &BallState| b.inner.load.max(b.outer.load);
+    let ball =
+        found.point.balls.iter().max_by(|a, b| load(a).total_cmp(&load(b))).filter(|b| load(b) > 0.0)?;
+    let groove = |contact: &ContactState, radius: f64, diameter: f64| GrooveSection {
+        radius: 1e3 * radius,
+        contact_angle: contact.angle,
+        half_ellipse: contact.semi_major / radius,
+        shoulder_angle: contact.shoulder.shoulder_angle,
+        load: contact.load,
+        ring_edge: 0.5e3 * (diameter - g.pitch_diameter),
+    };
+    let line = |race: &str, c: &ContactState| {
+        let beyond = match c.shoulder.fraction_beyond > 0.0 {
+            true => format!(", {:.0} % of it beyond the shoulder", 100.0 * c.shoulder.fraction_beyond),
+            false => String::new(),
+        };
+        format!(
+            "{race} race: {:.0} N at {:.2}°, ellipse to {:.1}°, shoulder at {:.1}°, distance {:.3} mm{beyond}",
+            c.load,
+            c.angle.to_degrees(),
+            c.shoulder.ellipse_angle.to_degrees(),
+            c.shoulder.shoulder_angle.to_degrees(),
+            1e3 * c.shoulder.arc
+        )
+    };
+    let free = found.point.mounted.free_contact_angle.to_degrees();
+    Some(BearingSection {
+        title: format!("Most heavily loaded ball of bearing {} in its grooves", found.name),
+        note: note.into(),
+        lines: vec![
+            line("inner", &ball.inner),
+            line("outer", &ball.outer),
+            format!(
+                "nominal contact angle {:.2}°, free contact angle as mounted {free:.2}°, ball at {:.1}° from x to y",
+                g.contact_angle.to_degrees(),
+                ball.position.to_degrees()
+            ),
+        ],
+        ball_diameter: 1e3 * g.ball_diameter,
+        width: 1e3 * g.width,
+        nominal_angle: g.contact_angle.copysign(ball.outer.angle),
+        inner: groove(&ball.inner, g.inner_groove_radius, g.bore),
+        outer: groove(&ball.outer, g.outer_groove_radius, g.outside_diameter),
+    })
 }
 
 /// A grid over a sweep, without panels.
@@ -293,6 +360,16 @@ fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
         panel("contact pressure", "GPa", true, of_most_loaded_ball(|c| 1e-9 * c.pressure)),
         panel("loaded balls", "–", true, vec![curve(sweep, |p| p.loaded() as f64)]),
     ];
+    if sweep.points.iter().any(|p| p.state.condition.speed != 0.0) {
+        panels.push(panel("spin-to-roll ratio", "–", true, of_most_loaded_ball(|c| c.spin_to_roll)));
+        panels.push(panel(
+            "p v by sliding",
+            "MW/m²",
+            true,
+            of_most_loaded_ball(|c| 1e-6 * c.pressure_velocity),
+        ));
+        panels.push(panel("friction torque", "N·m", true, vec![curve(sweep, |p| p.friction.total())]));
+    }
     if sweep.points.iter().any(|p| p.minimum_film() > 0.0) {
         panels.push(panel("central film", "µm", true, of_most_loaded_ball(|c| 1e6 * c.film)));
         panels.push(panel("minimum film", "µm", true, of_most_loaded_ball(|c| 1e6 * c.minimum_film)));

@@ -244,6 +244,8 @@ pub fn equilibrium(found: &Equilibrium, machine: &Machine) -> Vec<Named> {
             note: format!("force on the shaft: x {} N, y {} N, z {} N", x + 0.0, y + 0.0, z + 0.0),
             angle_deg: balls().map(|b| b.position.to_degrees()).collect(),
             load: balls().map(|b| b.load).collect(),
+            // The shaft loads the inner ring with the opposite of the force on it.
+            radial_load: [-bearing.force[0], -bearing.force[1]],
         }
     };
     // Every row of a pair has its own panel.

@@ -3,10 +3,13 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde::{Deserialize, Serialize};
 
 use crate::bearing::BallBearing;
 use crate::contact::ContactLaw;
-use crate::contact::ehl::{EhlError, Solution, Table, TableSpec};
+use crate::contact::ehl::{EhlError, Films, Solution, SolvedContacts, Table, TableSpec};
 use crate::error::{Error, PhysicsError};
 use crate::io::csv::{self, Column};
 
@@ -19,7 +22,7 @@ pub fn cache_folder() -> Option<PathBuf> {
 }
 
 /// Computes the tables of a bearing with an EHL film, or reads them from `cache`; other bearings are
-/// unchanged.
+/// unchanged. Every contact that is solved is kept in `cache` at once: an interrupted table continues where it was.
 ///
 /// `progress(race, done, total)` is called after every contact that is solved, from any thread.
 ///
@@ -43,10 +46,17 @@ pub fn load_or_compute(
         if let Some(known) = cache.and_then(|folder| read(folder, &spec.key())) {
             return Ok(known);
         }
-        let found = spec.compute(|done, total| progress(race, done, total));
+        let count = |done, total| progress(race, done, total);
+        let found = match cache {
+            Some(folder) => spec.compute_with(&ContactFolder(folder), count),
+            None => spec.compute(count),
+        };
         let table = found.map_err(|failure| film_error(name, race, &failure, last))?;
         if let Some(folder) = cache {
-            write(folder, &table);
+            if write(folder, &table) {
+                spec.contact_keys()
+                    .for_each(|key| _ = std::fs::remove_file(cache_file(folder, "contact", &key)));
+            }
         }
         Ok(table)
     };
@@ -89,30 +99,60 @@ pub fn write_fields(fields: &Solution, path: &Path) -> Result<(), Error> {
     )
 }
 
-fn cache_file(folder: &Path, key: &str) -> PathBuf {
+fn cache_file(folder: &Path, kind: &str, key: &str) -> PathBuf {
     // FNV-1a hash: short and stable; the key inside the file is decisive.
     let hash = key.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     });
-    folder.join(format!("film-{hash:016x}.json"))
+    folder.join(format!("{kind}-{hash:016x}.json"))
 }
 
 /// Reads the table of a key from the cache; `None` if missing or damaged.
 fn read(folder: &Path, key: &str) -> Option<Table> {
-    let text = std::fs::read(cache_file(folder, key)).ok()?;
+    let text = std::fs::read(cache_file(folder, "film", key)).ok()?;
     let table: Table = serde_json::from_slice(&text).ok()?;
     (table.key == key).then_some(table)
 }
 
-/// Writes a temporary file and renames it (atomic), so that no reader sees an incomplete table.
-fn write(folder: &Path, table: &Table) {
-    let path = cache_file(folder, &table.key);
-    let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
+/// Whether the table could be written.
+fn write(folder: &Path, table: &Table) -> bool {
+    write_whole(folder, &cache_file(folder, "film", &table.key), table)
+}
+
+/// Writes a temporary file and renames it (atomic), so that no reader sees an incomplete file; whether it was written.
+fn write_whole(folder: &Path, path: &Path, content: &impl serde::Serialize) -> bool {
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let temporary = path.with_extension(format!("{}-{number}.tmp", std::process::id()));
     let written = std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&temporary, serde_json::to_vec(table).unwrap_or_default()))
-        .and_then(|()| std::fs::rename(&temporary, &path));
+        .and_then(|()| serde_json::to_vec(content).map_err(std::io::Error::other))
+        .and_then(|text| std::fs::write(&temporary, text))
+        .and_then(|()| std::fs::rename(&temporary, path));
     if written.is_err() {
         let _ = std::fs::remove_file(&temporary);
+    }
+    written.is_ok()
+}
+
+/// Solved contacts of unfinished tables: one small file each.
+struct ContactFolder<'a>(&'a Path);
+
+#[derive(Serialize, Deserialize)]
+struct SolvedContact {
+    key: String,
+    films: Films,
+}
+
+impl SolvedContacts for ContactFolder<'_> {
+    fn find(&self, key: &str) -> Option<Films> {
+        let text = std::fs::read(cache_file(self.0, "contact", key)).ok()?;
+        let contact: SolvedContact = serde_json::from_slice(&text).ok()?;
+        (contact.key == key).then_some(contact.films)
+    }
+
+    fn keep(&self, key: &str, films: &Films) {
+        let contact = SolvedContact { key: key.into(), films: *films };
+        write_whole(self.0, &cache_file(self.0, "contact", key), &contact);
     }
 }
 
@@ -172,12 +212,75 @@ mod tests {
             speeds: vec![0.1],
             shift: vec![vec![1.0e-6 / 3.0, 2.0e-7]],
             central_film: vec![vec![3.0e-7, 0.1 + 0.2]],
+            minimum_film: vec![vec![2.0e-7, 0.1 + 0.7]],
         };
-        write(folder.path(), &table);
+        assert!(write(folder.path(), &table));
         assert_eq!(read(folder.path(), &table.key), Some(table.clone()));
         assert_eq!(read(folder.path(), "ehl table 1; other"), None);
-        let renamed = cache_file(folder.path(), "another");
-        std::fs::rename(cache_file(folder.path(), &table.key), &renamed).unwrap();
+        let renamed = cache_file(folder.path(), "film", "another");
+        std::fs::rename(cache_file(folder.path(), "film", &table.key), &renamed).unwrap();
         assert_eq!(read(folder.path(), "another"), None);
+    }
+
+    /// A table that stops after some contacts finds them again: only the others are solved.
+    #[test]
+    fn interrupted_table_continues_where_it_was() {
+        let steel = crate::material::Material {
+            name: "steel".into(),
+            young: 2.06e11,
+            shear: 8e10,
+            poisson: 0.3,
+            density: 7850.0,
+        };
+        let spec = TableSpec {
+            contact: EllipticContact::new(200.0, 30.0, [&steel, &steel]),
+            lubricant: Lubricant {
+                name: "oil".into(),
+                viscosity: 0.04,
+                pressure_viscosity: 2.2e-8,
+                density: 870.0,
+            },
+            loads: vec![5.0, 20.0],
+            speeds: vec![2.0, 4.0],
+            points: 2,
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let contacts = || {
+            let files = std::fs::read_dir(folder.path()).unwrap().map(|f| f.unwrap().file_name());
+            files.filter(|f| f.to_string_lossy().starts_with("contact-")).count()
+        };
+        // Stopped like a process that is killed, while the second contact is counted.
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let stopped = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            one.install(|| spec.compute_with(&ContactFolder(folder.path()), |done, _| assert!(done < 2)))
+        }));
+        assert!(stopped.is_err());
+        let kept = contacts();
+        assert!((2..4).contains(&kept), "{kept}");
+        struct Counted<'a>(ContactFolder<'a>, AtomicUsize);
+        impl SolvedContacts for Counted<'_> {
+            fn find(&self, key: &str) -> Option<Films> {
+                self.0.find(key)
+            }
+            fn keep(&self, key: &str, films: &Films) {
+                self.1.fetch_add(1, Ordering::Relaxed);
+                self.0.keep(key, films);
+            }
+        }
+        let rest = Counted(ContactFolder(folder.path()), AtomicUsize::new(0));
+        let table = spec.compute_with(&rest, |_, _| ()).unwrap();
+        assert_eq!(rest.1.load(Ordering::Relaxed), 4 - kept);
+        assert_eq!(contacts(), 4);
+        let direct = spec.compute(|_, _| ()).unwrap();
+        for (found, wanted) in table.minimum_film.iter().flatten().zip(direct.minimum_film.iter().flatten()) {
+            assert!((found / wanted - 1.0).abs() < 1e-4, "{found:e} {wanted:e}");
+        }
+        // A damaged file is solved again.
+        for file in std::fs::read_dir(folder.path()).unwrap() {
+            std::fs::write(file.unwrap().path(), "{").unwrap();
+        }
+        let again = Counted(ContactFolder(folder.path()), AtomicUsize::new(0));
+        assert_eq!(spec.compute_with(&again, |_, _| ()).unwrap(), direct);
+        assert_eq!(again.1.load(Ordering::Relaxed), 4);
     }
 }

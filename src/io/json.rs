@@ -22,7 +22,7 @@
 //! | `poincare` | `speed_rpm`, `clock` {name, phase, frequency_hz}, `motion` {kind, period, recurrence, zero_one: 0-1 test for chaos, settled, residual: estimated distance from the motion it tends to relative to the orbit, decay_factor: per period}, `transient_periods`: periods discarded, `groups`, `planes` \[{name, axes, section: \[x, y\], orbit: extremes of x and y, whirl, clearance}\] |
 //! | `lyapunov` | largest Lyapunov exponent: `speed_rpm`, `clock`, `exponent` {value, standard_error} in 1/s, `time_s`, `history` |
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, transient_periods, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
-//! | `bearings` | per stand-alone ball bearing {name, load_source, estimated_geometry: if the internal geometry is estimated, how, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films; all in SI, speeds in rad/s |
+//! | `bearings` | per stand-alone ball bearing {name, load_source, estimated_geometry: if the internal geometry is estimated, how, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films, spinning, shoulder distances, and the motion of the ball (`controlling_race` 0 inner, 1 outer); all in SI, speeds in rad/s |
 //! | `ball_inertia` | per study and bearing {study, bearing, stated, used, speed_rpm, centrifugal_force_n, largest_contact_load_n, ratio, limit}: ball inertia used at the highest speed, and why; one entry in `bearings` |
 //! | `warnings` | messages |
 //! | `seconds`, `wall_seconds`, `cpu_seconds` | per study: elapsed time (twice, `seconds` is the former name) and processor time of all threads |
@@ -206,7 +206,13 @@ fn point(p: &BearingPoint) -> Value {
             ContactState::COLUMNS.iter().map(|(name, _, value)| ((*name).to_string(), json!(value(c))));
         Value::Object(values.collect())
     };
-    let ball = |b: &BallState| json!({ "row": b.row, "position": b.position, "inner": contact(&b.inner), "outer": contact(&b.outer) });
+    let ball = |b: &BallState| {
+        let mut out = json!({ "row": b.row, "position": b.position, "inner": contact(&b.inner), "outer": contact(&b.outer) });
+        for (name, _, value) in BallState::COLUMNS.iter().filter(|(_, _, value)| !value(b).is_nan()) {
+            out[*name] = json!(value(b));
+        }
+        out
+    };
     let mut out = json!({
         "load": p.state.load, "displacement": p.state.displacement, "stiffness": p.state.stiffness,
         "balls": p.balls.iter().map(ball).collect::<Value>(),

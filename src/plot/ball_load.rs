@@ -22,6 +22,8 @@ pub struct BallRow {
     pub angle_deg: Vec<f64>,
     /// Contact loads \[N\].
     pub load: Vec<f64>,
+    /// Radial load on the inner ring along x and y \[N\], drawn as an arrow; none if zero.
+    pub radial_load: [f64; 2],
 }
 
 /// Data of a load distribution figure.
@@ -68,6 +70,7 @@ fn panel(svg: &mut Svg, row: &BallRow, frame: Frame, largest: f64) {
     svg.circle(center, inner, Style::stroke(MUTED, 0.9).filled(STEEL));
     svg.circle(center, inner - 14.0, Style::stroke(MUTED, 0.9).filled(WHITE));
     direction_arrows(svg, center);
+    load_arrow(svg, center, row.radial_load, inner - 14.0);
     let labelled = count <= 24;
     for (angle, load) in row.angle_deg.iter().zip(&row.load).take(MAX_BALLS) {
         let (sin, cos) = angle.to_radians().sin_cos();
@@ -108,4 +111,19 @@ fn direction_arrows(svg: &mut Svg, at: Point) {
         let place = [at[0] + 27.0 * way[0], at[1] + 27.0 * way[1] + 3.0];
         svg.text(place, name, Text::new(SMALL, MUTED).middle());
     }
+}
+
+/// Direction of the radial load, from the bearing centre; beyond the names of the axes if it points to one of them.
+fn load_arrow(svg: &mut Svg, center: Point, [x, y]: [f64; 2], radius: f64) {
+    let size = x.hypot(y);
+    if !(size > 0.0 && size.is_finite()) {
+        return;
+    }
+    let at = |r: f64| [center[0] + r * x / size, center[1] - r * y / size];
+    let start = if x.max(y) > 0.8 * size { 35.0 } else { 0.0 };
+    svg.arrow(at(start), at(0.97 * radius), 8.0, RED, 2.0);
+    // Beside the arrow, away from the names of the axes.
+    let side = if x * y < 0.0 { [-1.0, -1.0] } else { [-1.0, 1.0] };
+    let label = [center[0] + 0.3 * radius * side[0] - 4.0, center[1] - 0.3 * radius * side[1]];
+    svg.text(label, "F", Text::new(LABEL, RED).end().halo());
 }

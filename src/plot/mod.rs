@@ -22,6 +22,7 @@ mod style;
 pub mod svg;
 
 mod ball_load;
+mod bearing_section;
 mod bifurcation;
 mod bode;
 mod campbell;
@@ -58,6 +59,7 @@ use resvg::{tiny_skia, usvg};
 use crate::error::Error;
 
 pub use ball_load::{BallLoads, BallRow};
+pub use bearing_section::{BearingSection, GrooveSection};
 pub use bifurcation::{Bifurcation, SweepPoints};
 pub use bode::{Bode, BodeCurve};
 pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
@@ -103,6 +105,7 @@ pub enum Figure {
     PhasePlanes(PhasePlanes),
     Bifurcation(Bifurcation),
     BallLoads(BallLoads),
+    BearingSection(BearingSection),
     Deflection(Deflection),
     History(History),
     Lines(Lines),
@@ -139,6 +142,7 @@ impl Figure {
             Figure::CursorLines(data) => cursor_spectrum::draw(data),
             Figure::HeatMap(data) => heat_map::draw(data),
             Figure::FilmMap(data) => film_map::draw(data),
+            Figure::BearingSection(data) => bearing_section::draw(data),
             Figure::Matrix(data) => matrix::draw(data),
             Figure::MachineLayout(data) => machine_layout::draw(data),
             Figure::Stabilisation(data) => stabilisation::draw(data),

@@ -4,7 +4,11 @@ use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
 use crate::bearing::rating::LoadRating;
-use crate::bearing::{BallBearing, CharacteristicOrders, PreloadState};
+use crate::bearing::{
+    BallBearing, BallMotion, CharacteristicOrders, FrictionTorque, MountedGeometry, PreloadState,
+    ShoulderMargin,
+};
+use crate::contact::Race;
 use crate::contact::ehl::Solution;
 use crate::model::study::SweepVariable;
 
@@ -65,6 +69,10 @@ pub struct BearingPoint {
     pub life: BearingLife,
     /// Smallest film over the composite roughness; 0 without film, infinite without load.
     pub film_ratio: f64,
+    /// Friction torque, and the power lost by it.
+    pub friction: FrictionTorque,
+    /// Clearance and free contact angle as mounted, at this speed.
+    pub mounted: MountedGeometry,
 }
 
 /// Rating lives \[10⁶ revolutions\], at 90 % reliability except the modified life; NaN where the standard
@@ -107,6 +115,29 @@ pub struct BallState {
     pub position: f64,
     pub inner: ContactState,
     pub outer: ContactState,
+    /// Orbital motion, spin axis and sliding.
+    pub motion: BallMotion,
+    /// Advance of the ball against its place in the cage \[rad\].
+    pub advance: f64,
+}
+
+impl BallState {
+    /// Every value of the ball's motion with its name in files.
+    pub const COLUMNS: [Column<Self>; 8] = [
+        ("orbital_speed", "rad/s", |b| b.motion.orbital_speed),
+        ("ball_speed", "rad/s", |b| b.motion.ball_speed),
+        ("ball_velocity_axial", "rad/s", |b| b.motion.ball_velocity[0]),
+        ("ball_velocity_radial", "rad/s", |b| b.motion.ball_velocity[1]),
+        ("pitch_angle", "rad", |b| b.motion.pitch_angle),
+        ("race_control_ratio", "1", |b| b.motion.control_ratio),
+        // 0 inner, 1 outer race; none without load.
+        ("controlling_race", "1", |b| match b.motion.control {
+            Some(Race::Inner) => 0.0,
+            Some(Race::Outer) => 1.0,
+            None => f64::NAN,
+        }),
+        ("ball_advance", "rad", |b| b.advance),
+    ];
 }
 
 /// One contact of a ball.
@@ -124,6 +155,15 @@ pub struct ContactState {
     /// Central and minimum film thickness \[m\]; 0 where dry or unloaded.
     pub film: f64,
     pub minimum_film: f64,
+    /// Spin speed about the contact normal \[rad/s\], its ratio to the rolling speed, and the friction moment of
+    /// spinning \[N m\].
+    pub spin: f64,
+    pub spin_to_roll: f64,
+    pub spin_moment: f64,
+    /// Largest pressure times sliding speed \[W/m²\].
+    pub pressure_velocity: f64,
+    /// Contact ellipse and shoulder of the groove.
+    pub shoulder: ShoulderMargin,
 }
 
 /// A named value of a record type, with its SI unit, for tables and files.
@@ -131,7 +171,7 @@ pub type Column<T> = (&'static str, &'static str, fn(&T) -> f64);
 
 impl ContactState {
     /// Every value with its name in files.
-    pub const COLUMNS: [Column<Self>; 7] = [
+    pub const COLUMNS: [Column<Self>; 15] = [
         ("load", "N", |c| c.load),
         ("contact_angle", "rad", |c| c.angle),
         ("semi_major", "m", |c| c.semi_major),
@@ -139,12 +179,20 @@ impl ContactState {
         ("pressure", "Pa", |c| c.pressure),
         ("film", "m", |c| c.film),
         ("minimum_film", "m", |c| c.minimum_film),
+        ("spin_speed", "rad/s", |c| c.spin),
+        ("spin_to_roll", "1", |c| c.spin_to_roll),
+        ("spin_moment", "N m", |c| c.spin_moment),
+        ("pressure_velocity", "W/m2", |c| c.pressure_velocity),
+        ("ellipse_edge_angle", "rad", |c| c.shoulder.ellipse_angle),
+        ("shoulder_angle", "rad", |c| c.shoulder.shoulder_angle),
+        ("shoulder_distance", "m", |c| c.shoulder.arc),
+        ("fraction_beyond_shoulder", "1", |c| c.shoulder.fraction_beyond),
     ];
 }
 
 impl BearingPoint {
     /// Every scalar with its name in files.
-    pub const COLUMNS: [Column<Self>; 31] = [
+    pub const COLUMNS: [Column<Self>; 39] = [
         ("speed", "rad/s", |p| p.state.condition.speed),
         ("cage_angle", "rad", |p| p.state.condition.cage_angle),
         ("radial_stiffness", "N/m", |p| p.radial_stiffness[0]),
@@ -176,6 +224,14 @@ impl BearingPoint {
         ("bpfo", "1/revolution", |p| p.orders.bpfo),
         ("bpfi", "1/revolution", |p| p.orders.bpfi),
         ("bsf", "1/revolution", |p| p.orders.bsf),
+        ("friction_torque", "N m", |p| p.friction.total()),
+        ("friction_torque_load", "N m", |p| p.friction.load),
+        ("friction_torque_viscous", "N m", |p| p.friction.viscous),
+        ("friction_torque_spin", "N m", |p| p.friction.spin),
+        ("friction_heat", "W", |p| p.friction.heat),
+        ("mounted_radial_clearance", "m", |p| p.mounted.radial_clearance),
+        ("mounted_axial_clearance", "m", |p| p.mounted.axial_clearance),
+        ("free_contact_angle", "rad", |p| p.mounted.free_contact_angle),
     ];
 
     /// Largest load of a contact \[N\].

@@ -3,17 +3,18 @@
 mod inertia;
 mod limits;
 
+use super::ball_states::{ball_states, friction_torque};
 use super::bearing_life::BearingRating;
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::analysis::preload::MountedPreload;
 use crate::bearing::rating::LoadRating;
-use crate::bearing::{BallBearing, BallLoad, Bearing, Preload, PreloadState};
-use crate::contact::{BallContacts, ContactLaw, EllipticContact, Race};
+use crate::bearing::{BallBearing, Bearing, Preload, PreloadState, kinematics};
+use crate::contact::{BallContacts, ContactLaw};
 use crate::error::Error;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
-use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult, ContactState};
+use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
@@ -335,38 +336,13 @@ impl<'a> SingleBearingStudy<'a> {
 
     /// Contacts, stiffness, orders and life at an equilibrium.
     fn point(&self, state: BearingEquilibrium) -> BearingPoint {
-        let g = &self.bearing.geometry;
-        let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
-        let entrainment = 0.25 * g.pitch_diameter * (1.0 - gamma * gamma) * state.condition.speed.abs();
-        let contacts = self.contacts.at_speed(entrainment);
-        let pair = &self.contacts.hertz;
-        let ball = |ball: &BallLoad| {
-            let contact = |race, hertz: &EllipticContact, load: f64, angle| match load > 0.0 {
-                true => {
-                    let patch = hertz.patch(load);
-                    ContactState {
-                        load,
-                        angle,
-                        semi_major: patch.semi_major,
-                        semi_minor: patch.semi_minor,
-                        pressure: patch.maximum_pressure,
-                        film: contacts.film(race, load),
-                        minimum_film: contacts.minimum_film(race, load),
-                    }
-                }
-                false => ContactState { angle, ..ContactState::default() },
-            };
-            BallState {
-                row: ball.row,
-                position: ball.position,
-                inner: contact(Race::Inner, &pair.inner, ball.load, ball.contact_angle),
-                outer: contact(Race::Outer, &pair.outer, ball.outer_load, ball.outer_contact_angle),
-            }
-        };
+        let speed = state.condition.speed;
         let loads = self.solver.ball_loads(&state);
-        let balls: Vec<BallState> = loads.iter().map(ball).collect();
-        let [x, y, ..] = state.load;
+        let balls = ball_states(self.bearing, &self.contacts, &loads, speed);
+        let [x, y, z, ..] = state.load;
         let radial = x.hypot(y);
+        let static_rating = self.rating().static_rating;
+        let friction = friction_torque(self.bearing, static_rating, [radial, z], speed, &balls);
         let along =
             if radial > 0.0 { [x / radial, y / radial, 0.0, 0.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0, 0.0] };
         let axis = [0.0, 0.0, 1.0, 0.0, 0.0];
@@ -378,6 +354,8 @@ impl<'a> SingleBearingStudy<'a> {
             preload_force: self.preload(state.condition.speed).axial_force,
             life: self.rating.life(&state, &loads),
             film_ratio: 0.0,
+            friction,
+            mounted: kinematics::mounted_geometry(self.bearing, speed),
             balls,
             state,
         };

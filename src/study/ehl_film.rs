@@ -2,14 +2,17 @@
 
 use crate::bearing::BallBearing;
 use crate::contact::ContactLaw;
+use crate::contact::ehl::similarity::{MIN_SOLVED_FILM, SimilarContact};
 use crate::contact::ehl::{self, Grid, Problem};
 use crate::results::{BearingPoint, EhlFilm, PickContact};
 
 /// Grid resolution, see [`Grid::flooded`].
-const GRID_POINTS: usize = 8;
+const GRID_POINTS: usize = 5;
 
-/// EHL solution of the most heavily loaded ball at both races, for a bearing with the EHL contact law;
-/// failure to converge is a warning.
+/// EHL solution of the most heavily loaded ball at both races, for a bearing with the EHL contact law.
+///
+/// Thickness, approach and rolling resistance are extrapolated to zero mesh width, like those of the tables. Failure to
+/// converge, and a film too thin for the grid, are warnings.
 pub(super) fn ehl_films(
     name: &str,
     bearing: &BallBearing,
@@ -32,8 +35,17 @@ pub(super) fn ehl_films(
         }
         let grid = Grid::flooded(&contact, &law.lubricant, speed, load, GRID_POINTS);
         let problem = Problem { contact, lubricant: law.lubricant.clone(), speed, load, grid };
-        match ehl::solve(&problem, None) {
-            Ok(solution) => found.push(EhlFilm { race, load, speed, solution }),
+        let thickness = SimilarContact::new(&contact, &law.lubricant, speed, load).film;
+        if thickness < MIN_SOLVED_FILM {
+            warnings.push(format!(
+                "bearing {name}, {race} race: the film under {load:.4} N at {speed:.4} m/s is too thin for its pressure \
+                 to be solved ({thickness:.4} of the contact's depth b²/R, solved from {MIN_SOLVED_FILM}): its thickness is \
+                 extrapolated from higher speeds"
+            ));
+            continue;
+        }
+        match ehl::extrapolate(&problem, None) {
+            Ok(limit) => found.push(EhlFilm { race, load, speed, solution: limit.solution() }),
             Err(failure) => warnings.push(format!("bearing {name}, {race} race: {failure}")),
         }
     }

@@ -1,5 +1,6 @@
 //! The studies: each computes results from a model, one method of [`Machine`] each.
 
+mod ball_states;
 mod bearing;
 mod bearing_life;
 mod bifurcation;

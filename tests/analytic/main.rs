@@ -5,6 +5,7 @@ mod bearing;
 #[path = "../common/machine.rs"]
 mod machine;
 
+mod ball_motion;
 mod belt;
 mod cage;
 mod effective_mass;

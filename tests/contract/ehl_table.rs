@@ -190,6 +190,7 @@ pub fn tabulated(hertz: &HertzPair) -> ContactLaw {
             speeds: spec.speeds.clone(),
             shift: film(1.07),
             central_film: film(1.0),
+            minimum_film: film(0.8),
         }
     });
     law.tables = Some(Arc::new(tables));

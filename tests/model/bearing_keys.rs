@@ -126,3 +126,26 @@ fn moment_arm_and_service() {
     assert_eq!(film.lubricant().map(|oil| oil.name.as_str()), Some("graded"));
     assert_eq!(bearing("thrust = \"+z\"").lubricant(), None);
 }
+
+/// Shoulder diameters of both races, and the range they must have.
+#[test]
+fn shoulder_diameters() {
+    let with = |line: &str| bearing(&format!("thrust = \"+z\"\n{line}"));
+    assert_eq!(with("").service.shoulder_diameters, [None; 2]);
+    let given = with("inner_shoulder_diameter = \"42.5 mm\"\nouter_shoulder_diameter = \"51 mm\"");
+    assert_eq!(given.service.shoulder_diameters, [Some(0.0425), Some(0.051)]);
+    for (line, valid) in [
+        ("inner_shoulder_diameter = \"30 mm\"", false),
+        ("inner_shoulder_diameter = \"47 mm\"", false),
+        ("inner_shoulder_diameter = \"40 mm\"", true),
+        ("outer_shoulder_diameter = \"45 mm\"", false),
+        ("outer_shoulder_diameter = \"70 mm\"", false),
+        ("outer_shoulder_diameter = \"52 mm\"", true),
+    ] {
+        let text = format!(
+            "[model]\nname = \"b\"\n[bearing.b]\nmodel = \"ball\"\ndesignation = \"7206B\"\nthrust = \"+z\"\n{line}\n"
+        );
+        let read = model::load_bearings("b.toml", text, &Options::default());
+        assert_eq!(read.is_ok(), valid, "{line}");
+    }
+}

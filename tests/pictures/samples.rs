@@ -242,8 +242,29 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 note: name.clone(),
                 angle_deg: x.clone(),
                 load: y.clone(),
+                radial_load: [first(0), first(1)],
             }],
             ..Default::default()
+        }),
+        Figure::BearingSection(BearingSection {
+            title: name.clone(),
+            note: name.clone(),
+            lines: vec![name.clone()],
+            ball_diameter: first(0),
+            width: first(1),
+            nominal_angle: first(1),
+            inner: GrooveSection {
+                radius: first(0),
+                contact_angle: first(1),
+                half_ellipse: 0.1,
+                ..Default::default()
+            },
+            outer: GrooveSection {
+                load: first(0),
+                shoulder_angle: first(1),
+                ring_edge: first(0),
+                ..Default::default()
+            },
         }),
         Figure::Deflection(Deflection {
             title: name.clone(),

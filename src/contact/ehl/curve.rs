@@ -17,9 +17,10 @@ pub struct Curve {
 
 #[derive(Clone, Debug, PartialEq)]
 struct Film {
-    /// ln s and ln h_c over ln Q.
+    /// ln s, ln h_c and ln h_min over ln Q.
     shift: Pchip,
     central: Pchip,
+    minimum: Pchip,
     /// ln Q of the knots and ∫ Q ds up to them, from the first.
     knots: Vec<f64>,
     work: Vec<f64>,
@@ -27,8 +28,9 @@ struct Film {
     threshold: [f64; 4],
 }
 
-/// Exponent of the load in Hamrock and Dowson's central film.
+/// Exponents of the load in Hamrock and Dowson's central and minimum film.
 const LOAD_POWER: f64 = -0.067;
+const MINIMUM_LOAD_POWER: f64 = -0.073;
 
 /// Gauss-Legendre nodes and weights on \[−1, 1\].
 const GAUSS: [(f64, f64); 5] = [
@@ -48,8 +50,8 @@ impl Curve {
         Self { stiffness, film: None }
     }
 
-    /// Law from the logarithms of shift and central film at increasing loads.
-    pub(super) fn new(stiffness: f64, loads: &[f64], shift: &[f64], central: &[f64]) -> Self {
+    /// Law from the logarithms of shift, central and minimum film at increasing loads.
+    pub(super) fn new(stiffness: f64, loads: &[f64], [shift, central, minimum]: [&[f64]; 3]) -> Self {
         // Two extra knots on either side on the power law, for a smooth transition to it.
         let step = 0.5 * std::f64::consts::LN_10;
         let inside: Vec<f64> = loads.iter().map(|q| q.ln()).collect();
@@ -62,11 +64,14 @@ impl Curve {
             all
         };
         let knots = extend(&inside, 1.0);
-        let pchip = |values: &[f64]| Pchip::new(&knots, &extend(values, LOAD_POWER));
-        let (Some(shift), Some(central)) = (pchip(shift), pchip(central)) else {
+        let pchip = |values: &[f64], power: f64| Pchip::new(&knots, &extend(values, power));
+        let (Some(shift), Some(central), Some(minimum)) =
+            (pchip(shift, LOAD_POWER), pchip(central, LOAD_POWER), pchip(minimum, MINIMUM_LOAD_POWER))
+        else {
             return Self::dry(stiffness);
         };
-        let mut film = Film { shift, central, work: vec![0.0; knots.len()], knots, threshold: [0.0; 4] };
+        let mut film =
+            Film { shift, central, minimum, work: vec![0.0; knots.len()], knots, threshold: [0.0; 4] };
         for k in 1..film.knots.len() {
             film.work[k] = film.work[k - 1] + film.gauss(film.knots[k - 1], film.knots[k]);
         }
@@ -98,7 +103,8 @@ impl Curve {
                 .collect()
         };
         let loads: Vec<f64> = knots.iter().map(|t| t.exp()).collect();
-        Self::new(stiffness, &loads, &sum(|film| &film.shift), &sum(|film| &film.central))
+        let films = [sum(|film| &film.shift), sum(|film| &film.central), sum(|film| &film.minimum)];
+        Self::new(stiffness, &loads, films.each_ref().map(Vec::as_slice))
     }
 
     /// Approach δ \[m\] and its slope dδ/dQ \[m/N\] at a load Q > 0 \[N\].
@@ -111,6 +117,11 @@ impl Curve {
     /// Central film h_c \[m\] under a load Q > 0 \[N\]; 0 when dry.
     pub fn central_film(&self, load: f64) -> f64 {
         self.film.as_ref().map_or(0.0, |film| film.central.evaluate(load.max(Self::THRESHOLD).ln())[0].exp())
+    }
+
+    /// Minimum film h_min \[m\] under a load Q > 0 \[N\]; 0 when dry.
+    pub fn minimum_film(&self, load: f64) -> f64 {
+        self.film.as_ref().map_or(0.0, |film| film.minimum.evaluate(load.max(Self::THRESHOLD).ln())[0].exp())
     }
 
     /// Film thickness s(0) at zero load \[m\]: no load for δ ≤ −s(0).

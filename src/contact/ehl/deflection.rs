@@ -13,7 +13,7 @@ use super::scaled::Scaled;
 use crate::linalg::fft_length;
 
 /// Columns on either side kept in real space, for the preconditioner.
-pub(super) const PRECONDITIONER_COLUMNS: usize = 2;
+pub(super) const PRECONDITIONER_COLUMNS: usize = 1;
 
 /// The operator from pressure P to deflection, both on the half domain, index i·ny + j.
 pub(super) struct Deflection {
@@ -40,12 +40,11 @@ struct Work {
 impl Deflection {
     pub(super) fn new(s: &Scaled) -> Self {
         let (nx, ny) = (s.nx, s.ny);
-        let kernel = |d: usize| folded(&s.influence(d), ny);
         let padded = fft_length(2 * nx, 2);
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
         let frequencies = padded / 2 + 1;
-        let kernels: Vec<Vec<f64>> = (0..nx).map(kernel).collect();
+        let kernels = s.influence();
         let near = kernels.iter().take(PRECONDITIONER_COLUMNS + 1).flatten().copied().collect();
         let mut spectra = vec![0.0; frequencies * ny * ny];
         let mut line = vec![0.0; padded];
@@ -121,21 +120,10 @@ fn transform(result: Result<(), realfft::FftError>) {
     debug_assert!(result.is_ok());
 }
 
-/// Kernel between rows of the half domain at one column distance: sum of a row and its mirror image.
-fn folded(influence: &[f64], ny: usize) -> Vec<f64> {
-    let mut kernel = vec![0.0; ny * ny];
-    for row in 0..ny {
-        for source in 0..ny {
-            let mirror = if source == 0 { 0.0 } else { influence[row + source] };
-            kernel[row * ny + source] = influence[row.abs_diff(source)] + mirror;
-        }
-    }
-    kernel
-}
-
 /// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y); differences over the corners give a rectangle.
 ///
-/// G(x, y) = x asinh(y/|x|) + y asinh(x/|y|); x, y ≠ 0. Source: Love 1929; Johnson, Contact Mechanics, eq. 3.25.
+/// G(x, y) = x asinh(y/|x|) + y asinh(x/|y|), 0 on the line y = 0; x ≠ 0. Source: Love 1929; Johnson, Contact
+/// Mechanics, eq. 3.25.
 pub(super) fn corner(x: f64, y: f64) -> f64 {
-    x * (y / x.abs()).asinh() + y * (x / y.abs()).asinh()
+    if y == 0.0 { 0.0 } else { x * (y / x.abs()).asinh() + y * (x / y.abs()).asinh() }
 }

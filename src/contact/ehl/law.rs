@@ -1,7 +1,7 @@
 //! EHL film as the contact law of a ball.
 
 use super::{Curve, Table, TableSpec, geometric};
-use crate::contact::{ContactLoad, EllipticContact, FilmFormula, HertzPair, Lubricant, Race};
+use crate::contact::{ContactLoad, HertzPair, Lubricant, Race};
 use std::sync::Arc;
 
 /// EHL contact law of a ball: specification of the film tables, and the tables once computed.
@@ -28,8 +28,6 @@ pub struct EhlPair {
     pub(in crate::contact) series: Curve,
     inner: Curve,
     outer: Curve,
-    /// h_min/h_c of Hamrock and Dowson, inner and outer, at Q = 1 N: proportional to Q^−0.006.
-    minimum_film_ratio: [f64; 2],
 }
 
 impl EhlLaw {
@@ -47,41 +45,29 @@ impl EhlLaw {
     }
 
     /// The contacts at an entrainment speed u > 0 \[m/s\], the factor included.
-    pub(in crate::contact) fn at_speed(&self, tables: &[Table; 2], hertz: &HertzPair, speed: f64) -> EhlPair {
-        let least = |contact: &EllipticContact| {
-            let film = FilmFormula::new(contact, &self.lubricant);
-            film.minimum(speed, 1.0) / film.central(speed, 1.0)
-        };
+    pub(in crate::contact) fn at_speed(&self, tables: &[Table; 2], speed: f64) -> EhlPair {
         let [inner, outer] = [tables[0].at_speed(speed), tables[1].at_speed(speed)];
-        EhlPair {
-            series: inner.in_series(&outer),
-            inner,
-            outer,
-            minimum_film_ratio: [least(&hertz.inner), least(&hertz.outer)],
-        }
+        EhlPair { series: inner.in_series(&outer), inner, outer }
     }
 }
 
 impl EhlPair {
-    fn of(&self, race: Race) -> (&Curve, f64) {
+    fn of(&self, race: Race) -> &Curve {
         match race {
-            Race::Inner => (&self.inner, self.minimum_film_ratio[0]),
-            Race::Outer => (&self.outer, self.minimum_film_ratio[1]),
+            Race::Inner => &self.inner,
+            Race::Outer => &self.outer,
         }
     }
 
     pub(in crate::contact) fn single(&self, race: Race, approach: f64) -> ContactLoad {
-        self.of(race).0.load(approach)
+        self.of(race).load(approach)
     }
 
     pub(in crate::contact) fn film(&self, race: Race, load: f64) -> f64 {
-        self.of(race).0.central_film(load)
+        self.of(race).central_film(load)
     }
 
-    /// Computed central film times the Hamrock-Dowson ratio of minimum to central film.
     pub(in crate::contact) fn minimum_film(&self, race: Race, load: f64) -> f64 {
-        let (curve, least) = self.of(race);
-        let load = load.max(Curve::THRESHOLD);
-        curve.central_film(load) * least * load.powf(-0.006)
+        self.of(race).minimum_film(load)
     }
 }

@@ -8,6 +8,7 @@
 //! | `guess` | initial film and pressure |
 //! | `newton` | Newton solver: film, cavitation and load balance on one grid |
 //! | `solution` | fields and scalar results in SI |
+//! | `similarity` | films of similar contacts, solved once and stored with the program |
 //! | `table`, `curve` | film tables over load and speed, and the contact law at one speed |
 //! | `law` | EHL contact law of a ball |
 //!
@@ -20,16 +21,17 @@ mod law;
 mod newton;
 mod reynolds;
 mod scaled;
+pub mod similarity;
 mod solution;
 mod table;
 
 pub use curve::Curve;
 pub use law::{EhlLaw, EhlPair};
 pub use solution::Solution;
-pub use table::{Table, TableSpec, geometric};
+pub use table::{DEFAULT_POINTS, Films, SolvedContacts, Table, TableSpec, geometric};
 
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
-use scaled::Scaled;
+use scaled::{Scaled, Spacing};
 
 /// A lubricated contact under load, and its grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,6 +135,8 @@ fn solve_nested_grids(problem: &Problem, start: Option<&Solution>) -> Result<Sol
 pub struct Extrapolated {
     /// Central film h_c \[m\].
     pub central_film: f64,
+    /// Minimum film h_min \[m\].
+    pub minimum_film: f64,
     /// Mutual approach δ \[m\].
     pub approach: f64,
     /// Rolling resistance on each surface \[N\].
@@ -146,6 +150,16 @@ impl Extrapolated {
     pub fn film_shift(&self) -> f64 {
         self.fine.dry_approach - self.approach
     }
+
+    /// Fields on the problem's own grid, with the extrapolated scalar results.
+    pub fn solution(self) -> Solution {
+        let mut solution = self.fine;
+        solution.central_film = self.central_film;
+        solution.minimum_film = self.minimum_film;
+        solution.approach = self.approach;
+        solution.rolling_force = self.rolling_force;
+        solution
+    }
 }
 
 /// Solves on the problem's grid and on one of half as many intervals; Richardson extrapolation f + (f − c)/3
@@ -153,23 +167,25 @@ impl Extrapolated {
 ///
 /// Not extrapolated if the coarser grid has no solution.
 ///
-/// The extrapolated quantities belong to the whole contact or its centre, so the grids may be too coarse for
-/// the edges of a thin film: its minimum film is then negative, which [`solve`] rejects.
+/// A grid may be too coarse for the ends of the ellipse and have a negative minimum film there; the extrapolated one
+/// must be positive.
 ///
 /// # Errors
-/// As [`solve`], except that only the central film must be positive.
+/// As [`solve`].
 pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrapolated, EhlError> {
     let coarse = solve_nested_grids(&Problem { grid: problem.grid.coarser(), ..problem.clone() }, start).ok();
     let fine = solve_nested_grids(problem, coarse.as_ref().or(start))?;
-    if fine.central_film <= 0.0 {
-        return Err(EhlError::new(problem, fine));
-    }
     let limit = |figure: fn(&Solution) -> f64| {
         let f = figure(&fine);
         coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
     };
+    let [central_film, minimum_film] = [limit(|s| s.central_film), limit(|s| s.interpolated_minimum)];
+    if !(minimum_film > 0.0 && central_film > 0.0) {
+        return Err(EhlError::new(problem, fine));
+    }
     Ok(Extrapolated {
-        central_film: limit(|s| s.central_film),
+        central_film,
+        minimum_film,
         approach: limit(|s| s.approach),
         rolling_force: limit(|s| s.rolling_force),
         fine,
@@ -242,7 +258,9 @@ impl Grid {
         let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(MIN_RESOLVED_LENGTH);
         // Even numbers of intervals, halved on the coarser grid.
         let nx = intervals(domain.inlet + domain.outlet, inlet, points).next_multiple_of(2) + 1;
-        let rows = intervals(domain.side, across(1.0).hypot(1.0), 2 * points).next_multiple_of(2).max(8);
+        let spacing = Spacing::new(scaled_film, domain.side);
+        let rows = intervals(2.5 * spacing.even_rows(), across(1.0).hypot(1.0), points);
+        let rows = rows.next_multiple_of(2).max(8);
         Self { nx, ny: 2 * rows + 1, domain }
     }
 }

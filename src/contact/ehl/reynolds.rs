@@ -71,9 +71,10 @@ impl Fluid {
 fn row(s: &Scaled, fluid: &[Fluid], p: &[f64], h: &[f64], node: usize) -> Row {
     let mut row = Row::default();
     let along = s.dx.powi(-2);
-    let across = s.aspect * s.dy.powi(-2);
-    // On the line of symmetry the southern neighbour is the northern one.
-    let [south, north] = if node.is_multiple_of(s.ny) { [0.0, 2.0 * across] } else { [across; 2] };
+    let j = node % s.ny;
+    let across = |other: usize| s.aspect / ((s.y[j] - s.y[other]).abs() * (s.edges[j + 1] - s.edges[j]));
+    // No flow across the line of symmetry.
+    let [south, north] = [if j == 0 { 0.0 } else { across(j - 1) }, across(j + 1)];
     for (point, factor) in [(1, along), (2, along), (3, south), (4, north)] {
         if factor == 0.0 {
             continue;

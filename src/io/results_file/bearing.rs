@@ -85,6 +85,10 @@ fn points(writer: &GroupWriter, points: &[BearingPoint], axis: Option<&str>) -> 
     let rows = points.iter().flat_map(|p| &p.balls).map(|b| b.row as f64).collect();
     array("balls/row", &[balls], "1", rows)?;
     array("balls/position", &[balls], "rad", positions)?;
+    for (name, unit, value) in BallState::COLUMNS {
+        let data = points.iter().flat_map(|p| &p.balls).map(value).collect();
+        array(&format!("balls/{name}"), &[balls], unit, data)?;
+    }
     for (race, inner) in [("inner", true), ("outer", false)] {
         let pick = |b: &BallState| if inner { b.inner } else { b.outer };
         for (name, unit, value) in ContactState::COLUMNS {

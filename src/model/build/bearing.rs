@@ -13,7 +13,7 @@ use crate::bearing::{
     BallBearing, BallGeometry, BallInertia, Bearing, BeyondTable, Cage, Fit, LinearBearing, LinearBearingRow,
     Preload, Service,
 };
-use crate::contact::{ContactDamping, ContactLaw, Lubricant};
+use crate::contact::{ContactDamping, ContactLaw, Lubricant, Race};
 use crate::element::{Anchor, Material};
 use crate::model::BearingSite;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -381,6 +381,18 @@ pub(super) fn check_geometry(r: &Reader, bearing: &BallBearing) {
         );
         let least = format!("an outside diameter above {:.3} mm", mm(outside));
         r.log.error(problem("outside_diameter", message).expected(least));
+    }
+    let [inner, outer] = bearing.service.shoulder_diameters;
+    let [inner_bottom, outer_bottom] = [Race::Inner, Race::Outer].map(|race| g.groove_bottom_diameter(race));
+    for (key, diameter, [least, most]) in [
+        ("inner_shoulder_diameter", inner, [inner_bottom, g.pitch_diameter]),
+        ("outer_shoulder_diameter", outer, [g.pitch_diameter, outer_bottom]),
+    ] {
+        if diameter.is_some_and(|diameter| diameter <= least || diameter >= most) {
+            let message = format!("{} is not between the groove's bottom and the ball centres", r.name(key));
+            let range = format!("from {:.3} to {:.3} mm", mm(least), mm(most));
+            r.log.error(problem(key, message).expected(range));
+        }
     }
     if g.radial_clearance.abs() > 0.1 * g.ball_diameter {
         let message = format!("{} is more than a tenth of the ball diameter", r.name("radial_clearance"));

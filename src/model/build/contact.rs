@@ -1,7 +1,7 @@
 //! Lubricants, contact laws (Hertz, film, power law, EHL) and contact damping of a bearing.
 
 use crate::bearing::Service;
-use crate::contact::ehl::EhlLaw;
+use crate::contact::ehl::{DEFAULT_POINTS, EhlLaw};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant, PowerLaw};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
@@ -101,6 +101,8 @@ pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
         lubricant: if has_film(r) || !r.has("lubricant") { None } else { lubricant(r, lubricants) },
         contamination: between("contamination", [0.0, 1.0], default.contamination),
         reliability: between("reliability", [0.9, 0.999], default.reliability),
+        shoulder_diameters: ["inner_shoulder_diameter", "outer_shoulder_diameter"]
+            .map(|key| r.get(key, positive(LENGTH))),
     }
 }
 
@@ -215,7 +217,7 @@ fn ehl_law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLa
     let mut loads = [0.4e9, 4.2e9].map(|p: f64| (p / pressure).powi(3));
     // Default speeds up to about n D_pw = 600 000 rpm mm, the limit of grease and most oil lubrication.
     let mut speeds = [0.1, 16.0].map(|u| u * speed_factor);
-    let (mut counts, mut points) = ([8, 5], 6);
+    let (mut counts, mut points) = ([8, 5], DEFAULT_POINTS);
     if let Some(table) = r.table("ehl") {
         let range = |key: &str, dimension, default: [f64; 2]| match table.list(key, positive(dimension)) {
             None => default,
@@ -234,7 +236,7 @@ fn ehl_law(r: &Reader, lubricants: &[Lubricant], hertz: &HertzPair) -> ContactLa
         loads = range("loads", FORCE, loads);
         speeds = range("speeds", VELOCITY, speeds);
         counts = [table.count("load_count", 8, 2..=100), table.count("speed_count", 5, 2..=100)];
-        points = table.count("points", 6, 2..=24);
+        points = table.count("points", DEFAULT_POINTS, 2..=24);
         table.finish();
     }
     lubricant(r, lubricants).map_or(ContactLaw::Hertz, |lubricant| {
