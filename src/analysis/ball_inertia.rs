@@ -39,7 +39,7 @@ impl InertiaUse {
         Self { bearing: name.into(), inertia, compared, excluded_by }
     }
 
-    /// What was used and why, in one sentence.
+    /// What was used and why, in two lines.
     pub fn sentence(&self) -> String {
         let by = if matches!(self.inertia, BallInertia::Auto(_)) { "auto" } else { "as stated" };
         let used = match self.inertia.in_effect() {
@@ -47,7 +47,7 @@ impl InertiaUse {
             BallInertia::CentrifugalForce(force) => format!("centrifugal force of {force} N"),
             control => control.keyword().to_string(),
         };
-        format!("balls of bearing {}: {used} ({by}), {}", self.bearing, self.comparison())
+        format!("balls of bearing {}: {used} ({by}),\n    {}", self.bearing, self.comparison())
     }
 
     fn comparison(&self) -> String {

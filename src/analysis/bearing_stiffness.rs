@@ -152,11 +152,11 @@ impl BearingSolver {
             (Err(_), Some(_)) => self.newton(condition, &[0.0; 5]),
             (found, _) => found,
         };
-        found.or_else(|error| self.from_larger_loads(condition).ok_or(error))
+        found.or_else(|error| self.by_larger_loads(condition).ok_or(error))
     }
 
     /// Equilibrium by way of those under larger loads, where contacts are less abrupt; `None` if it is not found.
-    fn from_larger_loads(&self, condition: &Condition) -> Option<BearingEquilibrium> {
+    fn by_larger_loads(&self, condition: &Condition) -> Option<BearingEquilibrium> {
         let mut start = [0.0; 5];
         let mut found = None;
         for factor in [1e6, 1e5, 1e4, 1e3, 1e2, 1e1, 1.0] {

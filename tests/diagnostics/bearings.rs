@@ -93,7 +93,6 @@ cases! {
     jones_with_power_law: changed(FILM, "contact = \"power_law\"\npower_law = { stiffness = \"1e10 N/m^1.5\", exponent = 1.5, range = \"600, 2000 N\" }\npreload");
     unknown_contact: changed("contact = \"film\"\nlubricant = \"oil\"\npreload", "contact = \"flim\"\nlubricant = \"oil\"\npreload");
     unknown_inertia: changed("outer_race_control", "outer_ring_control");
-    given_force_of_wrong_unit: changed("\"outer_race_control\"", "{ centrifugal_force = \"12 mm\", control = \"shared\" }");
     unknown_arrangement: changed("thrust = \"-z\"\n", "arrangement = \"back-to-back\"\nrow_spacing = \"16 mm\"\n");
     rows_without_spacing: changed("thrust = \"-z\"\n", "arrangement = \"back_to_back\"\n");
     spacing_without_arrangement: added("row_spacing = \"16 mm\"");
