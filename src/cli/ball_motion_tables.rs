@@ -31,11 +31,8 @@ pub fn print(terminal: &Terminal, found: &BearingResult) {
                 format!("{:.0}", rpm(motion.orbital_speed)),
                 format!("{:.0}", rpm(motion.ball_speed)),
                 format!("{:.2}", motion.pitch_angle.to_degrees()),
-                format!(
-                    "{} ({})",
-                    if control == Race::Outer { "outer" } else { "inner" },
-                    number(motion.control_ratio, 3)
-                ),
+                if control == Race::Outer { "outer" } else { "inner" }.to_string(),
+                number(motion.control_ratio, 3),
             ];
             row.extend([i, o].map(|c| format!("{:.4}", c.spin_to_roll)));
             row.extend([i, o].map(|c| number(1e-6 * c.pressure_velocity, 3)));
@@ -46,27 +43,32 @@ pub fn print(terminal: &Terminal, found: &BearingResult) {
     if !rows.is_empty() {
         let header = [
             "ball",
-            "position deg",
+            "at deg",
             "orbit rpm",
             "ball rpm",
             "beta deg",
-            "control (ratio)",
+            "control",
+            "ratio",
             "spin/roll i",
-            "spin/roll o",
-            "p v_i MW/m2",
-            "p v_o MW/m2",
+            "o",
+            "pv i MW/m2",
+            "o",
             "advance deg",
         ];
-        terminal.table("Motion of the loaded balls (Harris)", &header, &rows);
+        let title = "Motion of the loaded balls; controlling race, and the ratio above 1 at which the outer race controls";
+        terminal.table(title, &header, &rows);
     }
     let friction = &point.friction;
     terminal.print(&format!(
-        "  friction torque {} N m (Palmgren): load {}, viscous {} (oil bath), spinning {} (friction {SPIN_FRICTION}); heat {} W",
+        "  friction torque {} N m, heat {} W: load {} and viscous part {} N m (Palmgren, oil bath),",
         number(friction.total(), 3),
+        number(friction.heat, 3),
         number(friction.load, 3),
         number(friction.viscous, 3),
-        number(friction.spin, 3),
-        number(friction.heat, 3)
+    ));
+    terminal.print(&format!(
+        "  spinning of the balls {} N m (friction {SPIN_FRICTION})",
+        number(friction.spin, 3)
     ));
 }
 
@@ -100,7 +102,7 @@ fn shoulders(terminal: &Terminal, found: &BearingResult) {
             1e3 * margin.arc
         );
         if margin.fraction_beyond > 0.0 {
-            line += &format!(": {:.0} % of the ellipse beyond it", 100.0 * margin.fraction_beyond);
+            line += &format!(": {:.0} % beyond it", 100.0 * margin.fraction_beyond);
         }
         terminal.print(&line);
     }
