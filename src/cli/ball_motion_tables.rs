@@ -2,7 +2,7 @@
 
 use rotordyn::bearing::friction::SPIN_FRICTION;
 use rotordyn::contact::Race;
-use rotordyn::results::{BallState, BearingResult, ContactState};
+use rotordyn::results::{BearingResult, PickContact};
 
 use super::bearing_tables::ball_number;
 use super::terminal::{Terminal, number, rpm};
@@ -88,7 +88,7 @@ fn geometry(terminal: &Terminal, found: &BearingResult) {
 /// The contact of each race that is nearest to its shoulder.
 fn shoulders(terminal: &Terminal, found: &BearingResult) {
     let given = found.bearing.service.shoulder_diameters;
-    let races: [(&str, fn(&BallState) -> &ContactState, bool); 2] =
+    let races: [(&str, PickContact, bool); 2] =
         [("inner", |b| &b.inner, given[0].is_some()), ("outer", |b| &b.outer, given[1].is_some())];
     for (race, pick, is_given) in races {
         let loaded = found.point.balls.iter().map(pick).filter(|c| c.load > 0.0);

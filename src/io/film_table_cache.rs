@@ -52,10 +52,11 @@ pub fn load_or_compute(
             None => spec.compute(count),
         };
         let table = found.map_err(|failure| film_error(name, race, &failure, last))?;
-        if let Some(folder) = cache {
-            if write(folder, &table) {
-                spec.contact_keys()
-                    .for_each(|key| _ = std::fs::remove_file(cache_file(folder, "contact", &key)));
+        if let Some(folder) = cache
+            && write(folder, &table)
+        {
+            for key in spec.contact_keys() {
+                let _ = std::fs::remove_file(cache_file(folder, "contact", &key));
             }
         }
         Ok(table)
