@@ -11,7 +11,9 @@ use crate::model::Model;
 /// Number of cage angles per ball pitch over which a bearing is averaged.
 pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 /// Residual over the largest load or bearing force.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: f64 = 1e-11;
+/// The same, accepted where round-off prevents it.
+const ACCEPTED: f64 = 1e-9;
 const MAX_ITERATIONS: usize = 200;
 const MAX_HALVINGS: usize = 80;
 /// Force accepted as none \[N\] where Newton's method does not converge.
@@ -175,7 +177,7 @@ pub fn equilibrium(
             if along.abs() <= 0.9 * before.abs() || at_solution || halving + 1 == MAX_HALVINGS {
                 let (now, then) = (max_abs(&trial_residual), max_abs(&residual));
                 // Stagnation at round-off level: stop after three steps without progress near convergence.
-                stalled = if now > 0.999 * then && then <= 1e3 * TOLERANCE * size { stalled + 1 } else { 0 };
+                stalled = if now > 0.999 * then && then <= 1e4 * TOLERANCE * size { stalled + 1 } else { 0 };
                 (q, reactions, residual) = (trial, trial_reactions, trial_residual);
                 break;
             }
@@ -194,7 +196,7 @@ pub fn equilibrium(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
     }
-    let accepted = (10.0 * TOLERANCE * size_of(&reactions)).max(round_off(&q, &reactions));
+    let accepted = (ACCEPTED * size_of(&reactions)).max(round_off(&q, &reactions));
     if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {
         return Err(PhysicsError::NoEquilibrium {
             item: assembly.dofs.name(worst),

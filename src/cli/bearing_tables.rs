@@ -23,7 +23,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
         terminal.print(&format!("  constrained DOFs: {}", constrained.join(", ")));
     }
     if let Some(how) = found.bearing.estimated_geometry {
-        terminal.print(&format!("  internal geometry {how}"));
+        terminal.print_wrapped(&format!("internal geometry {how}"));
     }
     let imperfections = &found.bearing.imperfections;
     if !imperfections.is_empty() {

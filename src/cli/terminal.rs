@@ -9,6 +9,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::args::Output;
 
+/// Width of printed sentences [characters].
+const WIDTH: usize = 118;
+
 /// Output streams and what is printed to them.
 #[derive(Debug)]
 pub struct Terminal {
@@ -43,6 +46,20 @@ impl Terminal {
             // A closed pipe (EPIPE) must not stop the computation.
             let _ = writeln!(stdout(), "{text}");
         }
+    }
+
+    /// Prints a sentence with two spaces before each of its lines, broken at words.
+    pub fn print_wrapped(&self, text: &str) {
+        let mut line = String::from(" ");
+        for word in text.split_whitespace() {
+            if line.chars().count() + word.chars().count() + 1 > WIDTH {
+                self.print(&line);
+                line = String::from(" ");
+            }
+            line.push(' ');
+            line.push_str(word);
+        }
+        self.print(&line);
     }
 
     /// Prints a heading with a blank line before it.

@@ -76,10 +76,10 @@ fn differences(force: impl Fn(&[f64; 6]) -> [f64; 6], d: &[f64; 6]) -> [[f64; 6]
 fn largest_difference(found: &Reaction, by_difference: &[[f64; 6]; 6]) -> f64 {
     let scale = |a: usize, b: usize| 1.0 / (lever(a) * lever(b));
     let (mut off, mut size) = (0.0f64, 0.0f64);
-    for a in 0..5 {
-        for b in 0..5 {
-            off = off.max((found.stiffness[a][b] - by_difference[a][b]).abs() * scale(a, b));
-            size = size.max(by_difference[a][b].abs() * scale(a, b));
+    for (a, row) in by_difference.iter().enumerate().take(5) {
+        for (b, difference) in row.iter().enumerate().take(5) {
+            off = off.max((found.stiffness[a][b] - difference).abs() * scale(a, b));
+            size = size.max(difference.abs() * scale(a, b));
         }
     }
     off / size
