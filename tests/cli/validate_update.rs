@@ -152,7 +152,8 @@ fn sensors_on_housings_are_assigned_to_the_model() {
     let document = json_of(command.arg("--out").arg(folder.path().join("out")));
     let measured = &document["measured"][0];
     for row in measured["frac"].as_array().unwrap() {
-        assert!(row[0].as_f64().unwrap() > 0.999, "{}", measured["frac"]);
+        // The noise of 1 % takes 1e-3 of the smallest response.
+        assert!(row[0].as_f64().unwrap() > 0.998, "{}", measured["frac"]);
     }
     for mode in measured["modes"].as_array().unwrap() {
         assert!(mode["mac"].as_f64().unwrap() > 0.95, "{mode}");

@@ -142,8 +142,12 @@ pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) 
                 let mean = 0.5 * (plus.stiffness[row][column] + minus.stiffness[row][column]);
                 let c = -(faster.force[row] - slower.force[row]) / (2.0 * rate);
                 let (dk, dc) = (k - mean, c - here.damping[row][column]);
-                // A ball that unloads within the step adds an error of √(0.1 nm/1 µm) of its small stiffness.
-                assert!(dk.abs() <= 2e-4 * k_size * scale, "{name} K[{row}][{column}] {k} off by {dk}");
+                // A ball that unloads or meets a defect within the step: an error below half the change of K there.
+                let change = (plus.stiffness[row][column] - minus.stiffness[row][column]).abs();
+                assert!(
+                    dk.abs() <= 2e-4 * k_size * scale + 0.5 * change,
+                    "{name} K[{row}][{column}] {k} off by {dk}, change {change}"
+                );
                 assert!(
                     loses_contact || dc.abs() <= 1e-6 * c_size * scale,
                     "{name} C[{row}][{column}] {c} off by {dc}"
@@ -236,7 +240,9 @@ fn ball_inertia_has_no_effect_at_rest() {
                 assert!(off.abs() <= tolerance * (1.0 + b.force[k].abs()), "{name}: force {k} off by {off}");
                 for m in 0..5 {
                     let (x, y) = (a.stiffness[k][m], b.stiffness[k][m]);
-                    assert!((x - y).abs() <= 1e3 * tolerance * largest(&b.stiffness), "{name}: {x} {y}");
+                    // Without load, the contacts under the balls' own force remain.
+                    let size = 1e3 + largest(&b.stiffness);
+                    assert!((x - y).abs() <= 1e3 * tolerance * size, "{name}: {x} {y}");
                 }
             }
         }

@@ -43,6 +43,7 @@ fn all_figures_are_drawn_reproducibly() {
         "order_cuts_B_ax",
         "bearing_B_ball_loads",
         "bearing_B_contact_angles",
+        "bearing_B_section",
         "bearing_B_stiffness_over_load",
         "bearing_B_displacement_over_load",
         "bearing_B_contacts_over_load",
