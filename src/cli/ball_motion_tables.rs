@@ -59,16 +59,16 @@ pub fn print(terminal: &Terminal, found: &BearingResult) {
         terminal.table(title, &header, &rows);
     }
     let friction = &point.friction;
-    terminal.print(&format!(
-        "  friction torque {} N m, heat {} W: load {} and viscous part {} N m (Palmgren, oil bath),",
+    let viscous = match found.bearing.lubricant() {
+        Some(_) => format!(" and viscous part {} N m (Palmgren, oil bath)", number(friction.viscous, 3)),
+        None => " N m (Palmgren), no viscous part without a lubricant".to_string(),
+    };
+    terminal.print_wrapped(&format!(
+        "friction torque {} N m, heat {} W: load part {}{viscous}, spinning of the balls {} N m (friction {SPIN_FRICTION})",
         number(friction.total(), 3),
         number(friction.heat, 3),
         number(friction.load, 3),
-        number(friction.viscous, 3),
-    ));
-    terminal.print(&format!(
-        "  spinning of the balls {} N m (friction {SPIN_FRICTION})",
-        number(friction.spin, 3)
+        number(friction.spin, 3),
     ));
 }
 

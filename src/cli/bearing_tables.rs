@@ -62,8 +62,8 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
         ));
     }
     if found.bearing.preload != Preload::None {
-        terminal.print(&format!(
-            "  preload {}: with centred rings at this speed {} N axial, ring offset {:.3} um from the nominal position",
+        terminal.print_wrapped(&format!(
+            "preload {}: with centred rings at this speed {} N axial, ring offset {:.3} um from the nominal position",
             stated(&found.bearing.preload),
             number(found.preload.axial_force, 4),
             1e6 * found.preload.offset
@@ -151,7 +151,12 @@ fn balls(terminal: &Terminal, point: &BearingPoint) {
     if with_film {
         header.extend(["h_i um", "h_o um"]);
     }
-    let title = format!("Loaded balls ({} of {}), contact ellipse semi-axes", rows.len(), point.balls.len());
+    let held = match point.held_by_centrifugal_force() {
+        0 => String::new(),
+        count => format!("; {count} more held on the outer race by centrifugal force"),
+    };
+    let (loaded, all) = (point.loaded(), point.balls.len());
+    let title = format!("Loaded balls ({loaded} of {all}{held}), contact ellipse semi-axes");
     terminal.table(&title, &header, &rows);
     if with_film {
         terminal.print(&format!(

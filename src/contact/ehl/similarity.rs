@@ -5,7 +5,7 @@
 //! Dowson (in place of the speed), and the lubricant's α p_r and z of the Roelands equation. Moes' M and L are powers
 //! of G and H at given D. Stored are the logarithms of the solved films over Hamrock and Dowson's central film, at the
 //! Chebyshev-Lobatto points of ln D, ln G and the share t of ln H within its range, for the lubricant
-//! [`REFERENCE`]; and their change with α p_r and with z.
+//! `REFERENCE`; and their change with α p_r and with z.
 //!
 //! `cargo run --release --example ehl_similarity > assets/ehl_similarity.csv` computes the stored values again.
 
