@@ -14,9 +14,6 @@ const LOWEST_FILM_RATIO: f64 = 1.0;
 const LOST_ANGLE: f64 = 0.5;
 /// Radial minimum load factor k_r of deep groove ball bearings; makers give 0.015 (series 618) to 0.03 (series 63).
 const RADIAL_FACTOR: f64 = 0.025;
-/// Axial minimum load factor k_a of angular contact bearings of 40°; makers give 1.4 (series 72) to 1.6 (series 73).
-const AXIAL_FACTOR: f64 = 1.6;
-const AXIAL_FACTOR_ANGLE: f64 = 40.0 * PI / 180.0;
 /// Traction coefficient of an oil-lubricated contact.
 const TRACTION: f64 = 0.07;
 
@@ -32,8 +29,6 @@ pub struct BearingLoad<'a> {
     pub axial_displacement: f64,
     /// Dynamic equivalent load of the balls' loads \[N\] (ISO/TS 16281).
     pub equivalent_load: f64,
-    /// Basic static load rating of a row \[N\].
-    pub static_rating: f64,
     /// Smallest film of a loaded contact and composite roughness \[m\]; `None` without lubricant.
     pub film: Option<[f64; 2]>,
 }
@@ -57,8 +52,6 @@ pub enum ExceededLimit {
     OpenSide { balls: usize },
     /// Equivalent load below the minimum load of a bearing with unloaded balls \[N\]: balls and cage may skid.
     MinimumLoad { load: f64, minimum: f64 },
-    /// Sum of a row's contact loads, all balls loaded, below its minimum \[N\]: the balls may skid.
-    MinimumContactLoad { load: f64, minimum: f64 },
     /// Friction coefficient that the gyroscopic moment needs above the traction of the contact: the balls slide.
     GyroscopicSliding { coefficient: f64 },
 }
@@ -138,15 +131,9 @@ impl BearingLoad<'_> {
 
     fn minimum_load(&self) -> Option<ExceededLimit> {
         let g = &self.bearing.geometry;
-        if self.speed == 0.0 {
+        // With all balls loaded none slows down outside a loaded zone; gyroscopic sliding remains.
+        if self.speed == 0.0 || self.balls.iter().all(|ball| ball.load > 0.0) {
             return None;
-        }
-        if self.balls.iter().all(|ball| ball.load > 0.0) {
-            // No ball slows down outside a loaded zone: the balls' own inertia remains.
-            let rows = self.bearing.rows().len() as f64;
-            let load = self.loads().sum::<f64>() / rows;
-            let minimum = minimum_contact_load(self.static_rating, g.pitch_diameter, self.speed);
-            return (load < minimum).then_some(ExceededLimit::MinimumContactLoad { load, minimum });
         }
         let viscosity = self.bearing.lubricant().map(|oil| oil.viscosity / oil.density);
         let minimum = minimum_load(g.pitch_diameter, self.speed, viscosity);
@@ -194,17 +181,6 @@ pub fn minimum_load(pitch_diameter: f64, speed: f64, viscosity: Option<f64>) -> 
     let viscosity = viscosity.unwrap_or_else(|| reference_viscosity(pitch_diameter, speed));
     let rpm = speed.abs() * 30.0 / PI;
     1e3 * RADIAL_FACTOR * (1e6 * viscosity * rpm / 1e3).powf(2.0 / 3.0) * (10.0 * pitch_diameter).powi(2)
-}
-
-/// Minimum sum of the contact loads of a row whose balls are all loaded, k_a C₀/1000 (n D_pw/10⁵)²/sin 40° with
-/// k_a = 1.6, n in rpm, D_pw in mm \[N\].
-///
-/// `static_rating` C₀ \[N\], `pitch_diameter` D_pw \[m\], `speed` Ω \[rad/s\]. Source: makers' catalogues of angular contact
-/// ball bearings of 40° under axial load (SKF, requisite minimum load), as load along the contacts.
-pub fn minimum_contact_load(static_rating: f64, pitch_diameter: f64, speed: f64) -> f64 {
-    let rpm = speed.abs() * 30.0 / PI;
-    let axial = AXIAL_FACTOR * static_rating / 1e3 * (1e3 * pitch_diameter * rpm / 1e5).powi(2);
-    axial / AXIAL_FACTOR_ANGLE.sin()
 }
 
 impl Display for ExceededLimit {
@@ -261,13 +237,8 @@ impl Display for ExceededLimit {
             }
             Self::MinimumLoad { load, minimum } => write!(
                 f,
-                "the equivalent load of {load:.3} N is below the minimum load of {minimum:.3} N at this speed \
+                "the equivalent load of {load:.1} N is below the minimum load of {minimum:.1} N at this speed \
                  (0.025 (nu n/1000)^(2/3) (d_m/100)^2 kN): balls and cage may skid; preload the bearing"
-            ),
-            Self::MinimumContactLoad { load, minimum } => write!(
-                f,
-                "the contact loads of a row, {load:.3} N together, are below the minimum of {minimum:.3} N at this \
-                 speed (1.6 C_0/1000 (n d_m/1e5)^2/sin 40 deg): the balls may skid; preload the bearing"
             ),
             Self::GyroscopicSliding { coefficient } => write!(
                 f,
@@ -292,8 +263,5 @@ mod tests {
         // ν₁ ∝ n^{−1/2}: without a stated viscosity F ∝ n^{1/3}.
         let ratio = minimum_load(0.039, 8.0 * speed, None) / minimum_load(0.039, speed, None);
         assert!((ratio - 2.0).abs() < 1e-12, "{ratio}");
-        // C₀ = 100 kN, n D_pw = 10⁵: 1.6 · 100 N axially.
-        let contacts = minimum_contact_load(1e5, 0.1, 1000.0 * PI / 30.0);
-        assert!((contacts * 40f64.to_radians().sin() / 160.0 - 1.0).abs() < 1e-12, "{contacts}");
     }
 }

@@ -86,6 +86,16 @@ fn load_below_the_minimum_load() {
     assert!(!has(&found(&model, "bearing", &flags).0, "minimum"), "axial");
 }
 
+/// A spindle bearing pair at its usual preload and speed parameter (n d_m = 1.1e6 mm/min).
+#[test]
+fn preloaded_spindle_pair_has_no_warning() {
+    let keys = "arrangement = \"back_to_back\"\nrow_spacing = \"20 mm\"\npreload = { force = \"400 N\" }";
+    let model = alone("7014C", keys).replace("thrust = \"+z\"\n", "");
+    let flags = ["--load", "0, -100, 0 N", "--speed", "12000 rpm", "--sweep", "load"];
+    let (warnings, _) = found(&model, "bearing", &flags);
+    assert!(warnings.is_empty(), "{warnings:?}");
+}
+
 /// Balls on the unloaded side touch the outer race alone: they are not loaded, and the count does not depend on
 /// the inertia at low speed.
 #[test]

@@ -75,7 +75,6 @@ impl SingleBearingStudy<'_> {
             cage_speed: point.orders.ftf * speed,
             axial_displacement: point.state.displacement[2],
             equivalent_load: self.rating().dynamic / point.life.reference.cbrt(),
-            static_rating: self.rating().static_rating / self.bearing.rows().len() as f64,
             film,
         }
         .exceeded_limits()
