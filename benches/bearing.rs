@@ -5,7 +5,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::analysis::bearing_stiffness::{BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
-use rotordyn::bearing::{BallBearing, BallElement, BallInertia, Rotation};
+use rotordyn::bearing::{BallBearing, BallElement, BallInertia, Preload, Rotation};
 
 #[path = "../tests/common/bearing.rs"]
 mod bearing;
@@ -35,6 +35,17 @@ fn reaction(c: &mut Criterion) {
     ] {
         let element = BallElement::new(&BallBearing { inertia, ..bearing::rig_6205() });
         c.bench_function(&format!("jones_9_balls_{name}"), |b| {
+            b.iter(|| element.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &fast));
+        });
+    }
+    for (name, inertia) in [
+        ("massless", BallInertia::None),
+        ("jones", BallInertia::OuterRaceControl),
+        ("shared", BallInertia::Shared),
+    ] {
+        let preload = Preload::Spring { stiffness: 2e6, force: 300.0 };
+        let element = BallElement::new(&BallBearing { inertia, preload, ..bearing::rig_6205() });
+        c.bench_function(&format!("{name}_9_balls_spring_preload"), |b| {
             b.iter(|| element.reaction(black_box(&thrust), black_box(&[1e-4; 6]), &fast));
         });
     }

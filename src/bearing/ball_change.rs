@@ -1,6 +1,7 @@
 //! Change of a ball's static reaction with the ring position and with the cage speed.
 
-use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, difference, dot, solve_2x2};
+use super::ball_derivatives::EquilibriumDerivatives;
+use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, dot};
 
 /// Derivatives of a ball's static reaction on the inner ring by one parameter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,20 +36,15 @@ impl BallInertiaLoads {
         if load <= 0.0 {
             return BallChanges::default();
         }
-        let forces = self.forces(inner, outer);
+        let derivatives = EquilibriumDerivatives::new(self, ball);
+        let forces = &derivatives.forces;
         let (friction_by, share_by_orbit) = self.friction_by_orbit(inner, outer);
         let (share, by_inner, by_outer) = self.share(load, outer.loaded.load);
         let (ti, to) = (inner.t(), outer.t());
-        let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
-        let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
-        let jacobian = difference(&by_y, &by_x);
         let [fi, fo] = friction_by;
         let residual = [fi * ti[0] - fo * to[0] + self.force_by_orbit, fi * ti[1] - fo * to[1]];
-        let centre = [
-            solve_2x2(&jacobian, [-by_x[0][0], -by_x[1][0]]),
-            solve_2x2(&jacobian, [-by_x[0][1], -by_x[1][1]]),
-            solve_2x2(&jacobian, residual.map(|r| -r)),
-        ];
+        let [by_radial, by_axial] = derivatives.centre_by_position();
+        let centre = [by_radial, by_axial, derivatives.centre_change(residual)];
         let cosine = self.cage_cosine(inner, outer, share);
         let gamma = self.balls.gamma;
         let cos = dot(inner.n, outer.n);

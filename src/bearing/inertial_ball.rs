@@ -1,7 +1,8 @@
 //! Reaction of a ball with inertia (centrifugal force, gyroscopic moment) on the inner ring: force, friction
 //! moment, tangents, power.
 
-use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, RaceContact, difference, dot, solve_2x2};
+use super::ball_derivatives::EquilibriumDerivatives;
+use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, RaceContact, dot};
 use super::ball_sum::{PlaneForce, PlaneMoment};
 use super::root_finding;
 use super::row::PlaneMotion;
@@ -27,14 +28,11 @@ impl BallInertiaLoads {
         if inner.loaded.load <= 0.0 {
             return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());
         }
-        let forces = self.forces(inner, outer);
+        let derivatives = EquilibriumDerivatives::new(self, equilibrium);
+        let forces = &derivatives.forces;
         let (rate, [wi, wo]) = (motion.rate, motion.deviation.full_rate());
         let (n, t) = (inner.n, inner.t());
-        let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
-        let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
-        let jacobian = difference(&by_y, &by_x);
-        // Columns of S.
-        let centre_tangent = [0, 1].map(|c| solve_2x2(&jacobian, [-by_x[0][c], -by_x[1][c]]));
+        let centre_tangent = derivatives.centre_by_position();
 
         let load = inner.loaded.load;
         let equivalent = {
@@ -80,12 +78,8 @@ impl BallInertiaLoads {
         }
 
         let dissipated = (damped.load - load) * closing;
-        let [no, to] = [outer.n, outer.t()];
-        let wave = [0, 1].map(|r| -dot(by_x[r], n) * wi - dot(by_y[r], no) * wo);
-        let centre_rate_by_waviness = solve_2x2(&jacobian, wave);
-        let velocity = [0, 1].map(|k| {
-            centre_tangent[0][k] * rate[0] + centre_tangent[1][k] * rate[1] + centre_rate_by_waviness[k]
-        });
+        let to = outer.t();
+        let velocity = derivatives.change(equilibrium, rate, [wi, wo]).y;
         let other_forces =
             [0, 1].map(|k| forces.friction[0] * t[k] - forces.friction[1] * to[k] + [self.force, 0.0][k]);
         let stored = load * (dot(n, rate) + wi) + outer.loaded.load * wo + dot(other_forces, velocity);

@@ -1,5 +1,6 @@
 //! Massless ball: both contacts carry the same load along the line joining the groove centres.
 
+use super::ball_derivatives::AxialCurvature;
 use super::ball_sum::PlaneForce;
 use super::row::PlaneMotion;
 use crate::contact::{ContactDamping, ContactLoad, SpeedContacts};
@@ -58,4 +59,43 @@ pub(super) fn ball_force(
         out.load_cos = load * n[0];
     }
     Some(out)
+}
+
+/// Curvature of a massless ball's elastic axial force, and the rate of its first derivatives along the motion.
+///
+/// With κ = Q′ n nᵀ + (Q/l) t tᵀ, l = |s|, a motion ṡ and a deviation's rate ẇ change κ by
+/// Q″ (n·ṡ + ẇ) n nᵀ + \[Q′ (n·ṡ + ẇ) − (Q/l) n·ṡ\]/l · t tᵀ + (Q′ − Q/l) (t·ṡ)/l · (n tᵀ + t nᵀ).
+pub(super) fn axial_curvature(
+    contacts: &SpeedContacts,
+    centre_distance: f64,
+    motion: &PlaneMotion,
+) -> AxialCurvature {
+    let length = motion.s[0].hypot(motion.s[1]);
+    let approach = length - centre_distance + motion.deviation.total();
+    let ContactLoad { load, slope, .. } = contacts.series(approach);
+    if load <= 0.0 {
+        return AxialCurvature::default();
+    }
+    let step = 1e-4 * load / slope;
+    let by_slope =
+        (contacts.series(approach + step).slope - contacts.series(approach - step).slope) / (2.0 * step);
+    let [nr, nz] = motion.s.map(|s| s / length);
+    let bend = load / length;
+    // Axial row of the change of κ.
+    let change = |s: [f64; 2], deviation: f64| -> [f64; 2] {
+        let (along, across) = (nr * s[0] + nz * s[1], nr * s[1] - nz * s[0]);
+        let closing = along + deviation;
+        let stretch = by_slope * closing;
+        let swing = (slope * closing - bend * along) / length;
+        let turn = (slope - bend) * across / length;
+        [
+            (stretch - swing) * nz * nr + turn * (nr * nr - nz * nz),
+            stretch * nz * nz + swing * nr * nr + 2.0 * turn * nz * nr,
+        ]
+    };
+    let ([rr, rz], [_, zz]) = (change([1.0, 0.0], 0.0), change([0.0, 1.0], 0.0));
+    AxialCurvature {
+        by_position: [rr, rz, zz],
+        rate: change(motion.rate, motion.deviation.full_rate().iter().sum()),
+    }
 }

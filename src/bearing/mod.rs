@@ -3,6 +3,7 @@
 pub mod ball;
 pub mod ball_bearing;
 mod ball_change;
+mod ball_derivatives;
 mod ball_equilibrium;
 pub mod ball_inertia;
 mod ball_sum;
@@ -32,6 +33,7 @@ mod root_finding;
 mod row;
 pub mod shoulder;
 mod spall;
+mod spring_preload;
 
 pub use ball::{BallElement, BallLoad};
 pub use ball_bearing::{Arrangement, BallBearing, Cage, Duplex, Preload, Service};

@@ -3,7 +3,6 @@
 use super::ring_motion::RingMotion;
 use super::row::Row;
 use super::{Preload, Reaction, Rotation, root_finding};
-use crate::linalg::dot;
 
 /// Preload of a bearing with centred rings at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -74,33 +73,12 @@ pub(super) struct RowReaction {
 impl Row {
     /// Force on the inner ring and tangents, for any preload mechanism of the outer ring.
     pub fn row_reaction(&self, ring: &RingMotion) -> RowReaction {
-        let operating = self.operating(ring);
-        let evaluate = |ring: &RingMotion| {
-            let sum = self.sum(ring, &operating);
-            let reaction = sum.reaction(self.arm, ring.cage_speed.unwrap_or(0.0));
-            RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
-        };
-        let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism else {
-            return evaluate(ring);
-        };
-        let shift = self.ring_displacement(ring);
-        let moved = shifted(ring.d, self.direction * shift);
-        let still = ring.stopped_at(&moved);
-        let sum = self.sum(&still, &self.operating(&still));
-        let elastic = sum.reaction(self.arm, 0.0);
-        let whole = elastic.stiffness[2][2] + stiffness;
-        // Axial ring displacement per shaft displacement; zero for an unloaded ring without spring.
-        let ring_tangent: [f64; 6] =
-            std::array::from_fn(|k| if whole > 0.0 { -elastic.stiffness[2][k] / whole } else { 0.0 });
-        let slip = dot(&ring_tangent, ring.v);
-        let mut out = if ring.cage_speed.is_none() && ring.v.iter().all(|v| *v == 0.0) {
-            RowReaction { reaction: elastic, load: sum.load, load_cos: sum.load_cos }
-        } else {
-            evaluate(&RingMotion { d: &moved, v: &shifted(ring.v, slip), ..*ring })
-        };
-        condense(&mut out.reaction, &elastic, &ring_tangent);
-        out.reaction.elastic_energy += (0.5 * stiffness * shift - force) * shift;
-        out
+        if let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism {
+            return self.spring_reaction(ring, stiffness, force);
+        }
+        let sum = self.sum(ring, &self.operating(ring));
+        let reaction = sum.reaction(self.arm, ring.cage_speed.unwrap_or(0.0));
+        RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
     }
 
     /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
@@ -147,34 +125,4 @@ fn shifted(d: &[f64; 6], by: f64) -> [f64; 6] {
     let mut d = *d;
     d[2] += by;
     d
-}
-
-/// Static condensation of the ring's axial degree of freedom, ė = Σ follow_k v_k (in the direction of z).
-///
-/// Elastic part: K − k_e k_eᵀ/(K_zz + k). The damping part, force and tangents, is transformed by
-/// T = 1 + e_z followᵀ as Tᵀ f, Tᵀ C T: the ring has no mass and no damper of its own. ∂T/∂d is neglected in
-/// the damping part's stiffness, which vanishes at rest.
-fn condense(out: &mut Reaction, elastic: &Reaction, ring_tangent: &[f64; 6]) {
-    let project = |m: &[[f64; 6]; 6]| -> [[f64; 6]; 6] {
-        std::array::from_fn(|a| {
-            std::array::from_fn(|b| {
-                m[a][b]
-                    + ring_tangent[a] * m[2][b]
-                    + m[a][2] * ring_tangent[b]
-                    + ring_tangent[a] * m[2][2] * ring_tangent[b]
-            })
-        })
-    };
-    let damping_force: [f64; 6] = std::array::from_fn(|k| out.force[k] - elastic.force[k]);
-    let damping_stiffness =
-        std::array::from_fn(|a| std::array::from_fn(|b| out.stiffness[a][b] - elastic.stiffness[a][b]));
-    let damping_stiffness = project(&damping_stiffness);
-    for a in 0..6 {
-        out.force[a] = elastic.force[a] + damping_force[a] + ring_tangent[a] * damping_force[2];
-        for b in 0..6 {
-            out.stiffness[a][b] =
-                elastic.stiffness[a][b] + elastic.stiffness[a][2] * ring_tangent[b] + damping_stiffness[a][b];
-        }
-    }
-    out.damping = project(&out.damping);
 }

@@ -62,6 +62,14 @@ pub(super) struct PlaneMotion {
     pub deviation: Deviation,
 }
 
+impl PlaneMotion {
+    /// The same position at rest.
+    pub fn stopped(&self) -> Self {
+        let deviation = Deviation { rate: [0.0; 2], undamped_rate: [0.0; 2], ..self.deviation };
+        Self { s: self.s, rate: [0.0; 2], deviation }
+    }
+}
+
 impl Row {
     /// Row `number` of a matched pair with its thrust direction.
     pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64) -> Self {
@@ -183,14 +191,7 @@ impl Row {
     ) -> (f64, f64) {
         let motion = PlaneMotion { s, ..PlaneMotion::default() };
         let ball = match loads {
-            None => massless::ball_force(
-                |approach| operating.contacts.series(approach),
-                &operating.contacts,
-                &self.damping,
-                self.centre_distance,
-                &motion,
-            )
-            .unwrap_or_default(),
+            None => self.massless_force(&operating.contacts, &motion).unwrap_or_default(),
             Some(loads) => self.inertial_ball_reaction(loads, operating, &motion).0,
         };
         let z = self.balls() as f64;
@@ -204,17 +205,14 @@ impl Row {
         }
         let a = self.centre_distance;
         // One loop per contact law (monomorphised), to avoid dispatch per ball.
-        let massless = |law: &SpeedContacts, motion: &PlaneMotion| {
-            massless::ball_force(|approach| law.series(approach), law, &self.damping, a, motion)
-        };
         match (&operating.contacts, self.force_law(ring)) {
             (law, Some(on_loaded)) => self.sum_balls(ring, operating, |motion| {
-                defect_force::with_defect_force(massless(law, motion), on_loaded, motion)
+                defect_force::with_defect_force(self.massless_force(law, motion), on_loaded, motion)
             }),
             (dry @ SpeedContacts::Hertz(pair), None) => self.sum_balls(ring, operating, |motion| {
                 massless::ball_force(|approach| pair.series(approach), dry, &self.damping, a, motion)
             }),
-            (law, None) => self.sum_balls(ring, operating, |motion| massless(law, motion)),
+            (law, None) => self.sum_balls(ring, operating, |motion| self.massless_force(law, motion)),
         }
     }
 
@@ -269,8 +267,24 @@ impl Row {
         motion: &PlaneMotion,
     ) -> (PlaneForce, PlaneMoment) {
         let equilibrium = self.solve_equilibrium(loads, operating, motion);
+        self.reaction_in_equilibrium(loads, operating, &equilibrium, motion)
+    }
+
+    /// Reaction of a ball in equilibrium on the inner ring.
+    pub fn reaction_in_equilibrium(
+        &self,
+        loads: &BallInertiaLoads,
+        operating: &OperatingState,
+        equilibrium: &BallEquilibrium,
+        motion: &PlaneMotion,
+    ) -> (PlaneForce, PlaneMoment) {
         let stiffness = self.contacts.hertz.stiffness;
-        loads.inner_ring_reaction(&equilibrium, &operating.contacts, &self.damping, stiffness, motion)
+        loads.inner_ring_reaction(equilibrium, &operating.contacts, &self.damping, stiffness, motion)
+    }
+
+    /// Force of a massless ball under any contact law.
+    pub fn massless_force(&self, contacts: &SpeedContacts, motion: &PlaneMotion) -> Option<PlaneForce> {
+        massless::ball_force(|x| contacts.series(x), contacts, &self.damping, self.centre_distance, motion)
     }
 
     pub fn solve_equilibrium(

@@ -110,15 +110,8 @@ fn tangents_match_finite_differences() {
 pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) -> usize {
     let mut compared = 0;
     let element = BallElement::new(bearing);
-    let spring_preload = matches!(bearing.preload, Preload::Spring { .. });
     for _ in 0..4 {
-        let (d, v, mut rotation) = sample(random);
-        let mut v_for_stiffness = v;
-        if spring_preload {
-            // With spring preload the stiffness is exact at rest only; see the element.
-            v_for_stiffness = [0.0; 6];
-            rotation.cage_speed = None;
-        }
+        let (d, v, rotation) = sample(random);
         let here = element.reaction(&d, &v, &rotation);
         let (k_size, c_size) = (largest(&here.stiffness), largest(&here.damping));
         for column in 0..5 {
@@ -128,7 +121,7 @@ pub fn compare_tangents(random: &mut Random, name: &str, bearing: &BallBearing) 
                 w[column] += by;
                 w
             };
-            let at = |by| element.reaction(&shifted(d, by), &v_for_stiffness, &rotation);
+            let at = |by| element.reaction(&shifted(d, by), &v, &rotation);
             let (plus, minus) = (at(step), at(-step));
             let along = |by| element.reaction(&d, &shifted(v, by), &rotation);
             let (faster, slower) = (along(rate), along(-rate));
@@ -167,11 +160,6 @@ fn power_balance_closes() {
 
 /// d(energy)/dt + dissipation = −f·v + parametric power along a straight path with rotating cage.
 pub fn check_power_balance(random: &mut Random, name: &str, bearing: &BallBearing) {
-    // With spring preload the work of ball inertia on the ring motion due to cage rotation is not accounted
-    // for.
-    if matches!(bearing.preload, Preload::Spring { .. }) && bearing.inertia != BallInertia::None {
-        return;
-    }
     let element = BallElement::new(bearing);
     let (d, v, start) = sample(random);
     let at = |t: f64| -> Reaction {
@@ -189,7 +177,7 @@ pub fn check_power_balance(random: &mut Random, name: &str, bearing: &BallBearin
     let work: f64 = here.force.iter().zip(&v).map(|(f, v)| f * v).sum();
     let residual = rate + here.dissipated_power + work - here.parametric_power;
     let size = work.abs() + here.parametric_power.abs() + here.dissipated_power.abs();
-    assert!(residual.abs() < 1e-5 * size, "{name}: {residual} of {size}");
+    assert!(residual.abs() <= 1e-5 * size, "{name}: {residual} of {size}");
 }
 
 #[test]

@@ -18,3 +18,4 @@ mod imperfections;
 mod linear_bearing;
 mod preload;
 mod radial_ball;
+mod spring_preload;
