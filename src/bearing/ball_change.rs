@@ -43,7 +43,7 @@ impl BallInertiaLoads {
         let (ti, to) = (inner.t(), outer.t());
         let [fi, fo] = friction_by;
         let residual = [fi * ti[0] - fo * to[0] + self.force_by_orbit, fi * ti[1] - fo * to[1]];
-        let [by_radial, by_axial] = derivatives.centre_by_position();
+        let [by_radial, by_axial] = derivatives.centre_by_position;
         let centre = [by_radial, by_axial, derivatives.centre_change(residual)];
         let cosine = self.cage_cosine(inner, outer, share);
         let gamma = self.balls.gamma;

@@ -16,7 +16,9 @@ pub(super) struct EquilibriumDerivatives {
     by_x: Matrix,
     by_y: Matrix,
     /// ∂E/∂b at fixed s.
-    jacobian: Matrix,
+    pub jacobian: Matrix,
+    /// Columns of S = ∂b/∂s = −(∂E/∂b)⁻¹ ∂E/∂x.
+    pub centre_by_position: [[f64; 2]; 2],
 }
 
 /// Change of a ball in equilibrium: of x, of y, and of the deviations of both surfaces.
@@ -49,11 +51,14 @@ fn sum(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 impl EquilibriumDerivatives {
+    #[inline(always)]
     pub fn new(loads: &BallInertiaLoads, ball: &BallEquilibrium) -> Self {
         let forces = loads.forces(&ball.inner, &ball.outer);
         let by_x = difference(&forces.inner_by[0], &forces.outer_by[0]);
         let by_y = difference(&forces.inner_by[1], &forces.outer_by[1]);
-        Self { forces, by_x, by_y, jacobian: difference(&by_y, &by_x) }
+        let jacobian = difference(&by_y, &by_x);
+        let centre_by_position = [0, 1].map(|c| solve_2x2(&jacobian, [-by_x[0][c], -by_x[1][c]]));
+        Self { forces, by_x, by_y, jacobian, centre_by_position }
     }
 
     /// Motion of the ball centre that keeps the equilibrium where E changes by `residual`: −(∂E/∂b)⁻¹ ΔE.
@@ -61,12 +66,8 @@ impl EquilibriumDerivatives {
         solve_2x2(&self.jacobian, residual.map(|r| -r))
     }
 
-    /// Columns of S = ∂b/∂s = −(∂E/∂b)⁻¹ ∂E/∂x.
-    pub fn centre_by_position(&self) -> [[f64; 2]; 2] {
-        [0, 1].map(|c| self.centre_change([self.by_x[0][c], self.by_x[1][c]]))
-    }
-
     /// Change of the ball with s and with the surface deviations, which act like a motion along the contact line.
+    #[inline(always)]
     pub fn change(&self, ball: &BallEquilibrium, s: [f64; 2], deviation: [f64; 2]) -> EquilibriumChange {
         let x = sum(s, along(ball.inner.n, deviation[0]));
         let residual = sum(apply(&self.by_x, x), apply(&self.by_y, along(ball.outer.n, deviation[1])));

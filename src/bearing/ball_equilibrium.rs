@@ -45,7 +45,7 @@ pub(super) struct BallInertiaData {
     /// D/D_pw.
     pub gamma: f64,
     /// r − D/2 at the inner and outer race \[m\].
-    lengths: [f64; 2],
+    pub lengths: [f64; 2],
     /// r_i, moment arm of friction about the inner groove centre \[m\].
     pub groove_radius: f64,
 }
@@ -61,7 +61,7 @@ pub(super) struct BallInertiaLoads {
     relative_cage_ratio: f64,
     relative_by_orbit: f64,
     /// Approach of the outer contact under F_c alone \[m\].
-    centrifugal_approach: f64,
+    pub centrifugal_approach: f64,
 }
 
 /// A ball's contact with one race: unit vector and distance to its groove centre, approach and load.
@@ -90,9 +90,9 @@ pub(super) struct BallContactLaws<Series, Single, Guess> {
 }
 
 /// Start of the Newton iteration: ball centre and approaches.
-struct InitialGuess {
-    centre: [f64; 2],
-    approaches: [f64; 2],
+pub(super) struct InitialGuess {
+    pub centre: [f64; 2],
+    pub approaches: [f64; 2],
 }
 
 /// Race forces on a ball, R = Q n + f t at each contact, with derivatives by x and y.
@@ -172,7 +172,7 @@ impl RaceContact {
     /// Contact with the vector `to` from ball centre to groove centre (at the outer race from groove to ball
     /// centre).
     #[inline(always)]
-    fn from_vector(to: [f64; 2], free_length: f64, wave: f64) -> Self {
+    pub fn from_vector(to: [f64; 2], free_length: f64, wave: f64) -> Self {
         let length = (to[0] * to[0] + to[1] * to[1]).sqrt();
         let inverse = 1.0 / length;
         Self {
@@ -299,14 +299,14 @@ impl BallInertiaLoads {
     }
 
     /// Resultant of contact and centrifugal forces on the ball (equilibrium residual).
-    fn resultant(&self, forces: &RaceForces) -> [f64; 2] {
+    pub fn resultant(&self, forces: &RaceForces) -> [f64; 2] {
         [forces.inner[0] - forces.outer[0] + self.force, forces.inner[1] - forces.outer[1]]
     }
 
     /// Initial estimate of the ball position: offset h from the line of groove centres at which the restoring
     /// force Q_i h/a, a = l_i l_o/(l_i + l_o), balances the transverse force T = (7/5) F_c |sin α|; h adds
     /// h²/(2a) to the approach.
-    fn initial_guess(
+    pub fn initial_guess(
         &self,
         laws: &BallContactLaws<
             impl Fn(f64) -> ContactLoad,

@@ -2,11 +2,18 @@
 //! moment, tangents, power.
 
 use super::ball_derivatives::EquilibriumDerivatives;
-use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, RaceContact, dot};
+use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, RaceContact, RaceForces, dot};
 use super::ball_sum::{PlaneForce, PlaneMoment};
 use super::root_finding;
 use super::row::PlaneMotion;
 use crate::contact::{ContactDamping, ContactLoad, SpeedContacts};
+
+impl BallEquilibrium {
+    /// Elastic energy of both contacts \[J\].
+    pub fn energy(&self) -> f64 {
+        self.inner.loaded.energy + self.outer.loaded.energy
+    }
+}
 
 impl BallInertiaLoads {
     /// Force and friction moment of a ball in equilibrium on the inner ring, with tangents by implicit
@@ -23,18 +30,65 @@ impl BallInertiaLoads {
         stiffness: f64,
         motion: &PlaneMotion,
     ) -> (PlaneForce, PlaneMoment) {
-        let BallEquilibrium { inner, outer } = equilibrium;
-        let energy = inner.loaded.energy + outer.loaded.energy;
-        if inner.loaded.load <= 0.0 {
+        if equilibrium.inner.loaded.load <= 0.0 {
+            let energy = equilibrium.energy();
             return (PlaneForce { energy, ..PlaneForce::default() }, PlaneMoment::default());
         }
         let derivatives = EquilibriumDerivatives::new(self, equilibrium);
-        let forces = &derivatives.forces;
-        let (rate, [wi, wo]) = (motion.rate, motion.deviation.full_rate());
-        let (n, t) = (inner.n, inner.t());
-        let centre_tangent = derivatives.centre_by_position();
+        let (mut ball, moment) = self.elastic_reaction(equilibrium, &derivatives);
+        self.add_motion(&mut ball, equilibrium, &derivatives, contacts, damping, stiffness, motion);
+        (ball, moment)
+    }
 
+    /// Elastic part of the reaction, the ring at rest.
+    #[inline(always)]
+    pub fn elastic_reaction(
+        &self,
+        equilibrium: &BallEquilibrium,
+        derivatives: &EquilibriumDerivatives,
+    ) -> (PlaneForce, PlaneMoment) {
+        let BallEquilibrium { inner, outer } = equilibrium;
+        let RaceForces { inner: force, inner_by, friction_by, friction, share, .. } = &derivatives.forces;
+        let by_position = &derivatives.centre_by_position;
+        let mut by_motion = [0.0; 4];
+        let mut moment =
+            PlaneMoment { moment: -self.balls.groove_radius * friction[0], ..PlaneMoment::default() };
+        for (c, y) in by_position.iter().enumerate() {
+            let x = [f64::from(c == 0) - y[0], f64::from(c == 1) - y[1]];
+            for r in 0..2 {
+                by_motion[2 * r + c] = dot(inner_by[0][r], x) + dot(inner_by[1][r], *y);
+            }
+            let friction = dot(friction_by[0], x) + dot(friction_by[1], *y);
+            moment.by_motion[c] = -self.balls.groove_radius * friction;
+        }
         let load = inner.loaded.load;
+        let ball = PlaneForce {
+            force: *force,
+            by_motion,
+            energy: equilibrium.energy(),
+            load,
+            load_cos: load * self.cage_cosine(inner, outer, *share),
+            ..PlaneForce::default()
+        };
+        (ball, moment)
+    }
+
+    /// Adds contact damping and the power at a fixed ring to the elastic reaction of a loaded ball.
+    #[allow(clippy::too_many_arguments)] // the state of one ball
+    #[inline(always)]
+    pub fn add_motion(
+        &self,
+        ball: &mut PlaneForce,
+        equilibrium: &BallEquilibrium,
+        derivatives: &EquilibriumDerivatives,
+        contacts: &SpeedContacts,
+        damping: &ContactDamping,
+        stiffness: f64,
+        motion: &PlaneMotion,
+    ) {
+        let BallEquilibrium { inner, outer } = equilibrium;
+        let (rate, [wi, wo]) = (motion.rate, motion.deviation.full_rate());
+        let (n, t, load) = (inner.n, inner.t(), inner.loaded.load);
         let equivalent = {
             let series = |x: f64| {
                 let at = contacts.series(x);
@@ -43,57 +97,46 @@ impl BallInertiaLoads {
             root_finding::increasing_root(series, (load / stiffness).cbrt().powi(2) + contacts.onset())
         };
         let elastic = contacts.series(equivalent);
-        let [damped_wi, damped_wo] = motion.deviation.rate;
-        let closing = dot(n, rate) + damped_wi + damped_wo;
+        let damped_rate = motion.deviation.rate[0] + motion.deviation.rate[1];
+        let closing = dot(n, rate) + damped_rate;
         let damped = damping.apply(contacts, &ContactLoad { load, ..elastic }, equivalent, closing);
+        let damping_load = damped.load - load;
 
-        let damping_rotation = damped.by_rate * dot(t, rate) / inner.length;
-        let side = RaceContact {
+        // The contact with the damping load, and the rotation of ṡ against the contact line.
+        let part = RaceContact {
             loaded: ContactLoad {
-                load: damped.load,
-                slope: damped.by_approach * inner.loaded.slope / elastic.slope,
+                load: damping_load,
+                slope: (damped.by_approach / elastic.slope - 1.0) * inner.loaded.slope,
                 energy: 0.0,
             },
             ..*inner
         };
-        let mut tangent = side.tangent(forces.friction[0]);
+        let mut tangent = part.tangent(0.0);
+        let rotation = damped.by_rate * dot(t, rate) / inner.length;
         for r in 0..2 {
             for c in 0..2 {
-                tangent[r][c] += damping_rotation * n[r] * t[c] + t[r] * forces.friction_by[0][c];
+                tangent[r][c] += rotation * n[r] * t[c];
             }
         }
-        let along = |v: [f64; 2], c: usize| dot(v, centre_tangent[c]);
-        let force = [0, 1].map(|k| damped.load * n[k] + forces.friction[0] * t[k]);
-        let mut by_motion = [0.0; 4];
-        let mut moment =
-            PlaneMoment { moment: -self.balls.groove_radius * forces.friction[0], ..PlaneMoment::default() };
-        for c in 0..2 {
+        for (c, y) in derivatives.centre_by_position.iter().enumerate() {
+            let x = [f64::from(c == 0) - y[0], f64::from(c == 1) - y[1]];
             for r in 0..2 {
-                by_motion[2 * r + c] =
-                    tangent[r][c] - along(tangent[r], c) + t[r] * along(forces.friction_by[1], c);
+                ball.by_motion[2 * r + c] += dot(tangent[r], x);
             }
-            let friction =
-                forces.friction_by[0][c] - along(forces.friction_by[0], c) + along(forces.friction_by[1], c);
-            moment.by_motion[c] = -self.balls.groove_radius * friction;
         }
 
-        let dissipated = (damped.load - load) * closing;
-        let to = outer.t();
-        let velocity = derivatives.change(equilibrium, rate, [wi, wo]).y;
-        let other_forces =
-            [0, 1].map(|k| forces.friction[0] * t[k] - forces.friction[1] * to[k] + [self.force, 0.0][k]);
+        let friction = derivatives.forces.friction;
+        let (to, velocity) = (outer.t(), derivatives.change(equilibrium, rate, [wi, wo]).y);
+        let other_forces = [0, 1].map(|k| friction[0] * t[k] - friction[1] * to[k] + [self.force, 0.0][k]);
         let stored = load * (dot(n, rate) + wi) + outer.loaded.load * wo + dot(other_forces, velocity);
-        let ball = PlaneForce {
-            force,
-            by_motion,
-            by_rate: [n[0] * n[0], n[0] * n[1], n[1] * n[1]].map(|v| damped.by_rate * v),
-            energy,
-            dissipated,
-            power: stored + dissipated - dot(force, rate),
-            load: damped.load,
-            load_cos: damped.load * self.cage_cosine(inner, outer, forces.share),
-        };
-        (ball, moment)
+        ball.power = stored - dot(ball.force, rate) + damping_load * damped_rate;
+        ball.dissipated = damping_load * closing;
+        ball.by_rate = [n[0] * n[0], n[0] * n[1], n[1] * n[1]].map(|v| damped.by_rate * v);
+        for (force, n) in ball.force.iter_mut().zip(n) {
+            *force += damping_load * n;
+        }
+        ball.load_cos *= damped.load / load;
+        ball.load = damped.load;
     }
 
     /// Effective cos α: that of the massless ball with the same cage speed ratio ½ (1 − γ′ cos α).

@@ -28,6 +28,7 @@ pub mod profile;
 mod raceway;
 pub mod radial;
 pub mod rating;
+mod ring_equilibrium;
 mod ring_motion;
 mod root_finding;
 mod row;

@@ -84,9 +84,7 @@ impl Row {
     /// Displacement e of a spring-preloaded outer ring, N(d, e) = F₀ − k e: root of an increasing function of
     /// e.
     pub fn ring_displacement(&self, ring: &RingMotion) -> f64 {
-        let PreloadMechanism::Spring { stiffness, force, dry, ring_motion_ratio: follows } =
-            self.preload_mechanism
-        else {
+        let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism else {
             return 0.0;
         };
         let still = ring.stopped_at(ring.d);
@@ -97,8 +95,18 @@ impl Row {
                 let (n, slope) = self.sum(&RingMotion { d: &d, ..still }, &operating).axial();
                 [self.direction * n + stiffness * e - force, slope + stiffness]
             },
-            dry - follows * self.direction * ring.d[2],
+            self.ring_displacement_guess(ring),
         )
+    }
+
+    /// Ring displacement of a row whose balls all follow its axial stiffness when centred and dry.
+    pub fn ring_displacement_guess(&self, ring: &RingMotion) -> f64 {
+        match self.preload_mechanism {
+            PreloadMechanism::Spring { dry, ring_motion_ratio, .. } => {
+                dry - ring_motion_ratio * self.direction * ring.d[2]
+            }
+            _ => 0.0,
+        }
     }
 
     /// Where a ring on a spring is, added to its displacement.

@@ -308,12 +308,17 @@ impl Row {
                 &BallContactLaws {
                     series: |x| law.series(x),
                     single: |race, x| law.single(race, x),
-                    guess: |race, load| dry_approach(hertz, race, load) - law.film(race, load),
+                    guess: |race, load| self.approach_at(law, race, load),
                     stiffness: hertz.stiffness,
                 },
                 motion,
             ),
         }
+    }
+
+    /// Estimated approach of a contact under a load Q ≥ 0 \[m\].
+    pub fn approach_at(&self, law: &SpeedContacts, race: Race, load: f64) -> f64 {
+        dry_approach(&self.contacts.hertz, race, load) - law.film(race, load)
     }
 
     /// Calls `visit` with (cos ψ_j, sin ψ_j), the ball's motion and the part of its rate due to cage

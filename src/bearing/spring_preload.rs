@@ -14,10 +14,11 @@
 
 use super::Reaction;
 use super::ball_derivatives::{AxialCurvature, EquilibriumDerivatives};
-use super::ball_equilibrium::BallEquilibrium;
+use super::ball_equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaLoads};
 use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
 use super::massless;
 use super::preload::RowReaction;
+use super::ring_equilibrium::RingSpring;
 use super::ring_motion::RingMotion;
 use super::row::{OperatingState, PlaneMotion, Row};
 
@@ -28,8 +29,8 @@ struct PlacedBall {
     motion: PlaneMotion,
     /// Part of the motion's rate due to cage rotation.
     turn: [f64; 2],
-    /// Equilibrium of a ball with inertia.
-    equilibrium: Option<BallEquilibrium>,
+    /// Equilibrium of a ball with inertia, and its derivatives if it is loaded.
+    equilibrium: Option<(BallEquilibrium, Option<EquilibriumDerivatives>)>,
 }
 
 /// Vector over the degrees of freedom of the inner ring without rotation about its axis.
@@ -131,13 +132,9 @@ impl RingFollowing {
 impl Row {
     /// Force on the inner ring and tangents with the outer ring on a spring of stiffness k \[N/m\] and force F₀ \[N\].
     pub fn spring_reaction(&self, ring: &RingMotion, stiffness: f64, force: f64) -> RowReaction {
-        let shift = self.ring_displacement(ring);
         let operating = self.operating(ring);
-        let mut d = *ring.d;
-        d[2] += self.direction * shift;
-        let mut balls = self.placed_balls(&RingMotion { d: &d, ..*ring }, &operating);
-        let at_rest: Vec<_> =
-            balls.iter().map(|ball| self.react(&operating, ball, &ball.motion.stopped())).collect();
+        let (shift, mut balls) = self.balls_on_spring(ring, &operating, stiffness, force);
+        let at_rest: Vec<_> = balls.iter().map(|ball| self.elastic_force(&operating, ball)).collect();
         let sum = self.sum_placed(&balls, &at_rest, &[0.0; 6], &operating);
         let elastic = sum.reaction(self.arm, 0.0);
         let follows = RingFollowing::new(&elastic, stiffness);
@@ -153,8 +150,8 @@ impl Row {
             for ball in &mut balls {
                 ball.motion.rate[1] += velocity;
             }
-            let moving: Vec<_> =
-                balls.iter().map(|ball| self.react(&operating, ball, &ball.motion)).collect();
+            let with_motion = |(ball, at_rest)| self.force_in_motion(&operating, ball, at_rest);
+            let moving: Vec<_> = balls.iter().zip(&at_rest).map(with_motion).collect();
             let sum = self.sum_placed(&balls, &moving, ring.v, &operating);
             let cage_speed = ring.cage_speed.unwrap_or(0.0);
             out.reaction = sum.reaction(self.arm, cage_speed);
@@ -172,30 +169,103 @@ impl Row {
         out
     }
 
-    fn placed_balls(&self, ring: &RingMotion, operating: &OperatingState) -> Vec<PlacedBall> {
-        let mut out = Vec::with_capacity(self.balls());
+    /// Displacement of the ring in the direction of thrust, and the balls there.
+    fn balls_on_spring(
+        &self,
+        ring: &RingMotion,
+        operating: &OperatingState,
+        stiffness: f64,
+        force: f64,
+    ) -> (f64, Vec<PlacedBall>) {
+        let mut balls = Vec::with_capacity(self.balls());
         self.for_each_ball(ring, operating, |[cos, sin], motion, turn| {
-            let loads = operating.inertial_loads.as_ref();
-            let equilibrium = loads.map(|loads| self.solve_equilibrium(loads, operating, &motion));
-            out.push(PlacedBall { cos, sin, motion, turn, equilibrium });
+            balls.push(PlacedBall { cos, sin, motion, turn, equilibrium: None });
         });
-        out
+        let spring = RingSpring { stiffness, force: self.direction * force };
+        let guess = self.direction * self.ring_displacement_guess(ring);
+        let together = operating
+            .inertial_loads
+            .as_ref()
+            .and_then(|loads| self.solve_with_ring(loads, operating, &balls, spring, guess));
+        let (shift, found) = match together {
+            Some((shift, found)) => (shift, Some(found)),
+            None => (self.direction * self.ring_displacement(ring), None),
+        };
+        for (k, ball) in balls.iter_mut().enumerate() {
+            ball.motion.s[1] += shift;
+            ball.equilibrium = operating.inertial_loads.as_ref().map(|loads| {
+                let equilibrium = match &found {
+                    Some(found) => found[k],
+                    None => self.solve_equilibrium(loads, operating, &ball.motion),
+                };
+                let is_loaded = equilibrium.inner.loaded.load > 0.0;
+                (equilibrium, is_loaded.then(|| EquilibriumDerivatives::new(loads, &equilibrium)))
+            });
+        }
+        (self.direction * shift, balls)
     }
 
-    fn react(
+    fn solve_with_ring(
+        &self,
+        loads: &BallInertiaLoads,
+        operating: &OperatingState,
+        balls: &[PlacedBall],
+        spring: RingSpring,
+        guess: f64,
+    ) -> Option<(f64, Vec<BallEquilibrium>)> {
+        let motions: Vec<_> = balls.iter().map(|ball| ball.motion).collect();
+        let law = &operating.contacts;
+        let laws = BallContactLaws {
+            series: |x| law.series(x),
+            single: |race, x| law.single(race, x),
+            guess: |race, load| self.approach_at(law, race, load),
+            stiffness: self.contacts.hertz.stiffness,
+        };
+        loads.solve_with_ring(&laws, &motions, spring, guess)
+    }
+
+    /// Elastic force of a ball, the ring at rest.
+    fn elastic_force(&self, operating: &OperatingState, ball: &PlacedBall) -> (PlaneForce, PlaneMoment) {
+        match (&operating.inertial_loads, &ball.equilibrium) {
+            (Some(loads), Some((equilibrium, Some(derivatives)))) => {
+                loads.elastic_reaction(equilibrium, derivatives)
+            }
+            (_, Some((equilibrium, _))) => {
+                (PlaneForce { energy: equilibrium.energy(), ..PlaneForce::default() }, PlaneMoment::default())
+            }
+            _ => {
+                let force = self.massless_force(&operating.contacts, &ball.motion.stopped());
+                (force.unwrap_or_default(), PlaneMoment::default())
+            }
+        }
+    }
+
+    /// Force of a ball with damping and power; `at_rest`: its elastic force.
+    fn force_in_motion(
         &self,
         operating: &OperatingState,
         ball: &PlacedBall,
-        motion: &PlaneMotion,
+        at_rest: &(PlaneForce, PlaneMoment),
     ) -> (PlaneForce, PlaneMoment) {
+        let (mut force, moment) = *at_rest;
         match (&operating.inertial_loads, &ball.equilibrium) {
-            (Some(loads), Some(equilibrium)) => {
-                self.reaction_in_equilibrium(loads, operating, equilibrium, motion)
+            (Some(loads), Some((equilibrium, Some(derivatives)))) => {
+                let stiffness = self.contacts.hertz.stiffness;
+                let (contacts, damping) = (&operating.contacts, &self.damping);
+                loads.add_motion(
+                    &mut force,
+                    equilibrium,
+                    derivatives,
+                    contacts,
+                    damping,
+                    stiffness,
+                    &ball.motion,
+                );
             }
-            _ => {
-                (self.massless_force(&operating.contacts, motion).unwrap_or_default(), PlaneMoment::default())
-            }
+            (None, _) => force = self.massless_force(&operating.contacts, &ball.motion).unwrap_or_default(),
+            _ => {}
         }
+        (force, moment)
     }
 
     fn sum_placed(
@@ -223,8 +293,7 @@ impl Row {
     fn axial_rate(&self, operating: &OperatingState, ball: &PlacedBall, at_rest: &PlaneForce) -> f64 {
         let PlaneMotion { rate, deviation, .. } = ball.motion;
         match (&operating.inertial_loads, &ball.equilibrium) {
-            (Some(loads), Some(equilibrium)) if equilibrium.inner.loaded.load > 0.0 => {
-                let by = EquilibriumDerivatives::new(loads, equilibrium);
+            (Some(_), Some((equilibrium, Some(by)))) => {
                 by.force_change(equilibrium, &by.change(equilibrium, rate, deviation.full_rate()))[1]
             }
             (Some(_), _) => 0.0,
@@ -243,8 +312,7 @@ impl Row {
         let contacts = &operating.contacts;
         let PlaneMotion { rate, deviation, .. } = ball.motion;
         match (&operating.inertial_loads, &ball.equilibrium) {
-            (Some(loads), Some(equilibrium)) if equilibrium.inner.loaded.load > 0.0 => {
-                let by = EquilibriumDerivatives::new(loads, equilibrium);
+            (Some(loads), Some((equilibrium, Some(by)))) => {
                 let motion = by.change(equilibrium, rate, deviation.full_rate());
                 by.axial_curvature(loads, |race, x| contacts.single(race, x), equilibrium, &motion, rate)
             }
