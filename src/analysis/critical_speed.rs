@@ -15,8 +15,8 @@ pub use undamped::undamped_critical_speeds;
 use super::campbell::{Campbell, Tangents};
 use super::modal::Mode;
 use super::mode_kind::ModeKind;
+use crate::assembly::PhysicsError;
 use crate::assembly::{Assembly, LinearSystem};
-use crate::error::Error;
 use search::{Search, Spectrum};
 
 /// A mode on an order line.
@@ -35,9 +35,13 @@ impl CriticalSpeed {
     ///
     /// # Errors
     /// Errors of the linearised system.
-    pub fn frequency_slope(&self, assembly: &Assembly, tangents: &impl Tangents) -> Result<f64, Error> {
+    pub fn frequency_slope(
+        &self,
+        assembly: &Assembly,
+        tangents: &impl Tangents,
+    ) -> Result<f64, PhysicsError> {
         let start = (self.mode.eigenvalue, self.mode.shape.clone());
-        let omega_at = |speed: f64| -> Result<Option<f64>, Error> {
+        let omega_at = |speed: f64| -> Result<Option<f64>, PhysicsError> {
             let system = LinearSystem::new(assembly, &tangents(speed)?, speed)?;
             Ok(refine::nearest_eigenpair(&system, &start).map(|(value, _)| value.im))
         };
@@ -83,7 +87,7 @@ pub fn critical_speeds(
     [from, to]: [f64; 2],
     orders: &[f64],
     tangents: &impl Tangents,
-) -> Result<CrossingList, Error> {
+) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, None);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| from + (to - from) * k as f64 / (SPEEDS - 1) as f64).collect();
     search.run(search.spectra(&speeds)?, orders)
@@ -100,7 +104,7 @@ pub fn crossings(
     diagram: &Campbell,
     orders: &[f64],
     tangents: &impl Tangents,
-) -> Result<CrossingList, Error> {
+) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, Some(diagram.count));
     let sets = diagram.speeds.iter().zip(&diagram.sets);
     search.run(sets.map(|(speed, set)| Spectrum::of_modes(*speed, set)).collect(), orders)

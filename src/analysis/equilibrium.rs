@@ -3,8 +3,8 @@
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::preload::{MountedPreload, mounted_preloads};
 use crate::assembly::Assembly;
+use crate::assembly::PhysicsError;
 use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};
 use crate::model::Model;
 
@@ -123,7 +123,7 @@ pub fn equilibrium(
     speed: f64,
     cage: CageTreatment,
     start: Option<&[f64]>,
-) -> Result<Equilibrium, Error> {
+) -> Result<Equilibrium, PhysicsError> {
     let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
     let load = external_load(assembly);
@@ -194,7 +194,7 @@ pub fn equilibrium(
     let furthest = max_abs(&q);
     if furthest > 1e3 {
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
-        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
+        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) });
     }
     let accepted = (ACCEPTED * size_of(&reactions)).max(round_off(&q, &reactions));
     if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {
@@ -203,8 +203,7 @@ pub fn equilibrium(
             speed_rpm: speed * 30.0 / std::f64::consts::PI,
             residual: left,
             iterations,
-        }
-        .into());
+        });
     }
     let bearings: Vec<BearingState> = (0..assembly.sites.len())
         .map(|k| {

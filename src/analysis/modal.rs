@@ -1,8 +1,8 @@
 //! Natural frequencies, damping and mode shapes at one speed.
 
 use super::mode_kind::{self, Energy, ModeKind};
+use crate::assembly::PhysicsError;
 use crate::assembly::{Assembly, LinearSystem};
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 
@@ -62,7 +62,7 @@ impl Mode {
 ///
 /// # Errors
 /// An eigenvalue computation that fails.
-pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, PhysicsError> {
     let mut modes = modes_of(assembly, system, eigenpairs(assembly, system, count)?);
     modes.truncate(count);
     Ok(modes)
@@ -90,7 +90,7 @@ pub(super) fn eigenpairs(
     assembly: &Assembly,
     system: &LinearSystem,
     count: usize,
-) -> Result<Vec<Eigenpair>, Error> {
+) -> Result<Vec<Eigenpair>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
     let [m, d, s] = [&system.mass, &system.damping, &system.stiffness];
     let mut pairs = match &system.modal {
@@ -113,7 +113,7 @@ pub(super) fn eigenpairs_up_to(
     system: &LinearSystem,
     mut count: usize,
     reach: impl Fn(&[Eigenpair]) -> f64,
-) -> Result<Vec<Eigenpair>, Error> {
+) -> Result<Vec<Eigenpair>, PhysicsError> {
     loop {
         let pairs = eigenpairs(assembly, system, count)?;
         if pairs.get(count - 1).is_none_or(|last| last.0.norm() >= reach(&pairs)) {
@@ -127,7 +127,11 @@ pub(super) fn eigenpairs_up_to(
 ///
 /// # Errors
 /// As [`modes`].
-pub fn undamped_modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+pub fn undamped_modes(
+    assembly: &Assembly,
+    system: &LinearSystem,
+    count: usize,
+) -> Result<Vec<Mode>, PhysicsError> {
     modes(assembly, &undamped(assembly, system), count)
 }
 

@@ -3,8 +3,8 @@
 
 use super::equilibrium::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment, equilibrium};
 use crate::assembly::Assembly;
+use crate::assembly::PhysicsError;
 use crate::bearing::{BallBearing, Bearing, BearingElement, Preload, Rotation};
-use crate::error::{Error, PhysicsError};
 use crate::model::Model;
 
 /// Relative tolerance of the axial force of a mounted preload.
@@ -83,7 +83,7 @@ fn row_force(
 ///
 /// # Errors
 /// No equilibrium; [`PhysicsError::NoMountedPreload`] if no interference gives the force.
-pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option<Model>, Error> {
+pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option<Model>, PhysicsError> {
     let mounted = |bearing: &Bearing| match bearing {
         Bearing::Ball(BallBearing { preload: Preload::Mounted { force, interference: None }, .. }) => {
             Some(*force)
@@ -103,7 +103,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
             ball.preload = Preload::Mounted { force, interference: Some(interference) };
         }
     };
-    let mut excess = |interference: f64| -> Result<f64, Error> {
+    let mut excess = |interference: f64| -> Result<f64, PhysicsError> {
         set(&mut trial, interference);
         let found = equilibrium(&trial, assembly, 0.0, CageTreatment::Averaged, start.as_deref())?;
         start = Some(found.q);
@@ -118,7 +118,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
     while other.1 * at.1 > 0.0 {
         if (other.0 - estimate).abs() > LARGEST_OFFSET {
             let item = model.bearings[index].name.clone();
-            return Err(PhysicsError::NoMountedPreload { item, force, reached: force + other.1 }.into());
+            return Err(PhysicsError::NoMountedPreload { item, force, reached: force + other.1 });
         }
         at = other;
         other = (at.0 + step, excess(at.0 + step)?);
@@ -143,5 +143,5 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
         before = value;
     }
     let item = model.bearings[index].name.clone();
-    Err(PhysicsError::NoMountedPreload { item, force, reached: force + before }.into())
+    Err(PhysicsError::NoMountedPreload { item, force, reached: force + before })
 }

@@ -5,12 +5,14 @@
 
 pub mod dofs;
 mod elements;
+mod error;
 pub mod linear_system;
 pub mod modal_damping;
 pub mod rigid_body_modes;
 mod spin_up;
 
 pub use dofs::DofMap;
+pub use error::PhysicsError;
 pub use linear_system::LinearSystem;
 pub use modal_damping::ModalDamping;
 pub use spin_up::SpinUpForm;
@@ -18,7 +20,6 @@ pub use spin_up::SpinUpForm;
 use crate::bearing::{Reaction, SiteTangent};
 use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
-use crate::error::Error;
 use crate::linalg::{Complex64, SparseMatrix, SparseRow, dot};
 use crate::model::Model;
 use std::sync::Arc;
@@ -110,7 +111,7 @@ impl Assembly {
     ///
     /// # Errors
     /// A mass matrix that is not positive definite.
-    pub fn new(model: &Model) -> Result<Self, Error> {
+    pub fn new(model: &Model) -> Result<Self, PhysicsError> {
         Self::with_forms(model, SpinUpForm::default(), ConeRule::default())
     }
 
@@ -118,7 +119,7 @@ impl Assembly {
     ///
     /// # Errors
     /// A mass matrix that is not positive definite.
-    pub fn with_forms(model: &Model, spin_up: SpinUpForm, cones: ConeRule) -> Result<Self, Error> {
+    pub fn with_forms(model: &Model, spin_up: SpinUpForm, cones: ConeRule) -> Result<Self, PhysicsError> {
         let dofs = DofMap::new(model);
         let full = elements::assemble(model, cones);
         let n = dofs.len();
@@ -183,7 +184,7 @@ impl Assembly {
     ///
     /// # Errors
     /// As [`ModalDamping::new`].
-    pub fn set_standstill(&mut self, tangents: &[SiteTangent]) -> Result<(), Error> {
+    pub fn set_standstill(&mut self, tangents: &[SiteTangent]) -> Result<(), PhysicsError> {
         self.modal = ModalDamping::new(self, tangents)?.map(Arc::new);
         Ok(())
     }

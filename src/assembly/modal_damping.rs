@@ -1,8 +1,8 @@
 //! Modal damping: a damping ratio for every undamped mode at standstill.
 
 use super::Assembly;
+use super::PhysicsError;
 use crate::bearing::SiteTangent;
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, GroupDense, Outside, SparseMatrix, Triplets, eigen, piecewise};
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
@@ -33,7 +33,7 @@ impl ModalDamping {
     ///
     /// # Errors
     /// Undamped modes that do not converge, or matrices that are not finite.
-    pub fn new(assembly: &Assembly, standstill: &[SiteTangent]) -> Result<Option<Self>, Error> {
+    pub fn new(assembly: &Assembly, standstill: &[SiteTangent]) -> Result<Option<Self>, PhysicsError> {
         let table = assembly.modal_damping.clone();
         if table.is_empty() {
             return Ok(None);

@@ -1,10 +1,10 @@
 //! Rigid-body modes (unconstrained motions) of a singular system, described in words.
 
+use super::PhysicsError;
 use super::dofs::DOF_NAMES;
 use super::{Assembly, DofMap, LinearSystem};
 use crate::bearing::Bearing;
 use crate::bearing::LinearElement;
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 use crate::model::{Drive, Model};
 
@@ -20,9 +20,9 @@ pub fn check_constrained(
     assembly: &Assembly,
     stiffness: &SparseMatrix,
     ignore_spin: bool,
-) -> Result<(), Error> {
+) -> Result<(), PhysicsError> {
     match rigid_body_modes(assembly, stiffness)?.into_iter().find(|m| !(ignore_spin && m == SPIN)) {
-        Some(motion) => Err(PhysicsError::Singular { motion }.into()),
+        Some(motion) => Err(PhysicsError::Singular { motion }),
         None => Ok(()),
     }
 }
@@ -31,7 +31,7 @@ pub fn check_constrained(
 ///
 /// # Errors
 /// No convergence of the undamped modes.
-pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec<String>, Error> {
+pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
     rigid_body_modes(assembly, &system.stiffness)
 }
 
@@ -40,7 +40,7 @@ pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result
 ///
 /// # Errors
 /// No convergence of the undamped modes.
-pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, Error> {
+pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, PhysicsError> {
     // Nominal stiffness: only the constrained directions matter, not the value.
     const NOMINAL_CONTACT_STIFFNESS: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
     let diagonal =
@@ -97,7 +97,7 @@ fn may_have_rigid_body_mode(assembly: &Assembly, stiffness: &SparseMatrix) -> bo
 
 const SPIN: &str = "rotation of the shaft about z (θ_z)";
 
-fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, Error> {
+fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, PhysicsError> {
     let (squares, shapes) = eigen::undamped(&stiffness.to_dense(), &assembly.mass.to_dense(), 1.0)
         .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
     let mut names: Vec<String> = Vec::new();
@@ -139,10 +139,10 @@ fn describe(assembly: &Assembly, shape: &[f64]) -> String {
 }
 
 /// Checks that every free DOF has inertia.
-pub(super) fn check_mass(assembly: &Assembly) -> Result<(), Error> {
+pub(super) fn check_mass(assembly: &Assembly) -> Result<(), PhysicsError> {
     let dofs: &DofMap = &assembly.dofs;
     match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {
-        Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }.into()),
+        Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }),
         None => Ok(()),
     }
 }

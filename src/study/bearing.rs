@@ -9,10 +9,10 @@ use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::analysis::preload::MountedPreload;
+use crate::assembly::PhysicsError;
 use crate::bearing::rating::LoadRating;
 use crate::bearing::{BallBearing, Bearing, Preload, PreloadState, kinematics};
 use crate::contact::{BallContacts, ContactLaw};
-use crate::error::Error;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 
@@ -26,7 +26,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium of the machine, or of a bearing at its operating point.
-    pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, Error> {
+    pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
         let balls = self.model.bearings.iter().filter_map(|site| match &site.bearing {
             Bearing::Ball(ball) => Some((site.name.clone(), ball.clone())),
             Bearing::Linear(_) | Bearing::RadialBall(_) => None,
@@ -69,7 +69,7 @@ impl Machine {
 pub fn single_bearings(
     bearings: &[(String, BallBearing)],
     study: &BearingStudy,
-) -> Result<Vec<BearingResult>, Error> {
+) -> Result<Vec<BearingResult>, PhysicsError> {
     let one = |(name, ball): &(String, BallBearing)| {
         let work = SingleBearingStudy::new(name, ball, study);
         let decided = work.decided();
@@ -164,7 +164,7 @@ impl<'a> SingleBearingStudy<'a> {
         self.rating.rating
     }
 
-    fn study(&self, operating: OperatingPoint) -> Result<BearingResult, Error> {
+    fn study(&self, operating: OperatingPoint) -> Result<BearingResult, PhysicsError> {
         let condition = Condition {
             load: operating.load,
             prescribed: operating.prescribed,

@@ -1,8 +1,8 @@
 //! Runs at constant speed continued until the motion has settled, up to a limit of periods.
 
 use super::Machine;
+use super::StudyError;
 use super::steady_motion::{Progress, sections};
-use crate::error::Error;
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};
@@ -47,7 +47,7 @@ impl Machine {
         (probes, channels): (&[&Probe], &[SectionChannel]),
         criteria: Criteria,
         progress: Progress,
-    ) -> Result<Option<SettledRun>, Error> {
+    ) -> Result<Option<SettledRun>, StudyError> {
         let mut state = state;
         let mut settings = steady.clone();
         let mut discarded = steady.transient_periods;

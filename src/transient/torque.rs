@@ -16,7 +16,7 @@ mod energy;
 use nalgebra::{DMatrix, DVector};
 
 use super::system::{State, System};
-use crate::error::PhysicsError;
+use crate::assembly::PhysicsError;
 use crate::linalg::{Outside, piecewise};
 pub use energy::DriveEnergy;
 

@@ -2,13 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::UpdateFailure;
 use super::frf::{FrfFitting, frf_rows};
 use super::least_squares::Evaluation;
 use super::state::ModelState;
 use super::target::{Target, TargetMode};
 use crate::analysis::modal::Mode;
 use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative};
-use crate::error::{Error, PhysicsError};
+use crate::assembly::PhysicsError;
 use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
@@ -65,7 +66,7 @@ pub fn evaluate_residuals(
     fitting: &Fitting,
     fitted_modes: &[usize],
     by: &[SystemDerivative],
-) -> Result<Evaluation, Error> {
+) -> Result<Evaluation, UpdateFailure> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
     let mut rows = ResidualRows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
     for &k in fitted_modes.iter().filter(|_| fitting.modes()) {
@@ -96,7 +97,7 @@ fn mode_rows(
     fitting: &Fitting,
     by: &[&SystemDerivative],
     rows: &mut ResidualRows,
-) -> Result<(), Error> {
+) -> Result<(), UpdateFailure> {
     let value = mode.eigenvalue;
     let system = &state.linearised.system;
     let sensitivity = match state.repeated[place] {

@@ -13,7 +13,6 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::signal_to_json;
@@ -124,7 +123,7 @@ fn analyse_channel(
         return Err(named("the shaft speed is zero; bearing defect frequencies are multiples of it".into()));
     }
     analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
-        Error::Signal(SignalError::Unknown { what, purpose }) => {
+        SignalError::Unknown { what, purpose } => {
             let advice = if what.contains("angle") {
                 "give --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\""
             } else {
@@ -132,8 +131,7 @@ fn analyse_channel(
             };
             named(format!("{purpose} needs {what}, which is not known; {advice}"))
         }
-        Error::Signal(error) => named(error.to_string()),
-        other => other.into(),
+        error => named(error.to_string()),
     })
 }
 

@@ -8,7 +8,6 @@ mod shaft;
 pub use settings::{Analysis, AnalysisSelection, Race, SignalSettings};
 pub use shaft::ShaftMotion;
 
-use crate::error::Error;
 use crate::results::{
     BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, ShaftAverage, ShaftOrders, SignalResult,
     SpectrogramWithSpeed,
@@ -61,7 +60,7 @@ pub fn analyse(
     shaft: Option<&ShaftMotion>,
     bearing: Option<&BearingWithOrders>,
     settings: &SignalSettings,
-) -> Result<SignalResult, Error> {
+) -> Result<SignalResult, SignalError> {
     let job = Job::new(channel, shaft, bearing, settings);
     let mut out = SignalResult {
         channel: channel.name.clone(),
