@@ -2,7 +2,7 @@
 
 use super::PhysicsError;
 use super::dofs::DOF_NAMES;
-use super::{Assembly, DofMap, LinearSystem};
+use super::{Assembly, LinearSystem};
 use crate::bearing::Bearing;
 use crate::bearing::LinearElement;
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
@@ -135,14 +135,5 @@ fn describe(assembly: &Assembly, shape: &[f64]) -> String {
         (0, 0 | 1) => format!("lateral motion of the shaft ({})", DOF_NAMES[dof]),
         (0, _) => format!("tilting of the shaft ({})", DOF_NAMES[dof]),
         (b, d) => format!("body `{}` ({})", dofs.node_names[dofs.shaft_nodes + b - 1], DOF_NAMES[d]),
-    }
-}
-
-/// Checks that every free DOF has inertia.
-pub(super) fn check_mass(assembly: &Assembly) -> Result<(), PhysicsError> {
-    let dofs: &DofMap = &assembly.dofs;
-    match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {
-        Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }),
-        None => Ok(()),
     }
 }

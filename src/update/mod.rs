@@ -20,6 +20,7 @@ pub mod pairing;
 pub mod parameter;
 mod repeated;
 pub mod residual;
+mod residual_rows;
 pub mod state;
 pub mod target;
 

@@ -1,5 +1,6 @@
 //! Residuals (weighted differences of model and measurement) with their derivatives.
 
+pub(super) use super::residual_rows::ResidualRows;
 use nalgebra::{DMatrix, DVector};
 
 use super::UpdateFailure;
@@ -35,21 +36,6 @@ impl Fitting {
 impl Default for Fitting {
     fn default() -> Self {
         Self { frequency: Some(1e-3), damping: None, shape: Some(0.05), frf: None }
-    }
-}
-
-/// Residual rows and their derivatives by every parameter, under construction.
-pub(super) struct ResidualRows {
-    residual: Vec<f64>,
-    slopes: Vec<Vec<f64>>,
-    /// Effective number of data.
-    pub data: f64,
-}
-
-impl ResidualRows {
-    pub fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
-        self.residual.push(residual);
-        self.slopes.push(slopes.collect());
     }
 }
 
