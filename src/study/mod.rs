@@ -12,6 +12,7 @@ mod order_tracking;
 mod record;
 mod responses;
 mod run_up_correlation;
+mod settled_run;
 mod settling;
 pub mod signal;
 mod steady_motion;

@@ -2,14 +2,13 @@
 
 use super::Machine;
 use super::StudyError;
+pub(super) use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{Progress, sections};
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};
 use crate::signal::motion_classification::{Classification, Motion};
-use crate::signal::poincare::StroboscopicSampling;
 use crate::transient::reduction::Reduction;
-use crate::transient::steady::SteadyRun;
 use crate::transient::system::State;
 
 /// Logarithmic change of a section's mean square change between its halves below which a motion counts as
@@ -18,22 +17,6 @@ const SURE_TREND: f64 = 0.01;
 const SAME_AMPLITUDE: f64 = 0.05;
 /// Number by which the estimated periods to the limit may exceed the periods left for the run to go on.
 const WORTH_CONTINUING: f64 = 3.0;
-
-/// Criteria of the classification.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Criteria {
-    pub tolerance: f64,
-    pub longest_period: usize,
-    /// Perturbation for a Lyapunov exponent \[m\].
-    pub perturbation: Option<f64>,
-}
-
-/// The last record of a run, its section instants and its motion.
-pub(super) struct SettledRun {
-    pub run: SteadyRun,
-    pub strobe: StroboscopicSampling,
-    pub motion: SteadyMotion,
-}
 
 impl Machine {
     /// Runs, records and classifies; while the motion has not settled, everything so far becomes transient and the

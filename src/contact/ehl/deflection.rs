@@ -4,6 +4,7 @@
 //! computed by FFT; across, where symmetry folds the kernel, by direct summation at each frequency,
 //! which needs no padding and is as fast as a second FFT for the few rows of a contact.
 
+pub(super) use super::half_space::corner;
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -118,12 +119,4 @@ impl Deflection {
 /// buffers are its own, and those values come from a real transform times real factors.
 fn transform(result: Result<(), realfft::FftError>) {
     debug_assert!(result.is_ok());
-}
-
-/// ∫∫ dξ dη / √((x − ξ)² + (y − η)²) at the corner (x, y); differences over the corners give a rectangle.
-///
-/// G(x, y) = x asinh(y/|x|) + y asinh(x/|y|), 0 on the line y = 0; x ≠ 0. Source: Love 1929; Johnson, Contact
-/// Mechanics, eq. 3.25.
-pub(super) fn corner(x: f64, y: f64) -> f64 {
-    if y == 0.0 { 0.0 } else { x * (y / x.abs()).asinh() + y * (x / y.abs()).asinh() }
 }

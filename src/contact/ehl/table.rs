@@ -1,5 +1,6 @@
 //! Film table of one EHL contact over load and speed.
 
+pub(super) use super::similarity::SPEED_POWER;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
@@ -71,9 +72,6 @@ pub struct Table {
     /// Minimum film h_min \[m\], one row of loads for each speed.
     pub minimum_film: Vec<Vec<f64>>,
 }
-
-/// Exponent of the speed in Hamrock and Dowson's central film.
-pub(super) const SPEED_POWER: f64 = 0.67;
 
 /// `count` ≥ 2 values in geometric progression from `first` to `last`.
 pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
