@@ -2,8 +2,7 @@
 
 use super::modal::{self, Mode, inner};
 use super::mode_kind::ModeKind;
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::SiteTangent;
 use crate::linalg::Complex64;
 use rayon::prelude::*;

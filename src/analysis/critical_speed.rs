@@ -16,8 +16,7 @@ pub use undamped::undamped_critical_speeds;
 
 use super::campbell::{Campbell, Tangents};
 use super::mode_kind::ModeKind;
-use crate::assembly::Assembly;
-use crate::assembly::PhysicsError;
+use crate::assembly::{Assembly, PhysicsError};
 use search::{Search, Spectrum};
 
 /// Number of speeds of the search, both ends included.

@@ -3,8 +3,7 @@
 pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::preload::{MountedPreload, mounted_preloads};
-use crate::assembly::Assembly;
-use crate::assembly::PhysicsError;
+use crate::assembly::{Assembly, PhysicsError};
 use crate::bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};
 use crate::model::Model;

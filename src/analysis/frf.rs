@@ -1,8 +1,7 @@
 //! Frequency response functions at a fixed speed, solved directly.
 
 use super::harmonic::HarmonicSystem;
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::Quantity;
 use rayon::prelude::*;

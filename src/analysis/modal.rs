@@ -2,9 +2,8 @@
 
 pub use super::mode::Mode;
 pub(super) use super::mode::inner;
-use super::mode_kind::{self};
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use super::mode_kind;
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 

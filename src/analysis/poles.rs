@@ -3,8 +3,7 @@
 use super::campbell::Tangents;
 use super::critical_speed::{self, CriticalSpeed};
 use super::modal::{self, Mode, inner};
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::Complex64;
 use rayon::prelude::*;
 

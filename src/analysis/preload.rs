@@ -4,8 +4,7 @@
 use super::equilibrium::{CageTreatment, equilibrium};
 pub use super::mounted_preload::MountedPreload;
 pub(super) use super::mounted_preload::mounted_preloads;
-use crate::assembly::Assembly;
-use crate::assembly::PhysicsError;
+use crate::assembly::{Assembly, PhysicsError};
 use crate::bearing::{BallBearing, Bearing, BearingElement, Preload};
 use crate::model::Model;
 

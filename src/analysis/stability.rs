@@ -2,8 +2,7 @@
 
 use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
 use super::modal::Mode;
-use crate::assembly::Assembly;
-use crate::assembly::PhysicsError;
+use crate::assembly::{Assembly, PhysicsError};
 
 /// A zero crossing of a mode's damping.
 #[derive(Clone, Debug, PartialEq)]

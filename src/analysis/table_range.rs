@@ -32,7 +32,7 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
             study_rpm,
         };
         if linear.beyond == BeyondTable::Refuse {
-            return Err(found.into());
+            return Err(found);
         }
         warnings.push(format!("{found}; beyond it the values of its end hold"));
     }

@@ -1,7 +1,6 @@
 //! Linearised equations of motion at one speed, bearings included.
 
-use super::PhysicsError;
-use super::{Assembly, ModalDamping};
+use super::{Assembly, ModalDamping, PhysicsError};
 use crate::bearing::SiteTangent;
 use crate::linalg::{Complex64, SparseMatrix, Triplets};
 use std::sync::Arc;

@@ -1,10 +1,8 @@
 //! Rigid-body modes (unconstrained motions) of a singular system, described in words.
 
-use super::PhysicsError;
 use super::dofs::DOF_NAMES;
-use super::{Assembly, LinearSystem};
-use crate::bearing::Bearing;
-use crate::bearing::LinearElement;
+use super::{Assembly, LinearSystem, PhysicsError};
+use crate::bearing::{Bearing, LinearElement};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 use crate::model::{Drive, Model};
 

@@ -1,9 +1,7 @@
 //! The modal damping matrix, from the undamped modes at standstill.
 
-use super::Assembly;
-use super::ModalDamping;
-use super::PhysicsError;
 use super::modal_damping::ratio;
+use super::{Assembly, ModalDamping, PhysicsError};
 use crate::bearing::SiteTangent;
 use crate::linalg::{BandLayout, GroupDense, SparseMatrix, Triplets, eigen};
 use nalgebra::DMatrix;

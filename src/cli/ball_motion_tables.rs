@@ -2,8 +2,7 @@
 
 use rotordyn::bearing::friction::SPIN_FRICTION;
 use rotordyn::contact::Race;
-use rotordyn::results::BearingPoint;
-use rotordyn::results::{BearingResult, PickContact};
+use rotordyn::results::{BearingPoint, BearingResult, PickContact};
 
 use super::terminal::{Terminal, number, rpm};
 

@@ -1,15 +1,12 @@
 //! The result of a command: what it prints and which files it wrote.
 
 use super::failure::Failure;
-use super::studies::Job;
-use super::studies::Study;
+use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
 use rotordyn::model::Loaded;
-use serde_json::Value;
-use serde_json::json;
-use std::path::Path;
-use std::path::PathBuf;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 /// Result of a command: JSON document and failed studies.
 pub(super) struct Outcome {

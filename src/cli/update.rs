@@ -16,11 +16,10 @@ use serde_json::{Value, json};
 
 use super::args::{FitResidual, UpdateArgs};
 use super::failure::Failure;
-use super::free_parameters;
 use super::machine::ModelSource;
 use super::measured::{self, band, folder};
 use super::terminal::{Terminal, number};
-use super::{Outcome, ehl_films, print_model_warnings, print_written_files};
+use super::{Outcome, ehl_films, free_parameters, print_model_warnings, print_written_files};
 
 pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;

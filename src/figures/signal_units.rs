@@ -1,11 +1,7 @@
 //! Units, levels and cursor groups of signal figures.
 
-use super::display_unit::DisplayUnit;
-use super::display_unit::decibels;
-use super::display_unit::quantity;
-use super::display_unit::unit;
-use crate::results::BearingWithOrders;
-use crate::results::SignalResult;
+use super::display_unit::{DisplayUnit, decibels, quantity, unit};
+use crate::results::{BearingWithOrders, SignalResult};
 use crate::signal::bearing_lines::BearingPart;
 
 /// Groups of cursors: the shaft, then the bearing parts.

@@ -5,10 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::Machine;
-use super::StudyError;
 use super::settling::{Criteria, SettledRun};
 use super::steady_motion::{RestartState, clock_name, section_channel};
+use super::{Machine, StudyError};
 use crate::analysis::ball_inertia::decided_together;
 use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};

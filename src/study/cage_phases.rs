@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use super::StudyError;
-use super::{Machine, Recorder};
+use super::{Machine, Recorder, StudyError};
 use crate::bearing::{BallBearing, Bearing};
 use crate::model::Model;
 use crate::model::study::{OrderStudy, RunUpStudy};

@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use super::Machine;
-use super::StudyError;
+use super::{Machine, StudyError};
 use crate::model::study::{
     BifurcationStudy, CampbellStudy, Continuation, FrfStudy, Integrator, ModalStudy, RunUpStudy,
     SectionTrigger, SpectrogramStudy, SteadyRunSettings, Studies, Sweep, UnbalanceStudy,

@@ -30,14 +30,11 @@ use std::ops::ControlFlow;
 
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
-use crate::analysis::campbell;
-use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::analysis::preload::{MountedPreload, with_mounted_preload};
 use crate::analysis::table_range::{check_tables, speed_range};
-use crate::analysis::{modal, stability};
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem, rigid_body_modes};
+use crate::analysis::{campbell, critical_speed, modal, stability};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError, rigid_body_modes};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
 use crate::linalg::{SparseMatrix, krylov};
 use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalStudy, RunUpStudy};

@@ -1,9 +1,8 @@
 //! Runs at constant speed continued until the motion has settled, up to a limit of periods.
 
-use super::Machine;
-use super::StudyError;
 pub(super) use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{Progress, sections};
+use super::{Machine, StudyError};
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};

@@ -4,9 +4,8 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::Machine;
-use super::StudyError;
 use super::settling::{Criteria, SettledRun};
+use super::{Machine, StudyError};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
 use crate::model::study::{LyapunovStudy, Plane, PoincareStudy, SectionTrigger, SteadyRunSettings};

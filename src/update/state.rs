@@ -2,10 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::UpdateFailure;
 use super::pairing::{Candidate, Pairing, pair_modes};
-use super::repeated;
 use super::target::{Target, TargetFrfs};
+use super::{UpdateFailure, repeated};
 use crate::analysis::modal::{self, Mode};
 use crate::analysis::sensitivity::{Linearised, frf_sensitivity};
 use crate::linalg::{Complex64, SparseRow};

@@ -3,8 +3,7 @@
 use super::super::campbell::Tangents;
 use super::super::modal::Mode;
 use super::refine;
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 
 /// Relative step of speed for the derivative of a frequency.
 const SLOPE_STEP: f64 = 1e-5;

@@ -11,8 +11,7 @@
 use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
 use crate::analysis::campbell::EXTRA_MODES;
 use crate::analysis::modal::{self, Eigenpair, Mode};
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::SiteTangent;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -3,8 +3,7 @@
 use super::CriticalSpeed;
 use crate::analysis::modal::{self, Mode, inner};
 use crate::analysis::mode_kind;
-use crate::assembly::PhysicsError;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::inertia::negative_eigenvalues;
 use crate::linalg::{BandLayout, Complex64, SparseMatrix, eigen};
 use nalgebra::{Cholesky, DMatrix};

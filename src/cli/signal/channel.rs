@@ -2,12 +2,9 @@
 
 use super::super::failure::Failure;
 use super::shaft_source::ShaftSource;
-use rotordyn::results::BearingWithOrders;
-use rotordyn::results::SignalResult;
+use rotordyn::results::{BearingWithOrders, SignalResult};
 use rotordyn::signal::SignalError;
-use rotordyn::study::signal::SignalChannel;
-use rotordyn::study::signal::SignalSettings;
-use rotordyn::study::signal::analyse;
+use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
 
 /// The analyses of one channel.
 pub(super) fn analyse_channel(

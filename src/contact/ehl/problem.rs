@@ -1,7 +1,6 @@
 //! A lubricated contact under load, and its grid.
 
-use crate::contact::EllipticContact;
-use crate::contact::Lubricant;
+use crate::contact::{EllipticContact, Lubricant};
 
 /// A lubricated contact under load, and its grid.
 #[derive(Clone, Debug, PartialEq)]

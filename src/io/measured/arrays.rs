@@ -11,8 +11,7 @@
 //! j + 1.
 
 pub use super::array::{Array, Data};
-use super::signal_calc;
-use super::unit_label;
+use super::{signal_calc, unit_label};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
 
 const RATES: [&str; 9] =

@@ -1,7 +1,6 @@
 //! Writes the datasets of one group.
 
-use super::super::hdf5::Attribute;
-use super::super::hdf5::Store;
+use super::super::hdf5::{Attribute, Store};
 use crate::error::Error;
 use crate::linalg::Complex64;
 

@@ -1,9 +1,8 @@
 //! The blocks of a universal file.
 
-use super::ParseError;
-use super::binary;
 use super::binary::Binary;
 use super::block::{Block, is_delimiter};
+use super::{ParseError, binary};
 use std::borrow::Cow;
 
 /// Iterates over the blocks of a file.

@@ -1,9 +1,7 @@
 //! Record 7 of a function: type, number and spacing of its values.
 
-use super::ParseError;
-use super::block::Block;
-use super::block::DAMAGED_HINT;
-use super::field;
+use super::block::{Block, DAMAGED_HINT};
+use super::{ParseError, field};
 
 pub(super) const RECORD_7: usize = 6;
 

@@ -1,33 +1,15 @@
 //! Keys that all ball bearing models share.
 
-use super::catalogue;
 use super::catalogue::CatalogueEntry;
-use super::contact;
-use super::imperfections;
-use super::material;
-use crate::bearing::BallBearing;
-use crate::bearing::BallGeometry;
-use crate::bearing::BallInertia;
-use crate::bearing::Cage;
-use crate::bearing::Fit;
-use crate::bearing::Preload;
-use crate::bearing::Service;
-use crate::contact::ContactDamping;
-use crate::contact::ContactLaw;
-use crate::contact::Race;
+use super::{catalogue, contact, imperfections, material};
+use crate::bearing::{BallBearing, BallGeometry, BallInertia, Cage, Fit, Preload, Service};
+use crate::contact::{ContactDamping, ContactLaw, Race};
 use crate::element::Material;
-use crate::model::file::diagnostic::Kind;
-use crate::model::file::diagnostic::Problem;
-use crate::model::file::reader::Reader;
-use crate::model::file::reader::any;
-use crate::model::file::reader::not_negative;
-use crate::model::file::reader::positive;
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::file::tree::Value;
-use crate::units::ANGLE;
-use crate::units::LENGTH;
-use crate::units::NUMBER;
-use std::f64::consts::FRAC_PI_2;
-use std::f64::consts::PI;
+use crate::units::{ANGLE, LENGTH, NUMBER};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Properties common to all ball bearing models: geometry, materials, dry contacts, cage, imperfections; the
 /// rest are defaults.

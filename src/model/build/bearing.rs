@@ -1,13 +1,10 @@
 //! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
 
 pub(super) use super::ball_keys::{check_geometry, common_properties, designation};
-use super::contact;
-use super::imperfections;
 use super::loading::check_increasing;
-use super::mounting;
 use super::places::Places;
-use super::radial_bearing;
 use super::springs::{self, MatrixKind};
+use super::{contact, imperfections, mounting, radial_bearing};
 use crate::bearing::{BallBearing, BallInertia, Bearing, BeyondTable, LinearBearing, LinearBearingRow};
 use crate::contact::{ContactLaw, Lubricant};
 use crate::element::{Anchor, Material};

@@ -1,7 +1,6 @@
 //! The material that a key names.
 
-use super::super::file::diagnostic::Kind;
-use super::super::file::diagnostic::Problem;
+use super::super::file::diagnostic::{Kind, Problem};
 use super::super::file::reader::Reader;
 use crate::element::Material;
 

@@ -1,14 +1,10 @@
 //! Keys that run-up and steady studies share.
 
 use crate::model::Model;
-use crate::model::file::diagnostic::Kind;
-use crate::model::file::diagnostic::Problem;
-use crate::model::file::reader::Reader;
-use crate::model::file::reader::not_negative;
-use crate::model::file::reader::positive;
+use crate::model::file::diagnostic::{Kind, Problem};
+use crate::model::file::reader::{Reader, not_negative, positive};
 use crate::model::study::Integrator;
-use crate::units::LENGTH;
-use crate::units::NUMBER;
+use crate::units::{LENGTH, NUMBER};
 
 pub(super) fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
     let mut channels = Vec::new();

@@ -1,11 +1,9 @@
 //! Studies requested by a file, with their defaults.
 
-use super::bearing_study;
 use super::loading::{QUANTITIES, anchor_and_direction, check_increasing};
 use super::places::Places;
 pub(super) use super::run_keys::{channels, integrator};
-use super::steady;
-use super::work_limits;
+use super::{bearing_study, steady, work_limits};
 use crate::bearing::{Bearing, Cage};
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, not_negative, positive};

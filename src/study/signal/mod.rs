@@ -90,7 +90,7 @@ pub fn analyse(
         let asked = matches!(settings.analyses, AnalysisSelection::Only(_))
             || (analysis == Analysis::Envelope && bearing.is_some());
         if asked {
-            return Err(error.into());
+            return Err(error);
         }
         out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.keyword()));
     }

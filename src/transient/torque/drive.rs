@@ -1,10 +1,8 @@
 //! A torque drive and its unbalances in the run's coordinates.
 
 use crate::assembly::PhysicsError;
-use crate::linalg::Outside;
-use crate::linalg::piecewise;
-use nalgebra::DMatrix;
-use nalgebra::DVector;
+use crate::linalg::{Outside, piecewise};
+use nalgebra::{DMatrix, DVector};
 
 /// Driving torque T(Ω) at one node with viscous drag, and what couples the rotation to the other coordinates.
 #[derive(Clone, Debug)]
