@@ -18,6 +18,7 @@
 //! terms d(k)/dρ, which count the contact force twice; the paper's housing is fixed.
 
 mod ball;
+mod ball_state;
 mod quasi_static;
 mod step;
 mod tangent;
