@@ -1,6 +1,7 @@
 //! Campbell diagram: modes over speed, tracked by the MAC of their shapes.
 
-use super::modal::{self, Mode, inner};
+use super::modal::{self, Mode};
+use super::mode::inner;
 use super::mode_kind::ModeKind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::SiteTangent;

@@ -2,7 +2,8 @@
 
 pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use super::belt_pull::{BeltPull, belt_pulls};
-use super::preload::{MountedPreload, mounted_preloads};
+use super::mounted_preload::mounted_preloads;
+use super::preload::MountedPreload;
 use crate::assembly::{Assembly, PhysicsError};
 use crate::bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};

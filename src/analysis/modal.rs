@@ -1,7 +1,7 @@
 //! Natural frequencies, damping and mode shapes at one speed.
 
 pub use super::mode::Mode;
-pub(super) use super::mode::inner;
+use super::mode::inner;
 use super::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};

@@ -1,6 +1,7 @@
 //! Classification of modes: bending, torsional, axial or body (housing); forward, backward or mixed whirl.
 
-use super::modal::{Mode, inner};
+use super::modal::Mode;
+use super::mode::inner;
 pub use super::mode::{Energy, ModeKind};
 use crate::assembly::Assembly;
 use crate::linalg::Complex64;

@@ -2,7 +2,8 @@
 
 use super::campbell::Tangents;
 use super::critical_speed::{self, CriticalSpeed};
-use super::modal::{self, Mode, inner};
+use super::modal::{self, Mode};
+use super::mode::inner;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::Complex64;
 use rayon::prelude::*;

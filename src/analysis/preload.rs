@@ -3,7 +3,6 @@
 
 use super::equilibrium::{CageTreatment, equilibrium};
 pub use super::mounted_preload::MountedPreload;
-pub(super) use super::mounted_preload::mounted_preloads;
 use crate::assembly::{Assembly, PhysicsError};
 use crate::bearing::{BallBearing, Bearing, BearingElement, Preload};
 use crate::model::Model;

@@ -11,7 +11,7 @@ use super::equilibrium::{
     CageTreatment, Equilibrium, Sites, bearing_stiffness_matrix, equilibrium, external_load, residual_force,
 };
 use super::harmonic::HarmonicSystem;
-use super::modal::inner;
+use super::mode::inner;
 use super::preload::with_mounted_preload;
 use super::table_range;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};

@@ -1,6 +1,6 @@
 //! Axial preload: rigid (displacement or force) and spring preload with a floating outer ring.
 
-pub(super) use super::preload_mechanism::PreloadMechanism;
+use super::preload_mechanism::PreloadMechanism;
 pub use super::preload_mechanism::PreloadState;
 use super::ring_motion::RingMotion;
 use super::row::Row;

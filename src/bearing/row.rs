@@ -3,8 +3,8 @@
 use super::ball_equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaData, BallInertiaLoads};
 use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
 use super::force_kernel::{ForceKernel, KernelParameters, RowForce};
-pub(super) use super::plane_motion::PlaneMotion;
-use super::preload::PreloadMechanism;
+use super::plane_motion::PlaneMotion;
+use super::preload_mechanism::PreloadMechanism;
 use super::ring_motion::RingMotion;
 use super::{
     BallBearing, BallLoad, Profile, ProfileState, Rotation, cage::CageKinematics, defect_force, massless,

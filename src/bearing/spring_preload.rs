@@ -15,9 +15,10 @@
 use super::ball_derivatives::{AxialCurvature, EquilibriumDerivatives};
 use super::ball_equilibrium::BallEquilibrium;
 use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
+use super::plane_motion::PlaneMotion;
 use super::preload::RowReaction;
 use super::ring_motion::RingMotion;
-use super::row::{OperatingState, PlaneMotion, Row};
+use super::row::{OperatingState, Row};
 use super::{Reaction, massless};
 
 /// A ball between the grooves.

@@ -1,6 +1,6 @@
 //! Tables of a ball bearing analysis.
 
-pub use super::ball_motion_tables::ball_number;
+use super::ball_motion_tables::ball_number;
 use rotordyn::bearing::Preload;
 use rotordyn::bearing::life::hours;
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};

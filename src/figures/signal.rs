@@ -1,9 +1,7 @@
 //! Figures of a signal analysis: record, spectra, envelope, kurtogram, cepstrum.
 
 use super::Named;
-pub use super::signal_units::{
-    CURSOR_GROUPS, cursor_group, defect_orders, display_unit, levels, quantity_name,
-};
+use super::signal_units::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, quantity_name};
 use crate::plot::{
     Channel, Cursor, CursorLines, CursorMark, CursorPanel, Curve, Figure, HeatMap, History, Lines,
     MarkedRegion,

@@ -1,6 +1,6 @@
 //! Axonometric view of the machine in a panel of mode shapes, and the solids in it.
 
-pub(super) use super::vector::{cross, dot};
+use super::vector::{cross, dot};
 use std::f64::consts::TAU;
 
 use super::axes::Frame;

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::settling::{Criteria, SettledRun};
+use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{RestartState, clock_name, section_channel};
 use super::{Machine, StudyError};
 use crate::analysis::ball_inertia::decided_together;

@@ -1,6 +1,6 @@
 //! Runs at constant speed continued until the motion has settled, up to a limit of periods.
 
-pub(super) use super::settled_run::{Criteria, SettledRun};
+use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{Progress, sections};
 use super::{Machine, StudyError};
 use crate::model::Probe;

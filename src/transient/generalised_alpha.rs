@@ -19,7 +19,7 @@ use super::cage;
 use super::system::{State, System};
 use crate::bearing::Rotation;
 use crate::model::Spin;
-use driven_step::DrivenStep;
+use driven_buffers::DrivenStep;
 use effective_matrix::EffectiveMatrices;
 use interface_newton::InterfaceNewton;
 

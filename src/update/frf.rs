@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::UpdateFailure;
-use super::residual::ResidualRows;
+use super::residual_rows::ResidualRows;
 use super::state::ModelState;
 use super::target::{Sensor, TargetFrfs};
 use crate::analysis::sensitivity::{FrfSensitivity, SystemDerivative, frf_sensitivity};

@@ -1,6 +1,6 @@
 //! Residuals (weighted differences of model and measurement) with their derivatives.
 
-pub(super) use super::residual_rows::ResidualRows;
+use super::residual_rows::ResidualRows;
 use nalgebra::{DMatrix, DVector};
 
 use super::UpdateFailure;

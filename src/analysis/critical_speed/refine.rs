@@ -1,6 +1,7 @@
 //! A crossing refined on its own mode: inverse iteration at a speed, secant method over speed.
 
-use crate::analysis::modal::{Eigenpair, inner, mass_normalised};
+use crate::analysis::modal::{Eigenpair, mass_normalised};
+use crate::analysis::mode::inner;
 use crate::assembly::{Assembly, LinearSystem, ModalDamping, PhysicsError};
 use crate::linalg::{BandLayout, Complex64};
 

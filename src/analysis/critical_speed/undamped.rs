@@ -1,7 +1,8 @@
 //! Undamped critical speeds with constant bearings, solved directly or counted.
 
 use super::CriticalSpeed;
-use crate::analysis::modal::{self, Mode, inner};
+use crate::analysis::modal::{self, Mode};
+use crate::analysis::mode::inner;
 use crate::analysis::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::inertia::negative_eigenvalues;

@@ -1,7 +1,7 @@
 //! One ball between its races: position, contact deformation, contact forces.
 
 use super::RadialElement;
-pub(super) use super::ball_state::{BallState, ContactState, LocalMotion};
+use super::ball_state::{BallState, ContactState, LocalMotion};
 
 impl RadialElement {
     /// State of the ball at position y and velocity ẏ.

@@ -25,7 +25,7 @@ mod tangent;
 
 use std::f64::consts::{PI, TAU};
 
-use ball::{BallState, LocalMotion};
+use ball_state::{BallState, LocalMotion};
 pub use step::NewmarkGain;
 pub use tangent::RadialTangent;
 

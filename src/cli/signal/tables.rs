@@ -1,6 +1,6 @@
 //! Tables of the signal analyses.
 
-pub use super::line_tables::{MAX_LINES, band, level};
+use super::line_tables::{MAX_LINES, band, level};
 use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;

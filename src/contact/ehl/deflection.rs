@@ -4,7 +4,6 @@
 //! computed by FFT; across, where symmetry folds the kernel, by direct summation at each frequency,
 //! which needs no padding and is as fast as a second FFT for the few rows of a contact.
 
-pub(super) use super::half_space::corner;
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};

@@ -1,13 +1,12 @@
 //! Film table of one EHL contact over load and speed.
 
-pub(super) use super::similarity::SPEED_POWER;
+use super::similarity::{MIN_SOLVED_FILM, SPEED_POWER, SimilarContact};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::curve::Curve;
-use super::similarity::{MIN_SOLVED_FILM, SimilarContact};
 use super::{EhlError, Grid, Problem, Solution, extrapolate};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::linalg::pchip::Pchip;

@@ -1,7 +1,7 @@
 //! Set 58: function at a nodal DOF (time record, spectrum, FRF, coherence).
 
 use super::block::{Block, CUT_OFF_HINT, DAMAGED_HINT};
-pub(super) use super::data_form::DataForm;
+use super::data_form::DataForm;
 use super::ordinate::{AxisCharacteristics, ratio};
 use super::{ParseError, UnitSystem, field};
 use crate::io::measured::unit_label;

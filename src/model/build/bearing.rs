@@ -1,7 +1,7 @@
 //! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
 
-pub(super) use super::ball_keys::{check_geometry, common_properties, designation};
-use super::loading::check_increasing;
+use super::ball_keys::{check_geometry, common_properties, designation};
+use super::increasing::check_increasing;
 use super::places::Places;
 use super::springs::{self, MatrixKind};
 use super::{contact, imperfections, mounting, radial_bearing};

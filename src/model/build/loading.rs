@@ -1,6 +1,6 @@
 //! Unbalance, loads, damping, drive, speed profile and probes.
 
-pub(super) use super::increasing::check_increasing;
+use super::increasing::check_increasing;
 use super::measured_speed;
 use super::places::Places;
 use crate::element::Anchor;

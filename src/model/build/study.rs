@@ -1,8 +1,9 @@
 //! Studies requested by a file, with their defaults.
 
-use super::loading::{QUANTITIES, anchor_and_direction, check_increasing};
+use super::increasing::check_increasing;
+use super::loading::{QUANTITIES, anchor_and_direction};
 use super::places::Places;
-pub(super) use super::run_keys::{channels, integrator};
+use super::run_keys::{channels, integrator};
 use super::{bearing_study, steady, work_limits};
 use crate::bearing::{Bearing, Cage};
 use crate::model::file::diagnostic::{Kind, Problem};

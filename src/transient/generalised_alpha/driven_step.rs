@@ -4,7 +4,7 @@
 //! given e and Ω̇. What e should have been at the accelerations found follows with the response of the linear part to e
 //! ([`TorqueDrive::solve_coupling`]), so that only bearing tangents and terms in x and ẋ are left to iteration.
 
-pub(super) use super::driven_buffers::DrivenStep;
+use super::driven_buffers::DrivenStep;
 use nalgebra::DVector;
 
 use super::{GeneralisedAlpha, StepFailure};
