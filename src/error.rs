@@ -1,6 +1,12 @@
-//! Errors of the library: input, physics, environment.
+//! The error that wraps those of all layers: input, physics, environment. Each layer owns its own.
 
 use std::path::{Path, PathBuf};
+
+pub use crate::assembly::PhysicsError;
+use crate::signal::SignalError;
+use crate::signal::record::RecordError;
+use crate::study::StudyError;
+use crate::update::{UpdateError, UpdateFailure};
 
 /// Any error other than those of reading a model file.
 #[derive(Debug, thiserror::Error)]
@@ -10,13 +16,13 @@ pub enum Error {
     Physics(#[from] PhysicsError),
     /// A record or setting that a signal function cannot work with.
     #[error(transparent)]
-    Signal(#[from] crate::signal::SignalError),
+    Signal(#[from] SignalError),
     /// A record unsuitable for the requested evaluation.
     #[error(transparent)]
-    Record(#[from] crate::signal::record::RecordError),
+    Record(RecordError),
     /// A failure of model updating.
     #[error(transparent)]
-    Update(#[from] crate::update::UpdateError),
+    Update(#[from] UpdateError),
     /// FRFs in which no modes can be identified.
     #[error(transparent)]
     Identify(#[from] crate::identify::IdentifyError),
@@ -38,49 +44,29 @@ impl Error {
     }
 }
 
-/// A failure of the physics or of its numerical solution, with item, speed, time and residual if known.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PhysicsError {
-    #[error(
-        "the system is singular: {motion} is unconstrained; constrain it with a bearing, bushing, joint or drive"
-    )]
-    Singular { motion: String },
-    #[error(
-        "no static equilibrium at {speed_rpm:.1} rpm: residual {residual:.3e} N at {item} after {iterations} iterations"
-    )]
-    NoEquilibrium { item: String, speed_rpm: f64, residual: f64, iterations: usize },
-    #[error(
-        "no convergence at t = {time:.6} s, {speed_rpm:.1} rpm: residual {residual:.3e} at {item} after {iterations} iterations and the smallest step"
-    )]
-    NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
-    #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
-    Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
-    #[error(
-        "unbalance {unbalance} of {magnitude:.3e} kg m is too large for a torque drive: U^2 must be less than m J of the rotor at its station, and there m = {mass:.3e} kg and J = {inertia:.3e} kg m^2 move with it; put it on a disc, or add its mass as a disc"
-    )]
-    UnbalanceAboveInertia { unbalance: String, magnitude: f64, mass: f64, inertia: f64 },
-    #[error("the clock of the Poincaré section does not advance at {speed_rpm:.1} rpm")]
-    SectionClockStopped { speed_rpm: f64 },
-    #[error("no steady motion at any value of the parameter: {reason}")]
-    NoSteadyMotion { reason: String },
-    #[error(
-        "bearing {bearing} has no equilibrium under F = ({:.4}, {:.4}, {:.4}) N, M = ({:.4}, {:.4}) N m at {speed_rpm:.1} rpm: residual {residual:.3e} N after {iterations} iterations",
-        load[0], load[1], load[2], load[3], load[4]
-    )]
-    NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
-    #[error(
-        "bearing {bearing}: its table covers {:.0} to {:.0} rpm, {study} needs {:.0} to {:.0} rpm",
-        table_rpm[0], table_rpm[1], study_rpm[0], study_rpm[1]
-    )]
-    BeyondTable { bearing: String, study: String, table_rpm: [f64; 2], study_rpm: [f64; 2] },
-    #[error(
-        "no interference of bearing {item} gives its mounted preload of {force:.4} N: it carries {reached:.4} N in the machine at standstill; the shaft's other axial supports or its axial load limit it"
-    )]
-    NoMountedPreload { item: String, force: f64, reached: f64 },
-    #[error("bearing {bearing}, {race} race: {reason}")]
-    Film { bearing: String, race: String, reason: String },
-    #[error("no derivative with respect to the parameter: {reason}")]
-    NoDerivative { reason: String },
-    #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
-    Eigen { speed_rpm: f64, reason: String },
+impl From<RecordError> for Error {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::Signal(error) => Self::Signal(error),
+            error => Self::Record(error),
+        }
+    }
+}
+
+impl From<StudyError> for Error {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Physics(error) => Self::Physics(error),
+            StudyError::Signal(error) => Self::Signal(error),
+        }
+    }
+}
+
+impl From<UpdateFailure> for Error {
+    fn from(failure: UpdateFailure) -> Self {
+        match failure {
+            UpdateFailure::Physics(error) => Self::Physics(error),
+            UpdateFailure::Input(error) => Self::Update(error),
+        }
+    }
 }

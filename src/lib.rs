@@ -114,9 +114,9 @@
 //! | [`identify`] | experimental modal analysis: poles, shapes and residues from FRFs, with standard errors |
 //! | [`update`] | model updating: mode pairing by MAC, sensitivities, least squares, identifiability |
 //! | [`results`], [`study`] | results of the studies; the studies, one method of [`study::Machine`] each |
+//! | [`error`] | the error that wraps those of all layers: input, physics, environment |
 //! | [`io`] | file formats: HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF |
 //! | [`plot`], [`figures`] | SVG and PNG charts; the figures of every study |
-//! | [`error`] | error types: input, physics, environment |
 //!
 //! Imports go down this table only.
 
@@ -151,9 +151,9 @@ pub mod update;
 pub mod results;
 pub mod study;
 
+pub mod error;
+
 pub mod io;
 
 pub mod figures;
 pub mod plot;
-
-pub mod error;

@@ -1,6 +1,7 @@
 //! Results of the studies of a model: plain data in SI.
 
 mod bearing;
+mod order_line;
 mod run_up;
 mod run_up_correlation;
 mod signal;
@@ -9,6 +10,7 @@ pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, Column, ContactState, EhlFilm,
     PickContact,
 };
+pub use order_line::OrderLine;
 pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, StepError, StepErrorLine};
 pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
 pub use signal::{
@@ -64,15 +66,6 @@ pub struct ModalResult {
     /// Ω \[rad/s\].
     pub speed: f64,
     pub modes: Vec<Mode>,
-}
-
-/// A line of constant order with its usual name ("1x", "BPFO").
-#[derive(Clone, Debug, PartialEq)]
-pub struct OrderLine {
-    pub label: String,
-    pub order: f64,
-    /// Whether it is a bearing's characteristic order rather than a shaft order.
-    pub bearing: bool,
 }
 
 /// Campbell diagram with order lines and their crossings (critical speeds).

@@ -1,8 +1,8 @@
 //! Equilibrium and stiffness matrix of a single bearing under a load or a prescribed displacement.
 
 use super::equilibrium::{CAGE_ANGLES_PER_PITCH, CageTreatment};
+use crate::assembly::PhysicsError;
 use crate::bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
-use crate::error::PhysicsError;
 use crate::linalg::dot;
 use crate::linalg::small_dense::solve_in_place;
 use rayon::prelude::*;

@@ -1,10 +1,10 @@
 //! Campbell diagram: modes over speed, tracked by the MAC of their shapes.
 
-use super::modal::{self, Mode, inner};
+use super::modal::{self, Mode};
+use super::mode::inner;
 use super::mode_kind::ModeKind;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::SiteTangent;
-use crate::error::Error;
 use crate::linalg::Complex64;
 use rayon::prelude::*;
 
@@ -18,8 +18,8 @@ const LOST_MAC: f64 = 0.2;
 const MAX_HALVINGS: usize = 4;
 
 /// Tangent stiffness and damping of all bearings as a function of speed.
-pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync {}
-impl<F: Fn(f64) -> Result<Vec<SiteTangent>, Error> + Sync> Tangents for F {}
+pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, PhysicsError> + Sync {}
+impl<F: Fn(f64) -> Result<Vec<SiteTangent>, PhysicsError> + Sync> Tangents for F {}
 
 /// Modes over speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,9 +84,10 @@ pub fn campbell(
     speeds: &[f64],
     count: usize,
     tangents: &impl Tangents,
-) -> Result<Campbell, Error> {
+) -> Result<Campbell, PhysicsError> {
     let tracker = Tracker { assembly, tangents, count: count + EXTRA_MODES };
-    let sets: Vec<Vec<Mode>> = speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, Error>>()?;
+    let sets: Vec<Vec<Mode>> =
+        speeds.par_iter().map(|&s| tracker.modes(s)).collect::<Result<_, PhysicsError>>()?;
     // Index of every branch's mode in the mode set of the current speed.
     let mut at: Vec<Option<usize>> =
         (0..sets.first().map_or(0, |set| set.len().min(count))).map(Some).collect();
@@ -143,7 +144,7 @@ pub(super) struct Tracker<'a, T> {
 
 impl<T: Tangents> Tracker<'_, T> {
     /// Modes at a speed.
-    pub fn modes(&self, speed: f64) -> Result<Vec<Mode>, Error> {
+    pub fn modes(&self, speed: f64) -> Result<Vec<Mode>, PhysicsError> {
         let system = LinearSystem::new(self.assembly, &(self.tangents)(speed)?, speed)?;
         modal::modes(self.assembly, &system, self.count)
     }
@@ -155,7 +156,7 @@ impl<T: Tangents> Tracker<'_, T> {
         b: (f64, &[Mode]),
         tracked: &[Option<usize>],
         depth: usize,
-    ) -> Result<Vec<Option<usize>>, Error> {
+    ) -> Result<Vec<Option<usize>>, PhysicsError> {
         let mac = self.mac(a.1, b.1);
         let links = pair_by_mac(&mac);
         let uncertain = |i: usize| links[i].is_none_or(|j| mac[i][j] < CERTAIN_MAC);

@@ -1,15 +1,14 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
+pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use super::belt_pull::{BeltPull, belt_pulls};
-use super::preload::{MountedPreload, mounted_preloads};
-use crate::assembly::Assembly;
-use crate::bearing::{BallLoad, BearingElement, PreloadState, Reaction, Rotation, SiteTangent};
-use crate::error::{Error, PhysicsError};
+use super::mounted_preload::mounted_preloads;
+use super::preload::MountedPreload;
+use crate::assembly::{Assembly, PhysicsError};
+use crate::bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot};
 use crate::model::Model;
 
-/// Number of cage angles per ball pitch over which a bearing is averaged.
-pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 /// Residual over the largest load or bearing force.
 const TOLERANCE: f64 = 1e-11;
 /// The same, accepted where round-off prevents it.
@@ -22,13 +21,6 @@ const SMALLEST_FORCE: f64 = 2e-9;
 const ROUND_OFF: f64 = 1e-14;
 /// Resolution of the groove centres' distance in double precision \[m\].
 const RESOLUTION: f64 = 1e-18;
-
-/// Bearing forces at the cage angle of the model (`FixedAngle`), or averaged over one ball pitch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CageTreatment {
-    FixedAngle,
-    Averaged,
-}
 
 /// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
 #[derive(Clone, Debug, PartialEq)]
@@ -44,24 +36,6 @@ pub struct Equilibrium {
     pub iterations: usize,
     /// Largest unbalanced force or moment \[N, N m\].
     pub residual: f64,
-}
-
-/// One bearing at equilibrium.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BearingState {
-    pub name: String,
-    /// Displacement of the shaft relative to the housing \[m, rad\].
-    pub displacement: [f64; 6],
-    /// Force and moment on the shaft \[N, N m\].
-    pub force: [f64; 6],
-    /// Tangent stiffness and damping at equilibrium; opposite sign for the housing.
-    pub tangent: SiteTangent,
-    /// Every ball at the cage angle of the model; empty for a linear bearing.
-    pub balls: Vec<BallLoad>,
-    /// Largest ball load over all cage angles at this displacement \[N\]; 0 for a linear bearing.
-    pub largest_ball_load: f64,
-    /// Preload of the centred bearing at the speed; zero for a linear bearing.
-    pub preload: PreloadState,
 }
 
 impl Equilibrium {
@@ -123,7 +97,7 @@ pub fn equilibrium(
     speed: f64,
     cage: CageTreatment,
     start: Option<&[f64]>,
-) -> Result<Equilibrium, Error> {
+) -> Result<Equilibrium, PhysicsError> {
     let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
     let load = external_load(assembly);
@@ -194,7 +168,7 @@ pub fn equilibrium(
     let furthest = max_abs(&q);
     if furthest > 1e3 {
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
-        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) }.into());
+        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) });
     }
     let accepted = (ACCEPTED * size_of(&reactions)).max(round_off(&q, &reactions));
     if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {
@@ -203,8 +177,7 @@ pub fn equilibrium(
             speed_rpm: speed * 30.0 / std::f64::consts::PI,
             residual: left,
             iterations,
-        }
-        .into());
+        });
     }
     let bearings: Vec<BearingState> = (0..assembly.sites.len())
         .map(|k| {

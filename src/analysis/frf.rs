@@ -1,8 +1,7 @@
 //! Frequency response functions at a fixed speed, solved directly.
 
 use super::harmonic::HarmonicSystem;
-use crate::assembly::{Assembly, LinearSystem};
-use crate::error::{Error, PhysicsError};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::Quantity;
 use rayon::prelude::*;
@@ -34,7 +33,7 @@ pub fn frf(
     excitations: &[SparseRow],
     responses: &[SparseRow],
     quantity: Quantity,
-) -> Result<Frf, Error> {
+) -> Result<Frf, PhysicsError> {
     let reached: Vec<usize> = excitations.iter().flat_map(|e| e.0.iter().map(|&(i, _)| i)).collect();
     let harmonic = HarmonicSystem::new(system, Some(&reached));
     let columns: Vec<Vec<Complex64>> = frequencies
@@ -60,7 +59,7 @@ pub fn frf(
                 Ok(column)
             },
         )
-        .collect::<Result<_, Error>>()?;
+        .collect::<Result<_, PhysicsError>>()?;
 
     let value = |r: usize, e: usize| columns.iter().map(|c| c[e * responses.len() + r]).collect();
     let values =

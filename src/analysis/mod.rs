@@ -19,6 +19,7 @@
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
 pub mod ball_inertia;
+mod bearing_state;
 pub mod bearing_stiffness;
 pub mod belt_pull;
 pub mod campbell;
@@ -27,7 +28,9 @@ pub mod equilibrium;
 pub mod frf;
 pub mod harmonic;
 pub mod modal;
+mod mode;
 pub mod mode_kind;
+mod mounted_preload;
 pub mod peaks;
 pub mod poles;
 pub mod preload;

@@ -1,60 +1,14 @@
 //! Natural frequencies, damping and mode shapes at one speed.
 
-use super::mode_kind::{self, Energy, ModeKind};
-use crate::assembly::{Assembly, LinearSystem};
-use crate::error::{Error, PhysicsError};
+pub use super::mode::Mode;
+use super::mode::inner;
+use super::mode_kind;
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 
 /// Spectral shift of the eigenvalue solver \[rad/s\], below any natural frequency of interest.
 pub const SHIFT: f64 = 30.0;
-
-/// One oscillatory mode, q(t) = Re(φ e^{λt}).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
-    /// λ \[1/s\].
-    pub eigenvalue: Complex64,
-    /// φ over the free DOFs, φᴴ M φ = 1, its largest translation real and positive.
-    pub shape: Vec<Complex64>,
-    /// φ over all DOFs, six per node.
-    pub full_shape: Vec<Complex64>,
-    pub kind: ModeKind,
-    /// For example "1st bending forward"; numbered by frequency within its kind.
-    pub label: String,
-    /// Whirl index of every shaft node: −1 backward circle, 0 straight line, 1 forward circle.
-    pub whirl: Vec<f64>,
-    /// Kinetic energy distribution.
-    pub energy: Energy,
-    /// Effective modal mass for base excitation along x, y, z, as a fraction of the total mass.
-    pub effective_mass: [f64; 3],
-}
-
-impl Mode {
-    /// Damped angular frequency ω_d = Im λ \[rad/s\].
-    pub fn omega(&self) -> f64 {
-        self.eigenvalue.im
-    }
-
-    /// Damped frequency \[Hz\].
-    pub fn frequency_hz(&self) -> f64 {
-        self.eigenvalue.im / TAU
-    }
-
-    /// Natural angular frequency |λ| \[rad/s\].
-    pub fn natural_omega(&self) -> f64 {
-        self.eigenvalue.norm()
-    }
-
-    /// Damping ratio ζ = −Re λ / |λ|.
-    pub fn zeta(&self) -> f64 {
-        -self.eigenvalue.re / self.eigenvalue.norm()
-    }
-
-    /// Log decrement (logarithmic decrement) δ = 2π ζ / √(1 − ζ²).
-    pub fn log_dec(&self) -> f64 {
-        -TAU * self.eigenvalue.re / self.eigenvalue.im
-    }
-}
 
 /// The lowest `count` oscillatory modes, by natural frequency; rigid-body and overdamped modes are omitted.
 ///
@@ -62,7 +16,7 @@ impl Mode {
 ///
 /// # Errors
 /// An eigenvalue computation that fails.
-pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+pub fn modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, PhysicsError> {
     let mut modes = modes_of(assembly, system, eigenpairs(assembly, system, count)?);
     modes.truncate(count);
     Ok(modes)
@@ -90,7 +44,7 @@ pub(super) fn eigenpairs(
     assembly: &Assembly,
     system: &LinearSystem,
     count: usize,
-) -> Result<Vec<Eigenpair>, Error> {
+) -> Result<Vec<Eigenpair>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
     let [m, d, s] = [&system.mass, &system.damping, &system.stiffness];
     let mut pairs = match &system.modal {
@@ -113,7 +67,7 @@ pub(super) fn eigenpairs_up_to(
     system: &LinearSystem,
     mut count: usize,
     reach: impl Fn(&[Eigenpair]) -> f64,
-) -> Result<Vec<Eigenpair>, Error> {
+) -> Result<Vec<Eigenpair>, PhysicsError> {
     loop {
         let pairs = eigenpairs(assembly, system, count)?;
         if pairs.get(count - 1).is_none_or(|last| last.0.norm() >= reach(&pairs)) {
@@ -127,7 +81,11 @@ pub(super) fn eigenpairs_up_to(
 ///
 /// # Errors
 /// As [`modes`].
-pub fn undamped_modes(assembly: &Assembly, system: &LinearSystem, count: usize) -> Result<Vec<Mode>, Error> {
+pub fn undamped_modes(
+    assembly: &Assembly,
+    system: &LinearSystem,
+    count: usize,
+) -> Result<Vec<Mode>, PhysicsError> {
     modes(assembly, &undamped(assembly, system), count)
 }
 
@@ -149,11 +107,6 @@ pub(super) fn mass_normalised(mut shape: Vec<Complex64>, mass: &SparseMatrix) ->
         shape.iter_mut().for_each(|v| *v /= size);
     }
     shape
-}
-
-/// aᴴ b.
-pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
-    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
 }
 
 /// Eigenvalues closer than this relative distance may be a repeated (double) eigenvalue split by round-off.

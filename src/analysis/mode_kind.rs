@@ -1,6 +1,8 @@
 //! Classification of modes: bending, torsional, axial or body (housing); forward, backward or mixed whirl.
 
-use super::modal::{Mode, inner};
+use super::modal::Mode;
+use super::mode::inner;
+pub use super::mode::{Energy, ModeKind};
 use crate::assembly::Assembly;
 use crate::linalg::Complex64;
 use std::collections::HashMap;
@@ -9,68 +11,6 @@ use std::collections::HashMap;
 const MAX_PLANAR_AREA: f64 = 0.01;
 /// A mode is mixed when the minority whirl direction encloses more than this fraction of the orbit area.
 const MIN_MIXED_AREA: f64 = 0.05;
-
-/// Kind of a mode, by kinetic energy and whirl direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ModeKind {
-    /// Bending, forward whirl (in the direction of spin, x towards y) of at least 95 % of the orbit area.
-    Forward,
-    /// Bending, backward whirl (against the spin), likewise.
-    Backward,
-    /// Bending, forward and backward whirl along the shaft.
-    Mixed,
-    /// Bending in a plane, mostly along x.
-    PlaneX,
-    /// Bending in a plane, mostly along y.
-    PlaneY,
-    Torsional,
-    Axial,
-    /// Most of the energy is in a body (housing, block).
-    Body,
-}
-
-impl ModeKind {
-    /// Name of the kind.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Forward => "bending forward",
-            Self::Backward => "bending backward",
-            Self::Mixed => "bending mixed",
-            Self::PlaneX => "bending x",
-            Self::PlaneY => "bending y",
-            Self::Torsional => "torsional",
-            Self::Axial => "axial",
-            Self::Body => "body",
-        }
-    }
-
-    /// Whether the kind is shaft bending.
-    pub fn is_bending(self) -> bool {
-        !matches!(self, Self::Torsional | Self::Axial | Self::Body)
-    }
-}
-
-/// Kinetic energy distribution of a mode; the fractions sum to 1.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Energy {
-    /// Shaft, along u_x and θ_y.
-    pub bending_x: f64,
-    /// Shaft, along u_y and θ_x.
-    pub bending_y: f64,
-    /// Shaft, along u_z.
-    pub axial: f64,
-    /// Shaft, along θ_z.
-    pub torsion: f64,
-    /// Every body, by direction.
-    pub bodies: Vec<[f64; 6]>,
-}
-
-impl Energy {
-    /// Share of all bodies.
-    pub fn body_total(&self) -> f64 {
-        self.bodies.iter().flatten().sum()
-    }
-}
 
 /// The mode with phase-normalised shape, kind, energies and effective modal masses; without label.
 pub(super) fn characterise(assembly: &Assembly, eigenvalue: Complex64, mut shape: Vec<Complex64>) -> Mode {

@@ -2,9 +2,9 @@
 
 use super::campbell::Tangents;
 use super::critical_speed::{self, CriticalSpeed};
-use super::modal::{self, Mode, inner};
-use crate::assembly::{Assembly, LinearSystem};
-use crate::error::Error;
+use super::modal::{self, Mode};
+use super::mode::inner;
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::Complex64;
 use rayon::prelude::*;
 
@@ -62,7 +62,7 @@ impl Pole {
 ///
 /// # Errors
 /// As [`modal::modes`].
-pub fn frf_poles(assembly: &Assembly, system: &LinearSystem, max_hz: f64) -> Result<Vec<Pole>, Error> {
+pub fn frf_poles(assembly: &Assembly, system: &LinearSystem, max_hz: f64) -> Result<Vec<Pole>, PhysicsError> {
     use std::f64::consts::TAU;
     let reach = |found: &[modal::Eigenpair]| match found.len() {
         ..MAX_MODES => FRF_REACH * TAU * max_hz,
@@ -82,7 +82,7 @@ pub fn synchronous_poles(
     assembly: &Assembly,
     [low, high]: [f64; 2],
     tangents: &impl Tangents,
-) -> Result<Vec<Pole>, Error> {
+) -> Result<Vec<Pole>, PhysicsError> {
     if high <= low || high <= 0.0 {
         return Ok(Vec::new());
     }

@@ -1,10 +1,10 @@
 //! Axial preload of ball bearings in the assembled machine: the force that results, and the preload that gives a
 //! stated one.
 
-use super::equilibrium::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment, equilibrium};
-use crate::assembly::Assembly;
-use crate::bearing::{BallBearing, Bearing, BearingElement, Preload, Rotation};
-use crate::error::{Error, PhysicsError};
+use super::equilibrium::{CageTreatment, equilibrium};
+pub use super::mounted_preload::MountedPreload;
+use crate::assembly::{Assembly, PhysicsError};
+use crate::bearing::{BallBearing, Bearing, BearingElement, Preload};
 use crate::model::Model;
 
 /// Relative tolerance of the axial force of a mounted preload.
@@ -13,69 +13,6 @@ const MAX_SOLUTIONS: usize = 100;
 /// Largest change of the preload from its estimate \[m\].
 const LARGEST_OFFSET: f64 = 1e-3;
 
-/// Preload of a ball bearing beside the axial force that it carries in the machine.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MountedPreload {
-    pub bearing: String,
-    /// As stated in the model file.
-    pub stated: Preload,
-    /// Axial force of every row in the direction of its thrust at equilibrium \[N\].
-    pub rows: Vec<f64>,
-}
-
-impl MountedPreload {
-    /// Smallest axial force of a row as a share of the stated one; `None` for a stated interference.
-    pub fn share(&self) -> Option<f64> {
-        let least = self.rows.iter().copied().fold(f64::INFINITY, f64::min);
-        self.stated.force().filter(|force| *force > 0.0).map(|force| least / force)
-    }
-}
-
-/// Axial forces of the preloaded ball bearings at an equilibrium, F = ±f_z of a single row, F = ±Σ Q_j sin α_j of the
-/// rows of a pair, positive in the direction of the row's thrust.
-pub(super) fn mounted_preloads(
-    model: &Model,
-    elements: &[(BearingElement, Rotation)],
-    states: &[BearingState],
-    cage: CageTreatment,
-) -> Vec<MountedPreload> {
-    let mut found = Vec::new();
-    for (site, ((element, rotation), state)) in model.bearings.iter().zip(elements.iter().zip(states)) {
-        let Bearing::Ball(ball) = &site.bearing else { continue };
-        if ball.preload == Preload::None {
-            continue;
-        }
-        let rows = match ball.rows().as_slice() {
-            [(_, direction)] => vec![-direction * state.force[2]],
-            rows => rows
-                .iter()
-                .enumerate()
-                .map(|(row, (_, direction))| direction * row_force(row, element, rotation, state, cage))
-                .collect(),
-        };
-        found.push(MountedPreload { bearing: site.name.clone(), stated: ball.preload, rows });
-    }
-    found
-}
-
-/// Axial force Σ Q_j sin α_j of one row \[N\], averaged over the cage angle as the equilibrium.
-fn row_force(
-    row: usize,
-    element: &BearingElement,
-    rotation: &Rotation,
-    state: &BearingState,
-    cage: CageTreatment,
-) -> f64 {
-    let angles = if cage == CageTreatment::Averaged { CAGE_ANGLES_PER_PITCH } else { 1 };
-    let pitch = std::f64::consts::TAU / element.balls() as f64;
-    let at = |k: usize| -> f64 {
-        let cage_angle = rotation.cage_angle + pitch * k as f64 / angles as f64;
-        let balls = element.ball_loads(&state.displacement, &Rotation { cage_angle, ..*rotation });
-        balls.iter().filter(|ball| ball.row == row).map(|ball| ball.load * ball.contact_angle.sin()).sum()
-    };
-    (0..angles).map(at).sum::<f64>() / angles as f64
-}
-
 /// The model with the interference of its bearing of [`Preload::Mounted`] at which that bearing carries the stated axial
 /// force in the machine at standstill; `None` if no bearing has one.
 ///
@@ -83,7 +20,7 @@ fn row_force(
 ///
 /// # Errors
 /// No equilibrium; [`PhysicsError::NoMountedPreload`] if no interference gives the force.
-pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option<Model>, Error> {
+pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option<Model>, PhysicsError> {
     let mounted = |bearing: &Bearing| match bearing {
         Bearing::Ball(BallBearing { preload: Preload::Mounted { force, interference: None }, .. }) => {
             Some(*force)
@@ -103,7 +40,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
             ball.preload = Preload::Mounted { force, interference: Some(interference) };
         }
     };
-    let mut excess = |interference: f64| -> Result<f64, Error> {
+    let mut excess = |interference: f64| -> Result<f64, PhysicsError> {
         set(&mut trial, interference);
         let found = equilibrium(&trial, assembly, 0.0, CageTreatment::Averaged, start.as_deref())?;
         start = Some(found.q);
@@ -118,7 +55,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
     while other.1 * at.1 > 0.0 {
         if (other.0 - estimate).abs() > LARGEST_OFFSET {
             let item = model.bearings[index].name.clone();
-            return Err(PhysicsError::NoMountedPreload { item, force, reached: force + other.1 }.into());
+            return Err(PhysicsError::NoMountedPreload { item, force, reached: force + other.1 });
         }
         at = other;
         other = (at.0 + step, excess(at.0 + step)?);
@@ -143,5 +80,5 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
         before = value;
     }
     let item = model.bearings[index].name.clone();
-    Err(PhysicsError::NoMountedPreload { item, force, reached: force + before }.into())
+    Err(PhysicsError::NoMountedPreload { item, force, reached: force + before })
 }

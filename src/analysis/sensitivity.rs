@@ -11,12 +11,11 @@ use super::equilibrium::{
     CageTreatment, Equilibrium, Sites, bearing_stiffness_matrix, equilibrium, external_load, residual_force,
 };
 use super::harmonic::HarmonicSystem;
-use super::modal::inner;
+use super::mode::inner;
 use super::preload::with_mounted_preload;
 use super::table_range;
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::{Reaction, SiteTangent};
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{BandLayout, Complex64, SparseMatrix, SparseRow, Triplets};
 use crate::model::{Model, Quantity};
 use std::f64::consts::TAU;
@@ -39,7 +38,7 @@ impl Linearised {
     ///
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
-    pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, Error> {
+    pub fn new(model: Model, speed: f64, start: Option<&[f64]>) -> Result<Self, PhysicsError> {
         table_range::check_tables(&model, "the linearised machine", [speed; 2])?;
         let mut assembly = Assembly::new(&model)?;
         let model = with_mounted_preload(&model, &assembly)?.unwrap_or(model);
@@ -60,12 +59,17 @@ impl Linearised {
     ///
     /// # Errors
     /// A parameter that changes the mesh or the free DOFs, or a singular tangent stiffness.
-    pub fn derivative(&self, below: &Model, above: &Model, width: f64) -> Result<SystemDerivative, Error> {
-        let side = |model: &Model| -> Result<PerturbedAssembly, Error> {
+    pub fn derivative(
+        &self,
+        below: &Model,
+        above: &Model,
+        width: f64,
+    ) -> Result<SystemDerivative, PhysicsError> {
+        let side = |model: &Model| -> Result<PerturbedAssembly, PhysicsError> {
             let assembly = Assembly::new(model)?;
             if assembly.dofs.free != self.assembly.dofs.free {
                 let reason = "it changes the mesh or which motions are free".into();
-                return Err(PhysicsError::NoDerivative { reason }.into());
+                return Err(PhysicsError::NoDerivative { reason });
             }
             let solved = with_mounted_preload(model, &assembly)?;
             let model = solved.as_ref().unwrap_or(model);
@@ -103,7 +107,7 @@ impl Linearised {
         of: &Equilibrium,
         sides: [&PerturbedAssembly; 2],
         width: f64,
-    ) -> Result<[Vec<SiteTangent>; 2], Error> {
+    ) -> Result<[Vec<SiteTangent>; 2], PhysicsError> {
         let [below, above] = sides.map(|side| side.residual_force(of));
         let change = above.iter().zip(below).map(|(a, b)| (a - b) / width).collect();
         let shift = self.equilibrium_derivative(of, change)?;
@@ -115,7 +119,11 @@ impl Linearised {
     }
 
     /// Derivative of an equilibrium, q′ of (K + K_t) q′ = `change`.
-    fn equilibrium_derivative(&self, of: &Equilibrium, mut change: Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn equilibrium_derivative(
+        &self,
+        of: &Equilibrium,
+        mut change: Vec<f64>,
+    ) -> Result<Vec<f64>, PhysicsError> {
         if change.iter().all(|r| *r == 0.0) {
             return Ok(change);
         }
@@ -205,7 +213,11 @@ impl<'a> ModeSensitivity<'a> {
     ///
     /// # Errors
     /// A defective eigenvalue, whose left and right vectors are orthogonal: it has no derivative.
-    pub fn new(system: &'a LinearSystem, value: Complex64, right: &'a [Complex64]) -> Result<Self, Error> {
+    pub fn new(
+        system: &'a LinearSystem,
+        value: Complex64,
+        right: &'a [Complex64],
+    ) -> Result<Self, PhysicsError> {
         let left = left_vector(system, value, right)?;
         let (m, d) = (system.mass.mul_complex(right), system.damp(right));
         let weighted: Vec<Complex64> = m.iter().zip(&d).map(|(m, d)| 2.0 * value * m + d).collect();
@@ -213,7 +225,7 @@ impl<'a> ModeSensitivity<'a> {
         let size = inner(&left, &left).re.sqrt() * inner(&weighted, &weighted).re.sqrt();
         if norm.norm() <= 1e-12 * size {
             let reason = format!("the eigenvalue at {:.3} Hz is defective", value.im / TAU);
-            return Err(PhysicsError::NoDerivative { reason }.into());
+            return Err(PhysicsError::NoDerivative { reason });
         }
         Ok(Self { system, value, right, left, norm, weighted, other: None })
     }
@@ -232,7 +244,7 @@ impl<'a> ModeSensitivity<'a> {
         value: Complex64,
         right: &'a [Complex64],
         other: &'a [Complex64],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, PhysicsError> {
         let lefts = [left_vector(system, value, right)?, left_vector(system, value, other)?];
         let weighted = [right, other].map(|v| {
             let (m, d) = (system.mass.mul_complex(v), system.damp(v));
@@ -245,7 +257,7 @@ impl<'a> ModeSensitivity<'a> {
         let scale = (size(&lefts[0]) * size(&lefts[1]) * size(&weighted[0]) * size(&weighted[1])).sqrt();
         if determinant.norm() <= 1e-12 * scale {
             let reason = format!("the double eigenvalue at {:.3} Hz is defective", value.im / TAU);
-            return Err(PhysicsError::NoDerivative { reason }.into());
+            return Err(PhysicsError::NoDerivative { reason });
         }
         let combined = |a: Complex64, b: Complex64| -> Vec<Complex64> {
             lefts[0].iter().zip(&lefts[1]).map(|(v, w)| (v * a + w * b) / determinant).collect()
@@ -275,7 +287,7 @@ impl<'a> ModeSensitivity<'a> {
     ///
     /// # Errors
     /// A double eigenvalue, whose individual shapes are not unique.
-    pub fn shape_derivatives(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, Error> {
+    pub fn shape_derivatives(&self, by: &[&SystemDerivative]) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
         let fixed = self.fixed_components();
         let without = |a: &SparseMatrix, diagonal: f64| {
             let mut out = Triplets::new(a.rows(), a.cols());
@@ -352,7 +364,7 @@ fn left_vector(
     system: &LinearSystem,
     value: Complex64,
     right: &[Complex64],
-) -> Result<Vec<Complex64>, Error> {
+) -> Result<Vec<Complex64>, PhysicsError> {
     if is_symmetric(&system.damping) && is_symmetric(&system.stiffness) {
         return Ok(right.to_vec());
     }
@@ -398,7 +410,7 @@ pub fn frf_sensitivity(
     responses: &[SparseRow],
     quantities: &[Quantity],
     by: &[&SystemDerivative],
-) -> Result<FrfSensitivity, Error> {
+) -> Result<FrfSensitivity, PhysicsError> {
     let system = &at.system;
     let harmonic = HarmonicSystem::new(system, None);
     let empty = vec![vec![Vec::with_capacity(frequencies.len()); excitations.len()]; responses.len()];

@@ -2,8 +2,7 @@
 
 use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
 use super::modal::Mode;
-use crate::assembly::Assembly;
-use crate::error::Error;
+use crate::assembly::{Assembly, PhysicsError};
 
 /// A zero crossing of a mode's damping.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +23,7 @@ pub fn thresholds(
     assembly: &Assembly,
     diagram: &Campbell,
     tangents: &impl Tangents,
-) -> Result<Vec<Threshold>, Error> {
+) -> Result<Vec<Threshold>, PhysicsError> {
     let tracker = Tracker { assembly, tangents, count: diagram.count + EXTRA_MODES };
     let mut found = Vec::new();
     for branch in &diagram.branches {
@@ -53,7 +52,7 @@ impl<T: Tangents> Tracker<'_, T> {
         (mut left, a): (f64, &Mode),
         (mut right, b): (f64, &Mode),
         gap: impl Fn(&Mode, f64) -> f64,
-    ) -> Result<(f64, Mode), Error> {
+    ) -> Result<(f64, Mode), PhysicsError> {
         let (mut ga, mut gb) = (gap(a, left), gap(b, right));
         let mut best = (right, b.clone());
         if gb == 0.0 {

@@ -1,7 +1,7 @@
 //! Speeds of a study compared with the tables of bearings over speed.
 
+use crate::assembly::PhysicsError;
 use crate::bearing::{Bearing, BeyondTable};
-use crate::error::{Error, PhysicsError};
 use crate::model::Model;
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ pub const TABLE_MARGIN: f64 = 0.01;
 ///
 /// # Errors
 /// [`PhysicsError::BeyondTable`] for a bearing that refuses speeds beyond its table.
-pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<String>, Error> {
+pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<String>, PhysicsError> {
     let mut warnings = Vec::new();
     for site in &model.bearings {
         let Bearing::Linear(linear) = &site.bearing else { continue };
@@ -32,7 +32,7 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
             study_rpm,
         };
         if linear.beyond == BeyondTable::Refuse {
-            return Err(found.into());
+            return Err(found);
         }
         warnings.push(format!("{found}; beyond it the values of its end hold"));
     }

@@ -4,8 +4,7 @@ use super::campbell::Tangents;
 use super::frf::derivative_factor;
 use super::harmonic::HarmonicSystem;
 use super::mode_kind::whirl_index;
-use crate::assembly::{Assembly, LinearSystem};
-use crate::error::{Error, PhysicsError};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::Quantity;
 use rayon::prelude::*;
@@ -69,7 +68,7 @@ pub fn response(
     assembly: &Assembly,
     speeds: &[f64],
     tangents: &impl Tangents,
-) -> Result<UnbalanceResponse, Error> {
+) -> Result<UnbalanceResponse, PhysicsError> {
     let amplitudes = speeds
         .par_iter()
         .map(|&speed| {
@@ -84,6 +83,6 @@ pub fn response(
             solver.solve(&mut q);
             Ok(q)
         })
-        .collect::<Result<_, Error>>()?;
+        .collect::<Result<_, PhysicsError>>()?;
     Ok(UnbalanceResponse { speeds: speeds.to_vec(), amplitudes })
 }

@@ -1,8 +1,7 @@
 //! Linearised equations of motion at one speed, bearings included.
 
-use super::{Assembly, ModalDamping};
+use super::{Assembly, ModalDamping, PhysicsError};
 use crate::bearing::SiteTangent;
-use crate::error::Error;
 use crate::linalg::{Complex64, SparseMatrix, Triplets};
 use std::sync::Arc;
 
@@ -28,7 +27,7 @@ impl LinearSystem {
     ///
     /// # Errors
     /// Undamped modes for modal damping did not converge.
-    pub fn new(assembly: &Assembly, tangents: &[SiteTangent], speed: f64) -> Result<Self, Error> {
+    pub fn new(assembly: &Assembly, tangents: &[SiteTangent], speed: f64) -> Result<Self, PhysicsError> {
         let n = assembly.dofs.len();
         let (mut k, mut c) = (Triplets::new(n, n), Triplets::new(n, n));
         for (site, tangent) in assembly.sites.iter().zip(tangents) {

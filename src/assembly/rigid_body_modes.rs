@@ -1,10 +1,8 @@
 //! Rigid-body modes (unconstrained motions) of a singular system, described in words.
 
 use super::dofs::DOF_NAMES;
-use super::{Assembly, DofMap, LinearSystem};
-use crate::bearing::Bearing;
-use crate::bearing::LinearElement;
-use crate::error::{Error, PhysicsError};
+use super::{Assembly, LinearSystem, PhysicsError};
+use crate::bearing::{Bearing, LinearElement};
 use crate::linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 use crate::model::{Drive, Model};
 
@@ -20,9 +18,9 @@ pub fn check_constrained(
     assembly: &Assembly,
     stiffness: &SparseMatrix,
     ignore_spin: bool,
-) -> Result<(), Error> {
+) -> Result<(), PhysicsError> {
     match rigid_body_modes(assembly, stiffness)?.into_iter().find(|m| !(ignore_spin && m == SPIN)) {
-        Some(motion) => Err(PhysicsError::Singular { motion }.into()),
+        Some(motion) => Err(PhysicsError::Singular { motion }),
         None => Ok(()),
     }
 }
@@ -31,7 +29,7 @@ pub fn check_constrained(
 ///
 /// # Errors
 /// No convergence of the undamped modes.
-pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec<String>, Error> {
+pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
     rigid_body_modes(assembly, &system.stiffness)
 }
 
@@ -40,7 +38,7 @@ pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result
 ///
 /// # Errors
 /// No convergence of the undamped modes.
-pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, Error> {
+pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, PhysicsError> {
     // Nominal stiffness: only the constrained directions matter, not the value.
     const NOMINAL_CONTACT_STIFFNESS: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
     let diagonal =
@@ -97,7 +95,7 @@ fn may_have_rigid_body_mode(assembly: &Assembly, stiffness: &SparseMatrix) -> bo
 
 const SPIN: &str = "rotation of the shaft about z (θ_z)";
 
-fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, Error> {
+fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, PhysicsError> {
     let (squares, shapes) = eigen::undamped(&stiffness.to_dense(), &assembly.mass.to_dense(), 1.0)
         .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
     let mut names: Vec<String> = Vec::new();
@@ -135,14 +133,5 @@ fn describe(assembly: &Assembly, shape: &[f64]) -> String {
         (0, 0 | 1) => format!("lateral motion of the shaft ({})", DOF_NAMES[dof]),
         (0, _) => format!("tilting of the shaft ({})", DOF_NAMES[dof]),
         (b, d) => format!("body `{}` ({})", dofs.node_names[dofs.shaft_nodes + b - 1], DOF_NAMES[d]),
-    }
-}
-
-/// Checks that every free DOF has inertia.
-pub(super) fn check_mass(assembly: &Assembly) -> Result<(), Error> {
-    let dofs: &DofMap = &assembly.dofs;
-    match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {
-        Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }.into()),
-        None => Ok(()),
     }
 }

@@ -19,7 +19,7 @@
 //! The signs follow from dL/dt, as for a ball rolling in a bowl: on the outer race alone, friction adds 2/5
 //! to the centrifugal force along the race, F_c (7/5) sin α_o.
 
-use super::row::PlaneMotion;
+use super::plane_motion::PlaneMotion;
 use super::{BallGeometry, BallInertia, Rotation, root_finding};
 use crate::contact::{ContactLoad, Race};
 use crate::material::Material;

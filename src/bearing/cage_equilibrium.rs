@@ -10,9 +10,10 @@ use super::ball_change::{BallChange, BallChanges};
 use super::ball_equilibrium::solve_2x2;
 use super::cage::MeanCos;
 use super::duplex::displacement_at_offset;
-use super::preload::PreloadMechanism;
+use super::plane_motion::PlaneMotion;
+use super::preload_mechanism::PreloadMechanism;
 use super::ring_motion::RingMotion;
-use super::row::{OperatingState, PlaneMotion, Row};
+use super::row::{OperatingState, Row};
 use super::{BallElement, Reaction, Rotation, root_finding};
 use std::f64::consts::TAU;
 

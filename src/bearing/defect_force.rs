@@ -2,7 +2,7 @@
 //! ball.
 
 use super::ball_sum::PlaneForce;
-use super::row::PlaneMotion;
+use super::plane_motion::PlaneMotion;
 
 /// Force of a massless ball plus the defect force, along the same contact line n.
 ///

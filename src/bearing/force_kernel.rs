@@ -2,11 +2,8 @@
 
 use pulp::{Arch, NullaryFnOnce};
 
-use super::preload::PreloadMechanism;
 use super::ring_motion::RingMotion;
-use super::row::Row;
-use super::{ProfileState, Rotation};
-use crate::contact::{ContactDamping, SpeedContacts};
+use super::{Profile, ProfileState};
 
 /// SIMD lane width: balls evaluated in parallel.
 const LANES: usize = 4;
@@ -26,29 +23,21 @@ pub(super) struct ForceKernel {
 
 /// Parameters common to all balls.
 #[derive(Clone, Copy, Debug)]
-struct KernelParameters {
+pub(super) struct KernelParameters {
     /// Groove-centre offset with preload, radius of the inner groove centres, unloaded distance of the groove
     /// centres \[m\].
-    offset: [f64; 2],
-    arm: f64,
-    centre_distance: f64,
+    pub offset: [f64; 2],
+    pub arm: f64,
+    pub centre_distance: f64,
     /// K \[N/m^1.5\].
-    stiffness: f64,
+    pub stiffness: f64,
     /// c \[N s/m\] and its ramp length \[m\].
-    damping: [f64; 2],
+    pub damping: [f64; 2],
 }
 
 impl ForceKernel {
-    /// `None` unless every ball is a dry Hertzian spring with constant damping and rigid preload.
-    pub fn new(row: &Row, spacing: &[[f64; 2]]) -> Option<Self> {
-        let ContactDamping::Constant { coefficient, ramp } = row.damping else { return None };
-        let SpeedContacts::Hertz(pair) = row.contacts.at_speed(1.0) else { return None };
-        if !matches!(row.preload_mechanism, PreloadMechanism::Fixed(_))
-            || row.inertia.is_some()
-            || row.has_ring_growth()
-        {
-            return None;
-        }
+    /// `spacing`: cos and sin of 2πj/Z of every ball; `None` for more balls than the kernel holds.
+    pub fn new(common: KernelParameters, spacing: &[[f64; 2]]) -> Option<Self> {
         let lane = |balls: &[[f64; 2]]| {
             let mut lane = [[0.0; LANES]; 3];
             for (l, [cos, sin]) in balls.iter().enumerate() {
@@ -57,13 +46,6 @@ impl ForceKernel {
             lane
         };
         let balls: Vec<_> = spacing.chunks(LANES).map(lane).collect();
-        let common = KernelParameters {
-            offset: row.operating(&RingMotion::at_rest(&[0.0; 6], &Rotation::default(), 0.0, false)).offset,
-            arm: row.arm,
-            centre_distance: row.centre_distance,
-            stiffness: pair.stiffness,
-            damping: [coefficient, ramp],
-        };
         (balls.len() <= MAX_LANE_GROUPS).then(|| Self { balls, common, arch: Arch::new() })
     }
 }
@@ -112,28 +94,27 @@ struct Sums {
 /// Deviations at the balls of a lane group: height, damped rate, undamped rate.
 type Deviations = [Lane; 3];
 
-impl Row {
-    /// The force of [`Row::react`]; `None` if the row has no [`ForceKernel`] or its defects act by the force law.
+impl ForceKernel {
+    /// The force of a row with surface deviations `profile`; `None` if its defects act by the force law.
     ///
-    /// Summation order differs, so results agree up to round-off of the largest ball force.
-    pub fn force(&self, ring: &RingMotion) -> Option<RowForce> {
-        let force_kernel = self.force_kernel.as_ref()?;
-        let deviations = match &self.profile {
+    /// Summation order differs from that with tangents, so results agree up to round-off of the largest ball force.
+    pub fn force(&self, ring: &RingMotion, profile: Option<&Profile>) -> Option<RowForce> {
+        let deviations = match profile {
             None => None,
             Some(profile) if profile.force_law().is_some() => return None,
             Some(profile) => Some(deviations(&profile.at_rotation(&ring.passing()))),
         };
         let (sin, cos) = ring.rotation.cage_angle.sin_cos();
         let mut sums = Sums::default();
-        force_kernel.arch.dispatch(SimdSum {
-            lanes: &force_kernel.balls,
-            common: &force_kernel.common,
+        self.arch.dispatch(SimdSum {
+            lanes: &self.balls,
+            common: &self.common,
             motion: [ring.d, ring.v],
             cage: [cos, sin, ring.cage_speed.unwrap_or(0.0)],
             deviations: deviations.as_ref(),
             sums: &mut sums,
         });
-        Some(sums.total(self.arm))
+        Some(sums.total(self.common.arm))
     }
 }
 

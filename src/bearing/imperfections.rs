@@ -6,6 +6,7 @@
 
 use super::BallGeometry;
 use super::spall::SpallPath;
+pub use super::surface::Surface;
 
 /// Deviations of races and balls from their ideal shape; none by default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,15 +72,6 @@ pub struct Defect {
     /// Length along the race \[m\].
     pub width: f64,
     pub form: DefectForm,
-}
-
-/// Surface on which a defect is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
-    Inner,
-    Outer,
-    /// On this ball; it meets both races, half a turn of ball spin apart.
-    Ball(usize),
 }
 
 /// Shape and size of a defect.
@@ -178,18 +170,6 @@ impl Imperfections {
             Surface::Inner | Surface::Outer => None,
         });
         waves.chain(sizes).chain(defects)
-    }
-}
-
-impl Surface {
-    /// Radius of the circle along which a defect's width is measured \[m\].
-    pub fn radius(self, g: &BallGeometry) -> f64 {
-        let contact_offset = 0.5 * g.ball_diameter * g.contact_angle.cos();
-        match self {
-            Self::Inner => 0.5 * g.pitch_diameter - contact_offset,
-            Self::Outer => 0.5 * g.pitch_diameter + contact_offset,
-            Self::Ball(_) => 0.5 * g.ball_diameter,
-        }
     }
 }
 

@@ -4,8 +4,8 @@
 use super::ball_derivatives::EquilibriumDerivatives;
 use super::ball_equilibrium::{BallEquilibrium, BallInertiaLoads, RaceContact, RaceForces, dot};
 use super::ball_sum::{PlaneForce, PlaneMoment};
+use super::plane_motion::PlaneMotion;
 use super::root_finding;
-use super::row::PlaneMotion;
 use crate::contact::{ContactDamping, ContactLoad, SpeedContacts};
 
 impl BallEquilibrium {

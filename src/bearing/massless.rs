@@ -2,7 +2,7 @@
 
 use super::ball_derivatives::AxialCurvature;
 use super::ball_sum::PlaneForce;
-use super::row::PlaneMotion;
+use super::plane_motion::PlaneMotion;
 use crate::contact::{ContactDamping, ContactLoad, SpeedContacts};
 
 /// Plane force of a massless ball.

@@ -6,6 +6,7 @@ mod ball_change;
 mod ball_derivatives;
 mod ball_equilibrium;
 pub mod ball_inertia;
+mod ball_load;
 mod ball_sum;
 mod cage;
 mod cage_equilibrium;
@@ -23,11 +24,14 @@ pub mod life;
 pub mod limits;
 pub mod linear;
 mod massless;
+mod plane_motion;
 mod preload;
+mod preload_mechanism;
 pub mod profile;
 mod raceway;
 pub mod radial;
 pub mod rating;
+mod reaction;
 mod ring_equilibrium;
 mod ring_motion;
 mod root_finding;
@@ -35,6 +39,7 @@ mod row;
 pub mod shoulder;
 mod spall;
 mod spring_preload;
+mod surface;
 
 pub use ball::{BallElement, BallLoad};
 pub use ball_bearing::{Arrangement, BallBearing, Cage, Duplex, Preload, Service};
@@ -51,20 +56,8 @@ pub use linear::{LinearElement, SiteTangent};
 pub use preload::PreloadState;
 pub use profile::{Deviation, Profile, ProfileState};
 pub use radial::{RadialBallBearing, RadialElement};
+pub use reaction::{Reaction, Rotation};
 pub use shoulder::{ShoulderMargin, shoulder_margin};
-
-/// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Rotation {
-    /// Cage angle ψ \[rad\].
-    pub cage_angle: f64,
-    /// Cage speed ψ̇ \[rad/s\]; `None` in statics: the contacts do not move past the rings, and the balls have
-    /// the inertial loads of the cage speed at which they roll under the contact angles of the equilibrium.
-    pub cage_speed: Option<f64>,
-    /// Shaft (inner race) angle θ \[rad\] and speed θ̇ \[rad/s\].
-    pub shaft_angle: f64,
-    pub shaft_speed: f64,
-}
 
 /// A bearing model.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,47 +123,4 @@ pub struct LinearBearingRow {
     pub stiffness: [[f64; 6]; 6],
     /// Damping C, same order.
     pub damping: [[f64; 6]; 6],
-}
-
-/// Bearing force on the shaft with stiffness and damping tangents, at one relative displacement and velocity.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Reaction {
-    /// Force and moment on the shaft f \[N, N m\]; the reaction on the housing is −f.
-    pub force: [f64; 6],
-    /// Additional force on the housing, on top of −f, along x and y \[N\]: weight and centrifugal force of
-    /// balls with inertia.
-    pub housing_force: [f64; 2],
-    /// −∂f/∂d.
-    pub stiffness: [[f64; 6]; 6],
-    /// −∂f/∂ḋ.
-    pub damping: [[f64; 6]; 6],
-    /// Elastic energy stored \[J\].
-    pub elastic_energy: f64,
-    /// Parametric power \[W\]: input to the elastic energy by cage rotation, waviness and defects passing the
-    /// contacts.
-    pub parametric_power: f64,
-    /// Power lost in contact damping \[W\].
-    pub dissipated_power: f64,
-    /// Load-weighted mean of cos α over the loaded balls.
-    pub mean_cos: f64,
-}
-
-impl Reaction {
-    /// Adds `weight` times another reaction.
-    pub fn add(&mut self, other: &Self, weight: f64) {
-        for a in 0..6 {
-            self.force[a] += weight * other.force[a];
-            for b in 0..6 {
-                self.stiffness[a][b] += weight * other.stiffness[a][b];
-                self.damping[a][b] += weight * other.damping[a][b];
-            }
-        }
-        for (own, other) in self.housing_force.iter_mut().zip(other.housing_force) {
-            *own += weight * other;
-        }
-        self.elastic_energy += weight * other.elastic_energy;
-        self.parametric_power += weight * other.parametric_power;
-        self.dissipated_power += weight * other.dissipated_power;
-        self.mean_cos += weight * other.mean_cos;
-    }
 }

@@ -8,7 +8,7 @@ use super::ball_derivatives::EquilibriumDerivatives;
 use super::ball_equilibrium::{
     BallContactLaws, BallEquilibrium, BallInertiaLoads, InitialGuess, RaceContact, dot, solve_2x2,
 };
-use super::row::PlaneMotion;
+use super::plane_motion::PlaneMotion;
 use crate::contact::{ContactLoad, Race};
 
 const MAX_ITERATIONS: usize = 15;

@@ -2,11 +2,13 @@
 
 use super::ball_equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaData, BallInertiaLoads};
 use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
-use super::force_kernel::ForceKernel;
-use super::preload::PreloadMechanism;
+use super::force_kernel::{ForceKernel, KernelParameters, RowForce};
+use super::plane_motion::PlaneMotion;
+use super::preload_mechanism::PreloadMechanism;
 use super::ring_motion::RingMotion;
-use super::{BallBearing, BallLoad, Deviation, Profile, ProfileState, Rotation};
-use super::{cage::CageKinematics, defect_force, massless};
+use super::{
+    BallBearing, BallLoad, Profile, ProfileState, Rotation, cage::CageKinematics, defect_force, massless,
+};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
 
 /// A row of balls prepared for evaluation: constants and per-ball data laid out as arrays.
@@ -51,25 +53,6 @@ pub(super) struct OperatingState<'a> {
     pub inertial_loads: Option<BallInertiaLoads>,
 }
 
-/// Position of a ball's inner groove centre relative to the outer one, in the plane (radial, axial).
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct PlaneMotion {
-    /// s \[m\].
-    pub s: [f64; 2],
-    /// ṡ \[m/s\].
-    pub rate: [f64; 2],
-    /// Surface deviation of race and ball at both contacts.
-    pub deviation: Deviation,
-}
-
-impl PlaneMotion {
-    /// The same position at rest.
-    pub fn stopped(&self) -> Self {
-        let deviation = Deviation { rate: [0.0; 2], undamped_rate: [0.0; 2], ..self.deviation };
-        Self { s: self.s, rate: [0.0; 2], deviation }
-    }
-}
-
 impl Row {
     /// Row `number` of a matched pair with its thrust direction.
     pub fn new(bearing: &BallBearing, number: usize, thrust_direction: f64) -> Self {
@@ -106,8 +89,33 @@ impl Row {
         row.profile = Profile::new(g, imperfections, number, start, pair.stiffness).map(Box::new);
         row.preload_mechanism =
             PreloadMechanism::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
-        row.force_kernel = ForceKernel::new(&row, &row.spacing);
+        row.force_kernel = row.kernel();
         row
+    }
+
+    /// The force-only kernel; `None` unless every ball is a dry Hertzian spring with constant damping and rigid preload.
+    fn kernel(&self) -> Option<ForceKernel> {
+        let ContactDamping::Constant { coefficient, ramp } = self.damping else { return None };
+        let SpeedContacts::Hertz(pair) = self.contacts.at_speed(1.0) else { return None };
+        if !matches!(self.preload_mechanism, PreloadMechanism::Fixed(_))
+            || self.inertia.is_some()
+            || self.has_ring_growth()
+        {
+            return None;
+        }
+        let parameters = KernelParameters {
+            offset: self.operating(&RingMotion::at_rest(&[0.0; 6], &Rotation::default(), 0.0, false)).offset,
+            arm: self.arm,
+            centre_distance: self.centre_distance,
+            stiffness: pair.stiffness,
+            damping: [coefficient, ramp],
+        };
+        ForceKernel::new(parameters, &self.spacing)
+    }
+
+    /// The force without tangents; `None` if the row has no [`ForceKernel`] or its defects act by the force law.
+    pub fn force(&self, ring: &RingMotion) -> Option<RowForce> {
+        self.force_kernel.as_ref()?.force(ring, self.profile.as_deref())
     }
 
     /// Axial force and stiffness of the dry centred row with massless balls, in the direction of thrust.

@@ -12,15 +12,15 @@
 //!
 //! The cage moves the ring by ζ̇_c against f_d: an input power −f_d·e_z ζ̇_c at a fixed shaft.
 
-use super::Reaction;
 use super::ball_derivatives::{AxialCurvature, EquilibriumDerivatives};
 use super::ball_equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaLoads};
 use super::ball_sum::{BallSum, PlaneForce, PlaneMoment};
-use super::massless;
+use super::plane_motion::PlaneMotion;
 use super::preload::RowReaction;
 use super::ring_equilibrium::RingSpring;
 use super::ring_motion::RingMotion;
-use super::row::{OperatingState, PlaneMotion, Row};
+use super::row::{OperatingState, Row};
+use super::{Reaction, massless};
 
 /// A ball between the grooves.
 struct PlacedBall {

@@ -2,9 +2,8 @@
 
 use rotordyn::bearing::friction::SPIN_FRICTION;
 use rotordyn::contact::Race;
-use rotordyn::results::{BearingResult, PickContact};
+use rotordyn::results::{BearingPoint, BearingResult, PickContact};
 
-use super::bearing_tables::ball_number;
 use super::terminal::{Terminal, number, rpm};
 
 pub fn print(terminal: &Terminal, found: &BearingResult) {
@@ -105,5 +104,14 @@ fn shoulders(terminal: &Terminal, found: &BearingResult) {
             line += &format!(": {:.0} % beyond it", 100.0 * margin.fraction_beyond);
         }
         terminal.print(&line);
+    }
+}
+
+/// Number of ball `j` from 1; in a pair with the number of its row.
+pub fn ball_number(point: &BearingPoint, j: usize) -> String {
+    let per_row = point.balls.iter().filter(|other| other.row == 0).count().max(1);
+    match point.balls.iter().any(|other| other.row > 0) {
+        true => format!("{}.{}", point.balls[j].row + 1, j % per_row + 1),
+        false => (j + 1).to_string(),
     }
 }

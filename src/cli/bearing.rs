@@ -72,7 +72,9 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     Ok(document.into())
 }
 
-fn compute(loaded: &LoadedBearings) -> Result<Vec<rotordyn::results::BearingResult>, rotordyn::error::Error> {
+fn compute(
+    loaded: &LoadedBearings,
+) -> Result<Vec<rotordyn::results::BearingResult>, rotordyn::assembly::PhysicsError> {
     let study = loaded.studies.bearing.clone().unwrap_or_default();
     match &loaded.model {
         Some(model) => Machine::new(model.clone())?.bearings(&study),

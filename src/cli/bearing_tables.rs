@@ -1,5 +1,6 @@
 //! Tables of a ball bearing analysis.
 
+use super::ball_motion_tables::ball_number;
 use rotordyn::bearing::Preload;
 use rotordyn::bearing::life::hours;
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};
@@ -101,15 +102,6 @@ fn fixed_decimals(value: f64, decimals: usize) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.into(),
         _ => text,
-    }
-}
-
-/// Number of ball `j` from 1; in a pair with the number of its row.
-pub fn ball_number(point: &BearingPoint, j: usize) -> String {
-    let per_row = point.balls.iter().filter(|other| other.row == 0).count().max(1);
-    match point.balls.iter().any(|other| other.row > 0) {
-        true => format!("{}.{}", point.balls[j].row + 1, j % per_row + 1),
-        false => (j + 1).to_string(),
     }
 }
 

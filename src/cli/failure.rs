@@ -1,7 +1,12 @@
 //! Failures of a command and their exit codes.
 
+use rotordyn::assembly::PhysicsError;
 use rotordyn::error::Error;
 use rotordyn::model::ModelErrors;
+use rotordyn::signal::SignalError;
+use rotordyn::signal::record::RecordError;
+use rotordyn::study::StudyError;
+use rotordyn::update::UpdateFailure;
 use serde_json::{Value, json};
 
 /// Reason for which a command failed.
@@ -20,6 +25,36 @@ pub enum Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         Self::Library(error)
+    }
+}
+
+impl From<PhysicsError> for Failure {
+    fn from(error: PhysicsError) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+impl From<SignalError> for Failure {
+    fn from(error: SignalError) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+impl From<RecordError> for Failure {
+    fn from(error: RecordError) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+impl From<UpdateFailure> for Failure {
+    fn from(error: UpdateFailure) -> Self {
+        Self::Library(error.into())
     }
 }
 

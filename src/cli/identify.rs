@@ -278,7 +278,7 @@ fn read_frfs(
     let from_hits = simulated || !tests.is_empty();
     for (path, files) in tests {
         let (records, quality_warnings) =
-            impact::frfs(&files, test).map_err(|error| with_file_name(path, error))?;
+            impact::frfs(&files, test).map_err(|error| with_file_name(path, error.into()))?;
         warnings.extend(quality_warnings);
         add_records(args, path, records, &mut all);
     }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use rotordyn::error::Error;
 use rotordyn::figures::{self, Stage};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::test_data;
@@ -12,16 +11,15 @@ use rotordyn::model::{self, Model, Options};
 use rotordyn::update::frf::{FrfFitting, rms_difference_db};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
-use rotordyn::update::{IdentifiabilityClass, Update, UpdateJob, update};
+use rotordyn::update::{IdentifiabilityClass, Update, UpdateError, UpdateJob, update};
 use serde_json::{Value, json};
 
 use super::args::{FitResidual, UpdateArgs};
 use super::failure::Failure;
-use super::free_parameters;
 use super::machine::ModelSource;
 use super::measured::{self, band, folder};
 use super::terminal::{Terminal, number};
-use super::{Outcome, ehl_films, print_model_warnings, print_written_files};
+use super::{Outcome, ehl_films, free_parameters, print_model_warnings, print_written_files};
 
 pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
@@ -54,13 +52,12 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
                 .into()
         }));
     }
-    let load = |set: &[(String, String)]| -> Result<Model, Error> {
+    let load = |set: &[(String, String)]| -> Result<Model, UpdateError> {
         let mut options: Options = origin.options.clone();
         options.set.extend_from_slice(set);
-        let changed = |e: &dyn std::fmt::Display| Error::Content {
-            path: args.study.model.model.clone(),
-            problem: e.to_string(),
-            advice: "set --bounds that keep the free parameters valid".into(),
+        let changed = |e: &dyn std::fmt::Display| {
+            let advice = "set --bounds that keep the free parameters valid";
+            UpdateError::new(format!("{}: {e}", args.study.model.model.display()), advice)
         };
         let mut model = model::load(&origin.name, &origin.text, &options).map_err(|e| changed(&e))?.model;
         ehl_films::prepare_machine_films(&mut model, &folder, terminal).map_err(|e| changed(&e.message()))?;

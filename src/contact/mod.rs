@@ -7,6 +7,7 @@ pub mod elliptic;
 pub mod film;
 pub mod hertz;
 pub mod law;
+mod load;
 pub mod lubricant;
 pub mod pair;
 pub mod power_law;

@@ -2,25 +2,8 @@
 
 use super::ehl::{EhlLaw, EhlPair};
 use super::film::FilmSpeedScaling;
+pub use super::load::{ContactLoad, Race};
 use super::{ContactLaw, EllipticContact, FilmFormula, FilmSpring, HertzPair, Lubricant, PowerSpring};
-
-/// One race.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Race {
-    Inner,
-    Outer,
-}
-
-/// Load of a contact or of a pair of contacts at an approach.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactLoad {
-    /// Q \[N\], never negative.
-    pub load: f64,
-    /// dQ/dδ \[N/m\].
-    pub slope: f64,
-    /// ∫ Q dδ \[J\].
-    pub energy: f64,
-}
 
 /// A ball's contacts under a contact law, speed-independent part.
 #[derive(Clone, Debug, PartialEq)]

@@ -25,14 +25,17 @@ mod comparison;
 mod display_unit;
 pub mod identification;
 mod machine;
+mod named;
 mod response;
 mod run;
 mod run_up_correlation;
 mod signal;
 mod signal_orders;
+mod signal_units;
 mod steady;
 mod validation;
 
+use named::{Named, TO_RPM};
 pub use validation::Stage;
 
 use std::path::{Path, PathBuf};
@@ -44,12 +47,6 @@ use crate::plot::{self, Figure};
 use crate::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
 use crate::study::Machine;
 use crate::update::target::Target;
-
-/// rpm per rad/s.
-const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
-
-/// A figure with its file name (without extension).
-type Named = (String, Figure);
 
 /// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
 ///

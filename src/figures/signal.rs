@@ -1,28 +1,21 @@
 //! Figures of a signal analysis: record, spectra, envelope, kurtogram, cepstrum.
 
 use super::Named;
-use super::display_unit::{DisplayUnit, decibels, quantity, unit};
+use super::signal_units::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, quantity_name};
 use crate::plot::{
     Channel, Cursor, CursorLines, CursorMark, CursorPanel, Curve, Figure, HeatMap, History, Lines,
     MarkedRegion,
 };
-use crate::results::{BearingWithOrders, EnvelopeResult, KurtogramResult, SignalResult};
+use crate::results::{EnvelopeResult, KurtogramResult, SignalResult};
 use crate::signal::bearing_lines::{BearingPart, Modulation};
 use crate::signal::diagnosis::BandRule;
 use crate::signal::kurtogram::Kurtogram;
 use crate::signal::spectrum::Spectrum;
 
-/// Groups of cursors: the shaft, then the bearing parts.
-pub const CURSOR_GROUPS: [&str; 5] = ["shaft", "BPFO", "BPFI", "2 BSF", "FTF"];
 /// Upper end of the axis of an envelope spectrum, in multiples of BPFI.
 const ENVELOPE_RANGE_IN_BPFI: f64 = 3.3;
 /// Highest order shown of an envelope spectrum without a bearing.
 const ENVELOPE_MAX_ORDER: f64 = 20.0;
-
-/// Cursor group of a bearing part.
-pub fn cursor_group(part: BearingPart) -> usize {
-    1 + BearingPart::ALL.iter().position(|p| *p == part).unwrap_or(0)
-}
 
 /// All figures of one channel; `title` is that of its file.
 pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
@@ -91,16 +84,6 @@ fn note(r: &SignalResult, title: &str) -> String {
     let rate = (1e3 * r.sample_rate).round() / 1e3;
     parts.push(format!("{} samples at {rate} Hz", r.samples.len()));
     parts.join(", ")
-}
-
-/// Display unit of a channel; empty if unknown.
-pub fn display_unit(r: &SignalResult) -> DisplayUnit {
-    if r.unit.is_empty() { DisplayUnit { factor: 1.0, name: "" } } else { unit(&r.unit) }
-}
-
-/// Name of the quantity of a channel.
-pub fn quantity_name(r: &SignalResult) -> &'static str {
-    if r.unit.is_empty() { "amplitude" } else { quantity(&r.unit) }
 }
 
 fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
@@ -385,22 +368,4 @@ fn cepstrum(r: &SignalResult, found: &crate::signal::cepstrum::Cepstrum, note: &
         x_range: Some([0.0, 1e3 * end]),
         ..CursorLines::default()
     }
-}
-
-/// Defect frequencies of the bearing parts as orders (per revolution).
-pub fn defect_orders(b: &BearingWithOrders) -> Vec<(BearingPart, f64)> {
-    let o = &b.orders;
-    vec![
-        (BearingPart::OuterRace, o.bpfo),
-        (BearingPart::InnerRace, o.bpfi),
-        (BearingPart::Ball, 2.0 * o.bsf),
-        (BearingPart::Cage, o.ftf),
-    ]
-}
-
-/// Levels of a map \[dB\] and their reference.
-pub fn levels(r: &SignalResult, amplitude: &[f64]) -> (Vec<f64>, String) {
-    let d = display_unit(r);
-    let unit = if d.name.is_empty() { "dB".into() } else { format!("dB re 1 {}", d.name) };
-    (decibels(amplitude, d), unit)
 }

@@ -3,7 +3,7 @@
 
 use super::Named;
 use super::run::{SpectraOverSpeed, waterfall_panels};
-use super::signal::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, levels, quantity_name};
+use super::signal_units::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, levels, quantity_name};
 use crate::plot::{
     Channel, Cursor, CursorLines, CursorPanel, Curve, Figure, HeatMap, History, Lines, OrderLine, OrderMap,
     Spectrogram, SpectrogramPanel, Waterfall,

@@ -26,162 +26,24 @@ mod mode_selection;
 mod plscf;
 mod pole_selection;
 mod refine;
+mod result;
 pub mod sdof;
+mod settings;
 mod stabilisation;
 mod uncertainty;
 mod whirl;
 
 pub use data::quantity_of;
 pub use error::IdentifyError;
-
-use std::f64::consts::TAU;
+use mode_selection::synthesise;
+pub use result::{DiagramPole, ModalIdentification, Mode, Stability};
+pub use settings::Settings;
 
 use crate::linalg::Complex64;
 use crate::model::Quantity;
-use crate::signal::record::{Dof, FrfMatrix};
+use crate::signal::record::FrfMatrix;
 use data::Data;
-use lsfd::Fit;
 use plscf::{NormalEquations, Pole};
-
-/// Settings of modal identification.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Frequency band \[Hz\]; all measured lines if `None`.
-    pub band: Option<[f64; 2]>,
-    /// Highest model order (of the denominator); 60, or the maximum for the number of lines, if `None`.
-    pub max_order: Option<usize>,
-    /// Quantity of the FRFs, if not given by their unit; accelerance if `None`.
-    pub quantity: Option<Quantity>,
-    /// Largest damping ratio of a mode.
-    pub largest_damping: f64,
-    /// Decay rate added to all poles by an exponential window \[1/s\], corrected in the result.
-    pub added_decay: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { band: None, max_order: None, quantity: None, largest_damping: 0.2, added_decay: 0.0 }
-    }
-}
-
-/// One identified mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
-    /// λ \[1/s\], Im λ > 0.
-    pub pole: Complex64,
-    /// ψ over [`ModalIdentification::responses`]; ψ lᵀ is the residue of the receptance
-    /// \[m/(N s) for a displacement under a force\].
-    pub shape: Vec<Complex64>,
-    /// l over [`ModalIdentification::references`].
-    pub participation: Vec<Complex64>,
-    /// Standard error of the damped frequency \[Hz\].
-    pub frequency_error: f64,
-    /// Standard error of the damping ratio.
-    pub damping_error: f64,
-    /// Modal phase collinearity (MPC) of the side with more DOFs, 1 for a real mode.
-    pub collinearity: f64,
-    /// Whirl at the points measured along x and y: 1 forward circular (x towards y), 0 planar, −1 backward
-    /// circular; `None` if no point has both.
-    pub whirl: Option<f64>,
-    /// F statistic of the mode: variance that it explains over residual variance.
-    pub significance: f64,
-}
-
-impl Mode {
-    /// Damped frequency Im λ / 2π \[Hz\].
-    pub fn frequency_hz(&self) -> f64 {
-        self.pole.im / TAU
-    }
-
-    /// Damping ratio ζ = −Re λ / |λ|.
-    pub fn damping_ratio(&self) -> f64 {
-        -self.pole.re / self.pole.norm()
-    }
-}
-
-/// Stability of a pole relative to the next lower order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stability {
-    /// No pole within 1 % of its frequency.
-    New,
-    /// Within 1 % in frequency.
-    Frequency,
-    /// In frequency, and within 5 % in damping.
-    Damping,
-    /// In frequency, and MAC above 0.95.
-    Shape,
-    /// In frequency, damping and shape.
-    Stable,
-}
-
-impl Stability {
-    /// Label.
-    pub fn label(self) -> &'static str {
-        match self {
-            Stability::New => "new",
-            Stability::Frequency => "frequency",
-            Stability::Damping => "frequency and damping",
-            Stability::Shape => "frequency and shape",
-            Stability::Stable => "stable",
-        }
-    }
-}
-
-/// A pole of the stabilisation diagram.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DiagramPole {
-    pub order: usize,
-    /// λ \[1/s\], without correction for an exponential window.
-    pub value: Complex64,
-    pub stability: Stability,
-}
-
-/// Result of modal identification: identified modes, synthesised FRFs, stabilisation diagram.
-#[derive(Clone, Debug)]
-pub struct ModalIdentification {
-    /// In order of frequency.
-    pub modes: Vec<Mode>,
-    pub responses: Vec<Dof>,
-    pub references: Vec<Dof>,
-    /// Quantity assumed for the measured FRFs.
-    pub quantity: Quantity,
-    /// Lines in the band \[Hz\].
-    pub frequencies: Vec<f64>,
-    /// `measured[response][reference][line]` in the band, converted to one quantity.
-    pub measured: Vec<Vec<Vec<Complex64>>>,
-    /// FRFs synthesised from the modal model, with the same indices.
-    pub synthesised: Vec<Vec<Vec<Complex64>>>,
-    /// ‖measured − synthesised‖ / ‖measured‖ of every FRF.
-    pub errors: Vec<Vec<f64>>,
-    /// Root mean square of all errors.
-    pub total_error: f64,
-    /// Upper residual U (stiffness of modes above), lower residual V (mass of modes below) of receptances.
-    pub upper: Vec<Vec<f64>>,
-    pub lower: Vec<Vec<f64>>,
-    pub diagram: Vec<DiagramPole>,
-    pub orders: Vec<usize>,
-    /// Stable poles that were rejected afterwards, with the reason.
-    pub dropped: Vec<String>,
-}
-
-impl ModalIdentification {
-    /// The side of the test with more DOFs, and a mode's vector over it, for display and comparison.
-    ///
-    /// In a roving-hammer test these are the references.
-    pub fn larger_side_shape<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
-        if self.references.len() > self.responses.len() {
-            (&self.references, &mode.participation)
-        } else {
-            (&self.responses, &mode.shape)
-        }
-    }
-
-    /// AutoMAC: MAC of every mode with every other, over the side with more DOFs.
-    pub fn auto_mac(&self) -> Vec<Vec<f64>> {
-        let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.larger_side_shape(m).1).collect();
-        mac::mac_matrix(&shapes, &shapes)
-    }
-}
 
 /// Lowest order tried.
 const LOWEST_ORDER: usize = 2;
@@ -214,23 +76,6 @@ pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<ModalIdentifica
         orders: orders.len(),
     })?;
     Ok(assemble_result(frfs, settings, &data, found, diagram, orders, dropped))
-}
-
-/// FRFs of the modal model in the data's scales, `[output][input][line]`.
-fn synthesise(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
-    let s = data.s();
-    let one = |o: usize, i: usize| {
-        let value = |s: &Complex64| {
-            let mut sum = fit.upper[o][i] + fit.lower[o][i] / (s * s);
-            for (pole, shape) in poles.iter().zip(&fit.shapes) {
-                let residue = shape[o] * pole.participation[i];
-                sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
-            }
-            sum * s.powi(data.power)
-        };
-        s.iter().map(value).collect()
-    };
-    (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
 }
 
 fn assemble_result(

@@ -3,13 +3,13 @@
 
 use std::f64::consts::TAU;
 
+use super::Settings;
 use super::data::Data;
 use super::lsfd::Fit;
 use super::mac::mac;
 use super::plscf::{Pole, normalise_largest};
 use super::refine::{FitPoint, Problem, significance};
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
-use super::{Settings, synthesise};
 use crate::linalg::Complex64;
 
 /// Selected modes: poles at the minimum with residues, covariance and significance.
@@ -227,4 +227,21 @@ fn reweight(data: &mut Data, found: FitPoint) -> Vec<Pole> {
         pole.participation = normalise_largest(std::mem::take(&mut pole.participation));
     }
     poles
+}
+
+/// FRFs of the modal model in the data's scales, `[output][input][line]`.
+pub(super) fn synthesise(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
+    let s = data.s();
+    let one = |o: usize, i: usize| {
+        let value = |s: &Complex64| {
+            let mut sum = fit.upper[o][i] + fit.lower[o][i] / (s * s);
+            for (pole, shape) in poles.iter().zip(&fit.shapes) {
+                let residue = shape[o] * pole.participation[i];
+                sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
+            }
+            sum * s.powi(data.power)
+        };
+        s.iter().map(value).collect()
+    };
+    (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
 }

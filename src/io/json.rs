@@ -30,9 +30,11 @@
 mod run_up;
 mod signal;
 mod steady;
+mod unit;
 
 pub use run_up::run_up_step_error;
 pub use signal::signal_to_json;
+use unit::TO_RPM;
 
 /// Name and version of the document's schema.
 pub const SCHEMA: &str = "rotordyn-results-2";
@@ -54,8 +56,6 @@ use crate::results::{
     is_rotation, unit_of,
 };
 use crate::study::Machine;
-
-const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
 /// The results as one document.
 pub fn to_json(results: &Results, machine: &Machine) -> Value {

@@ -3,8 +3,10 @@
 pub mod build;
 mod external_file;
 pub mod file;
+mod integrator;
 pub mod load;
 pub mod parameter_paths;
+mod probe;
 pub mod speed_profile;
 mod steady_study;
 pub mod study;
@@ -17,6 +19,7 @@ pub use load::{
     Loaded, LoadedBearings, Options, external_files, item_span, load, load_bearings, load_bearings_with,
     load_with, variants,
 };
+pub use probe::{Probe, Quantity};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::bearing::Bearing;
@@ -136,22 +139,4 @@ pub enum Drive {
     /// speed follows from the equation of rotation, coupled to the other motions by unbalance, tilting inertias and
     /// damping; `drag` \[N m s/rad\] is viscous resistance to ground.
     Torque { node: usize, table: Vec<[f64; 2]>, drag: f64 },
-}
-
-/// Quantity measured by a probe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    Displacement,
-    Velocity,
-    Acceleration,
-}
-
-/// A probe (virtual sensor): one direction at one point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Probe {
-    pub name: String,
-    pub at: Anchor,
-    /// Weights on u_x u_y u_z θ_x θ_y θ_z of the point; unit vector for a translation.
-    pub direction: [f64; 6],
-    pub quantity: Quantity,
 }

@@ -1,5 +1,6 @@
 //! Studies (analyses) requested by a model file, with their settings.
 
+pub use super::integrator::Integrator;
 pub use super::steady_study::*;
 use super::{Probe, Quantity};
 use crate::element::Anchor;
@@ -95,19 +96,6 @@ pub struct UnbalanceStudy {
     /// Add speeds around the critical speeds.
     pub refine: bool,
     pub responses: Vec<Probe>,
-}
-
-/// Time integrator.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Integrator {
-    /// Generalised-α with spectral radius at infinity ρ∞.
-    GeneralisedAlpha { rho_infinity: f64 },
-    /// Newmark, γ = ½, β = ¼.
-    Newmark,
-    /// Classical Runge-Kutta of order 4, fixed step.
-    RungeKutta4,
-    /// Dormand-Prince 5(4), error-controlled.
-    DormandPrince { relative_tolerance: f64, absolute_tolerance: f64 },
 }
 
 /// Nonlinear transient through the speed profile.

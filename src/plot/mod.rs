@@ -17,9 +17,11 @@ mod font;
 mod heat;
 pub mod labels;
 mod leaders;
+mod mode_data;
 pub mod scale;
 mod style;
 pub mod svg;
+mod vector;
 
 mod ball_load;
 mod bearing_section;

@@ -1,5 +1,6 @@
 //! Axonometric view of the machine in a panel of mode shapes, and the solids in it.
 
+use super::vector::{cross, dot};
 use std::f64::consts::TAU;
 
 use super::axes::Frame;
@@ -181,14 +182,6 @@ fn turned(v: [f64; 3], turn: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = slope.atan().sin_cos();
     let (across, along) = (cross(axis, v), dot(axis, v));
     [0, 1, 2].map(|i| v[i] * cos + across[i] * sin + axis[i] * along * (1.0 - cos))
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {

@@ -2,19 +2,20 @@
 
 mod inertia;
 mod limits;
+mod operating_point;
 
 use super::ball_states::{ball_states, friction_torque};
 use super::bearing_life::BearingRating;
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
-use crate::analysis::preload::MountedPreload;
+use crate::assembly::PhysicsError;
 use crate::bearing::rating::LoadRating;
 use crate::bearing::{BallBearing, Bearing, Preload, PreloadState, kinematics};
 use crate::contact::{BallContacts, ContactLaw};
-use crate::error::Error;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
+use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
@@ -26,7 +27,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium of the machine, or of a bearing at its operating point.
-    pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, Error> {
+    pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
         let balls = self.model.bearings.iter().filter_map(|site| match &site.bearing {
             Bearing::Ball(ball) => Some((site.name.clone(), ball.clone())),
             Bearing::Linear(_) | Bearing::RadialBall(_) => None,
@@ -69,7 +70,7 @@ impl Machine {
 pub fn single_bearings(
     bearings: &[(String, BallBearing)],
     study: &BearingStudy,
-) -> Result<Vec<BearingResult>, Error> {
+) -> Result<Vec<BearingResult>, PhysicsError> {
     let one = |(name, ball): &(String, BallBearing)| {
         let work = SingleBearingStudy::new(name, ball, study);
         let decided = work.decided();
@@ -84,31 +85,6 @@ const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
 fn is_requested(study: &BearingStudy, name: &String) -> bool {
     study.bearings.is_empty() || study.bearings.contains(name)
-}
-
-fn cage_treatment(study: &BearingStudy) -> CageTreatment {
-    if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle }
-}
-
-/// Operating point: load and prescribed displacements.
-struct OperatingPoint {
-    load: [f64; 5],
-    prescribed: [Option<f64>; 5],
-    /// Description of the load's source.
-    load_source: String,
-    mounted_preload: Option<MountedPreload>,
-}
-
-/// Study of one bearing.
-struct SingleBearingStudy<'a> {
-    name: &'a str,
-    bearing: &'a BallBearing,
-    study: &'a BearingStudy,
-    solver: BearingSolver,
-    /// Contacts with a film of the bearing's lubricant, also for a dry contact law: for the film thickness.
-    contacts: BallContacts,
-    rating: BearingRating<'a>,
-    speed: f64,
 }
 
 impl<'a> SingleBearingStudy<'a> {
@@ -164,7 +140,7 @@ impl<'a> SingleBearingStudy<'a> {
         self.rating.rating
     }
 
-    fn study(&self, operating: OperatingPoint) -> Result<BearingResult, Error> {
+    fn study(&self, operating: OperatingPoint) -> Result<BearingResult, PhysicsError> {
         let condition = Condition {
             load: operating.load,
             prescribed: operating.prescribed,

@@ -5,11 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::Machine;
-use super::settling::{Criteria, SettledRun};
+use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{RestartState, clock_name, section_channel};
+use super::{Machine, StudyError};
 use crate::analysis::ball_inertia::decided_together;
-use crate::error::Error;
 use crate::model::Model;
 use crate::model::study::{BifurcationStudy, Continuation, Sweep};
 use crate::results::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
@@ -39,8 +38,8 @@ type Outcome = (Result<SteadyMotion, String>, Option<RestartState>);
 pub fn bifurcation(
     models: &[Model],
     progress: &(dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
-) -> Result<BifurcationResult, Error> {
-    let study = models.first().and_then(|m| m.studies.bifurcation.as_ref()).ok_or(Error::Signal(
+) -> Result<BifurcationResult, StudyError> {
+    let study = models.first().and_then(|m| m.studies.bifurcation.as_ref()).ok_or(StudyError::Signal(
         crate::signal::SignalError::Empty { name: "list of models with a bifurcation study" },
     ))?;
     let speeds: Vec<f64> = models
@@ -97,7 +96,7 @@ pub fn bifurcation(
     if all().all(|p| p.motion.is_err())
         && let Some(Err(reason)) = all().next().map(|p| &p.motion)
     {
-        return Err(crate::error::PhysicsError::NoSteadyMotion { reason: reason.clone() }.into());
+        return Err(crate::assembly::PhysicsError::NoSteadyMotion { reason: reason.clone() }.into());
     }
     let complete = !all().any(|p| p.motion.as_ref().is_err_and(|reason| reason == STOPPED));
     Ok(BifurcationResult {
@@ -196,7 +195,7 @@ fn steady_motion(
     study: &BifurcationStudy,
     carried: Option<&RestartState>,
     progress: super::steady_motion::Progress,
-) -> Result<Option<(SteadyMotion, RestartState)>, Error> {
+) -> Result<Option<(SteadyMotion, RestartState)>, StudyError> {
     let machine = Machine::new(model.clone())?;
     let (reduction, state) = machine.steady_initial_state(&study.steady, carried)?;
     let probes: Vec<_> = study.channels.iter().collect();

@@ -5,9 +5,8 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use super::{Machine, Recorder};
+use super::{Machine, Recorder, StudyError};
 use crate::bearing::{BallBearing, Bearing};
-use crate::error::Error;
 use crate::model::Model;
 use crate::model::study::{OrderStudy, RunUpStudy};
 use crate::results::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, OrderResult};
@@ -29,7 +28,7 @@ impl Machine {
         orders: &OrderStudy,
         base: &[OrderResult],
         progress: &(dyn Fn() -> ControlFlow<()> + Sync),
-    ) -> Result<Option<CagePhaseBand>, Error> {
+    ) -> Result<Option<CagePhaseBand>, StudyError> {
         let turned = turned_bearings(&self.model);
         let own: Vec<f64> = turned.iter().map(|k| self.model.bearings[*k].bearing.cage_angle()).collect();
         let count = study.cage_phases;
@@ -45,7 +44,7 @@ impl Machine {
         let runs: Vec<Option<Vec<OrderResult>>> = (1..count)
             .into_par_iter()
             .map(|phase| self.orders_with_cages(&turned, &angles(phase), (study, orders), progress))
-            .collect::<Result<_, Error>>()?;
+            .collect::<Result<_, StudyError>>()?;
         let Some(runs) = runs.into_iter().collect::<Option<Vec<_>>>() else { return Ok(None) };
         let channels = base.iter().enumerate().map(|(c, result)| CagePhaseChannel {
             channel: result.channel.clone(),
@@ -91,7 +90,7 @@ impl Machine {
         angles: &[f64],
         (study, orders): (&RunUpStudy, &OrderStudy),
         progress: &(dyn Fn() -> ControlFlow<()> + Sync),
-    ) -> Result<Option<Vec<OrderResult>>, Error> {
+    ) -> Result<Option<Vec<OrderResult>>, StudyError> {
         let mut model = self.model.clone();
         for (site, angle) in turned.iter().zip(angles) {
             if let Some(ball) = ball_of(&mut model.bearings[*site].bearing) {

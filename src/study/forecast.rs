@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use super::Machine;
-use crate::error::Error;
+use super::{Machine, StudyError};
 use crate::model::study::{
     BifurcationStudy, CampbellStudy, Continuation, FrfStudy, Integrator, ModalStudy, RunUpStudy,
     SectionTrigger, SpectrogramStudy, SteadyRunSettings, Studies, Sweep, UnbalanceStudy,
@@ -215,7 +214,7 @@ impl Machine {
         per_item.ok().map(|seconds| seconds * forecast.count)
     }
 
-    fn run_up_step_time(&self, study: &RunUpStudy) -> Result<f64, Error> {
+    fn run_up_step_time(&self, study: &RunUpStudy) -> Result<f64, StudyError> {
         let reduction = self.reduce(study)?;
         let x = &reduction.equilibrium * if study.from_equilibrium { 1.0 } else { 0.0 };
         let v = &reduction.equilibrium * 0.0;
@@ -224,13 +223,13 @@ impl Machine {
         Ok(step_time(&reduction, state, study.integrator, step))
     }
 
-    fn steady_step_time(&self, steady: &SteadyRunSettings) -> Result<f64, Error> {
+    fn steady_step_time(&self, steady: &SteadyRunSettings) -> Result<f64, StudyError> {
         let (reduction, state) = self.steady_initial_state(steady, None)?;
         Ok(step_time(&reduction, state, steady.integrator, steady.step))
     }
 
     /// Time of one of the first solutions of a linear study.
-    fn solution_time(&self, study: &str, studies: &Studies) -> Result<f64, Error> {
+    fn solution_time(&self, study: &str, studies: &Studies) -> Result<f64, StudyError> {
         let first = |values: &[f64]| values[..TIMED_POINTS.min(values.len())].to_vec();
         let start = Instant::now();
         let points = match study {

@@ -6,11 +6,13 @@ mod bearing_life;
 mod bifurcation;
 mod cage_phases;
 mod ehl_film;
+mod error;
 pub mod forecast;
 mod order_tracking;
 mod record;
 mod responses;
 mod run_up_correlation;
+mod settled_run;
 mod settling;
 pub mod signal;
 mod steady_motion;
@@ -18,6 +20,7 @@ mod step_error;
 
 pub use bearing::single_bearings;
 pub use bifurcation::bifurcation;
+pub use error::StudyError;
 pub use record::Recorder;
 pub use run_up_correlation::MeasuredRun;
 pub use steady_motion::{Progress, RestartState};
@@ -27,15 +30,12 @@ use std::ops::ControlFlow;
 
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
-use crate::analysis::campbell;
-use crate::analysis::critical_speed;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::analysis::preload::{MountedPreload, with_mounted_preload};
 use crate::analysis::table_range::{check_tables, speed_range};
-use crate::analysis::{modal, stability};
-use crate::assembly::{Assembly, LinearSystem, rigid_body_modes};
+use crate::analysis::{campbell, critical_speed, modal, stability};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError, rigid_body_modes};
 use crate::bearing::{Bearing, BearingElement, SiteTangent};
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{SparseMatrix, krylov};
 use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalStudy, RunUpStudy};
 use crate::model::{Drive, Model};
@@ -57,7 +57,7 @@ impl Machine {
     ///
     /// # Errors
     /// A mass matrix that is not definite, or no equilibrium.
-    pub fn new(model: Model) -> Result<Self, Error> {
+    pub fn new(model: Model) -> Result<Self, PhysicsError> {
         let mut assembly = Assembly::new(&model)?;
         let named = |error| name_rigid_body_mode(error, &model, &assembly);
         let model = with_mounted_preload(&model, &assembly).map_err(named)?.unwrap_or(model);
@@ -76,7 +76,7 @@ impl Machine {
 
     /// The machine with its automatic ball inertia decided at the highest of a study's speeds \[rad/s\]; `None` if it
     /// is decided.
-    fn decided(&self, speeds: &[f64]) -> Result<Option<Self>, Error> {
+    fn decided(&self, speeds: &[f64]) -> Result<Option<Self>, PhysicsError> {
         if !is_undecided(&self.model) {
             return Ok(None);
         }
@@ -96,7 +96,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium.
-    pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, Error> {
+    pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, PhysicsError> {
         if let Some(machine) = self.decided(&[study.speed])? {
             return machine.equilibrium(study);
         }
@@ -123,7 +123,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium at that speed.
-    pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, Error> {
+    pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, PhysicsError> {
         if speed_dependent && let Some(machine) = self.decided(&[speed])? {
             return machine.tangents(speed, speed_dependent);
         }
@@ -161,7 +161,7 @@ impl Machine {
     ///
     /// # Errors
     /// As [`LinearSystem::new`].
-    pub fn linear_system(&self, speed: f64) -> Result<LinearSystem, Error> {
+    pub fn linear_system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
         LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
@@ -169,7 +169,7 @@ impl Machine {
     ///
     /// # Errors
     /// A bearing that refuses speeds beyond its table.
-    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<String>, Error> {
+    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<String>, PhysicsError> {
         speed_range(speeds).map_or(Ok(Vec::new()), |range| check_tables(&self.model, study, range))
     }
 
@@ -177,7 +177,7 @@ impl Machine {
     ///
     /// # Errors
     /// An eigenvalue computation that fails.
-    pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, Error> {
+    pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, PhysicsError> {
         if let Some(machine) = self.decided(&study.speeds)? {
             return machine.modal(study);
         }
@@ -193,7 +193,7 @@ impl Machine {
     ///
     /// # Errors
     /// As [`campbell::campbell`].
-    pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, Error> {
+    pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, PhysicsError> {
         if let Some(machine) = self.decided(&study.speeds)? {
             return machine.campbell(study);
         }
@@ -209,7 +209,7 @@ impl Machine {
     ///
     /// # Errors
     /// As [`critical_speed::critical_speeds`].
-    pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, Error> {
+    pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, PhysicsError> {
         if let Some(machine) = self.decided(&[study.max_speed])? {
             return machine.critical(study);
         }
@@ -225,7 +225,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium, or no modes.
-    pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, Error> {
+    pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, PhysicsError> {
         if let Some(machine) = self.decided(&[self.top_speed_of_run()])? {
             return machine.reduce(study);
         }
@@ -246,7 +246,12 @@ impl Machine {
     ///
     /// # Errors
     /// An eigenvalue computation that fails.
-    pub fn reduction_error(&self, reduction: &Reduction, cutoff: f64, speed: f64) -> Result<f64, Error> {
+    pub fn reduction_error(
+        &self,
+        reduction: &Reduction,
+        cutoff: f64,
+        speed: f64,
+    ) -> Result<f64, PhysicsError> {
         if let Some(machine) = self.decided(&[speed])? {
             return machine.reduction_error(reduction, cutoff, speed);
         }
@@ -325,10 +330,10 @@ impl Machine {
 }
 
 /// Replaces a failed equilibrium by the rigid-body mode that causes it, if there is one.
-fn name_rigid_body_mode(error: Error, model: &Model, assembly: &Assembly) -> Error {
+fn name_rigid_body_mode(error: PhysicsError, model: &Model, assembly: &Assembly) -> PhysicsError {
     let free = rigid_body_modes::rigid_body_modes_of_machine(model, assembly).unwrap_or_default();
     match free.into_iter().next() {
-        Some(motion) => PhysicsError::Singular { motion }.into(),
+        Some(motion) => PhysicsError::Singular { motion },
         None => error,
     }
 }

@@ -1,9 +1,9 @@
 //! Spectrograms and order tracking of a recorded run.
 
 use super::Machine;
-use crate::error::Error;
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::results::{History, HistoryChannel, OrderResult, SpectrogramResult};
+use crate::signal::SignalError;
 use crate::signal::order::{OrderSettings, OrderTracker};
 use crate::signal::stft::{Stft, StftSettings};
 
@@ -22,7 +22,7 @@ impl Machine {
         &self,
         study: &SpectrogramStudy,
         history: &History,
-    ) -> Result<Vec<SpectrogramResult>, Error> {
+    ) -> Result<Vec<SpectrogramResult>, SignalError> {
         let rate = history.sample_rate;
         let length = (study.length * rate).round() as usize;
         let settings = StftSettings::new(study.window, length, study.overlap)?;
@@ -48,7 +48,7 @@ impl Machine {
     ///
     /// # Errors
     /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order.
-    pub fn orders(&self, study: &OrderStudy, history: &History) -> Result<Vec<OrderResult>, Error> {
+    pub fn orders(&self, study: &OrderStudy, history: &History) -> Result<Vec<OrderResult>, SignalError> {
         let settings = OrderSettings {
             overlap: study.overlap,
             window: study.window,
@@ -64,7 +64,7 @@ impl Machine {
                     let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
                     Ok((line.clone(), cut))
                 };
-                let cuts = lines.iter().map(cut).collect::<Result<_, Error>>()?;
+                let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
                 Ok(OrderResult {
                     channel: channel.name.clone(),
                     unit: channel.unit.clone(),

@@ -6,8 +6,8 @@ use crate::analysis::peaks::peaks;
 use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
 use crate::analysis::refine::{RefinedGrid, refine};
 use crate::analysis::unbalance::{self, Orbit, UnbalanceResponse};
+use crate::assembly::PhysicsError;
 use crate::element::Anchor;
-use crate::error::Error;
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
 use crate::model::{Drive, Probe, Quantity};
@@ -23,7 +23,7 @@ impl Machine {
     ///
     /// # Errors
     /// A singular dynamic stiffness.
-    pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, Error> {
+    pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, PhysicsError> {
         if let Some(machine) = self.decided(&[study.speed])? {
             return machine.frf(study);
         }
@@ -35,7 +35,7 @@ impl Machine {
         let (f, q) = (&study.frequencies, study.quantity);
         let highest = f.iter().copied().fold(0.0, f64::max);
         let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
-        let evaluate = |hz: &[f64]| -> Result<Vec<Vec<Complex64>>, Error> {
+        let evaluate = |hz: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
             let found = frf::frf(&self.assembly, &system, hz, &excitations, &responses, q)?;
             Ok((0..hz.len()).map(|k| found.values.iter().flatten().map(|h| h[k]).collect()).collect())
         };
@@ -84,7 +84,7 @@ impl Machine {
     ///
     /// # Errors
     /// A singular dynamic stiffness.
-    pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, Error> {
+    pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, PhysicsError> {
         if let Some(machine) = self.decided(&study.speeds)? {
             return machine.unbalance(study);
         }
@@ -109,7 +109,7 @@ impl Machine {
             false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
         };
         let poles = synchronous_poles(&self.assembly, range, &tangents)?;
-        let evaluate = |speeds: &[f64]| -> Result<Vec<Vec<Complex64>>, Error> {
+        let evaluate = |speeds: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
             Ok(unbalance::response(&self.assembly, speeds, &tangents)?.amplitudes)
         };
         let curves = |q: &Vec<Complex64>| -> Vec<Complex64> {
@@ -184,9 +184,9 @@ fn refined<T>(
     grid: &[f64],
     poles: &[Pole],
     wanted: bool,
-    evaluate: impl Fn(&[f64]) -> Result<Vec<T>, Error>,
+    evaluate: impl Fn(&[f64]) -> Result<Vec<T>, PhysicsError>,
     curves: impl Fn(&T) -> Vec<Complex64>,
-) -> Result<RefinedGrid<T>, Error> {
+) -> Result<RefinedGrid<T>, PhysicsError> {
     if wanted && grid.windows(2).all(|pair| pair[0] < pair[1]) {
         return refine(grid, poles, evaluate, curves);
     }

@@ -4,7 +4,6 @@ use super::Machine;
 use super::order_tracking::without_mean;
 use super::record::probe_channel;
 use super::signal::{ShaftMotion, SignalChannel};
-use crate::error::Error;
 use crate::linalg::{Outside, piecewise};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
@@ -40,10 +39,10 @@ impl MeasuredRun {
         channels: Vec<(Probe, SignalChannel)>,
         motion: &ShaftMotion,
         model: &Model,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, SignalError> {
         let purpose = "a comparison with the model's run-up";
         let Some((_, first)) = channels.first().filter(|_| motion.angle.len() > 1) else {
-            return Err(SignalError::Unknown { what: "the shaft's angle", purpose }.into());
+            return Err(SignalError::Unknown { what: "the shaft's angle", purpose });
         };
         let rate = first.sample_rate;
         let profile = speed_profile(&motion.angle, rate);
@@ -107,7 +106,7 @@ impl Machine {
         &self,
         measured: &History,
         computed: &History,
-    ) -> Result<Vec<ChannelPair>, Error> {
+    ) -> Result<Vec<ChannelPair>, SignalError> {
         let studies = &self.model.studies;
         let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
             return Ok(Vec::new());

@@ -1,15 +1,13 @@
 //! Runs at constant speed continued until the motion has settled, up to a limit of periods.
 
-use super::Machine;
+use super::settled_run::{Criteria, SettledRun};
 use super::steady_motion::{Progress, sections};
-use crate::error::Error;
+use super::{Machine, StudyError};
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};
 use crate::signal::motion_classification::{Classification, Motion};
-use crate::signal::poincare::StroboscopicSampling;
 use crate::transient::reduction::Reduction;
-use crate::transient::steady::SteadyRun;
 use crate::transient::system::State;
 
 /// Logarithmic change of a section's mean square change between its halves below which a motion counts as
@@ -18,22 +16,6 @@ const SURE_TREND: f64 = 0.01;
 const SAME_AMPLITUDE: f64 = 0.05;
 /// Number by which the estimated periods to the limit may exceed the periods left for the run to go on.
 const WORTH_CONTINUING: f64 = 3.0;
-
-/// Criteria of the classification.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Criteria {
-    pub tolerance: f64,
-    pub longest_period: usize,
-    /// Perturbation for a Lyapunov exponent \[m\].
-    pub perturbation: Option<f64>,
-}
-
-/// The last record of a run, its section instants and its motion.
-pub(super) struct SettledRun {
-    pub run: SteadyRun,
-    pub strobe: StroboscopicSampling,
-    pub motion: SteadyMotion,
-}
 
 impl Machine {
     /// Runs, records and classifies; while the motion has not settled, everything so far becomes transient and the
@@ -47,7 +29,7 @@ impl Machine {
         (probes, channels): (&[&Probe], &[SectionChannel]),
         criteria: Criteria,
         progress: Progress,
-    ) -> Result<Option<SettledRun>, Error> {
+    ) -> Result<Option<SettledRun>, StudyError> {
         let mut state = state;
         let mut settings = steady.clone();
         let mut discarded = steady.transient_periods;

@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::Machine;
-use super::settling::{Criteria, SettledRun};
+use super::settled_run::{Criteria, SettledRun};
+use super::{Machine, StudyError};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
-use crate::error::Error;
 use crate::model::study::{LyapunovStudy, Plane, PoincareStudy, SectionTrigger, SteadyRunSettings};
 use crate::model::{BearingSite, Model, Probe, SpeedProfile};
 use crate::results::{
@@ -51,7 +50,7 @@ impl Machine {
         &self,
         study: &PoincareStudy,
         progress: Progress,
-    ) -> Result<Option<PoincareResult>, Error> {
+    ) -> Result<Option<PoincareResult>, StudyError> {
         let steady = &study.steady;
         let probes: Vec<&Probe> = study.planes.iter().flat_map(|p| [&p.x, &p.y]).collect();
         let (reduction, state) = self.steady_initial_state(steady, None)?;
@@ -105,7 +104,7 @@ impl Machine {
         &self,
         study: &LyapunovStudy,
         progress: Progress,
-    ) -> Result<Option<LyapunovResult>, Error> {
+    ) -> Result<Option<LyapunovResult>, StudyError> {
         let steady = &study.steady;
         let (reduction, state) = self.steady_initial_state(steady, None)?;
         let perturbation = Some(study.perturbation);
@@ -127,7 +126,7 @@ impl Machine {
         &self,
         steady: &SteadyRunSettings,
         carried: Option<&RestartState>,
-    ) -> Result<(Reduction, State), Error> {
+    ) -> Result<(Reduction, State), StudyError> {
         if let Some(machine) = self.decided(&[steady.speed])? {
             return machine.steady_initial_state(steady, carried);
         }
@@ -181,7 +180,7 @@ impl Machine {
         probes: &[&Probe],
         perturbation: Option<f64>,
         progress: Progress,
-    ) -> Result<Option<SteadyRun>, Error> {
+    ) -> Result<Option<SteadyRun>, StudyError> {
         let channel = |probe: &&Probe| {
             let mut row = vec![0.0; self.assembly.dofs.len()];
             self.assembly.direction_row(&probe.at, &probe.direction).add_to(1.0, &mut row);
@@ -217,11 +216,11 @@ pub(super) fn sections(
     steady: &SteadyRunSettings,
     tolerance: f64,
     longest: usize,
-) -> Result<(StroboscopicSampling, SteadyMotion), Error> {
+) -> Result<(StroboscopicSampling, SteadyMotion), StudyError> {
     let mut strobe = StroboscopicSampling::new(&run.phase, steady.phase, std::f64::consts::TAU)?;
     // The margins contain no further instant, unless the clock speed varies strongly.
     strobe.positions.truncate(steady.periods + 1);
-    let whole = |channel: &Vec<f64>| -> Result<Vec<f64>, Error> {
+    let whole = |channel: &Vec<f64>| -> Result<Vec<f64>, StudyError> {
         let mut points = strobe.section(channel)?;
         points.truncate(steady.periods);
         Ok(points)

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::stepper::Stepper;
 use super::system::{Interface, State, System};
+use crate::assembly::PhysicsError;
 use crate::bearing::Rotation;
-use crate::error::PhysicsError;
 use crate::model::study::Integrator;
 
 /// A perturbed trajectory: a copy of a run with the same steps and the same shaft and cage angles.

@@ -10,10 +10,9 @@ use nalgebra::{DMatrix, DVector};
 use super::system::{Channel, Interface, LoadHistory, Panels, System};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
-use crate::assembly::{Assembly, ModalDamping};
+use crate::assembly::{Assembly, ModalDamping, PhysicsError};
 use crate::bearing::radial::Rings;
 use crate::bearing::{BearingElement, Rotation};
-use crate::error::{Error, PhysicsError};
 use crate::linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 use crate::model::{Drive, Model};
 
@@ -62,7 +61,7 @@ pub fn reduce(
     assembly: &Assembly,
     equilibrium: &Equilibrium,
     cutoff: f64,
-) -> Result<Reduction, Error> {
+) -> Result<Reduction, PhysicsError> {
     let n = assembly.dofs.len();
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
     let mut tangent = Triplets::new(n, n);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::energy::{Energy, EnergyBalance};
 use super::stepper::{Stepper, check_divergence};
 use super::system::{State, System};
-use crate::error::PhysicsError;
+use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 
 /// Integrator, step and sampling of a run.

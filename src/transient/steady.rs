@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::perturbed_trajectory::PerturbedTrajectory;
 use super::stepper::{Stepper, check_divergence};
 use super::system::{Channel, State, System};
-use crate::error::PhysicsError;
+use crate::assembly::PhysicsError;
 use crate::model::study::{SectionTrigger, SteadyRunSettings};
 
 /// Samples recorded before the first and after the last Poincaré section, for interpolation between samples.

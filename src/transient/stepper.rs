@@ -3,7 +3,7 @@
 use super::generalised_alpha::{GeneralisedAlpha, Scheme};
 use super::runge_kutta::RungeKutta;
 use super::system::{State, System};
-use crate::error::PhysicsError;
+use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 
 /// Largest number of halvings of a step: 2⁻¹² of its length.

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::residual::ResidualRows;
+use super::UpdateFailure;
+use super::residual_rows::ResidualRows;
 use super::state::ModelState;
 use super::target::{Sensor, TargetFrfs};
 use crate::analysis::sensitivity::{FrfSensitivity, SystemDerivative, frf_sensitivity};
-use crate::error::Error;
 use crate::linalg::{Complex64, SparseRow};
 
 /// Settings of the FRF fit.
@@ -60,7 +60,7 @@ pub(super) fn frf_rows(
     fitting: &FrfFitting,
     by: &[&SystemDerivative],
     rows: &mut ResidualRows,
-) -> Result<(), Error> {
+) -> Result<(), UpdateFailure> {
     let lines = selected_lines(measured, fitting.band);
     let found = computed(state, measured, &lines, by)?;
     let shared = correlated_counts(measured, &lines, fitting.complex);
@@ -168,7 +168,7 @@ fn computed(
     measured: &TargetFrfs,
     lines: &[usize],
     by: &[&SystemDerivative],
-) -> Result<FrfSensitivity, Error> {
+) -> Result<FrfSensitivity, UpdateFailure> {
     const CHUNK: usize = 32;
     let of = |sensors: &[Sensor]| -> Vec<SparseRow> {
         sensors.iter().map(|s| s.row(&state.linearised.assembly)).collect()

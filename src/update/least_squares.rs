@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::error::Error;
+use super::UpdateFailure;
 
 /// Normal priors x ~ N(mean, deviation²), and bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +62,8 @@ pub fn minimise(
     start: &[f64],
     prior: &Prior,
     max_iterations: usize,
-    evaluate: &mut dyn FnMut(&[f64]) -> Result<Evaluation, Error>,
-) -> Result<Solution, Error> {
+    evaluate: &mut dyn FnMut(&[f64]) -> Result<Evaluation, UpdateFailure>,
+) -> Result<Solution, UpdateFailure> {
     let n = start.len();
     let cost = |x: &[f64], at: &Evaluation| {
         let penalty: f64 = (0..n).map(|j| ((x[j] - prior.mean[j]) / prior.deviation[j]).powi(2)).sum();
@@ -159,7 +159,7 @@ fn predicted_reduction(x: &[f64], trial: &[f64], at: &Evaluation, prior: &Prior)
 mod tests {
     use super::*;
 
-    fn rosenbrock(x: &[f64]) -> Result<Evaluation, Error> {
+    fn rosenbrock(x: &[f64]) -> Result<Evaluation, UpdateFailure> {
         Ok(Evaluation {
             residual: DVector::from_vec(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]),
             jacobian: DMatrix::from_row_slice(2, 2, &[-20.0 * x[0], 10.0, -1.0, 0.0]),

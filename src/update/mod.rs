@@ -12,6 +12,7 @@
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 
+mod error;
 pub mod frf;
 pub mod identifiability;
 pub mod least_squares;
@@ -19,6 +20,7 @@ pub mod pairing;
 pub mod parameter;
 mod repeated;
 pub mod residual;
+mod residual_rows;
 pub mod state;
 pub mod target;
 
@@ -27,8 +29,8 @@ use rayon::prelude::*;
 use crate::analysis::ball_inertia::{ball_inertia, is_undecided, with_decisions};
 use crate::analysis::sensitivity::SystemDerivative;
 use crate::assembly::Assembly;
-use crate::error::Error;
 use crate::model::Model;
+pub use error::{UpdateError, UpdateFailure};
 use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
 use least_squares::{Evaluation, Iteration, Prior, minimise};
 use parameter::FreeParameter;
@@ -36,22 +38,8 @@ use residual::{Fitting, evaluate_residuals};
 use state::ModelState;
 use target::Target;
 
-/// Error of a comparison or update with measurements: what is wrong, and what to do.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{problem}; {advice}")]
-pub struct UpdateError {
-    pub problem: String,
-    pub advice: String,
-}
-
-impl UpdateError {
-    pub fn new(problem: impl Into<String>, advice: impl Into<String>) -> Self {
-        Self { problem: problem.into(), advice: advice.into() }
-    }
-}
-
 /// Builds the model with parameter values (path, value) overridden.
-pub type ModelLoader<'a> = dyn Fn(&[(String, String)]) -> Result<Model, Error> + Sync + 'a;
+pub type ModelLoader<'a> = dyn Fn(&[(String, String)]) -> Result<Model, UpdateError> + Sync + 'a;
 
 /// Input of a model update.
 pub struct UpdateJob<'a> {
@@ -120,7 +108,7 @@ pub struct Update {
 ///
 /// # Errors
 /// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
-pub fn update(job: &UpdateJob) -> Result<Update, Error> {
+pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     // Ball inertia is decided once, with the first model, for all steps.
     let first = (job.load)(&settings(job.parameters, &parameter::prior(job.parameters).mean))?;
     if is_undecided(&first) {
@@ -205,12 +193,12 @@ pub fn settings(parameters: &[FreeParameter], x: &[f64]) -> Vec<(String, String)
 }
 
 impl UpdateJob<'_> {
-    fn state(&self, x: &[f64]) -> Result<ModelState, Error> {
+    fn state(&self, x: &[f64]) -> Result<ModelState, UpdateFailure> {
         ModelState::new((self.load)(&settings(self.parameters, x))?, self.target, None)
     }
 
     /// Derivatives dM, dD and dS by every coordinate at x.
-    fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, Error> {
+    fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, UpdateFailure> {
         let all = settings(self.parameters, x);
         let one = |parameter: &FreeParameter, x: f64| {
             let (sides, width) = parameter.difference_settings(x);
@@ -219,7 +207,7 @@ impl UpdateJob<'_> {
                 set.extend_from_slice(own);
                 (self.load)(&set)
             };
-            state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)
+            Ok(state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)?)
         };
         self.parameters.par_iter().zip(x).map(|(p, x)| one(p, *x)).collect()
     }
@@ -230,9 +218,9 @@ fn fit(
     prior: &Prior,
     start: &[f64],
     kept: &[usize],
-) -> Result<least_squares::Solution, Error> {
+) -> Result<least_squares::Solution, UpdateFailure> {
     let mut first = true;
-    let mut evaluate = |x: &[f64]| -> Result<Evaluation, Error> {
+    let mut evaluate = |x: &[f64]| -> Result<Evaluation, UpdateFailure> {
         let state = job.state(x)?;
         let by = job.derivatives(x, &state)?;
         let found = evaluate_residuals(&state, job.target, job.fitting, kept, &by)?;

@@ -1,14 +1,16 @@
 //! Residuals (weighted differences of model and measurement) with their derivatives.
 
+use super::residual_rows::ResidualRows;
 use nalgebra::{DMatrix, DVector};
 
+use super::UpdateFailure;
 use super::frf::{FrfFitting, frf_rows};
 use super::least_squares::Evaluation;
 use super::state::ModelState;
 use super::target::{Target, TargetMode};
 use crate::analysis::modal::Mode;
 use crate::analysis::sensitivity::{ModeSensitivity, SystemDerivative};
-use crate::error::{Error, PhysicsError};
+use crate::assembly::PhysicsError;
 use crate::identify::mac::dot;
 use crate::linalg::{Complex64, SparseRow};
 
@@ -37,21 +39,6 @@ impl Default for Fitting {
     }
 }
 
-/// Residual rows and their derivatives by every parameter, under construction.
-pub(super) struct ResidualRows {
-    residual: Vec<f64>,
-    slopes: Vec<Vec<f64>>,
-    /// Effective number of data.
-    pub data: f64,
-}
-
-impl ResidualRows {
-    pub fn push(&mut self, residual: f64, slopes: impl Iterator<Item = f64>) {
-        self.residual.push(residual);
-        self.slopes.push(slopes.collect());
-    }
-}
-
 /// Weighted residuals and their derivatives, of the measured modes `kept` and of the FRFs.
 ///
 /// Shapes give r = (m − α s)/σ with |m| = 1 and the optimal modal scale factor α: |r|²σ² is 1 − MAC, but r
@@ -65,7 +52,7 @@ pub fn evaluate_residuals(
     fitting: &Fitting,
     fitted_modes: &[usize],
     by: &[SystemDerivative],
-) -> Result<Evaluation, Error> {
+) -> Result<Evaluation, UpdateFailure> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
     let mut rows = ResidualRows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
     for &k in fitted_modes.iter().filter(|_| fitting.modes()) {
@@ -96,7 +83,7 @@ fn mode_rows(
     fitting: &Fitting,
     by: &[&SystemDerivative],
     rows: &mut ResidualRows,
-) -> Result<(), Error> {
+) -> Result<(), UpdateFailure> {
     let value = mode.eigenvalue;
     let system = &state.linearised.system;
     let sensitivity = match state.repeated[place] {

@@ -3,11 +3,10 @@
 use rayon::prelude::*;
 
 use super::pairing::{Candidate, Pairing, pair_modes};
-use super::repeated;
 use super::target::{Target, TargetFrfs};
+use super::{UpdateFailure, repeated};
 use crate::analysis::modal::{self, Mode};
 use crate::analysis::sensitivity::{Linearised, frf_sensitivity};
-use crate::error::Error;
 use crate::linalg::{Complex64, SparseRow};
 use crate::model::Model;
 
@@ -34,7 +33,7 @@ impl ModelState {
     ///
     /// # Errors
     /// No equilibrium, or failure of the eigenvalue computation.
-    pub fn new(model: Model, target: &Target, start: Option<&[f64]>) -> Result<Self, Error> {
+    pub fn new(model: Model, target: &Target, start: Option<&[f64]>) -> Result<Self, UpdateFailure> {
         let linear = Linearised::new(model, target.speed, start)?;
         let count = 2 * target.modes.len() + EXTRA_MODES;
         let mut modes = modal::modes(&linear.assembly, &linear.system, count)?;
@@ -70,7 +69,7 @@ impl ModelState {
     ///
     /// # Errors
     /// A singular dynamic stiffness.
-    pub fn frfs(&self, measured: &TargetFrfs) -> Result<Vec<Vec<Vec<Complex64>>>, Error> {
+    pub fn frfs(&self, measured: &TargetFrfs) -> Result<Vec<Vec<Vec<Complex64>>>, UpdateFailure> {
         const CHUNK: usize = 64;
         let rows = |sensors: &[super::target::Sensor]| -> Vec<SparseRow> {
             sensors.iter().map(|s| s.row(&self.linearised.assembly)).collect()

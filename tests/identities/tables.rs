@@ -2,7 +2,7 @@
 
 use crate::modal_damping::{RATIO, overhung};
 use rotordyn::bearing::{Bearing, LinearElement};
-use rotordyn::error::{Error, PhysicsError};
+use rotordyn::error::PhysicsError;
 use rotordyn::model::{Model, SpeedProfile, study};
 use rotordyn::study::Machine;
 use std::f64::consts::TAU;
@@ -59,7 +59,7 @@ fn no_negative_stiffness_beyond_a_table() {
     }
 }
 
-type Run = fn(&Machine, f64) -> Result<(), Error>;
+type Run = fn(&Machine, f64) -> Result<(), PhysicsError>;
 
 /// Every study of linearised or integrated motion, up to a speed \[rad/s\].
 const STUDIES: [(&str, Run); 7] = [
@@ -103,7 +103,7 @@ fn every_study_refuses_or_warns_by_name() {
         for speed in [4600.0, 9000.0] {
             run(&hold, speed * RPM).unwrap_or_else(|e| panic!("{name} at {speed} rpm: {e}"));
             match run(&refuse, speed * RPM) {
-                Err(Error::Physics(PhysicsError::BeyondTable { bearing, study, table_rpm, study_rpm })) => {
+                Err(PhysicsError::BeyondTable { bearing, study, table_rpm, study_rpm }) => {
                     assert_eq!((bearing.as_str(), study.as_str()), ("B", name));
                     assert!((table_rpm[0] - 300.0).abs() < 1e-9 && (table_rpm[1] - 4500.0).abs() < 1e-9);
                     assert!((study_rpm[1] - speed).abs() < 1.0, "{study_rpm:?}");

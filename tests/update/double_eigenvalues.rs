@@ -1,10 +1,10 @@
 //! Isotropic rotor at rest: its modes come in pairs of equal frequency (double eigenvalues), and the planes of the
 //! measured shapes are arbitrary.
 
-use rotordyn::error::Error;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
+use rotordyn::update::UpdateError;
 use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::state::ModelState;
@@ -53,7 +53,7 @@ const ROTOR: &str = r#"
     c_yy = "100 N s/m"
 "#;
 
-fn rotor(set: &[(String, String)]) -> Result<Model, Error> {
+fn rotor(set: &[(String, String)]) -> Result<Model, UpdateError> {
     let options = Options { variant: None, set: set.to_vec() };
     Ok(load("two_discs.toml", ROTOR, &options).unwrap_or_else(|errors| panic!("{errors:?}")).model)
 }

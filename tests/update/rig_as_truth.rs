@@ -2,10 +2,10 @@
 
 use std::sync::LazyLock;
 
-use rotordyn::error::Error;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::{Model, Options, load, parameter_paths::resolve_parameter_path};
 use rotordyn::signal::record::Dof;
+use rotordyn::update::UpdateError;
 use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::state::ModelState;
@@ -103,7 +103,7 @@ pub fn free(path: &str) -> FreeParameter {
     FreeParameter::new(path, places, true, None).unwrap()
 }
 
-pub fn load_rig(set: &[(String, String)]) -> Result<Model, Error> {
+pub fn load_rig(set: &[(String, String)]) -> Result<Model, UpdateError> {
     let options = Options { variant: None, set: set.to_vec() };
     Ok(load("overhung_rig.toml", &*RIG, &options).unwrap_or_else(|errors| panic!("{errors:?}")).model)
 }

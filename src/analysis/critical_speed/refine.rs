@@ -1,8 +1,8 @@
 //! A crossing refined on its own mode: inverse iteration at a speed, secant method over speed.
 
-use crate::analysis::modal::{Eigenpair, inner, mass_normalised};
-use crate::assembly::{Assembly, LinearSystem, ModalDamping};
-use crate::error::Error;
+use crate::analysis::modal::{Eigenpair, mass_normalised};
+use crate::analysis::mode::inner;
+use crate::assembly::{Assembly, LinearSystem, ModalDamping, PhysicsError};
 use crate::linalg::{BandLayout, Complex64};
 
 /// Relative change at which an iteration ends.
@@ -131,7 +131,7 @@ pub(super) fn crossing(
     (start_speed, start): (f64, &Eigenpair),
     trial: f64,
     (from, to): (f64, f64),
-) -> Result<Option<(f64, Complex64)>, Error> {
+) -> Result<Option<(f64, Complex64)>, PhysicsError> {
     let gap = |pair: &Eigenpair, speed: f64| pair.0.im - order * speed;
     let mut last = (start_speed, gap(start, start_speed));
     let mut pair = start.clone();

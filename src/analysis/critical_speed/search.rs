@@ -11,9 +11,8 @@
 use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
 use crate::analysis::campbell::EXTRA_MODES;
 use crate::analysis::modal::{self, Eigenpair, Mode};
-use crate::assembly::{Assembly, LinearSystem};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::bearing::SiteTangent;
-use crate::error::Error;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -87,7 +86,7 @@ impl<'a, T: Tangents> Search<'a, T> {
     }
 
     /// Eigenpairs at increasing speeds.
-    pub fn spectra(&self, speeds: &[f64]) -> Result<Vec<Spectrum>, Error> {
+    pub fn spectra(&self, speeds: &[f64]) -> Result<Vec<Spectrum>, PhysicsError> {
         let Some(&top) = speeds.last() else { return Ok(Vec::new()) };
         let highest = self.spectrum(top, 8)?;
         let guess = |speed: f64| {
@@ -96,13 +95,13 @@ impl<'a, T: Tangents> Search<'a, T> {
         };
         let lower = &speeds[..speeds.len() - 1];
         let mut spectra: Vec<Spectrum> =
-            lower.par_iter().map(|&s| self.spectrum(s, guess(s))).collect::<Result<_, Error>>()?;
+            lower.par_iter().map(|&s| self.spectrum(s, guess(s))).collect::<Result<_, PhysicsError>>()?;
         spectra.push(highest);
         Ok(spectra)
     }
 
     /// Eigenpairs at a speed: all below the highest order line and one above it, or as many as are searched.
-    fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, Error> {
+    fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, PhysicsError> {
         if speed <= 0.0 {
             // No order line crosses at standstill.
             return Ok(Spectrum::new(speed, Vec::new()));
@@ -110,12 +109,12 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(Spectrum::new(speed, self.pairs(&self.system(speed)?, guess)?))
     }
 
-    fn system(&self, speed: f64) -> Result<LinearSystem, Error> {
+    fn system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
         LinearSystem::new(self.assembly, &(self.tangents)(speed)?, speed)
     }
 
     /// All eigenpairs within the reach of the search.
-    fn all_pairs(&self, system: &LinearSystem, count: usize) -> Result<Vec<Eigenpair>, Error> {
+    fn all_pairs(&self, system: &LinearSystem, count: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
         let reach = |pairs: &[Eigenpair]| {
             let heavy = pairs.iter().any(|(value, _)| -value.re > HEAVY_DAMPING * value.norm());
             let factor = if heavy { HEAVY_REACH } else { REACH };
@@ -125,7 +124,7 @@ impl<'a, T: Tangents> Search<'a, T> {
     }
 
     /// As many eigenpairs as are searched.
-    fn pairs(&self, system: &LinearSystem, guess: usize) -> Result<Vec<Eigenpair>, Error> {
+    fn pairs(&self, system: &LinearSystem, guess: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
         match self.limit {
             Some(limit) => modal::eigenpairs(self.assembly, system, limit + EXTRA_MODES),
             None => self.all_pairs(system, guess),
@@ -138,7 +137,7 @@ impl<'a, T: Tangents> Search<'a, T> {
     }
 
     /// All crossings between the first and the last of the spectra.
-    pub fn run(&self, spectra: Vec<Spectrum>, orders: &[f64]) -> Result<CrossingList, Error> {
+    pub fn run(&self, spectra: Vec<Spectrum>, orders: &[f64]) -> Result<CrossingList, PhysicsError> {
         let spectra: Vec<Spectrum> = spectra.into_iter().filter(|s| s.speed >= 0.0).collect();
         let (Some(first), Some(last)) = (spectra.first(), spectra.last()) else {
             return Ok(CrossingList::default());
@@ -155,14 +154,14 @@ impl<'a, T: Tangents> Search<'a, T> {
         let found: Vec<Vec<CriticalSpeed>> = steps
             .par_iter()
             .map(|(step, order)| self.crossings(&step[0], &step[1], *order, MAX_BISECTIONS))
-            .collect::<Result<_, Error>>()?;
+            .collect::<Result<_, PhysicsError>>()?;
         out.list = found.concat();
         out.list.sort_by(|a, b| a.speed.total_cmp(&b.speed).then(a.order.total_cmp(&b.order)));
         Ok(out)
     }
 
     /// The number of all modes below every order line at a speed, whatever the limit of the search.
-    fn all_below(&self, speed: f64, orders: &[f64]) -> Result<AllBelow, Error> {
+    fn all_below(&self, speed: f64, orders: &[f64]) -> Result<AllBelow, PhysicsError> {
         if speed <= 0.0 {
             return Ok(AllBelow { speed, system: None, counts: vec![0; orders.len()] });
         }
@@ -182,10 +181,10 @@ impl<'a, T: Tangents> Search<'a, T> {
 
     /// Whether the number of modes below every order line only increases: constant bearings of symmetric stiffness, and
     /// at both ends as many modes below the lines as without damping.
-    fn number_is_monotonic(&self, orders: &[f64], first: f64, top: &AllBelow) -> Result<bool, Error> {
+    fn number_is_monotonic(&self, orders: &[f64], first: f64, top: &AllBelow) -> Result<bool, PhysicsError> {
         let speeds = [first, 0.5 * (first + top.speed), top.speed];
         let tangents: Vec<Vec<SiteTangent>> =
-            speeds.into_iter().map(self.tangents).collect::<Result<_, Error>>()?;
+            speeds.into_iter().map(self.tangents).collect::<Result<_, PhysicsError>>()?;
         if tangents[0] != tangents[1] || tangents[1] != tangents[2] {
             return Ok(false);
         }
@@ -206,7 +205,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         spectra: Vec<Spectrum>,
         orders: &[f64],
         uncertain: &mut Vec<UncertainRange>,
-    ) -> Result<Vec<Spectrum>, Error> {
+    ) -> Result<Vec<Spectrum>, PhysicsError> {
         // Spectra with whether the step that begins there is still to be halved.
         let mut steps: Vec<(Spectrum, bool)> = spectra.into_iter().map(|s| (s, true)).collect();
         for level in 0..MAX_HALVINGS {
@@ -219,7 +218,7 @@ impl<'a, T: Tangents> Search<'a, T> {
                     }
                     false => Ok(None),
                 })
-                .collect::<Result<_, Error>>()?;
+                .collect::<Result<_, PhysicsError>>()?;
             let mut next: Vec<(Spectrum, bool)> = Vec::with_capacity(2 * steps.len());
             let mut ends = steps.into_iter();
             let Some((mut a, _)) = ends.next() else { return Ok(Vec::new()) };
@@ -275,7 +274,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         b: &Spectrum,
         order: f64,
         depth: usize,
-    ) -> Result<Vec<CriticalSpeed>, Error> {
+    ) -> Result<Vec<CriticalSpeed>, PhysicsError> {
         let (na, nb) = (self.below(a, order), self.below(b, order));
         let indices = na.min(nb)..na.max(nb);
         // The end at which the modes of these indices lie below the line, so that both are known there.
@@ -318,7 +317,13 @@ impl<'a, T: Tangents> Search<'a, T> {
 
     /// The speed at which the frequency at an index crosses the line, from the spectra alone: false position with
     /// bisection. `None` where it jumps over the line, as a mode below becomes oscillatory or overdamped.
-    fn bracketed(&self, a: &Spectrum, b: &Spectrum, index: usize, order: f64) -> Result<Option<f64>, Error> {
+    fn bracketed(
+        &self,
+        a: &Spectrum,
+        b: &Spectrum,
+        index: usize,
+        order: f64,
+    ) -> Result<Option<f64>, PhysicsError> {
         let count = a.pairs.len().max(b.pairs.len());
         let mut ends = [a, b].map(|end| (end.speed, end.gap(index, order)));
         for step in 0..MAX_BRACKETINGS {
@@ -349,7 +354,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         distance: f64,
         count: usize,
         found: &mut ByIndex,
-    ) -> Result<(), Error> {
+    ) -> Result<(), PhysicsError> {
         let system = self.system(speed)?;
         let pairs = self.pairs(&system, count.max(2) - 1)?;
         let mut modes = modal::modes_of(self.assembly, &system, pairs);

@@ -1,10 +1,10 @@
 //! Undamped critical speeds with constant bearings, solved directly or counted.
 
 use super::CriticalSpeed;
-use crate::analysis::modal::{self, Mode, inner};
+use crate::analysis::modal::{self, Mode};
+use crate::analysis::mode::inner;
 use crate::analysis::mode_kind;
-use crate::assembly::{Assembly, LinearSystem};
-use crate::error::{Error, PhysicsError};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::linalg::inertia::negative_eigenvalues;
 use crate::linalg::{BandLayout, Complex64, SparseMatrix, eigen};
 use nalgebra::{Cholesky, DMatrix};
@@ -20,7 +20,7 @@ pub fn undamped_critical_speeds(
     system: &LinearSystem,
     order: f64,
     max_speed: f64,
-) -> Result<Vec<CriticalSpeed>, Error> {
+) -> Result<Vec<CriticalSpeed>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
     let gyroscopic = &assembly.gyroscopic;
     let layout = BandLayout::new(&[&system.mass, &system.stiffness, gyroscopic]);

@@ -18,13 +18,14 @@
 //! terms d(k)/dρ, which count the contact force twice; the paper's housing is fixed.
 
 mod ball;
+mod ball_state;
 mod quasi_static;
 mod step;
 mod tangent;
 
 use std::f64::consts::{PI, TAU};
 
-use ball::{BallState, LocalMotion};
+use ball_state::{BallState, LocalMotion};
 pub use step::NewmarkGain;
 pub use tangent::RadialTangent;
 

@@ -1,6 +1,6 @@
 //! Statics and small motions: every ball in static equilibrium between the races, its coordinate condensed.
 
-use super::ball::{BallState, ContactState};
+use super::ball_state::{BallState, ContactState};
 use super::tangent::BALL_COORDINATE;
 use super::{LocalMotion, RadialElement, Rings};
 use crate::bearing::{BallLoad, Reaction, Rotation, root_finding};

@@ -1,6 +1,6 @@
 //! Implicit time step: each ball's scalar equation solved inside the step (nested Newton, ball by ball).
 
-use super::ball::{BallState, LocalMotion};
+use super::ball_state::{BallState, LocalMotion};
 use super::tangent::BALL_COORDINATE;
 use super::{RadialElement, RingForceSum, Rings};
 use crate::bearing::{Reaction, Rotation};

@@ -1,7 +1,7 @@
 //! Tangent stiffness and damping of one ball over its local coordinates d_r d_t h_r h_t y, and of the
 //! bearing.
 
-use super::ball::{BallState, LocalMotion};
+use super::ball_state::{BallState, LocalMotion};
 use super::{RadialElement, Rings};
 use crate::bearing::Rotation;
 

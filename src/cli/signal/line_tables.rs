@@ -6,7 +6,6 @@ use rotordyn::signal::diagnosis::BandRule;
 use rotordyn::signal::ridge::find_peaks;
 
 use super::super::terminal::{Terminal, number};
-use super::tables::{MAX_LINES, band, level};
 
 /// Demodulation band, bearing lines in the envelope spectrum, and diagnosis.
 pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
@@ -117,4 +116,17 @@ fn modulation(line: &BearingLine) -> String {
 fn signed(n: i32) -> String {
     let sign = if n < 0 { "-" } else { "+" };
     if n.abs() == 1 { sign.into() } else { format!("{sign} {}", n.abs()) }
+}
+
+/// Largest number of rows of a list of lines.
+pub const MAX_LINES: usize = 8;
+
+/// "RMS m/s^2", or "RMS" alone.
+pub fn level(what: &str, result: &SignalResult) -> String {
+    format!("{what} {}", result.unit).trim_end().to_string()
+}
+
+/// "500.00 to 5500.0 Hz".
+pub fn band((low, high): (f64, f64)) -> String {
+    format!("{} to {} Hz", number(low, 5), number(high, 5))
 }

@@ -2,6 +2,7 @@
 
 pub mod args;
 mod bearing;
+mod channel;
 mod compare_records;
 pub mod input;
 mod line_tables;
@@ -9,18 +10,16 @@ mod settings;
 pub mod shaft_source;
 mod tables;
 
+use channel::analyse_channel;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::signal_to_json;
 use rotordyn::io::results_file::{self, SignalMeta};
-use rotordyn::results::{BearingWithOrders, SignalResult};
-use rotordyn::signal::SignalError;
-use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
+use rotordyn::results::SignalResult;
 use rotordyn::units::SPEED;
 use serde_json::json;
 
@@ -109,32 +108,6 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     document["files"] = json!(files);
     document["warnings"] = json!(warnings);
     Ok(document.into())
-}
-
-/// The analyses of one channel.
-fn analyse_channel(
-    channel: &SignalChannel,
-    shaft: &ShaftSource,
-    bearing: Option<&BearingWithOrders>,
-    settings: &SignalSettings,
-) -> Result<SignalResult, Failure> {
-    let named = |text: String| Failure::Input(format!("`{}`: {text}", channel.name));
-    let motion = shaft.motion(channel).map_err(named)?;
-    if motion.is_none() && bearing.is_some() {
-        return Err(named("the shaft speed is zero; bearing defect frequencies are multiples of it".into()));
-    }
-    analyse(channel, motion.as_ref(), bearing, settings).map_err(|error| match error {
-        Error::Signal(SignalError::Unknown { what, purpose }) => {
-            let advice = if what.contains("angle") {
-                "give --tacho CHANNEL, or --track 1=\"5 Hz .. 50 Hz\""
-            } else {
-                "give --speed \"1797 rpm\", or a range of constant speed with --time"
-            };
-            named(format!("{purpose} needs {what}, which is not known; {advice}"))
-        }
-        Error::Signal(error) => named(error.to_string()),
-        other => other.into(),
-    })
 }
 
 /// Results folder; default: folder of the stored run, else `out/NAME`.

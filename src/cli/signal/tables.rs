@@ -1,5 +1,6 @@
 //! Tables of the signal analyses.
 
+use super::line_tables::{MAX_LINES, band, level};
 use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
@@ -11,8 +12,6 @@ use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
 
-/// Largest number of rows of a list of lines.
-pub const MAX_LINES: usize = 8;
 /// Largest number of rows of the channel list.
 const MAX_CHANNELS: usize = 24;
 
@@ -142,16 +141,6 @@ fn peaks(terminal: &Terminal, result: &SignalResult, spectrum: &Spectrum) {
         .collect();
     let title = format!("Highest lines in the spectrum of {}", result.channel);
     terminal.table(&title, &["Hz", "order", &level("peak", result)], &rows);
-}
-
-/// "RMS m/s^2", or "RMS" alone.
-pub fn level(what: &str, result: &SignalResult) -> String {
-    format!("{what} {}", result.unit).trim_end().to_string()
-}
-
-/// "500.00 to 5500.0 Hz".
-pub fn band((low, high): (f64, f64)) -> String {
-    format!("{} to {} Hz", number(low, 5), number(high, 5))
 }
 
 fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {

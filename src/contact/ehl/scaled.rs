@@ -1,6 +1,6 @@
 //! Non-dimensional contact (scales of the dry Hertzian ellipse), on one grid of half the domain.
 
-use super::deflection::corner;
+use super::half_space::corner;
 use super::{Grid, Problem};
 use crate::contact::FilmFormula;
 

@@ -9,12 +9,10 @@
 //!
 //! `cargo run --release --example ehl_similarity > assets/ehl_similarity.csv` computes the stored values again.
 
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use rayon::prelude::*;
-
-use super::table::SPEED_POWER;
 use super::{EhlError, Grid, Problem, extrapolate};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::material::Material;
@@ -292,3 +290,6 @@ pub fn compute(progress: impl Fn(usize, usize) + Sync) -> Result<String, EhlErro
         lines.join("\n")
     ))
 }
+
+/// Exponent of the speed in Hamrock and Dowson's central film.
+pub(super) const SPEED_POWER: f64 = 0.67;

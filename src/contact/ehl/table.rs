@@ -1,12 +1,12 @@
 //! Film table of one EHL contact over load and speed.
 
+use super::similarity::{MIN_SOLVED_FILM, SPEED_POWER, SimilarContact};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::curve::Curve;
-use super::similarity::{MIN_SOLVED_FILM, SimilarContact};
 use super::{EhlError, Grid, Problem, Solution, extrapolate};
 use crate::contact::{EllipticContact, FilmFormula, Lubricant};
 use crate::linalg::pchip::Pchip;
@@ -71,9 +71,6 @@ pub struct Table {
     /// Minimum film h_min \[m\], one row of loads for each speed.
     pub minimum_film: Vec<Vec<f64>>,
 }
-
-/// Exponent of the speed in Hamrock and Dowson's central film.
-pub(super) const SPEED_POWER: f64 = 0.67;
 
 /// `count` ≥ 2 values in geometric progression from `first` to `last`.
 pub fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {

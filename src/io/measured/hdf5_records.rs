@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::arrays::{self, Array, Data};
+use super::array::{Array, Data};
 use super::mapping::direction;
-use super::unit_label;
+use super::{arrays, unit_label};
 use crate::error::Error;
 use crate::io::hdf5::{Attribute, ObjectKind, Store, read_recording};
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};

@@ -9,6 +9,7 @@
 //! | table | .csv .txt .tsv .dat | .csv | records over one axis |
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
+mod array;
 pub mod arrays;
 pub mod hdf5_records;
 pub mod impact_run;

@@ -1,7 +1,7 @@
 //! MATLAB files of the analyser SignalCalc (Data Physics): arrays X1, H1_2, C1_2 of two columns, axis and
 //! value.
 
-use super::arrays::{Array, Data};
+use super::array::{Array, Data};
 use super::unit_label;
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
 

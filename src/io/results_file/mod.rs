@@ -25,6 +25,7 @@
 
 mod bearing;
 mod external_files;
+mod group_writer;
 mod linear;
 mod run;
 mod signal;
@@ -32,12 +33,12 @@ mod steady;
 pub mod validation;
 
 pub use external_files::{read_external_files, write_external_files};
+use group_writer::GroupWriter;
 pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::bearing::Bearing;
 use crate::error::Error;
-use crate::linalg::Complex64;
 use crate::results::{ChannelPair, History, HistoryChannel, Results};
 use crate::study::Machine;
 
@@ -255,55 +256,4 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// Writer of one group.
-struct GroupWriter<'a> {
-    store: &'a Store,
-    group: String,
-}
-
-impl<'a> GroupWriter<'a> {
-    /// The group, recreated without its previous members.
-    fn new(store: &'a Store, group: &str) -> Result<Self, Error> {
-        store.remove(group)?;
-        store.create_group(group)?;
-        Ok(Self { store, group: group.into() })
-    }
-
-    fn subgroup(&self, name: &str) -> Result<Self, Error> {
-        Self::new(self.store, &self.path(name))
-    }
-
-    fn path(&self, name: &str) -> String {
-        format!("{}/{name}", self.group)
-    }
-
-    fn set_attribute(&self, name: &str, value: impl Into<Attribute>) -> Result<(), Error> {
-        self.store.set_attribute(&self.group, name, value)
-    }
-
-    fn write_array(&self, name: &str, shape: &[usize], data: &[f64], unit: &str) -> Result<(), Error> {
-        self.store.write(&self.path(name), shape, data, &[("unit", unit.into())])
-    }
-
-    fn write_complex(
-        &self,
-        name: &str,
-        shape: &[usize],
-        data: &[Complex64],
-        unit: &str,
-    ) -> Result<(), Error> {
-        self.store.write_complex(&self.path(name), shape, data, &[("unit", unit.into())])
-    }
-
-    fn write_texts<T: AsRef<str>>(&self, name: &str, shape: &[usize], texts: &[T]) -> Result<(), Error> {
-        self.store.write_text_array(&self.path(name), shape, texts, &[])
-    }
-
-    /// Attaches the array `scale` as dimension scale to a dimension of the array `name`.
-    fn attach_scale(&self, name: &str, dimension: usize, scale: &str) -> Result<(), Error> {
-        let label = scale.rsplit('/').next().unwrap_or(scale);
-        self.store.attach_scale(&self.path(name), dimension, &self.path(scale), label)
-    }
 }

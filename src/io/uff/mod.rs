@@ -9,39 +9,27 @@
 //! Formats: Universal File Datasets, Structural Dynamics Research Laboratory, University of Cincinnati.
 
 mod binary;
+mod binary_data;
 mod block;
+mod blocks;
+mod data_form;
 mod field;
 mod function;
 mod geometry;
 mod ordinate;
 mod shape;
+mod unit_system;
 mod write;
 
+use unit_system::{ParseError, SI, UnitSystem};
 pub use write::{GeometrySets, Options, to_bytes, write};
 
 use std::path::Path;
 
 use crate::error::Error;
 use crate::signal::record::MeasuredData;
-use block::{Block, Blocks};
-
-/// Error in a file, with a hint how to correct it.
-#[derive(Debug)]
-struct ParseError {
-    /// Line, from 1.
-    line: usize,
-    problem: String,
-    advice: &'static str,
-}
-
-/// Unit factors of set 164: a value in the file's units divided by them is in SI.
-#[derive(Clone, Copy, Debug)]
-struct UnitSystem {
-    length: f64,
-    force: f64,
-}
-
-const SI: UnitSystem = UnitSystem { length: 1.0, force: 1.0 };
+use block::Block;
+use blocks::Blocks;
 
 /// Reads a universal file.
 ///

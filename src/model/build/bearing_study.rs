@@ -1,6 +1,6 @@
 //! `[study.bearing]`: analysis of single ball bearings, without the machine.
 
-use super::loading::check_increasing;
+use super::increasing::check_increasing;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, not_negative, positive};
 use crate::model::study::{BearingStudy, BearingSweep, DOF_NAMES, SweepDirection, SweepVariable};

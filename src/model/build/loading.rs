@@ -1,5 +1,6 @@
 //! Unbalance, loads, damping, drive, speed profile and probes.
 
+use super::increasing::check_increasing;
 use super::measured_speed;
 use super::places::Places;
 use crate::element::Anchor;
@@ -86,12 +87,6 @@ fn table(r: &Reader, x_key: &str, x: &[f64], y_key: &str, y: &[f64]) -> Vec<[f64
     }
     check_increasing(r, x_key, x);
     x.iter().zip(y).map(|(&x, &y)| [x, y]).collect()
-}
-
-pub(super) fn check_increasing(r: &Reader, key: &str, values: &[f64]) {
-    if values.windows(2).any(|w| w[1] <= w[0]) {
-        r.error(Kind::OutOfRange, key, format!("{} must increase from value to value", r.name(key)));
-    }
 }
 
 pub(super) fn damping(top: &Reader) -> Damping {

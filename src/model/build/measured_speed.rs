@@ -1,6 +1,6 @@
 //! `[speed] profile = "measured"`: measured speed from tacho pulses, or from a speed signal over time.
 
-use super::loading::check_increasing;
+use super::increasing::check_increasing;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, not_negative, positive};
 use crate::model::{ExternalColumn, ExternalFile, SpeedProfile};

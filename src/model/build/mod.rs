@@ -1,6 +1,7 @@
 //! Model builder: from the tree of a model file to the validated [`Model`] in SI units, reporting all
 //! problems at once.
 
+mod ball_keys;
 mod bearing;
 mod bearing_study;
 pub mod catalogue;
@@ -8,13 +9,16 @@ mod connections;
 mod contact;
 mod defects;
 mod imperfections;
+mod increasing;
 mod inertia;
 mod loading;
+mod material;
 mod measured_speed;
 mod mounting;
 mod places;
 mod radial_bearing;
 mod rotor;
+mod run_keys;
 mod shaft;
 mod springs;
 mod steady;
@@ -30,6 +34,7 @@ use super::{ExternalFile, Model};
 use crate::bearing::Bearing;
 use crate::element::Material;
 use crate::units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};
+use material::material;
 use places::Places;
 
 /// Standard gravity \[m/s²\].
@@ -152,30 +157,4 @@ fn materials(top: &Reader) -> Vec<Material> {
         Material { name: name.into(), young, shear, poisson, density }
     };
     top.items("material").into_iter().map(read).collect()
-}
-
-/// Material named by a key; without the key, the only material of the file.
-fn material(r: &Reader, key: &str, materials: &[Material]) -> Option<Material> {
-    let Some(name) = r.text(key) else {
-        if !r.has(key) {
-            if let [only] = materials {
-                return Some(only.clone());
-            }
-            let example = materials.first().map_or("steel", |m| &m.name);
-            r.missing(key, &format!("\"{example}\""));
-        }
-        return None;
-    };
-    let found = materials.iter().find(|m| m.name == name);
-    if found.is_none() {
-        let message = format!("unknown material `{name}`");
-        let problem = Problem::new(Kind::UnknownName, &r.span_of(key), message);
-        let problem = problem.suggest(name, materials.iter().map(|m| m.name.as_str()));
-        r.log.error(if materials.is_empty() {
-            problem.hint(format!("add [material.{name}]"))
-        } else {
-            problem
-        });
-    }
-    found.cloned()
 }

@@ -1,8 +1,7 @@
 //! Planar ball bearings with one radial degree of freedom per ball, `model = "radial_ball"`.
 
-use super::bearing;
 use super::catalogue::CatalogueEntry;
-use super::imperfections;
+use super::{ball_keys, imperfections};
 use crate::bearing::{DefectLaw, RadialBallBearing};
 use crate::element::Material;
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -34,7 +33,7 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
         let message = format!("{} does not belong to model = \"radial_ball\"", r.name(key));
         r.log.error(Problem::new(Kind::Conflict, &r.span_of(key), message).hint(*hint));
     }
-    let entry = bearing::designation(r).map(|entry| {
+    let entry = ball_keys::designation(r).map(|entry| {
         if entry.contact_angle != 0.0 {
             let message = format!("{} is an angular-contact bearing", entry.designation);
             let problem = Problem::new(Kind::Conflict, &r.span_of("designation"), message);
@@ -43,7 +42,8 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
         CatalogueEntry { contact_angle: 0.0, ..entry }
     });
     let given = matches!(r.entry("contact_stiffness").map(|e| &e.node.value), Some(Value::Table(_)));
-    let ball = bearing::common_properties(r, materials, entry.as_ref(), given.then_some(DEFAULT_OSCULATION));
+    let ball =
+        ball_keys::common_properties(r, materials, entry.as_ref(), given.then_some(DEFAULT_OSCULATION));
     imperfections::check_force_law(r, &ball);
     if ball.imperfections.law != DefectLaw::Displacement {
         let message = format!("{} does not belong to model = \"radial_ball\"", r.name("defect_law"));
@@ -58,7 +58,7 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
         ball,
     };
     if r.has_no_errors() {
-        bearing::check_geometry(r, &out.ball);
+        ball_keys::check_geometry(r, &out.ball);
     }
     if r.has_no_errors() && out.ball_mass() <= 0.0 {
         let key = if r.has("ball_material") { "ball_material" } else { "material" };

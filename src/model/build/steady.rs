@@ -1,6 +1,6 @@
 //! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
-use super::study::{channels, integrator};
+use super::run_keys::{channels, integrator};
 use super::work_limits;
 use crate::model::file::diagnostic::{Kind, Problem};
 use crate::model::file::reader::{Reader, any, positive};

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::frf::{Estimator, FrfEstimate, ImpactWindows, frf_from_hits};
 use super::quality::{HitQuality, Limits, inspect};
 use super::{Hit, Trigger};
-use crate::error::Error;
 use crate::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, RecordError, Values};
 
 /// Settings of an impact test.
@@ -41,7 +40,7 @@ const AFTER: f64 = 0.01;
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no usable hit, NaN.
-pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), Error> {
+pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, Vec<String>), RecordError> {
     let Some(first) = files.first() else { return Ok((Vec::new(), Vec::new())) };
     let time = time_records(first);
     let force = force(first, &time, test)?;
@@ -85,7 +84,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         force_reported = true;
         if good.is_empty() {
             let channel = force.name.clone();
-            return Err(RecordError::NoGoodHit { channel, hits, faults: faults.join("; ") }.into());
+            return Err(RecordError::NoGoodHit { channel, hits, faults: faults.join("; ") });
         }
         warnings.extend(faults);
         if good.len() == 1 {
@@ -106,7 +105,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     }
     if out.is_empty() {
         let found = time.iter().map(|r| r.name.as_str()).collect::<Vec<_>>().join(", ");
-        return Err(RecordError::NoResponse { found }.into());
+        return Err(RecordError::NoResponse { found });
     }
     if !single.is_empty() {
         warnings.push(format!(
@@ -134,14 +133,14 @@ fn inspect_all<'a>(
     force: &Record,
     response: &'a Record,
     window: &[f64],
-) -> Result<HitSet<'a>, Error> {
+) -> Result<HitSet<'a>, RecordError> {
     let mut out = HitSet::default();
     let rate = force.sample_rate()?;
     for (file, blocks) in files.iter().zip(blocks) {
         let (force, own) = (file.record(&force.name)?, file.record(&response.name)?);
         same_rate(force, own)?;
         if force.values.len() != own.values.len() {
-            return Err(RecordError::axes_differ(force, own).into());
+            return Err(RecordError::axes_differ(force, own));
         }
         finite(own)?;
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
@@ -251,7 +250,7 @@ fn blocks(
     rate: f64,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
-) -> Result<Vec<Range<usize>>, Error> {
+) -> Result<Vec<Range<usize>>, RecordError> {
     let force = record.time_samples()?;
     let samples = |seconds: f64| (seconds * rate).round().max(1.0) as usize;
     let largest = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
@@ -259,7 +258,7 @@ fn blocks(
     if largest <= STANDS_OUT * usual_size {
         let (channel, unit) = (record.name.clone(), record.unit.clone());
         let (largest, median) = (digits(largest), digits(usual_size));
-        return Err(RecordError::NoHit { channel, largest, median, unit }.into());
+        return Err(RecordError::NoHit { channel, largest, median, unit });
     }
     // A double hit counts as one.
     let starts = starts(force, LEVEL * largest, samples(APART));
@@ -275,7 +274,7 @@ fn blocks(
     let before = samples(BEFORE).min(length / 10).min(starts[0]);
     if starts[0] - before + length > force.len() {
         let (channel, seconds) = (record.name.clone(), (force.len() - starts[0]) as f64 / rate);
-        return Err(RecordError::ShortRecord { channel, block: length as f64 / rate, seconds }.into());
+        return Err(RecordError::ShortRecord { channel, block: length as f64 / rate, seconds });
     }
     let blocks = Trigger { level: LEVEL, before, length }.find(force)?;
     let end = blocks.last().map_or(0, |b| b.end);

@@ -173,6 +173,8 @@ impl std::fmt::Display for Dof {
 /// Error for an unsuitable record: what is wrong, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
+    #[error(transparent)]
+    Signal(#[from] crate::signal::SignalError),
     #[error("there is no channel `{name}`; there are {known}")]
     NoChannel { name: String, known: String },
     #[error("`{channel}` does not state its sampling rate; give it, such as \"12 kHz\"")]

@@ -3,9 +3,9 @@
 use super::{Machine, SingleBearingStudy, TO_RPM};
 use crate::analysis::bearing_stiffness::Condition;
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::assembly::PhysicsError;
 use crate::bearing::Bearing;
 use crate::bearing::limits::{BearingLoad, ExceededLimit};
-use crate::error::Error;
 use crate::model::study::BearingStudy;
 use crate::results::BearingPoint;
 use std::mem::discriminant;
@@ -16,7 +16,7 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium.
-    pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<String>, Error> {
+    pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<String>, PhysicsError> {
         if let Some(machine) = self.decided(speeds)? {
             return machine.bearing_warnings(speeds);
         }
@@ -33,7 +33,7 @@ impl Machine {
         Ok(found.into_iter().map(|(name, speed, limit)| message(name, speed, &limit)).collect())
     }
 
-    fn exceeded_limits(&self, speed: f64) -> Result<Vec<(&str, ExceededLimit)>, Error> {
+    fn exceeded_limits(&self, speed: f64) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {
         let balls = self.model.bearings.iter().enumerate().filter_map(|(k, site)| match &site.bearing {
             Bearing::Ball(ball) => Some((k, &*site.name, ball)),
             Bearing::Linear(_) | Bearing::RadialBall(_) => None,

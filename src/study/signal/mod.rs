@@ -8,7 +8,6 @@ mod shaft;
 pub use settings::{Analysis, AnalysisSelection, Race, SignalSettings};
 pub use shaft::ShaftMotion;
 
-use crate::error::Error;
 use crate::results::{
     BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, ShaftAverage, ShaftOrders, SignalResult,
     SpectrogramWithSpeed,
@@ -61,7 +60,7 @@ pub fn analyse(
     shaft: Option<&ShaftMotion>,
     bearing: Option<&BearingWithOrders>,
     settings: &SignalSettings,
-) -> Result<SignalResult, Error> {
+) -> Result<SignalResult, SignalError> {
     let job = Job::new(channel, shaft, bearing, settings);
     let mut out = SignalResult {
         channel: channel.name.clone(),
@@ -91,7 +90,7 @@ pub fn analyse(
         let asked = matches!(settings.analyses, AnalysisSelection::Only(_))
             || (analysis == Analysis::Envelope && bearing.is_some());
         if asked {
-            return Err(error.into());
+            return Err(error);
         }
         out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.keyword()));
     }

@@ -4,70 +4,20 @@
 //! given e and Ω̇. What e should have been at the accelerations found follows with the response of the linear part to e
 //! ([`TorqueDrive::solve_coupling`]), so that only bearing tangents and terms in x and ẋ are left to iteration.
 
+use super::driven_buffers::DrivenStep;
 use nalgebra::DVector;
 
 use super::{GeneralisedAlpha, StepFailure};
 use crate::model::Spin;
 use crate::transient::system::{State, System};
 use crate::transient::torque::TorqueDrive;
-use crate::transient::torque::coupling::{Motion, Workspace};
+use crate::transient::torque::coupling::Motion;
 
 /// Defect of the coupling loads, relative to the accelerations, at which the iteration ends.
 const TOLERANCE: f64 = 1e-11;
 /// The same after the last pass, for the round-off of stiff coordinates.
 const LAST_TOLERANCE: f64 = 1e-8;
 const MAX_PASSES: usize = 30;
-
-/// Buffers and guesses of the iteration.
-pub(super) struct DrivenStep {
-    work: Workspace,
-    /// e at the end of the step, and its correction.
-    load: DVector<f64>,
-    correction: DVector<f64>,
-    response: DVector<f64>,
-    scratch: Vec<f64>,
-    /// Part of Ω̇ K_s x that the effective matrix leaves out.
-    spin_up: DVector<f64>,
-    x: DVector<f64>,
-    v: DVector<f64>,
-    acceleration: DVector<f64>,
-    /// e and Ω̇ at the start of the previous step, and that step's length.
-    previous_load: DVector<f64>,
-    previous_rate: f64,
-    previous_step: f64,
-}
-
-impl DrivenStep {
-    pub fn new(drive: &TorqueDrive, size: usize) -> Self {
-        let zero = || DVector::zeros(size);
-        Self {
-            work: Workspace::new(drive, size),
-            load: zero(),
-            correction: zero(),
-            response: zero(),
-            scratch: Vec::new(),
-            spin_up: zero(),
-            x: zero(),
-            v: zero(),
-            acceleration: zero(),
-            previous_load: zero(),
-            previous_rate: 0.0,
-            previous_step: 0.0,
-        }
-    }
-
-    /// Guesses e and returns the guess of Ω̇ at the end of a step.
-    fn guess(&mut self, state: &State, step: f64) -> f64 {
-        self.load.copy_from(&state.driven.load);
-        if self.previous_step != step {
-            self.spin_up.fill(0.0);
-            return state.spin.acceleration;
-        }
-        self.load *= 2.0;
-        self.load -= &self.previous_load;
-        2.0 * state.spin.acceleration - self.previous_rate
-    }
-}
 
 impl GeneralisedAlpha {
     /// Advances `state` by `step` with the rotation as an unknown.

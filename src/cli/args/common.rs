@@ -1,0 +1,87 @@
+//! Arguments shared by commands: model, results folder, output, stored runs.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Output options common to all commands.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct Output {
+    /// Print one JSON document to standard output instead of tables
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Print no tables and no progress, only errors and warnings
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// Number of threads; results do not depend on it [default: all cores]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// Model file, variant and overrides.
+#[derive(Args, Clone, Debug)]
+pub struct ModelArgs {
+    /// The model file (TOML)
+    pub model: PathBuf,
+    /// Apply [variant.NAME] of the file
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
+    /// Override any value of the model, such as bearing.B.radial_clearance="20 um"; can be repeated
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+}
+
+/// Model and results folder.
+#[derive(Args, Clone, Debug)]
+pub struct StudyArgs {
+    #[command(flatten)]
+    pub model: ModelArgs,
+    /// Folder for the results [default: out/NAME or out/NAME_VARIANT]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Draw no figures
+    #[arg(long)]
+    pub no_figures: bool,
+}
+
+/// Stored run-up and analysis settings (`spectrogram`, `orders`).
+#[derive(Args, Clone, Debug, Default)]
+pub struct StoredArgs {
+    /// results.h5 of a run-up, or its folder
+    pub file: PathBuf,
+    /// Channels, separated by commas [default: those of the model file, else all vibration channels]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub channels: Vec<String>,
+    /// Window length, such as "0.5 s" (spectrogram only)
+    #[arg(long, value_name = "TIME")]
+    pub length: Option<String>,
+    /// Highest frequency, such as "220 Hz" (spectrogram only)
+    #[arg(long, value_name = "FREQUENCY")]
+    pub max_frequency: Option<String>,
+    /// Order resolution, such as 0.05 (orders only)
+    #[arg(long, value_name = "NUMBER")]
+    pub resolution: Option<String>,
+    /// Highest order (orders only)
+    #[arg(long, value_name = "NUMBER")]
+    pub max_order: Option<String>,
+    /// Order lines to draw or to extract (order cuts), such as 1,2,BPFO,"2 BPFO"
+    #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
+    pub orders: Vec<String>,
+    /// Overlap of successive windows, from 0 to below 1
+    #[arg(long, value_name = "NUMBER")]
+    pub overlap: Option<String>,
+    /// Window function: rectangular, hann, hamming, blackman, flat-top
+    #[arg(long, value_name = "NAME")]
+    pub window: Option<String>,
+    /// Draw no figures
+    #[arg(long)]
+    pub no_figures: bool,
+}
+
+/// Parse PATH=VALUE.
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => Ok((path.trim().into(), value.trim().into())),
+        _ => Err("expected PATH=VALUE, such as bearing.B.radial_clearance=\"20 um\"".into()),
+    }
+}
