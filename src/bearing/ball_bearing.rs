@@ -1,5 +1,6 @@
 //! Ball bearing input data: geometry, materials, contact law, preload, fits, cage, imperfections, service.
 
+use super::friction::{Lubrication, SLIDING_FRICTION};
 use super::{BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;
@@ -42,6 +43,9 @@ pub struct Service {
     pub fatigue_limit: Option<f64>,
     /// Lubricant, if the contact law specifies none.
     pub lubricant: Option<Lubricant>,
+    /// Lubrication method and sliding friction coefficient of the friction torque.
+    pub lubrication: Lubrication,
+    pub sliding_friction: f64,
     /// Contamination factor e_C from 0 (very severe) to 1 (extreme cleanliness).
     pub contamination: f64,
     /// Reliability from 0.9 to 0.999.
@@ -59,6 +63,8 @@ impl Default for Service {
             static_rating: None,
             fatigue_limit: None,
             lubricant: None,
+            lubrication: Lubrication::default(),
+            sliding_friction: SLIDING_FRICTION,
             contamination: 0.5,
             reliability: 0.9,
             shoulder_diameters: [None; 2],

@@ -1,9 +1,53 @@
 //! Friction torque of a ball bearing: load and viscous part after Palmgren, and the spinning of the balls.
 
 use super::{BallGeometry, BallMotion};
+use std::fmt::{self, Display, Formatter};
 
-/// Friction coefficient of lubricated spinning contacts (Harris, Rolling Bearing Analysis, ch. 14: 0.06 to 0.07).
-pub const SPIN_FRICTION: f64 = 0.06;
+/// Default sliding friction coefficient of lubricated spinning contacts (Harris, Rolling Bearing Analysis, ch. 14: 0.06 to
+/// 0.07).
+pub const SLIDING_FRICTION: f64 = 0.06;
+
+/// Lubrication method, which gives the factor f_0 of the viscous friction torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Lubrication {
+    Grease,
+    OilMist,
+    #[default]
+    OilBath,
+    /// Oil jet, or an oil bath with a vertical shaft.
+    OilJet,
+    /// A stated f_0.
+    Factor(f64),
+}
+
+impl Lubrication {
+    /// Factor f_0 of deep groove and of angular contact bearings.
+    ///
+    /// Grease 1.35 (the middle of 0.7 for light to 2 for heavy series) and 2, oil mist 1 and 1.7, oil bath 2 and 3.3, oil
+    /// jet 4 and 6.6. Source: Palmgren 1959; Harris, Rolling Bearing Analysis, ch. 14 (table 14.3).
+    pub fn viscous_factor(self, g: &BallGeometry) -> f64 {
+        let [deep_groove, angular] = match self {
+            Self::Grease => [1.35, 2.0],
+            Self::OilMist => [1.0, 1.7],
+            Self::OilBath => [2.0, 3.3],
+            Self::OilJet => [4.0, 6.6],
+            Self::Factor(factor) => [factor; 2],
+        };
+        if g.contact_angle > 0.0 { angular } else { deep_groove }
+    }
+}
+
+impl Display for Lubrication {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Grease => "grease",
+            Self::OilMist => "oil mist",
+            Self::OilBath => "oil bath",
+            Self::OilJet => "oil jet",
+            Self::Factor(_) => "as given",
+        })
+    }
+}
 
 /// Friction torque of a bearing at one operating point \[N m\], and its heat.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,6 +60,11 @@ pub struct FrictionTorque {
     pub spin: f64,
     /// Power lost by all parts \[W\].
     pub heat: f64,
+    /// Factors they were found with: f_1 of the load part, f_0 of the viscous part (NaN without a lubricant), sliding
+    /// friction coefficient μ of the spinning balls.
+    pub load_factor: f64,
+    pub viscous_factor: f64,
+    pub sliding_friction: f64,
 }
 
 impl FrictionTorque {
@@ -25,7 +74,7 @@ impl FrictionTorque {
     }
 }
 
-/// Load part of the friction torque M_l = f_1 F_β D_pw \[N m\].
+/// Load part of the friction torque M_l = f_1 F_β D_pw \[N m\], with its factor f_1.
 ///
 /// f_1 = z (F_s/C_s)^y with z = 5e-4, y = 0.55 for deep groove bearings and z = 1e-3, y = 0.33 for angular contact;
 /// F_s = max(F_r, 0.6 F_r + 0.5 F_a) for deep groove and max(F_r, 0.5 F_r + Y_s F_a), Y_s after ISO 76, for angular
@@ -33,7 +82,7 @@ impl FrictionTorque {
 ///
 /// `radial` and `axial`: magnitudes of the load \[N\]; `static_rating`: C_s \[N\]. Source: Palmgren 1959; Harris, Rolling
 /// Bearing Analysis, ch. 14 (eq. 14.1 and 14.2, table 14.1 and 14.2).
-pub fn load_torque(g: &BallGeometry, static_rating: f64, radial: f64, axial: f64) -> f64 {
+pub fn load_torque(g: &BallGeometry, static_rating: f64, radial: f64, axial: f64) -> [f64; 2] {
     let (radial, axial) = (radial.abs(), axial.abs());
     let angular = g.contact_angle > 0.0;
     let equivalent = if angular {
@@ -44,11 +93,8 @@ pub fn load_torque(g: &BallGeometry, static_rating: f64, radial: f64, axial: f64
     let [factor, power] = if angular { [1e-3, 0.33] } else { [5e-4, 0.55] };
     let thrust = if angular { 0.9 * axial / g.contact_angle.tan() } else { 3.0 * axial };
     let force = (thrust - 0.1 * radial).max(radial);
-    if force == 0.0 {
-        0.0
-    } else {
-        factor * (equivalent / static_rating).powf(power) * force * g.pitch_diameter
-    }
+    let load_factor = factor * (equivalent / static_rating).powf(power);
+    [load_factor * force * g.pitch_diameter, load_factor]
 }
 
 /// Y_0 of a single angular contact row over the contact angle (ISO 76), linear between the tabulated angles.
@@ -70,28 +116,26 @@ fn static_axial_factor(angle: f64) -> f64 {
     y0 + (y1 - y0) * (degrees - x0) / (x1 - x0)
 }
 
-/// Viscous part of the friction torque M_v \[N m\], of an oil bath.
+/// Viscous part of the friction torque M_v \[N m\].
 ///
-/// 1e-7 f_0 (ν n)^{2/3} D_pw³ N mm with ν in mm²/s, n in rpm, D_pw in mm for ν n ≥ 2000, else 160e-7 f_0 D_pw³; f_0 = 2
-/// for deep groove and 3.3 for angular contact bearings. 0 at rest.
+/// 1e-7 f_0 (ν n)^{2/3} D_pw³ N mm with ν in mm²/s, n in rpm, D_pw in mm for ν n ≥ 2000, else 160e-7 f_0 D_pw³. 0 at rest.
 ///
-/// `viscosity`: kinematic ν \[m²/s\]; `speed` \[rad/s\]. Source: Palmgren 1959; Harris, Rolling Bearing Analysis, ch. 14
-/// (eq. 14.4, table 14.3).
-pub fn viscous_torque(g: &BallGeometry, viscosity: f64, speed: f64) -> f64 {
+/// `factor`: f_0 ([`Lubrication::viscous_factor`]); `viscosity`: kinematic ν \[m²/s\], of a grease that of its base oil;
+/// `speed` \[rad/s\]. Source: Palmgren 1959; Harris, Rolling Bearing Analysis, ch. 14 (eq. 14.4, table 14.3).
+pub fn viscous_torque(g: &BallGeometry, factor: f64, viscosity: f64, speed: f64) -> f64 {
     let rpm = speed.abs() * 60.0 / std::f64::consts::TAU;
     if rpm == 0.0 {
         return 0.0;
     }
-    let factor = if g.contact_angle > 0.0 { 3.3 } else { 2.0 };
     let product = 1e6 * viscosity * rpm;
     let rise = if product >= 2000.0 { 1e-7 * product.powf(2.0 / 3.0) } else { 160e-7 };
     1e-3 * factor * rise * (1e3 * g.pitch_diameter).powi(3)
 }
 
-/// Torque on the shaft by the spinning balls \[N m\]: Σ M_s |ω_s|/Ω with M_s = (3/8) μ Q a E, μ = [`SPIN_FRICTION`].
+/// Torque on the shaft by the spinning balls \[N m\]: Σ M_s |ω_s|/Ω with M_s = (3/8) μ Q a E.
 ///
-/// `speed` Ω \[rad/s\]; 0 at rest.
-pub fn spin_torque<'a>(motions: impl IntoIterator<Item = &'a BallMotion>, speed: f64) -> f64 {
-    let power: f64 = motions.into_iter().map(|ball| ball.spin_power(SPIN_FRICTION)).sum();
+/// `friction`: μ; `speed` Ω \[rad/s\]; 0 at rest.
+pub fn spin_torque<'a>(motions: impl IntoIterator<Item = &'a BallMotion>, friction: f64, speed: f64) -> f64 {
+    let power: f64 = motions.into_iter().map(|ball| ball.spin_power(friction)).sum();
     if speed == 0.0 { 0.0 } else { power / speed.abs() }
 }

@@ -295,16 +295,7 @@ Examples:
     /// contact angles and pressures, film thickness, the 5x5 stiffness matrix, defect frequencies and rating
     /// life. Default sweeps: load, cage angle and, for speed-dependent bearings, speed. Settings come from
     /// [study.bearing]; flags override them.
-    #[command(after_long_help = "\
-Loads act from the shaft on the bearing. DOFs are x, y, z (along the shaft), theta_x, theta_y. With --load, tilts are \
-constrained unless --moment is given; in a machine, tilts and axial position are constrained in the sweeps.
-
-Examples:
-  rotordyn bearing models/overhung_rig.toml
-  rotordyn bearing models/overhung_rig.toml --bearing A --load \"0, -500, 100 N\" --speed \"3000 rpm\"
-  rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --cage-average
-  rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --constrain x,y,theta_x,theta_y
-  rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"")]
+    #[command(after_long_help = bearing::HELP)]
     Bearing(Box<BearingArgs>),
 
     /// Experimental modal analysis of FRFs or impact-test records: poles, damping, mode shapes, standard

@@ -1,6 +1,5 @@
 //! Tables of ball motion, friction, mounted geometry and shoulder distances of a ball bearing.
 
-use rotordyn::bearing::friction::SPIN_FRICTION;
 use rotordyn::contact::Race;
 use rotordyn::results::{BearingPoint, BearingResult, PickContact};
 
@@ -59,14 +58,22 @@ pub fn print(terminal: &Terminal, found: &BearingResult) {
     }
     let friction = &point.friction;
     let viscous = match found.bearing.lubricant() {
-        Some(_) => format!(" and viscous part {} N m (Palmgren, oil bath)", number(friction.viscous, 3)),
-        None => " N m (Palmgren), no viscous part without a lubricant".to_string(),
+        Some(_) => format!(
+            ", viscous part {} N m (f_0 {}, {})",
+            number(friction.viscous, 3),
+            number(friction.viscous_factor, 3),
+            found.bearing.service.lubrication
+        ),
+        None => ", no viscous part without a lubricant".to_string(),
     };
+    let sliding = number(friction.sliding_friction, 3);
     terminal.print_wrapped(&format!(
-        "friction torque {} N m, heat {} W: load part {}{viscous}, spinning of the balls {} N m (friction {SPIN_FRICTION})",
+        "friction torque (Palmgren) {} N m, heat {} W: load part {} N m (f_1 {}){viscous}, spinning of the balls {} N m \
+         (sliding friction {sliding})",
         number(friction.total(), 3),
         number(friction.heat, 3),
         number(friction.load, 3),
+        number(friction.load_factor, 3),
         number(friction.spin, 3),
     ));
 }

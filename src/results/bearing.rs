@@ -192,7 +192,7 @@ impl ContactState {
 
 impl BearingPoint {
     /// Every scalar with its name in files.
-    pub const COLUMNS: [Column<Self>; 39] = [
+    pub const COLUMNS: [Column<Self>; 42] = [
         ("speed", "rad/s", |p| p.state.condition.speed),
         ("cage_angle", "rad", |p| p.state.condition.cage_angle),
         ("radial_stiffness", "N/m", |p| p.radial_stiffness[0]),
@@ -229,6 +229,9 @@ impl BearingPoint {
         ("friction_torque_viscous", "N m", |p| p.friction.viscous),
         ("friction_torque_spin", "N m", |p| p.friction.spin),
         ("friction_heat", "W", |p| p.friction.heat),
+        ("friction_load_factor", "1", |p| p.friction.load_factor),
+        ("friction_viscous_factor", "1", |p| p.friction.viscous_factor),
+        ("sliding_friction", "1", |p| p.friction.sliding_friction),
         ("mounted_radial_clearance", "m", |p| p.mounted.radial_clearance),
         ("mounted_axial_clearance", "m", |p| p.mounted.axial_clearance),
         ("free_contact_angle", "rad", |p| p.mounted.free_contact_angle),

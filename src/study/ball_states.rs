@@ -1,6 +1,6 @@
 //! Contacts, motion and friction of the balls of a bearing at an operating point.
 
-use crate::bearing::friction::{self, SPIN_FRICTION};
+use crate::bearing::friction;
 use crate::bearing::{BallBearing, BallLoad, FrictionTorque, kinematics, shoulder_margin};
 use crate::contact::{BallContacts, Race};
 use crate::results::{BallState, ContactState};
@@ -15,6 +15,7 @@ pub(super) fn ball_states(
     speed: f64,
 ) -> Vec<BallState> {
     let g = &bearing.geometry;
+    let friction = bearing.service.sliding_friction;
     let gamma = g.ball_diameter * g.contact_angle.cos() / g.pitch_diameter;
     let entrainment = 0.25 * g.pitch_diameter * (1.0 - gamma * gamma) * speed.abs();
     let films = contacts.at_speed(entrainment);
@@ -39,7 +40,7 @@ pub(super) fn ball_states(
                 minimum_film: films.minimum_film(race, load),
                 spin: motion.spin[k],
                 spin_to_roll: ratios[k],
-                spin_moment: SPIN_FRICTION * motion.spin_moment[k],
+                spin_moment: friction * motion.spin_moment[k],
                 pressure_velocity: motion.pressure_velocity[k],
                 ..unloaded
             }
@@ -66,10 +67,19 @@ pub(super) fn friction_torque(
 ) -> FrictionTorque {
     let g = &bearing.geometry;
     let rows = if bearing.duplex.is_some() { 2.0 } else { 1.0 };
-    let load = friction::load_torque(g, static_rating, radial, axial);
-    let viscous = bearing
-        .lubricant()
-        .map_or(0.0, |oil| rows * friction::viscous_torque(g, oil.kinematic_viscosity(), speed));
-    let spin = friction::spin_torque(balls.iter().map(|ball| &ball.motion), speed);
-    FrictionTorque { load, viscous, spin, heat: (load + viscous + spin) * speed.abs() }
+    let [load, load_factor] = friction::load_torque(g, static_rating, radial, axial);
+    let (oil, sliding_friction) = (bearing.lubricant(), bearing.service.sliding_friction);
+    let factor = bearing.service.lubrication.viscous_factor(g);
+    let viscous =
+        oil.map_or(0.0, |oil| rows * friction::viscous_torque(g, factor, oil.kinematic_viscosity(), speed));
+    let spin = friction::spin_torque(balls.iter().map(|ball| &ball.motion), sliding_friction, speed);
+    FrictionTorque {
+        load,
+        viscous,
+        spin,
+        heat: (load + viscous + spin) * speed.abs(),
+        load_factor,
+        viscous_factor: oil.map_or(f64::NAN, |_| factor),
+        sliding_friction,
+    }
 }

@@ -1,7 +1,7 @@
 //! Motion, sliding, friction torque and shoulder distance of balls against closed forms and brute force.
 
 use crate::bearing::rig_6205;
-use rotordyn::bearing::friction::{SPIN_FRICTION, load_torque, spin_torque, viscous_torque};
+use rotordyn::bearing::friction::{Lubrication, SLIDING_FRICTION, load_torque, spin_torque, viscous_torque};
 use rotordyn::bearing::kinematics::{
     ball_advance, ball_motions, control_ratio, deformed_radius, largest_pressure_velocity, mounted_geometry,
     pitch_angle, rolling_speeds,
@@ -55,7 +55,7 @@ fn radial_ball_rolls_without_spinning() {
     assert!(motion.ball_velocity[0] < 0.0, "the ball turns against the shaft");
     // The curvature of the groove alone slides: largest at a quarter to a half of the ellipse.
     assert!(motion.pressure_velocity.iter().all(|pv| *pv > 0.0));
-    assert_eq!(spin_torque(&[motion], speed), 0.0);
+    assert_eq!(spin_torque(&[motion], SLIDING_FRICTION, speed), 0.0);
 }
 
 /// Velocities of ball and races at both contact centres in space: no sliding, and the relative rotation about the
@@ -163,8 +163,8 @@ fn spin_moment_is_the_integral_of_friction() {
         assert!((motion.spin_moment[k] / moment - 1.0).abs() < 1e-4, "{:?} {moment}", motion.spin_moment);
     }
     // The torque on the shaft supplies the power.
-    let torque = spin_torque(&[motion; 3], 500.0);
-    let power: f64 = (0..2).map(|k| SPIN_FRICTION * motion.spin_moment[k] * motion.spin[k].abs()).sum();
+    let torque = spin_torque(&[motion; 3], 0.085, 500.0);
+    let power: f64 = (0..2).map(|k| 0.085 * motion.spin_moment[k] * motion.spin[k].abs()).sum();
     assert!((torque * 500.0 / (3.0 * power) - 1.0).abs() < 1e-12 && power > 0.0);
 }
 
@@ -210,22 +210,33 @@ fn ball_advance_integrates_the_orbital_speed() {
 fn friction_torque_after_palmgren() {
     let g = rig_6205().geometry;
     // 1e-7 · 2 · (20 · 3000)^(2/3) · 38.5³ N mm, and 160e-7 · 2 · 38.5³ below ν n = 2000.
-    let fast = viscous_torque(&g, 20e-6, 3000.0 * TAU / 60.0);
+    let fast = viscous_torque(&g, 2.0, 20e-6, 3000.0 * TAU / 60.0);
     assert!((fast / (2e-10 * 60000f64.powf(2.0 / 3.0) * 38.5f64.powi(3)) - 1.0).abs() < 1e-12);
     assert!((fast / 17.49e-3 - 1.0).abs() < 1e-3, "{fast}");
-    let slow = viscous_torque(&g, 20e-6, 50.0 * TAU / 60.0);
+    let slow = viscous_torque(&g, 2.0, 20e-6, 50.0 * TAU / 60.0);
     assert!((slow / (320e-10 * 38.5f64.powi(3)) - 1.0).abs() < 1e-12);
-    assert_eq!(viscous_torque(&g, 20e-6, 0.0), 0.0);
+    assert_eq!(viscous_torque(&g, 2.0, 20e-6, 0.0), 0.0);
     // Radial load: f_1 F_r d_m; thrust: F_β = 3 F_a.
-    let radial = load_torque(&g, 7800.0, 780.0, 0.0);
+    let [radial, factor] = load_torque(&g, 7800.0, 780.0, 0.0);
+    assert!((factor / (5e-4 * 0.1f64.powf(0.55)) - 1.0).abs() < 1e-12);
     assert!((radial / (5e-4 * 0.1f64.powf(0.55) * 780.0 * 38.5e-3) - 1.0).abs() < 1e-12);
-    let thrust = load_torque(&g, 7800.0, 0.0, -780.0);
+    let [thrust, _] = load_torque(&g, 7800.0, 0.0, -780.0);
     assert!((thrust / (5e-4 * 0.05f64.powf(0.55) * 3.0 * 780.0 * 38.5e-3) - 1.0).abs() < 1e-12);
     let g = angular().geometry;
-    let thrust = load_torque(&g, 30e3, 0.0, 3000.0);
+    let [thrust, _] = load_torque(&g, 30e3, 0.0, 3000.0);
     let expected = 1e-3 * (0.26f64 * 0.1).powf(0.33) * 0.9 * 3000.0 / 40f64.to_radians().tan() * 70e-3;
     assert!((thrust / expected - 1.0).abs() < 1e-9, "{thrust} {expected}");
-    assert_eq!(load_torque(&g, 30e3, 0.0, 0.0), 0.0);
+    assert_eq!(load_torque(&g, 30e3, 0.0, 0.0), [0.0; 2]);
+    // Table 14.3 of Harris: deep groove and angular contact.
+    for (method, factors) in [
+        (Lubrication::OilMist, [1.0, 1.7]),
+        (Lubrication::OilBath, [2.0, 3.3]),
+        (Lubrication::OilJet, [4.0, 6.6]),
+        (Lubrication::Grease, [1.35, 2.0]),
+        (Lubrication::Factor(0.4), [0.4, 0.4]),
+    ] {
+        assert_eq!([rig_6205().geometry, angular().geometry].map(|g| method.viscous_factor(&g)), factors);
+    }
 }
 
 #[test]

@@ -107,6 +107,9 @@ cases! {
     grade_too_hot: changed("viscosity = \"0.04 Pa s\"\n", "grade = \"ISO VG 68\"\ntemperature = \"400 degC\"\n");
     grade_without_temperature: changed("viscosity = \"0.04 Pa s\"\n", "grade = \"ISO VG 68\"\n");
     grade_and_viscosity: changed("viscosity = \"0.04 Pa s\"\n", "viscosity = \"0.04 Pa s\"\ngrade = \"ISO VG 68\"\ntemperature = \"40 degC\"\n");
+    unknown_lubrication: added("lubrication = \"oil_mits\"\nsliding_friction = 1.5");
+    lubrication_without_factor: added("lubrication = { f_1 = 0.001 }");
+    lubrication_without_lubricant: refused(&GOOD.replace(FILM, "lubrication = \"grease\"\npreload"));
     more_than_clean: added("contamination = 2\nreliability = 0.5");
     several_at_once: refused(&GOOD.replace("lubricant = \"oil\"\nfit", "lubricant = \"oyl\"\nfit").replace("\"150 N\"", "\"150\"").replace("outer_race_control", "jones"));
     contact_stiffness_without_unit: added("contact_stiffness = { inner = 3e10, outer = \"3e10 N/m\" }");

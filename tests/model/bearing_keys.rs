@@ -127,6 +127,24 @@ fn moment_arm_and_service() {
     assert_eq!(bearing("thrust = \"+z\"").lubricant(), None);
 }
 
+#[test]
+fn lubrication_and_sliding_friction() {
+    use rotordyn::bearing::friction::Lubrication;
+    let by_default = bearing("thrust = \"+z\"").service;
+    assert_eq!((by_default.lubrication, by_default.sliding_friction), (Lubrication::OilBath, 0.06));
+    for (key, method) in [
+        ("\"oil_mist\"", Lubrication::OilMist),
+        ("\"oil_jet\"", Lubrication::OilJet),
+        ("\"grease\"", Lubrication::Grease),
+        ("{ f_0 = 1.6 }", Lubrication::Factor(1.6)),
+    ] {
+        let keys =
+            format!("thrust = \"+z\"\nlubricant = \"thin\"\nlubrication = {key}\nsliding_friction = 0.09");
+        let given = bearing(&keys).service;
+        assert_eq!((given.lubrication, given.sliding_friction), (method, 0.09));
+    }
+}
+
 /// Shoulder diameters of both races, and the range they must have.
 #[test]
 fn shoulder_diameters() {

@@ -4,6 +4,28 @@ use clap::Args;
 
 use super::StudyArgs;
 
+/// Loads, ball inertia, friction and examples.
+pub(super) const HELP: &str = "\
+Loads act from the shaft on the bearing. DOFs are x, y, z (along the shaft), theta_x, theta_y. With --load, tilts are \
+constrained unless --moment is given; in a machine, tilts and axial position are constrained in the sweeps.
+
+Ball inertia (ball_inertia of a bearing, with the race that resists the gyroscopic moment M of a ball of diameter D by \
+friction at (inner, outer) race): auto [default: massless, or outer_race_control where the centrifugal force exceeds \
+0.3 % of the largest contact load], none, outer_race_control (0, 2) M/D, inner_race_control (2, 0) M/D, \
+harris_inner_race_control (1, 1) M/D, shared (in proportion to the contact loads), centrifugal (no moment), \
+{ centrifugal_force = \"120 N\" }. Outer race control is the default since the moment matters at high speed, where the \
+centrifugal force gives the outer contact the larger load and friction.
+
+Friction torque (Palmgren): lubrication of a bearing (oil_bath [default], oil_mist, oil_jet, grease or { f_0 = 1.5 }) gives \
+the factor of the viscous part, sliding_friction [0.06] the spinning of the balls.
+
+Examples:
+  rotordyn bearing models/overhung_rig.toml
+  rotordyn bearing models/overhung_rig.toml --bearing A --load \"0, -500, 100 N\" --speed \"3000 rpm\"
+  rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --cage-average
+  rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --constrain x,y,theta_x,theta_y
+  rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"";
+
 /// Bearings, operating point and sweeps.
 #[derive(Args, Clone, Debug)]
 pub struct BearingArgs {

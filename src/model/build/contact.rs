@@ -1,6 +1,7 @@
 //! Lubricants, contact laws (Hertz, film, power law, EHL) and contact damping of a bearing.
 
 use crate::bearing::Service;
+use crate::bearing::friction::Lubrication;
 use crate::contact::ehl::{DEFAULT_POINTS, EhlLaw};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant, PowerLaw};
 use crate::model::file::diagnostic::{Kind, Problem};
@@ -94,16 +95,43 @@ pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
         }
         value
     };
+    if r.has("lubrication") && !has_film(r) && !r.has("lubricant") {
+        let message = format!("{} needs the lubricant of the bearing", r.name("lubrication"));
+        let problem = Problem::new(Kind::MissingKey, &r.span_of("lubrication"), message);
+        r.log.error(problem.hint(
+            "add lubricant = \"oil\" and [lubricant.oil]: its viscosity gives the viscous friction torque",
+        ));
+    }
     Service {
         dynamic_rating: rating("dynamic_rating"),
         static_rating: rating("static_rating"),
         fatigue_limit: rating("fatigue_limit"),
         lubricant: if has_film(r) || !r.has("lubricant") { None } else { lubricant(r, lubricants) },
+        lubrication: lubrication(r),
+        sliding_friction: between("sliding_friction", [0.0, 1.0], default.sliding_friction),
         contamination: between("contamination", [0.0, 1.0], default.contamination),
         reliability: between("reliability", [0.9, 0.999], default.reliability),
         shoulder_diameters: ["inner_shoulder_diameter", "outer_shoulder_diameter"]
             .map(|key| r.get(key, positive(LENGTH))),
     }
+}
+
+const LUBRICATIONS: [(&str, Lubrication); 4] = [
+    ("oil_bath", Lubrication::OilBath),
+    ("oil_mist", Lubrication::OilMist),
+    ("oil_jet", Lubrication::OilJet),
+    ("grease", Lubrication::Grease),
+];
+
+/// Lubrication method: a keyword, or `{ f_0 = 1.5 }`.
+fn lubrication(r: &Reader) -> Lubrication {
+    if !matches!(r.entry("lubrication").map(|e| &e.node.value), Some(Value::Table(_))) {
+        return r.choice("lubrication", &LUBRICATIONS).unwrap_or_default();
+    }
+    let Some(given) = r.table("lubrication") else { return Lubrication::default() };
+    let factor = given.need("f_0", positive(NUMBER));
+    given.finish();
+    Lubrication::Factor(factor)
 }
 
 /// Oil named by the key `lubricant`; without the key, the only oil of the file.
