@@ -91,10 +91,11 @@ pub struct ReferenceLife {
 /// Basic reference rating life of one row from the loads of its balls.
 ///
 /// L_10r = ((Q_ci/Q_ei)^{−10/3} + (Q_ce/Q_ee)^{−10/3})^{−9/10};
-/// Q_ci = C_r/(0.407 Z cos^0.7 α) (1 + x^{10/3})^{3/10}, Q_ce = C_r/(0.389 Z cos^0.7 α) (1 + x^{−10/3})^{3/10},
+/// Q_ci = C_r/(0.407 Z cos α) (1 + x^{10/3})^{3/10}, Q_ce = C_r/(0.389 Z cos α) (1 + x^{−10/3})^{3/10},
 /// x = 1.044 ((1 − γ)/(1 + γ))^1.72 (f_i (2f_e − 1)/(f_e (2f_i − 1)))^0.41;
 /// Q_e = (Σ Q_j³/Z)^{1/3} on the ring that rotates relative to the load, (Σ Q_j^{10/3}/Z)^{3/10} on the
-/// stationary one.
+/// stationary one. With cos α, not its power 0.7, a half-loaded row has L_10r = L_10: C_r = 0.407 Q_ci Z cos α (...) and
+/// Q_ci ∝ (γ/cos α)^0.3 of Lundberg and Palmgren give the (cos α)^0.7 of C_r.
 ///
 /// `dynamic_rating` C_r of the row \[N\]; `inner`, `outer`: loads on the rings, one per ball \[N\]; `rotating_ring`: the
 /// ring rotating relative to the load. Zero load gives infinite life. Source: ISO/TS 16281 eq. 19-29.
@@ -108,7 +109,7 @@ pub fn reference_life(
     let (balls, size) = (g.balls as f64, g.ball_diameter);
     let gamma = size * g.contact_angle.cos() / g.pitch_diameter;
     let x = 1.044 * ring_ratio(gamma, g.inner_groove_radius / size, g.outer_groove_radius / size);
-    let share = dynamic_rating / (balls * g.contact_angle.cos().powf(0.7));
+    let share = dynamic_rating / (balls * g.contact_angle.cos());
     let ratings = [
         share / 0.407 * (1.0 + x.powf(10.0 / 3.0)).powf(0.3),
         share / 0.389 * (1.0 + x.powf(-10.0 / 3.0)).powf(0.3),

@@ -108,7 +108,7 @@ fn life(ball: &BallBearing, [f_x, f_z, m_x]: [f64; 3]) -> BearingLife {
 
 /// L_10r of all cases of the source, C_r = 23.4 kN, for the model as it is: its moment arm is that of the grooves.
 #[test]
-fn reference_lives_of_the_seven_cases() {
+fn reference_lives_of_six_cases() {
     // Clearance, F_r, F_a, M, L_10r.
     for (clearance, load, expected) in [
         (0.0, [1000.0, 0.0, 0.0], 13163.019),
@@ -135,6 +135,37 @@ fn reference_lives_of_the_seven_cases() {
             assert!((found.by_ball_loads / by_arm - 1.0).abs() < 1e-6, "{load:?}: {found:?} {by_arm}");
         }
         assert!(m_x == 0.0 || found.by_ball_loads > 1.02 * found.reference, "{found:?}");
+    }
+}
+
+/// The seventh case of the source: F_r = F_a = 1000 N with clearance, and a moment of 1 N m about the direction of F_r; its
+/// displacement and tilt are those along and about both axes.
+#[test]
+fn radial_load_thrust_and_moment() {
+    let ball = BallBearing {
+        service: Service { dynamic_rating: Some(23.4e3), ..Service::default() },
+        ..bearing(10e-6)
+    };
+    for moment in [1.0, -1.0] {
+        let condition = Condition {
+            load: [1000.0, 0.0, 1000.0, moment, 0.0],
+            prescribed: [None; 5],
+            speed: 0.0,
+            cage: CageTreatment::FixedAngle,
+            cage_angle: 0.0,
+        };
+        let [x, y, z, a, b] = BearingSolver::new("case", &ball).solve(&condition, None).unwrap().displacement;
+        let values = [
+            (1e6 * x.hypot(y), 19.7144),
+            (1e6 * z, 146.3084),
+            (1e3 * a.hypot(b), 2.7239),
+            (life(&ball, [1000.0, 1000.0, moment]).reference, 1627.7479),
+        ];
+        for (value, expected) in values {
+            println!("{value} for {expected}");
+            // Rounding of the listed digits.
+            assert!((value / expected - 1.0).abs() < 5e-5, "{value} for {expected}");
+        }
     }
 }
 
@@ -197,7 +228,9 @@ fn pure_moment_by_bisection() {
 #[test]
 fn opposed_pairs_under_radial_load() {
     use rotordyn::bearing::{Arrangement, Duplex};
-    for (degrees, arrangement) in [(15.0f64, Arrangement::BackToBack), (25.0, Arrangement::FaceToFace)] {
+    for (degrees, arrangement) in
+        [(15.0f64, Arrangement::BackToBack), (25.0, Arrangement::FaceToFace), (40.0, Arrangement::BackToBack)]
+    {
         let single = bearing(0.0);
         let geometry = BallGeometry {
             balls: 17,
@@ -212,18 +245,68 @@ fn opposed_pairs_under_radial_load() {
         let pair =
             BallBearing { geometry, duplex: Some(Duplex { arrangement, spacing: 16e-3 }), ..single.clone() };
         let study = BearingStudy {
-            force: Some([0.0, -3000.0, 0.0]),
+            force: Some([0.0, -300.0, 0.0]),
             constrained: Some([false, false, false, true, true]),
             ..BearingStudy::default()
         };
         let found = &single_bearings(&[("pair".into(), pair)], &study).unwrap()[0];
         let life = &found.point.life;
-        assert_eq!(life.equivalent_load, 3000.0);
-        assert!((life.basic - (found.rating.dynamic / 3000.0).powi(3)).abs() < 1e-9 * life.basic);
-        assert!((life.static_safety - found.rating.static_rating / 3000.0).abs() < 1e-9);
+        assert_eq!(life.equivalent_load, 300.0);
+        assert!((life.basic - (found.rating.dynamic / 300.0).powi(3)).abs() < 1e-9 * life.basic);
+        assert!((life.static_safety - found.rating.static_rating / 300.0).abs() < 1e-9);
         println!("{degrees} deg: L_10r {} for L_10 {}", life.reference, life.basic);
-        // Ball loads go with 1/cos α, the ratings of ISO 281 with cos^0.7 α: L_10r/L_10 ~ cos^0.9 α.
-        let expected = life.basic * degrees.to_radians().cos().powf(0.9);
-        assert!((life.reference / expected - 1.0).abs() < 0.03, "{life:?}");
+        // The contact angle grows a little under load, 1 % in life at 40 deg.
+        assert!((life.reference / life.basic - 1.0).abs() < 0.015, "{life:?}");
+    }
+}
+
+/// Q_ci and Q_ce against the ball ratings of Lundberg and Palmgren, A (2f/(2f − 1))^0.41 (1 ∓ γ)^1.39/(1 ± γ)^{1/3}
+/// (γ/cos α)^0.3 D^1.8 Z^{−1/3}: one A for all contact angles; and a half-loaded row, Q ∝ cos^1.5 ψ with
+/// F_r = cos α Σ Q cos ψ, has L_10r = L_10.
+#[test]
+fn ball_ratings_at_any_contact_angle() {
+    use rotordyn::bearing::life::{basic_life, reference_life};
+    use rotordyn::bearing::rating::LoadRating;
+    use rotordyn::contact::Race;
+    let steel = bearing(0.0).ball_material;
+    for (balls, pitch) in [(31usize, 130.0), (61, 190.0)] {
+        let mut constants: Vec<[f64; 2]> = Vec::new();
+        for degrees in [0.0f64, 15.0, 25.0, 40.0] {
+            let angle = degrees.to_radians();
+            let g = BallGeometry {
+                balls,
+                ball_diameter: 9e-3,
+                pitch_diameter: 1e-3 * pitch,
+                inner_groove_radius: 0.52 * 9e-3,
+                outer_groove_radius: 0.53 * 9e-3,
+                contact_angle: angle,
+                ..bearing(0.0).geometry
+            };
+            let rating = LoadRating::new(&g, &steel, &steel, None).dynamic;
+            let position = |j: usize| std::f64::consts::TAU * j as f64 / balls as f64;
+            let share = |j: usize| position(j).cos().max(0.0).powf(1.5);
+            let projected: f64 = (0..balls).map(|j| share(j) * position(j).cos() * angle.cos()).sum();
+            let loads: Vec<f64> = (0..balls).map(|j| 500.0 * share(j) / projected).collect();
+            let found = reference_life(&g, rating, &loads, &loads, Race::Inner);
+            let ratio = found.life / basic_life(rating, 500.0);
+            println!("{degrees} deg: L_10r/L_10 {ratio:.5}");
+            assert!((ratio - 1.0).abs() < 2e-3, "{degrees} deg: {ratio}");
+            let gamma = 9.0 * angle.cos() / pitch;
+            let by_theory = |sign: f64, osculation: f64| {
+                (2.0 * osculation / (2.0 * osculation - 1.0)).powf(0.41) * (1.0 - sign * gamma).powf(1.39)
+                    / (1.0 + sign * gamma).cbrt()
+                    * (gamma / angle.cos()).powf(0.3)
+                    * 9f64.powf(1.8)
+                    / (balls as f64).cbrt()
+            };
+            let [inner, outer] = found.ratings;
+            constants.push([inner / by_theory(1.0, 0.52), outer / by_theory(-1.0, 0.53)]);
+        }
+        for [inner, outer] in &constants {
+            // ISO 281 tabulates f_c for like osculations of both races, ISO/TS 16281 takes their own: 0.8 %; the power 0.7
+            // of cos α would be off by 8 % at 40 deg.
+            assert!((inner / constants[0][0] - 1.0).abs() < 1e-2, "{constants:?}");
+            assert!((outer / inner - 1.0).abs() < 5e-3, "{constants:?}");
+        }
     }
 }
