@@ -17,6 +17,10 @@ const RADIAL_FACTOR: f64 = 0.025;
 /// Traction coefficient of an oil-lubricated contact.
 const TRACTION: f64 = 0.07;
 
+/// Share of the largest contact load below which the ellipse of a contact does not count: balls outside the loaded zone
+/// that centrifugal force presses against the inner race at a steep angle.
+const SMALL_LOAD: f64 = 0.02;
+
 /// State of a bearing for its limits.
 #[derive(Clone, Debug)]
 pub struct BearingLoad<'a> {
@@ -29,6 +33,9 @@ pub struct BearingLoad<'a> {
     pub axial_displacement: f64,
     /// Dynamic equivalent load of the balls' loads \[N\] (ISO/TS 16281).
     pub equivalent_load: f64,
+    /// Static equivalent load P₀ \[N\]; NaN where ISO 76 defines none. Static load rating C₀ \[N\].
+    pub static_load: f64,
+    pub static_rating: f64,
     /// Smallest film of a loaded contact and composite roughness \[m\]; `None` without lubricant.
     pub film: Option<[f64; 2]>,
 }
@@ -40,8 +47,8 @@ pub enum ExceededLimit {
     Unloaded,
     /// Ball loads outside the range of a fitted contact law \[N\].
     FittedLaw { outside: usize, loaded: usize, range: [f64; 2] },
-    /// Contact pressure above that of the static load rating \[Pa\].
-    Pressure { pressure: f64 },
+    /// Largest contact pressure above that of the static load rating \[Pa\], or P₀ above C₀ \[N\]: permanent dents.
+    StaticLoad { pressure: f64, race: Race, load: f64, rating: f64 },
     /// Share of a contact ellipse beyond the shoulder of its groove, angles of the edges of both \[rad\].
     Shoulder { race: Race, share: f64, ellipse_angle: f64, shoulder_angle: f64 },
     /// Smallest film below the roughness \[m\].
@@ -66,7 +73,7 @@ impl BearingLoad<'_> {
         }
         [
             self.fitted_law(loaded),
-            self.pressure(),
+            self.static_load(),
             self.shoulder(),
             self.film(),
             self.lost_contact_angle(),
@@ -90,12 +97,21 @@ impl BearingLoad<'_> {
         (outside > 0).then_some(ExceededLimit::FittedLaw { outside, loaded, range })
     }
 
-    fn pressure(&self) -> Option<ExceededLimit> {
+    /// p₀ > 4.2 GPa in a contact, or s₀ = C₀/P₀ < 1: the balls' own loads and the rating of the bearing differ where its
+    /// load distribution, grooves or stated C₀ differ from those of ISO 76.
+    fn static_load(&self) -> Option<ExceededLimit> {
         let contacts = self.bearing.hertz();
-        let pressures =
-            self.balls.iter().flat_map(|ball| ball.patches(&contacts)).map(|p| p.maximum_pressure);
-        let pressure = pressures.fold(0.0, f64::max);
-        (pressure > STATIC_CONTACT_STRESS).then_some(ExceededLimit::Pressure { pressure })
+        let pressures = self.balls.iter().flat_map(|ball| {
+            [Race::Inner, Race::Outer].into_iter().zip(ball.patches(&contacts).map(|p| p.maximum_pressure))
+        });
+        let (race, pressure) = pressures.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let (load, rating) = (self.static_load, self.static_rating);
+        (pressure > STATIC_CONTACT_STRESS || load > rating).then_some(ExceededLimit::StaticLoad {
+            pressure,
+            race,
+            load,
+            rating,
+        })
     }
 
     fn film(&self) -> Option<ExceededLimit> {
@@ -159,10 +175,15 @@ impl BearingLoad<'_> {
 
     /// The contact with the largest share of its ellipse beyond the shoulder of the groove.
     fn shoulder(&self) -> Option<ExceededLimit> {
+        let largest = self.balls.iter().fold(0.0, |most: f64, ball| most.max(ball.load).max(ball.outer_load));
         let contacts = self.balls.iter().flat_map(|ball| {
             let margins = shoulder_margin(self.bearing, ball);
             let loads = [ball.load, ball.outer_load];
-            [Race::Inner, Race::Outer].into_iter().zip(margins).zip(loads).filter(|(_, load)| *load > 0.0)
+            [Race::Inner, Race::Outer]
+                .into_iter()
+                .zip(margins)
+                .zip(loads)
+                .filter(move |(_, load)| *load > SMALL_LOAD * largest)
         });
         let worst = contacts
             .map(|(contact, _)| contact)
@@ -183,6 +204,13 @@ pub fn minimum_load(pitch_diameter: f64, speed: f64, viscosity: Option<f64>) -> 
     1e3 * RADIAL_FACTOR * (1e6 * viscosity * rpm / 1e3).powf(2.0 / 3.0) * (10.0 * pitch_diameter).powi(2)
 }
 
+fn race_name(race: Race) -> &'static str {
+    match race {
+        Race::Inner => "inner",
+        Race::Outer => "outer",
+    }
+}
+
 impl Display for ExceededLimit {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match *self {
@@ -195,21 +223,39 @@ impl Display for ExceededLimit {
                 "{outside} of {loaded} loaded balls are outside the range {low} to {high} N of their fitted power \
                  law; fit it to the loads that occur, or use contact = \"hertz\""
             ),
-            Self::Pressure { pressure } => write!(
-                f,
-                "contact pressure {:.2} GPa above the 4.2 GPa of the static load rating (ISO 76): the races are \
-                 dented, and the elastic contact is invalid",
-                1e-9 * pressure
-            ),
+            Self::StaticLoad { pressure, race, load, rating } => {
+                let contact = format!("{:.2} GPa at the {} race", 1e-9 * pressure, race_name(race));
+                let loads = format!("C_0 {rating:.0} N, P_0 {load:.0} N");
+                let safety = format!("static safety s_0 = C_0/P_0 = {:.2}", rating / load);
+                match (pressure > STATIC_CONTACT_STRESS, load > rating) {
+                    (true, true) => write!(
+                        f,
+                        "contact pressure {contact} above the 4.2 GPa of the static load rating, and {safety} below 1 \
+                         ({loads}; ISO 76): the races are dented, and the elastic contact is invalid"
+                    ),
+                    (true, false) if load.is_finite() => write!(
+                        f,
+                        "contact pressure {contact} above the 4.2 GPa of the static load rating (ISO 76): the races \
+                         are dented, and the elastic contact is invalid; {safety} ({loads}) does not show it"
+                    ),
+                    (true, false) => write!(
+                        f,
+                        "contact pressure {contact} above the 4.2 GPa of the static load rating (ISO 76): the races \
+                         are dented, and the elastic contact is invalid"
+                    ),
+                    (false, _) => write!(
+                        f,
+                        "{safety} below 1 ({loads}; ISO 76), with a contact pressure of {contact}: permanent \
+                         deformation of balls and races"
+                    ),
+                }
+            }
             Self::Shoulder { race, share, ellipse_angle, shoulder_angle } => write!(
                 f,
                 "{:.0} % of a contact ellipse of the {} race lies beyond the shoulder of the groove: it reaches to \
                  {:.1} deg, the shoulder is at {:.1} deg (inner_ and outer_shoulder_diameter); loads and pressures there are invalid",
                 100.0 * share,
-                match race {
-                    Race::Inner => "inner",
-                    Race::Outer => "outer",
-                },
+                race_name(race),
                 ellipse_angle.to_degrees(),
                 shoulder_angle.to_degrees()
             ),

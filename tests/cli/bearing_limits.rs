@@ -66,6 +66,146 @@ fn pressure_above_the_static_rating() {
     assert!(at(0.9 * limit) < 4.2e9 && at(1.1 * limit) > 4.2e9);
 }
 
+/// s_0 = C_0/P_0 with P_0 = max(X_0 F_r + Y_0 F_a, F_r) by hand, on both sides of 1; one warning names it and the pressure.
+#[test]
+fn static_safety_below_one() {
+    // Designation, keys, X_0 and Y_0 of ISO 76, direction of the load (radial, axial).
+    for (designation, keys, [x, y], [radial, axial]) in [
+        ("6206", "", [0.6, 0.5], [1.0, 0.0]),
+        ("6308", "", [0.6, 0.5], [0.6, 1.0]),
+        ("7208B", "", [0.5, 0.26], [0.3, 1.0]),
+        ("7014C", "", [0.5, 0.46], [0.5, 1.0]),
+        ("6004", "static_rating = \"3 kN\"", [0.6, 0.5], [1.0, 0.1]),
+    ] {
+        let model = alone(designation, &format!("ball_inertia = \"none\"\n{keys}"));
+        let at = |load: f64| {
+            let load = format!("0, -{}, {} N", load * radial, load * axial);
+            found(
+                &model,
+                "bearing",
+                &["--load", &load, "--speed", "0 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"],
+            )
+        };
+        let (_, document) = at(100.0);
+        let rating = document["bearings"][0]["rating"]["static"].as_f64().unwrap();
+        let unit = (x * radial + y * axial).max(radial);
+        for share in [0.93, 1.07] {
+            let (warnings, document) = at(share * rating / unit);
+            let state = &document["bearings"][0]["operating"];
+            let safety = state["static_safety"].as_f64().unwrap();
+            assert!((safety * share - 1.0).abs() < 1e-3, "{designation}: {safety}");
+            let dented = state["largest_pressure"].as_f64().unwrap() > 4.2e9;
+            let named: Vec<&String> =
+                warnings.iter().filter(|w| w.contains("static safety") || w.contains("4.2 GPa")).collect();
+            assert_eq!(
+                named.len(),
+                usize::from(dented || share > 1.0),
+                "{designation} {share}: {warnings:?}"
+            );
+            if share > 1.0 {
+                let numbers = format!("C_0 {rating:.0} N, P_0 {:.0} N", share * rating);
+                let text = named[0];
+                assert!(text.contains("s_0 = C_0/P_0 = 0.93 below 1") && text.contains(&numbers), "{text}");
+                assert!(text.contains("GPa at the inner race"), "{text}");
+            }
+            println!("{designation} {share}: {named:?}");
+        }
+    }
+}
+
+/// A ball with 1 % of the largest load, which centrifugal force presses against the inner race at a steep angle, is no
+/// reason to warn of the shoulder; the loaded ones are.
+#[test]
+fn shoulder_of_loaded_balls_only() {
+    for (designation, beyond) in [("7206-B-XL", 30e3), ("7000B", 6e3)] {
+        let at = |flags: &[&str]| found(&alone(designation, ""), "bearing", flags);
+        let (warnings, document) = at(&[]);
+        let balls = document["bearings"][0]["operating"]["balls"].as_array().unwrap().clone();
+        let inner = |ball: &Value, key: &str| ball["inner"][key].as_f64().unwrap();
+        let largest = balls.iter().map(|ball| inner(ball, "load")).fold(0.0, f64::max);
+        let worst = balls.iter().max_by(|a, b| {
+            let share = |ball: &Value| inner(ball, "fraction_beyond_shoulder");
+            share(a).total_cmp(&share(b))
+        });
+        let worst = worst.unwrap();
+        assert!(inner(worst, "fraction_beyond_shoulder") > 0.0 && inner(worst, "load") < 0.02 * largest);
+        assert!(warnings.is_empty(), "{warnings:?}");
+        let load = format!("0, 0, {beyond} N");
+        assert!(has(&at(&["--load", &load]).0, "beyond the shoulder"), "{designation}");
+    }
+}
+
+/// In the studies of a machine.
+#[test]
+fn static_safety_in_a_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let warnings = |rating: &str| {
+        let mut run = rotordyn();
+        run.args(["static", "models/overhung_rig.toml", "--no-figures", "--out"]).arg(folder.path());
+        run.args(["--set", &format!("bearing.B.static_rating=\"{rating}\"")]);
+        json_of(&mut run)["warnings"].to_string()
+    };
+    let low = warnings("15 N");
+    assert!(
+        low.contains("bearing B at standstill: static safety s_0") && !low.contains("bearing A"),
+        "{low}"
+    );
+    assert!(!warnings("7.8 kN").contains("static safety"));
+}
+
+/// M_v = 1e-7 f_0 (ν n)^{2/3} D_pw³ N mm with f_0 of the lubrication method, M_s ∝ μ, both stated in the output.
+#[test]
+fn friction_by_lubrication_and_sliding_friction() {
+    let oil = "[lubricant.oil]\nviscosity = \"0.0261 Pa s\"\ndensity = \"870 kg/m^3\"\npressure_viscosity = \"2e-8 1/Pa\"\n";
+    let of = |designation: &str, keys: &str| {
+        let model = alone(designation, &format!("lubricant = \"oil\"\n{keys}")) + oil;
+        let flags = ["--load", "0, -900, 700 N", "--speed", "4000 rpm", "--sweep", "load=0 N .. 1 N"];
+        let (_, document) = found(&model, "bearing", &flags);
+        let state = document["bearings"][0]["operating"].clone();
+        move |key: &str| state[key].as_f64().unwrap()
+    };
+    // Pitch diameters 46 mm (6206) and 46 mm (7206B); ν n = 30 mm²/s · 4000 rpm.
+    for (designation, deep_groove) in [("6206", true), ("7206B", false)] {
+        for (keys, factors) in [
+            ("", [2.0, 3.3]),
+            ("lubrication = \"oil_bath\"", [2.0, 3.3]),
+            ("lubrication = \"oil_mist\"", [1.0, 1.7]),
+            ("lubrication = \"oil_jet\"", [4.0, 6.6]),
+            ("lubrication = \"grease\"", [1.35, 2.0]),
+            ("lubrication = { f_0 = 0.7 }", [0.7, 0.7]),
+        ] {
+            let state = of(designation, keys);
+            let factor = if deep_groove { factors[0] } else { factors[1] };
+            let expected = 1e-10 * factor * 120e3f64.powf(2.0 / 3.0) * 46f64.powi(3);
+            assert!((state("friction_torque_viscous") / expected - 1.0).abs() < 1e-9, "{designation} {keys}");
+            assert_eq!(state("friction_viscous_factor"), factor);
+        }
+        let (by_default, rough) = (of(designation, ""), of(designation, "sliding_friction = 0.11"));
+        assert_eq!((by_default("sliding_friction"), rough("sliding_friction")), (0.06, 0.11));
+        let ratio = rough("friction_torque_spin") / by_default("friction_torque_spin");
+        assert!((ratio - 0.11 / 0.06).abs() < 1e-9, "{ratio}");
+        let torque = ["load", "viscous", "spin"].map(|part| rough(&format!("friction_torque_{part}")));
+        let heat = torque.iter().sum::<f64>() * 4000.0 * std::f64::consts::PI / 30.0;
+        assert!((rough("friction_heat") / heat - 1.0).abs() < 1e-9);
+    }
+    // Deep groove: f_1 = 5e-4 (F_s/C_0)^0.55 with F_s = 0.6 · 900 + 0.5 · 700 below F_r: 900 N.
+    let (state, rating) = (of("6206", "static_rating = \"11.2 kN\""), 11.2e3);
+    let f_1 = 5e-4 * (900.0f64 / rating).powf(0.55);
+    assert!((state("friction_load_factor") / f_1 - 1.0).abs() < 1e-9);
+    let force = 3.0 * 700.0 - 0.1 * 900.0;
+    assert!((state("friction_torque_load") / (f_1 * force * 46e-3) - 1.0).abs() < 1e-9);
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("b.toml");
+    let keys = "lubricant = \"oil\"\nlubrication = \"oil_jet\"\nsliding_friction = 0.08";
+    std::fs::write(&path, alone("7206B", keys) + oil).unwrap();
+    let mut run = rotordyn();
+    run.arg("bearing").arg(&path).args(["--speed", "4000 rpm", "--no-figures", "--out"]).arg(folder.path());
+    let text = crate::output_of(&mut run).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("(f_0 6.60, oil jet)") && text.contains("(sliding friction 0.0800)"), "{text}");
+    assert!(text.contains("N m (f_1 "), "{text}");
+}
+
 /// 0.025 (ν n/1000)^{2/3} (d_m/100)² kN with unloaded balls, by hand for a 6206 with an oil of 30 mm²/s.
 #[test]
 fn load_below_the_minimum_load() {

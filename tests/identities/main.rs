@@ -14,6 +14,7 @@ mod ehl;
 mod linear;
 mod modal_damping;
 mod planes;
+mod random_bearing_warnings;
 mod random_bearings;
 mod refined_grids;
 mod sensitivity;

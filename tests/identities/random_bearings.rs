@@ -7,7 +7,7 @@ use rotordyn::bearing::rating::LoadRating;
 use rotordyn::bearing::{
     Arrangement, BallBearing, BallGeometry, BallInertia, Bearing, Cage, Duplex, Fit, Preload,
 };
-use rotordyn::contact::{ContactDamping, ContactLaw};
+use rotordyn::contact::{ContactDamping, ContactLaw, Lubricant};
 use rotordyn::element::Material;
 use rotordyn::model::study::EquilibriumStudy;
 use rotordyn::study::Machine;
@@ -31,7 +31,7 @@ fn steel() -> Material {
 }
 
 /// A bearing of random size, contact angle, clearance, arrangement and fit, with inertia of any control.
-fn bearing(random: &mut Random) -> BallBearing {
+pub fn bearing(random: &mut Random) -> BallBearing {
     let d = 10f64.powf(random.between(-2.5, -1.5));
     let balls = random.between(6.0, 24.0) as usize;
     let pitch = d / (PI / balls as f64).sin() * random.between(1.05, 1.5);
@@ -86,9 +86,15 @@ fn bearing(random: &mut Random) -> BallBearing {
     }
 }
 
+/// An oil of 5 to 100 mPa s.
+pub fn random_oil(random: &mut Random) -> Lubricant {
+    let viscosity = 5e-3 * 10f64.powf(random.between(0.0, 1.3));
+    Lubricant { name: "oil".into(), viscosity, pressure_viscosity: 2e-8, density: 870.0 }
+}
+
 /// A condition: a load of 1e-6 to 3 times the static rating in a random direction, one-way bearings with enough
 /// thrust to hold together, at up to 2 million mm/min.
-fn condition(random: &mut Random, bearing: &BallBearing) -> Condition {
+pub fn condition(random: &mut Random, bearing: &BallBearing) -> Condition {
     let (g, pair) = (&bearing.geometry, bearing.duplex.map(|pair| pair.arrangement));
     let rating = LoadRating::new(g, &bearing.ball_material, &bearing.ring_material, pair).static_rating;
     let size = rating * 10f64.powf(random.between(-6.0, 0.477));
@@ -143,8 +149,12 @@ fn equilibrium_and_stiffness_of_random_bearings() {
     let mut random = Random(41);
     let (mut compared, mut failures) = (0, Vec::new());
     for number in 0..200 {
-        let bearing = bearing(&mut random);
+        let mut bearing = bearing(&mut random);
         let condition = condition(&mut random, &bearing);
+        if number % 3 == 0 {
+            let lubricant = random_oil(&mut Random(number));
+            bearing.contact = ContactLaw::Film { lubricant, speed_factor: 1.0 };
+        }
         let solver = BearingSolver::new("random", &bearing);
         let what = || {
             let g = &bearing.geometry;

@@ -337,3 +337,37 @@ fn clearance_classes_grow_with_class_and_bore() {
     assert_eq!(catalogue::clearance("C3", 0.001), None);
     assert_eq!(catalogue::clearance("C3", 0.5), None);
 }
+
+/// Every third bearing of the catalogue, read from a file and loaded by a tenth of its rating (with the thrust that a single row
+/// needs) at half the speed of grease: an equilibrium with positive stiffness, and no warning.
+#[test]
+fn bearings_under_an_ordinary_load_have_no_warning() {
+    use rotordyn::model::study::{BearingStudy, BearingSweep, SweepVariable};
+    use rotordyn::model::{self, Options};
+    let table = |e: CatalogueEntry| {
+        let thrust = if e.contact_angle > 0.0 { "thrust = \"+z\"\n" } else { "" };
+        format!("[bearing.\"{0}\"]\nmodel = \"ball\"\ndesignation = \"{0}\"\n{thrust}", e.designation)
+    };
+    let chosen = catalogue::entries().enumerate().filter(|(k, e)| k % 3 == 0 || e.designation.contains('-'));
+    let text = "[model]\nname = \"all\"\n".to_string() + &chosen.map(|(_, e)| table(e)).collect::<String>();
+    let file = model::load_bearings("all.toml", text, &Options::default()).unwrap_or_else(|e| panic!("{e}"));
+    let balls: Vec<_> = file.bearings.into_iter().collect();
+    assert!(3 * balls.len() >= catalogue::row_count());
+    let study = BearingStudy {
+        sweeps: vec![BearingSweep { variable: SweepVariable::CageAngle, values: vec![0.0] }],
+        ..BearingStudy::default()
+    };
+    let found = rotordyn::study::single_bearings(&balls, &study).unwrap();
+    let mut failures = Vec::new();
+    for bearing in &found {
+        let point = &bearing.point;
+        let life = &point.life;
+        let positive = (0..5).all(|k| point.state.stiffness[k][k] > 0.0);
+        let loaded = 2 * point.loaded() > bearing.bearing.geometry.balls / 2;
+        let lives = life.reference / life.basic;
+        if !bearing.warnings.is_empty() || !positive || !loaded || !(0.4..2.0).contains(&lives) {
+            failures.push(format!("{}: {lives:.3} {} {:?}", bearing.name, point.loaded(), bearing.warnings));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}

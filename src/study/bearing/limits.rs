@@ -75,6 +75,8 @@ impl SingleBearingStudy<'_> {
             cage_speed: point.orders.ftf * speed,
             axial_displacement: point.state.displacement[2],
             equivalent_load: self.rating().dynamic / point.life.reference.cbrt(),
+            static_load: point.life.static_load,
+            static_rating: self.rating().static_rating,
             film,
         }
         .exceeded_limits()
