@@ -98,10 +98,8 @@ pub fn ball_inertia(
             any = true;
         }
     }
-    let found = match any && speed != 0.0 {
-        true => equilibrium(&massless, assembly, speed, CageTreatment::FixedAngle, start).ok(),
-        false => None,
-    };
+    let found =
+        any.then(|| equilibrium(&massless, assembly, speed, CageTreatment::FixedAngle, start).ok()).flatten();
     let used = |(k, site): (usize, &crate::model::BearingSite)| match &site.bearing {
         Bearing::Ball(ball) => {
             let load = found.as_ref().map_or(0.0, |found| found.bearings[k].largest_ball_load);

@@ -70,6 +70,22 @@ impl BallInertia {
         }
     }
 
+    /// The race that resists the gyroscopic moment M, with the friction of inner and outer race in units of M/D.
+    pub fn hypothesis(self) -> &'static str {
+        match self.in_effect() {
+            Self::Auto(_) | Self::None => "none for massless balls",
+            Self::OuterRaceControl => "outer race control, friction (inner, outer) = (0, 2) M/D",
+            Self::InnerRaceControl => "inner race control, friction (inner, outer) = (2, 0) M/D",
+            Self::HarrisInnerRaceControl => {
+                "inner race control after Harris, friction (inner, outer) = (1, 1) M/D"
+            }
+            Self::Shared => "shared control, friction in proportion to the contact loads, 2 M/D in all",
+            Self::Centrifugal | Self::CentrifugalForce(_) => {
+                "none, centrifugal force without gyroscopic moment"
+            }
+        }
+    }
+
     /// Whether the balls have inertial loads.
     pub fn is_on(self) -> bool {
         self.in_effect() != Self::None

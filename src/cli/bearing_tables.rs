@@ -1,8 +1,8 @@
 //! Tables of a ball bearing analysis.
 
 use super::ball_motion_tables::ball_number;
-use rotordyn::bearing::Preload;
 use rotordyn::bearing::life::hours;
+use rotordyn::bearing::{BallInertia, Preload};
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};
 use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
@@ -31,6 +31,14 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
         terminal.print(&format!("  imperfections of races and balls: {}", imperfections.condition()));
     }
     terminal.print(&format!("  {}", found.ball_inertia.sentence()));
+    let inertia = found.ball_inertia.inertia;
+    let reason = match inertia {
+        BallInertia::Auto(Some(decision)) if decision.on => {
+            "; the default, since at speed the centrifugal force gives the outer contact the larger load and friction"
+        }
+        _ => "",
+    };
+    terminal.print_wrapped(&format!("control hypothesis: {}{reason}", inertia.hypothesis()));
     let arm = 0.5 * found.bearing.geometry.pitch_diameter;
     let size = |a: usize| if a > 2 { arm } else { 1.0 };
     let largest = (0..5).map(|a| (state.load[a] / size(a)).abs()).fold(0.0, f64::max);

@@ -64,6 +64,60 @@ fn machine_says_which_inertia_and_why() {
     }
 }
 
+/// At standstill too the largest contact load is that of the balls.
+#[test]
+fn contact_load_at_standstill() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = rotordyn();
+    command.args([
+        "static",
+        "models/bal_2022.toml",
+        "--fixed-cage-angle",
+        "--speed",
+        "0 rpm",
+        "--no-figures",
+    ]);
+    let found = json_of(command.arg("--out").arg(folder.path()));
+    let bearings = found["equilibrium"]["bearings"].as_array().unwrap();
+    for used in found["ball_inertia"].as_array().unwrap() {
+        let load = used["largest_contact_load_n"].as_f64().unwrap();
+        let bearing = bearings.iter().find(|b| b["name"] == used["bearing"]).unwrap();
+        let balls = bearing["balls"].as_array().unwrap().iter();
+        let largest = balls.map(|ball| ball["load_n"].as_f64().unwrap()).fold(0.0, f64::max);
+        // Over the cage angles the largest load is up to that of a ball in the load's direction.
+        assert!(load > 0.999 * largest && load < 1.3 * largest, "{load} {largest}");
+        assert_eq!((used["speed_rpm"].as_f64(), used["ratio"].as_f64()), (Some(0.0), Some(0.0)));
+    }
+}
+
+/// Which race resists the gyroscopic moment is said in the text, for every hypothesis.
+#[test]
+fn bearing_names_the_control_hypothesis() {
+    let folder = tempfile::tempdir().unwrap();
+    for (key, text) in [
+        ("", "outer race control, friction (inner, outer) = (0, 2) M/D; the default, since"),
+        ("ball_inertia = \"none\"", "none for massless balls"),
+        ("ball_inertia = \"outer_race_control\"", "outer race control, friction (inner, outer) = (0, 2) M/D"),
+        ("ball_inertia = \"inner_race_control\"", "inner race control, friction (inner, outer) = (2, 0) M/D"),
+        (
+            "ball_inertia = \"harris_inner_race_control\"",
+            "after Harris, friction (inner, outer) = (1, 1) M/D",
+        ),
+        ("ball_inertia = \"shared\"", "shared control, friction in proportion to the contact loads"),
+        ("ball_inertia = \"centrifugal\"", "without gyroscopic moment"),
+    ] {
+        let mut command = rotordyn();
+        let model = BEARING.replace("thrust", &format!("{key}\nthrust"));
+        command.arg("bearing").arg(file(&folder, &model)).arg("--no-figures").arg("--out").arg(folder.path());
+        let output = output_of(&mut command).split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, line) = output.split_once("control hypothesis: ").unwrap();
+        assert!(line.contains(text), "{key}: {output}");
+    }
+    let help = output_of(rotordyn().args(["bearing", "--help"]));
+    assert!(help.contains("harris_inner_race_control (1, 1) M/D") && help.contains("is the default since"));
+    assert!(help.contains("lubrication") && help.contains("sliding_friction"));
+}
+
 #[test]
 fn an_assumed_cage_refuses_no_bearing() {
     let folder = tempfile::tempdir().unwrap();
