@@ -1,6 +1,6 @@
 //! Ball bearing input data: geometry, materials, contact law, preload, fits, cage, imperfections, service.
 
-use super::friction::{Lubrication, SLIDING_FRICTION};
+use super::lubrication::{Lubrication, SLIDING_FRICTION};
 use super::{BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::element::Material;

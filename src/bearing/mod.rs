@@ -23,6 +23,7 @@ pub mod kinematics;
 pub mod life;
 pub mod limits;
 pub mod linear;
+pub mod lubrication;
 mod massless;
 mod plane_motion;
 mod preload;
