@@ -116,7 +116,7 @@ impl Scene {
 }
 
 /// Axial offset \[m\] and shapes of every row of a ball bearing.
-pub(crate) fn row_shapes(bearing: &BallBearing) -> Vec<(f64, BearingShapes)> {
+pub fn row_shapes(bearing: &BallBearing) -> Vec<(f64, BearingShapes)> {
     let shapes = |(offset, thrust_direction): (f64, f64)| {
         let geometry = BallGeometry { thrust_direction, ..bearing.geometry.clone() };
         (offset, BearingShapes::new(&geometry, bearing.cage_pocket_diameter))
@@ -126,7 +126,7 @@ pub(crate) fn row_shapes(bearing: &BallBearing) -> Vec<(f64, BearingShapes)> {
 
 /// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball
 /// bearings.
-pub(crate) fn shaft_sections(model: &Model) -> Vec<Length> {
+pub fn shaft_sections(model: &Model) -> Vec<Length> {
     let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
     let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| Length {
         z: [z[0], z[1]],
@@ -170,7 +170,7 @@ fn ball_seats(model: &Model) -> impl Iterator<Item = ([f64; 2], f64)> {
 }
 
 /// Outer diameter of the shaft at a node \[m\], the larger of its two sides.
-pub(crate) fn shaft_diameter(model: &Model, node: usize) -> f64 {
+pub fn shaft_diameter(model: &Model, node: usize) -> f64 {
     if model.rigid_rotor.is_some() {
         let z = model.node_z[node];
         let sections = shaft_sections(model);
@@ -183,7 +183,7 @@ pub(crate) fn shaft_diameter(model: &Model, node: usize) -> f64 {
 }
 
 /// Radius and thickness as given, else of the solid cylinder with I_p = m R²/2, I_d = m (3 R² + t²)/12.
-pub(crate) fn disc_size(disc: &Disc) -> (f64, f64) {
+pub fn disc_size(disc: &Disc) -> (f64, f64) {
     let given = |length: f64, other: f64| if length > 0.0 { length } else { other };
     let radius2 = 2.0 * disc.polar_inertia / disc.mass;
     let thickness2 = 12.0 * disc.diametral_inertia / disc.mass - 3.0 * radius2;
@@ -193,7 +193,7 @@ pub(crate) fn disc_size(disc: &Disc) -> (f64, f64) {
 }
 
 /// A disc about its centre, with the shaft's diameter as its bore.
-pub(crate) fn disc_mesh(model: &Model, disc: &Disc, sectors: usize) -> Mesh {
+pub fn disc_mesh(model: &Model, disc: &Disc, sectors: usize) -> Mesh {
     let (radius, thickness) = disc_size(disc);
     let bore = 0.5 * shaft_diameter(model, disc.node);
     let inner = if bore < radius { bore } else { 0.0 };
@@ -202,7 +202,7 @@ pub(crate) fn disc_mesh(model: &Model, disc: &Disc, sectors: usize) -> Mesh {
 
 /// Edges and orientation of the homogeneous box with the body's mass and inertias:
 /// a² = 6 (I_b + I_c − I_a)/m.
-pub(crate) fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
+pub fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
     let tensor = Matrix3::from_fn(|i, j| body.inertia[i][j]);
     let diagonal = tensor.diagonal();
     let off = (tensor - Matrix3::from_diagonal(&diagonal)).amax();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{IdentifyError, Settings};
 use crate::linalg::Complex64;
-use crate::model::Quantity;
+use crate::signal::Quantity;
 use crate::signal::record::FrfMatrix;
 
 /// FRFs over a band; outputs are the larger side of the test (responses or references), inputs the other.

@@ -40,7 +40,7 @@ pub use result::{DiagramPole, ModalIdentification, Mode, Stability};
 pub use settings::Settings;
 
 use crate::linalg::Complex64;
-use crate::model::Quantity;
+use crate::signal::Quantity;
 use crate::signal::record::FrfMatrix;
 use data::Data;
 use plscf::{NormalEquations, Pole};

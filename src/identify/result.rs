@@ -1,7 +1,7 @@
 //! Result of a modal identification.
 
 use crate::linalg::Complex64;
-use crate::model::Quantity;
+use crate::signal::Quantity;
 use crate::signal::record::Dof;
 use std::f64::consts::TAU;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::linalg::Complex64;
-use crate::model::Quantity;
+use crate::signal::Quantity;
 
 /// Result of an SDOF fit: one mode from one FRF.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Settings of a modal identification.
 
-use crate::model::Quantity;
+use crate::signal::Quantity;
 
 /// Settings of modal identification.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,7 @@
 //! Probes: what a study records.
 
 use crate::element::Anchor;
-
-/// Quantity measured by a probe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    Displacement,
-    Velocity,
-    Acceleration,
-}
+pub use crate::signal::Quantity;
 
 /// A probe (virtual sensor): one direction at one point.
 #[derive(Clone, Debug, PartialEq)]

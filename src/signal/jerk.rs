@@ -193,7 +193,7 @@ fn gaussian_smoothed(values: &[f64], sigma: f64) -> Vec<f64> {
 }
 
 /// Median of a non-empty list.
-pub(crate) fn median(mut values: Vec<f64>) -> f64 {
+pub fn median(mut values: Vec<f64>) -> f64 {
     let (count, middle) = (values.len(), values.len() / 2);
     let (below, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
     if count % 2 == 1 {

@@ -47,6 +47,7 @@ pub mod motion_classification;
 pub mod orbit;
 pub mod order;
 pub mod poincare;
+mod quantity;
 pub mod race_defects;
 pub mod record;
 pub mod resample;
@@ -63,5 +64,6 @@ pub mod waterfall;
 pub mod window;
 
 pub use error::SignalError;
+pub use quantity::Quantity;
 pub use rustfft::num_complex::Complex;
 pub use window::WindowKind;

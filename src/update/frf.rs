@@ -294,7 +294,7 @@ mod tests {
         let measured = TargetFrfs {
             responses: vec![point(1)],
             references: vec![point(1)],
-            quantities: vec![crate::model::Quantity::Displacement],
+            quantities: vec![crate::signal::Quantity::Displacement],
             values: vec![vec![frequencies.iter().map(|f| h(*f)).collect()]],
             coherence: None,
             frequencies,

@@ -6,7 +6,8 @@ use super::UpdateError;
 use crate::assembly::Assembly;
 use crate::element::Anchor;
 use crate::linalg::{Complex64, SparseRow};
-use crate::model::{Model, Quantity};
+use crate::model::Model;
+use crate::signal::Quantity;
 use crate::signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
 /// A measured DOF (sensor or excitation) in the model.

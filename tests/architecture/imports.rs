@@ -142,7 +142,7 @@ impl Module {
                 "fn" | "struct" | "enum" | "trait" | "const" | "static" | "type" if depth == 0 => {
                     module.items.insert(tokens[k + 1].clone());
                 }
-                name if is_identifier(name) && before != "." && before != "::" => {
+                name if is_identifier(name) && ![".", "::", "mod"].contains(&before) => {
                     let mut path = vec![name.to_string()];
                     while k + 2 < tokens.len() && tokens[k + 1] == "::" && is_identifier(&tokens[k + 2]) {
                         path.push(tokens[k + 2].clone());
@@ -212,16 +212,14 @@ impl Modules {
         others: &[String],
         seen: &mut Vec<(Vec<String>, String)>,
     ) -> Option<Target> {
+        let child = [at, &[name.to_string()]].concat();
+        let is_module = self.0.contains_key(&child);
+        if let (true, Some((next, others))) = (is_module, others.split_first()) {
+            return self.find(&child, next, others, seen);
+        }
         let key = (at.to_vec(), name.to_string());
         if seen.contains(&key) {
             return None;
-        }
-        let child = [at, &[name.to_string()]].concat();
-        if self.0.contains_key(&child) {
-            return match others.split_first() {
-                None => Some(Target::Module),
-                Some((next, others)) => self.find(&child, next, others, seen),
-            };
         }
         let module = &self.0[at];
         if module.items.contains(name) {
@@ -233,7 +231,8 @@ impl Modules {
         let all = all.map(|i| [&i.path[..], &[name.to_string()], others].concat());
         let found = named.chain(all).find_map(|path| self.resolve(at, &path, seen));
         seen.pop();
-        found
+        // A module and a function may share a name.
+        found.or(is_module.then_some(Target::Module))
     }
 
     /// The files each file depends on.
@@ -341,6 +340,13 @@ fn circles_are_found_through_every_kind_of_path() {
         ];
         assert_eq!(circles_of(&files), ["2 files: a.rs, b.rs\n    a.rs -> b.rs -> a.rs"], "{way}");
     }
+    // Through a function named as the module that it is in.
+    let namesake = [
+        ("lib.rs", "pub mod dot; mod b; pub use dot::dot;"),
+        ("dot.rs", "use crate::b::B; pub fn dot() {}"),
+        ("b.rs", "use crate::dot; pub struct B;"),
+    ];
+    assert_eq!(circles_of(&namesake).len(), 1);
     // Between a folder's mod.rs and a file in it, and between the binary and the library's names.
     let hub =
         [("lib.rs", ""), ("a/mod.rs", "mod c; use c::C; struct A;"), ("a/c.rs", "use super::A; struct C;")];
