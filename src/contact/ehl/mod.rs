@@ -159,6 +159,9 @@ pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrap
     let central_film = limit(|s| s.central_film);
     // Each minimum by itself: the lesser one may be another on the coarser grid.
     let [exit_film, side_film] = [limit(|s| s.minima.exit), limit(|s| s.minima.side)];
+    // A side lobe well above the exit, which only the finer grid resolves, has no limit.
+    let is_above = fine.minima.side > 1.1 * fine.minima.exit;
+    let side_film = if is_above { side_film.max(exit_film) } else { side_film };
     let minimum_film = exit_film.min(side_film);
     if !(minimum_film > 0.0 && central_film > 0.0) {
         return Err(EhlError::new(problem, fine));
