@@ -99,6 +99,45 @@ fn central_film_after_nijenbanning_venner_and_moes() {
     }
 }
 
+/// At small steps of the speed the minimum film of one contact rises evenly, although its nodes move.
+#[test]
+fn minimum_film_does_not_depend_on_the_position_of_the_nodes() {
+    let ratios = [0.069_458, 0.072_930, 0.076_577, 0.080_406].map(|film| {
+        let contact =
+            SimilarContact { radius_ratio: 5.0, pressure: 8.0, film, viscosity_rise: 4.0, roelands: 0.62 };
+        let problem = contact.problem(4);
+        let unit =
+            FilmFormula::new(&problem.contact, &problem.lubricant).central(problem.speed, problem.load);
+        (ehl::extrapolate(&problem, None).unwrap().minimum_film / unit).ln()
+    });
+    eprintln!("ln(h_min/h_c): {ratios:?}");
+    assert!(ratios.windows(2).all(|pair| pair[1] > pair[0]), "{ratios:?}");
+    assert!(ratios.windows(3).all(|t| (t[0] - 2.0 * t[1] + t[2]).abs() < 0.004), "{ratios:?}");
+}
+
+/// The minimum film is the lesser of two: in the side lobe of a round contact, at the exit of a wide one.
+#[test]
+fn minimum_film_moves_from_the_side_lobe_to_the_exit() {
+    let solved = |radius_ratio: f64| {
+        let contact =
+            SimilarContact { radius_ratio, pressure: 12.0, film: 0.1, viscosity_rise: 4.0, roelands: 0.62 };
+        let problem = contact.problem(4);
+        (ehl::extrapolate(&problem, None).unwrap(), problem)
+    };
+    for (radius_ratio, at_side) in [(1.5, true), (5.0, true), (15.0, false), (60.0, false)] {
+        let (found, problem) = solved(radius_ratio);
+        assert_eq!(found.minimum_film, found.exit_film.min(found.side_film));
+        assert_eq!(found.side_film < found.exit_film, at_side, "D {radius_ratio}");
+        // The least node of the fields is there.
+        let ny = found.fine.y.len();
+        let node = (0..found.fine.film.len())
+            .min_by(|&a, &b| found.fine.film[a].total_cmp(&found.fine.film[b]))
+            .unwrap();
+        let across = found.fine.y[node % ny].abs() / problem.contact.semi_axes(problem.load)[1];
+        assert_eq!(across > 0.5, at_side, "D {radius_ratio}: {across}");
+    }
+}
+
 /// The stored films of similar contacts against solutions between their nodes, for other lubricants than the stored.
 #[test]
 fn stored_films_agree_with_solutions_between_the_nodes() {

@@ -7,6 +7,7 @@
 //! | `reynolds` | Reynolds equation, residual and derivatives |
 //! | `guess` | initial film and pressure |
 //! | `newton` | Newton solver: film, cavitation and load balance on one grid |
+//! | `minimum` | minimum films at the exit and in the side lobe, between the nodes |
 //! | `solution` | fields and scalar results in SI |
 //! | `similarity` | films of similar contacts, solved once and stored with the program |
 //! | `table`, `curve` | film tables over load and speed, and the contact law at one speed |
@@ -19,6 +20,7 @@ mod deflection;
 mod half_space;
 mod initial_guess;
 mod law;
+mod minimum;
 mod newton;
 mod problem;
 mod reynolds;
@@ -105,8 +107,13 @@ fn solve_nested_grids(problem: &Problem, start: Option<&Solution>) -> Result<Sol
 pub struct Extrapolated {
     /// Central film h_c \[m\].
     pub central_film: f64,
-    /// Minimum film h_min \[m\].
+    /// Minimum film h_min, the lesser of `exit_film` and `side_film` \[m\].
     pub minimum_film: f64,
+    /// Minimum film at the exit, on the line of symmetry or near it \[m\].
+    pub exit_film: f64,
+    /// Minimum film in the side lobe near the end of the ellipse across \[m\]; without a side lobe a film above
+    /// that at the exit.
+    pub side_film: f64,
     /// Mutual approach δ \[m\].
     pub approach: f64,
     /// Rolling resistance on each surface \[N\].
@@ -149,13 +156,21 @@ pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrap
         let f = figure(&fine);
         coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
     };
-    let [central_film, minimum_film] = [limit(|s| s.central_film), limit(|s| s.interpolated_minimum)];
+    let central_film = limit(|s| s.central_film);
+    // Each minimum by itself: the lesser one may be another on the coarser grid.
+    let [exit_film, side_film] = [limit(|s| s.minima.exit), limit(|s| s.minima.side)];
+    // A side lobe well above the exit, which only the finer grid resolves, has no limit.
+    let is_above = fine.minima.side > 1.1 * fine.minima.exit;
+    let side_film = if is_above { side_film.max(exit_film) } else { side_film };
+    let minimum_film = exit_film.min(side_film);
     if !(minimum_film > 0.0 && central_film > 0.0) {
         return Err(EhlError::new(problem, fine));
     }
     Ok(Extrapolated {
         central_film,
         minimum_film,
+        exit_film,
+        side_film,
         approach: limit(|s| s.approach),
         rolling_force: limit(|s| s.rolling_force),
         fine,

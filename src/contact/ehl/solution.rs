@@ -1,6 +1,7 @@
 //! Fields and scalar results of a solved EHL contact, in SI.
 
 use super::Problem;
+use super::minimum::Minima;
 use super::newton::{Field, InitialGuess};
 use super::scaled::Scaled;
 
@@ -31,8 +32,8 @@ pub struct Solution {
     pub iterations: usize,
     /// RMS residual of film equation and cavitation condition, relative to the dry maximum pressure.
     pub residual: f64,
-    /// Minimum film below the least node, by parabolas through its neighbours \[m\].
-    pub(super) interpolated_minimum: f64,
+    /// Minimum film between the nodes at the exit and in the side lobe \[m\].
+    pub(super) minima: Minima,
     /// Dry semi-axes along and across \[m\], dry maximum pressure \[Pa\].
     scales: [f64; 3],
 }
@@ -49,6 +50,8 @@ impl Solution {
         let line: Vec<f64> = (0..s.nx).map(|i| film[i * s.ny]).collect();
         let slope =
             |i: usize, j: usize| (pressure[(i + 1) * s.ny + j] - pressure[(i - 1) * s.ny + j]) / (2.0 * s.dx);
+        let Minima { exit, side } = Minima::new(s, &film);
+        let minima = Minima { exit: s.film * exit, side: s.film * side };
         let inner = (1..s.nx - 1).flat_map(|i| (0..s.ny).map(move |j| (i, j)));
         let drag: f64 = inner.map(|(i, j)| s.weights[i * s.ny + j] * film[i * s.ny + j] * slope(i, j)).sum();
         Self {
@@ -56,7 +59,7 @@ impl Solution {
             y: s.y[1..].iter().rev().map(|y| -y).chain(s.y.iter().copied()).map(|y| y * s.axes[1]).collect(),
             central_film: s.film * at_zero(&s.x, &line),
             minimum_film: s.film * film.iter().copied().fold(f64::INFINITY, f64::min),
-            interpolated_minimum: s.film * minimum(s, &film),
+            minima,
             approach: -s.film * separation,
             dry_approach: problem.contact.patch(problem.load).deflection,
             // Σ w P dA is in units of the load, h/x in those of film and semi-axis.
@@ -118,34 +121,4 @@ fn at_zero(x: &[f64], values: &[f64]) -> f64 {
         .clone()
         .map(|i| nodes.clone().filter(|&k| k != i).map(|k| x[k] / (x[k] - x[i])).product::<f64>() * values[i])
         .sum()
-}
-
-/// Largest share by which the parabolas may lower the film of the least node: more is a grid too coarse for them.
-const MAX_LOWERING: f64 = 0.3;
-
-/// Smallest film of the half domain: at the least node, lowered by the parabolas through its neighbours along and
-/// across, so that it converges smoothly with the grid.
-fn minimum(s: &Scaled, film: &[f64]) -> f64 {
-    let Some((node, &least)) = film.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)) else {
-        return f64::NAN;
-    };
-    let (i, j) = (node / s.ny, node % s.ny);
-    if i == 0 || i + 1 == s.nx || j + 1 == s.ny {
-        return least;
-    }
-    let at = |i: usize, j: usize| film[i * s.ny + j];
-    let along = below([-s.dx, s.dx], [at(i - 1, j) - least, at(i + 1, j) - least]);
-    let across = match j {
-        0 => 0.0,
-        _ => below([s.y[j - 1] - s.y[j], s.y[j + 1] - s.y[j]], [at(i, j - 1) - least, at(i, j + 1) - least]),
-    };
-    least - (along + across).min(MAX_LOWERING * least.abs())
-}
-
-/// Depth of the parabola through (0, 0) and two higher points on either side.
-fn below([left, right]: [f64; 2], [up_left, up_right]: [f64; 2]) -> f64 {
-    let (first, second) = (up_left / left, up_right / right);
-    let curvature = (second - first) / (right - left);
-    let slope = first - curvature * left;
-    if curvature > 0.0 { 0.25 * slope * slope / curvature } else { 0.0 }
 }
