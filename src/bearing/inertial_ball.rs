@@ -113,15 +113,15 @@ impl BallInertiaLoads {
         };
         let mut tangent = part.tangent(0.0);
         let rotation = damped.by_rate * dot(t, rate) / inner.length;
-        for r in 0..2 {
-            for c in 0..2 {
-                tangent[r][c] += rotation * n[r] * t[c];
+        for (row, n) in tangent.iter_mut().zip(n) {
+            for (entry, t) in row.iter_mut().zip(t) {
+                *entry += rotation * n * t;
             }
         }
         for (c, y) in derivatives.centre_by_position.iter().enumerate() {
             let x = [f64::from(c == 0) - y[0], f64::from(c == 1) - y[1]];
-            for r in 0..2 {
-                ball.by_motion[2 * r + c] += dot(tangent[r], x);
+            for (r, row) in tangent.iter().enumerate() {
+                ball.by_motion[2 * r + c] += dot(*row, x);
             }
         }
 
