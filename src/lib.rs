@@ -120,40 +120,14 @@
 //!
 //! Imports go down this table only.
 
-#![forbid(unsafe_code)]
-
-pub mod conventions;
-pub mod material;
-pub mod names;
-pub mod units;
-
-pub mod linalg;
-pub mod signal;
-
-pub mod contact;
-
-pub mod bearing;
-pub mod element;
-
-pub mod model;
-
-pub mod geometry;
-
-pub mod assembly;
-
-pub mod analysis;
-
-pub mod transient;
-
-pub mod identify;
-pub mod update;
-
-pub mod results;
-pub mod study;
-
-pub mod error;
-
-pub mod io;
-
-pub mod figures;
-pub mod plot;
+pub use rotordyn_bearing::{self as bearing, contact, material};
+pub use rotordyn_core::{analysis, assembly, conventions, element, geometry, results, study, transient};
+pub use rotordyn_identify as identify;
+pub use rotordyn_io::{self as io, error};
+pub use rotordyn_linalg as linalg;
+pub use rotordyn_model as model;
+#[cfg(feature = "plot")]
+pub use rotordyn_plot::{self as plot, figures};
+pub use rotordyn_signal as signal;
+pub use rotordyn_units::{self as units, names};
+pub use rotordyn_update as update;

@@ -3,6 +3,7 @@
 use rotordyn::assembly::PhysicsError;
 use rotordyn::error::Error;
 use rotordyn::model::ModelErrors;
+use rotordyn::plot::FigureError;
 use rotordyn::signal::SignalError;
 use rotordyn::signal::record::RecordError;
 use rotordyn::study::StudyError;
@@ -55,6 +56,12 @@ impl From<StudyError> for Failure {
 impl From<UpdateFailure> for Failure {
     fn from(error: UpdateFailure) -> Self {
         Self::Library(error.into())
+    }
+}
+
+impl From<FigureError> for Failure {
+    fn from(FigureError { operation, path, source }: FigureError) -> Self {
+        Self::Library(Error::Environment { operation, path, source })
     }
 }
 

@@ -8,7 +8,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use super::{Source, sources};
+use super::{Source, crate_of, sources};
 
 /// One name brought into a module: under which name (`*` for all), the path, and whether it is re-exported.
 struct Import {
@@ -17,7 +17,7 @@ struct Import {
     exported: bool,
 }
 
-/// What one file declares and uses. Paths of modules start with the crate, `lib` or `main`.
+/// What one file declares and uses. Paths of modules start with the crate: `rotordyn_…`, or `lib` and `main` of the root.
 struct Module {
     file: usize,
     items: BTreeSet<String>,
@@ -170,14 +170,16 @@ enum Target {
 impl Modules {
     fn read(sources: &[Source]) -> Self {
         let path = |file: &str| {
+            let (name, file) = crate_of(file);
             let stem = file.trim_end_matches(".rs").trim_end_matches("/mod");
-            let root = if stem == "main" || stem.starts_with("cli") { "main" } else { "lib" };
-            let below = if stem == root { "" } else { stem };
-            std::iter::once(root)
-                .chain(below.split('/'))
-                .filter(|s| !s.is_empty())
-                .map(String::from)
-                .collect()
+            let root = match name {
+                "" if stem == "main" || stem.starts_with("cli") => "main".into(),
+                "" => "lib".into(),
+                name => name.replace('-', "_"),
+            };
+            let below = if ["main", "lib"].contains(&stem) { "" } else { stem };
+            let modules = below.split('/').filter(|s| !s.is_empty()).map(String::from);
+            std::iter::once(root).chain(modules).collect()
         };
         let read = |(k, source): (usize, &Source)| (path(&source.path), Module::read(k, &source.text));
         Self(sources.iter().enumerate().map(read).collect())
@@ -198,6 +200,7 @@ impl Modules {
                 "rotordyn" => at = vec!["lib".into()],
                 "super" => at.truncate(at.len() - 1),
                 "self" => {}
+                name if self.0.contains_key(&[name.to_string()][..]) => at = vec![name.into()],
                 name => return self.find(&at, name, others, seen),
             }
             rest = others;
@@ -340,6 +343,14 @@ fn circles_are_found_through_every_kind_of_path() {
         ];
         assert_eq!(circles_of(&files), ["2 files: a.rs, b.rs\n    a.rs -> b.rs -> a.rs"], "{way}");
     }
+    // Through another crate's root and its re-exports.
+    let crates = [
+        ("lib.rs", "pub use rotordyn_b::b;"),
+        ("rotordyn-b/lib.rs", "pub mod b; mod c; pub use c::C;"),
+        ("rotordyn-b/b.rs", "use crate::C; pub struct B;"),
+        ("rotordyn-b/c.rs", "fn f(_: rotordyn_b::b::B) {} pub struct C;"),
+    ];
+    assert_eq!(circles_of(&crates).len(), 1);
     // Through a function named as the module that it is in.
     let namesake = [
         ("lib.rs", "pub mod dot; mod b; pub use dot::dot;"),

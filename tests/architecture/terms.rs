@@ -14,7 +14,7 @@ fn old_identifiers() -> HashMap<&'static str, &'static str> {
 /// Source files below the folders of the crate, without the tests of this folder.
 fn rust_files() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders: Vec<_> = ["src", "tests", "benches", "examples"].map(|f| root.join(f)).into();
+    let mut folders: Vec<_> = ["src", "crates", "tests", "benches", "examples"].map(|f| root.join(f)).into();
     let mut files = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {

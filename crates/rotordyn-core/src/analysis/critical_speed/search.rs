@@ -1,0 +1,370 @@
+//! All crossings of the modes with order lines over a range of speeds.
+//!
+//! The modes at each speed, sorted by damped frequency, are continuous functions of speed whichever mode has which
+//! index. The k-th frequency therefore crosses an order line between two speeds where the number N of modes below the
+//! line differs: for every index between both numbers one crossing is refined. No mode has to be tracked.
+//!
+//! Two crossings within one step leave N unchanged. With constant bearings N at the end is compared with the number
+//! of undamped modes, which cannot decrease with speed; otherwise steps are halved until N changes in one direction
+//! only and no frequency turns towards the line within a step.
+
+use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
+use crate::analysis::campbell::EXTRA_MODES;
+use crate::analysis::modal::{self, Eigenpair, Mode};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use rayon::prelude::*;
+use rotordyn_bearing::SiteTangent;
+use std::collections::BTreeMap;
+
+/// Modes with |λ| up to this multiple of the highest order line are computed: damping ratios up to 0.6.
+const REACH: f64 = 1.25;
+/// The same if a damping ratio above [`HEAVY_DAMPING`] occurs: damping ratios up to 0.94.
+const HEAVY_REACH: f64 = 3.0;
+const HEAVY_DAMPING: f64 = 0.3;
+/// A mode lies on an order line within this relative difference of frequencies.
+const ON_LINE: f64 = 1e-8;
+/// Largest number of halvings of a step in which N changes twice.
+const MAX_HALVINGS: usize = 6;
+/// Largest number of halvings of a step to separate its crossings, before each is bracketed.
+const MAX_BISECTIONS: usize = 4;
+const MAX_BRACKETINGS: usize = 80;
+/// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](rotordyn_linalg::krylov).
+const RIGID_BODY: f64 = 1e-3 * modal::SHIFT;
+
+/// Eigenpairs at one speed, by damped frequency.
+#[derive(Clone, Debug)]
+pub(super) struct Spectrum {
+    speed: f64,
+    pairs: Vec<Eigenpair>,
+}
+
+impl Spectrum {
+    fn new(speed: f64, mut pairs: Vec<Eigenpair>) -> Self {
+        pairs.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
+        Self { speed, pairs }
+    }
+
+    pub fn of_modes(speed: f64, modes: &[Mode]) -> Self {
+        Self::new(speed, modes.iter().map(|m| (m.eigenvalue, m.shape.clone())).collect())
+    }
+
+    /// Number of modes below an order line.
+    fn below(&self, order: f64) -> usize {
+        self.pairs.partition_point(|pair| pair.0.im < order * self.speed)
+    }
+
+    /// ω_d − n Ω of the mode at an index.
+    fn gap(&self, index: usize, order: f64) -> Option<f64> {
+        self.pairs.get(index).map(|pair| pair.0.im - order * self.speed)
+    }
+}
+
+/// Number of modes below every order line at one speed.
+struct AllBelow {
+    speed: f64,
+    /// `None` at standstill.
+    system: Option<LinearSystem>,
+    counts: Vec<usize>,
+}
+
+/// Search with one set of orders.
+pub(super) struct Search<'a, T> {
+    assembly: &'a Assembly,
+    tangents: &'a T,
+    highest_order: f64,
+    /// Number of modes searched at every speed, by frequency; `None`: all.
+    limit: Option<usize>,
+}
+
+/// Crossings in a step in which every index has one at most.
+type ByIndex = BTreeMap<usize, CriticalSpeed>;
+
+impl<'a, T: Tangents> Search<'a, T> {
+    pub fn new(assembly: &'a Assembly, tangents: &'a T, orders: &[f64], limit: Option<usize>) -> Self {
+        let highest_order = orders.iter().copied().fold(0.0, f64::max);
+        Self { assembly, tangents, highest_order, limit }
+    }
+
+    /// Eigenpairs at increasing speeds.
+    pub fn spectra(&self, speeds: &[f64]) -> Result<Vec<Spectrum>, PhysicsError> {
+        let Some(&top) = speeds.last() else { return Ok(Vec::new()) };
+        let highest = self.spectrum(top, 8)?;
+        let guess = |speed: f64| {
+            let reach = REACH * self.highest_order * speed;
+            highest.pairs.iter().filter(|pair| pair.0.norm() < reach).count() + 2
+        };
+        let lower = &speeds[..speeds.len() - 1];
+        let mut spectra: Vec<Spectrum> =
+            lower.par_iter().map(|&s| self.spectrum(s, guess(s))).collect::<Result<_, PhysicsError>>()?;
+        spectra.push(highest);
+        Ok(spectra)
+    }
+
+    /// Eigenpairs at a speed: all below the highest order line and one above it, or as many as are searched.
+    fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, PhysicsError> {
+        if speed <= 0.0 {
+            // No order line crosses at standstill.
+            return Ok(Spectrum::new(speed, Vec::new()));
+        }
+        Ok(Spectrum::new(speed, self.pairs(&self.system(speed)?, guess)?))
+    }
+
+    fn system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
+        LinearSystem::new(self.assembly, &(self.tangents)(speed)?, speed)
+    }
+
+    /// All eigenpairs within the reach of the search.
+    fn all_pairs(&self, system: &LinearSystem, count: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
+        let reach = |pairs: &[Eigenpair]| {
+            let heavy = pairs.iter().any(|(value, _)| -value.re > HEAVY_DAMPING * value.norm());
+            let factor = if heavy { HEAVY_REACH } else { REACH };
+            factor * self.highest_order * system.speed
+        };
+        modal::eigenpairs_up_to(self.assembly, system, count, reach)
+    }
+
+    /// As many eigenpairs as are searched.
+    fn pairs(&self, system: &LinearSystem, guess: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
+        match self.limit {
+            Some(limit) => modal::eigenpairs(self.assembly, system, limit + EXTRA_MODES),
+            None => self.all_pairs(system, guess),
+        }
+    }
+
+    /// Number of modes below an order line, at most as many as are searched.
+    fn below(&self, at: &Spectrum, order: f64) -> usize {
+        at.below(order).min(self.limit.unwrap_or(usize::MAX))
+    }
+
+    /// All crossings between the first and the last of the spectra.
+    pub fn run(&self, spectra: Vec<Spectrum>, orders: &[f64]) -> Result<CrossingList, PhysicsError> {
+        let spectra: Vec<Spectrum> = spectra.into_iter().filter(|s| s.speed >= 0.0).collect();
+        let (Some(first), Some(last)) = (spectra.first(), spectra.last()) else {
+            return Ok(CrossingList::default());
+        };
+        let (first, top) = (first.speed, self.all_below(last.speed, orders)?);
+        let mut out = CrossingList { omitted: self.omitted(&top, orders), ..CrossingList::default() };
+        let complete = self.number_is_monotonic(orders, first, &top)?;
+        let spectra = match complete {
+            true => spectra,
+            false => self.halve_steps(spectra, orders, &mut out.uncertain)?,
+        };
+        let steps: Vec<(&[Spectrum], f64)> =
+            orders.iter().flat_map(|&order| spectra.windows(2).map(move |step| (step, order))).collect();
+        let found: Vec<Vec<CriticalSpeed>> = steps
+            .par_iter()
+            .map(|(step, order)| self.crossings(&step[0], &step[1], *order, MAX_BISECTIONS))
+            .collect::<Result<_, PhysicsError>>()?;
+        out.list = found.concat();
+        out.list.sort_by(|a, b| a.speed.total_cmp(&b.speed).then(a.order.total_cmp(&b.order)));
+        Ok(out)
+    }
+
+    /// The number of all modes below every order line at a speed, whatever the limit of the search.
+    fn all_below(&self, speed: f64, orders: &[f64]) -> Result<AllBelow, PhysicsError> {
+        if speed <= 0.0 {
+            return Ok(AllBelow { speed, system: None, counts: vec![0; orders.len()] });
+        }
+        let system = self.system(speed)?;
+        let all = Spectrum::new(speed, self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?);
+        let counts = orders.iter().map(|&order| all.below(order)).collect();
+        Ok(AllBelow { speed, system: Some(system), counts })
+    }
+
+    /// Modes below the order lines beyond the limit of the search.
+    fn omitted(&self, top: &AllBelow, orders: &[f64]) -> Vec<(f64, usize)> {
+        let Some(limit) = self.limit else { return Vec::new() };
+        let beyond =
+            orders.iter().zip(&top.counts).map(|(order, count)| (*order, count.saturating_sub(limit)));
+        beyond.filter(|(_, count)| *count > 0).collect()
+    }
+
+    /// Whether the number of modes below every order line only increases: constant bearings of symmetric stiffness, and
+    /// at both ends as many modes below the lines as without damping.
+    fn number_is_monotonic(&self, orders: &[f64], first: f64, top: &AllBelow) -> Result<bool, PhysicsError> {
+        let speeds = [first, 0.5 * (first + top.speed), top.speed];
+        let tangents: Vec<Vec<SiteTangent>> =
+            speeds.into_iter().map(self.tangents).collect::<Result<_, PhysicsError>>()?;
+        if tangents[0] != tangents[1] || tangents[1] != tangents[2] {
+            return Ok(false);
+        }
+        let as_undamped = |at: &AllBelow| {
+            let Some(system) = &at.system else { return true };
+            let stiffness = &system.stiffness;
+            let skew = stiffness.iter().map(|(i, j, v)| (v - stiffness.get(j, i)).abs()).fold(0.0, f64::max);
+            let undamped = |order| undamped::undamped_modes_below(self.assembly, system, order, RIGID_BODY);
+            skew <= 1e-9 * stiffness.max_abs()
+                && orders.iter().zip(&at.counts).all(|(&order, count)| undamped(order) == *count)
+        };
+        Ok(as_undamped(top) && as_undamped(&self.all_below(first, orders)?))
+    }
+
+    /// Halves the steps in which N changes in both directions, or a frequency turns towards the line.
+    fn halve_steps(
+        &self,
+        spectra: Vec<Spectrum>,
+        orders: &[f64],
+        uncertain: &mut Vec<UncertainRange>,
+    ) -> Result<Vec<Spectrum>, PhysicsError> {
+        // Spectra with whether the step that begins there is still to be halved.
+        let mut steps: Vec<(Spectrum, bool)> = spectra.into_iter().map(|s| (s, true)).collect();
+        for level in 0..MAX_HALVINGS {
+            let middles: Vec<Option<Spectrum>> = steps
+                .par_windows(2)
+                .map(|step| match step[0].1 {
+                    true => {
+                        let (a, b) = (&step[0].0, &step[1].0);
+                        self.spectrum(0.5 * (a.speed + b.speed), b.pairs.len().max(2) - 1).map(Some)
+                    }
+                    false => Ok(None),
+                })
+                .collect::<Result<_, PhysicsError>>()?;
+            let mut next: Vec<(Spectrum, bool)> = Vec::with_capacity(2 * steps.len());
+            let mut ends = steps.into_iter();
+            let Some((mut a, _)) = ends.next() else { return Ok(Vec::new()) };
+            for ((b, _), middle) in ends.zip(middles) {
+                let Some(middle) = middle else {
+                    next.push((std::mem::replace(&mut a, b), false));
+                    continue;
+                };
+                let turns: Vec<f64> =
+                    orders.iter().copied().filter(|&order| self.turns(&a, &middle, &b, order)).collect();
+                if level + 1 == MAX_HALVINGS {
+                    let range = |order| UncertainRange { order, from: a.speed, to: b.speed };
+                    uncertain.extend(turns.iter().copied().map(range));
+                }
+                next.push((std::mem::replace(&mut a, b), !turns.is_empty()));
+                next.push((middle, !turns.is_empty()));
+            }
+            next.push((a, true));
+            steps = next;
+            if steps[..steps.len() - 1].iter().all(|(_, halve)| !halve) {
+                break;
+            }
+        }
+        Ok(steps.into_iter().map(|(s, _)| s).collect())
+    }
+
+    /// Whether the number of modes below the line is not monotonic over three equidistant speeds, or the parabola
+    /// through a frequency next to the line comes close to the line between them.
+    fn turns(&self, a: &Spectrum, middle: &Spectrum, b: &Spectrum, order: f64) -> bool {
+        let [na, nm, nb] = [a, middle, b].map(|at| self.below(at, order));
+        if nm < na.min(nb) || nm > na.max(nb) {
+            return true;
+        }
+        let near = |index: usize| {
+            let (Some(p), Some(q), Some(r)) =
+                (a.gap(index, order), middle.gap(index, order), b.gap(index, order))
+            else {
+                return false;
+            };
+            // q(t) = q + s t + c t², t from −1 to 1.
+            let (s, c) = (0.5 * (r - p), 0.5 * (r + p) - q);
+            let vertex = -0.5 * s / c;
+            let lowest = q - 0.25 * s * s / c;
+            c != 0.0 && vertex.abs() < 1.0 && lowest * q.signum() < 0.1 * q.abs() && lowest.abs() < q.abs()
+        };
+        na == nb && na == nm && (near(na) || na > 0 && near(na - 1))
+    }
+
+    /// Crossings between two neighbouring speeds: one for every index between the numbers of modes below the line.
+    fn crossings(
+        &self,
+        a: &Spectrum,
+        b: &Spectrum,
+        order: f64,
+        depth: usize,
+    ) -> Result<Vec<CriticalSpeed>, PhysicsError> {
+        let (na, nb) = (self.below(a, order), self.below(b, order));
+        let indices = na.min(nb)..na.max(nb);
+        // The end at which the modes of these indices lie below the line, so that both are known there.
+        let end = if nb > na { b } else { a };
+        let mut found = ByIndex::new();
+        for index in indices.clone() {
+            if !found.contains_key(&index) {
+                let start = (end.speed, &end.pairs[index]);
+                let ends = (a.speed, b.speed);
+                // Linear between both ends, or constant if the frequency is not known at the other.
+                let trial = match (a.gap(index, order), b.gap(index, order)) {
+                    (Some(ga), Some(gb)) => a.speed + (b.speed - a.speed) * ga / (ga - gb),
+                    _ => start.1.0.im / order,
+                };
+                let root = refine::crossing((self.assembly, self.tangents), order, start, trial, ends)?;
+                if let Some((speed, _)) = root {
+                    self.modes_near_line(speed, order, ON_LINE, end.pairs.len(), &mut found)?;
+                }
+            }
+        }
+        found.retain(|index, _| indices.contains(index));
+        if depth == 0 {
+            for index in indices.clone() {
+                if !found.contains_key(&index)
+                    && let Some(speed) = self.bracketed(a, b, index, order)?
+                {
+                    self.modes_near_line(speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
+                }
+            }
+            found.retain(|index, _| indices.contains(index));
+        }
+        if found.len() == indices.len() || depth == 0 {
+            return Ok(found.into_values().collect());
+        }
+        let middle = self.spectrum(0.5 * (a.speed + b.speed), end.pairs.len().max(2) - 1)?;
+        let mut found = self.crossings(a, &middle, order, depth - 1)?;
+        found.extend(self.crossings(&middle, b, order, depth - 1)?);
+        Ok(found)
+    }
+
+    /// The speed at which the frequency at an index crosses the line, from the spectra alone: false position with
+    /// bisection. `None` where it jumps over the line, as a mode below becomes oscillatory or overdamped.
+    fn bracketed(
+        &self,
+        a: &Spectrum,
+        b: &Spectrum,
+        index: usize,
+        order: f64,
+    ) -> Result<Option<f64>, PhysicsError> {
+        let count = a.pairs.len().max(b.pairs.len());
+        let mut ends = [a, b].map(|end| (end.speed, end.gap(index, order)));
+        for step in 0..MAX_BRACKETINGS {
+            let [(left, ga), (right, gb)] = ends;
+            let speed = match (ga, gb) {
+                (Some(ga), Some(gb)) if step % 3 != 2 => left + (right - left) * ga / (ga - gb),
+                _ => 0.5 * (left + right),
+            };
+            let gap = self.spectrum(speed, count.max(2) - 1)?.gap(index, order);
+            if gap.is_some_and(|gap| gap.abs() < 0.1 * ON_LINE * order * speed) {
+                return Ok(Some(speed));
+            }
+            if right - left < 1e-12 * right {
+                break;
+            }
+            // An index beyond the modes computed lies above the line.
+            let above = |gap: Option<f64>| gap.is_none_or(|gap| gap > 0.0);
+            ends[usize::from(above(gap) != above(ga))] = (speed, gap);
+        }
+        Ok(None)
+    }
+
+    /// Adds the modes within a relative distance of an order line at a speed, by their indices.
+    fn modes_near_line(
+        &self,
+        speed: f64,
+        order: f64,
+        distance: f64,
+        count: usize,
+        found: &mut ByIndex,
+    ) -> Result<(), PhysicsError> {
+        let system = self.system(speed)?;
+        let pairs = self.pairs(&system, count.max(2) - 1)?;
+        let mut modes = modal::modes_of(self.assembly, &system, pairs);
+        modes.sort_by(|a, b| a.omega().total_cmp(&b.omega()));
+        let line = order * speed;
+        for (index, mode) in modes.into_iter().enumerate() {
+            if (mode.omega() - line).abs() <= distance * line {
+                found.entry(index).or_insert(CriticalSpeed { speed, order, mode });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,267 @@
+//! Static equilibrium of the machine on its nonlinear bearings.
+
+pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
+use super::belt_pull::{BeltPull, belt_pulls};
+use super::mounted_preload::mounted_preloads;
+use super::preload::MountedPreload;
+use crate::assembly::{Assembly, PhysicsError};
+use crate::model::Model;
+use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
+use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot};
+
+/// Residual over the largest load or bearing force.
+const TOLERANCE: f64 = 1e-11;
+/// The same, accepted where round-off prevents it.
+const ACCEPTED: f64 = 1e-9;
+const MAX_ITERATIONS: usize = 200;
+const MAX_HALVINGS: usize = 80;
+/// Force accepted as none \[N\] where Newton's method does not converge.
+const SMALLEST_FORCE: f64 = 2e-9;
+/// Relative round-off of a sum of structural forces.
+const ROUND_OFF: f64 = 1e-14;
+/// Resolution of the groove centres' distance in double precision \[m\].
+const RESOLUTION: f64 = 1e-18;
+
+/// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Speed at which speed-dependent bearings are evaluated \[rad/s\].
+    pub speed: f64,
+    pub cage: CageTreatment,
+    /// Displacements of the free DOFs \[m, rad\].
+    pub q: Vec<f64>,
+    pub bearings: Vec<BearingState>,
+    pub belts: Vec<BeltPull>,
+    pub preloads: Vec<MountedPreload>,
+    pub iterations: usize,
+    /// Largest unbalanced force or moment \[N, N m\].
+    pub residual: f64,
+}
+
+impl Equilibrium {
+    /// Tangents of all bearings in the order of the model.
+    pub fn tangents(&self) -> Vec<SiteTangent> {
+        self.bearings.iter().map(|b| b.tangent).collect()
+    }
+}
+
+/// The bearings of a model at a speed, for the evaluation of their forces.
+pub(super) struct Sites {
+    elements: Vec<(BearingElement, Rotation)>,
+    cage: CageTreatment,
+}
+
+impl Sites {
+    pub(super) fn new(model: &Model, speed: f64, cage: CageTreatment) -> Self {
+        let elements = model
+            .bearings
+            .iter()
+            .map(|site| {
+                let rotation = Rotation {
+                    cage_angle: site.bearing.cage_angle(),
+                    shaft_speed: speed,
+                    ..Rotation::default()
+                };
+                (BearingElement::new(&site.bearing), rotation)
+            })
+            .collect();
+        Self { elements, cage }
+    }
+
+    pub(super) fn reaction(&self, k: usize, d: &[f64; 6]) -> Reaction {
+        let (element, rotation) = &self.elements[k];
+        match self.cage {
+            CageTreatment::FixedAngle => element.reaction(d, &[0.0; 6], rotation),
+            CageTreatment::Averaged => element.cage_average(d, rotation, CAGE_ANGLES_PER_PITCH),
+        }
+    }
+
+    pub(super) fn reactions(&self, assembly: &Assembly, q: &[f64]) -> Vec<Reaction> {
+        assembly.sites.iter().enumerate().map(|(k, site)| self.reaction(k, &site.relative(q))).collect()
+    }
+}
+
+/// Finds the static equilibrium at a speed by damped Newton-Raphson (line search), from `start` or q = 0.
+///
+/// The structure and the Hertz contacts have a convex energy, so a Newton step shortened until the force along
+/// it has fallen converges for any clearance and any number of unloaded balls. While no ball carries load
+/// (all within the clearance) a vanishing multiple of M regularises the step.
+/// Elastic forces only: no damping, no cage motion past the rings.
+///
+/// # Errors
+/// [`PhysicsError::Singular`] when a load excites a rigid-body mode, [`PhysicsError::NoEquilibrium`] when
+/// Newton ends before the residual is below 1e-9 of the loads and bearing forces, or below round-off.
+pub fn equilibrium(
+    model: &Model,
+    assembly: &Assembly,
+    speed: f64,
+    cage: CageTreatment,
+    start: Option<&[f64]>,
+) -> Result<Equilibrium, PhysicsError> {
+    let n = assembly.dofs.len();
+    let sites = Sites::new(model, speed, cage);
+    let load = external_load(assembly);
+    let external = max_abs(&load).max(1e-6);
+    let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
+    let stiffness = layout.scatter(&assembly.stiffness);
+    let mass = layout.scatter(&assembly.mass);
+
+    let residual_of =
+        |q: &[f64], reactions: &[Reaction]| residual_force(assembly, load.clone(), q, reactions);
+
+    // Forces of preloaded bearings may exceed the load.
+    let size_of = |reactions: &[Reaction]| {
+        reactions.iter().flat_map(|r| &r.force[..3]).fold(external, |size, force| size.max(force.abs()))
+    };
+
+    // Round-off of the forces, also without any load: of structure and bearings at these displacements.
+    let round_off = |q: &[f64], reactions: &[Reaction]| {
+        let structure = (0..n).map(|i| (assembly.stiffness.get(i, i) * q[i]).abs()).fold(0.0, f64::max);
+        let contacts = reactions.iter().flat_map(|r| (0..3).map(|a| r.stiffness[a][a].abs()));
+        ROUND_OFF * structure + RESOLUTION * contacts.fold(0.0, f64::max)
+    };
+
+    let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);
+    let mut reactions = sites.reactions(assembly, &q);
+    let mut residual = residual_of(&q, &reactions);
+    let mut iterations = 0;
+    let mut stalled = 0;
+    while max_abs(&residual) > TOLERANCE * size_of(&reactions) && iterations < MAX_ITERATIONS && stalled < 3 {
+        iterations += 1;
+        let size = size_of(&reactions);
+        // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
+        let shift = 350.0 * (max_abs(&residual) / size).min(1.0) + 1e-4;
+        let tangent = layout.scatter(&bearing_stiffness_matrix(assembly, &reactions));
+        let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
+        let lu = layout
+            .factor::<f64>(values)
+            .map_err(|p| PhysicsError::Singular { motion: assembly.dofs.name(p.unknown) })?;
+        let mut direction = residual.clone();
+        lu.solve(&mut direction);
+        let before = dot(&residual, &direction);
+        // Line search: bisection on the force along the step until it has fallen.
+        let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
+        for halving in 0..MAX_HALVINGS {
+            let trial: Vec<f64> = q.iter().zip(&direction).map(|(q, p)| q + length * p).collect();
+            let trial_reactions = sites.reactions(assembly, &trial);
+            let trial_residual = residual_of(&trial, &trial_reactions);
+            let along = dot(&trial_residual, &direction);
+            // `before` is zero or negative only by round-off, at the solution.
+            let at_solution = before <= 0.0 || before.is_nan();
+            if along.abs() <= 0.9 * before.abs() || at_solution || halving + 1 == MAX_HALVINGS {
+                let (now, then) = (max_abs(&trial_residual), max_abs(&residual));
+                // Stagnation at round-off level: stop after three steps without progress near convergence.
+                stalled = if now > 0.999 * then && then <= 1e4 * TOLERANCE * size { stalled + 1 } else { 0 };
+                (q, reactions, residual) = (trial, trial_reactions, trial_residual);
+                break;
+            }
+            if along > 0.0 {
+                low = length;
+            } else {
+                high = length;
+            }
+            length = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * length };
+        }
+    }
+    let left = max_abs(&residual);
+    let worst = residual.iter().position(|r| r.abs() == left).unwrap_or(0);
+    let furthest = max_abs(&q);
+    if furthest > 1e3 {
+        let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
+        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) });
+    }
+    let accepted = (ACCEPTED * size_of(&reactions)).max(round_off(&q, &reactions));
+    if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {
+        return Err(PhysicsError::NoEquilibrium {
+            item: assembly.dofs.name(worst),
+            speed_rpm: speed * 30.0 / std::f64::consts::PI,
+            residual: left,
+            iterations,
+        });
+    }
+    let bearings: Vec<BearingState> = (0..assembly.sites.len())
+        .map(|k| {
+            let displacement = assembly.sites[k].relative(&q);
+            let (element, rotation) = &sites.elements[k];
+            BearingState {
+                name: assembly.sites[k].name.clone(),
+                displacement,
+                force: reactions[k].force,
+                tangent: SiteTangent::from(&reactions[k]),
+                balls: element.ball_loads(&displacement, rotation),
+                largest_ball_load: largest_ball_load(element, &displacement, rotation),
+                preload: element.preload_state(speed),
+            }
+        })
+        .collect();
+    Ok(Equilibrium {
+        speed,
+        cage,
+        belts: belt_pulls(model, assembly, &q),
+        preloads: mounted_preloads(model, &sites.elements, &bearings, cage),
+        bearings,
+        q,
+        iterations,
+        residual: left,
+    })
+}
+
+/// Gravity and constant loads.
+pub(super) fn external_load(assembly: &Assembly) -> Vec<f64> {
+    assembly.gravity_load.iter().zip(&assembly.static_load).map(|(g, s)| g + s).collect()
+}
+
+/// Residual force (out-of-balance force) f − K q + Σ Rᵀ f_bearing.
+pub(super) fn residual_force(
+    assembly: &Assembly,
+    mut load: Vec<f64>,
+    q: &[f64],
+    reactions: &[Reaction],
+) -> Vec<f64> {
+    assembly.stiffness.mul_add(-1.0, q, &mut load);
+    for (site, reaction) in assembly.sites.iter().zip(reactions) {
+        site.add_force(reaction, &mut load);
+    }
+    load
+}
+
+/// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
+pub(super) fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
+    let balls = element.balls();
+    (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
+        .flat_map(|k| {
+            let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES_PER_PITCH * balls) as f64;
+            let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };
+            element.ball_loads(d, &turned)
+        })
+        .fold(0.0, |most, ball| ball.load.max(most))
+}
+
+/// Tangent stiffness of all bearings, Σ Rᵀ K R.
+pub(super) fn bearing_stiffness_matrix(assembly: &Assembly, reactions: &[Reaction]) -> SparseMatrix {
+    let n = assembly.dofs.len();
+    let mut triplets = Triplets::new(n, n);
+    for (site, reaction) in assembly.sites.iter().zip(reactions) {
+        triplets.add_between_rows(&site.rows, &reaction.stiffness);
+    }
+    triplets.build()
+}
+
+/// Sparsity pattern of the bearings.
+fn bearing_pattern(assembly: &Assembly) -> SparseMatrix {
+    let n = assembly.dofs.len();
+    let mut triplets = Triplets::new(n, n);
+    for site in &assembly.sites {
+        // Absolute values: entries that cancel in one evaluation need not cancel in the next.
+        let size = site.rows.clone().map(|mut row| {
+            row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
+            row
+        });
+        triplets.add_between_rows(&size, &[[1.0; 6]; 6]);
+    }
+    triplets.build()
+}
+
+fn max_abs(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |m: f64, x| if x.is_nan() || m.is_nan() { f64::NAN } else { m.max(x.abs()) })
+}

@@ -1,0 +1,68 @@
+//! Axial force that a preloaded bearing carries at an equilibrium.
+
+use super::equilibrium::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
+use crate::model::Model;
+use rotordyn_bearing::{Bearing, BearingElement, Preload, Rotation};
+
+/// Preload of a ball bearing beside the axial force that it carries in the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MountedPreload {
+    pub bearing: String,
+    /// As stated in the model file.
+    pub stated: Preload,
+    /// Axial force of every row in the direction of its thrust at equilibrium \[N\].
+    pub rows: Vec<f64>,
+}
+
+impl MountedPreload {
+    /// Smallest axial force of a row as a share of the stated one; `None` for a stated interference.
+    pub fn share(&self) -> Option<f64> {
+        let least = self.rows.iter().copied().fold(f64::INFINITY, f64::min);
+        self.stated.force().filter(|force| *force > 0.0).map(|force| least / force)
+    }
+}
+
+/// Axial forces of the preloaded ball bearings at an equilibrium, F = ±f_z of a single row, F = ±Σ Q_j sin α_j of the
+/// rows of a pair, positive in the direction of the row's thrust.
+pub(super) fn mounted_preloads(
+    model: &Model,
+    elements: &[(BearingElement, Rotation)],
+    states: &[BearingState],
+    cage: CageTreatment,
+) -> Vec<MountedPreload> {
+    let mut found = Vec::new();
+    for (site, ((element, rotation), state)) in model.bearings.iter().zip(elements.iter().zip(states)) {
+        let Bearing::Ball(ball) = &site.bearing else { continue };
+        if ball.preload == Preload::None {
+            continue;
+        }
+        let rows = match ball.rows().as_slice() {
+            [(_, direction)] => vec![-direction * state.force[2]],
+            rows => rows
+                .iter()
+                .enumerate()
+                .map(|(row, (_, direction))| direction * row_force(row, element, rotation, state, cage))
+                .collect(),
+        };
+        found.push(MountedPreload { bearing: site.name.clone(), stated: ball.preload, rows });
+    }
+    found
+}
+
+/// Axial force Σ Q_j sin α_j of one row \[N\], averaged over the cage angle as the equilibrium.
+pub(super) fn row_force(
+    row: usize,
+    element: &BearingElement,
+    rotation: &Rotation,
+    state: &BearingState,
+    cage: CageTreatment,
+) -> f64 {
+    let angles = if cage == CageTreatment::Averaged { CAGE_ANGLES_PER_PITCH } else { 1 };
+    let pitch = std::f64::consts::TAU / element.balls() as f64;
+    let at = |k: usize| -> f64 {
+        let cage_angle = rotation.cage_angle + pitch * k as f64 / angles as f64;
+        let balls = element.ball_loads(&state.displacement, &Rotation { cage_angle, ..*rotation });
+        balls.iter().filter(|ball| ball.row == row).map(|ball| ball.load * ball.contact_angle.sin()).sum()
+    };
+    (0..angles).map(at).sum::<f64>() / angles as f64
+}

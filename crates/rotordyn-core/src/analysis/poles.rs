@@ -1,0 +1,98 @@
+//! Poles of frequency responses and of the unbalance response: where they peak, and how wide.
+
+use super::campbell::Tangents;
+use super::critical_speed::{self, CriticalSpeed};
+use super::modal::{self, Mode};
+use super::mode::inner;
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use rayon::prelude::*;
+use rotordyn_linalg::Complex64;
+
+/// Damping ratio below which a mode counts as undamped: above the round-off of an undamped one.
+const UNDAMPED: f64 = 1e-9;
+/// Poles of FRFs are sought up to this multiple of the highest frequency.
+const FRF_REACH: f64 = 1.1;
+const START_MODES: usize = 12;
+/// Largest number of modes sought; above them a grid is refined by the curvature alone.
+const MAX_MODES: usize = 160;
+/// Poles this far beyond a range of speeds are included, as a fraction of the range.
+const MARGIN: f64 = 0.05;
+/// Smallest |1 − dω/dΩ|: a frequency nearly parallel to the line ω = Ω.
+const SMALLEST_ANGLE: f64 = 0.05;
+
+/// A pole of a response over frequency or speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pole {
+    /// Frequency \[Hz\] or speed \[rad/s\] where the response peaks.
+    pub at: f64,
+    /// Distance from it to the half-power points, in the same unit.
+    pub half_width: f64,
+    /// Label of the mode.
+    pub label: String,
+    /// Damping ratio ζ.
+    pub damping_ratio: f64,
+    /// Mode shape over the free DOFs.
+    pub shape: Vec<Complex64>,
+}
+
+impl Pole {
+    /// A pole without its mode.
+    pub fn new(at: f64, half_width: f64) -> Self {
+        Self { at, half_width, label: String::new(), damping_ratio: half_width / at, shape: Vec::new() }
+    }
+
+    /// Whether the response at the pole is infinite.
+    pub fn is_undamped(&self) -> bool {
+        self.damping_ratio.abs() < UNDAMPED
+    }
+
+    /// Whether a force excites the mode: |φᴴ F| above round-off of |φ| |F|.
+    pub fn is_excited_by(&self, force: &[Complex64]) -> bool {
+        let size = |v: &[Complex64]| inner(v, v).re.sqrt();
+        inner(&self.shape, force).norm() > 1e-6 * size(&self.shape) * size(force)
+    }
+
+    fn of(mode: &Mode, at: f64, half_width: f64) -> Self {
+        let (label, shape) = (mode.label.clone(), mode.shape.clone());
+        Self { at, half_width: half_width.abs(), label, damping_ratio: mode.zeta(), shape }
+    }
+}
+
+/// Poles of the FRFs of a system up to a frequency \[Hz\]: its damped natural frequencies, half-widths −Re λ.
+///
+/// # Errors
+/// As [`modal::modes`].
+pub fn frf_poles(assembly: &Assembly, system: &LinearSystem, max_hz: f64) -> Result<Vec<Pole>, PhysicsError> {
+    use std::f64::consts::TAU;
+    let reach = |found: &[modal::Eigenpair]| match found.len() {
+        ..MAX_MODES => FRF_REACH * TAU * max_hz,
+        _ => 0.0,
+    };
+    let pairs = modal::eigenpairs_up_to(assembly, system, START_MODES, reach)?;
+    let modes = modal::modes_of(assembly, system, pairs);
+    Ok(modes.iter().map(|mode| Pole::of(mode, mode.frequency_hz(), mode.eigenvalue.re / TAU)).collect())
+}
+
+/// Poles of the unbalance response from one speed to another \[rad/s\] and a little beyond: the critical speeds of
+/// order 1, λ(Ω) with Im λ = Ω; half-width |Re λ|/|1 − dω/dΩ|.
+///
+/// # Errors
+/// As [`critical_speeds`](critical_speed::critical_speeds).
+pub fn synchronous_poles(
+    assembly: &Assembly,
+    [low, high]: [f64; 2],
+    tangents: &impl Tangents,
+) -> Result<Vec<Pole>, PhysicsError> {
+    if high <= low || high <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let margin = MARGIN * (high - low);
+    let range = [(low - margin).max(0.0), high + margin];
+    let found = critical_speed::critical_speeds(assembly, range, &[1.0], tangents)?;
+    let pole = |critical: &CriticalSpeed| {
+        let slope = critical.frequency_slope(assembly, tangents)?;
+        let half_width = critical.mode.eigenvalue.re / (1.0 - slope).abs().max(SMALLEST_ANGLE);
+        Ok(Pole::of(&critical.mode, critical.speed, half_width))
+    };
+    found.list.par_iter().map(pole).collect()
+}

@@ -1,0 +1,107 @@
+//! Warnings of ball bearings that exceed a limit of their model or operation, in every study.
+
+use super::{Machine, SingleBearingStudy, TO_RPM};
+use crate::analysis::bearing_stiffness::Condition;
+use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::assembly::PhysicsError;
+use crate::model::study::BearingStudy;
+use crate::results::BearingPoint;
+use rotordyn_bearing::Bearing;
+use rotordyn_bearing::limits::{BearingLoad, ExceededLimit};
+use std::mem::discriminant;
+
+impl Machine {
+    /// Limits that the ball bearings exceed in static equilibrium at the highest of the speeds \[rad/s\], and beside
+    /// those at standstill.
+    ///
+    /// # Errors
+    /// No equilibrium.
+    pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<String>, PhysicsError> {
+        if let Some(machine) = self.decided(speeds)? {
+            return machine.bearing_warnings(speeds);
+        }
+        let top = speeds.iter().copied().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+        let mut found: Vec<(&str, f64, ExceededLimit)> = Vec::new();
+        for speed in if top > 0.0 { vec![top, 0.0] } else { vec![0.0] } {
+            for (name, limit) in self.exceeded_limits(speed)? {
+                let kind = discriminant(&limit);
+                if !found.iter().any(|(other, _, known)| *other == name && discriminant(known) == kind) {
+                    found.push((name, speed, limit));
+                }
+            }
+        }
+        Ok(found.into_iter().map(|(name, speed, limit)| message(name, speed, &limit)).collect())
+    }
+
+    fn exceeded_limits(&self, speed: f64) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {
+        let balls = self.model.bearings.iter().enumerate().filter_map(|(k, site)| match &site.bearing {
+            Bearing::Ball(ball) => Some((k, &*site.name, ball)),
+            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
+        });
+        let balls: Vec<_> = balls.collect();
+        if balls.is_empty() {
+            return Ok(Vec::new());
+        }
+        let start = &self.standstill_equilibrium.q;
+        let state = equilibrium(&self.model, &self.assembly, speed, CageTreatment::FixedAngle, Some(start))?;
+        let study =
+            BearingStudy { speed: Some(speed), ..self.model.studies.bearing.clone().unwrap_or_default() };
+        let mut found = Vec::new();
+        for (k, name, ball) in balls {
+            let d = state.bearings[k].displacement;
+            let condition = Condition {
+                load: [0.0; 5],
+                prescribed: std::array::from_fn(|a| Some(d[a])),
+                speed,
+                cage: CageTreatment::FixedAngle,
+                cage_angle: ball.cage_angle,
+            };
+            let single = SingleBearingStudy::new(name, ball, &study);
+            let point = single.point(single.solver.solve(&condition, None)?);
+            found.extend(single.exceeded_limits(&point).into_iter().map(|limit| (name, limit)));
+        }
+        Ok(found)
+    }
+}
+
+impl SingleBearingStudy<'_> {
+    fn exceeded_limits(&self, point: &BearingPoint) -> Vec<ExceededLimit> {
+        let speed = point.state.condition.speed;
+        let film = self.bearing.lubricant().map(|_| [point.minimum_film(), self.study.roughness]);
+        BearingLoad {
+            bearing: self.bearing,
+            balls: &self.solver.ball_loads(&point.state),
+            speed,
+            cage_speed: point.orders.ftf * speed,
+            axial_displacement: point.state.displacement[2],
+            equivalent_load: self.rating().dynamic / point.life.reference.cbrt(),
+            static_load: point.life.static_load,
+            static_rating: self.rating().static_rating,
+            film,
+        }
+        .exceeded_limits()
+    }
+
+    /// Warnings at the operating point.
+    pub(super) fn warnings(&self, point: &BearingPoint) -> Vec<String> {
+        let speed = point.state.condition.speed;
+        let mut found = self.rating.warnings(self.name, &point.life);
+        found.extend(self.exceeded_limits(point).iter().map(|limit| message(self.name, speed, limit)));
+        let imperfections = &self.bearing.imperfections;
+        if self.study.cage_average && !imperfections.is_empty() {
+            found.push(format!(
+                "bearing {} ({}) is averaged over the cage angle as if it had no defects; ball loads are those at the cage angle of the model",
+                self.name,
+                imperfections.condition()
+            ));
+        }
+        found
+    }
+}
+
+fn message(name: &str, speed: f64, limit: &ExceededLimit) -> String {
+    match speed {
+        0.0 => format!("bearing {name} at standstill: {limit}"),
+        _ => format!("bearing {name} at {:.0} rpm: {limit}", speed * TO_RPM),
+    }
+}

@@ -1,0 +1,147 @@
+//! Ratings and rating lives of a ball bearing under its load: ISO 281, ISO 76, ISO/TS 16281.
+
+use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
+use crate::results::BearingLife;
+use rotordyn_bearing::contact::{ContactLaw, Race};
+use rotordyn_bearing::life::{
+    basic_life, combined_life, life_modification, reference_life, reference_viscosity, reliability_factor,
+};
+use rotordyn_bearing::rating::{
+    EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, equivalent_load, static_equivalent_load,
+};
+use rotordyn_bearing::{Arrangement, BallBearing, BallInertia, BallLoad, Imperfections, Preload};
+
+/// Ratings of one bearing, and the solver for the load distribution of ISO/TS 16281.
+pub(super) struct BearingRating<'a> {
+    bearing: &'a BallBearing,
+    arrangement: Option<Arrangement>,
+    /// Ratings of all rows together.
+    pub rating: LoadRating,
+    /// The bearing of ISO/TS 16281: dry contacts, massless balls, no imperfections, moment arm D_pw/2.
+    solver: BearingSolver,
+    /// Tilt of the standard's bearing over that of the bearing: R_i/(D_pw/2).
+    tilt: f64,
+}
+
+impl<'a> BearingRating<'a> {
+    pub fn new(name: &str, bearing: &'a BallBearing) -> Self {
+        let g = &bearing.geometry;
+        let arrangement = bearing.duplex.map(|pair| pair.arrangement);
+        let found = LoadRating::new(g, &bearing.ball_material, &bearing.ring_material, arrangement);
+        let service = &bearing.service;
+        let rating = LoadRating {
+            dynamic: service.dynamic_rating.unwrap_or(found.dynamic),
+            static_rating: service.static_rating.unwrap_or(found.static_rating),
+            fatigue: service.fatigue_limit.unwrap_or(found.fatigue),
+        };
+        let arm = 0.5 * g.pitch_diameter;
+        let mut standard = bearing.clone();
+        standard.geometry.moment_arm = Some(arm);
+        standard.contact = ContactLaw::Hertz;
+        standard.inertia = BallInertia::None;
+        standard.imperfections = Imperfections::default();
+        // The axial load of a single row contains its preload; in a pair the preload is an internal load.
+        if arrangement.is_none() {
+            standard.preload = Preload::None;
+        }
+        Self {
+            bearing,
+            arrangement,
+            rating,
+            solver: BearingSolver::new(name, &standard),
+            tilt: g.inner_centre_radius() / arm,
+        }
+    }
+
+    /// Rating lives and static safety under a load; the load is stationary, the inner ring rotates.
+    ///
+    /// `balls`: ball loads of the bearing in equilibrium.
+    pub fn life(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> BearingLife {
+        let g = &self.bearing.geometry;
+        let [x, y, z, ..] = state.load;
+        let radial = x.hypot(y);
+        let rating = &self.rating;
+        let equivalent = equivalent_load(g, self.arrangement, radial, z);
+        let static_load = static_equivalent_load(g, self.arrangement, radial, z);
+        let reference = self.standard_loads(state).map_or(f64::NAN, |loads| self.reference(&loads));
+        let reference_load = rating.dynamic / reference.cbrt();
+        let speed = state.condition.speed.abs();
+        let service = &self.bearing.service;
+        let oil = self.bearing.lubricant().filter(|_| speed > 0.0);
+        let required = oil.map_or(f64::NAN, |_| reference_viscosity(g.pitch_diameter, speed));
+        let viscosity_ratio = oil.map_or(f64::NAN, |oil| oil.viscosity / oil.density / required);
+        let modification =
+            life_modification(viscosity_ratio, service.contamination, rating.fatigue, reference_load)
+                .unwrap_or(f64::NAN);
+        let EquivalentLoad { load, x, y, e } = equivalent;
+        BearingLife {
+            equivalent_load: load,
+            factors: [x, y, e],
+            basic: basic_life(rating.dynamic, load),
+            static_load,
+            static_safety: rating.static_rating / static_load,
+            reference,
+            reference_load,
+            by_ball_loads: self.reference(balls),
+            reference_viscosity: required,
+            viscosity_ratio,
+            contamination: service.contamination,
+            modification,
+            modified: reliability_factor(service.reliability) * modification * reference,
+        }
+    }
+
+    /// Ball loads after ISO/TS 16281 under the load of a state; `None` if they are not found.
+    ///
+    /// Forces are those of the state. A prescribed tilt keeps the approach that it causes at the balls.
+    fn standard_loads(&self, state: &BearingEquilibrium) -> Option<Vec<BallLoad>> {
+        let held = |k: usize| {
+            (k > 2 && state.condition.prescribed[k].is_some()).then_some(self.tilt * state.displacement[k])
+        };
+        let condition =
+            Condition { load: state.load, prescribed: std::array::from_fn(held), ..state.condition };
+        let found = self.solver.solve(&condition, Some(&state.displacement)).ok()?;
+        Some(self.solver.ball_loads(&found))
+    }
+
+    /// Basic reference rating life of all rows from ball loads.
+    fn reference(&self, balls: &[BallLoad]) -> f64 {
+        let rows = if self.arrangement.is_some() { 2 } else { 1 };
+        // C of i rows is i^0.7 times that of one (ISO 281).
+        let row_rating = self.rating.dynamic / f64::from(rows).powf(0.7);
+        let of_row = |row: usize| {
+            let loads = |pick: fn(&BallLoad) -> f64| -> Vec<f64> {
+                balls.iter().filter(|ball| ball.row == row).map(pick).collect()
+            };
+            let (inner, outer) = (loads(|ball| ball.load), loads(|ball| ball.outer_load));
+            reference_life(&self.bearing.geometry, row_rating, &inner, &outer, Race::Inner).life
+        };
+        combined_life(&(0..rows as usize).map(of_row).collect::<Vec<_>>())
+    }
+
+    /// Limits of the rating methods that a state exceeds.
+    pub fn warnings(&self, name: &str, life: &BearingLife) -> Vec<String> {
+        let angle = self.bearing.geometry.contact_angle.abs();
+        let mut out = Vec::new();
+        if angle > LARGEST_RADIAL_ANGLE {
+            out.push(format!(
+                "bearing {name}: contact angle {:.1} deg above the 45 deg of radial bearings in ISO 281 and ISO 76: \
+                 no equivalent loads; C and C_0 are extrapolated",
+                angle.to_degrees()
+            ));
+        }
+        if life.reference.is_nan() {
+            out.push(format!(
+                "bearing {name}: no equilibrium with the massless balls and the moment arm of ISO/TS 16281 under this \
+                 load, so no reference life"
+            ));
+        }
+        if life.viscosity_ratio < 0.1 {
+            out.push(format!(
+                "bearing {name}: viscosity ratio kappa {:.3} below 0.1, where ISO 281 gives no a_ISO",
+                life.viscosity_ratio
+            ));
+        }
+        out
+    }
+}

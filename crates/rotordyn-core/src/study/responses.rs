@@ -1,0 +1,244 @@
+//! Harmonic responses: FRFs and the unbalance response, on grids refined around resonances.
+
+use super::Machine;
+use crate::analysis::frf::{self, Frf};
+use crate::analysis::peaks::peaks;
+use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
+use crate::analysis::refine::{RefinedGrid, refine};
+use crate::analysis::unbalance::{self, Orbit, UnbalanceResponse};
+use crate::assembly::PhysicsError;
+use crate::element::Anchor;
+use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
+use crate::model::{Drive, Probe, Quantity};
+use crate::results::{
+    DiscOrbit, FrfResult, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak, is_rotation, unit_of,
+};
+use rotordyn_linalg::{Complex64, SparseRow};
+
+/// Width of the range searched for poles around a single frequency or speed, relative to it.
+const SINGLE_POINT_RANGE: f64 = 1e-3;
+
+impl Machine {
+    /// Frequency response functions at a speed.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn frf(&self, study: &FrfStudy) -> Result<FrfResult, PhysicsError> {
+        if let Some(machine) = self.decided(&[study.speed])? {
+            return machine.frf(study);
+        }
+        self.check_tables("frf", &[study.speed])?;
+        let system = self.linear_system(study.speed)?;
+        let row = |at: &Anchor, direction| self.assembly.direction_row(at, direction);
+        let excitations: Vec<_> = study.excitations.iter().map(|e| row(&e.at, &e.direction)).collect();
+        let responses: Vec<_> = study.responses.iter().map(|p| row(&p.at, &p.direction)).collect();
+        let (f, q) = (&study.frequencies, study.quantity);
+        let highest = f.iter().copied().fold(0.0, f64::max);
+        let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
+        let evaluate = |hz: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
+            let found = frf::frf(&self.assembly, &system, hz, &excitations, &responses, q)?;
+            Ok((0..hz.len()).map(|k| found.values.iter().flatten().map(|h| h[k]).collect()).collect())
+        };
+        let RefinedGrid { points, samples, requested } =
+            refined(f, &poles, study.refine, evaluate, |h| h.clone())?;
+        let force = |e: &SparseRow| dense(e, self.assembly.dofs.len());
+        let name = |r: usize, e: usize| format!("{}/{}", study.responses[r].name, study.excitations[e].name);
+        let appears_in = |pole: &Pole| -> Vec<String> {
+            let pairs = (0..responses.len()).flat_map(|r| (0..excitations.len()).map(move |e| (r, e)));
+            pairs
+                .filter(|&(r, e)| {
+                    appears(pole, &[&responses[r]]) && pole.is_excited_by(&force(&excitations[e]))
+                })
+                .map(|(r, e)| name(r, e))
+                .collect()
+        };
+        let undamped = undamped_peaks(&poles, &points, appears_in);
+        let value = |r: usize, e: usize| -> Vec<Complex64> {
+            let (at, name) = (r * excitations.len() + e, name(r, e));
+            let values = samples.iter().map(|sample| sample[at]).collect();
+            with_infinite(&points, values, &undamped, &name)
+        };
+        let values =
+            (0..responses.len()).map(|r| (0..excitations.len()).map(|e| value(r, e)).collect()).collect();
+        let unit = |response: &Probe, excitation: &Excitation| {
+            let moved = unit_of(q, is_rotation(&response.direction));
+            let moved = if moved.contains('/') { format!("({moved})") } else { moved.into() };
+            format!("{moved}/{}", if is_rotation(&excitation.direction) { "(N m)" } else { "N" })
+        };
+        Ok(FrfResult {
+            speed: study.speed,
+            units: study
+                .responses
+                .iter()
+                .map(|r| study.excitations.iter().map(|e| unit(r, e)).collect())
+                .collect(),
+            excitations: study.excitations.iter().map(|e| e.name.clone()).collect(),
+            responses: study.responses.iter().map(|p| p.name.clone()).collect(),
+            frf: Frf { frequencies: points, quantity: q, values },
+            requested,
+            undamped,
+        })
+    }
+
+    /// Steady unbalance response over speed.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn unbalance(&self, study: &UnbalanceStudy) -> Result<UnbalanceResult, PhysicsError> {
+        if let Some(machine) = self.decided(&study.speeds)? {
+            return machine.unbalance(study);
+        }
+        self.check_tables("unbalance", &study.speeds)?;
+        let tangents = |speed| self.tangents(speed, true);
+        let probe_rows: Vec<SparseRow> =
+            study.responses.iter().map(|p| self.assembly.direction_row(&p.at, &p.direction)).collect();
+        let discs: Vec<(&str, [SparseRow; 2])> = self
+            .model
+            .rotating_inertias()
+            .map(|disc| {
+                let [x, y, ..] = self.assembly.anchor_rows(&Anchor::node(disc.node));
+                (disc.name.as_str(), [x, y])
+            })
+            .collect();
+        let observed: Vec<&SparseRow> =
+            probe_rows.iter().chain(discs.iter().flat_map(|(_, rows)| rows)).collect();
+        let lowest = study.speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = study.speeds.iter().copied().fold(0.0, f64::max);
+        let range = match highest > lowest {
+            true => [lowest, highest],
+            false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
+        };
+        let poles = synchronous_poles(&self.assembly, range, &tangents)?;
+        let evaluate = |speeds: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
+            Ok(unbalance::response(&self.assembly, speeds, &tangents)?.amplitudes)
+        };
+        let curves = |q: &Vec<Complex64>| -> Vec<Complex64> {
+            observed.iter().map(|row| row.dot_complex(q)).collect()
+        };
+        let RefinedGrid { points: speeds, samples: amplitudes, requested } =
+            refined(&study.speeds, &poles, study.refine, evaluate, curves)?;
+        let response = UnbalanceResponse { speeds, amplitudes };
+
+        let orbit_name = |name: &str| format!("orbit of disc.{name}");
+        let orbit_names: Vec<String> = discs.iter().map(|(name, _)| orbit_name(name)).collect();
+        let mut rows: Vec<(&str, Vec<&SparseRow>)> =
+            study.responses.iter().zip(&probe_rows).map(|(p, row)| (p.name.as_str(), vec![row])).collect();
+        rows.extend(
+            orbit_names.iter().zip(&discs).map(|(name, (_, rows))| (name.as_str(), rows.iter().collect())),
+        );
+        let appears_in = |pole: &Pole| -> Vec<String> {
+            let excited = pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
+            let shown = rows.iter().filter(|(_, rows)| excited && appears(pole, rows));
+            shown.map(|(name, _)| (*name).to_string()).collect()
+        };
+        let undamped = undamped_peaks(&poles, &response.speeds, appears_in);
+        let plain = |name: &str, values: Vec<Complex64>| -> Vec<[f64; 2]> {
+            let values = with_infinite(&response.speeds, values, &undamped, name);
+            values.iter().map(|v| [v.re, v.im]).collect()
+        };
+        let channels: Vec<UnbalanceChannel> = study
+            .responses
+            .iter()
+            .zip(&probe_rows)
+            .map(|(probe, row)| {
+                let amplitude = plain(&probe.name, response.amplitude_of(row, probe.quantity));
+                UnbalanceChannel { probe: probe.clone(), amplitude }
+            })
+            .collect();
+        let orbits: Vec<DiscOrbit> = discs
+            .iter()
+            .map(|(name, rows)| {
+                let along =
+                    |row| plain(&orbit_name(name), response.amplitude_of(row, Quantity::Displacement));
+                DiscOrbit { name: (*name).to_string(), x: along(&rows[0]), y: along(&rows[1]) }
+            })
+            .collect();
+        let top = self.model.profile.top_speed();
+        let prescribed = matches!(self.model.drive, Drive::Prescribed { .. });
+        Ok(UnbalanceResult {
+            peaks: response_peaks(&response.speeds, &channels, &orbits),
+            operating_speed: Some(top).filter(|top| *top > 0.0 && prescribed),
+            response,
+            requested,
+            channels,
+            orbits,
+            undamped,
+        })
+    }
+}
+
+/// A response with infinity at the points that lie on its undamped poles.
+fn with_infinite(
+    points: &[f64],
+    values: Vec<Complex64>,
+    undamped: &[UndampedPeak],
+    response: &str,
+) -> Vec<Complex64> {
+    let infinite = |x: f64| undamped.iter().any(|p| p.covers(x) && p.responses.iter().any(|r| r == response));
+    let value = |(x, v): (&f64, Complex64)| if infinite(*x) { f64::INFINITY.into() } else { v };
+    points.iter().zip(values).map(value).collect()
+}
+
+/// The grid with or without refinement; one that does not increase is left as it is.
+fn refined<T>(
+    grid: &[f64],
+    poles: &[Pole],
+    wanted: bool,
+    evaluate: impl Fn(&[f64]) -> Result<Vec<T>, PhysicsError>,
+    curves: impl Fn(&T) -> Vec<Complex64>,
+) -> Result<RefinedGrid<T>, PhysicsError> {
+    if wanted && grid.windows(2).all(|pair| pair[0] < pair[1]) {
+        return refine(grid, poles, evaluate, curves);
+    }
+    Ok(RefinedGrid { points: grid.to_vec(), samples: evaluate(grid)?, requested: (0..grid.len()).collect() })
+}
+
+/// Force of unit size along a row, over all free DOFs.
+fn dense(row: &SparseRow, size: usize) -> Vec<Complex64> {
+    let mut force = vec![Complex64::default(); size];
+    row.0.iter().for_each(|&(i, v)| force[i] += v);
+    force
+}
+
+/// Whether a mode moves any of some rows.
+fn appears(pole: &Pole, rows: &[&SparseRow]) -> bool {
+    let size = pole.shape.iter().map(|v| v.norm()).fold(0.0, f64::max);
+    rows.iter().any(|row| row.dot_complex(&pole.shape).norm() > 1e-6 * size)
+}
+
+/// Undamped poles within the grid that appear in any response.
+fn undamped_peaks(
+    poles: &[Pole],
+    points: &[f64],
+    appears_in: impl Fn(&Pole) -> Vec<String>,
+) -> Vec<UndampedPeak> {
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else { return Vec::new() };
+    let range = first * (1.0 - UndampedPeak::WIDTH)..=last * (1.0 + UndampedPeak::WIDTH);
+    poles
+        .iter()
+        .filter(|pole| pole.is_undamped() && range.contains(&pole.at))
+        .map(|pole| UndampedPeak { at: pole.at, label: pole.label.clone(), responses: appears_in(pole) })
+        .filter(|peak| !peak.responses.is_empty())
+        .collect()
+}
+
+/// Peaks of every channel and of every orbit's semi-major axis, by speed.
+fn response_peaks(speeds: &[f64], channels: &[UnbalanceChannel], orbits: &[DiscOrbit]) -> Vec<ResponsePeak> {
+    let mut found = Vec::new();
+    let mut add = |response: String, unit: &'static str, sizes: Vec<f64>| {
+        let of = |peak| ResponsePeak { response: response.clone(), unit, peak };
+        found.extend(peaks(speeds, &sizes).into_iter().map(of));
+    };
+    for channel in channels {
+        let unit = unit_of(channel.probe.quantity, is_rotation(&channel.probe.direction));
+        let sizes = channel.amplitude.iter().map(|[re, im]| re.hypot(*im)).collect();
+        add(channel.probe.name.clone(), unit, sizes);
+    }
+    for disc in orbits {
+        let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
+        let major = |(x, y): (&[f64; 2], &[f64; 2])| Orbit::new(complex(*x), complex(*y)).major;
+        add(format!("orbit of disc.{}", disc.name), "m", disc.x.iter().zip(&disc.y).map(major).collect());
+    }
+    found.sort_by(|a, b| a.peak.at.total_cmp(&b.peak.at));
+    found
+}

@@ -1,0 +1,233 @@
+//! Test-analysis correlation of a run-up: the model driven by the measured shaft angle, read at the sensors.
+
+use super::Machine;
+use super::order_tracking::without_mean;
+use super::record::probe_channel;
+use super::signal::{ShaftMotion, SignalChannel};
+use crate::model::study::{OrderStudy, SpectrogramStudy};
+use crate::model::{Model, Probe, SpeedProfile};
+use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult};
+use rotordyn_linalg::{Outside, piecewise};
+use rotordyn_signal::SignalError;
+use rotordyn_signal::order::OrderCut;
+use rotordyn_signal::resample::SAMPLES_PER_ORDER;
+
+/// Spline points per second of the measured shaft angle that drives the model.
+const POINTS_PER_SECOND: f64 = 100.0;
+/// Fraction of the speed range within which a maximum counts as at its end.
+const END_FRACTION: f64 = 5e-3;
+/// Default orders of the cuts, if the model gives none.
+const DEFAULT_CUTS: [f64; 3] = [1.0, 2.0, 3.0];
+
+/// A measured run mapped to the model.
+#[derive(Clone, Debug)]
+pub struct MeasuredRun {
+    /// Channels over the time in which the shaft angle is known, starting at time 0.
+    pub history: History,
+    /// Location and quantity of each channel.
+    pub probes: Vec<Probe>,
+    /// Measured shaft rotation.
+    pub profile: SpeedProfile,
+}
+
+impl MeasuredRun {
+    /// From channels of equal length and rate with their probes, and the shaft angle at the samples.
+    ///
+    /// # Errors
+    /// An unknown shaft angle.
+    pub fn new(
+        channels: Vec<(Probe, SignalChannel)>,
+        motion: &ShaftMotion,
+        model: &Model,
+    ) -> Result<Self, SignalError> {
+        let purpose = "a comparison with the model's run-up";
+        let Some((_, first)) = channels.first().filter(|_| motion.angle.len() > 1) else {
+            return Err(SignalError::Unknown { what: "the shaft's angle", purpose });
+        };
+        let rate = first.sample_rate;
+        let profile = speed_profile(&motion.angle, rate);
+        let curve = profile.curve();
+        let count = motion.angle.len();
+        let time: Vec<f64> = (0..count).map(|k| k as f64 / rate).collect();
+        let mut history = History {
+            sample_rate: rate,
+            angle: motion.angle.iter().map(|a| (a - motion.angle[0]).abs()).collect(),
+            speed: time.iter().map(|t| curve.at(*t).speed).collect(),
+            time,
+            channels: Vec::new(),
+        };
+        let mut probes = Vec::new();
+        for (probe, channel) in channels {
+            let mut described = probe_channel(model, &probe);
+            described.values = channel.samples.iter().skip(motion.first).take(count).copied().collect();
+            history.channels.push(described);
+            probes.push(probe);
+        }
+        Ok(Self { history, probes, profile })
+    }
+
+    /// The model with the measured shaft rotation as speed profile and the measured channels as probes.
+    ///
+    /// Sampled at the rate of the measurement, limited by the model's time step.
+    pub fn driven_model(&self, model: &Model) -> Model {
+        let mut model = model.clone();
+        model.profile = self.profile.clone();
+        model.probes = self.probes.clone();
+        if let Some(study) = &mut model.studies.run_up {
+            study.sample_rate = self.history.sample_rate.min(1.0 / study.step);
+        }
+        model
+    }
+}
+
+/// Speed profile through angles evenly spaced in time, including the last.
+fn speed_profile(angle: &[f64], rate: f64) -> SpeedProfile {
+    let last = angle.len() - 1;
+    let stride = ((rate / POINTS_PER_SECOND).round() as usize).clamp(1, last.div_ceil(4).max(1));
+    // Points closer than half a stride would make the spline oscillate.
+    let mut places: Vec<usize> = (0..last).step_by(stride).filter(|k| 2 * (last - k) >= stride).collect();
+    places.push(last);
+    // The direction of rotation is dropped: the model rotates forward.
+    let points = places.iter().map(|&k| [k as f64 / rate, (angle[k] - angle[0]).abs()]).collect();
+    SpeedProfile::Pulses { points, duration: last as f64 / rate }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
+impl Machine {
+    /// Spectrograms, order spectra and order cuts of measured and computed channels of the same name, by the
+    /// settings of the model's studies within the range of both sampling rates.
+    ///
+    /// # Errors
+    /// A run too short for the window or for the order resolution, invalid settings.
+    pub fn correlate_run_up(
+        &self,
+        measured: &History,
+        computed: &History,
+    ) -> Result<Vec<ChannelPair>, SignalError> {
+        let studies = &self.model.studies;
+        let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
+            return Ok(Vec::new());
+        };
+        let rate = measured.sample_rate.min(computed.sample_rate);
+        let fastest = measured.speed.iter().copied().fold(0.0, f64::max) / std::f64::consts::TAU;
+        let spectra = SpectrogramStudy {
+            channels: Vec::new(),
+            max_frequency: spectra.max_frequency.min(0.5 * rate),
+            ..spectra.clone()
+        };
+        let max_order = orders.max_order.min(0.95 * rate / (SAMPLES_PER_ORDER * fastest));
+        let cuts: Vec<f64> = if orders.cuts.is_empty() { DEFAULT_CUTS.to_vec() } else { orders.cuts.clone() };
+        let orders = OrderStudy {
+            channels: Vec::new(),
+            max_order,
+            cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
+            ..orders.clone()
+        };
+        let runs = [measured, computed];
+        let mut maps = Vec::new();
+        let mut tracked = Vec::new();
+        for run in runs {
+            maps.push(self.spectrograms(&spectra, run)?);
+            tracked.push(self.orders(&orders, run)?);
+        }
+        let mut pairs = Vec::new();
+        for channel in &runs[0].channels {
+            let of = |run: usize| {
+                let place = maps[run].iter().position(|m| m.channel == channel.name)?;
+                let own = runs[run].channels.iter().find(|c| c.name == channel.name)?;
+                Some((rms(&without_mean(&own.values)), maps[run][place].clone(), tracked[run][place].clone()))
+            };
+            let (Some((rms_m, map_m, orders_m)), Some((rms_c, map_c, orders_c))) = (of(0), of(1)) else {
+                continue;
+            };
+            pairs.push(ChannelPair {
+                channel: channel.name.clone(),
+                unit: channel.unit.clone(),
+                rms: [rms_m, rms_c],
+                cuts: cut_pairs(&orders_m, &orders_c),
+                spectrograms: [map_m, map_c],
+                orders: [orders_m, orders_c],
+            });
+        }
+        Ok(pairs)
+    }
+}
+
+fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {
+    let pair = |((line, m), (_, c)): (&(OrderLine, OrderCut), &(OrderLine, OrderCut))| CutPair {
+        line: line.clone(),
+        peaks: [peak(m), peak(c)],
+        correlation: correlation(m, c),
+    };
+    measured.cuts.iter().zip(&computed.cuts).map(pair).collect()
+}
+
+fn peak(cut: &OrderCut) -> CutPeak {
+    let Some(k) = (0..cut.rms.len()).max_by(|a, b| cut.rms[*a].total_cmp(&cut.rms[*b])) else {
+        return CutPeak::default();
+    };
+    let (low, high) = cut.rpm.iter().fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(*v), h.max(*v)));
+    let near = END_FRACTION * (high - low);
+    let at_end = cut.rpm[k] - low < near || high - cut.rpm[k] < near;
+    let inside = (k > 0 && k + 1 < cut.rms.len() && !at_end).then(|| vertex(cut, k)).flatten();
+    let (rpm, rms) = inside.unwrap_or((cut.rpm[k], cut.rms[k]));
+    CutPeak { rpm, rms, at_end }
+}
+
+/// Vertex of the parabola through window k and its neighbours (peak interpolation), if these are high enough.
+fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
+    const MIN_NEIGHBOUR_RATIO: f64 = 0.7;
+    let (x, y) = (&cut.rpm[k - 1..=k + 1], &cut.rms[k - 1..=k + 1]);
+    if y[0].min(y[2]) < MIN_NEIGHBOUR_RATIO * y[1] {
+        return None;
+    }
+    let (before, after) = ((y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]));
+    let curvature = (after - before) / (x[2] - x[0]);
+    let step = 0.5 * (x[0] + x[1]) - before / (2.0 * curvature);
+    let height = y[1] + before * (step - x[1]) + curvature * (step - x[0]) * (step - x[1]);
+    let between = step > x[0].min(x[2]) && step < x[0].max(x[2]);
+    (between && curvature < 0.0).then_some((step, height))
+}
+
+/// Correlation (MAC-like, (Σ m c)² / (Σ m² Σ c²)) over the measured windows, computed levels interpolated
+/// linearly.
+fn correlation(measured: &OrderCut, computed: &OrderCut) -> f64 {
+    let levels: Vec<[f64; 2]> =
+        computed.times.iter().zip(&computed.rms).map(|(t, level)| [*t, *level]).collect();
+    let (mut both, mut own, mut other) = (0.0, 0.0, 0.0);
+    for (t, m) in measured.times.iter().zip(&measured.rms) {
+        let [_, c] = piecewise(&levels, *t, Outside::Constant);
+        both += m * c;
+        own += m * m;
+        other += c * c;
+    }
+    if own * other > 0.0 { both * both / (own * other) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peak_of_a_parabola_is_its_vertex() {
+        let rpm = vec![100.0, 130.0, 160.0, 200.0];
+        let height = |x: f64| 5.0 - 5e-4 * (x - 141.0).powi(2);
+        let cut = OrderCut {
+            order: 1.0,
+            times: (0..4).map(f64::from).collect(),
+            rms: rpm.iter().map(|x| height(*x)).collect(),
+            rpm,
+        };
+        let found = peak(&cut);
+        assert!((found.rpm - 141.0).abs() < 1e-9 && (found.rms - 5.0).abs() < 1e-12, "{found:?}");
+        assert!(!found.at_end && (correlation(&cut, &cut) - 1.0).abs() < 1e-12);
+        let mut doubled = cut.clone();
+        doubled.rms.iter_mut().for_each(|v| *v *= 2.0);
+        assert!((correlation(&cut, &doubled) - 1.0).abs() < 1e-12);
+        let rising = OrderCut { rms: vec![1.0, 2.0, 3.0, 4.0], ..cut };
+        assert!(peak(&rising).at_end);
+    }
+}

@@ -1,0 +1,350 @@
+//! Signal analysis of a measured or computed record with the tools of [`crate::signal`].
+
+mod cyclic;
+mod jerk;
+mod settings;
+mod shaft;
+
+pub use settings::{Analysis, AnalysisSelection, Race, SignalSettings};
+pub use shaft::ShaftMotion;
+
+use crate::results::{
+    BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, ShaftAverage, ShaftOrders, SignalResult,
+    SpectrogramWithSpeed,
+};
+use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
+use rotordyn_signal::cepstrum::real_cepstrum;
+use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
+use rotordyn_signal::filter_bank::max_depth;
+use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
+use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, power_spectral_density};
+use rotordyn_signal::statistics::statistics;
+use rotordyn_signal::stft::{Stft, StftSettings};
+use rotordyn_signal::synchronous::synchronous_average;
+use rotordyn_signal::{SignalError, WindowKind};
+
+/// Deepest level of a kurtogram: 128 bands.
+const MAX_LEVEL: usize = 7;
+/// Default highest order.
+const DEFAULT_MAX_ORDER: f64 = 20.0;
+/// Speed below which the shaft counts as stationary \[rev/s\].
+const MIN_SPEED: f64 = 0.1;
+
+/// One channel of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalChannel {
+    pub name: String,
+    /// SI unit; empty if unknown.
+    pub unit: String,
+    /// \[Hz\].
+    pub sample_rate: f64,
+    /// Time of the first sample \[s\].
+    pub start: f64,
+    pub samples: Vec<f64>,
+    /// Second channel at the same place, 90° from the first (x to y), to locate defects over the full race.
+    pub orthogonal: Option<Vec<f64>>,
+}
+
+/// All requested analyses of one channel.
+///
+/// `shaft`: speeds and angles from the channel's first sample on; with an angle only the samples it covers
+/// are used.
+/// `bearing`: characteristic orders. Statistics are always computed. A default analysis that the record does
+/// not allow becomes a warning; a requested one is an error.
+/// Errors: NaN; a record too short, too slowly sampled or without the shaft data for a requested analysis (or
+/// the envelope of a bearing).
+pub fn analyse(
+    channel: &SignalChannel,
+    shaft: Option<&ShaftMotion>,
+    bearing: Option<&BearingWithOrders>,
+    settings: &SignalSettings,
+) -> Result<SignalResult, SignalError> {
+    let job = Job::new(channel, shaft, bearing, settings);
+    let mut out = SignalResult {
+        channel: channel.name.clone(),
+        unit: channel.unit.clone(),
+        sample_rate: channel.sample_rate,
+        start: channel.start + job.first as f64 / channel.sample_rate,
+        samples: job.x.to_vec(),
+        shaft: shaft.map(|s| s.summary.clone()),
+        speed: shaft.map_or_else(Default::default, |s| s.speeds(channel.sample_rate, channel.start)),
+        bearing: bearing.cloned(),
+        statistics: statistics(job.x)?,
+        spectrum: None,
+        density: None,
+        spectrogram: None,
+        envelope: None,
+        kurtogram: None,
+        cepstrum: None,
+        jerk: None,
+        orders: None,
+        average: None,
+        cyclic: None,
+        warnings: Vec::new(),
+    };
+    for analysis in job.selected_analyses() {
+        let Err(error) = job.perform(analysis, &mut out) else { continue };
+        // The envelope is the main analysis of a bearing: always required.
+        let asked = matches!(settings.analyses, AnalysisSelection::Only(_))
+            || (analysis == Analysis::Envelope && bearing.is_some());
+        if asked {
+            return Err(error);
+        }
+        out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.keyword()));
+    }
+    Ok(out)
+}
+
+/// Data shared by all analyses of a channel.
+struct Job<'a> {
+    /// The analysed samples, and the index of the first in the channel.
+    x: &'a [f64],
+    first: usize,
+    rate: f64,
+    channel: &'a SignalChannel,
+    shaft: Option<&'a ShaftMotion>,
+    bearing: Option<&'a BearingWithOrders>,
+    settings: &'a SignalSettings,
+}
+
+impl<'a> Job<'a> {
+    fn new(
+        channel: &'a SignalChannel,
+        shaft: Option<&'a ShaftMotion>,
+        bearing: Option<&'a BearingWithOrders>,
+        settings: &'a SignalSettings,
+    ) -> Self {
+        let whole = &channel.samples[..];
+        let (first, x) = match shaft.filter(|s| !s.angle.is_empty()) {
+            Some(s) => (s.first, &whole[s.first..(s.first + s.angle.len()).min(whole.len())]),
+            None => (0, whole),
+        };
+        Job { x, first, rate: channel.sample_rate, channel, shaft, bearing, settings }
+    }
+
+    fn selected_analyses(&self) -> Vec<Analysis> {
+        use Analysis::*;
+        match &self.settings.analyses {
+            AnalysisSelection::Only(asked) => return asked.clone(),
+            AnalysisSelection::All => return Analysis::ALL.iter().map(|(analysis, _)| *analysis).collect(),
+            AnalysisSelection::Suitable => {}
+        }
+        let mut wanted = vec![Spectrum, Density, Envelope, Kurtogram, Cepstrum];
+        if let Some(shaft) = self.shaft.filter(|s| !s.angle.is_empty()) {
+            if !shaft.summary.steady {
+                wanted.push(Spectrogram);
+            }
+            wanted.extend([Orders, Average]);
+        }
+        wanted
+    }
+
+    /// Shaft angle at the analysed samples.
+    fn angle(&self, purpose: &'static str) -> Result<&'a [f64], SignalError> {
+        let angle = self.shaft.map_or(&[][..], |s| &s.angle);
+        match angle.is_empty() {
+            true => Err(SignalError::Unknown { what: "the shaft's angle", purpose }),
+            false => Ok(&angle[..self.x.len()]),
+        }
+    }
+
+    /// Mean speed \[rev/s\], if constant.
+    fn steady_speed(&self, purpose: &'static str) -> Result<f64, SignalError> {
+        match self.shaft {
+            Some(s) if s.summary.steady => Ok(s.summary.mean),
+            _ => Err(SignalError::Unknown { what: "a steady speed of the shaft", purpose }),
+        }
+    }
+
+    /// Characteristic frequencies of the bearing at constant speed, else orders; with the shaft rotation.
+    fn rates(&self) -> Option<(DefectFrequencies, ShaftRotation<'a>)> {
+        let bearing = self.bearing?;
+        let (unit, turning) = self.rate_reference()?;
+        Some((characteristic_rates(bearing, unit), turning))
+    }
+
+    /// Reference of the characteristic rates: shaft speed \[Hz\] at constant speed, else order 1 over the
+    /// shaft angle.
+    fn rate_reference(&self) -> Option<(f64, ShaftRotation<'a>)> {
+        let shaft = self.shaft?;
+        Some(match shaft.summary.steady {
+            true => (shaft.summary.mean, ShaftRotation::ConstantSpeed),
+            false => (1.0, ShaftRotation::Angle(&shaft.angle[..self.x.len()])),
+        })
+    }
+
+    fn perform(&self, analysis: Analysis, out: &mut SignalResult) -> Result<(), SignalError> {
+        match analysis {
+            Analysis::Spectrum => {
+                out.spectrum = Some(amplitude_spectrum(self.x, self.rate, WindowKind::Hann, Level::Peak)?);
+            }
+            Analysis::Density => {
+                out.density = Some(power_spectral_density(self.x, self.rate, &self.welch()?)?);
+            }
+            Analysis::Spectrogram => out.spectrogram = Some(self.spectrogram()?),
+            Analysis::Envelope => out.envelope = Some(self.envelope()?),
+            Analysis::Kurtogram => out.kurtogram = Some(self.kurtogram()?),
+            Analysis::Cepstrum => out.cepstrum = Some(real_cepstrum(self.x, self.rate)?),
+            Analysis::Jerk => out.jerk = Some(self.jerk()?),
+            Analysis::Orders => out.orders = Some(self.orders()?),
+            Analysis::Average => out.average = Some(self.average()?),
+            Analysis::Cyclic => out.cyclic = Some(self.cyclic()?),
+        }
+        Ok(())
+    }
+
+    fn welch(&self) -> Result<Welch, SignalError> {
+        let samples = self.x.len();
+        let segment = match self.settings.resolution {
+            Some(resolution) => (self.rate / resolution).round() as usize,
+            // Half overlap: fifteen segments.
+            None => 1 << (samples / 8).max(16).ilog2(),
+        };
+        if segment > samples {
+            let purpose = "one segment of this resolution";
+            return Err(SignalError::TooShort { name: "record", needed: segment, given: samples, purpose });
+        }
+        Ok(Welch::hann(segment.max(2)))
+    }
+
+    fn spectrogram(&self) -> Result<SpectrogramWithSpeed, SignalError> {
+        let frame = 1 << (self.x.len() / 64).clamp(256, 8192).ilog2();
+        let settings = StftSettings::new(WindowKind::Hann, frame, 0.75)?;
+        let mut map = Stft::new(settings, self.rate)?.spectrogram(self.x)?;
+        // At varying speed up to the highest order.
+        let changing = self.shaft.filter(|s| !s.summary.steady);
+        let orders = changing.map(|s| 1.1 * self.max_order() * s.summary.max);
+        if let Some(limit) = self.settings.max_frequency.or(orders) {
+            let bins = map.frequencies.len();
+            let kept = map.frequencies.partition_point(|f| *f <= limit).max(2);
+            map.amplitude =
+                map.amplitude.chunks_exact(bins).flat_map(|row| row[..kept].iter().copied()).collect();
+            map.frequencies.truncate(kept);
+        }
+        let rpm = match self.shaft {
+            Some(shaft) if !shaft.angle.is_empty() => {
+                // The mean over a frame.
+                let turns = |k: usize| shaft.angle[k.min(self.x.len() - 1)] / std::f64::consts::TAU;
+                let hop = settings.hop;
+                let speed = |k: usize| (turns(k * hop + frame) - turns(k * hop)) * self.rate / frame as f64;
+                (0..map.times.len()).map(|k| 60.0 * speed(k).abs()).collect()
+            }
+            _ => Vec::new(),
+        };
+        map.times.iter_mut().for_each(|t| *t += self.channel.start + self.first as f64 / self.rate);
+        Ok(SpectrogramWithSpeed { map, rpm })
+    }
+
+    fn envelope(&self) -> Result<EnvelopeResult, SignalError> {
+        let over_orders = self.shaft.is_some_and(|s| !s.summary.steady);
+        let Some((rates, turning)) = self.rates() else {
+            let rule = self.settings.band.unwrap_or(BandRule::Kurtosis);
+            let (_, turning) = self.rate_reference().unwrap_or((1.0, ShaftRotation::ConstantSpeed));
+            let found = band_envelope(self.x, self.rate, turning, rule, DEFAULT_MAX_ORDER)?;
+            return Ok(EnvelopeResult {
+                rule,
+                band: found.band,
+                spectrum: found.envelope,
+                over_orders,
+                band_scores: found.kurtogram,
+                lines: None,
+            });
+        };
+        let rule = self.settings.band.unwrap_or(BandRule::Lines);
+        let found = diagnose(self.x, self.rate, turning, &rates, rule, &self.settings.lines)?;
+        Ok(EnvelopeResult {
+            rule,
+            band: found.band,
+            spectrum: found.envelope,
+            over_orders,
+            band_scores: found.kurtogram,
+            lines: Some(found.lines),
+        })
+    }
+
+    fn kurtogram(&self) -> Result<KurtogramResult, SignalError> {
+        let depth = max_depth(self.x.len()).clamp(1, MAX_LEVEL);
+        // Segments shorter than the time between pulses.
+        let fastest = self.rates().filter(|_| self.shaft.is_some_and(|s| s.summary.steady));
+        let segment = fastest.map_or(128.0, |(rates, _)| 0.5 * self.rate / rates.inner);
+        let segment = 2 * (0.5 * segment.clamp(32.0, 1024.0)) as usize;
+        let welch = Welch { overlap: segment - segment / 4, ..Welch::hann(segment) };
+        Ok(KurtogramResult {
+            kurtogram: fast_kurtogram(self.x, self.rate, depth)?,
+            spectral: spectral_kurtosis(self.x, self.rate, &welch)?,
+        })
+    }
+
+    /// Highest order: as given, else by bearing and sampling rate.
+    fn max_order(&self) -> f64 {
+        let wanted = self.bearing.map_or(DEFAULT_MAX_ORDER, |b| (2.2 * b.orders.bpfi).max(DEFAULT_MAX_ORDER));
+        let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
+        self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
+    }
+
+    fn orders(&self) -> Result<ShaftOrders, SignalError> {
+        let theta = self.angle("order tracking")?;
+        let resolution = self.settings.order_resolution;
+        let settings =
+            OrderSettings { min_speed: MIN_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
+        let mut tracker = OrderTracker::new(theta, self.rate, settings)?;
+        let records = tracker.resample(&[self.x])?;
+        let map = tracker.spectrogram(&records[0]);
+        let average = map.average(0.0, f64::INFINITY)?;
+        let highest = map.orders.last().copied().unwrap_or(0.0);
+        let lines = self.order_lines().into_iter().filter(|line| line.order < highest);
+        let cuts: Result<_, SignalError> = lines
+            .map(|line| {
+                let cut = map.cut(line.order, resolution)?;
+                Ok((line, cut))
+            })
+            .collect();
+        Ok(ShaftOrders { cuts: cuts?, average, map })
+    }
+
+    /// 1x, 2x and the bearing's characteristic orders.
+    fn order_lines(&self) -> Vec<OrderLine> {
+        let shaft = |n: f64| OrderLine { label: format!("{n}x"), order: n, bearing: false };
+        let mut lines = vec![shaft(1.0), shaft(2.0)];
+        if let Some(bearing) = self.bearing {
+            lines.extend(BearingPart::ALL.map(|part| OrderLine {
+                label: part.line_name().into(),
+                order: part.defect_frequency(&characteristic_rates(bearing, 1.0)),
+                bearing: true,
+            }));
+        }
+        lines
+    }
+
+    fn average(&self) -> Result<ShaftAverage, SignalError> {
+        let theta = self.angle("an average over the shaft's turns")?;
+        let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(360.0, 4096.0) as usize;
+        let resampler = AngleResampler::new(theta, self.rate, per_turn, MIN_SPEED)?;
+        let parts = resampler.parts();
+        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
+        let mut records = resampler.resample(&[self.x])?;
+        let record = records.swap_remove(longest).swap_remove(0);
+        // Revolutions begin at angle 0.
+        let skipped = (-parts[longest].first).rem_euclid(per_turn as i64) as usize;
+        let record = &record[skipped.min(record.len())..];
+        let average = synchronous_average(record, per_turn)?;
+        let rest = average.residual(record)?;
+        let spread = |x: &[f64]| statistics(x).map(|s| s.standard_deviation);
+        let rms = [spread(record)?, spread(&average.mean)?, spread(&rest)?];
+        Ok(ShaftAverage { average, rms })
+    }
+}
+
+/// Characteristic rates of a bearing at shaft rate `unit`.
+fn characteristic_rates(bearing: &BearingWithOrders, unit: f64) -> DefectFrequencies {
+    let orders = bearing.orders;
+    DefectFrequencies {
+        shaft: unit,
+        cage: unit * orders.ftf,
+        outer: unit * orders.bpfo,
+        inner: unit * orders.bpfi,
+        ball: unit * orders.bsf,
+    }
+}

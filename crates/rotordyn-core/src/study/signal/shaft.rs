@@ -1,0 +1,118 @@
+//! Shaft speed and angle during a record: constant, sampled, from tacho pulses, or from an order line.
+
+use std::f64::consts::TAU;
+
+use crate::results::ShaftSummary;
+use rotordyn_signal::SignalError;
+use rotordyn_signal::resample::integrate_speed;
+use rotordyn_signal::tacho::PulseTrain;
+use rotordyn_signal::tacholess::{SpeedLineSettings, speed_from_line};
+
+/// Relative speed variation up to which the speed counts as constant.
+const STEADY_TOLERANCE: f64 = 0.01;
+/// Number of sections of a record over which speeds are compared.
+const SPEED_SECTIONS: usize = 200;
+/// Pulses on either side used to smooth tacho jitter, if requested.
+const SMOOTHING: usize = 4;
+
+/// Speed of a shaft, and its angle if known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShaftMotion {
+    pub summary: ShaftSummary,
+    /// Shaft angle \[rad\] at the record's samples from `first` on; empty if only the mean speed is known.
+    pub angle: Vec<f64>,
+    pub first: usize,
+}
+
+impl ShaftMotion {
+    /// Constant speed \[rev/s\], the direction ignored; `source`: description.
+    pub fn constant(speed: f64, source: String) -> Self {
+        let speed = speed.abs();
+        let summary = ShaftSummary { source, mean: speed, min: speed, max: speed, steady: true };
+        ShaftMotion { summary, angle: Vec::new(), first: 0 }
+    }
+
+    /// An angle \[rad\] sampled at `sample_rate` \[Hz\] from sample `first` of the record on.
+    ///
+    /// Lowest and highest speed are means over one revolution or a 200th of the record, if that is longer.
+    pub fn from_angle(angle: Vec<f64>, first: usize, sample_rate: f64, source: String) -> Self {
+        let last = angle.len() - 1;
+        let turns = |a: usize, b: usize| (angle[b] - angle[a]).abs() / TAU;
+        let mean = turns(0, last) * sample_rate / last.max(1) as f64;
+        let one_turn = if mean > 0.0 { (sample_rate / mean).ceil() as usize } else { last };
+        let stride = one_turn.max(last / SPEED_SECTIONS).clamp(1, last.max(1));
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for start in (0..=last.saturating_sub(stride)).step_by(stride) {
+            let speed = turns(start, (start + stride).min(last)) * sample_rate / stride as f64;
+            (least, most) = (least.min(speed), most.max(speed));
+        }
+        let steady = most - least <= STEADY_TOLERANCE * mean;
+        ShaftMotion { summary: ShaftSummary { source, mean, min: least, max: most, steady }, angle, first }
+    }
+
+    /// A speed \[rad/s\] sampled like the record, integrated. Errors: NaN.
+    pub fn from_speed(speed: &[f64], sample_rate: f64, source: String) -> Result<Self, SignalError> {
+        Ok(Self::from_angle(integrate_speed(speed, sample_rate, 0.0)?, 0, sample_rate, source))
+    }
+
+    /// From tacho pulses at times \[s\] from the record's first sample; `smooth` reduces their jitter.
+    ///
+    /// Errors: too few pulses, no sample between the first and the last.
+    pub fn from_pulses(
+        train: &PulseTrain,
+        sample_rate: f64,
+        samples: usize,
+        smooth: bool,
+        source: String,
+    ) -> Result<Self, SignalError> {
+        let smoothed;
+        let train = if smooth {
+            smoothed = train.smoothed(SMOOTHING)?;
+            &smoothed
+        } else {
+            train
+        };
+        let (angle, first) = train.angle(sample_rate, samples)?;
+        Ok(Self::from_angle(angle, first, sample_rate, source))
+    }
+
+    /// Tacholess: from the line of one order in the record itself, between two frequencies \[Hz\].
+    ///
+    /// Frames contain 24 periods at the geometric mean of the two; the line may cross the range in an eighth
+    /// of the record.
+    /// Errors: as [`speed_from_line`].
+    pub fn from_order_line(
+        record: &[f64],
+        sample_rate: f64,
+        order: f64,
+        range: (f64, f64),
+        source: String,
+    ) -> Result<Self, SignalError> {
+        let (low, high) = range;
+        let frame = (24.0 * sample_rate / (low * high).max(f64::MIN_POSITIVE).sqrt()).round();
+        let settings = SpeedLineSettings {
+            order,
+            low,
+            high,
+            max_sweep_rate: 8.0 * (high - low) * sample_rate / record.len() as f64,
+            frame: (frame as usize).clamp(16, record.len().max(16)),
+        };
+        let found = speed_from_line(record, sample_rate, &settings)?;
+        Ok(Self::from_angle(found.theta, 0, sample_rate, source))
+    }
+
+    /// Times \[s\] (`start`: that of the channel's first sample) and mean speeds \[rpm\] over every 200th of
+    /// the record.
+    pub fn speeds(&self, sample_rate: f64, start: f64) -> [Vec<f64>; 2] {
+        let last = self.angle.len().saturating_sub(1);
+        let stride = (last / SPEED_SECTIONS).max(1);
+        let at = |k: usize| {
+            let (a, b) = (k * stride, (k + 1) * stride);
+            let turns = (self.angle[b] - self.angle[a]).abs() / TAU;
+            let middle = self.first as f64 + 0.5 * (a + b) as f64;
+            (start + middle / sample_rate, 60.0 * turns * sample_rate / stride as f64)
+        };
+        let (times, speeds) = (0..last / stride).map(at).unzip();
+        [times, speeds]
+    }
+}

@@ -1,0 +1,195 @@
+//! Energy balance of a run, step by step.
+//!
+//! Under a torque drive the rotation is an unknown: its kinetic energy belongs to the stored energy, and what unbalance,
+//! gyroscopic terms, internal damping and cages exchange with it stays inside the machine.
+
+use nalgebra::DVector;
+
+use super::system::{State, System};
+use super::torque::DriveEnergy;
+use rotordyn_bearing::{Reaction, Rotation};
+
+/// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Energy {
+    /// ½ ẋᵀ ẋ (mass-normalised coordinates); under a torque drive with the energy of the rotation.
+    pub kinetic: f64,
+    /// ½ xᵀ K x of the linear parts.
+    pub strain: f64,
+    /// Elastic energy in the bearings.
+    pub contact: f64,
+    /// Work of loads since the start, and with a prescribed speed of unbalance, angular acceleration and circulatory
+    /// terms.
+    pub work: f64,
+    /// Work of a torque drive since the start.
+    pub drive: f64,
+    /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation) since
+    /// the start.
+    pub parametric: f64,
+    /// Energy dissipated by linear damping since the start.
+    pub damping_loss: f64,
+    /// Energy dissipated in bearing contacts since the start.
+    pub contact_loss: f64,
+    /// Stored energy at the start.
+    pub start: f64,
+}
+
+impl Energy {
+    /// Stored energy, not negative: kinetic + strain + contact, zero at rest and undeformed \[J\].
+    pub fn stored(&self) -> f64 {
+        self.kinetic + self.strain + self.contact
+    }
+
+    /// Residual of the energy balance \[J\].
+    pub fn residual(&self) -> f64 {
+        self.stored() - self.start - self.work - self.drive - self.parametric
+            + self.damping_loss
+            + self.contact_loss
+    }
+
+    /// Reference for the residual \[J\]: losses plus change of stored energy.
+    pub fn exchanged(&self) -> f64 {
+        self.damping_loss + self.contact_loss + (self.stored() - self.start).abs()
+    }
+}
+
+/// Updates the energy balance step by step; allocation-free after construction.
+pub struct EnergyBalance {
+    pub energy: Energy,
+    load: DVector<f64>,
+    previous_load: DVector<f64>,
+    linear: DVector<f64>,
+    scratch: Vec<f64>,
+    moved: DVector<f64>,
+    x: DVector<f64>,
+    v: DVector<f64>,
+    /// Parametric and contact-loss power at the last state.
+    powers: [f64; 2],
+    rotations: Vec<Rotation>,
+    rotation: Option<DriveEnergy>,
+    time: f64,
+}
+
+impl EnergyBalance {
+    pub fn new(system: &System, state: &State) -> Self {
+        let zero = || DVector::zeros(system.size());
+        let mut balance = Self {
+            energy: Energy::default(),
+            load: zero(),
+            previous_load: zero(),
+            linear: zero(),
+            scratch: Vec::new(),
+            moved: zero(),
+            x: state.x.clone(),
+            v: state.v.clone(),
+            powers: powers(system, state),
+            rotations: state.rotations.clone(),
+            rotation: system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state)),
+            time: state.time,
+        };
+        effective_load(system, state, &mut balance.scratch, &mut balance.previous_load);
+        balance.update_stored_energy(system, state);
+        balance.energy.start = balance.energy.stored();
+        balance
+    }
+
+    /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
+    pub fn update(&mut self, system: &System, state: &State) {
+        let step = state.time - self.time;
+        self.moved.copy_from(&state.x);
+        self.moved -= &self.x;
+        if let (Some(drive), Some(rotation)) = (&system.drive, &mut self.rotation) {
+            self.moved.axpy(rotation.turned(state), &drive.rigid_rotation, 1.0);
+            let done = rotation.step(drive, system, state, &self.moved, step);
+            self.energy.drive += done.drive;
+            self.energy.work += done.gravity;
+            self.energy.damping_loss += done.loss;
+        }
+        effective_load(system, state, &mut self.scratch, &mut self.load);
+        let e = &mut self.energy;
+        e.work += 0.5 * (self.load.dot(&self.moved) + self.previous_load.dot(&self.moved));
+        std::mem::swap(&mut self.load, &mut self.previous_load);
+        // C (v₀ + v₁)/2 along the path.
+        self.v += &state.v;
+        self.v *= 0.5;
+        self.linear.fill(0.0);
+        let n = system.structure();
+        system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
+        e.damping_loss += self.linear.dot(&self.moved);
+        let now = powers(system, state);
+        e.parametric += 0.5 * step * (self.powers[0] + now[0]);
+        e.parametric += energy_by_speed_change(system, state, &self.rotations);
+        e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
+        self.powers = now;
+        self.rotations.copy_from_slice(&state.rotations);
+        self.x.copy_from(&state.x);
+        self.v.copy_from(&state.v);
+        self.time = state.time;
+    }
+
+    /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
+    pub fn restart_from(&mut self, system: &System, state: &State) {
+        effective_load(system, state, &mut self.scratch, &mut self.previous_load);
+        self.x.copy_from(&state.x);
+        self.v.copy_from(&state.v);
+        self.rotation = system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state));
+    }
+
+    /// Updates the stored energies (kinetic, strain, contact); needed before reading [`Self::energy`] only.
+    pub fn update_stored_energy(&mut self, system: &System, state: &State) {
+        let e = &mut self.energy;
+        e.kinetic = 0.5 * state.v.norm_squared();
+        if let Some(drive) = &system.drive {
+            e.kinetic += drive.kinetic_energy(system, state);
+        }
+        let x = state.x.rows(0, system.structure());
+        let mut pull = self.linear.rows_mut(0, system.structure());
+        pull.gemv(0.5, &system.stiffness, &x, 0.0);
+        e.strain = pull.dot(&x);
+        e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
+    }
+}
+
+fn powers(system: &System, state: &State) -> [f64; 2] {
+    let sum = |pick: fn(&Reaction) -> f64| state.reactions.iter().map(pick).sum();
+    let parametric = match &system.drive {
+        None => sum(|r| r.parametric_power),
+        Some(drive) => drive.remaining_parametric_power(system, state),
+    };
+    [parametric, sum(|r| r.dissipated_power)]
+}
+
+/// Change of the bearings' energy by the change of speed alone since `before` \[J\]: film, ball inertia,
+/// preload and clearance depend on speed. (The stored energy of balls with own degrees of freedom does not.)
+fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -> f64 {
+    let mut sum = 0.0;
+    for ((interface, reaction), (now, before)) in
+        system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))
+    {
+        let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
+        if before != *now && interface.balls == 0 && interface.element.depends_on_speed() {
+            let [d, rate] = interface.motion(&state.d, &state.d_rate, &before);
+            let slower = interface.element.reaction(&d, &rate, &before);
+            sum += reaction.elastic_energy - slower.elastic_energy;
+        }
+    }
+    sum
+}
+
+/// Loads plus the left-hand terms that are neither elastic nor damping: −(Ω̇ K_s + Ω K_c) x. Under a torque drive the
+/// given loads alone.
+fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
+    if system.drive.is_some() {
+        return system.given_load(state.time, out);
+    }
+    system.load(state.time, &state.spin, out);
+    if !system.panels.has_effective {
+        return;
+    }
+    let n = system.structure();
+    let x = &state.x.as_slice()[..n];
+    scratch.clear();
+    scratch.extend(x.iter().map(|x| -state.spin.acceleration * x));
+    scratch.extend(x.iter().map(|x| -state.spin.speed * x));
+    system.panels.effective.mul_add(scratch, &mut out.as_mut_slice()[..n]);
+}

@@ -1,0 +1,212 @@
+//! Newton's method for the bearing forces at the end of a time step, on the interface rows.
+
+use nalgebra::DVector;
+
+use super::StepFailure;
+use crate::transient::system::{State, System};
+use rotordyn_bearing::radial::NewmarkGain;
+use rotordyn_bearing::{Reaction, Rotation};
+use rotordyn_linalg::small_dense::solve_in_place;
+
+/// Newton stops when no interface displacement changed by more than this \[m, rad\] in an iteration; with quadratic
+/// convergence on contact deflections of 1e-7 m and more, the error is then below 1e-15 m.
+const TOLERANCE: f64 = 1e-11;
+const MAX_ITERATIONS: usize = 25;
+
+/// The interface problem d = d̄ + β h² u, ḋ = ḋ̄ + γ h u, u = Ỹ f(d, ḋ) with Ỹ = (1−α_f) Y, and its buffers.
+///
+/// Displacements, velocities and forces hold the interface rows, then one entry per ball with a coordinate.
+pub(super) struct InterfaceNewton {
+    /// Displacement d̄ and velocity ḋ̄ at the end of the step without bearing forces in it.
+    free_d: Vec<f64>,
+    free_d_rate: Vec<f64>,
+    free_acceleration: Vec<f64>,
+    /// Acceleration u of the rows by the bearing forces, and the residual u − Ỹ f, then the correction.
+    acceleration: Vec<f64>,
+    correction: Vec<f64>,
+    jacobian: Vec<f64>,
+    /// Ỹ at this step's speed, row-major.
+    pub compliance: Vec<f64>,
+    d: Vec<f64>,
+    d_rate: Vec<f64>,
+    /// Bearing forces: the initial guess, then the solution.
+    pub force: Vec<f64>,
+    reactions: Vec<Reaction>,
+    /// −∂(force on every ball)/∂(rows of its bearing).
+    ball_force_tangent: Vec<[f64; 4]>,
+    /// Newton iterations so far.
+    pub iterations: u64,
+}
+
+impl InterfaceNewton {
+    pub fn new(system: &System) -> Self {
+        let (rows, places) = (system.rows(), system.interface_size());
+        Self {
+            free_d: vec![0.0; places],
+            free_d_rate: vec![0.0; places],
+            free_acceleration: vec![0.0; places],
+            acceleration: vec![0.0; rows],
+            correction: vec![0.0; rows],
+            jacobian: vec![0.0; rows * rows],
+            compliance: vec![0.0; rows * rows],
+            d: vec![0.0; places],
+            d_rate: vec![0.0; places],
+            force: vec![0.0; places],
+            reactions: vec![Reaction::default(); system.interfaces.len()],
+            ball_force_tangent: vec![[0.0; 4]; places - rows],
+            iterations: 0,
+        }
+    }
+
+    /// d̄ = W (x̄ + β h² a) and ḋ̄ = W (v̄ + γ h a) with the acceleration a without bearing forces.
+    pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &NewmarkGain) {
+        system.to_interface(x, &mut self.free_d);
+        system.to_interface(v, &mut self.free_d_rate);
+        system.to_interface(a, &mut self.free_acceleration);
+        for (r, acceleration) in self.free_acceleration.iter().enumerate() {
+            self.free_d[r] += gain.position * acceleration;
+            self.free_d_rate[r] += gain.velocity * acceleration;
+        }
+    }
+
+    /// Initial guess of the force, extrapolated linearly from the last two states: about a hundred times closer than
+    /// the last state's force.
+    pub fn extrapolate_force(&mut self, last: &[f64], before: &[f64]) {
+        for ((force, last), before) in self.force.iter_mut().zip(last).zip(before) {
+            *force = 2.0 * last - before;
+        }
+    }
+
+    /// Solves for the bearing forces from the guess in `force`.
+    ///
+    /// # Errors
+    /// No convergence within the largest number of iterations, a singular Jacobian, or NaN.
+    pub fn solve(
+        &mut self,
+        system: &System,
+        rotations: &[Rotation],
+        gain: &NewmarkGain,
+    ) -> Result<(), StepFailure> {
+        for (u, y) in self.acceleration.iter_mut().zip(self.compliance.chunks_exact(system.rows())) {
+            *u = y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
+        }
+        let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
+        for iteration in 1..=MAX_ITERATIONS {
+            self.iterations += 1;
+            self.evaluate(system, rotations, gain);
+            self.linearise(system, gain);
+            if !solve_in_place(&mut self.jacobian, &mut self.correction) {
+                return Err(failure);
+            }
+            let (row, largest) = self.correct(gain);
+            failure = StepFailure { row, residual: largest, iterations: iteration };
+            if largest <= TOLERANCE {
+                self.apply_last_correction(system, gain);
+                return Ok(());
+            }
+            if !largest.is_finite() {
+                return Err(failure);
+            }
+        }
+        Err(failure)
+    }
+
+    /// Bearing reactions at the present u; balls with coordinates are solved inside.
+    fn evaluate(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
+        let rows = system.rows();
+        self.set_row_motion(gain);
+        self.d[rows..].copy_from_slice(&self.free_d[rows..]);
+        self.d_rate[rows..].copy_from_slice(&self.free_d_rate[rows..]);
+        system.bearing_reactions_in_step(
+            [&mut self.d, &mut self.d_rate],
+            rotations,
+            gain,
+            &mut self.reactions,
+            &mut self.force,
+            &mut self.ball_force_tangent,
+        );
+    }
+
+    /// Residual u − Ỹ f and Jacobian I + Ỹ (β h² K + γ h C), with the tangents block by block.
+    fn linearise(&mut self, system: &System, gain: &NewmarkGain) {
+        let rows = system.rows();
+        for r in 0..rows {
+            let y = &self.compliance[r * rows..(r + 1) * rows];
+            self.correction[r] =
+                self.acceleration[r] - y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
+            let line = &mut self.jacobian[r * rows..(r + 1) * rows];
+            line.fill(0.0);
+            for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
+                let (first, count) = (interface.first_row, interface.rows);
+                for b in 0..count {
+                    let (yd, yv) = (gain.position * y[first + b], gain.velocity * y[first + b]);
+                    let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
+                    for column in 0..count {
+                        line[first + column] += yd * k[column] + yv * c[column];
+                    }
+                }
+            }
+            line[r] += 1.0;
+        }
+    }
+
+    /// u ← u − Δ; the row with the largest change of displacement, and that change.
+    fn correct(&mut self, gain: &NewmarkGain) -> (usize, f64) {
+        let (mut largest, mut row) = (0.0, 0);
+        for (r, correction) in self.correction.iter().enumerate() {
+            self.acceleration[r] -= correction;
+            let change = gain.position * correction.abs();
+            if change > largest || change.is_nan() {
+                (largest, row) = (change, r);
+            }
+        }
+        (row, largest)
+    }
+
+    /// Applies Newton's last correction to forces and displacements too, so that force and state agree:
+    /// f ← f + (β h² K + γ h C) Δ.
+    fn apply_last_correction(&mut self, system: &System, gain: &NewmarkGain) {
+        let rows = system.rows();
+        let (on_rows, on_balls) = self.force.split_at_mut(rows);
+        for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
+            let correction = &self.correction[interface.row_range()];
+            for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
+                for (column, by) in correction.iter().enumerate() {
+                    let (k, c) = (reaction.stiffness[b][column], reaction.damping[b][column]);
+                    *force += (gain.position * k + gain.velocity * c) * by;
+                }
+            }
+            on_rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+            for ball in interface.ball_range() {
+                let tangent = &self.ball_force_tangent[ball];
+                let change: f64 = tangent.iter().zip(correction).map(|(k, by)| k * by).sum();
+                on_balls[ball] += gain.position * change;
+                let acceleration = gain.inverse_mass / system.ball_masses[ball] * on_balls[ball];
+                self.d[rows + ball] = self.free_d[rows + ball] + gain.position * acceleration;
+                self.d_rate[rows + ball] = self.free_d_rate[rows + ball] + gain.velocity * acceleration;
+            }
+        }
+        self.set_row_motion(gain);
+    }
+
+    /// d = d̄ + β h² u and ḋ = ḋ̄ + γ h u of the rows.
+    fn set_row_motion(&mut self, gain: &NewmarkGain) {
+        for (r, u) in self.acceleration.iter().enumerate() {
+            self.d[r] = self.free_d[r] + gain.position * u;
+            self.d_rate[r] = self.free_d_rate[r] + gain.velocity * u;
+        }
+    }
+
+    /// Bearing reactions of the solution.
+    pub fn reactions(&self) -> &[Reaction] {
+        &self.reactions
+    }
+
+    /// Writes the solution to a state.
+    pub fn store(&self, state: &mut State) {
+        state.reactions.copy_from_slice(&self.reactions);
+        state.d.copy_from_slice(&self.d);
+        state.d_rate.copy_from_slice(&self.d_rate);
+        state.force.copy_from_slice(&self.force);
+    }
+}

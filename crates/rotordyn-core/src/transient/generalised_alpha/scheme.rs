@@ -1,0 +1,47 @@
+//! Parameters of the generalised-α family, and a step that failed.
+
+use rotordyn_bearing::radial::NewmarkGain;
+
+/// Parameters of the family (Chung & Hulbert 1993, eq. 17-20 and 25).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scheme {
+    pub alpha_m: f64,
+    pub alpha_f: f64,
+    pub beta: f64,
+    pub gamma: f64,
+}
+
+impl Scheme {
+    /// Generalised-α with spectral radius ρ∞ in \[0, 1\] at infinite frequency.
+    ///
+    /// x and v are second-order accurate; the algorithmic acceleration a belongs to a time (α_f − α_m) h before the end
+    /// of the step (0.11 h at ρ∞ = 0.8), which an acceleration channel shows as a time shift. Newmark has no shift.
+    pub fn generalised_alpha(rho: f64) -> Self {
+        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        Self {
+            alpha_m,
+            alpha_f,
+            beta: 0.25 * (1.0 - alpha_m + alpha_f).powi(2),
+            gamma: 0.5 - alpha_m + alpha_f,
+        }
+    }
+
+    /// Newmark's average acceleration, γ = ½, β = ¼.
+    pub const NEWMARK: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
+
+    /// How displacement, velocity and ball acceleration at the end of a step of length h follow from the end's forces:
+    /// β h², γ h and (1−α_f)/(1−α_m).
+    pub(super) fn gain(&self, step: f64) -> NewmarkGain {
+        let ball = (1.0 - self.alpha_f) / (1.0 - self.alpha_m);
+        NewmarkGain { position: self.beta * step * step, velocity: self.gamma * step, inverse_mass: ball }
+    }
+}
+
+/// Newton iteration that did not converge, for the driver that halves the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepFailure {
+    /// Interface row with the largest correction, and that correction \[m, rad\].
+    pub row: usize,
+    pub residual: f64,
+    pub iterations: usize,
+}

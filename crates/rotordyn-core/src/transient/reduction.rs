@@ -1,0 +1,306 @@
+//! Modal reduction of the linear parts (component mode synthesis) with static correction modes.
+//!
+//! Basis: the undamped modes of the machine linearised at equilibrium (bearings included, so no Craig-Bampton
+//! fixed-interface modes), up to a cutoff, plus static correction modes: its static response (residual
+//! flexibility) to every interface force and load. The static compliance at the bearings is therefore exact;
+//! C, G and the other matrices are projected.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::system::{Channel, Interface, LoadHistory, Panels, System};
+use super::torque::{RotatingUnbalance, TorqueDrive};
+use crate::analysis::equilibrium::Equilibrium;
+use crate::assembly::{Assembly, ModalDamping, PhysicsError};
+use crate::model::{Drive, Model};
+use rotordyn_bearing::radial::Rings;
+use rotordyn_bearing::{BearingElement, Rotation};
+use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
+
+/// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
+/// shaft in unstable equilibrium on one ball.
+const MASS_SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
+
+/// A reduced machine with the basis for expansion to all DOFs.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    pub system: System,
+    /// Basis V (free DOFs × coordinates), Vᵀ M V = 1.
+    pub basis: DMatrix<f64>,
+    /// Coordinates of the equilibrium about which the model was reduced, balls included.
+    pub equilibrium: DVector<f64>,
+    /// Number of vibration modes and of static correction modes in the basis.
+    pub modes: usize,
+    pub corrections: usize,
+    /// Largest displacement error of the equilibrium in the basis, relative to the largest displacement.
+    pub static_error: f64,
+}
+
+impl Reduction {
+    /// All free DOFs \[m, rad\] of the structure at coordinates x.
+    pub fn expand(&self, x: &DVector<f64>) -> DVector<f64> {
+        &self.basis * x.rows(0, self.basis.ncols())
+    }
+
+    /// A row over the free DOFs in terms of the coordinates: Vᵀ r, zero for the balls.
+    pub fn row(&self, row: Vec<f64>) -> DVector<f64> {
+        padded(self.basis.tr_mul(&DVector::from_vec(row)), self.system.size())
+    }
+}
+
+/// A vector over the structure's coordinates with zeros for the balls.
+fn padded(vector: DVector<f64>, size: usize) -> DVector<f64> {
+    vector.resize_vertically(size, 0.0)
+}
+
+/// Reduces `assembly` about `equilibrium`, keeping modes up to `cutoff` \[Hz\] (infinity keeps all).
+///
+/// # Errors
+/// No undamped modes (mass or stiffness not positive definite).
+pub fn reduce(
+    model: &Model,
+    assembly: &Assembly,
+    equilibrium: &Equilibrium,
+    cutoff: f64,
+) -> Result<Reduction, PhysicsError> {
+    let n = assembly.dofs.len();
+    let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
+    let mut tangent = Triplets::new(n, n);
+    for (site, bearing) in assembly.sites.iter().zip(&equilibrium.bearings) {
+        let k = bearing.tangent.stiffness;
+        let symmetric = std::array::from_fn(|a| std::array::from_fn(|b| 0.5 * (k[a][b] + k[b][a])));
+        tangent.add_between_rows(&site.rows, &symmetric);
+    }
+    let tangent_stiffness = SparseMatrix::sum(&[
+        (1.0, &assembly.stiffness),
+        (1.0, &assembly.belt_stiffness),
+        (1.0, &tangent.build()),
+    ]);
+    let mass = assembly.mass.to_dense();
+    let stiffness = tangent_stiffness.to_dense();
+    let modes_at = |shift: &f64| eigen::undamped(&stiffness, &mass, *shift);
+    let (squares, shapes) = MASS_SHIFTS[1..]
+        .iter()
+        .fold(modes_at(&MASS_SHIFTS[0]), |found, shift| found.or_else(|_| modes_at(shift)))
+        .map_err(|e| failed(e.to_string()))?;
+    let limit = (std::f64::consts::TAU * cutoff).powi(2);
+    let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
+
+    // The belt resists deviation from equilibrium: its force is k (q₀ − q).
+    let belt_preload = assembly.belt_stiffness.mul(&equilibrium.q);
+    let mut static_load: Vec<f64> =
+        (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
+    let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
+        .loads
+        .iter()
+        .filter(|load| !load.history.is_empty())
+        .map(|load| {
+            let mut vector = vec![0.0; n];
+            for (row, f) in assembly.anchor_rows(&load.at).iter().zip(&load.force) {
+                row.add_to(*f, &mut vector);
+            }
+            (vector, load.history.clone())
+        })
+        .collect();
+
+    let dense = |row: &SparseRow| {
+        let mut v = vec![0.0; n];
+        row.add_to(1.0, &mut v);
+        v
+    };
+    let mut forces: Vec<Vec<f64>> =
+        vec![static_load.clone(), belt_preload.clone(), assembly.spin_momentum.clone()];
+    let mut interfaces: Vec<Interface> = Vec::new();
+    let mut map: Vec<&SparseRow> = Vec::new();
+    let mut ball_masses = Vec::new();
+    for (site, place) in model.bearings.iter().zip(&assembly.sites) {
+        let element = BearingElement::new(&site.bearing);
+        let mut rows: Vec<&SparseRow> = place.rows[..element.relative_dofs()].iter().collect();
+        let first_ball = ball_masses.len();
+        if let Some(radial) = element.radial() {
+            if site.housing.node.is_some() {
+                rows.extend(&place.housing_rows);
+            }
+            ball_masses.extend(std::iter::repeat_n(radial.ball_mass(), radial.balls()));
+            forces.extend(rows.iter().map(|row| dense(row)));
+        } else {
+            forces.extend(place.rows.iter().map(dense));
+        }
+        interfaces.push(Interface {
+            name: site.name.clone(),
+            first_row: map.len(),
+            rows: rows.len(),
+            first_ball,
+            balls: ball_masses.len() - first_ball,
+            cage_angle: site.bearing.cage_angle(),
+            free_rotation: matches!(model.drive, Drive::Torque { .. }),
+            element,
+        });
+        map.extend(rows);
+    }
+    forces.extend(assembly.unbalances.iter().flat_map(|u| [dense(&u.x), dense(&u.y)]));
+    if let Drive::Torque { node, .. } = model.drive {
+        let driven = &assembly.anchor_rows(&crate::element::Anchor::node(node))[5];
+        forces.extend(assembly.unbalances.iter().map(|u| &u.twist).chain([driven]).map(&dense));
+    }
+    forces.extend(histories.iter().map(|(v, _)| v.clone()));
+    let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
+        .ok_or_else(|| failed("the stiffness at equilibrium is not positive definite".into()))?;
+
+    for (s, b) in static_load.iter_mut().zip(&belt_preload) {
+        *s += b;
+    }
+    let momentum = basis.transpose() * &mass;
+    let project = |m: &SparseMatrix| basis.transpose() * m.to_dense() * &basis;
+    let size = basis.ncols() + ball_masses.len();
+    let vector = |v: &[f64]| padded(basis.transpose() * DVector::from_column_slice(v), size);
+    let row = |r: &SparseRow| vector(&dense(r));
+    let structure_stiffness =
+        SparseMatrix::sum(&[(1.0, &assembly.stiffness), (1.0, &assembly.belt_stiffness)]);
+    let tangents = equilibrium.tangents();
+    let own = if assembly.modal.is_none() { ModalDamping::new(assembly, &tangents)? } else { None };
+    let modal = assembly.modal.as_deref().or(own.as_ref());
+    let modal = modal.map_or_else(|| SparseMatrix::zeros(n, n), |modal| modal.matrix.to_sparse());
+    let damping = SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &modal)]);
+
+    let mut unbalance = [DVector::zeros(size), DVector::zeros(size)];
+    for u in &assembly.unbalances {
+        let (sin, cos) = u.phase.sin_cos();
+        let (x, y) = (row(&u.x) * u.magnitude, row(&u.y) * u.magnitude);
+        unbalance[0] += &x * cos + &y * sin;
+        unbalance[1] += &y * cos - &x * sin;
+    }
+    let drive = match &model.drive {
+        Drive::Prescribed { .. } => None,
+        Drive::Torque { node, table, drag } => {
+            let node = crate::element::Anchor::node(*node);
+            let unbalances: Vec<RotatingUnbalance> = assembly
+                .unbalances
+                .iter()
+                .map(|u| RotatingUnbalance {
+                    name: u.name.clone(),
+                    x: row(&u.x),
+                    y: row(&u.y),
+                    twist: row(&u.twist),
+                    magnitude: u.magnitude,
+                    phase: u.phase,
+                })
+                .collect();
+            let drive = TorqueDrive {
+                table: table.clone(),
+                drag: *drag,
+                torque: row(&assembly.anchor_rows(&node)[5]),
+                rigid_rotation: vector(&assembly.spin_momentum),
+                unbalances,
+                gravity: [model.gravity[0], model.gravity[1]],
+                rotation_drag: vector(&assembly.rotation_drag),
+                rotating_damping: match assembly.rotating_damping.max_abs() {
+                    0.0 => DMatrix::zeros(0, 0),
+                    _ => project(&assembly.rotating_damping),
+                },
+            };
+            drive.check_inertia()?;
+            Some(drive)
+        }
+    };
+    // Without a drive station every inertia is accelerated by its own torque: spin-up causes no twist.
+    let driven = !matches!(model.drive, Drive::Prescribed { node: None });
+    let q0 = DVector::from_column_slice(&equilibrium.q);
+    let structure = &momentum * &q0;
+    let static_error = (&basis * &structure - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
+    let mut x0 = padded(structure, size);
+    for ((interface, place), state) in interfaces.iter().zip(&assembly.sites).zip(&equilibrium.bearings) {
+        let Some(radial) = interface.element.radial() else { continue };
+        let rings = Rings {
+            relative_displacement: [state.displacement[0], state.displacement[1]],
+            housing_displacement: [0, 1].map(|k| place.housing_rows[k].dot(&equilibrium.q)),
+            ..Rings::default()
+        };
+        let rotation = Rotation {
+            cage_angle: interface.cage_angle,
+            shaft_speed: equilibrium.speed,
+            ..Rotation::default()
+        };
+        for (ball, place) in interface.ball_range().zip(radial.equilibrium_positions(&rings, &rotation)) {
+            x0[basis.ncols() + ball] = ball_masses[ball].sqrt() * place;
+        }
+    }
+    let matrices = [
+        &project(&damping),
+        &project(&structure_stiffness),
+        &project(&assembly.gyroscopic),
+        &project(&assembly.spin_up),
+        &project(&assembly.circulatory),
+    ];
+    let on_structure = |r: &SparseRow| (basis.transpose() * DVector::from_vec(dense(r))).transpose();
+    let rows: Vec<_> = map.iter().map(|r| on_structure(r)).collect();
+    let interface_map =
+        if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) };
+    let system = System {
+        panels: Panels::new(matrices, &interface_map),
+        damping: matrices[0].clone(),
+        stiffness: matrices[1].clone(),
+        gyroscopic: matrices[2].clone(),
+        spin_up: matrices[3].clone(),
+        circulatory: matrices[4].clone(),
+        static_load: vector(&static_load),
+        unbalance,
+        spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
+        histories: histories
+            .iter()
+            .map(|(v, points)| LoadHistory { vector: vector(v), points: points.clone() })
+            .collect(),
+        interface_map,
+        interfaces,
+        ball_masses,
+        channels: model
+            .probes
+            .iter()
+            .map(|p| Channel {
+                name: p.name.clone(),
+                row: row(&assembly.direction_row(&p.at, &p.direction)),
+                quantity: p.quantity,
+            })
+            .collect(),
+        curve: model.profile.curve(),
+        drive,
+    };
+    Ok(Reduction { system, equilibrium: x0, modes, corrections: basis.ncols() - modes, static_error, basis })
+}
+
+/// Modes, then static correction modes M-orthonormalised against the basis (Gram-Schmidt); linearly dependent
+/// ones are dropped.
+fn basis(
+    stiffness: &DMatrix<f64>,
+    mass: &DMatrix<f64>,
+    shapes: &DMatrix<f64>,
+    modes: usize,
+    forces: &[Vec<f64>],
+) -> Option<DMatrix<f64>> {
+    let n = stiffness.nrows();
+    // Rigid-body rotation makes K singular; a shift of (0.16 Hz)² hardly changes the static responses.
+    let shifted = || MASS_SHIFTS.iter().find_map(|shift| nalgebra::Cholesky::new(stiffness + mass * *shift));
+    let factor = nalgebra::Cholesky::new(stiffness.clone()).or_else(shifted)?;
+    let mut columns: Vec<DVector<f64>> = (0..modes).map(|k| shapes.column(k).into_owned()).collect();
+    let mut momenta: Vec<DVector<f64>> = columns.iter().map(|c| mass * c).collect();
+    for force in forces {
+        if columns.len() == n || force.iter().all(|f| *f == 0.0) {
+            continue;
+        }
+        let mut response = factor.solve(&DVector::from_column_slice(force));
+        let size = response.dot(&(mass * &response)).sqrt();
+        // Twice is enough (Kahan & Parlett).
+        for _ in 0..2 {
+            for (c, p) in columns.iter().zip(&momenta) {
+                let share = p.dot(&response);
+                response.axpy(-share, c, 1.0);
+            }
+        }
+        let momentum = mass * &response;
+        let left = response.dot(&momentum).max(0.0).sqrt();
+        if left > 1e-7 * size {
+            columns.push(response / left);
+            momenta.push(momentum / left);
+        }
+    }
+    Some(DMatrix::from_columns(&columns))
+}

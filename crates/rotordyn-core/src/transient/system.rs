@@ -1,0 +1,486 @@
+//! The reduced equations of motion of a machine with nonlinear bearings, for time integration.
+//!
+//! ẍ + (C + Ω G) ẋ + (K + Ω̇ K_s + Ω K_c) x = p(t) + Wᵀ f(d, ḋ, rotation), d = W x,
+//! in mass-normalised coordinates q = V x; f holds the bearing forces on the shaft. Balls with their own
+//! degree of freedom y are appended: √m y to x, y to d, and the force on y to f.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::torque::{DrivenState, TorqueDrive};
+use crate::model::{Quantity, SpeedCurve, Spin};
+use rotordyn_bearing::radial::{NewmarkGain, Rings};
+use rotordyn_bearing::{BearingElement, Reaction, Rotation};
+use rotordyn_linalg::panel::Panel;
+use rotordyn_linalg::{Outside, piecewise};
+
+/// A nonlinear bearing of the reduced system and the rows of W that give its relative displacement.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    pub name: String,
+    pub element: BearingElement,
+    /// First row of W and number of rows: 6; 5 for ball bearings, θ_z being free; for a planar bearing the 2
+    /// of the shaft relative to the housing and, if that moves, the 2 of the housing.
+    pub first_row: usize,
+    pub rows: usize,
+    /// Index of the first ball and number of balls with their own degree of freedom.
+    pub first_ball: usize,
+    pub balls: usize,
+    /// Cage angle at the start \[rad\].
+    pub cage_angle: f64,
+    /// Whether θ_z, the twist, leaves out a rotation with an inertia of its own (torque drive): its rate is then the
+    /// speed of the shaft plus that of the twist.
+    pub free_rotation: bool,
+}
+
+impl Interface {
+    /// Its rows of W.
+    pub fn row_range(&self) -> std::ops::Range<usize> {
+        self.first_row..self.first_row + self.rows
+    }
+
+    /// Its balls among those of all interfaces.
+    pub fn ball_range(&self) -> std::ops::Range<usize> {
+        self.first_ball..self.first_ball + self.balls
+    }
+
+    /// Whether balls in a cage turn with the shaft.
+    pub fn has_cage(&self) -> bool {
+        !matches!(self.element, BearingElement::Linear(_))
+    }
+
+    /// Reaction at displacements and velocities of all interfaces.
+    fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
+        let [at, rate] = self.motion(d, d_rate, rotation);
+        self.element.reaction(&at, &rate, rotation)
+    }
+
+    /// Ring motions of a planar bearing.
+    pub fn ring_motions(&self, d: &[f64], d_rate: &[f64]) -> Rings {
+        Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
+    }
+
+    /// Its relative displacement and velocity among those of all interfaces.
+    pub fn motion(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> [[f64; 6]; 2] {
+        let [at, mut rate] = [d, d_rate].map(|all| {
+            let mut own = [0.0; 6];
+            own[..self.rows].copy_from_slice(&all[self.row_range()]);
+            own
+        });
+        if self.free_rotation && self.rows == 6 {
+            rate[5] += rotation.shaft_speed;
+        }
+        [at, rate]
+    }
+}
+
+/// A load p(t) = factor(t) · vector, factor piecewise linear and zero outside its table.
+#[derive(Clone, Debug)]
+pub struct LoadHistory {
+    pub vector: DVector<f64>,
+    pub points: Vec<[f64; 2]>,
+}
+
+/// One output channel (virtual sensor): row · x (or ẋ, ẍ).
+#[derive(Clone, Debug)]
+pub struct Channel {
+    pub name: String,
+    pub row: DVector<f64>,
+    pub quantity: Quantity,
+}
+
+impl Channel {
+    /// The channel's value at a state.
+    pub fn read(&self, state: &State) -> f64 {
+        self.row.dot(match self.quantity {
+            Quantity::Displacement => &state.x,
+            Quantity::Velocity => &state.v,
+            Quantity::Acceleration => &state.a,
+        })
+    }
+}
+
+/// The reduced machine; immutable during a run. Matrices are over the structure, vectors over all coordinates.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub stiffness: DMatrix<f64>,
+    pub damping: DMatrix<f64>,
+    pub gyroscopic: DMatrix<f64>,
+    pub spin_up: DMatrix<f64>,
+    pub circulatory: DMatrix<f64>,
+    /// Static load: gravity, belt pulls, constant loads.
+    pub static_load: DVector<f64>,
+    /// Unbalance along cos θ and sin θ, per Ω².
+    pub unbalance: [DVector<f64>; 2],
+    /// −Vᵀ M r: inertial load on torsion per unit Ω̇.
+    pub spin_inertia: DVector<f64>,
+    pub histories: Vec<LoadHistory>,
+    /// Interface map W, rows × coordinates of the structure.
+    pub interface_map: DMatrix<f64>,
+    pub interfaces: Vec<Interface>,
+    /// Mass of every ball with its own degree of freedom \[kg\].
+    pub ball_masses: Vec<f64>,
+    pub channels: Vec<Channel>,
+    pub curve: SpeedCurve,
+    /// Torque drive, if the shaft speed follows from a torque balance instead of the profile.
+    pub drive: Option<TorqueDrive>,
+    pub panels: Panels,
+}
+
+/// The system's matrices stored for the matrix-vector products of a time step.
+#[derive(Clone, Debug)]
+pub struct Panels {
+    /// The non-zero ones of \[C K G K_s K_c\].
+    linear: Panel,
+    is_nonzero: [bool; 5],
+    /// C alone.
+    pub damping: Panel,
+    /// \[K_s K_c\]: the left-hand terms that are neither elastic, damping nor gyroscopic.
+    pub effective: Panel,
+    pub has_effective: bool,
+    /// W and Wᵀ.
+    to_interface: Panel,
+    from_interface: Panel,
+}
+
+impl Panels {
+    /// Whether K_s is not zero.
+    pub fn has_spin_up(&self) -> bool {
+        self.is_nonzero[3]
+    }
+
+    /// Panels of the matrices C, K, G, K_s, K_c and W.
+    pub fn new(
+        [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
+        interface_map: &DMatrix<f64>,
+    ) -> Self {
+        let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
+        // The stiffness is always kept: it defines the number of rows.
+        let is_nonzero: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
+        let nonzero: Vec<_> =
+            all.iter().zip(is_nonzero).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
+        Self {
+            linear: Panel::new(&nonzero),
+            is_nonzero,
+            damping: Panel::new(&[damping]),
+            effective: Panel::new(&[spin_up, circulatory]),
+            has_effective: is_nonzero[3] || is_nonzero[4],
+            to_interface: Panel::new(&[interface_map]),
+            from_interface: Panel::new(&[&interface_map.transpose()]),
+        }
+    }
+}
+
+/// State of a run: time, shaft motion, coordinates and bearing states.
+#[derive(Clone, Debug)]
+pub struct State {
+    pub time: f64,
+    pub spin: Spin,
+    pub x: DVector<f64>,
+    pub v: DVector<f64>,
+    pub a: DVector<f64>,
+    /// Per interface: angle and speed of cage and shaft.
+    pub rotations: Vec<Rotation>,
+    /// Per interface: force, tangents and energies at this state.
+    pub reactions: Vec<Reaction>,
+    /// Relative displacements W x and velocities W ẋ, then positions and velocities of the balls.
+    pub d: Vec<f64>,
+    pub d_rate: Vec<f64>,
+    /// The corresponding forces.
+    pub force: Vec<f64>,
+    /// What a torque drive needs in addition; empty without.
+    pub driven: DrivenState,
+}
+
+impl System {
+    /// Number of coordinates: structure and balls.
+    pub fn size(&self) -> usize {
+        self.structure() + self.ball_masses.len()
+    }
+
+    /// Number of the structure's coordinates.
+    pub fn structure(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// Number of rows of W.
+    pub fn rows(&self) -> usize {
+        self.interfaces.last().map_or(0, |i| i.first_row + i.rows)
+    }
+
+    /// Number of interface displacements: rows of W and balls.
+    pub fn interface_size(&self) -> usize {
+        self.rows() + self.ball_masses.len()
+    }
+
+    /// The shaft's rotation `offset` after (time, spin): from the profile, or at constant acceleration under
+    /// a torque drive.
+    pub fn spin_ahead(&self, time: f64, spin: &Spin, offset: f64) -> Spin {
+        match &self.drive {
+            None => self.curve.at(time + offset),
+            Some(_) => Spin {
+                angle: spin.angle + offset * (spin.speed + 0.5 * offset * spin.acceleration),
+                speed: spin.speed + offset * spin.acceleration,
+                acceleration: spin.acceleration,
+            },
+        }
+    }
+
+    /// Name of an interface row, for messages.
+    pub fn name_of_row(&self, row: usize) -> String {
+        const DIRECTIONS: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
+        const IN_PLANE: [&str; 4] = ["u_x", "u_y", "u_x of its housing", "u_y of its housing"];
+        let rows = self.rows();
+        let place = |i: &Interface| match row.checked_sub(rows) {
+            None if !(i.first_row..i.first_row + i.rows).contains(&row) => None,
+            None if i.balls > 0 => Some(IN_PLANE[row - i.first_row].to_string()),
+            None => Some(DIRECTIONS[row - i.first_row].to_string()),
+            Some(ball) => (i.first_ball..i.first_ball + i.balls)
+                .contains(&ball)
+                .then(|| format!("ball {}", ball - i.first_ball)),
+        };
+        let named = |i: &Interface| Some(format!("bearing {}, {}", i.name, place(i)?));
+        self.interfaces.iter().find_map(named).unwrap_or("the structure".into())
+    }
+
+    /// Load p(t) without bearing forces, and under a torque drive without what couples the rotation to the other
+    /// coordinates ([`TorqueDrive::add_coupling`]), written to `out`.
+    pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
+        let (square, rate) = (spin.speed * spin.speed, spin.acceleration);
+        out.copy_from(&self.static_load);
+        if self.drive.is_none() && self.unbalance.iter().any(|u| u.as_slice().iter().any(|u| *u != 0.0)) {
+            let (sin, cos) = spin.angle.sin_cos();
+            out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
+            out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
+        }
+        if rate != 0.0 {
+            out.axpy(rate, &self.spin_inertia, 1.0);
+        }
+        if let Some(drive) = &self.drive {
+            out.axpy(drive.torque_at(spin.speed), &drive.torque, 1.0);
+        }
+        self.add_histories(time, out);
+    }
+
+    /// Constant and tabulated loads alone, written to `out`.
+    pub fn given_load(&self, time: f64, out: &mut DVector<f64>) {
+        out.copy_from(&self.static_load);
+        self.add_histories(time, out);
+    }
+
+    fn add_histories(&self, time: f64, out: &mut DVector<f64>) {
+        for history in &self.histories {
+            let factor = piecewise(&history.points, time, Outside::Zero)[1];
+            if factor != 0.0 {
+                out.axpy(factor, &history.vector, 1.0);
+            }
+        }
+    }
+
+    /// Adds weight × ((C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x) to `out`; `scratch`: reusable buffer.
+    pub fn add_linear(
+        &self,
+        spin: &Spin,
+        [x, v]: [&DVector<f64>; 2],
+        weight: f64,
+        scratch: &mut Vec<f64>,
+        out: &mut DVector<f64>,
+    ) {
+        let n = self.structure();
+        let (x, v) = (&x.as_slice()[..n], &v.as_slice()[..n]);
+        let Spin { speed, acceleration, .. } = *spin;
+        let factors = [(v, 1.0), (x, 1.0), (v, speed), (x, acceleration), (x, speed)];
+        scratch.resize(self.panels.linear.columns(), 0.0);
+        let mut parts = scratch.chunks_exact_mut(n.max(1));
+        for ((y, factor), _) in factors.iter().zip(self.panels.is_nonzero).filter(|(_, there)| *there) {
+            let factor = weight * factor;
+            if let Some(part) = parts.next() {
+                part.iter_mut().zip(*y).for_each(|(part, y)| *part = factor * y);
+            }
+        }
+        self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
+    }
+
+    /// W y for coordinates y, then the ball positions, written to `out`.
+    pub fn to_interface(&self, y: &DVector<f64>, out: &mut [f64]) {
+        let (structure, balls) = y.as_slice().split_at(self.structure());
+        let (rows, places) = out.split_at_mut(self.rows());
+        rows.fill(0.0);
+        self.panels.to_interface.mul_add(structure, rows);
+        for ((place, y), mass) in places.iter_mut().zip(balls).zip(&self.ball_masses) {
+            *place = y / mass.sqrt();
+        }
+    }
+
+    /// Adds Wᵀ f to `out`, and the ball forces to the balls' coordinates.
+    pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
+        let (rows, on_balls) = force.split_at(self.rows());
+        let (structure, balls) = out.as_mut_slice().split_at_mut(self.structure());
+        self.panels.from_interface.mul_add(rows, structure);
+        for ((ball, f), mass) in balls.iter_mut().zip(on_balls).zip(&self.ball_masses) {
+            *ball += f / mass.sqrt();
+        }
+    }
+
+    /// Bearing forces with tangent stiffness and damping at displacements and velocities.
+    ///
+    /// No tangents for bearings whose balls have their own degrees of freedom.
+    pub fn bearing_reactions(
+        &self,
+        d: &[f64],
+        d_rate: &[f64],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+    ) {
+        self.evaluate([d, d_rate], rotations, reactions, force, true);
+    }
+
+    /// Bearing forces without tangents (those in `reactions` are stale): for explicit steps.
+    pub fn bearing_forces(
+        &self,
+        d: &[f64],
+        d_rate: &[f64],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+    ) {
+        self.evaluate([d, d_rate], rotations, reactions, force, false);
+    }
+
+    fn evaluate(
+        &self,
+        [d, d_rate]: [&[f64]; 2],
+        rotations: &[Rotation],
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+        tangents: bool,
+    ) {
+        let (rows, on_balls) = force.split_at_mut(self.rows());
+        for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
+            match interface.element.radial() {
+                None if tangents => *reaction = interface.reaction(d, d_rate, rotation),
+                None => {
+                    let [at, rate] = interface.motion(d, d_rate, rotation);
+                    interface.element.force(&at, &rate, rotation, reaction);
+                }
+                Some(radial) => {
+                    let rings = interface.ring_motions(d, d_rate);
+                    let balls = interface.ball_range();
+                    let places = [d, d_rate].map(|y| &y[rows.len()..][balls.clone()]);
+                    *reaction = radial.forces(&rings, places, rotation, &mut on_balls[balls]);
+                }
+            }
+            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+        }
+    }
+
+    /// Bearing forces with tangents at the end of an implicit step; solves the ball equations.
+    ///
+    /// `d`, `d_rate`: displacements and velocities of the rows, and the force-free prediction of the balls,
+    /// replaced by the values at the step's end. `force`: initial guess for the balls, replaced by the
+    /// solution. `follow`: −∂(force on every ball)/∂(rows).
+    pub fn bearing_reactions_in_step(
+        &self,
+        [d, d_rate]: [&mut [f64]; 2],
+        rotations: &[Rotation],
+        gain: &NewmarkGain,
+        reactions: &mut [Reaction],
+        force: &mut [f64],
+        ball_force_tangent: &mut [[f64; 4]],
+    ) {
+        let (rows, on_balls) = force.split_at_mut(self.rows());
+        for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
+            *reaction = match interface.element.radial() {
+                None => interface.reaction(d, d_rate, rotation),
+                Some(radial) => {
+                    let rings = interface.ring_motions(d, d_rate);
+                    let balls = interface.ball_range();
+                    let gain = NewmarkGain { inverse_mass: gain.inverse_mass / radial.ball_mass(), ..*gain };
+                    let (_, places) = d.split_at_mut(rows.len());
+                    let (_, rates) = d_rate.split_at_mut(rows.len());
+                    let at = [&mut places[balls.clone()], &mut rates[balls.clone()]];
+                    radial.step(
+                        &rings,
+                        at,
+                        rotation,
+                        &gain,
+                        &mut on_balls[balls.clone()],
+                        &mut ball_force_tangent[balls],
+                    )
+                }
+            };
+            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+        }
+    }
+
+    /// The state at t = 0 with given coordinates and velocities and consistent acceleration.
+    pub fn initial_state(&self, x: DVector<f64>, v: DVector<f64>) -> State {
+        let mut spin = self.curve.at(0.0);
+        if self.drive.is_some() {
+            spin.acceleration = 0.0;
+        }
+        let (n, places) = (self.size(), self.interface_size());
+        let rotations = self
+            .interfaces
+            .iter()
+            .map(|i| Rotation {
+                cage_angle: i.cage_angle,
+                cage_speed: Some(i.element.cage_ratio(i.element.nominal_cos()) * spin.speed),
+                shaft_angle: spin.angle,
+                shaft_speed: spin.speed,
+            })
+            .collect();
+        let mut state = State {
+            time: 0.0,
+            spin,
+            x,
+            v,
+            a: DVector::zeros(n),
+            rotations,
+            reactions: vec![Reaction::default(); self.interfaces.len()],
+            d: vec![0.0; places],
+            d_rate: vec![0.0; places],
+            force: vec![0.0; places],
+            driven: DrivenState::default(),
+        };
+        self.refresh(&mut state);
+        state
+    }
+
+    /// The state at a given time with given cage angles.
+    pub fn state_at(&self, time: f64, cage_angles: &[f64], x: DVector<f64>, v: DVector<f64>) -> State {
+        let mut state = self.initial_state(x, v);
+        state.time = time;
+        state.spin = self.curve.at(time);
+        for (rotation, angle) in state.rotations.iter_mut().zip(cage_angles) {
+            rotation.cage_angle = *angle;
+            rotation.shaft_angle = state.spin.angle;
+        }
+        self.refresh(&mut state);
+        state
+    }
+
+    /// Recomputes reactions and acceleration of a state from its x, v, time and rotations.
+    pub fn refresh(&self, state: &mut State) {
+        let (x, v) = (state.x.clone(), state.v.clone());
+        self.to_interface(&x, &mut state.d);
+        self.to_interface(&v, &mut state.d_rate);
+        let State { d, d_rate, rotations, reactions, force, .. } = state;
+        self.bearing_reactions(d, d_rate, rotations, reactions, force);
+        let mut a = DVector::zeros(self.size());
+        self.load(state.time, &state.spin, &mut a);
+        self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);
+        self.add_from_interface(&state.force, &mut a);
+        match &self.drive {
+            None => state.a = a,
+            Some(drive) => drive.start(self, state, a),
+        }
+    }
+
+    /// Reads every channel at a state into `out`.
+    pub fn read_channels(&self, state: &State, out: &mut [f64]) {
+        for (value, channel) in out.iter_mut().zip(&self.channels) {
+            *value = channel.read(state);
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Errors of modal identification: what is wrong, and what to do.
+
+/// FRFs or settings from which no modes can be identified.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    #[error(
+        "the frequencies are not uniformly spaced: line {index} is {given:.6} Hz, not {expected:.6} Hz; interpolate the FRFs, or measure with a constant resolution"
+    )]
+    NonUniform { index: usize, given: f64, expected: f64 },
+    #[error(
+        "the band {from:.3} .. {to:.3} Hz contains {lines} lines of the {first:.3} .. {last:.3} Hz measured; choose a wider band in this range"
+    )]
+    EmptyBand { from: f64, to: f64, lines: usize, first: f64, last: f64 },
+    #[error(
+        "{lines} lines are too few for order {order}: a fit needs {needed} or more; widen the band, lower the order to {possible}, or measure with a finer resolution"
+    )]
+    TooFewLines { lines: usize, order: usize, needed: usize, possible: usize },
+    #[error(
+        "the FRF of response {response} to reference {reference} is NaN or infinite at {frequency:.3} Hz; leave it out (of the file or of the mapping), or choose a band without it"
+    )]
+    NotFinite { response: String, reference: String, frequency: f64 },
+    #[error(
+        "response {response} is zero over the whole band: a dead channel; leave it out (of the file or of the mapping)"
+    )]
+    DeadResponse { response: String },
+    #[error(
+        "all responses to reference {reference} are zero in the band: a dead channel; leave it out (of the file or of the mapping)"
+    )]
+    DeadReference { reference: String },
+    #[error(
+        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable; choose a band with a resonance, raise the order, or check the coherence"
+    )]
+    NoMode { from: f64, to: f64, poles: usize, orders: usize },
+    #[error("{what}: {reason}")]
+    Setting { what: &'static str, reason: String },
+    #[error("an eigenvalue computation failed: {0}")]
+    Eigen(#[from] rotordyn_linalg::eigen::EigenError),
+}

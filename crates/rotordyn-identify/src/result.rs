@@ -1,0 +1,125 @@
+//! Result of a modal identification.
+
+use rotordyn_linalg::Complex64;
+use rotordyn_signal::Quantity;
+use rotordyn_signal::record::Dof;
+use std::f64::consts::TAU;
+
+/// One identified mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ \[1/s\], Im λ > 0.
+    pub pole: Complex64,
+    /// ψ over [`ModalIdentification::responses`]; ψ lᵀ is the residue of the receptance
+    /// \[m/(N s) for a displacement under a force\].
+    pub shape: Vec<Complex64>,
+    /// l over [`ModalIdentification::references`].
+    pub participation: Vec<Complex64>,
+    /// Standard error of the damped frequency \[Hz\].
+    pub frequency_error: f64,
+    /// Standard error of the damping ratio.
+    pub damping_error: f64,
+    /// Modal phase collinearity (MPC) of the side with more DOFs, 1 for a real mode.
+    pub collinearity: f64,
+    /// Whirl at the points measured along x and y: 1 forward circular (x towards y), 0 planar, −1 backward
+    /// circular; `None` if no point has both.
+    pub whirl: Option<f64>,
+    /// F statistic of the mode: variance that it explains over residual variance.
+    pub significance: f64,
+}
+
+impl Mode {
+    /// Damped frequency Im λ / 2π \[Hz\].
+    pub fn frequency_hz(&self) -> f64 {
+        self.pole.im / TAU
+    }
+
+    /// Damping ratio ζ = −Re λ / |λ|.
+    pub fn damping_ratio(&self) -> f64 {
+        -self.pole.re / self.pole.norm()
+    }
+}
+
+/// Stability of a pole relative to the next lower order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// No pole within 1 % of its frequency.
+    New,
+    /// Within 1 % in frequency.
+    Frequency,
+    /// In frequency, and within 5 % in damping.
+    Damping,
+    /// In frequency, and MAC above 0.95.
+    Shape,
+    /// In frequency, damping and shape.
+    Stable,
+}
+
+impl Stability {
+    /// Label.
+    pub fn label(self) -> &'static str {
+        match self {
+            Stability::New => "new",
+            Stability::Frequency => "frequency",
+            Stability::Damping => "frequency and damping",
+            Stability::Shape => "frequency and shape",
+            Stability::Stable => "stable",
+        }
+    }
+}
+
+/// A pole of the stabilisation diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiagramPole {
+    pub order: usize,
+    /// λ \[1/s\], without correction for an exponential window.
+    pub value: Complex64,
+    pub stability: Stability,
+}
+
+/// Result of modal identification: identified modes, synthesised FRFs, stabilisation diagram.
+#[derive(Clone, Debug)]
+pub struct ModalIdentification {
+    /// In order of frequency.
+    pub modes: Vec<Mode>,
+    pub responses: Vec<Dof>,
+    pub references: Vec<Dof>,
+    /// Quantity assumed for the measured FRFs.
+    pub quantity: Quantity,
+    /// Lines in the band \[Hz\].
+    pub frequencies: Vec<f64>,
+    /// `measured[response][reference][line]` in the band, converted to one quantity.
+    pub measured: Vec<Vec<Vec<Complex64>>>,
+    /// FRFs synthesised from the modal model, with the same indices.
+    pub synthesised: Vec<Vec<Vec<Complex64>>>,
+    /// ‖measured − synthesised‖ / ‖measured‖ of every FRF.
+    pub errors: Vec<Vec<f64>>,
+    /// Root mean square of all errors.
+    pub total_error: f64,
+    /// Upper residual U (stiffness of modes above), lower residual V (mass of modes below) of receptances.
+    pub upper: Vec<Vec<f64>>,
+    pub lower: Vec<Vec<f64>>,
+    pub diagram: Vec<DiagramPole>,
+    pub orders: Vec<usize>,
+    /// Stable poles that were rejected afterwards, with the reason.
+    pub dropped: Vec<String>,
+}
+
+impl ModalIdentification {
+    /// The side of the test with more DOFs, and a mode's vector over it, for display and comparison.
+    ///
+    /// In a roving-hammer test these are the references.
+    pub fn larger_side_shape<'a>(&'a self, mode: &'a Mode) -> (&'a [Dof], &'a [Complex64]) {
+        if self.references.len() > self.responses.len() {
+            (&self.references, &mode.participation)
+        } else {
+            (&self.responses, &mode.shape)
+        }
+    }
+
+    /// AutoMAC: MAC of every mode with every other, over the side with more DOFs.
+    pub fn auto_mac(&self) -> Vec<Vec<f64>> {
+        let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.larger_side_shape(m).1).collect();
+        super::mac::mac_matrix(&shapes, &shapes)
+    }
+}

@@ -1,0 +1,106 @@
+//! 3D export: the machine and its bearings as .glb, mode shapes for ParaView (.vtu, .pvd).
+
+use std::path::{Path, PathBuf};
+
+use super::gltf;
+use super::vtk::{Field, Grid, Values, machine_fields, part_field, write_pvd, write_vtu};
+use super::vtk_machine::rounded;
+use crate::error::Error;
+use rotordyn_core::analysis::Mode;
+use rotordyn_core::geometry::scene_graph::Scene;
+use rotordyn_core::results::Results;
+use rotordyn_core::study::Machine;
+use rotordyn_units::names::file_name;
+
+/// Ratio of the largest displacement of an exported mode shape to the length of the shaft.
+const MODE_SHAPE_SIZE: f64 = 0.1;
+
+/// Writes `machine.glb` and `bearing_<name>.glb` of every ball bearing; returns the files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let mut files = vec![folder.join("machine.glb")];
+    gltf::write(&files[0], &Scene::of_machine(&machine.model))?;
+    for site in &machine.model.bearings {
+        if let Some(ball) = site.bearing.ball() {
+            let scene = Scene::of_ball_bearing(&site.name, ball);
+            let file = folder.join(file_name(&format!("bearing_{}.glb", site.name)));
+            gltf::write(&file, &scene)?;
+            files.push(file);
+        }
+    }
+    Ok(files)
+}
+
+/// Writes every mode as `modes_<speed>rpm_<number>.vtu` and per speed `modes_<speed>rpm.pvd`, whose time is
+/// the mode's number; returns the .pvd files.
+///
+/// Motion is Re(u e^{jωt}): fields `displacement` and `rotation` are Re u, `displacement_quarter` and
+/// `rotation_quarter` −Im u, a quarter of a cycle later. The largest displacement is a tenth of
+/// the shaft's length, or the largest rotation 1 rad. Field `part` tells shaft (0), discs (1), bodies (2), rings (3)
+/// and balls (4), whose surfaces move with the mode as rigid bodies.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let grid = Grid::of_machine(&machine.model);
+    let z = &machine.model.node_z;
+    let rotor = machine
+        .model
+        .rigid_rotor
+        .as_ref()
+        .map_or(0.0, |rotor| rotordyn_core::geometry::scene::disc_size(rotor).1);
+    let length = (z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0)).max(rotor);
+    let mut files = Vec::new();
+    for found in &results.modal {
+        let name = format!("modes_{:.0}rpm", found.speed * 60.0 / std::f64::consts::TAU);
+        let mut frames = Vec::new();
+        for (k, mode) in found.modes.iter().enumerate() {
+            let file = format!("{name}_{:02}.vtu", k + 1);
+            write_vtu(&folder.join(&file), &grid, &mode_fields(&grid, mode, MODE_SHAPE_SIZE * length))?;
+            frames.push(((k + 1) as f64, file));
+        }
+        let file = folder.join(format!("{name}.pvd"));
+        write_pvd(&file, &frames)?;
+        files.push(file);
+    }
+    Ok(files)
+}
+
+fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {
+    let part = |value: fn(&rotordyn_linalg::Complex64) -> f64| -> Vec<f64> {
+        mode.full_shape.iter().map(value).collect()
+    };
+    let mut fields = machine_fields(grid, &part(|u| u.re), &[]);
+    let mut quarter = machine_fields(grid, &part(|u| -u.im), &[]);
+    // A mode shape has no ball loads.
+    for list in [&mut fields, &mut quarter] {
+        list.retain(|f| matches!(f.values, Values::Vectors(_)));
+    }
+    // Amplitude of every point over both phases; a rotation of 1 rad counts as the full size.
+    let largest = |k: usize| {
+        let both = [&fields[k], &quarter[k]].map(|f| match &f.values {
+            Values::Vectors(v) => v.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>()).collect(),
+            Values::Scalars(_) => Vec::new(),
+        });
+        both[0].iter().zip(&both[1]).map(|(a, b)| (a + b).sqrt()).fold(0.0, f64::max)
+    };
+    let largest = largest(0).max(size * largest(1));
+    let scale = if largest > 0.0 { size / largest } else { 1.0 };
+    quarter.iter_mut().for_each(|f| f.name.push_str("_quarter"));
+    fields.append(&mut quarter);
+    for field in &mut fields {
+        if let Values::Vectors(v) = &mut field.values {
+            v.iter_mut().flatten().for_each(|x| *x = rounded(scale * *x));
+        }
+    }
+    fields.push(part_field(grid));
+    fields
+}
+
+fn create_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))
+}

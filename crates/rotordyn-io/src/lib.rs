@@ -1,0 +1,26 @@
+//! File formats, read and written; each external crate is used by one module only.
+
+pub mod error;
+
+pub mod csv;
+#[cfg(feature = "shapes")]
+pub mod export_3d;
+pub mod external_file;
+pub mod film_table_cache;
+#[cfg(feature = "shapes")]
+pub mod gltf;
+pub mod hdf5;
+pub mod identified_modes;
+pub mod inflate;
+pub mod json;
+pub mod machine_records;
+pub mod mat;
+pub mod measured;
+pub mod model_file_edit;
+pub mod npy;
+pub mod results_file;
+pub mod uff;
+pub mod vtk;
+#[cfg(feature = "shapes")]
+mod vtk_machine;
+pub mod wav;

@@ -1,0 +1,137 @@
+//! WAV files: PCM of 8 to 32 bits and 32-bit floats read, 32-bit floats or PCM written.
+//!
+//! The only module that uses the hound crate. PCM values are fractions of full scale, −1 to 1; WAV has no
+//! units.
+
+use std::path::Path;
+
+use crate::error::Error;
+use rotordyn_signal::record::{MeasuredData, Record, RecordError, Values};
+
+/// How samples are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SampleFormat {
+    /// 32-bit floats of the values as they are.
+    #[default]
+    Float,
+    /// PCM of 16, 24 or 32 bits; a value of `full_scale` becomes the largest sample.
+    Pcm { bits: u16, full_scale: f64 },
+}
+
+/// Whether a file starts with a WAV header.
+pub fn is_wav(head: &[u8]) -> bool {
+    head.starts_with(b"RIFF") && head.get(8..12) == Some(b"WAVE")
+}
+
+/// Reads every channel, named after the file and numbered if there is more than one.
+///
+/// # Errors
+/// The file cannot be read, is cut off, or has another encoding than PCM and 32-bit floats.
+pub fn read(path: &Path) -> Result<MeasuredData, Error> {
+    let failed = |error: hound::Error| failure("read", path, error);
+    let mut file = hound::WavReader::open(path).map_err(failed)?;
+    let spec = file.spec();
+    let expected = file.len() as usize;
+    let values: Vec<f64> = match spec.sample_format {
+        hound::SampleFormat::Float => {
+            file.samples::<f32>().map(|s| s.map(f64::from)).collect::<Result<_, _>>()
+        }
+        hound::SampleFormat::Int => {
+            let full_scale = 2.0_f64.powi(i32::from(spec.bits_per_sample) - 1);
+            file.samples::<i32>().map(|s| s.map(|v| f64::from(v) / full_scale)).collect::<Result<_, _>>()
+        }
+    }
+    .map_err(failed)?;
+    let channels = usize::from(spec.channels).max(1);
+    let content =
+        |problem: String, advice: &str| Error::Content { path: path.into(), problem, advice: advice.into() };
+    if values.len() < expected || values.is_empty() {
+        let problem = format!("the file is cut off: {} of {expected} samples", values.len());
+        return Err(content(problem, "copy the file again"));
+    }
+    if spec.sample_rate == 0 {
+        return Err(content("the sampling rate is 0 Hz".into(), "write the file again with its rate"));
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let record = |channel: usize| {
+        let name = if channels == 1 { stem.to_string() } else { format!("{stem}_{}", channel + 1) };
+        let samples = values.iter().skip(channel).step_by(channels).copied().collect();
+        Record::samples(&name, f64::from(spec.sample_rate), 0.0, samples, "")
+    };
+    Ok(MeasuredData { records: (0..channels).map(record).collect(), ..MeasuredData::default() })
+}
+
+/// Writes time records of one rate and length as the channels of one file.
+///
+/// # Errors
+/// No record, rates or lengths that differ, a rate that is not an integer number of Hz, NaN, a value beyond
+/// full scale, or a file that cannot be written.
+pub fn write(path: &Path, records: &[&Record], samples: SampleFormat) -> Result<(), Error> {
+    let content =
+        |problem: String, advice: &str| Error::Content { path: path.into(), problem, advice: advice.into() };
+    let first =
+        records.first().ok_or_else(|| content("there is no channel to write".into(), "choose one"))?;
+    let rate = first.sample_rate()?;
+    let count = first.values.len();
+    let mut channels = Vec::new();
+    for record in records {
+        let values = record.time_samples()?;
+        if record.sample_rate()? != rate || values.len() != count {
+            return Err(RecordError::axes_differ(first, record).into());
+        }
+        if let Some((_, index)) = Values::Real(values.to_vec()).not_finite() {
+            return Err(RecordError::NotFinite { channel: record.name.clone(), index }.into());
+        }
+        channels.push(values);
+    }
+    let whole = rate.round();
+    if (rate - whole).abs() > 1e-9 * rate || !(1.0..=f64::from(u32::MAX)).contains(&whole) {
+        let problem = format!("a WAV file needs an integer sampling rate in Hz, not {rate}");
+        return Err(content(problem, "resample, or write .uff or .mat"));
+    }
+    let (bits, format) = match samples {
+        SampleFormat::Float => (32, hound::SampleFormat::Float),
+        SampleFormat::Pcm { bits, .. } => (bits, hound::SampleFormat::Int),
+    };
+    let spec = hound::WavSpec {
+        channels: channels.len() as u16,
+        sample_rate: whole as u32,
+        bits_per_sample: bits,
+        sample_format: format,
+    };
+    let failed = |error: hound::Error| failure("write", path, error);
+    let mut file = hound::WavWriter::create(path, spec).map_err(failed)?;
+    for k in 0..count {
+        for (values, record) in channels.iter().zip(records) {
+            match samples {
+                SampleFormat::Float => file.write_sample(values[k] as f32).map_err(failed)?,
+                SampleFormat::Pcm { bits, full_scale } => {
+                    let top = 2.0_f64.powi(i32::from(bits) - 1);
+                    let level = (values[k] / full_scale * top).round();
+                    if level.abs() > top {
+                        let problem = format!(
+                            "`{}` reaches {} at sample {k}, full scale is {full_scale}",
+                            record.name, values[k]
+                        );
+                        return Err(content(problem, "choose a larger full scale, or floats"));
+                    }
+                    file.write_sample(level.min(top - 1.0) as i32).map_err(failed)?;
+                }
+            }
+        }
+    }
+    file.finalize().map_err(failed)
+}
+
+fn failure(operation: &'static str, path: &Path, error: hound::Error) -> Error {
+    match error {
+        hound::Error::IoError(source) if source.kind() != std::io::ErrorKind::Other => {
+            Error::of_file(operation, path)(source)
+        }
+        other => Error::Content {
+            path: path.into(),
+            problem: other.to_string(),
+            advice: "save it as PCM of 16, 24 or 32 bits, or as 32-bit floats".into(),
+        },
+    }
+}

@@ -1,0 +1,243 @@
+//! Mounting of ball bearings: preload, duplex arrangements (matched pairs), fits, axial location of the
+//! shaft.
+
+use crate::file::diagnostic::{Kind, Problem};
+use crate::file::reader::{Reader, any, not_negative, positive};
+use crate::{Drive, Model};
+use rotordyn_bearing::{Arrangement, BallBearing, BallGeometry, Bearing, Duplex, Fit, Preload};
+use rotordyn_core::element::Anchor;
+use rotordyn_units::{EXPANSION, FORCE, LENGTH, STIFFNESS, TEMPERATURE_DIFFERENCE};
+
+/// Default coefficient of thermal expansion: bearing steel \[1/K\].
+const STEEL_EXPANSION: f64 = 12e-6;
+
+pub(super) const ARRANGEMENTS: [(&str, Arrangement); 3] = [
+    ("back_to_back", Arrangement::BackToBack),
+    ("face_to_face", Arrangement::FaceToFace),
+    ("tandem", Arrangement::Tandem),
+];
+
+/// Duplex pair: `arrangement` with `row_spacing`.
+pub(super) fn duplex(r: &Reader, contact_angle: f64) -> Option<Duplex> {
+    let arrangement = r.choice("arrangement", &ARRANGEMENTS);
+    if !r.has("arrangement") {
+        if r.has("row_spacing") {
+            let message = format!("{} applies only with an arrangement", r.name("row_spacing"));
+            let problem = Problem::new(Kind::Conflict, &r.span_of("row_spacing"), message);
+            r.log.error(problem.hint("add arrangement = \"back_to_back\", or remove row_spacing"));
+        }
+        return None;
+    }
+    if contact_angle == 0.0 {
+        let message = format!("{} has rows without contact angle", r.path);
+        let problem = Problem::new(Kind::Conflict, &r.span_of("arrangement"), message);
+        r.log.error(problem.expected("an angular contact bearing").hint(
+            "give contact_angle or a designation such as \"7205B\"; a deep groove bearing has no thrust direction",
+        ));
+    }
+    let spacing = r.need("row_spacing", positive(LENGTH));
+    arrangement.map(|arrangement| Duplex { arrangement, spacing })
+}
+
+/// Preload: `preload = { force = "150 N" }`, `{ dry_force = "150 N" }`, `{ mounted_force = "150 N" }`,
+/// `{ interference = "1.5 um" }` or `{ spring = "2e5 N/m", force = "150 N" }`.
+pub(super) fn preload(r: &Reader) -> Preload {
+    let Some(p) = r.table("preload") else { return Preload::None };
+    let preload = if p.has("spring") {
+        p.one_of(&["spring", "interference", "dry_force", "mounted_force"]);
+        let stiffness = p.get("spring", any(STIFFNESS)).unwrap_or(1.0);
+        if stiffness <= 0.0 {
+            let message = format!("{} must be greater than zero", p.name("spring"));
+            let problem = Problem::new(Kind::OutOfRange, &p.span_of("spring"), message);
+            p.log.error(problem.expected("a stiffness such as \"2e5 N/m\""));
+        }
+        Preload::Spring { stiffness, force: p.need("force", positive(FORCE)) }
+    } else {
+        match p.one_of(&["force", "dry_force", "mounted_force", "interference"]) {
+            Some("force") => Preload::Force(p.need("force", positive(FORCE))),
+            Some("mounted_force") => {
+                Preload::Mounted { force: p.need("mounted_force", positive(FORCE)), interference: None }
+            }
+            Some("dry_force") => Preload::DryForce(p.need("dry_force", positive(FORCE))),
+            Some(_) => Preload::Interference(p.need("interference", any(LENGTH))),
+            None => {
+                p.missing(
+                    "force",
+                    "\"150 N\", or dry_force, mounted_force = \"150 N\", interference = \"1.5 um\", or spring and force",
+                );
+                Preload::None
+            }
+        }
+    };
+    p.finish();
+    preload
+}
+
+/// Fits: `fit = { shaft_interference = "8 um", inner_temperature_rise = "20 K", speed_growth = true }`.
+pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
+    let Some(f) = r.table("fit") else { return Fit::default() };
+    let geometry_known = r.has_no_errors();
+    let fit = Fit {
+        shaft_interference: f.or("shaft_interference", not_negative(LENGTH), 0.0),
+        shaft_bore: f.or("shaft_bore", not_negative(LENGTH), 0.0),
+        housing_interference: f.or("housing_interference", not_negative(LENGTH), 0.0),
+        housing_diameter: f.or("housing_diameter", positive(LENGTH), 0.0),
+        inner_temperature_rise: f.or("inner_temperature_rise", any(TEMPERATURE_DIFFERENCE), 0.0),
+        outer_temperature_rise: f.or("outer_temperature_rise", any(TEMPERATURE_DIFFERENCE), 0.0),
+        expansion: f.or("expansion", any(EXPANSION), STEEL_EXPANSION),
+        speed_growth: f.flag("speed_growth", false),
+    };
+    let mm = |x: f64| x * 1e3;
+    if geometry_known && fit.shaft_bore >= g.bore {
+        let message = format!("{} is not less than the bearing's bore", f.name("shaft_bore"));
+        let problem = Problem::new(Kind::Geometry, &f.span_of("shaft_bore"), message);
+        f.log.error(problem.expected(format!("a bore of the shaft below {:.3} mm", mm(g.bore))));
+    }
+    if geometry_known && fit.housing_diameter > 0.0 && fit.housing_diameter <= g.outside_diameter {
+        let message =
+            format!("{} is not greater than the bearing's outside diameter", f.name("housing_diameter"));
+        let problem = Problem::new(Kind::Geometry, &f.span_of("housing_diameter"), message);
+        f.log.error(problem.expected(format!("above {:.3} mm", mm(g.outside_diameter))));
+    }
+    // A larger interference is probably a typing error in the magnitude.
+    let widest = 2e-3 * g.bore;
+    for (key, interference) in
+        [("shaft_interference", fit.shaft_interference), ("housing_interference", fit.housing_interference)]
+    {
+        if geometry_known && interference > widest {
+            let message = format!("{} is more than two thousandths of the bore", f.name(key));
+            let problem = Problem::new(Kind::OutOfRange, &f.span_of(key), message);
+            f.log.error(problem.expected("a diametral interference of some micrometres"));
+        }
+    }
+    f.finish();
+    fit
+}
+
+/// Directions in which a bearing carries axial load of the shaft: along +z, along −z.
+fn thrust_directions(bearing: &Bearing) -> [bool; 2] {
+    match bearing {
+        Bearing::Linear(linear) => [linear.table.iter().any(|row| row.stiffness[2][2] != 0.0); 2],
+        Bearing::RadialBall(_) => [false; 2],
+        Bearing::Ball(ball) => match ball.duplex {
+            Some(Duplex { arrangement: Arrangement::BackToBack | Arrangement::FaceToFace, .. }) => [true; 2],
+            _ if ball.geometry.contact_angle == 0.0 && ball.preload == Preload::None => [true; 2],
+            _ => [ball.geometry.thrust_direction > 0.0, ball.geometry.thrust_direction < 0.0],
+        },
+    }
+}
+
+/// Report every preload without an axial counter-support (no bearing carries the opposite thrust).
+pub(super) fn check_axial_location(top: &Reader, model: &Model) {
+    let shaft = model.node_z.len();
+    let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
+    let bushing =
+        model.bushings.iter().any(|b| on_shaft(b.a.node) != on_shaft(b.b.node) && b.stiffness[2][2] != 0.0);
+    let joint = model.joints.iter().any(|j| on_shaft(j.a.node) != on_shaft(j.b.node) && j.locked[2]);
+    let pushed = model.gravity[2] != 0.0
+        || model.loads.iter().any(|l| on_shaft(l.at.node) && l.history.is_empty() && l.force[2] != 0.0);
+    if bushing || joint || pushed {
+        return;
+    }
+    let preloaded = |ball: &BallBearing| ball.preload != Preload::None;
+    for (k, site) in model.bearings.iter().enumerate() {
+        let Bearing::Ball(ball) = &site.bearing else { continue };
+        let [along, against] = thrust_directions(&site.bearing);
+        if !preloaded(ball) || (along && against) {
+            continue;
+        }
+        let opposite = usize::from(along);
+        let mut others = model.bearings.iter().enumerate().filter(|(j, _)| *j != k);
+        if others.any(|(_, other)| thrust_directions(&other.bearing)[opposite]) {
+            continue;
+        }
+        let (way, other) = if along { ("+z", "-z") } else { ("-z", "+z") };
+        let span = top
+            .items("bearing")
+            .into_iter()
+            .find(|(name, _)| *name == site.name)
+            .map_or(0..0, |(_, r)| r.span_of("preload"));
+        let message = format!(
+            "bearing.{} is preloaded, but nothing carries the shaft's axial load along {other}",
+            site.name
+        );
+        let problem = Problem::new(Kind::Disconnected, &span, message)
+            .expected(format!("an axial support opposite to this bearing's thrust = \"{way}\""))
+            .hint(format!(
+                "add a bearing with thrust = \"{other}\", make this one a pair (arrangement = \"back_to_back\"), or give a linear bearing or bushing axial stiffness"
+            ));
+        top.log.error(problem);
+    }
+}
+
+/// Report mounted preloads that do not determine the axial position: more than one, or without the machine.
+pub(super) fn check_mounted_preloads<'a>(
+    top: &Reader,
+    bearings: impl Iterator<Item = (&'a str, &'a Bearing)>,
+    in_machine: bool,
+) {
+    let is_mounted = |bearing: &Bearing| match bearing {
+        Bearing::Ball(ball) => matches!(ball.preload, Preload::Mounted { .. }),
+        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
+    };
+    let names: Vec<&str> =
+        bearings.filter(|(_, bearing)| is_mounted(bearing)).map(|(name, _)| name).collect();
+    let (first, others) = match names.split_first() {
+        None => return,
+        Some(_) if !in_machine => (None, names.as_slice()),
+        Some((first, others)) => (Some(first), others),
+    };
+    for name in others {
+        let span = top
+            .items("bearing")
+            .into_iter()
+            .find(|(item, _)| item == name)
+            .map_or(0..0, |(_, r)| r.span_of("preload"));
+        top.log.error(match first {
+            Some(first) => Problem::new(
+                Kind::Conflict,
+                &span,
+                format!("bearing.{first} and bearing.{name} both have a mounted_force on one shaft"),
+            )
+            .expected("one, whose interference gives the axial force in the machine")
+            .hint("the shaft's equilibrium gives the axial force of the other bearing; remove this preload"),
+            None => Problem::new(
+                Kind::Conflict,
+                &span,
+                format!(
+                    "the mounted_force of bearing.{name} needs the machine, and the file has bearings only"
+                ),
+            )
+            .expected("force or dry_force, the axial force of the bearing with centred rings"),
+        });
+    }
+}
+
+/// Report everything that holds the shaft's rotation against a torque drive, whose rotation is free.
+pub(super) fn check_free_rotation(top: &Reader, model: &Model) {
+    if !matches!(model.drive, Drive::Torque { .. }) {
+        return;
+    }
+    let shaft = model.node_z.len();
+    let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
+    let apart = |a: &Anchor, b: &Anchor| on_shaft(a.node) != on_shaft(b.node);
+    let bushings = model.bushings.iter().filter(|b| apart(&b.a, &b.b) && b.stiffness[5][5] != 0.0);
+    let belts = model.belts.iter().filter(|b| b.stiffness[2] != 0.0);
+    let bearings = model.bearings.iter().filter(|site| match &site.bearing {
+        Bearing::Linear(linear) => linear.table.iter().any(|row| row.stiffness[5][5] != 0.0),
+        Bearing::Ball(_) | Bearing::RadialBall(_) => false,
+    });
+    let joints = model.joints.iter().filter(|j| apart(&j.a, &j.b) && j.locked[5]);
+    let held = bushings
+        .map(|b| format!("bushing.{} has k_spin", b.name))
+        .chain(belts.map(|b| format!("belt.{} has k_spin", b.name)))
+        .chain(bearings.map(|b| format!("bearing.{} has k_spin", b.name)))
+        .chain(joints.map(|j| format!("joint.{} locks theta_z", j.name)));
+    let span = top.table("drive").map_or(0..0, |r| r.span_of("kind"));
+    for what in held {
+        let message = format!("drive.kind = \"torque\" needs a shaft that is free to rotate, but {what}");
+        let problem = Problem::new(Kind::Conflict, &span, message)
+            .hint("remove this constraint of the rotation, or set drive.kind = \"prescribed\"");
+        top.log.error(problem);
+    }
+}

@@ -1,0 +1,129 @@
+//! Named attachment points of elements: stations, discs, bodies, housings, ground.
+
+use crate::Station;
+use crate::file::diagnostic::{Kind, Problem};
+use crate::file::reader::Reader;
+use rotordyn_core::element::Anchor;
+use rotordyn_units::LENGTH;
+use rotordyn_units::names::nearest;
+use std::ops::Range;
+
+/// Attachment point with its full name: "station.B", "housing.A", "ground".
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub name: String,
+    pub node: Option<usize>,
+    /// Position \[m\] in the model's axes.
+    pub position: [f64; 3],
+}
+
+impl Place {
+    /// Anchor on this place at the given point.
+    pub fn anchor_at(&self, point: [f64; 3]) -> Anchor {
+        let mut offset = point;
+        if self.node.is_some() {
+            for (o, p) in offset.iter_mut().zip(self.position) {
+                *o -= p;
+            }
+        }
+        Anchor { node: self.node, offset }
+    }
+}
+
+/// All places of a model.
+pub(super) struct Places {
+    list: Vec<Place>,
+}
+
+impl Places {
+    pub fn new(stations: &[Station]) -> Self {
+        let mut list = vec![Place { name: "ground".into(), node: None, position: [0.0; 3] }];
+        for s in stations {
+            let name = format!("station.{}", s.name);
+            list.push(Place { name, node: Some(s.node), position: [0.0, 0.0, s.z] });
+        }
+        Self { list }
+    }
+
+    pub fn add(&mut self, name: String, node: usize, position: [f64; 3]) {
+        self.list.push(Place { name, node: Some(node), position });
+    }
+
+    /// Find a place by full name, or by unambiguous short name; `kinds` limits the search ("station",
+    /// "housing").
+    pub fn find(&self, r: &Reader, text: &str, span: &Range<usize>, kinds: &[&str]) -> Option<&Place> {
+        let allowed = |place: &&Place| {
+            kinds.is_empty() || kinds.contains(&place.name.split('.').next().unwrap_or_default())
+        };
+        let all: Vec<&Place> = self.list.iter().filter(allowed).collect();
+        let short =
+            |place: &Place| place.name.split_once('.').map_or(place.name.clone(), |p| p.1.to_string());
+        if let Some(exact) = all.iter().copied().find(|p| p.name == text) {
+            return Some(exact);
+        }
+        let matches: Vec<&Place> = all.iter().copied().filter(|p| short(p) == text).collect();
+        match matches[..] {
+            [one] => Some(one),
+            [] => {
+                let what = if kinds == ["station"] { "station" } else { "place" };
+                let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
+                // suggest full or short names, as written by the user
+                let full = text.contains('.') || kinds.is_empty();
+                let names: Vec<String> =
+                    all.iter().map(|p| if full { p.name.clone() } else { short(p) }).collect();
+                let shorts: Vec<String> = all.iter().map(|p| short(p)).collect();
+                let near = if text.contains('.') { &names } else { &shorts };
+                let near_found = nearest(text, near.iter().map(String::as_str)).is_some();
+                let shown = if near_found { near } else { &names };
+                r.log.error(problem.suggest(text, shown.iter().map(String::as_str)));
+                None
+            }
+            _ => {
+                let names = matches.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(" or ");
+                let message = format!("`{text}` is ambiguous");
+                r.log.error(Problem::new(Kind::UnknownName, span, message).hint(format!("write {names}")));
+                None
+            }
+        }
+    }
+
+    /// Shaft node and position of the station named by a key; node 0 as placeholder after an error.
+    pub fn station(&self, r: &Reader, key: &str) -> (usize, f64) {
+        let Some(name) = r.need_text(key, "\"A\"") else { return (0, 0.0) };
+        let place = self.find(r, name, &r.span_of(key), &["station"]);
+        place.map_or((0, 0.0), |p| (p.node.unwrap_or(0), p.position[2]))
+    }
+
+    /// Anchor of the key `at` with the key `offset` (on ground: position).
+    pub fn anchor(&self, r: &Reader) -> Anchor {
+        let name = r.need_text("at", "\"station.A\"");
+        let offset = r.vector("offset", LENGTH).unwrap_or_default();
+        let place = name.and_then(|n| self.find(r, n, &r.span_of("at"), &[]));
+        Anchor { node: place.and_then(|p| p.node), offset }
+    }
+
+    /// The two anchors of the key `between`, both at the key `point` or, by default, at the first place not
+    /// on ground.
+    pub fn between(&self, r: &Reader) -> [Anchor; 2] {
+        let nowhere = [Anchor::GROUND; 2];
+        if !r.has("between") {
+            r.missing("between", "[\"station.A\", \"ground\"]");
+        }
+        let point = r.vector("point", LENGTH);
+        let Some(names) = r.texts("between") else { return nowhere };
+        let [(first, first_span), (second, second_span)] = &names[..] else {
+            r.error(Kind::WrongType, "between", format!("{} must name two places", r.name("between")));
+            return nowhere;
+        };
+        let a = self.find(r, first, first_span, &[]);
+        let b = self.find(r, second, second_span, &[]);
+        let (Some(a), Some(b)) = (a, b) else { return nowhere };
+        if a.node == b.node {
+            let message = format!("{} connects a place to itself", r.path);
+            r.error(Kind::Conflict, "between", message);
+        }
+        let own = if a.node.is_some() { a.position } else { b.position };
+        let point = point.unwrap_or(own);
+        [a.anchor_at(point), b.anchor_at(point)]
+    }
+}

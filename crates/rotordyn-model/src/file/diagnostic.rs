@@ -1,0 +1,201 @@
+//! Diagnostics (errors and warnings) of a model file: plain data with spans into its text.
+
+use rotordyn_units::names::nearest;
+use std::cell::RefCell;
+use std::ops::Range;
+
+/// A text that was read: the model file, or one `--set` argument.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    pub name: String,
+    pub text: String,
+}
+
+/// Kind of a problem, machine-readable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Not TOML, or not text at all.
+    Syntax,
+    UnknownKey,
+    MissingKey,
+    WrongType,
+    MissingUnit,
+    /// Unknown unit or malformed quantity.
+    BadQuantity,
+    WrongDimension,
+    /// Negative, zero, infinite or NaN where not allowed.
+    OutOfRange,
+    /// A station, body, material, designation, variant or other item that does not exist.
+    UnknownName,
+    /// Mutually exclusive keys, or a duplicate name.
+    Conflict,
+    /// Incompatible dimensions.
+    Geometry,
+    /// A body or shaft without the supports or connections it needs.
+    Disconnected,
+    /// A `--set` argument whose path does not exist.
+    BadPath,
+    /// Former spelling of a renamed key or keyword: only a hint.
+    FormerName,
+}
+
+/// One problem with its location.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    pub kind: Kind,
+    /// Index of the source that the span refers to.
+    pub source: usize,
+    /// Byte range in the source's text.
+    pub span: Range<usize>,
+    pub message: String,
+    /// Expected content; shown at the span.
+    pub expected: Option<String>,
+    /// How to fix it.
+    pub hint: Option<String>,
+}
+
+/// All errors of a model file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", summary(.diagnostics))]
+pub struct ModelErrors {
+    pub sources: Vec<Source>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+fn summary(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(|d| d.message.as_str()).collect::<Vec<_>>().join("; ")
+}
+
+/// A problem under construction: its span is an offset over all sources.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem {
+    kind: Kind,
+    span: Range<usize>,
+    message: String,
+    expected: Option<String>,
+    hint: Option<String>,
+}
+
+impl Problem {
+    pub fn new(kind: Kind, span: &Range<usize>, message: impl Into<String>) -> Self {
+        Self { kind, span: span.clone(), message: message.into(), expected: None, hint: None }
+    }
+
+    pub fn expected(mut self, text: impl Into<String>) -> Self {
+        self.expected = Some(text.into());
+        self
+    }
+
+    pub fn hint(mut self, text: impl Into<String>) -> Self {
+        self.hint = Some(text.into());
+        self
+    }
+
+    /// Suggest the nearest known name, if any is close.
+    pub fn suggest_near<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        match nearest(word, known) {
+            Some(near) => self.hint(format!("did you mean `{near}`?")),
+            None => self,
+        }
+    }
+
+    /// Suggest the nearest known name, or list the known names if none is close.
+    pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        let known: Vec<&str> = known.into_iter().collect();
+        if let Some(near) = nearest(word, known.iter().copied()) {
+            return self.hint(format!("did you mean `{near}`?"));
+        }
+        match known.len() {
+            0 => self,
+            1..=12 => self.hint(format!("known here: {}", known.join(", "))),
+            n => self.hint(format!("known here: {} and {} more", known[..12].join(", "), n - 12)),
+        }
+    }
+}
+
+/// All texts that were read, concatenated so that one offset identifies a location in any of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sources {
+    sources: Vec<Source>,
+    starts: Vec<usize>,
+}
+
+impl Sources {
+    /// Add a text; returns the offset at which its spans start.
+    pub fn push(&mut self, name: impl Into<String>, text: impl Into<String>) -> usize {
+        let start = self.starts.last().map_or(0, |s| s + self.sources[self.sources.len() - 1].text.len() + 1);
+        self.starts.push(start);
+        self.sources.push(Source { name: name.into(), text: text.into() });
+        start
+    }
+
+    /// Finished diagnostics, in the order of the texts.
+    pub fn locate(&self, mut problems: Vec<Problem>) -> Vec<Diagnostic> {
+        problems.sort_by_key(|p| (p.span.start, p.span.end));
+        let locate = |p: Problem| {
+            let source = self.starts.iter().rposition(|&s| s <= p.span.start).unwrap_or(0);
+            let start = self.starts.get(source).copied().unwrap_or(0);
+            let length = self.sources.get(source).map_or(0, |s| s.text.len());
+            let local = |at: usize| at.saturating_sub(start).min(length);
+            Diagnostic {
+                kind: p.kind,
+                source,
+                span: local(p.span.start)..local(p.span.end),
+                message: p.message,
+                expected: p.expected,
+                hint: p.hint,
+            }
+        };
+        problems.into_iter().map(locate).collect()
+    }
+
+    pub fn into_vec(self) -> Vec<Source> {
+        self.sources
+    }
+}
+
+/// Problems found so far; reading continues after each.
+#[derive(Default)]
+pub(crate) struct Log {
+    errors: RefCell<Vec<Problem>>,
+    warnings: RefCell<Vec<Problem>>,
+    hints: RefCell<Vec<Problem>>,
+}
+
+impl Log {
+    pub fn error(&self, problem: Problem) {
+        self.errors.borrow_mut().push(problem);
+    }
+
+    /// Remove the report of a missing key whose misspelt form was found.
+    pub fn retract_missing(&self, span: &Range<usize>, message: &str) {
+        let is_it = |p: &Problem| p.kind == Kind::MissingKey && p.span == *span && p.message == message;
+        self.errors.borrow_mut().retain(|p| !is_it(p));
+    }
+
+    pub fn warn(&self, problem: Problem) {
+        self.warnings.borrow_mut().push(problem);
+    }
+
+    /// Add a hint, once per message.
+    pub fn hint(&self, problem: Problem) {
+        let mut hints = self.hints.borrow_mut();
+        if hints.iter().all(|known| known.message != problem.message) {
+            hints.push(problem);
+        }
+    }
+
+    /// Number of errors so far; a check that needs valid values compares it with the number before.
+    pub fn error_count(&self) -> usize {
+        self.errors.borrow().len()
+    }
+
+    pub fn into_errors(self) -> Vec<Problem> {
+        self.errors.into_inner()
+    }
+
+    /// Warnings and hints.
+    pub fn into_warnings_and_hints(self) -> (Vec<Problem>, Vec<Problem>) {
+        (self.warnings.into_inner(), self.hints.into_inner())
+    }
+}

@@ -1,0 +1,186 @@
+//! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::DMatrix;
+
+use super::display_unit::typographic_unit;
+use super::{Named, write_all};
+use crate::FigureError;
+use crate::{Figure, Frf, FrfCurve, Matrix, PoleStability, Stabilisation, WireShape, Wireframe};
+use rotordyn_core::model::Quantity;
+use rotordyn_identify::{ModalIdentification, Mode, Stability};
+use rotordyn_linalg::Complex64;
+use rotordyn_signal::record::{Dof, FrfMatrix, Geometry};
+
+/// Number of FRFs drawn, evenly spread from the best to the worst fit.
+const MAX_FITS_DRAWN: usize = 6;
+
+/// Draws the figures of an identification; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw(
+    found: &ModalIdentification,
+    frfs: &FrfMatrix,
+    geometry: &Geometry,
+    title: &str,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    let mut figures = vec![stabilisation(found, title)];
+    if found.modes.len() > 1 && found.larger_side_shape(&found.modes[0]).0.len() > 1 {
+        figures.push(auto_mac(found, title));
+    }
+    figures.extend(fits(found, frfs, title));
+    figures.extend(shapes(found, geometry, title));
+    write_all(&figures, folder)
+}
+
+fn stabilisation(found: &ModalIdentification, title: &str) -> Named {
+    let state = |stability: Stability| match stability {
+        Stability::New => PoleStability::New,
+        Stability::Frequency => PoleStability::Frequency,
+        Stability::Damping => PoleStability::Damping,
+        Stability::Shape => PoleStability::Shape,
+        Stability::Stable => PoleStability::Stable,
+    };
+    let hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
+    let figure = Stabilisation {
+        title: "Stabilisation diagram".into(),
+        note: format!(
+            "stable: within 1 % in frequency, 5 % in damping, MAC 0.95 of the previous order; {title}"
+        ),
+        poles: found.diagram.iter().map(|p| (hz(p.value), p.order, state(p.stability))).collect(),
+        hz: found.frequencies.clone(),
+        curves: mode_indicator(found),
+        selected: found.modes.iter().map(Mode::frequency_hz).collect(),
+    };
+    ("stabilisation".into(), Figure::Stabilisation(figure))
+}
+
+/// Complex mode indicator function (CMIF): singular values of the FRF matrix at every frequency line, each
+/// response row divided by its RMS.
+fn mode_indicator(found: &ModalIdentification) -> Vec<Vec<f64>> {
+    let (responses, references) = (found.responses.len(), found.references.len());
+    let values = responses.min(references).min(3);
+    let mut out = vec![Vec::with_capacity(found.frequencies.len()); values];
+    let rms = |frf: &[Complex64]| (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt();
+    let sizes: Vec<f64> = found
+        .measured
+        .iter()
+        .map(|row| (row.iter().map(|frf| rms(frf).powi(2)).sum::<f64>() / references as f64).sqrt())
+        .collect();
+    for k in 0..found.frequencies.len() {
+        let h = DMatrix::from_fn(responses, references, |r, e| found.measured[r][e][k] / sizes[r]);
+        // Gram matrix of the smaller dimension: its eigenvalues are the squared singular values.
+        let square = if responses > references { h.adjoint() * &h } else { &h * h.adjoint() };
+        let mut sizes: Vec<f64> = square.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+        sizes.sort_by(|a, b| b.total_cmp(a));
+        out.iter_mut().zip(sizes).for_each(|(curve, size)| curve.push(size));
+    }
+    out
+}
+
+fn auto_mac(found: &ModalIdentification, title: &str) -> Named {
+    let names: Vec<String> = found.modes.iter().map(|m| format!("{:.2} Hz", m.frequency_hz())).collect();
+    let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
+    let figure = Matrix {
+        title: "Auto-MAC of the identified mode shapes".into(),
+        note: format!("{title}; over the {} {side}", found.larger_side_shape(&found.modes[0]).0.len()),
+        rows: names.clone(),
+        columns: names,
+        value: found.auto_mac().concat(),
+        quantity: "MAC".into(),
+        ..Matrix::default()
+    };
+    ("auto_mac".into(), Figure::Matrix(figure))
+}
+
+fn fits(found: &ModalIdentification, frfs: &FrfMatrix, title: &str) -> Vec<Named> {
+    let mut order: Vec<(usize, usize)> =
+        (0..found.responses.len()).flat_map(|r| (0..found.references.len()).map(move |e| (r, e))).collect();
+    order.sort_by(|a, b| found.errors[a.0][a.1].total_cmp(&found.errors[b.0][b.1]));
+    let count = order.len().min(MAX_FITS_DRAWN);
+    let pick = |k: usize| order[if count > 1 { k * (order.len() - 1) / (count - 1) } else { 0 }];
+    let (first, last) = (found.frequencies[0], found.frequencies[found.frequencies.len() - 1]);
+    let inside: Vec<usize> = (0..frfs.frequencies.len())
+        .filter(|&k| frfs.frequencies[k] >= first && frfs.frequencies[k] <= last)
+        .collect();
+    (0..count)
+        .map(pick)
+        .map(|(r, e)| {
+            let curve = |label: &str, values: &[Complex64], coherence: Vec<f64>| FrfCurve {
+                label: label.into(),
+                hz: found.frequencies.clone(),
+                re: values.iter().map(|v| v.re).collect(),
+                im: values.iter().map(|v| v.im).collect(),
+                coherence,
+            };
+            let coherence = frfs.coherence.as_ref();
+            let coherence = coherence.map(|c| inside.iter().map(|&k| c[r][e][k]).collect());
+            let (response, reference) = (found.responses[r], found.references[e]);
+            let error = 100.0 * found.errors[r][e];
+            let figure = Frf {
+                title: format!("FRF: response {response}, reference {reference}, measured and synthesised"),
+                note: format!("{title}; fit error {error:.2} % of this FRF"),
+                quantity: name(found.quantity).into(),
+                unit: match frfs.units[r][e].as_str() {
+                    "" => "unknown unit".into(),
+                    unit => typographic_unit(unit),
+                },
+                curves: vec![
+                    curve("measured", &found.measured[r][e], coherence.unwrap_or_default()),
+                    curve("synthesised", &found.synthesised[r][e], Vec::new()),
+                ],
+            };
+            let plain = |dof: Dof| dof.to_string().replace(['+', ':'], "");
+            (format!("frf_fit_{}_{}", plain(response), plain(reference)), Figure::Frf(figure))
+        })
+        .collect()
+}
+
+fn name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "receptance",
+        Quantity::Velocity => "mobility",
+        Quantity::Acceleration => "accelerance",
+    }
+}
+
+/// Mode shapes on the wireframe, if the geometry contains all measured points.
+fn shapes(found: &ModalIdentification, geometry: &Geometry, title: &str) -> Option<Named> {
+    let first = found.modes.first()?;
+    let (dofs, _) = found.larger_side_shape(first);
+    let index = |number: i64| geometry.nodes.iter().position(|n| n.number == number);
+    if geometry.nodes.is_empty() || !dofs.iter().all(|d| index(d.node).is_some()) {
+        return None;
+    }
+    let shape = |(k, mode): (usize, &Mode)| {
+        let (dofs, values) = found.larger_side_shape(mode);
+        // Rotate the phase to maximise the real part.
+        let square: Complex64 = values.iter().map(|v| v * v).sum();
+        let turn = Complex64::from_polar(1.0, -0.5 * square.arg());
+        // Unmeasured points stay NaN and are omitted from the deflected lines.
+        let mut motion = vec![[f64::NAN; 3]; geometry.nodes.len()];
+        dofs.iter().filter_map(|d| index(d.node)).for_each(|at| motion[at] = [0.0; 3]);
+        for (dof, value) in dofs.iter().zip(values).filter(|(d, _)| !d.is_rotation()) {
+            let Some(at) = index(dof.node) else { continue };
+            let (axis, sign) = match dof.direction {
+                0 => (2, 1.0),
+                d => (usize::from(d.unsigned_abs()) - 1, f64::from(d.signum())),
+            };
+            motion[at][axis] = sign * (turn * value).re;
+        }
+        let zeta = 100.0 * mode.damping_ratio();
+        WireShape { title: format!("{}: {:.2} Hz, {zeta:.2} %", k + 1, mode.frequency_hz()), motion }
+    };
+    let stroke = |stroke: &Vec<i64>| stroke.iter().filter_map(|n| index(*n)).collect::<Vec<_>>();
+    let figure = Wireframe {
+        title: "Identified mode shapes".into(),
+        note: format!("{title}; real part at the phase of the largest deflection"),
+        points: geometry.nodes.iter().map(|n| n.position).collect(),
+        strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
+        shapes: found.modes.iter().enumerate().map(shape).collect(),
+    };
+    Some(("mode_shapes".into(), Figure::Wireframe(figure)))
+}

@@ -1,0 +1,162 @@
+//! All figures of the results, by file name.
+//!
+//! | name | content |
+//! |---|---|
+//! | `machine_layout` | layout of the machine, side view |
+//! | `static_deflection`, `ball_loads` | static equilibrium |
+//! | `modes_<speed>rpm`, `campbell` | mode shapes, Campbell diagram |
+//! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
+//! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
+//! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
+//! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
+//! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts with their range over the cage phases |
+//! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
+//! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
+//! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
+//! | `signal_<what>_<channel>` | signal analysis of a record: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
+//! | `stabilisation`, `auto_mac`, `frf_fit_...`, `mode_shapes` | experimental modal analysis of FRFs |
+//! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
+//! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
+//! | `comparison_frf_...`, `comparison_campbell` | model variants on common axes |
+
+mod bearing;
+mod campbell;
+mod comparison;
+mod display_unit;
+pub mod identification;
+mod machine;
+mod named;
+mod response;
+mod run;
+mod run_up_correlation;
+mod signal;
+mod signal_orders;
+mod signal_units;
+mod steady;
+mod validation;
+
+use named::{Named, TO_RPM};
+pub use validation::Stage;
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use crate::FigureError;
+use crate::{self as plot, Figure};
+use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
+use rotordyn_core::study::Machine;
+use rotordyn_update::target::Target;
+
+/// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&all(results, machine), folder)
+}
+
+/// All figures of the available results with their file names (without extension).
+pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
+    let mut figures = vec![machine::layout(machine)];
+    figures.extend(results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine)));
+    figures.extend(results.modal.iter().map(|found| machine::modes(found, machine)));
+    figures.extend(results.campbell.iter().map(|found| campbell::campbell(found, machine)));
+    figures.extend(results.frf.iter().flat_map(|found| response::frf(found, machine)));
+    let criticals = response::criticals(results);
+    figures
+        .extend(results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine)));
+    figures.extend(results.run_up.iter().flat_map(|found| run::histories(&found.history, machine)));
+    let campbell = results.campbell.as_ref();
+    figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
+    figures.extend(
+        results.orders.iter().flat_map(|found| run::orders(found, results.cage_phases.as_ref(), machine)),
+    );
+    figures.extend(results.poincare.iter().flat_map(|found| steady::poincare(found, machine)));
+    figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
+    figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));
+    figures.extend(bearings(&results.bearings, &machine.model.title));
+    figures
+}
+
+/// Draws all figures of ball bearing analyses; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_bearings(
+    found: &[BearingResult],
+    title: &str,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
+}
+
+/// Draws all figures of analysed records; `title` is the name of their file. Returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), folder)
+}
+
+/// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_envelope_comparison(
+    of: [(&SignalResult, &str); 2],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), folder)
+}
+
+fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
+    found.iter().flat_map(|found| bearing::figures(found, title))
+}
+
+/// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&comparison::figures(variants), folder)
+}
+
+/// Draws the comparison of a measurement with stages of a model; file names start with `prefix`. Returns the
+/// SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_validation(
+    prefix: &str,
+    title: &str,
+    target: &Target,
+    stages: &[Stage],
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&validation::figures(prefix, title, target, stages), folder)
+}
+
+/// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_run_up_correlation(
+    prefix: &str,
+    pairs: &[ChannelPair],
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&run_up_correlation::figures(prefix, pairs, campbell, machine), folder)
+}
+
+fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    std::fs::create_dir_all(folder).map_err(FigureError::of_file("create folder", folder))?;
+    let stems: Vec<String> = figures.iter().map(|(name, _)| rotordyn_units::names::file_name(name)).collect();
+    figures
+        .par_iter()
+        .zip(&stems)
+        .try_for_each(|((_, figure), stem)| plot::write(figure, &folder.join(stem)))?;
+    Ok(stems.iter().map(|stem| folder.join(format!("{stem}.svg"))).collect())
+}

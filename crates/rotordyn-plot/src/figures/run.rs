@@ -1,0 +1,227 @@
+//! Figures of a run-up: time histories, spectrograms, waterfalls, order maps and order cuts.
+
+use super::campbell::{branches, order_lines};
+use super::display_unit::{DisplayUnit, decibels, quantity, unit};
+use super::{Named, TO_RPM};
+use crate::{
+    Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, SpectrogramPanel, Waterfall,
+    WaterfallPanel,
+};
+use rotordyn_core::results::{
+    self, CagePhaseBand, CampbellResult, HistoryChannel, OrderResult, SpectrogramResult,
+};
+use rotordyn_core::study::Machine;
+use rotordyn_signal::waterfall::waterfall;
+
+/// Default dynamic range of level maps \[dB\].
+const DYNAMIC_RANGE_DB: f64 = 70.0;
+/// Number of spectra of a waterfall.
+const WATERFALL_SPECTRA: usize = 40;
+
+pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
+    let channel = |c: &HistoryChannel, label: String| {
+        let shown = unit(&c.unit);
+        Channel {
+            label,
+            quantity: quantity(&c.unit).into(),
+            unit: shown.name.into(),
+            time: history.time.clone(),
+            value: c.values.iter().map(|v| v * shown.factor).collect(),
+        }
+    };
+    let speed = Channel {
+        label: "shaft speed".into(),
+        quantity: "speed".into(),
+        unit: "rpm".into(),
+        time: history.time.clone(),
+        value: history.speed.iter().map(|s| s * TO_RPM).collect(),
+    };
+    let note = &machine.model.title;
+    let figure = |name: String, title: String, channels: Vec<Channel>| {
+        (name, Figure::History(History { title, note: note.clone(), channels }))
+    };
+    let mut figures = Vec::new();
+    for c in &history.channels {
+        if ["displacement", "velocity", "acceleration"].contains(&c.quantity.as_str()) {
+            let label = format!("{}: {} along {}", c.name, c.station, c.direction);
+            let title = format!("Run-up, {}", c.name);
+            figures.push(figure(format!("run_up_{}", c.name), title, vec![speed.clone(), channel(c, label)]));
+        }
+    }
+    for site in &machine.model.bearings {
+        let forces = history.channels.iter().filter(|c| c.quantity == "force" && c.station == site.name);
+        let mut channels: Vec<Channel> =
+            forces.map(|c| channel(c, format!("force on the shaft along {}", c.direction))).collect();
+        if !channels.is_empty() {
+            channels.insert(0, speed.clone());
+            let title = format!("Run-up, bearing {}", site.name);
+            figures.push(figure(format!("run_up_bearing_{}", site.name), title, channels));
+        }
+    }
+    let energies = history.channels.iter().filter(|c| c.quantity == "energy");
+    let energies: Vec<Channel> =
+        energies.map(|c| channel(c, c.name.replace("energy_", "").replace('_', " "))).collect();
+    if !energies.is_empty() {
+        figures.push(figure("run_up_energy".into(), "Run-up, energy balance".into(), energies));
+    }
+    figures
+}
+
+/// Spectra of one run over speed.
+pub(super) struct SpectraOverSpeed<'a> {
+    pub name: &'a str,
+    /// Speed of every frame \[rpm\].
+    pub rpm: &'a [f64],
+    pub hz: &'a [f64],
+    /// `amplitude[frame * hz.len() + line]`.
+    pub amplitude: &'a [f64],
+}
+
+/// Waterfalls of runs at common speeds, amplitudes times `factor`; none if the speed is constant.
+pub(super) fn waterfall_panels(runs: &[SpectraOverSpeed], factor: f64) -> Vec<WaterfallPanel> {
+    let every = || runs.iter().flat_map(|r| r.rpm.iter());
+    let (lo, hi) = every().fold((f64::INFINITY, 0.0f64), |(lo, hi), v| (lo.min(*v), hi.max(*v)));
+    let step = (hi - lo) / WATERFALL_SPECTRA as f64;
+    if step.is_nan() || step <= 0.0 {
+        return Vec::new();
+    }
+    let steps: Vec<f64> = (0..=WATERFALL_SPECTRA).map(|k| lo + step * k as f64).collect();
+    let panel = |run: &SpectraOverSpeed| {
+        // Its errors (NaN, size mismatch) cannot occur with a spectrogram.
+        let rows = waterfall(run.hz, run.amplitude, run.rpm, &steps, 0.5 * step).ok()?;
+        Some(WaterfallPanel {
+            name: run.name.into(),
+            rpm: rows.rpm,
+            hz: rows.axis,
+            amplitude: rows.amplitude.iter().map(|a| a * factor).collect(),
+        })
+    };
+    runs.iter().filter_map(panel).collect()
+}
+
+pub fn spectrogram(
+    found: &SpectrogramResult,
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+) -> Vec<Named> {
+    spectrograms(&[("", found)], &format!("Spectra of the run-up, {}", found.channel), campbell, machine)
+        .into_iter()
+        .map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure))
+        .collect()
+}
+
+/// Spectrogram map and waterfall of one channel, one panel per named run; kinds "spectrogram" and
+/// "waterfall".
+pub(super) fn spectrograms(
+    runs: &[(&str, &SpectrogramResult)],
+    title: &str,
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+) -> Vec<(&'static str, Figure)> {
+    let Some((_, first)) = runs.first() else { return Vec::new() };
+    let shown = unit(&first.unit);
+    let highest = runs.iter().filter_map(|(_, r)| r.spectrogram.frequencies.last()).copied();
+    let highest = highest.fold(0.0, f64::max);
+    let visible = |b: &Branch| b.hz.iter().any(|hz| *hz <= highest);
+    let linear: Vec<Branch> = campbell.map(branches).into_iter().flatten().filter(visible).collect();
+    let orders = order_lines(&first.orders);
+    let note = machine.model.title.clone();
+    let span_db =
+        machine.model.studies.spectrogram.as_ref().map_or(DYNAMIC_RANGE_DB, |study| study.dynamic_range_db);
+    let rpm: Vec<Vec<f64>> = runs.iter().map(|(_, r)| r.speed.iter().map(|w| w * TO_RPM).collect()).collect();
+    let panel = |((name, found), rpm): (&(&str, &SpectrogramResult), &Vec<f64>)| SpectrogramPanel {
+        name: (*name).into(),
+        rpm: rpm.clone(),
+        hz: found.spectrogram.frequencies.clone(),
+        level_db: decibels(&found.spectrogram.amplitude, shown),
+    };
+    let map = Spectrogram {
+        title: title.into(),
+        note: note.clone(),
+        panels: runs.iter().zip(&rpm).map(panel).collect(),
+        quantity: format!("{} level", quantity(&first.unit)),
+        unit: reference(shown),
+        span_db,
+        orders: orders.clone(),
+        branches: linear,
+        max_hz: Some(highest),
+    };
+    let mut figures = vec![("spectrogram", Figure::Spectrogram(map))];
+    let spectra: Vec<SpectraOverSpeed> = runs
+        .iter()
+        .zip(&rpm)
+        .map(|((name, found), rpm)| SpectraOverSpeed {
+            name,
+            rpm,
+            hz: &found.spectrogram.frequencies,
+            amplitude: &found.spectrogram.amplitude,
+        })
+        .collect();
+    let panels = waterfall_panels(&spectra, shown.factor);
+    if !panels.is_empty() {
+        let figure = Waterfall { title: title.into(), note, panels, unit: shown.name.into(), orders };
+        figures.push(("waterfall", Figure::Waterfall(figure)));
+    }
+    figures
+}
+
+pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Machine) -> Vec<Named> {
+    let band_of = |label: &str| -> Vec<[f64; 2]> {
+        let channel = phases.and_then(|p| p.channels.iter().find(|c| c.channel == found.channel));
+        let line = channel.and_then(|c| c.lines.iter().find(|l| l.line.label == label));
+        let factor = unit(&found.unit).factor;
+        line.map_or_else(Vec::new, |l| {
+            l.minimum.iter().zip(&l.maximum).map(|(lo, hi)| [lo * factor, hi * factor]).collect()
+        })
+    };
+    let s = &found.spectrogram;
+    let shown = unit(&found.unit);
+    let note = machine.model.title.clone();
+    let lines: Vec<results::OrderLine> = found.cuts.iter().map(|(line, _)| line.clone()).collect();
+    let span_db =
+        machine.model.studies.spectrogram.as_ref().map_or(DYNAMIC_RANGE_DB, |study| study.dynamic_range_db);
+    let map = OrderMap {
+        title: format!("Order map of the run-up, {}", found.channel),
+        note: note.clone(),
+        rpm: s.rpm.clone(),
+        order: s.orders.clone(),
+        level_db: decibels(&s.amplitude, shown),
+        quantity: format!("{} level", quantity(&found.unit)),
+        unit: reference(shown),
+        span_db,
+        orders: order_lines(&lines),
+        max_order: None,
+    };
+    let mut figures = vec![(format!("orders_{}", found.channel), Figure::OrderMap(map))];
+    if !found.cuts.is_empty() {
+        let curves = found.cuts.iter().map(|(line, cut)| Curve {
+            label: line.label.clone(),
+            x: cut.rpm.clone(),
+            y: cut.rms.iter().map(|v| v * shown.factor).collect(),
+            points: false,
+        });
+        let note = match phases {
+            None => note,
+            Some(p) => format!("{note}; bands: range over {} initial cage phases", p.angles.len()),
+        };
+        let figure = Lines {
+            title: format!("Order cuts of the run-up, {}", found.channel),
+            note,
+            x_name: "shaft speed".into(),
+            x_unit: "rpm".into(),
+            y_name: format!("{}, RMS", quantity(&found.unit)),
+            y_unit: shown.name.into(),
+            curves: curves.collect(),
+            bands: found.cuts.iter().map(|(line, _)| band_of(&line.label)).collect(),
+            log_x: false,
+            log_y: true,
+            ..Lines::default()
+        };
+        figures.push((format!("order_cuts_{}", found.channel), Figure::Lines(figure)));
+    }
+    figures
+}
+
+fn reference(shown: DisplayUnit) -> String {
+    format!("dB re 1 {}", shown.name)
+}

@@ -1,0 +1,54 @@
+//! Measured and computed run-up: spectrogram maps and waterfalls next to each other, order cuts on common
+//! axes.
+
+use super::Named;
+use super::display_unit::{quantity, unit};
+use super::run::spectrograms;
+use crate::{Curve, Figure, Grid, GridPanel};
+use rotordyn_core::results::{CampbellResult, ChannelPair, OrderResult};
+use rotordyn_core::study::Machine;
+
+pub fn figures(
+    prefix: &str,
+    pairs: &[ChannelPair],
+    campbell: Option<&CampbellResult>,
+    machine: &Machine,
+) -> Vec<Named> {
+    let of_one = |pair: &ChannelPair| {
+        let [measured, computed] = &pair.spectrograms;
+        let title = format!("Run-up, {}: measured and computed", pair.channel);
+        let maps = spectrograms(&[("measured", measured), ("computed", computed)], &title, campbell, machine);
+        let cuts = ("order_cuts", Figure::Grid(cuts(pair, machine)));
+        let named = |(kind, figure)| (format!("{prefix}_{kind}_{}", pair.channel), figure);
+        maps.into_iter().chain([cuts]).map(named).collect::<Vec<_>>()
+    };
+    pairs.iter().flat_map(of_one).collect()
+}
+
+/// Order cuts (RMS over speed), one panel per order.
+fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
+    let shown = unit(&pair.unit);
+    let curve = |of: &OrderResult, k: usize| Curve {
+        label: String::new(),
+        x: of.cuts[k].1.rpm.clone(),
+        y: of.cuts[k].1.rms.iter().map(|v| v * shown.factor).collect(),
+        points: false,
+    };
+    let panel = |(k, cut): (usize, &rotordyn_core::results::CutPair)| GridPanel {
+        name: format!("{}, RMS", cut.line.label),
+        unit: shown.name.into(),
+        curves: pair.orders.iter().map(|of| curve(of, k)).collect(),
+        from_zero: true,
+        log_y: false,
+    };
+    Grid {
+        title: format!("Order cuts of the {}, {}", quantity(&pair.unit), pair.channel),
+        note: machine.model.title.clone(),
+        x_name: "shaft speed".into(),
+        x_unit: "rpm".into(),
+        legend: vec!["measured".into(), "computed".into()],
+        panels: pair.cuts.iter().enumerate().map(panel).collect(),
+        columns: 2,
+        mark: None,
+    }
+}

@@ -1,0 +1,196 @@
+//! Plots as SVG and PNG, each drawn from a plain data struct of numbers and names.
+//!
+//! | layer | files |
+//! |---|---|
+//! | page | [`svg`], `font`, `color_map`, `style` |
+//! | axes | [`scale`], [`axes`], [`labels`], `leaders`, `obstacles`, `symbols`, `arcs`, `decimate`, `heat` |
+//! | figures | one file each, one variant of [`Figure`] each |
+//!
+//! A new figure is one file, one variant and its match arm. Non-finite data give a gap; no data give empty
+//! axes. Output is deterministic: equal data give equal bytes.
+
+mod error;
+pub mod figures;
+
+mod arcs;
+pub mod axes;
+mod color_map;
+mod decimate;
+mod font;
+mod heat;
+pub mod labels;
+mod leaders;
+mod mode_data;
+pub mod scale;
+mod style;
+pub mod svg;
+mod vector;
+
+mod ball_load;
+mod bearing_section;
+mod bifurcation;
+mod bode;
+mod campbell;
+mod cursor_spectrum;
+mod deflection;
+mod film_map;
+mod frf;
+mod grid;
+mod heat_map;
+mod history;
+mod lines;
+mod machine_layout;
+mod matrix;
+mod mode_motion;
+mod mode_shape;
+mod mode_view;
+mod obstacles;
+mod orbit;
+mod order_map;
+mod panel_row;
+mod panels;
+mod phase_plane;
+mod polar;
+mod spectrogram;
+mod stabilisation;
+mod symbols;
+mod waterfall;
+mod wireframe;
+
+use std::path::Path;
+
+use resvg::{tiny_skia, usvg};
+
+pub use error::FigureError;
+
+pub use ball_load::{BallLoads, BallRow};
+pub use bearing_section::{BearingSection, GrooveSection};
+pub use bifurcation::{Bifurcation, SweepPoints};
+pub use bode::{Bode, BodeCurve};
+pub use campbell::{Branch, Campbell, Critical, OrderLine, Whirl};
+pub use cursor_spectrum::{Cursor, CursorLines, CursorMark, CursorPanel};
+pub use deflection::{Deflection, Mark};
+pub use film_map::FilmMap;
+pub use frf::{Frf, FrfCurve};
+pub use grid::{Grid, GridPanel};
+pub use heat_map::{HeatMap, MarkedRegion};
+pub use history::{Channel, History};
+pub use lines::{Curve, Lines};
+pub use machine_layout::{
+    LayoutBearing, LayoutBelt, LayoutBlock, LayoutRow, LayoutSection, LayoutSpring, LayoutSupport,
+    MachineLayout,
+};
+pub use matrix::Matrix;
+pub use mode_shape::{BodyBox, BodyMotion, ModeShape, ModeShapes, Rotor, RotorDisc, RotorSupport};
+pub use orbit::{Orbit, Orbits};
+pub use order_map::OrderMap;
+pub use phase_plane::{PhasePlane, PhasePlanes};
+pub use polar::{Polar, PolarCurve};
+pub use spectrogram::{Spectrogram, SpectrogramPanel};
+pub use stabilisation::{PoleStability, Stabilisation};
+pub use symbols::{JointSymbol, SupportSymbol};
+pub use waterfall::{Waterfall, WaterfallPanel};
+pub use wireframe::{WireShape, Wireframe};
+
+/// Pixels of the PNG per px of the SVG.
+pub const PNG_SCALE: f32 = 2.0;
+
+/// Any figure, with its data.
+#[derive(Clone, Debug)]
+pub enum Figure {
+    Campbell(Campbell),
+    Spectrogram(Spectrogram),
+    Waterfall(Waterfall),
+    OrderMap(OrderMap),
+    Frf(Frf),
+    ModeShapes(ModeShapes),
+    Bode(Bode),
+    Polar(Polar),
+    Orbits(Orbits),
+    PhasePlanes(PhasePlanes),
+    Bifurcation(Bifurcation),
+    BallLoads(BallLoads),
+    BearingSection(BearingSection),
+    Deflection(Deflection),
+    History(History),
+    Lines(Lines),
+    Grid(Grid),
+    CursorLines(CursorLines),
+    HeatMap(HeatMap),
+    FilmMap(FilmMap),
+    Matrix(Matrix),
+    MachineLayout(MachineLayout),
+    Stabilisation(Stabilisation),
+    Wireframe(Wireframe),
+}
+
+impl Figure {
+    /// The figure as an SVG document.
+    pub fn svg(&self) -> String {
+        match self {
+            Figure::Campbell(data) => campbell::draw(data),
+            Figure::Spectrogram(data) => spectrogram::draw(data),
+            Figure::Waterfall(data) => waterfall::draw(data),
+            Figure::OrderMap(data) => order_map::draw(data),
+            Figure::Frf(data) => frf::draw(data),
+            Figure::ModeShapes(data) => mode_shape::draw(data),
+            Figure::Bode(data) => bode::draw(data),
+            Figure::Polar(data) => polar::draw(data),
+            Figure::Orbits(data) => orbit::draw(data),
+            Figure::PhasePlanes(data) => phase_plane::draw(data),
+            Figure::Bifurcation(data) => bifurcation::draw(data),
+            Figure::BallLoads(data) => ball_load::draw(data),
+            Figure::Deflection(data) => deflection::draw(data),
+            Figure::History(data) => history::draw(data),
+            Figure::Lines(data) => lines::draw(data),
+            Figure::Grid(data) => grid::draw(data),
+            Figure::CursorLines(data) => cursor_spectrum::draw(data),
+            Figure::HeatMap(data) => heat_map::draw(data),
+            Figure::FilmMap(data) => film_map::draw(data),
+            Figure::BearingSection(data) => bearing_section::draw(data),
+            Figure::Matrix(data) => matrix::draw(data),
+            Figure::MachineLayout(data) => machine_layout::draw(data),
+            Figure::Stabilisation(data) => stabilisation::draw(data),
+            Figure::Wireframe(data) => wireframe::draw(data),
+        }
+        .finish()
+    }
+}
+
+/// Writes a figure as `stem.svg` and `stem.png`.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(figure: &Figure, stem: &Path) -> Result<(), FigureError> {
+    let svg = figure.svg();
+    let name = |extension: &str| {
+        // Not `with_extension`: a stem such as "mode_27.1_hz" contains a dot.
+        let mut name = stem.as_os_str().to_owned();
+        name.push(extension);
+        std::path::PathBuf::from(name)
+    };
+    let put = |path: std::path::PathBuf, bytes: &[u8]| {
+        std::fs::write(&path, bytes).map_err(FigureError::of_file("write figure", &path))
+    };
+    put(name(".svg"), svg.as_bytes())?;
+    let png = png(&svg).map_err(FigureError::of_file("render figure", &name(".png")))?;
+    put(name(".png"), &png)
+}
+
+/// Renders an SVG document as PNG at [`PNG_SCALE`].
+///
+/// # Errors
+/// The document is not SVG, or is too large to render.
+pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
+    let options = usvg::Options {
+        fontdb: font::database(),
+        font_family: "DejaVu Sans".to_string(),
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(svg, &options)?;
+    let size = tree.size().to_int_size();
+    let (w, h) = (size.width() as f32 * PNG_SCALE, size.height() as f32 * PNG_SCALE);
+    let mut pixmap = tiny_skia::Pixmap::new(w as u32, h as u32).ok_or("the figure is too large to render")?;
+    resvg::render(&tree, tiny_skia::Transform::from_scale(PNG_SCALE, PNG_SCALE), &mut pixmap.as_mut());
+    Ok(pixmap.encode_png()?)
+}

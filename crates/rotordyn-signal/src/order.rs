@@ -1,0 +1,277 @@
+//! Order tracking by angular resampling: order spectrogram, averaged order spectrum, order cuts.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use rustfft::num_complex::Complex;
+
+use super::SignalError;
+use super::error::check;
+use super::resample::{AngleResampler, SAMPLES_PER_ORDER, Skipped, speed_rpm};
+use super::segment::{Level, SegmentTransform};
+use super::stft::interpolate_at;
+use super::window::WindowKind;
+use rotordyn_linalg::fft_length;
+
+/// Settings of order tracking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrderSettings {
+    /// Spacing of the order bins; a window spans 1/resolution revolutions.
+    pub resolution: f64,
+    /// Highest order kept.
+    pub max_order: f64,
+    /// Overlap of neighbouring windows, a fraction 0..1.
+    pub overlap: f64,
+    pub window: WindowKind,
+    pub level: Level,
+    /// Speed \[rev/s\] below which the shaft counts as at standstill.
+    pub min_speed: f64,
+}
+
+impl OrderSettings {
+    /// Hann windows with 75 % overlap, peak amplitudes, standstill below 0.05 rev/s.
+    pub fn new(resolution: f64, max_order: f64) -> Self {
+        OrderSettings {
+            resolution,
+            max_order,
+            overlap: 0.75,
+            window: WindowKind::Hann,
+            level: Level::Peak,
+            min_speed: 0.05,
+        }
+    }
+}
+
+/// Order spectrogram: amplitudes over speed and order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrderSpectrogram {
+    /// Time at each window's centre in angle \[s\].
+    pub times: Vec<f64>,
+    /// Speed there \[rpm\], averaged over the revolution around it.
+    pub rpm: Vec<f64>,
+    /// Order bins, 0 to the highest kept.
+    pub orders: Vec<f64>,
+    /// Amplitudes, row-major: a row for each window, a column for each order.
+    pub amplitude: Vec<f64>,
+    /// Equivalent noise bandwidth in bins.
+    pub noise_bandwidth_bins: f64,
+    pub level: Level,
+}
+
+/// Order cut: the RMS level of one order against speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrderCut {
+    pub order: f64,
+    pub times: Vec<f64>,
+    pub rpm: Vec<f64>,
+    /// RMS of everything in the band.
+    pub rms: Vec<f64>,
+}
+
+/// One order's complex peak amplitude (order vector) against speed; phase relative to cos(order · θ).
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrderVector {
+    pub order: f64,
+    pub times: Vec<f64>,
+    pub rpm: Vec<f64>,
+    pub amplitude: Vec<Complex<f64>>,
+}
+
+/// Order tracking planned once for a shaft angle and used for all channels.
+pub struct OrderTracker {
+    settings: OrderSettings,
+    resampler: AngleResampler,
+    transform: SegmentTransform,
+    hop: usize,
+    /// Windows: index of the part, first sample in it.
+    windows: Vec<(usize, usize)>,
+    times: Vec<f64>,
+    rpm: Vec<f64>,
+}
+
+impl OrderTracker {
+    /// Plans the tracking from a shaft angle sampled like the records.
+    ///
+    /// `theta` (N) \[rad\], `sample_rate` \[Hz\]. Standstill is skipped ([`Self::skipped`]).
+    /// Errors: NaN, settings out of range, no segment of 1/resolution revolutions, a sampling rate below 2.56
+    /// times the highest order at the highest speed.
+    pub fn new(theta: &[f64], sample_rate: f64, settings: OrderSettings) -> Result<Self, SignalError> {
+        let OrderSettings { resolution, max_order, overlap, .. } = settings;
+        check(
+            resolution > 0.0 && resolution <= 1.0,
+            "order resolution",
+            "more than 0, at most 1",
+            resolution,
+        )?;
+        check(
+            max_order >= resolution && max_order <= 1e4,
+            "highest order",
+            "resolution to 10000",
+            max_order,
+        )?;
+        check((0.0..1.0).contains(&overlap), "overlap", "a fraction from 0 to below 1", overlap)?;
+        let per_revolution = fft_length(((SAMPLES_PER_ORDER * max_order).ceil() as usize).max(4), 2);
+        let resampler = AngleResampler::new(theta, sample_rate, per_revolution, settings.min_speed)?;
+        let length = (per_revolution as f64 / resolution).round() as usize;
+        let hop = ((length as f64 * (1.0 - overlap)).round() as usize).max(1);
+        let (mut windows, mut times, mut rpm) = (Vec::new(), Vec::new(), Vec::new());
+        let mut longest = 0;
+        let mut fastest = f64::INFINITY;
+        for (index, part) in resampler.parts().iter().enumerate() {
+            longest = longest.max(part.times.len());
+            for pair in part.times.windows(2) {
+                fastest = fastest.min(pair[1] - pair[0]);
+            }
+            let mut first = 0;
+            while first + length <= part.times.len() {
+                let centre = first as f64 + length as f64 / 2.0;
+                windows.push((index, first));
+                times.push(interpolate_at(&part.times, centre));
+                rpm.push(speed_rpm(part, centre, per_revolution));
+                first += hop;
+            }
+        }
+        let needed = SAMPLES_PER_ORDER * max_order / (per_revolution as f64 * fastest);
+        if needed > sample_rate {
+            let purpose = "the highest order at the highest speed";
+            return Err(SignalError::RateTooLow { given: sample_rate, needed, purpose });
+        }
+        if windows.is_empty() {
+            return Err(SignalError::TooFewRevolutions {
+                needed: 1.0 / resolution,
+                given: longest as f64 / per_revolution as f64,
+                purpose: "one window of this order resolution",
+            });
+        }
+        let transform = SegmentTransform::new(settings.window, length, length);
+        Ok(OrderTracker { settings, resampler, transform, hop, windows, times, rpm })
+    }
+
+    /// Segments of the record that were skipped because of standstill.
+    pub fn skipped(&self) -> &[Skipped] {
+        self.resampler.skipped()
+    }
+
+    /// Hop: revolutions from one window to the next.
+    pub fn hop_revolutions(&self) -> f64 {
+        self.hop as f64 / self.resampler.samples_per_revolution() as f64
+    }
+
+    /// The channels in the angle domain, input of [`Self::spectrogram`] and [`Self::vector`].
+    ///
+    /// Errors: NaN, a channel and the angle of different length.
+    pub fn resample(&self, channels: &[&[f64]]) -> Result<Vec<AngleRecord>, SignalError> {
+        let mut records = vec![AngleRecord { parts: Vec::new() }; channels.len()];
+        for part in self.resampler.resample(channels)? {
+            for (record, samples) in records.iter_mut().zip(part) {
+                record.parts.push(samples);
+            }
+        }
+        Ok(records)
+    }
+
+    /// Amplitude over speed and order; `record` comes from [`Self::resample`] of this tracker.
+    pub fn spectrogram(&mut self, record: &AngleRecord) -> OrderSpectrogram {
+        let length = self.transform.length();
+        let spacing = self.resampler.samples_per_revolution() as f64 / length as f64;
+        let bins = ((self.settings.max_order / spacing).round() as usize + 1).min(self.transform.bins());
+        let mut amplitude = vec![0.0; self.windows.len() * bins];
+        for ((part, first), row) in self.windows.iter().zip(amplitude.chunks_exact_mut(bins)) {
+            let segment = &record.parts[*part][*first..first + length];
+            self.transform.amplitudes(segment, self.settings.level, row);
+        }
+        OrderSpectrogram {
+            times: self.times.clone(),
+            rpm: self.rpm.clone(),
+            orders: (0..bins).map(|k| k as f64 * spacing).collect(),
+            amplitude,
+            noise_bandwidth_bins: self.transform.noise_bandwidth_bins(),
+            level: self.settings.level,
+        }
+    }
+
+    /// Complex amplitude of one order, X = 2 Σ w_k x_k e^{−jνθ_k} / Σw, at any ν, not only at a bin.
+    ///
+    /// x = |X| cos(νθ + arg X). `record` comes from [`Self::resample`]. Errors: order not in 0..highest.
+    pub fn vector(&self, record: &AngleRecord, order: f64) -> Result<OrderVector, SignalError> {
+        let inside = order > 0.0 && order <= self.settings.max_order;
+        check(inside, "order", "more than 0, at most the highest order", order)?;
+        let per_revolution = self.resampler.samples_per_revolution() as f64;
+        let parts = self.resampler.parts().iter().zip(&record.parts);
+        let turned: Vec<Vec<Complex<f64>>> = parts
+            .map(|(part, samples)| {
+                let at = |(k, x): (usize, &f64)| {
+                    Complex::from_polar(*x, -order * TAU * (part.first + k as i64) as f64 / per_revolution)
+                };
+                samples.iter().enumerate().map(at).collect()
+            })
+            .collect();
+        let weights = self.transform.window();
+        let scale = 2.0 / weights.iter().sum::<f64>();
+        let at = |&(part, first): &(usize, usize)| {
+            let samples = &turned[part][first..first + weights.len()];
+            samples.iter().zip(weights).map(|(z, w)| z * w).sum::<Complex<f64>>() * scale
+        };
+        Ok(OrderVector {
+            order,
+            times: self.times.clone(),
+            rpm: self.rpm.clone(),
+            amplitude: self.windows.iter().map(at).collect(),
+        })
+    }
+}
+
+/// A channel resampled uniformly in shaft angle, a part for each segment in which the shaft rotates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleRecord {
+    pub parts: Vec<Vec<f64>>,
+}
+
+impl OrderSpectrogram {
+    /// Amplitudes of one window over the orders.
+    pub fn row(&self, window: usize) -> &[f64] {
+        let bins = self.orders.len();
+        &self.amplitude[window * bins..(window + 1) * bins]
+    }
+
+    /// RMS in the band `order` ± `half_band` against speed, √(Σ A_rms² / noise bandwidth).
+    ///
+    /// A tone's level needs a band as wide as the window's main lobe. Errors: no bin in the band.
+    pub fn cut(&self, order: f64, half_band: f64) -> Result<OrderCut, SignalError> {
+        // Bins are multiples of the spacing up to rounding: a band edge on a bin includes that bin.
+        let slack = 1e-9 * self.orders.last().copied().unwrap_or(0.0);
+        let first = self.orders.partition_point(|o| *o < order - half_band - slack);
+        let end = self.orders.partition_point(|o| *o <= order + half_band + slack);
+        check(first < end, "order band", "a band that contains an order bin", order)?;
+        let to_rms = |k: usize| match self.level {
+            Level::Peak if k > 0 => 1.0 / SQRT_2,
+            _ => 1.0,
+        };
+        let rms = |window: usize| {
+            let row = self.row(window);
+            let power: f64 = (first..end).map(|k| (row[k] * to_rms(k)).powi(2)).sum();
+            (power / self.noise_bandwidth_bins).sqrt()
+        };
+        Ok(OrderCut {
+            order,
+            times: self.times.clone(),
+            rpm: self.rpm.clone(),
+            rms: (0..self.times.len()).map(rms).collect(),
+        })
+    }
+
+    /// Order spectrum averaged in power over all windows between two speeds \[rpm\].
+    ///
+    /// Errors: no window in that range.
+    pub fn average(&self, from_rpm: f64, to_rpm: f64) -> Result<Vec<f64>, SignalError> {
+        let mut power = vec![0.0; self.orders.len()];
+        let mut windows = 0;
+        for (window, rpm) in self.rpm.iter().enumerate() {
+            if (from_rpm..=to_rpm).contains(rpm) {
+                windows += 1;
+                power.iter_mut().zip(self.row(window)).for_each(|(p, a)| *p += a * a);
+            }
+        }
+        check(windows > 0, "speed range from", "a range that the run passes through", from_rpm)?;
+        Ok(power.iter().map(|p| (p / windows as f64).sqrt()).collect())
+    }
+}

@@ -1,0 +1,286 @@
+//! Model updating: comparison of a model with measurements (validation) and fit of its parameters.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`target`] | measured points and modes mapped to the model |
+//! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
+//! | `repeated` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
+//! | [`state`] | the model's modes at the measured points, paired |
+//! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
+//! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
+//! | [`frf`] | residuals of FRFs: selected lines and their weights |
+//! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
+//! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
+
+mod error;
+pub mod frf;
+pub mod identifiability;
+pub mod least_squares;
+pub mod pairing;
+pub mod parameter;
+mod repeated;
+pub mod residual;
+mod residual_rows;
+pub mod state;
+pub mod target;
+
+use rayon::prelude::*;
+
+pub use error::{UpdateError, UpdateFailure};
+use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
+use least_squares::{Evaluation, Iteration, Prior, minimise};
+use parameter::FreeParameter;
+use residual::{Fitting, evaluate_residuals};
+use rotordyn_core::analysis::ball_inertia::{ball_inertia, is_undecided, with_decisions};
+use rotordyn_core::analysis::sensitivity::SystemDerivative;
+use rotordyn_core::assembly::Assembly;
+use rotordyn_core::model::Model;
+use state::ModelState;
+use target::Target;
+
+/// Builds the model with parameter values (path, value) overridden.
+pub type ModelLoader<'a> = dyn Fn(&[(String, String)]) -> Result<Model, UpdateError> + Sync + 'a;
+
+/// Input of a model update.
+pub struct UpdateJob<'a> {
+    pub parameters: &'a [FreeParameter],
+    pub target: &'a Target,
+    pub fitting: &'a Fitting,
+    pub load: &'a ModelLoader<'a>,
+    pub max_iterations: usize,
+}
+
+/// Identifiability class of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IdentifiabilityClass {
+    /// Identifiable: at most 10 % of its prior variance is left, and its standard error is at most 10 %.
+    Identifiable,
+    /// Poorly identifiable: at most half of its prior variance is left. It is fitted with the others.
+    PoorlyIdentifiable,
+    /// Not identifiable: more than half of its prior variance is left. It is reset to its start.
+    NotIdentifiable,
+    /// The fit ended at a bound.
+    AtBound,
+}
+
+impl IdentifiabilityClass {
+    /// Label.
+    pub fn label(self) -> &'static str {
+        match self {
+            IdentifiabilityClass::Identifiable => "identifiable",
+            IdentifiabilityClass::PoorlyIdentifiable => "poorly identifiable",
+            IdentifiabilityClass::NotIdentifiable => "not identifiable",
+            IdentifiabilityClass::AtBound => "at bound",
+        }
+    }
+}
+
+/// A parameter after the update.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    pub class: IdentifiabilityClass,
+    /// Final coordinate: the fitted one, or the prior's mean if not identifiable.
+    pub x: f64,
+    /// Coordinate from the fit of all parameters.
+    pub fitted: f64,
+    /// Standard error of the coordinate.
+    pub error: f64,
+    /// Ratio of posterior to prior variance.
+    pub prior_share: f64,
+}
+
+/// Result of a model update.
+#[derive(Clone, Debug)]
+pub struct Update {
+    pub outcomes: Vec<Outcome>,
+    pub identifiability: Identifiability,
+    pub iterations: Vec<Iteration>,
+    pub converged: bool,
+    pub before: ModelState,
+    pub after: ModelState,
+    /// Fitted measured modes.
+    pub fitted_modes: Vec<usize>,
+    /// Number of data.
+    pub data: usize,
+}
+
+/// Fits the free parameters; those not identifiable are reset to their start, the others fitted again.
+///
+/// # Errors
+/// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
+pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
+    // Ball inertia is decided once, with the first model, for all steps.
+    let first = (job.load)(&settings(job.parameters, &parameter::prior(job.parameters).mean))?;
+    if is_undecided(&first) {
+        let used = ball_inertia(&first, &Assembly::new(&first)?, job.target.speed, None);
+        let load =
+            |settings: &[(String, String)]| (job.load)(settings).map(|model| with_decisions(&model, &used));
+        return update(&UpdateJob { load: &load, ..*job });
+    }
+    let prior = parameter::prior(job.parameters);
+    let start: Vec<f64> = prior.mean.clone();
+    let before = ModelState::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;
+    let mut fitted_modes: Vec<usize> = before.pairing.pairs.iter().map(|p| p.measured).collect();
+    let frfs = job.fitting.frf.is_some() && job.target.frfs.is_some();
+    if fitted_modes.is_empty() && !frfs {
+        return Err(UpdateError::new(
+            "no measured mode is paired with a computed mode",
+            "check the MAC and the mapping with `rotordyn validate`, or start from a closer model",
+        )
+        .into());
+    }
+    let data = data_count(job, &fitted_modes);
+    if job.parameters.len() > data {
+        return Err(UpdateError::new(
+            format!("there are {} free parameters, but only {data} data", job.parameters.len()),
+            "free fewer, group some (\"housing.*.k_x\"), or measure more modes and points",
+        )
+        .into());
+    }
+    let mut fit = fit(job, &prior, &start, &fitted_modes)?;
+    // With the improved model more measured modes may be paired.
+    let mut state = job.state(&fit.x)?;
+    let now: Vec<usize> = state.pairing.pairs.iter().map(|p| p.measured).collect();
+    if now.len() > fitted_modes.len() {
+        fitted_modes = now;
+        fit = self::fit(job, &prior, &fit.x.clone(), &fitted_modes)?;
+        state = job.state(&fit.x)?;
+    }
+    let estimate = identifiability::identifiability(&fit.evaluation, &prior);
+    let classes: Vec<IdentifiabilityClass> =
+        (0..job.parameters.len()).map(|j| classify(job, &fit.x, &estimate, j)).collect();
+    let mut x = fit.x.clone();
+    let mut iterations = fit.iterations;
+    let mut converged = fit.converged;
+    if classes.contains(&IdentifiabilityClass::NotIdentifiable) {
+        let mut constrained = prior.clone();
+        for j in (0..x.len()).filter(|&j| classes[j] == IdentifiabilityClass::NotIdentifiable) {
+            x[j] = prior.mean[j];
+            (constrained.lower[j], constrained.upper[j]) = (x[j], x[j]);
+        }
+        if classes.iter().any(|v| *v != IdentifiabilityClass::NotIdentifiable) {
+            let again = self::fit(job, &constrained, &x, &fitted_modes)?;
+            x = again.x;
+            iterations.extend(again.iterations);
+            converged &= again.converged;
+        }
+        state = job.state(&x)?;
+    }
+    let outcomes = (0..x.len())
+        .map(|j| Outcome {
+            class: classes[j],
+            x: x[j],
+            fitted: fit.x[j],
+            error: estimate.errors[j],
+            prior_share: estimate.prior_share[j],
+        })
+        .collect();
+    Ok(Update {
+        outcomes,
+        identifiability: estimate,
+        iterations,
+        converged,
+        before,
+        after: state,
+        fitted_modes,
+        data,
+    })
+}
+
+/// Paths and values of all parameters.
+pub fn settings(parameters: &[FreeParameter], x: &[f64]) -> Vec<(String, String)> {
+    parameters.iter().zip(x).flat_map(|(p, x)| p.settings(*x)).collect()
+}
+
+impl UpdateJob<'_> {
+    fn state(&self, x: &[f64]) -> Result<ModelState, UpdateFailure> {
+        ModelState::new((self.load)(&settings(self.parameters, x))?, self.target, None)
+    }
+
+    /// Derivatives dM, dD and dS by every coordinate at x.
+    fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, UpdateFailure> {
+        let all = settings(self.parameters, x);
+        let one = |parameter: &FreeParameter, x: f64| {
+            let (sides, width) = parameter.difference_settings(x);
+            let model = |own: &Vec<(String, String)>| {
+                let mut set = all.clone();
+                set.extend_from_slice(own);
+                (self.load)(&set)
+            };
+            Ok(state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)?)
+        };
+        self.parameters.par_iter().zip(x).map(|(p, x)| one(p, *x)).collect()
+    }
+}
+
+fn fit(
+    job: &UpdateJob,
+    prior: &Prior,
+    start: &[f64],
+    kept: &[usize],
+) -> Result<least_squares::Solution, UpdateFailure> {
+    let mut first = true;
+    let mut evaluate = |x: &[f64]| -> Result<Evaluation, UpdateFailure> {
+        let state = job.state(x)?;
+        let by = job.derivatives(x, &state)?;
+        let found = evaluate_residuals(&state, job.target, job.fitting, kept, &by)?;
+        if std::mem::take(&mut first) {
+            check_influence(job, &found, prior)?;
+        }
+        Ok(found)
+    };
+    minimise(start, prior, job.max_iterations, &mut evaluate)
+}
+
+/// Minimum influence: change of the weighted residuals per prior standard deviation of a parameter.
+const MIN_INFLUENCE: f64 = 1e-4;
+
+/// Error if no parameter influences the data; single ones without influence stay at their start.
+fn check_influence(job: &UpdateJob, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
+    let without: Vec<&str> = (0..job.parameters.len())
+        .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < MIN_INFLUENCE)
+        .map(|j| job.parameters[j].name.as_str())
+        .collect();
+    if without.len() < job.parameters.len() {
+        return Ok(());
+    }
+    let (verb, it) = if without.len() == 1 { ("has", "it affects") } else { ("have", "they affect") };
+    Err(UpdateError::new(
+        format!("{} {verb} no influence on the fitted data", without.join(" and ")),
+        format!("free other parameters, or fit data that {it} (--fit damping, --fit frf)"),
+    ))
+}
+
+/// Number of independent data: frequencies, damping ratios, shapes except for their scale, FRF lines.
+fn data_count(job: &UpdateJob, kept: &[usize]) -> usize {
+    let fitting = job.fitting;
+    let mut count = 0;
+    for mode in kept.iter().map(|&k| &job.target.modes[k]) {
+        count += usize::from(fitting.frequency.is_some());
+        count += usize::from(fitting.damping.is_some() && mode.damping_ratio.is_some());
+        if fitting.shape.is_some() {
+            count += mode.shape.len().saturating_sub(1);
+        }
+    }
+    if let (Some(frf), Some(measured)) = (&fitting.frf, &job.target.frfs) {
+        count += frf::data_count(measured, frf);
+    }
+    count
+}
+
+fn classify(job: &UpdateJob, x: &[f64], estimate: &Identifiability, j: usize) -> IdentifiabilityClass {
+    let parameter = &job.parameters[j];
+    // Additive parameters: relative to the prior's deviation.
+    let relative =
+        if parameter.logarithmic { estimate.errors[j] } else { estimate.errors[j] / parameter.deviation };
+    let near = 1e-9 * parameter.deviation;
+    if x[j] <= parameter.lower + near || x[j] >= parameter.upper - near {
+        IdentifiabilityClass::AtBound
+    } else if estimate.prior_share[j] <= MAX_PRIOR_SHARE && relative <= MAX_RELATIVE_ERROR {
+        IdentifiabilityClass::Identifiable
+    } else if estimate.prior_share[j] <= PRIOR_DOMINATED_SHARE {
+        IdentifiabilityClass::PoorlyIdentifiable
+    } else {
+        IdentifiabilityClass::NotIdentifiable
+    }
+}
