@@ -9,7 +9,9 @@ pub mod external_file;
 pub mod film_table_cache;
 #[cfg(feature = "shapes")]
 pub mod gltf;
+#[cfg(feature = "hdf5")]
 pub mod hdf5;
+#[cfg(feature = "hdf5")]
 pub mod identified_modes;
 pub mod inflate;
 pub mod json;
@@ -18,6 +20,7 @@ pub mod mat;
 pub mod measured;
 pub mod model_file_edit;
 pub mod npy;
+#[cfg(feature = "hdf5")]
 pub mod results_file;
 pub mod uff;
 pub mod vtk;

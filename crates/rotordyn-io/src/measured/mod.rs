@@ -11,11 +11,14 @@
 
 mod array;
 pub mod arrays;
+#[cfg(feature = "hdf5")]
 pub mod hdf5_records;
+#[cfg(feature = "hdf5")]
 pub mod impact_run;
 pub mod mapping;
 pub mod run_up;
 mod signal_calc;
+#[cfg(feature = "hdf5")]
 pub mod test_data;
 pub mod unit_label;
 
@@ -105,7 +108,10 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
         Some(Format::Mat) => of_arrays(mat::read(path)?),
         Some(Format::Numpy) => of_arrays(npy::read(path)?),
         Some(Format::Wav) => wav::read(path)?,
+        #[cfg(feature = "hdf5")]
         Some(Format::Hdf5) => hdf5_records::read(path)?,
+        #[cfg(not(feature = "hdf5"))]
+        Some(Format::Hdf5) => return Err(without_hdf5(path)),
         Some(Format::Table) => csv::read(path)?,
         None if Format::of_extension(path) == Some(Format::Mat) => {
             return Err(content("it is not a MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
@@ -120,6 +126,15 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
     }
     make_names_unique_and_check(&mut out);
     Ok(out)
+}
+
+#[cfg(not(feature = "hdf5"))]
+fn without_hdf5(path: &Path) -> Error {
+    Error::Content {
+        path: path.into(),
+        problem: "this build has no HDF5".into(),
+        advice: "build with the feature `hdf5`, or use another format".into(),
+    }
 }
 
 /// Start of the note on channels without an axis.
@@ -170,7 +185,10 @@ pub fn write(path: &Path, measured: &MeasuredData) -> Result<(), Error> {
         Some(Format::Numpy) => npy::write(path, &arrays::from_records(measured, usize::MAX)),
         Some(Format::Wav) => wav::write(path, &all, wav::SampleFormat::Float),
         Some(Format::Table) => csv::write_records(path, &all),
+        #[cfg(feature = "hdf5")]
         Some(Format::Hdf5) => hdf5_records::write(path, measured),
+        #[cfg(not(feature = "hdf5"))]
+        Some(Format::Hdf5) => Err(without_hdf5(path)),
         None => Err(Error::Content {
             path: path.into(),
             problem: "its extension is not that of a supported format".into(),

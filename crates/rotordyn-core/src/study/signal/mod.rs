@@ -1,4 +1,4 @@
-//! Signal analysis of a measured or computed record with the tools of [`crate::signal`].
+//! Signal analysis of a measured or computed record with the tools of [`rotordyn_signal`].
 
 mod cyclic;
 mod jerk;
