@@ -157,8 +157,14 @@ pub fn extrapolate(problem: &Problem, start: Option<&Solution>) -> Result<Extrap
         coarse.as_ref().map_or(f, |coarse| f + (f - figure(coarse)) / 3.0)
     };
     let central_film = limit(|s| s.central_film);
-    // Each minimum by itself: the lesser one may be another on the coarser grid.
-    let [exit_film, side_film] = [limit(|s| s.minima.exit), limit(|s| s.minima.side)];
+    // Each minimum by itself: the lesser one may be another on the coarser grid. A minimum that the coarser grid
+    // does not resolve is that of the finer one.
+    let of_minimum = |figure: fn(&Solution) -> f64| {
+        let f = figure(&fine);
+        let is_resolved = coarse.as_ref().is_some_and(|coarse| (f - figure(coarse)).abs() <= 0.5 * f);
+        if is_resolved { limit(figure) } else { f }
+    };
+    let [exit_film, side_film] = [of_minimum(|s| s.minima.exit), of_minimum(|s| s.minima.side)];
     // A side lobe well above the exit, which only the finer grid resolves, has no limit.
     let is_above = fine.minima.side > 1.1 * fine.minima.exit;
     let side_film = if is_above { side_film.max(exit_film) } else { side_film };
