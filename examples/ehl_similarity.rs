@@ -1,6 +1,6 @@
 //! Computes assets/ehl_similarity.csv again: solved EHL films of similar contacts, on standard output.
 //!
-//! `cargo run --release --example ehl_similarity > assets/ehl_similarity.csv` (about 20 min on two cores).
+//! `cargo run --release --example ehl_similarity > assets/ehl_similarity.csv` (about 16 min of CPU time).
 
 fn main() -> Result<(), rotordyn::contact::ehl::EhlError> {
     let progress = |done: usize, total: usize| eprint!("\r{done} of {total} contacts");

@@ -3,7 +3,7 @@
 
 use crate::lubricated::circular;
 use rotordyn::contact::ehl::similarity::SimilarContact;
-use rotordyn::contact::ehl::{self, Domain, Grid, Problem};
+use rotordyn::contact::ehl::{self, DEFAULT_POINTS, Domain, Grid, Problem};
 use rotordyn::contact::{FilmFormula, Lubricant};
 
 /// Moes M = 20, L = 10 over X from −4.5 to 1.5, |Y| to 3.
@@ -138,37 +138,81 @@ fn minimum_film_moves_from_the_side_lobe_to_the_exit() {
     }
 }
 
-/// The stored films of similar contacts against solutions between their nodes, for other lubricants than the stored.
+/// Bound of the difference of the stored minimum film from a solution by default.
+const MINIMUM_BOUND: f64 = 0.03;
+
+/// Relative differences of the stored shift, central and minimum film from a solution by default.
+fn differences(contact: &SimilarContact) -> [f64; 3] {
+    let stored = contact.films().unwrap();
+    let problem = contact.problem(DEFAULT_POINTS);
+    let again = SimilarContact::new(&problem.contact, &problem.lubricant, problem.speed, problem.load);
+    for (again, given) in [
+        (again.film, contact.film),
+        (again.pressure, contact.pressure),
+        (again.roelands, contact.roelands),
+        (again.radius_ratio, contact.radius_ratio),
+    ] {
+        assert!((again / given - 1.0).abs() < 1e-9, "{again} {given}");
+    }
+    let solved = ehl::extrapolate(&problem, None).unwrap();
+    let unit = FilmFormula::new(&problem.contact, &problem.lubricant).central(problem.speed, problem.load);
+    let differences = [
+        stored.shift * unit / solved.film_shift() - 1.0,
+        stored.central * unit / solved.central_film - 1.0,
+        stored.minimum * unit / solved.minimum_film - 1.0,
+    ];
+    eprintln!("{contact:?}: shift, h_c, h_min {differences:+.4?}");
+    differences
+}
+
+/// Random contacts of the stored range, with mineral oils after Wooster's rule and a little beside it.
+fn random_contacts(seed: u64) -> impl Iterator<Item = SimilarContact> {
+    let mut state = seed;
+    // A linear congruential generator after Knuth.
+    let mut share = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    std::iter::repeat_with(move || {
+        let radius_ratio = 130f64.powf(share());
+        let pressure = 3.0 * (130f64 / 3.0).powf(share());
+        let film = 0.03 * (1.6 * pressure / (pressure + 8.0) / 0.03f64).powf(share());
+        let viscosity_rise = 2.4 + 4.4 * share();
+        let viscosity = 1e-3 * 10f64.powf((viscosity_rise / 1.96 - 0.6) / 0.965);
+        let roelands = viscosity_rise / (viscosity.ln() + 9.67) + 0.05 * (share() - 0.5);
+        SimilarContact { radius_ratio, pressure, film, viscosity_rise, roelands }
+    })
+    .filter(|contact| contact.films().is_some())
+}
+
+/// The stored films of similar contacts against solutions between their nodes, for other lubricants than the stored;
+/// thin films and those on either side of D = 9, where the minimum changes place.
 #[test]
 fn stored_films_agree_with_solutions_between_the_nodes() {
-    for (radius_ratio, pressure, film, viscosity_rise, roelands) in [
+    let chosen = [
         (1.0, 20.0, 0.12, 3.8, 0.64),
         (2.3, 13.0, 0.2, 5.1, 0.58),
+        (7.1, 4.1, 0.19, 5.7, 0.68),
+        (8.4, 19.0, 0.06, 4.1, 0.63),
+        (9.6, 3.6, 0.052, 4.2, 0.65),
         (15.0, 9.0, 0.5, 3.1, 0.6),
         (21.0, 32.0, 0.3, 4.4, 0.66),
         (27.0, 75.0, 0.9, 6.2, 0.69),
         (60.0, 18.0, 0.15, 2.6, 0.55),
-    ] {
-        let contact = SimilarContact { radius_ratio, pressure, film, viscosity_rise, roelands };
-        let stored = contact.films().unwrap();
-        let problem = contact.problem(6);
-        let again = SimilarContact::new(&problem.contact, &problem.lubricant, problem.speed, problem.load);
-        assert!((again.film / film - 1.0).abs() < 1e-9 && (again.pressure / pressure - 1.0).abs() < 1e-9);
-        assert!(
-            (again.roelands - roelands).abs() < 1e-9
-                && (again.radius_ratio / radius_ratio - 1.0).abs() < 1e-9
-        );
-        let solved = ehl::extrapolate(&problem, None).unwrap();
-        let unit =
-            FilmFormula::new(&problem.contact, &problem.lubricant).central(problem.speed, problem.load);
-        let [shift, central, minimum] = [
-            stored.shift * unit / solved.film_shift() - 1.0,
-            stored.central * unit / solved.central_film - 1.0,
-            stored.minimum * unit / solved.minimum_film - 1.0,
-        ];
-        eprintln!("{contact:?}: shift {shift:+.4}, h_c {central:+.4}, h_min {minimum:+.4}");
+    ]
+    .map(|(radius_ratio, pressure, film, viscosity_rise, roelands)| SimilarContact {
+        radius_ratio,
+        pressure,
+        film,
+        viscosity_rise,
+        roelands,
+    });
+    // Thicker films, which are soon solved.
+    let random = random_contacts(20_261).filter(|contact| contact.film > 0.08).take(6);
+    for contact in chosen.into_iter().chain(random) {
+        let [shift, central, minimum] = differences(&contact);
         assert!(shift.abs() < 0.006 && central.abs() < 0.006, "{contact:?}: {shift} {central}");
-        assert!(minimum.abs() < 0.03, "{contact:?}: {minimum}");
+        assert!(minimum.abs() < MINIMUM_BOUND, "{contact:?}: {minimum}");
     }
     // Outside of the stored range there is no interpolation.
     let outside =
@@ -179,4 +223,22 @@ fn stored_films_agree_with_solutions_between_the_nodes() {
     let circular = circular(20.0, 10.0, 31);
     let similar = SimilarContact::new(&circular.contact, &water, circular.speed, circular.load);
     assert_eq!(similar.films(), None);
+}
+
+/// The same for many random contacts: about 3 min. The minimum film of one may differ by more: with wide contacts the side
+/// lobe solved by default depends on the grid by up to 10 %.
+#[test]
+#[ignore = "solves 64 contacts; for a new table of stored films"]
+fn stored_films_agree_with_solutions_of_random_contacts() {
+    let all: Vec<[f64; 3]> = random_contacts(7).take(64).map(|contact| differences(&contact)).collect();
+    let figure = |k: usize| all.iter().map(move |one| one[k].abs());
+    let [worst, rms] = [0, 1].map(|mean| {
+        [0, 1, 2].map(|k| match mean {
+            0 => figure(k).fold(0.0, f64::max),
+            _ => (figure(k).map(|d| d * d).sum::<f64>() / all.len() as f64).sqrt(),
+        })
+    });
+    eprintln!("shift, h_c, h_min: worst {worst:.4?}, rms {rms:.4?}");
+    assert!(worst[0] < 0.008 && worst[1] < 0.006 && rms[2] < 0.015, "{worst:?} {rms:?}");
+    assert!(figure(2).filter(|&minimum| minimum >= MINIMUM_BOUND).count() <= 1);
 }

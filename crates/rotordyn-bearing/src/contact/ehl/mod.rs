@@ -63,6 +63,10 @@ pub enum EhlError {
 /// Coarsest nested grid: nodes along rolling, and rows of the half domain.
 const COARSEST_GRID: [usize; 2] = [25, 7];
 
+/// Least intervals along rolling per `points` of [`Grid::flooded`]: A + B G, as the pressure spike is the sharper the
+/// larger G = α p₀ is.
+const SPIKE_INTERVALS: [f64; 2] = [20.0, 0.1];
+
 /// Smallest length in semi-axes that [`Grid::flooded`] resolves, to limit the grid size.
 const MIN_RESOLVED_LENGTH: f64 = 0.08;
 
@@ -216,7 +220,8 @@ impl Grid {
     ///
     /// With H = h R_x/b_x² and the Hamrock-Dowson film h that length is about b_x H^{2/3}, the distance from
     /// the edge of the dry ellipse at which the dry gap is h, or √(2 R_x h) for a film thick compared with
-    /// the ellipse's depth. Across, √(b_y² + 2 R_y h) gets twice `points`. The domain extends to undeformed
+    /// the ellipse's depth; but along rolling at least (20 + 0.1 α p₀) `points` intervals, for the pressure spike, p₀
+    /// the dry maximum pressure. Across, √(b_y² + 2 R_y h) gets twice `points`. The domain extends to undeformed
     /// gaps of 30 h upstream and 5 h to the sides beyond the ellipse: a wider domain changes δ_dry − δ by
     /// less than 1 %.
     pub fn flooded(
@@ -238,7 +243,11 @@ impl Grid {
             |length: f64, unit: f64, points: usize| (length / unit * points as f64).ceil() as usize;
         let inlet = scaled_film.powf(2.0 / 3.0).min(along(1.0)).max(MIN_RESOLVED_LENGTH);
         // Even numbers of intervals, halved on the coarser grid.
-        let nx = intervals(domain.inlet + domain.outlet, inlet, points).next_multiple_of(2) + 1;
+        let [least, by_pressure] = SPIKE_INTERVALS;
+        let pressure = lubricant.pressure_viscosity * contact.patch(load).maximum_pressure;
+        let for_spike = intervals(least + by_pressure * pressure, 1.0, points);
+        let for_inlet = intervals(domain.inlet + domain.outlet, inlet, points);
+        let nx = for_inlet.max(for_spike).next_multiple_of(2) + 1;
         let spacing = Spacing::new(scaled_film, domain.side);
         let rows = intervals(2.5 * spacing.even_rows(), across(1.0).hypot(1.0), points);
         let rows = rows.next_multiple_of(2).max(8);

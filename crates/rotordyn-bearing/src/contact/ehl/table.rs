@@ -82,12 +82,12 @@ impl TableSpec {
     /// Cache key: text of all inputs, the same on every machine.
     pub fn key(&self) -> String {
         let Self { loads, speeds, .. } = self;
-        format!("ehl table 4; {}; Q {loads:?} N; u {speeds:?} m/s", self.contact_text())
+        format!("ehl table 5; {}; Q {loads:?} N; u {speeds:?} m/s", self.contact_text())
     }
 
     /// Cache key of one contact.
     fn contact_key(&self, load: f64, speed: f64) -> String {
-        format!("ehl contact 4; {}; Q {load:?} N; u {speed:?} m/s", self.contact_text())
+        format!("ehl contact 5; {}; Q {load:?} N; u {speed:?} m/s", self.contact_text())
     }
 
     /// Cache keys of all contacts.
