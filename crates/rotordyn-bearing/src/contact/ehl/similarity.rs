@@ -298,7 +298,7 @@ pub fn compute(progress: impl Fn(usize, usize) + Sync) -> Result<String, EhlErro
         })
         .collect();
     Ok(format!(
-        "# Solved EHL films of similar contacts; src/contact/ehl/similarity.rs describes and computes them.\n\
+        "# Solved EHL films of similar contacts; the module contact::ehl::similarity describes and computes them.\n\
          D,G,H,{}\n{}\n",
         names.join(","),
         lines.join("\n")
