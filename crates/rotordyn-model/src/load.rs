@@ -92,7 +92,7 @@ fn find_item_span(table: &Table, path: &[&str]) -> Option<Range<usize>> {
 ///     k_xx = "1e7 N/m"
 ///     k_yy = "1e7 N/m"
 /// "#;
-/// let model = rotordyn::model::load("pin.toml", text, &Default::default()).unwrap().model;
+/// let model = rotordyn_model::load("pin.toml", text, &Default::default()).unwrap().model;
 /// assert_eq!(model.shaft.len(), 8);
 /// ```
 pub fn load(name: &str, text: impl AsRef<[u8]>, options: &Options) -> Result<Loaded, ModelErrors> {
@@ -155,7 +155,7 @@ pub struct LoadedBearings {
 ///     designation = "7205C"
 ///     thrust = "+z"
 /// "#;
-/// let file = rotordyn::model::load_bearings("spindle.toml", text, &Default::default()).unwrap();
+/// let file = rotordyn_model::load_bearings("spindle.toml", text, &Default::default()).unwrap();
 /// assert_eq!(file.bearings[0].1.geometry.balls, 13);
 /// ```
 pub fn load_bearings(
