@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use rotordyn::assembly::rigid_body_modes;
 use rotordyn::bearing::Bearing;
+use rotordyn::io::json;
 use rotordyn::linalg::dot;
 use rotordyn::model::{Loaded, Model};
 use rotordyn::study::Machine;
@@ -224,6 +225,9 @@ fn to_json(found: &CheckedVariant) -> Value {
             }
         })
         .collect();
+    let belts: Vec<_> = found.machine.belt_pulls().iter().map(|b| (b.name.clone(), b.document())).collect();
+    let preloads = found.machine.mounted_preloads().iter();
+    let preloads: Vec<_> = preloads.map(|p| (p.bearing.clone(), p.document())).collect();
     json!({
         "name": found.name,
         "title": found.loaded.model.title,
@@ -232,8 +236,8 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
-        "belts": rotordyn::io::json::belts(found.machine.belt_pulls()),
-        "preloads": rotordyn::io::json::preloads(found.machine.mounted_preloads()),
+        "belts": json::groups("name", &belts),
+        "preloads": json::groups("bearing", &preloads),
         "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

@@ -12,7 +12,7 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "rotordyn-core",
         &[
-            &["conventions"],
+            &["conventions", "document"],
             &["element"],
             &["model"],
             &["geometry"],

@@ -2,12 +2,11 @@
 
 use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::Assembly;
+use crate::document::{Document, TO_RPM};
 use crate::model::Model;
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
 use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BearingElement, DefectLaw, InertiaDecision};
-
-const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
 /// Ball inertia used for one bearing in a study, and why.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +36,19 @@ impl InertiaUse {
             stated => stated,
         };
         Self { bearing: name.into(), inertia, compared, excluded_by }
+    }
+
+    /// What is written to files, without the bearing's name.
+    pub fn document(&self) -> Document<'_> {
+        let compared = &self.compared;
+        Document::new()
+            .text("stated", self.inertia.keyword())
+            .text("used", self.inertia.in_effect().keyword())
+            .quantity("speed", "rad/s", compared.speed)
+            .quantity("centrifugal_force", "N", compared.centrifugal)
+            .quantity("largest_contact_load", "N", compared.contact_load)
+            .number("ratio", "1", compared.ratio())
+            .number("limit", "1", INERTIA_LIMIT)
     }
 
     /// What was used and why, in two lines.

@@ -4,7 +4,8 @@ pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatmen
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::mounted_preload::mounted_preloads;
 use super::preload::MountedPreload;
-use crate::assembly::{Assembly, PhysicsError};
+use crate::assembly::{Assembly, DofMap, PhysicsError};
+use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::Model;
 use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot};
@@ -42,6 +43,27 @@ impl Equilibrium {
     /// Tangents of all bearings in the order of the model.
     pub fn tangents(&self) -> Vec<SiteTangent> {
         self.bearings.iter().map(|b| b.tangent).collect()
+    }
+
+    /// What is written to files.
+    pub fn document(&self, dofs: &DofMap) -> Document<'_> {
+        let q = dofs.expand(&self.q);
+        let nodes: Vec<_> = dofs.node_names.iter().zip(q.chunks(6)).collect();
+        let rows = Rows::of(&nodes).text(in_json("node"), |(name, _)| name).numbers(
+            "displacement",
+            "m, rad",
+            &[6],
+            |(_, q)| q,
+        );
+        Document::new()
+            .quantity("speed", "rad/s", self.speed)
+            .text(in_hdf5("cage"), self.cage.name())
+            .integer("iterations", self.iterations)
+            .quantity("residual", "N", self.residual)
+            .table(named("nodes", ""), rows)
+            .groups("belts", "name", self.belts.iter().map(|b| (b.name.clone(), b.document())))
+            .groups("preloads", "bearing", self.preloads.iter().map(|p| (p.bearing.clone(), p.document())))
+            .groups("bearings", "name", self.bearings.iter().map(|b| (b.name.clone(), b.document())))
     }
 }
 

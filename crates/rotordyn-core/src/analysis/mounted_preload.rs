@@ -1,6 +1,7 @@
 //! Axial force that a preloaded bearing carries at an equilibrium.
 
 use super::equilibrium::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
+use crate::document::{Document, in_json, quantity};
 use crate::model::Model;
 use rotordyn_bearing::{Bearing, BearingElement, Preload, Rotation};
 
@@ -19,6 +20,25 @@ impl MountedPreload {
     pub fn share(&self) -> Option<f64> {
         let least = self.rows.iter().copied().fold(f64::INFINITY, f64::min);
         self.stated.force().filter(|force| *force > 0.0).map(|force| least / force)
+    }
+
+    /// What is written to files, without the bearing's name.
+    pub fn document(&self) -> Document<'_> {
+        let (kind, interference, stiffness) = match self.stated {
+            Preload::None => ("none", None, None),
+            Preload::Interference(offset) => ("interference", Some(offset), None),
+            Preload::DryForce(_) => ("dry_force", None, None),
+            Preload::Force(_) => ("force", None, None),
+            Preload::Spring { stiffness, .. } => ("spring", None, Some(stiffness)),
+            Preload::Mounted { interference, .. } => ("mounted_force", interference, None),
+        };
+        Document::new()
+            .text(in_json("kind"), kind)
+            .optional(quantity("stated_force", "N"), "N", self.stated.force())
+            .optional(in_json("interference_m"), "m", interference)
+            .optional(in_json("spring_n_per_m"), "N/m", stiffness)
+            .numbers(quantity("axial_force", "N"), "N", &self.rows)
+            .optional(in_json("share"), "1", self.share())
     }
 }
 
