@@ -4,9 +4,10 @@ use super::lubrication::{Lubrication, SLIDING_FRICTION};
 use super::{BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::material::Material;
+use serde::{Deserialize, Serialize};
 
 /// Ball bearing with one force element per ball and a kinematic cage.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallBearing {
     pub geometry: BallGeometry,
     /// Material of balls and of rings.
@@ -31,11 +32,11 @@ pub struct BallBearing {
     pub cage_pocket_diameter: f64,
     pub service: Service,
     /// How the internal geometry was estimated; `None` if it is given or has a source.
-    pub estimated_geometry: Option<&'static str>,
+    pub estimated_geometry: Option<String>,
 }
 
 /// Catalogue data and service conditions: load ratings, shoulders; lubricant, contamination, reliability (ISO 281).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Service {
     /// Load ratings C and C₀ and fatigue load limit C_u from the catalogue \[N\]; `None`: from the geometry.
     pub dynamic_rating: Option<f64>,
@@ -207,7 +208,7 @@ impl BallBearing {
 }
 
 /// Axial preload, in the direction of the bearing's thrust.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Preload {
     #[default]
     None,
@@ -241,7 +242,7 @@ impl Preload {
 }
 
 /// Duplex (matched) pair: two equal rows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Duplex {
     pub arrangement: Arrangement,
     /// Axial distance of the ball planes \[m\]; the bearing's station is midway.
@@ -249,7 +250,7 @@ pub struct Duplex {
 }
 
 /// Arrangement of a matched pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Arrangement {
     /// O arrangement (DB): load lines meet the axis outside the pair; high tilting stiffness.
     BackToBack,
@@ -260,7 +261,7 @@ pub enum Arrangement {
 }
 
 /// Cage speed ratio.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Cage {
     /// Rolling without slip at the mean current contact angle: Ω_c/Ω = ½ (1 − D_w cos α / D_pw).
     Rolling,

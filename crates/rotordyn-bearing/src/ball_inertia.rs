@@ -1,5 +1,7 @@
 //! Ball inertia: which inertial loads the balls have, and which race resists the gyroscopic moment.
 
+use serde::{Deserialize, Serialize};
+
 /// Limit of F_c over the largest contact load above which automatic ball inertia is on.
 ///
 /// Below it the neglected inertia changes displacements and stiffnesses by up to 0.2 %, and by up to 1.2 % where radial
@@ -10,7 +12,7 @@ pub const INERTIA_LIMIT: f64 = 0.003;
 ///
 /// Friction of the races balances the gyroscopic moment M of a ball of diameter D, f_i + f_o = 2 M/D (f_i
 /// inner, f_o outer); the control hypothesis gives the shares, and the race on which the ball rolls without spin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BallInertia {
     /// Decided by the ratio of F_c to the largest contact load at the highest speed of a study, outer race
     /// control where it is on; massless until decided.
@@ -33,7 +35,7 @@ pub enum BallInertia {
 }
 
 /// Automatic decision about ball inertia.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InertiaDecision {
     /// Whether the balls have inertia.
     pub on: bool,

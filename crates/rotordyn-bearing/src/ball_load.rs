@@ -1,9 +1,10 @@
 //! Load, contact angles and patches of one ball.
 
 use crate::contact::{ContactPatch, HertzPair};
+use serde::{Deserialize, Serialize};
 
 /// Load state of one ball: contact loads, contact angles, deflection, film thickness.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallLoad {
     /// Row of a matched pair: 0 towards −z, 1 towards +z; 0 in a single row.
     pub row: usize,

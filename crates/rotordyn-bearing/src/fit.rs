@@ -2,9 +2,10 @@
 
 use super::BallGeometry;
 use crate::material::Material;
+use serde::{Deserialize, Serialize};
 
 /// Mounting and operating conditions of the rings.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// Diametral interference of shaft and bore \[m\]; 0 for a clearance fit.
     pub shaft_interference: f64,

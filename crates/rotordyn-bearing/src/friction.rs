@@ -2,9 +2,10 @@
 
 pub use super::lubrication::{Lubrication, SLIDING_FRICTION};
 use super::{BallGeometry, BallMotion};
+use serde::{Deserialize, Serialize};
 
 /// Friction torque of a bearing at one operating point \[N m\], and its heat.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrictionTorque {
     /// Part that grows with the load, M_l.
     pub load: f64,

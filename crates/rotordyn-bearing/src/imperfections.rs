@@ -7,9 +7,10 @@
 use super::BallGeometry;
 use super::spall::SpallPath;
 pub use super::surface::Surface;
+use serde::{Deserialize, Serialize};
 
 /// Deviations of races and balls from their ideal shape; none by default.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Imperfections {
     /// Waviness of the races; an eccentric race is a wave of order 1.
     pub inner_waviness: Vec<Wave>,
@@ -23,7 +24,7 @@ pub struct Imperfections {
 }
 
 /// One harmonic of waviness: deviation a cos(n φ + ϕ₀), positive towards the other body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wave {
     /// Waves per circumference n.
     pub order: u32,
@@ -46,14 +47,14 @@ impl Wave {
 }
 
 /// A wave on one ball, or on all balls.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallWave {
     pub ball: Option<usize>,
     pub wave: Wave,
 }
 
 /// An off-size ball: diameter difference to the others \[m\].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OffSize {
     pub ball: usize,
     pub diameter_difference: f64,
@@ -62,7 +63,7 @@ pub struct OffSize {
 }
 
 /// A local defect.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Defect {
     pub surface: Surface,
     /// Row of a matched pair; `None`: both rows.
@@ -75,7 +76,7 @@ pub struct Defect {
 }
 
 /// Shape and size of a defect.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum DefectForm {
     /// A dent of this depth \[m\]; `None`: the depth to which a ball sinks into its opening.
     Dent {
@@ -95,7 +96,7 @@ pub enum DefectForm {
 }
 
 /// The ball's path over a dent or bump.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shape {
     /// H = h sin(π p/Δφ) (Atef 2022 eq. 1).
     #[default]
@@ -105,7 +106,7 @@ pub enum Shape {
 }
 
 /// Law by which a defect acts on the balls.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum DefectLaw {
     /// Displacement of the surface: deviation in the elastic approach, its rate in the approach rate.
     #[default]
@@ -122,7 +123,7 @@ pub enum DefectLaw {
 }
 
 /// Ball spin speed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BallSpin {
     /// Rolling on both races.
     #[default]

@@ -7,9 +7,10 @@
 
 use super::{BallBearing, BallGeometry, BallInertia, BallLoad, InertiaDecision};
 use crate::contact::{ContactPatch, EllipticContact, HertzPair, Race};
+use serde::{Deserialize, Serialize};
 
 /// Motion of one ball at one position.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BallMotion {
     /// Race without spinning: the one that controls the spin axis. `None` without load.
     pub control: Option<Race>,
@@ -224,7 +225,7 @@ pub fn ball_advance(loads: &[BallLoad], motions: &[BallMotion]) -> Vec<f64> {
 }
 
 /// Clearance and contact angle of a mounted bearing at a speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MountedGeometry {
     /// Diametral radial clearance by fits, temperatures and centrifugal growth P_d \[m\].
     pub radial_clearance: f64,

@@ -2,12 +2,13 @@
 
 use super::{LinearBearing, Reaction};
 use rotordyn_linalg::pchip::Pchip;
+use serde::{Deserialize, Serialize};
 
 /// Stiffness and damping of a bearing between shaft node and housing point, linearised.
 ///
 /// With d = (displacement of the shaft node) − (that of the housing's point), the force on the shaft is
 /// f = −K d − C ḋ; order u_x u_y u_z θ_x θ_y θ_z.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct SiteTangent {
     /// K \[N/m, N/rad, N m/m, N m/rad\].
     pub stiffness: [[f64; 6]; 6],

@@ -1,6 +1,7 @@
 //! Lubrication method and sliding friction of a ball bearing, for its friction torque.
 
 use super::BallGeometry;
+use serde::{Deserialize, Serialize};
 use std::fmt::{self, Display, Formatter};
 
 /// Default sliding friction coefficient of lubricated spinning contacts (Harris, Rolling Bearing Analysis, ch. 14: 0.06 to
@@ -8,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 pub const SLIDING_FRICTION: f64 = 0.06;
 
 /// Lubrication method, which gives the factor f_0 of the viscous friction torque.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Lubrication {
     Grease,
     OilMist,

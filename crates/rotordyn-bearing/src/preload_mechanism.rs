@@ -1,9 +1,10 @@
 //! How a row is preloaded, from its dry axial force.
 
 use super::{Preload, root_finding};
+use serde::{Deserialize, Serialize};
 
 /// Preload of a bearing with centred rings at one speed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PreloadState {
     /// Axial approach of the rings from nominal in the direction of thrust \[m\].
     pub offset: f64,

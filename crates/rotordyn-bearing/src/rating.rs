@@ -4,6 +4,7 @@ use super::{Arrangement, BallGeometry};
 use crate::contact::{HertzPair, Race};
 use crate::material::Material;
 use rotordyn_linalg::{Outside, piecewise};
+use serde::{Deserialize, Serialize};
 
 /// Groove radii over ball diameter, inner and outer, up to which the standards' factors hold.
 pub const STANDARD_OSCULATION: [f64; 2] = [0.52, 0.53];
@@ -17,7 +18,7 @@ const RADIAL_CONTACT: f64 = 0.5;
 const STEEL: std::ops::RangeInclusive<f64> = 190e9..=220e9;
 
 /// Load ratings: basic dynamic, basic static, fatigue load limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadRating {
     /// Basic dynamic load rating C_r \[N\].
     pub dynamic: f64,

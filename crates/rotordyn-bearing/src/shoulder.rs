@@ -2,6 +2,7 @@
 
 use super::{BallBearing, BallGeometry, BallLoad};
 use crate::contact::Race;
+use serde::{Deserialize, Serialize};
 
 /// Shoulder height over the ball diameter where none is given.
 const SHOULDER_HEIGHT: f64 = 0.2;
@@ -9,7 +10,7 @@ const SHOULDER_HEIGHT: f64 = 0.2;
 const BEYOND_CONTACT_ANGLE: f64 = 25.0 * std::f64::consts::PI / 180.0;
 
 /// Contact ellipse and shoulder of one race, as angles about the groove's centre from the groove's bottom.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShoulderMargin {
     /// Edge of the contact ellipse towards the nearer shoulder, |α| + a/r \[rad\].
     pub ellipse_angle: f64,

@@ -1,9 +1,10 @@
 //! Surfaces that touch in a ball bearing.
 
 use super::BallGeometry;
+use serde::{Deserialize, Serialize};
 
 /// Surface on which a defect is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Surface {
     Inner,
     Outer,

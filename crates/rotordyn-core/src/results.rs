@@ -34,6 +34,7 @@ pub use poincare::{PlaneSection, PoincareResult, Whirl};
 pub use response_grid::{UndampedPeak, is_rotation, unit_of};
 pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, RunUpResult, StepError, StepErrorLine};
 pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
+use serde::{Deserialize, Serialize};
 pub use signal::{
     BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,
     ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramWithSpeed,
@@ -49,7 +50,7 @@ pub use crate::document::Column;
 use crate::document::{Document, Section, in_json, named};
 
 /// Everything computed from one model; studies not requested are empty.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Results {
     pub equilibrium: Option<Equilibrium>,
     pub modal: Vec<ModalResult>,
@@ -66,7 +67,7 @@ pub struct Results {
     pub bifurcation: Option<BifurcationResult>,
     pub bearings: Vec<BearingResult>,
     /// Ball inertia used in every study, by its name.
-    pub ball_inertia: Vec<(&'static str, Vec<InertiaUse>)>,
+    pub ball_inertia: Vec<(String, Vec<InertiaUse>)>,
     /// Warnings for the user, once each.
     pub warnings: Vec<String>,
 }
@@ -115,7 +116,7 @@ impl Results {
         out.extend(bearings.iter().map(BearingResult::section));
         for (study, used) in ball_inertia {
             out.extend(used.iter().map(|used| {
-                let content = Document::new().text(in_json("study"), *study);
+                let content = Document::new().text(in_json("study"), study);
                 let content = content.text(in_json("bearing"), &used.bearing).and(used.document());
                 Section::listed("ball_inertia", format!("ball_inertia/{study}/{}", used.bearing), content)
             }));

@@ -22,6 +22,7 @@ pub mod model_file_edit;
 pub mod npy;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
+pub mod saved_results;
 pub mod uff;
 pub mod vtk;
 #[cfg(feature = "shapes")]

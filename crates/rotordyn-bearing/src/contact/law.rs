@@ -2,9 +2,10 @@
 
 use super::ehl::EhlLaw;
 use super::{Lubricant, PowerLaw};
+use serde::{Deserialize, Serialize};
 
 /// Contact law of a ball's two contacts, as selected for a bearing.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum ContactLaw {
     /// Dry elastic Hertzian contact.
     #[default]

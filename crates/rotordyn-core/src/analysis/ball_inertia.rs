@@ -7,9 +7,10 @@ use crate::model::Model;
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
 use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BearingElement, DefectLaw, InertiaDecision};
+use serde::{Deserialize, Serialize};
 
 /// Ball inertia used for one bearing in a study, and why.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InertiaUse {
     pub bearing: String,
     /// As stated in the model, or `Auto` with its decision.
@@ -17,7 +18,7 @@ pub struct InertiaUse {
     /// F_c and largest contact load of massless balls at the highest speed of the study.
     pub compared: InertiaDecision,
     /// Property of the bearing that excludes ball inertia.
-    pub excluded_by: Option<&'static str>,
+    pub excluded_by: Option<String>,
 }
 
 impl InertiaUse {
@@ -35,7 +36,7 @@ impl InertiaUse {
             BallInertia::Auto(decided) => BallInertia::Auto(Some(decided.unwrap_or(compared))),
             stated => stated,
         };
-        Self { bearing: name.into(), inertia, compared, excluded_by }
+        Self { bearing: name.into(), inertia, compared, excluded_by: excluded_by.map(str::to_string) }
     }
 
     /// What is written to files, without the bearing's name.
@@ -83,7 +84,7 @@ impl InertiaUse {
         if !matters || self.inertia.is_on() {
             return None;
         }
-        let why = match self.excluded_by {
+        let why = match &self.excluded_by {
             Some(excluded_by) => format!("{excluded_by} excludes ball inertia"),
             None => "ball_inertia = \"auto\" includes it".to_string(),
         };

@@ -2,19 +2,20 @@
 
 use crate::document::{Array, Document, Rows, in_json};
 use rotordyn_bearing::{BallLoad, PreloadState, SiteTangent};
+use serde::{Deserialize, Serialize};
 
 /// Number of cage angles per ball pitch over which a bearing is averaged.
 pub const CAGE_ANGLES_PER_PITCH: usize = 12;
 
 /// Bearing forces at the cage angle of the model (`FixedAngle`), or averaged over one ball pitch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CageTreatment {
     FixedAngle,
     Averaged,
 }
 
 /// One bearing at equilibrium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingState {
     pub name: String,
     /// Displacement of the shaft relative to the housing \[m, rad\].

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use rotordyn_bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
 use rotordyn_linalg::dot;
 use rotordyn_linalg::small_dense::solve_in_place;
+use serde::{Deserialize, Serialize};
 
 const MAX_ITERATIONS: usize = 100;
 const MAX_HALVINGS: usize = 80;
@@ -23,7 +24,7 @@ const SMALLEST_FORCE: f64 = 2e-9;
 
 /// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
 /// or the prescribed displacement.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Condition {
     /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; ignored for prescribed motions.
     pub load: [f64; 5],
@@ -37,7 +38,7 @@ pub struct Condition {
 }
 
 /// A bearing in equilibrium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingEquilibrium {
     pub condition: Condition,
     /// Displacement of the inner ring relative to the outer one \[m, rad\].

@@ -4,9 +4,10 @@ use crate::assembly::Assembly;
 use crate::document::{Document, in_json, quantity};
 use crate::element::Anchor;
 use crate::model::Model;
+use serde::{Deserialize, Serialize};
 
 /// Pull of a belt at static equilibrium beside the stated one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeltPull {
     pub name: String,
     /// Pull stated in the model file, along x and y \[N\].

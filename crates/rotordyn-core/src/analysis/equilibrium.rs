@@ -9,6 +9,7 @@ use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::Model;
 use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot};
+use serde::{Deserialize, Serialize};
 
 /// Residual over the largest load or bearing force.
 const TOLERANCE: f64 = 1e-11;
@@ -24,7 +25,7 @@ const ROUND_OFF: f64 = 1e-14;
 const RESOLUTION: f64 = 1e-18;
 
 /// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// Speed at which speed-dependent bearings are evaluated \[rad/s\].
     pub speed: f64,

@@ -4,9 +4,10 @@ use super::equilibrium::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use crate::document::{Document, in_json, quantity};
 use crate::model::Model;
 use rotordyn_bearing::{Bearing, BearingElement, Preload, Rotation};
+use serde::{Deserialize, Serialize};
 
 /// Preload of a ball bearing beside the axial force that it carries in the machine.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MountedPreload {
     pub bearing: String,
     /// As stated in the model file.

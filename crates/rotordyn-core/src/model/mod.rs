@@ -59,10 +59,10 @@ impl Model {
     }
 
     /// Names of the bearings with estimated internal geometry, and how each was estimated.
-    pub fn estimated_geometries(&self) -> impl Iterator<Item = (&str, &'static str)> {
-        self.bearings
-            .iter()
-            .filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?.estimated_geometry?)))
+    pub fn estimated_geometries(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.bearings.iter().filter_map(|site| {
+            Some((site.name.as_str(), site.bearing.ball()?.estimated_geometry.as_deref()?))
+        })
     }
 }
 

@@ -12,9 +12,10 @@ use rotordyn_bearing::{
     BallBearing, BallMotion, CharacteristicOrders, FrictionTorque, MountedGeometry, PreloadState,
     ShoulderMargin,
 };
+use serde::{Deserialize, Serialize};
 
 /// Results of one ball bearing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingResult {
     pub name: String,
     pub bearing: BallBearing,
@@ -85,7 +86,7 @@ impl BearingResult {
                 &mounted.rows,
             );
         }
-        out.and_if(self.bearing.estimated_geometry, |out, how| out.text("estimated_geometry", how))
+        out.and_if(self.bearing.estimated_geometry.as_ref(), |out, how| out.text("estimated_geometry", how))
     }
 }
 
@@ -99,10 +100,10 @@ pub(super) fn orders_document<'a>(orders: &CharacteristicOrders) -> Document<'a>
 }
 
 /// EHL (elastohydrodynamic) solution of one contact: pressure and film thickness.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EhlFilm {
     /// "inner" or "outer".
-    pub race: &'static str,
+    pub race: String,
     /// Load \[N\] and entrainment speed \[m/s\].
     pub load: f64,
     pub speed: f64,
@@ -114,7 +115,7 @@ impl EhlFilm {
         let s = &self.solution;
         let map = |unit, data| Array::real(&[s.x.len(), s.y.len()], unit, data).over(0, "x").over(1, "y");
         Document::new()
-            .text(in_json("race"), self.race)
+            .text(in_json("race"), &self.race)
             .number("load", "N", self.load)
             .number("entrainment_speed", "m/s", self.speed)
             .number("central_film", "m", s.central_film)
@@ -132,7 +133,7 @@ impl EhlFilm {
 pub type PickContact = fn(&BallState) -> &ContactState;
 
 /// A bearing under one load at one speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingPoint {
     pub state: BearingEquilibrium,
     pub balls: Vec<BallState>,
@@ -155,7 +156,7 @@ pub struct BearingPoint {
 
 /// Rating lives \[10⁶ revolutions\], at 90 % reliability except the modified life; NaN where the standard
 /// defines none.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLife {
     /// Dynamic equivalent load P = X F_r + Y F_a \[N\] (ISO 281).
     pub equivalent_load: f64,
@@ -185,7 +186,7 @@ pub struct BearingLife {
 }
 
 /// One ball with its two contacts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallState {
     /// Row of a matched pair, 0 or 1; 0 in a single row.
     pub row: usize,
@@ -227,7 +228,7 @@ impl BallState {
 }
 
 /// One contact of a ball.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Q \[N\].
     pub load: f64,
@@ -365,12 +366,12 @@ impl BearingPoint {
 }
 
 /// One sweep: the varied quantity, and the bearing at every value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingSweepResult {
     pub of: SweepVariable,
     /// Name of the varied quantity, such as "load along the operating load", and its SI unit.
     pub label: String,
-    pub unit: &'static str,
+    pub unit: String,
     /// Values with an equilibrium.
     pub values: Vec<f64>,
     pub points: Vec<BearingPoint>,
@@ -381,8 +382,8 @@ impl BearingSweepResult {
         Document::new()
             .text(in_json("variable"), self.of.name())
             .text("label", &self.label)
-            .text(in_json("unit"), self.unit)
-            .numbers(named("values", "swept_value"), self.unit, &self.values)
+            .text(in_json("unit"), &self.unit)
+            .numbers(named("values", "swept_value"), &self.unit, &self.values)
             .table(named("points", ""), BearingPoint::columns(Rows::of(&self.points)).over("swept_value"))
     }
 }

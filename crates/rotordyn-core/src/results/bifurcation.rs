@@ -5,9 +5,10 @@ use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json};
 use crate::model::study::Parameter;
 use rotordyn_signal::lyapunov::LyapunovExponent;
 use rotordyn_signal::motion_classification::Classification;
+use serde::{Deserialize, Serialize};
 
 /// Poincaré sections over a parameter.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BifurcationResult {
     pub parameter: Parameter,
     /// Name of the clock.
@@ -23,15 +24,15 @@ pub struct BifurcationResult {
 }
 
 /// One sweep of a bifurcation diagram, in the order of its values.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BifurcationSweep {
     /// "up", "down", or "from equilibrium".
-    pub name: &'static str,
+    pub name: String,
     pub points: Vec<BifurcationPoint>,
 }
 
 /// The motion at one value of the parameter.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BifurcationPoint {
     /// In the parameter's unit.
     pub value: f64,
@@ -39,7 +40,7 @@ pub struct BifurcationPoint {
 }
 
 /// A steady motion: Poincaré sections, extremes and classification.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SteadyMotion {
     /// Section of every channel.
     pub sections: Vec<Vec<f64>>,
@@ -61,7 +62,7 @@ impl BifurcationResult {
         let channels = Rows::of(&self.channels).text("name", |c| &c.name).text("unit", |c| &c.unit);
         let sweeps = self.sweeps.iter().map(|sweep| {
             let points = sweep.points.iter().map(BifurcationPoint::document);
-            Document::new().text("name", sweep.name).list("points", points)
+            Document::new().text("name", &sweep.name).list("points", points)
         });
         let mut out = Document::new()
             .with("parameter", Value::Texts(self.parameter.paths.clone()))

@@ -7,9 +7,10 @@ use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRang
 use crate::analysis::stability::Threshold;
 use crate::document::{Document, Rows, TO_RPM, in_hdf5, in_json, named};
 use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
 
 /// Campbell diagram with order lines and their crossings (critical speeds).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CampbellResult {
     pub diagram: Campbell,
     pub orders: Vec<OrderLine>,

@@ -3,9 +3,10 @@
 use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::assembly::DofMap;
 use crate::document::{Document, Rows, in_json, named};
+use serde::{Deserialize, Serialize};
 
 /// Critical speeds up to a speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CriticalResult {
     pub max_speed: f64,
     pub crossings: CrossingList,

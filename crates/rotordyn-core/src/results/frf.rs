@@ -6,9 +6,10 @@ use crate::analysis::frf::Frf;
 use crate::document::{Array, Document, Rows, TO_RPM, in_hdf5, in_json, named};
 use crate::model::Quantity;
 use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
 
 /// FRFs with the names of excitations and responses.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FrfResult {
     /// Ω \[rad/s\].
     pub speed: f64,

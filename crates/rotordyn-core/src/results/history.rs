@@ -1,9 +1,10 @@
 //! Samples of a transient run.
 
 use crate::document::Rows;
+use serde::{Deserialize, Serialize};
 
 /// A channel of a transient run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HistoryChannel {
     pub name: String,
     /// Unit, such as "m/s^2".
@@ -17,7 +18,7 @@ pub struct HistoryChannel {
 }
 
 /// Samples of a transient run at a constant rate.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     pub sample_rate: f64,
     pub time: Vec<f64>,

@@ -3,9 +3,10 @@
 use super::steady::{SectionClock, exponent_document};
 use crate::document::{Array, Document, named};
 use rotordyn_signal::lyapunov::LyapunovExponent;
+use serde::{Deserialize, Serialize};
 
 /// Largest Lyapunov exponent at steady speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct LyapunovResult {
     /// Ω \[rad/s\].
     pub speed: f64,

@@ -3,9 +3,10 @@
 use crate::analysis::Mode;
 use crate::assembly::DofMap;
 use crate::document::{Document, Rows, TO_RPM, in_hdf5, named};
+use serde::{Deserialize, Serialize};
 
 /// Modes at one speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ModalResult {
     /// Ω \[rad/s\].
     pub speed: f64,

@@ -4,9 +4,10 @@ use super::steady::{SectionChannel, SectionClock, motion_document};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named};
 use rotordyn_signal::motion_classification::Classification;
 use rotordyn_signal::orbit::FilteredOrbit;
+use serde::{Deserialize, Serialize};
 
 /// Orbits at steady speed with their Poincaré sections.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PoincareResult {
     /// Ω \[rad/s\].
     pub speed: f64,
@@ -22,7 +23,7 @@ pub struct PoincareResult {
 }
 
 /// One plane of an orbit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlaneSection {
     pub name: String,
     pub axes: [SectionChannel; 2],
@@ -39,7 +40,7 @@ pub struct PlaneSection {
 }
 
 /// Whirl direction and 1x component of an orbit in x and y.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Whirl {
     /// Area swept forward (from x towards y, with the spin) minus backward, over their sum: 1 is all forward.
     pub forwardness: f64,

@@ -2,9 +2,10 @@
 
 use crate::document::{Array, Rows};
 use crate::model::Quantity;
+use serde::{Deserialize, Serialize};
 
 /// An undamped mode that is excited: the response there is infinite.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UndampedPeak {
     /// Frequency \[Hz\] or speed \[rad/s\].
     pub at: f64,

@@ -5,9 +5,10 @@ use super::history::{History, HistoryChannel};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named, quantity};
 use crate::transient::run::{End, Report};
 use rotordyn_signal::order::OrderCut;
+use serde::{Deserialize, Serialize};
 
 /// A run-up: size and accuracy of the reduced model, recorded samples, report of the integration.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RunUpResult {
     /// Numbers of vibration modes and static correction modes of the reduced model.
     pub modes: usize,
@@ -82,7 +83,7 @@ impl RunUpResult {
 /// Estimated error of a run-up's order levels by its time step, from a rerun of a stretch with another step.
 ///
 /// By Richardson extrapolation, the error of a level L(h) of second order is (L(2h) − L(h))/3.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepError {
     /// Start and end of the comparison \[s\], around the largest response; the rerun begins earlier.
     pub stretch: [f64; 2],
@@ -97,7 +98,7 @@ pub struct StepError {
 }
 
 /// One order line of one channel in the stretch.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepErrorLine {
     pub channel: String,
     pub line: OrderLine,
@@ -138,7 +139,7 @@ impl StepError {
 }
 
 /// Order cuts of run-ups that differ in the initial cage angles only.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CagePhaseBand {
     /// Bearings whose cage angle is varied.
     pub bearings: Vec<String>,
@@ -148,7 +149,7 @@ pub struct CagePhaseBand {
 }
 
 /// Range of one channel's order cuts over the cage phases.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CagePhaseChannel {
     pub channel: String,
     pub unit: String,
@@ -156,7 +157,7 @@ pub struct CagePhaseChannel {
 }
 
 /// Range of one order cut.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CagePhaseLine {
     pub line: OrderLine,
     /// Speed of every window \[rpm\] and level in the run of the model \[RMS\].

@@ -14,6 +14,7 @@ pub use envelope::EnvelopeResult;
 pub use jerk::{JerkResult, RaceResult};
 pub use kurtogram::KurtogramResult;
 pub use orders::ShaftOrders;
+use serde::{Deserialize, Serialize};
 
 use super::bearing::orders_document;
 use crate::document::{Array, Document, Section, in_hdf5, in_json, named};
@@ -26,7 +27,7 @@ use rotordyn_signal::stft::Spectrogram;
 use std::f64::consts::TAU;
 
 /// Results of one channel; analyses not requested are empty.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SignalResult {
     pub channel: String,
     /// SI unit; empty if unknown.
@@ -60,7 +61,7 @@ pub struct SignalResult {
 }
 
 /// Shaft speed during a record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShaftSummary {
     /// Description of the speed's source.
     pub source: String,
@@ -73,7 +74,7 @@ pub struct ShaftSummary {
 }
 
 /// A bearing with its characteristic orders (per shaft revolution).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingWithOrders {
     pub name: String,
     /// Description of the orders' source.
@@ -86,7 +87,7 @@ pub struct BearingWithOrders {
 }
 
 /// Amplitudes over time and frequency, with the speed at each time if known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpectrogramWithSpeed {
     pub map: Spectrogram,
     /// \[rpm\]; empty if unknown.

@@ -5,10 +5,11 @@ use crate::document::{Array, Document, Rows, Section, Value, in_hdf5, in_json};
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
 use rotordyn_signal::segment::Level;
 use rotordyn_signal::stft::Spectrogram;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Spectrogram of one channel with the speed at every frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SpectrogramResult {
     pub channel: String,
     pub unit: String,
@@ -19,7 +20,7 @@ pub struct SpectrogramResult {
 }
 
 /// Order spectrogram and cuts of one channel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OrderResult {
     pub channel: String,
     pub unit: String,

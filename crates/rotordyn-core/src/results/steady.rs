@@ -3,16 +3,17 @@
 use crate::document::{Document, in_json, named};
 use rotordyn_signal::lyapunov::LyapunovExponent;
 use rotordyn_signal::motion_classification::Classification;
+use serde::{Deserialize, Serialize};
 
 /// A signal shown in a Poincaré section.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SectionChannel {
     pub name: String,
     pub unit: String,
 }
 
 /// The clock (stroboscopic phase) of a Poincaré section.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SectionClock {
     /// "shaft revolution", "cage revolution of B" or "ball passage of B".
     pub name: String,

@@ -7,9 +7,10 @@ use crate::analysis::unbalance::UnbalanceResponse;
 use crate::document::{Array, Document, MissingCell, Rows, TO_RPM, in_hdf5, in_json, named};
 use crate::model::Probe;
 use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
 
 /// Unbalance response at every requested probe, and the orbit of every disc.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct UnbalanceResult {
     /// At the requested speeds and those added around the critical speeds.
     pub response: UnbalanceResponse,
@@ -26,16 +27,16 @@ pub struct UnbalanceResult {
 }
 
 /// A peak of the unbalance response.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResponsePeak {
     /// Name of the probe, or "orbit of disc.NAME" for its semi-major axis.
     pub response: String,
-    pub unit: &'static str,
+    pub unit: String,
     pub peak: Peak,
 }
 
 /// One response: complex amplitude of the probe's quantity over speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct UnbalanceChannel {
     pub probe: Probe,
     /// Re and Im per speed; x(t) = Re(X e^{jΩt}).
@@ -43,7 +44,7 @@ pub struct UnbalanceChannel {
 }
 
 /// The orbit of a disc's centre over speed: complex u_x and u_y as Re and Im.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DiscOrbit {
     pub name: String,
     pub x: Vec<[f64; 2]>,
@@ -105,7 +106,7 @@ impl UnbalanceResult {
             |p: &ResponsePeak| p.peak.half_power.map_or([f64::NAN; 2], |ends| ends.map(|s| s * TO_RPM));
         Rows::of(&self.peaks)
             .text("response", |p| &p.response)
-            .text(in_json("unit"), |p| p.unit)
+            .text(in_json("unit"), |p| &p.unit)
             .number(named("speed_rpm", "rpm"), "rpm", |p| p.peak.at * TO_RPM)
             .number("amplitude", "SI", |p| p.peak.amplitude)
             .optional("amplification_factor", "1", |p| p.peak.amplification())

@@ -255,7 +255,7 @@ impl<'a> SingleBearingStudy<'a> {
         }
         let values = values[..found.len()].to_vec();
         let points = found.into_iter().map(|state| self.point(state)).collect();
-        Some(BearingSweepResult { of, label, unit, values, points })
+        Some(BearingSweepResult { of, label, unit: unit.into(), values, points })
     }
 
     /// Default range of values about the operating point.

@@ -4,13 +4,14 @@
 //! gyroscopic terms, internal damping and cages exchange with it stays inside the machine.
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use super::system::{State, System};
 use super::torque::DriveEnergy;
 use rotordyn_bearing::{Reaction, Rotation};
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// ½ ẋᵀ ẋ (mass-normalised coordinates); under a torque drive with the energy of the rotation.
     pub kinetic: f64,

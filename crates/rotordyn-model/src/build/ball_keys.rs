@@ -44,7 +44,7 @@ pub(super) fn common_properties(
         cage_angle: r.or("cage_angle", any(ANGLE), 0.0),
         imperfections: imperfections::read(r, &geometry, r.has("arrangement")),
         cage_pocket_diameter: r.or("cage_pocket_diameter", positive(LENGTH), pocket),
-        estimated_geometry: entry.filter(|e| e.estimated && !gives_geometry(r)).map(|e| e.origin),
+        estimated_geometry: entry.filter(|e| e.estimated && !gives_geometry(r)).map(|e| e.origin.into()),
         geometry,
     }
 }

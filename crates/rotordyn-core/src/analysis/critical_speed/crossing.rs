@@ -5,12 +5,13 @@ use super::super::modal::Mode;
 use super::refine;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::document::{Rows, TO_RPM, in_json, named};
+use serde::{Deserialize, Serialize};
 
 /// Relative step of speed for the derivative of a frequency.
 const SLOPE_STEP: f64 = 1e-5;
 
 /// A mode on an order line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CriticalSpeed {
     /// Ω \[rad/s\].
     pub speed: f64,
@@ -54,7 +55,7 @@ impl CriticalSpeed {
 }
 
 /// Crossings over a range of speeds, and what the list lacks.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CrossingList {
     /// By speed.
     pub list: Vec<CriticalSpeed>,
@@ -75,7 +76,7 @@ impl UncertainRange {
 }
 
 /// A range of speeds in which crossings of an order may have been missed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UncertainRange {
     pub order: f64,
     /// Ω \[rad/s\].

@@ -2,10 +2,11 @@
 
 use crate::document::{Array, Document, in_hdf5, in_json};
 use rotordyn_signal::synchronous::SynchronousAverage;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Time synchronous average (TSA) over shaft revolutions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShaftAverage {
     pub average: SynchronousAverage,
     /// RMS (means removed) of the record resampled in angle, of the average, and of the residual.

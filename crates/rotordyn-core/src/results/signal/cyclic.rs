@@ -4,9 +4,10 @@ use crate::document::{Array, Document, Rows, in_hdf5, in_json};
 use rotordyn_signal::bearing_lines::BearingPart;
 use rotordyn_signal::cyclic::CyclicCoherence;
 use rotordyn_signal::spectrum::Spectrum;
+use serde::{Deserialize, Serialize};
 
 /// Cyclic spectral coherence over carrier and modulation frequency.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CyclicResult {
     pub coherence: CyclicCoherence,
     /// Enhanced envelope spectrum: mean coherence over the carriers, over modulation frequency.
@@ -18,7 +19,7 @@ pub struct CyclicResult {
 }
 
 /// A peak of the enhanced envelope spectrum near a characteristic frequency.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CyclicLine {
     pub part: BearingPart,
     pub harmonic: usize,

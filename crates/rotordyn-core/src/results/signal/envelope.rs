@@ -6,9 +6,10 @@ use rotordyn_signal::bearing_lines::{BearingLine, BearingLines, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
+use serde::{Deserialize, Serialize};
 
 /// Envelope (demodulated) spectrum of a band, and the bearing's lines in it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnvelopeResult {
     pub rule: BandRule,
     /// Band \[Hz\].

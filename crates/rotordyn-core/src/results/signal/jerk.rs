@@ -3,9 +3,10 @@
 use crate::document::{Array, Document, Rows, in_hdf5, in_json};
 use rotordyn_signal::jerk::JerkJump;
 use rotordyn_signal::race_defects::{DefectKind, FoldedJerk, RaceDefect};
+use serde::{Deserialize, Serialize};
 
 /// Jerk, its jumps, and the race defects located from them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct JerkResult {
     /// \[unit/s\].
     pub jerk: Vec<f64>,
@@ -16,10 +17,10 @@ pub struct JerkResult {
 }
 
 /// Defects of a race located from jerk jumps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RaceResult {
     /// "outer race" or "inner race".
-    pub race: &'static str,
+    pub race: String,
     /// Radius of the raceway \[m\].
     pub radius: Option<f64>,
     /// Whether two directions were given, so that angles are known over the full circumference.
@@ -55,12 +56,12 @@ impl JerkResult {
             .optional("width_m", "m", |d| race.radius.map(|r| r * d.width))
             .numbers("jumps", "s", &[2], |d| d.jumps);
         content = content
-            .text(in_json("race"), race.race)
+            .text(in_json("race"), &race.race)
             .flag(in_json("full_circumference"), race.full_circumference)
             .table(in_json("defects"), defects);
         let changes = Array::complex(&[race.fold.changes.len()], &unit, &race.fold.changes);
         let mut folded = Document::new()
-            .text("race", race.race)
+            .text("race", &race.race)
             .numbers("angle", "rad", &race.fold.angles)
             .array("jerk_change", changes.over(0, "angle"));
         if !race.defects.is_empty() {

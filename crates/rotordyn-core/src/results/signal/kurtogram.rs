@@ -4,9 +4,10 @@ use super::curves::{bands, over_axis};
 use crate::document::{Document, in_hdf5, in_json};
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
+use serde::{Deserialize, Serialize};
 
 /// Impulsiveness over frequency: kurtogram and spectral kurtosis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KurtogramResult {
     pub kurtogram: Kurtogram,
     /// Spectral kurtosis over segments.

@@ -3,9 +3,10 @@
 use crate::document::{Array, Document, Rows, in_hdf5, in_json};
 use crate::results::OrderLine;
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
+use serde::{Deserialize, Serialize};
 
 /// Order tracking: map, mean order spectrum and cuts.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ShaftOrders {
     pub map: OrderSpectrogram,
     /// Power average over all speeds.
