@@ -9,7 +9,9 @@ mod update;
 use common::assignment;
 pub use common::{ModelArgs, Output, StoredArgs, StudyArgs};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use rotordyn::io::run_export::{self, RunFormat};
 
 use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
@@ -43,21 +45,17 @@ pub struct ExportArgs {
     #[command(flatten)]
     pub study: StudyArgs,
     /// File formats of the run-up's channels (time histories), separated by commas
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"])]
-    pub formats: Vec<ChannelFormat>,
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"],
+          value_parser = run_format())]
+    pub formats: Vec<RunFormat>,
     /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub number: u32,
 }
 
-/// File format of exported time histories.
-#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChannelFormat {
-    Csv,
-    Uff,
-    Mat,
-    Npz,
-    Wav,
+fn run_format() -> impl TypedValueParser<Value = RunFormat> {
+    PossibleValuesParser::new(run_export::FORMATS.map(|format| format.name))
+        .try_map(|name| RunFormat::named(&name).ok_or("an unknown format"))
 }
 
 #[derive(Debug, Subcommand)]

@@ -270,15 +270,6 @@ impl<'a> Document<'a> {
         self.groups(in_json(json), "", groups)
     }
 
-    pub fn table<T>(self, names: impl Into<Names>, rows: Rows<'a, '_, T>) -> Self {
-        self.with(names, Value::Table(rows.table()))
-    }
-
-    /// A single row of a table's columns.
-    pub fn record<T>(self, names: impl Into<Names>, rows: Rows<'a, '_, T>) -> Self {
-        self.with(names, Value::Table(Table { rows: Count::One, ..rows.table() }))
-    }
-
     /// Adds the values of another document.
     pub fn and(mut self, other: Document<'a>) -> Self {
         self.fields.extend(other.fields);

@@ -3,6 +3,7 @@
 pub mod error;
 
 pub mod csv;
+pub mod document_tables;
 #[cfg(feature = "shapes")]
 pub mod export_3d;
 pub mod external_file;
@@ -22,6 +23,7 @@ pub mod model_file_edit;
 pub mod npy;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
+pub mod run_export;
 pub mod saved_results;
 pub mod uff;
 pub mod vtk;

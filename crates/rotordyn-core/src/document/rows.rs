@@ -13,6 +13,17 @@ pub struct Rows<'a, 'r, T> {
     axis: Option<String>,
 }
 
+impl<'a> Document<'a> {
+    pub fn table<T>(self, names: impl Into<Names>, rows: Rows<'a, '_, T>) -> Self {
+        self.with(names, Value::Table(rows.table()))
+    }
+
+    /// A single row of a table's columns.
+    pub fn record<T>(self, names: impl Into<Names>, rows: Rows<'a, '_, T>) -> Self {
+        self.with(names, Value::Table(Table { rows: Count::One, ..rows.table() }))
+    }
+}
+
 impl<'a, 'r, T> Rows<'a, 'r, T> {
     pub fn of(rows: impl IntoIterator<Item = &'r T>) -> Self {
         Self { rows: rows.into_iter().collect(), columns: Document::new(), axis: None }
