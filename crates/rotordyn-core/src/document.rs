@@ -115,7 +115,7 @@ pub struct Table<'a> {
 pub enum Count {
     /// One record instead of a list: no dimension of rows.
     One,
-    Rows(usize),
+    Many(usize),
     /// The table stands in the rows of another, with these numbers of rows.
     Within(Vec<usize>),
 }

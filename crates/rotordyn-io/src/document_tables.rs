@@ -76,7 +76,7 @@ fn collect(out: &mut Vec<TextTable>, name: &str, document: &Document) {
 fn collect_table(out: &mut Vec<TextTable>, name: &str, table: &Table) {
     let (count, mut found) = match &table.rows {
         Count::One => (1, Vec::new()),
-        Count::Rows(count) => (*count, Vec::new()),
+        Count::Many(count) => (*count, Vec::new()),
         Count::Within(counts) => {
             let outer =
                 counts.iter().enumerate().flat_map(|(k, n)| std::iter::repeat_n((k + 1).to_string(), *n));

@@ -37,7 +37,7 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
 
     /// The finished table.
     pub fn table(self) -> Table<'a> {
-        Table { rows: Count::Rows(self.rows.len()), columns: self.columns, axis: self.axis }
+        Table { rows: Count::Many(self.rows.len()), columns: self.columns, axis: self.axis }
     }
 
     fn column(mut self, names: impl Into<Names>, cell: &[usize], unit: &str, data: Data<'a>) -> Self {

@@ -68,7 +68,7 @@ pub fn groups(key: &str, found: &[(String, Document)]) -> Json {
 fn rows(table: &Table) -> Json {
     match &table.rows {
         Count::One => row(&table.columns, 0),
-        Count::Rows(count) => (0..*count).map(|k| row(&table.columns, k)).collect(),
+        Count::Many(count) => (0..*count).map(|k| row(&table.columns, k)).collect(),
         Count::Within(counts) => (0..counts.iter().sum()).map(|k| row(&table.columns, k)).collect(),
     }
 }
