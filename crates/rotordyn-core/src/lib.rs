@@ -17,7 +17,6 @@ pub mod conventions;
 pub mod element;
 pub mod model;
 
-#[cfg(feature = "shapes")]
 pub mod geometry;
 
 pub mod assembly;

@@ -3,11 +3,9 @@
 pub mod error;
 
 pub mod csv;
-#[cfg(feature = "shapes")]
 pub mod export_3d;
 pub mod external_file;
 pub mod film_table_cache;
-#[cfg(feature = "shapes")]
 pub mod gltf;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -24,6 +22,5 @@ pub mod npy;
 pub mod results_file;
 pub mod uff;
 pub mod vtk;
-#[cfg(feature = "shapes")]
 mod vtk_machine;
 pub mod wav;

@@ -2,8 +2,22 @@
 
 use std::f64::consts::PI;
 
-use parry3d_f64::mass_properties::MassProperties;
-use parry3d_f64::math::Vector;
+use nalgebra::Vector3;
+
+/// A solid about z whose surface is known exactly.
+pub trait ExactSolid {
+    /// Whether a point is in the material, and the nearest point of the surface.
+    fn project(&self, p: &Vector3<f64>) -> (bool, Vector3<f64>);
+
+    /// Largest radius and the axial extent \[m\].
+    fn extent(&self) -> (f64, [f64; 2]);
+
+    /// Least radial thickness \[m\].
+    fn wall(&self) -> f64;
+
+    /// Mass, centre and inertia at a density \[kg/m³\].
+    fn solid(&self, density: f64) -> RevolvedSolid;
+}
 
 /// Mass properties of a rigid body symmetric about z, such as a bearing part.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -37,14 +51,6 @@ impl RevolvedSolid {
         let centre_z = (self.mass * self.centre_z - cut.mass * cut.centre_z) / mass;
         let about = |s: &Self| s.diametral + s.mass * (s.centre_z - centre_z).powi(2);
         Self { mass, centre_z, polar: self.polar - cut.polar, diametral: about(self) - about(cut) }
-    }
-
-    pub(super) fn to_parry(self) -> MassProperties {
-        MassProperties::new(
-            Vector::new(0.0, 0.0, self.centre_z),
-            self.mass,
-            Vector::new(self.diametral, self.diametral, self.polar),
-        )
     }
 }
 
