@@ -2,15 +2,15 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use rotordyn::signal::WindowKind;
-use rotordyn::signal::envelope::{envelope, envelope_spectrum};
-use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
-use rotordyn::signal::ridge::{find_peaks, interpolate_peak, trace_line};
-use rotordyn::signal::spectrum::{Level, Welch, amplitude_spectrum, decibel, power_spectral_density};
-use rotordyn::signal::statistics::statistics;
-use rotordyn::signal::stft::{Stft, StftSettings};
-use rotordyn::signal::waterfall::waterfall;
-use rotordyn::signal::window::{coherent_gain, noise_bandwidth};
+use rotordyn_signal::WindowKind;
+use rotordyn_signal::envelope::{envelope, envelope_spectrum};
+use rotordyn_signal::orbit::{FilteredOrbit, full_spectrum};
+use rotordyn_signal::ridge::{find_peaks, interpolate_peak, trace_line};
+use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, decibel, power_spectral_density};
+use rotordyn_signal::statistics::statistics;
+use rotordyn_signal::stft::{Stft, StftSettings};
+use rotordyn_signal::waterfall::waterfall;
+use rotordyn_signal::window::{coherent_gain, noise_bandwidth};
 
 use crate::{assert_close, noise, sampled};
 

@@ -2,9 +2,9 @@
 //!
 //! Reference values A..: independent implementation of Atef et al. 2022 (same law, same parameters).
 
-use rotordyn::signal::jerk::{impulses, jerk_jumps};
-use rotordyn::signal::race_defects::{BallPassage, DefectKind, RaceDefect, race_defects};
-use rotordyn::signal::statistics::statistics;
+use rotordyn_signal::jerk::{impulses, jerk_jumps};
+use rotordyn_signal::race_defects::{BallPassage, DefectKind, RaceDefect, race_defects};
+use rotordyn_signal::statistics::statistics;
 
 use crate::assert_close;
 use crate::dented_bearing::{BALLS, Defect, Race, Records, SHAFT, STEP, simulate};

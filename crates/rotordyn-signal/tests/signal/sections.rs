@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::SignalError;
-use rotordyn::signal::lyapunov::lyapunov_exponent;
-use rotordyn::signal::motion_classification::{Motion, classify_motion, zero_one_test};
-use rotordyn::signal::poincare::{StroboscopicSampling, cluster_points};
+use rotordyn_signal::SignalError;
+use rotordyn_signal::lyapunov::lyapunov_exponent;
+use rotordyn_signal::motion_classification::{Motion, classify_motion, zero_one_test};
+use rotordyn_signal::poincare::{StroboscopicSampling, cluster_points};
 
 use crate::assert_close;
 

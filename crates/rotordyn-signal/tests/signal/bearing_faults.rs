@@ -2,16 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::WindowKind;
-use rotordyn::signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings, Modulation};
-use rotordyn::signal::cepstrum::{Lifter, lifter, real_cepstrum};
-use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn::signal::envelope::{analytic_signal, band_analytic_signal, squared_envelope_spectrum};
-use rotordyn::signal::jerk::jerk;
-use rotordyn::signal::kurtogram::{depth_for_width, fast_kurtogram, scored_bands, spectral_kurtosis};
-use rotordyn::signal::spectrum::{Level, Welch, amplitude_spectrum};
-use rotordyn::signal::synchronous::synchronous_average;
+use rotordyn_signal::WindowKind;
+use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings, Modulation};
+use rotordyn_signal::cepstrum::{Lifter, lifter, real_cepstrum};
+use rotordyn_signal::cyclic::cyclic_coherence;
+use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
+use rotordyn_signal::envelope::{analytic_signal, band_analytic_signal, squared_envelope_spectrum};
+use rotordyn_signal::jerk::jerk;
+use rotordyn_signal::kurtogram::{depth_for_width, fast_kurtogram, scored_bands, spectral_kurtosis};
+use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum};
+use rotordyn_signal::synchronous::synchronous_average;
 
 use crate::{assert_close, noise, sampled};
 
@@ -100,10 +100,10 @@ fn bands_partition_the_record() {
         let bands: Vec<_> =
             edges.windows(2).map(|w| band_analytic_signal(&x, 1000.0, (w[0], w[1])).unwrap()).collect();
         for (k, z) in whole.iter().enumerate() {
-            let total: rotordyn::signal::Complex<f64> = bands.iter().map(|b| b[k]).sum();
+            let total: rotordyn_signal::Complex<f64> = bands.iter().map(|b| b[k]).sum();
             assert!((total - z).norm() < 1e-12);
         }
-        let energy = |z: &[rotordyn::signal::Complex<f64>]| z.iter().map(|z| z.norm_sqr()).sum::<f64>();
+        let energy = |z: &[rotordyn_signal::Complex<f64>]| z.iter().map(|z| z.norm_sqr()).sum::<f64>();
         assert_close("energy", bands.iter().map(|b| energy(b)).sum(), energy(&whole), 1e-9);
     }
 }

@@ -1,30 +1,30 @@
 //! Unusable records and settings: an error with the expected and the given value, never a panic.
 
-use rotordyn::signal::bearing_lines::{DefectFrequencies, LineSettings};
-use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
-use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn::signal::envelope::{
+use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
+use rotordyn_signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
+use rotordyn_signal::cyclic::cyclic_coherence;
+use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
+use rotordyn_signal::envelope::{
     analytic_signal, band_analytic_signal, envelope_spectrum, squared_envelope_spectrum,
 };
-use rotordyn::signal::filter::{Band, butterworth};
-use rotordyn::signal::impact::{Hit, ImpactWindows, frf_from_hits};
-use rotordyn::signal::jerk::{impulses, jerk, jerk_jumps};
-use rotordyn::signal::kurtogram::{fast_kurtogram, scored_bands, spectral_kurtosis};
-use rotordyn::signal::orbit::{FilteredOrbit, full_spectrum};
-use rotordyn::signal::order::{OrderSettings, OrderTracker};
-use rotordyn::signal::race_defects::{BallPassage, race_defects};
-use rotordyn::signal::resample::{AngleResampler, integrate_speed, to_uniform_time, uniform_rate};
-use rotordyn::signal::ridge::{find_peaks, trace_line};
-use rotordyn::signal::spectrum::{
+use rotordyn_signal::filter::{Band, butterworth};
+use rotordyn_signal::impact::{Hit, ImpactWindows, frf_from_hits};
+use rotordyn_signal::jerk::{impulses, jerk, jerk_jumps};
+use rotordyn_signal::kurtogram::{fast_kurtogram, scored_bands, spectral_kurtosis};
+use rotordyn_signal::orbit::{FilteredOrbit, full_spectrum};
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::race_defects::{BallPassage, race_defects};
+use rotordyn_signal::resample::{AngleResampler, integrate_speed, to_uniform_time, uniform_rate};
+use rotordyn_signal::ridge::{find_peaks, trace_line};
+use rotordyn_signal::spectrum::{
     Level, Welch, amplitude_spectrum, coherence, cross_spectral_density, power_spectral_density,
 };
-use rotordyn::signal::statistics::statistics;
-use rotordyn::signal::stft::{Stft, StftSettings};
-use rotordyn::signal::synchronous::synchronous_average;
-use rotordyn::signal::tacho::rising_edges;
-use rotordyn::signal::waterfall::waterfall;
-use rotordyn::signal::{SignalError, WindowKind};
+use rotordyn_signal::statistics::statistics;
+use rotordyn_signal::stft::{Stft, StftSettings};
+use rotordyn_signal::synchronous::synchronous_average;
+use rotordyn_signal::tacho::rising_edges;
+use rotordyn_signal::waterfall::waterfall;
+use rotordyn_signal::{SignalError, WindowKind};
 
 /// Errors of every function that takes a record, applied to `x`.
 fn errors_of_all_functions(x: &[f64], rate: f64) -> Vec<(&'static str, Option<SignalError>)> {

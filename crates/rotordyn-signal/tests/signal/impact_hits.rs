@@ -1,7 +1,7 @@
 //! Hits of an impact test: found in a record, and their quality.
 
-use rotordyn::signal::SignalError;
-use rotordyn::signal::impact::{Hit, Limits, Trigger, inspect};
+use rotordyn_signal::SignalError;
+use rotordyn_signal::impact::{Hit, Limits, Trigger, inspect};
 
 use crate::noise;
 

@@ -6,7 +6,6 @@ mod defects;
 mod dented_bearing;
 mod impact_frfs;
 mod impact_hits;
-mod measured_bearings;
 mod oracle;
 mod oracle_bearing;
 mod oracle_resampling;
@@ -17,7 +16,7 @@ mod sections;
 mod speed_line;
 mod tacho;
 
-use rotordyn::signal::Complex;
+use rotordyn_signal::Complex;
 
 /// Uniform random numbers in −1..1 by a 32-bit linear congruential generator; `oracle.py` has the same.
 pub fn noise(seed: u32, n: usize) -> Vec<f64> {

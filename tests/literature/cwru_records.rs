@@ -8,9 +8,6 @@ use rotordyn::study::signal::{
     Analysis, AnalysisSelection, ShaftMotion, SignalChannel, SignalSettings, analyse,
 };
 
-#[path = "../common/measured_data.rs"]
-mod measured_data;
-
 /// 6205-2RS JEM as the centre states it: nine balls of 7.94 mm on 39.04 mm.
 fn drive_end() -> BearingWithOrders {
     let gamma = 7.94004 / 39.0398;
@@ -35,7 +32,7 @@ fn faults_of_inner_and_outer_race() {
         ("cwru/105_IR007_0hp_12k.mat", BearingPart::InnerRace, 0.29153, 5.396),
         ("cwru/130_OR007at6_0hp_12k.mat", BearingPart::OuterRace, 0.66951, 7.649),
     ] {
-        let Some(path) = measured_data::measured(file) else { return };
+        let Some(path) = crate::measured_data::measured(file) else { return };
         let found = measured::read(&path).unwrap();
         let record = &found.records[0];
         let speed = record.speed_rpm.unwrap() / 60.0;
@@ -75,7 +72,7 @@ fn order_analyses_need_the_shaft_angle() {
         unit: "m/s^2".into(),
         sample_rate: 1000.0,
         start: 0.0,
-        samples: crate::noise(3, 4000),
+        samples: (0..4000).map(|k| f64::from(k * 7919 % 2003) / 1001.0 - 1.0).collect(),
         orthogonal: None,
     };
     for (analysis, words) in [

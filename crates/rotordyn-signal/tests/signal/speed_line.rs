@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::order::{OrderSettings, OrderTracker};
-use rotordyn::signal::ridge::find_peaks;
-use rotordyn::signal::tacholess::{SpeedLineSettings, extract_ridge, speed_from_line};
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::ridge::find_peaks;
+use rotordyn_signal::tacholess::{SpeedLineSettings, extract_ridge, speed_from_line};
 
 use crate::{assert_close, noise, sampled};
 

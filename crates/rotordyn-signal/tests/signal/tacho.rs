@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::order::{OrderSettings, OrderTracker};
-use rotordyn::signal::tacho::{PulseTrain, rising_edges};
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::tacho::{PulseTrain, rising_edges};
 
 use crate::{assert_close, noise, sampled};
 

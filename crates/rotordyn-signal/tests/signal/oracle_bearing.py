@@ -1,6 +1,6 @@
 """Reference values for the tools that find bearing faults, stored in tests/data/scipy_bearing_signal.json.
 
-Run from the repository's root: python3 tests/signal/oracle_bearing.py
+Run: python3 oracle_bearing.py
 Each method is written out by its definition with numpy and scipy; inputs come from `noise`, the same in Rust.
 """
 
@@ -29,7 +29,7 @@ fs = 1000.0
 n = 2500
 t = np.arange(n) / fs
 x = noise(5, n) * (1 + 0.8 * np.cos(2 * np.pi * 7.3 * t)) + 3 * (np.arange(n) % 97 == 0) + 0.1
-out = {"source": f"scipy {scipy.__version__}, numpy {np.__version__}, tests/signal/oracle_bearing.py"}
+out = {"source": f"scipy {scipy.__version__}, numpy {np.__version__}, oracle_bearing.py"}
 
 
 # Fast kurtogram, Antoni 2007: filters modulated to the band's centre, decimated, odd bands frequency-reversed.

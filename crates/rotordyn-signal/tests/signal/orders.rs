@@ -2,9 +2,9 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use rotordyn::signal::SignalError;
-use rotordyn::signal::order::{OrderSettings, OrderTracker};
-use rotordyn::signal::ridge::find_peaks;
+use rotordyn_signal::SignalError;
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::ridge::find_peaks;
 
 use crate::{assert_close, sampled};
 

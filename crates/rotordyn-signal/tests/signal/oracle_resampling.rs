@@ -1,11 +1,11 @@
 //! scipy and numpy reference values (oracle_resampling.py, stored in tests/data/scipy_resampling.json) to 1e-10.
 
-use rotordyn::signal::WindowKind;
-use rotordyn::signal::envelope::envelope_spectrum;
-use rotordyn::signal::jerk::jerk;
-use rotordyn::signal::resample::to_uniform_time;
-use rotordyn::signal::spectrum::Level;
-use rotordyn::signal::tacho::PulseTrain;
+use rotordyn_signal::WindowKind;
+use rotordyn_signal::envelope::envelope_spectrum;
+use rotordyn_signal::jerk::jerk;
+use rotordyn_signal::resample::to_uniform_time;
+use rotordyn_signal::spectrum::Level;
+use rotordyn_signal::tacho::PulseTrain;
 use serde_json::Value;
 
 use crate::noise;

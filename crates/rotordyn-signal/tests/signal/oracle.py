@@ -1,6 +1,6 @@
 """Reference values for the signal tools, computed by scipy and stored in tests/data/scipy_signal.json.
 
-Run from the repository's root: python3 tests/signal/oracle.py
+Run: python3 oracle.py
 The inputs come from the formula in `noise`, the same in Rust, so that only results are stored.
 """
 
@@ -38,7 +38,7 @@ windows = {
     "Blackman": "blackman",
     "FlatTop": "flattop",
 }
-out = {"source": f"scipy {scipy.__version__}, numpy {np.__version__}, tests/signal/oracle.py"}
+out = {"source": f"scipy {scipy.__version__}, numpy {np.__version__}, oracle.py"}
 out["windows"] = [
     {"kind": kind, "n": m, "samples": signal.get_window(name, m, fftbins=True).tolist()}
     for kind, name in windows.items()

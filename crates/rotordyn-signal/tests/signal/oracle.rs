@@ -1,9 +1,9 @@
 //! scipy reference values (oracle.py, stored in tests/data/scipy_signal.json) to 1e-10.
 
-use rotordyn::signal::filter::{Band, butterworth};
-use rotordyn::signal::spectrum::{Level, Welch, coherence, cross_spectral_density, power_spectral_density};
-use rotordyn::signal::stft::{Stft, StftSettings};
-use rotordyn::signal::{Complex, WindowKind, envelope::analytic_signal, statistics::statistics};
+use rotordyn_signal::filter::{Band, butterworth};
+use rotordyn_signal::spectrum::{Level, Welch, coherence, cross_spectral_density, power_spectral_density};
+use rotordyn_signal::stft::{Stft, StftSettings};
+use rotordyn_signal::{Complex, WindowKind, envelope::analytic_signal, statistics::statistics};
 use serde_json::Value;
 
 use crate::{assert_close, assert_close_complex, noise, sampled};

@@ -1,12 +1,12 @@
 //! numpy and scipy reference values (oracle_bearing.py, stored in tests/data/scipy_bearing_signal.json) to 1e-10.
 
-use rotordyn::signal::WindowKind;
-use rotordyn::signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
-use rotordyn::signal::cyclic::cyclic_coherence;
-use rotordyn::signal::envelope::{band_analytic_signal, squared_envelope_spectrum};
-use rotordyn::signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
-use rotordyn::signal::spectrum::{Level, Welch};
-use rotordyn::signal::statistics::statistics;
+use rotordyn_signal::WindowKind;
+use rotordyn_signal::cepstrum::{Lifter, lifter, liftered_spectrum, power_cepstrum, real_cepstrum};
+use rotordyn_signal::cyclic::cyclic_coherence;
+use rotordyn_signal::envelope::{band_analytic_signal, squared_envelope_spectrum};
+use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
+use rotordyn_signal::spectrum::{Level, Welch};
+use rotordyn_signal::statistics::statistics;
 use serde_json::Value;
 
 use crate::oracle::{assert_all, assert_all_complex, complex, count, numbers};

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::impact::{Hit, ImpactWindows, frf_from_hits, frf_from_random};
-use rotordyn::signal::spectrum::Welch;
-use rotordyn::signal::{Complex, SignalError};
+use rotordyn_signal::impact::{Hit, ImpactWindows, frf_from_hits, frf_from_random};
+use rotordyn_signal::spectrum::Welch;
+use rotordyn_signal::{Complex, SignalError};
 
 use crate::{assert_close, assert_close_complex, noise};
 

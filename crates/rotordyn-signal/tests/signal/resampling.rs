@@ -2,10 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn::signal::SignalError;
-use rotordyn::signal::resample::{
-    AngleResampler, SkipReason, integrate_speed, to_uniform_time, uniform_rate,
-};
+use rotordyn_signal::SignalError;
+use rotordyn_signal::resample::{AngleResampler, SkipReason, integrate_speed, to_uniform_time, uniform_rate};
 
 use crate::{assert_close, sampled};
 
