@@ -3,7 +3,7 @@
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
-use rotordyn::bearing::radial::{NewmarkGain, Rings};
+use rotordyn::bearing::radial_ball::{NewmarkGain, Rings};
 use rotordyn::bearing::{BallElement, BallWave, OffSize, RadialBallBearing, RadialElement, Rotation, Wave};
 
 const GRAVITY: [f64; 2] = [2.0, -9.0];

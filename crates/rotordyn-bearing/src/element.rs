@@ -1,6 +1,34 @@
 //! Common interface of all bearing models.
 
-use super::{BallElement, BallLoad, Bearing, LinearElement, PreloadState, RadialElement, Reaction, Rotation};
+use crate::{
+    BallBearing, BallElement, BallLoad, LinearBearing, LinearElement, PreloadState, RadialBallBearing,
+    RadialElement, Reaction, Rotation,
+};
+
+/// A bearing model.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant)] // a model has a handful of bearings
+pub enum Bearing {
+    Linear(LinearBearing),
+    Ball(BallBearing),
+    RadialBall(RadialBallBearing),
+}
+
+impl Bearing {
+    /// Initial cage angle \[rad\]; 0 for a bearing without cage.
+    pub fn cage_angle(&self) -> f64 {
+        self.ball().map_or(0.0, |ball| ball.cage_angle)
+    }
+
+    /// Geometry, materials, cage and races of a bearing with balls.
+    pub fn ball(&self) -> Option<&BallBearing> {
+        match self {
+            Self::Linear(_) => None,
+            Self::Ball(ball) => Some(ball),
+            Self::RadialBall(radial) => Some(&radial.ball),
+        }
+    }
+}
 
 /// A bearing prepared for evaluation.
 #[derive(Clone, Debug)]

@@ -1,7 +1,48 @@
 //! Linear bearing: K and C, constant or tabulated over speed.
 
-use super::{LinearBearing, Reaction};
+use crate::Reaction;
 use rotordyn_linalg::pchip::Pchip;
+
+/// Linear bearing: stiffness and damping matrices, constant or tabulated over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearBearing {
+    /// Rows sorted by speed \[rad/s\]; one row means constant. Interpolated by monotone cubic (PCHIP); beyond
+    /// its first and last row the values of that row hold.
+    pub table: Vec<LinearBearingRow>,
+    /// Studies at speeds beyond the table.
+    pub beyond: BeyondTable,
+}
+
+/// Treatment of studies at speeds beyond a bearing's table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum BeyondTable {
+    /// The values of the table's end hold, with a warning.
+    #[default]
+    Hold,
+    /// An error.
+    Refuse,
+}
+
+impl LinearBearing {
+    /// First and last speed of the table \[rad/s\]; `None` for constant stiffness and damping.
+    pub fn table_range(&self) -> Option<[f64; 2]> {
+        match self.table.as_slice() {
+            [first, .., last] => Some([first.speed, last.speed]),
+            _ => None,
+        }
+    }
+}
+
+/// One row of a [`LinearBearing`]'s table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearBearingRow {
+    /// Speed Ω \[rad/s\].
+    pub speed: f64,
+    /// Stiffness K, order u_x u_y u_z θ_x θ_y θ_z.
+    pub stiffness: [[f64; 6]; 6],
+    /// Damping C, same order.
+    pub damping: [[f64; 6]; 6],
+}
 
 /// Stiffness and damping of a bearing between shaft node and housing point, linearised.
 ///

@@ -12,7 +12,7 @@ use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
 use crate::model::{Drive, Model};
-use rotordyn_bearing::radial::Rings;
+use rotordyn_bearing::radial_ball::Rings;
 use rotordyn_bearing::{BearingElement, Rotation};
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 

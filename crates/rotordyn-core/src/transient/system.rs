@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::torque::{DrivenState, TorqueDrive};
 use crate::model::{Quantity, SpeedCurve, Spin};
-use rotordyn_bearing::radial::{NewmarkGain, Rings};
+use rotordyn_bearing::radial_ball::{NewmarkGain, Rings};
 use rotordyn_bearing::{BearingElement, Reaction, Rotation};
 use rotordyn_linalg::panel::Panel;
 use rotordyn_linalg::{Outside, piecewise};

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::StepFailure;
 use crate::transient::system::{State, System};
-use rotordyn_bearing::radial::NewmarkGain;
+use rotordyn_bearing::radial_ball::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::small_dense::solve_in_place;
 

@@ -1,6 +1,6 @@
 //! Parameters of the generalised-α family, and a step that failed.
 
-use rotordyn_bearing::radial::NewmarkGain;
+use rotordyn_bearing::radial_ball::NewmarkGain;
 
 /// Parameters of the family (Chung & Hulbert 1993, eq. 17-20 and 25).
 #[derive(Clone, Copy, Debug, PartialEq)]
