@@ -6,31 +6,37 @@ pub mod material;
 mod reaction;
 mod root_finding;
 
+pub mod internal;
+pub mod model;
+
 pub mod imperfection;
 
 pub mod ball;
 pub mod linear;
 pub mod radial_ball;
 
-pub mod element;
+mod bearing;
+
 pub mod rating;
 
 pub use ball::{
     Arrangement, BallBearing, BallElement, BallInertia, BallLoad, Cage, Duplex, Fit, FitMaterials,
     InertiaDecision, Preload, PreloadState, Service,
 };
-pub use element::{Bearing, BearingElement};
+pub use bearing::Bearing;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,
     ProfileState, Shape, Surface, Wave,
 };
-pub use linear::{BeyondTable, LinearBearing, LinearBearingRow, LinearElement, SiteTangent};
+pub use internal::InternalCoordinates;
+pub use linear::{LinearBearing, LinearBearingRow, LinearElement};
+pub use model::{BearingElement, BearingModel, BearingSymbol, BeyondTable, CageStart, SpeedRange};
 pub use radial_ball::{RadialBallBearing, RadialElement};
 pub use rating::{
     BallMotion, FrictionTorque, MountedGeometry, ShoulderMargin, friction, kinematics, life, limits,
     shoulder, shoulder_margin,
 };
-pub use reaction::{Reaction, Rotation};
+pub use reaction::{Reaction, Rotation, SiteTangent};
 
 pub use ball::{fit, inertia as ball_inertia};

@@ -1,6 +1,9 @@
 //! Linear bearing: K and C, constant or tabulated over speed.
 
-use crate::Reaction;
+use std::sync::Arc;
+
+use crate::model::{BearingElement, BearingModel, BearingSymbol, BeyondTable, SpeedRange};
+use crate::{BallLoad, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::pchip::Pchip;
 
 /// Linear bearing: stiffness and damping matrices, constant or tabulated over speed.
@@ -11,16 +14,6 @@ pub struct LinearBearing {
     pub table: Vec<LinearBearingRow>,
     /// Studies at speeds beyond the table.
     pub beyond: BeyondTable,
-}
-
-/// Treatment of studies at speeds beyond a bearing's table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum BeyondTable {
-    /// The values of the table's end hold, with a warning.
-    #[default]
-    Hold,
-    /// An error.
-    Refuse,
 }
 
 impl LinearBearing {
@@ -42,24 +35,6 @@ pub struct LinearBearingRow {
     pub stiffness: [[f64; 6]; 6],
     /// Damping C, same order.
     pub damping: [[f64; 6]; 6],
-}
-
-/// Stiffness and damping of a bearing between shaft node and housing point, linearised.
-///
-/// With d = (displacement of the shaft node) − (that of the housing's point), the force on the shaft is
-/// f = −K d − C ḋ; order u_x u_y u_z θ_x θ_y θ_z.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct SiteTangent {
-    /// K \[N/m, N/rad, N m/m, N m/rad\].
-    pub stiffness: [[f64; 6]; 6],
-    /// C, same order \[N s/m ...\].
-    pub damping: [[f64; 6]; 6],
-}
-
-impl From<&Reaction> for SiteTangent {
-    fn from(reaction: &Reaction) -> Self {
-        Self { stiffness: reaction.stiffness, damping: reaction.damping }
-    }
 }
 
 /// A linear bearing prepared for evaluation.
@@ -137,5 +112,72 @@ impl LinearElement {
             }
         }
         out
+    }
+}
+
+impl BearingModel for LinearBearing {
+    fn keyword(&self) -> &'static str {
+        "linear"
+    }
+
+    fn description(&self) -> String {
+        match self.table.len() {
+            1 => "linear".into(),
+            n => format!("linear, {n} speeds"),
+        }
+    }
+
+    fn element(&self) -> Arc<dyn BearingElement> {
+        Arc::new(LinearElement::new(self))
+    }
+
+    fn supports(&self) -> [bool; 6] {
+        std::array::from_fn(|k| self.table.iter().any(|row| row.stiffness[k][k] != 0.0))
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.table.len() > 1
+    }
+
+    fn symbol(&self) -> BearingSymbol<'_> {
+        BearingSymbol::Springs(self.table.iter().map(|row| [&row.stiffness, &row.damping]).collect())
+    }
+
+    fn nominal_stiffness(&self) -> [[f64; 6]; 6] {
+        LinearElement::new(self).tangent(0.0).stiffness
+    }
+
+    fn speed_range(&self) -> Option<SpeedRange> {
+        self.table_range().map(|speeds| SpeedRange { speeds, beyond: self.beyond })
+    }
+}
+
+impl BearingElement for LinearElement {
+    fn relative_dofs(&self) -> usize {
+        6
+    }
+
+    fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        Self::reaction(self, d, v, rotation.shaft_speed)
+    }
+
+    fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, _angles: usize) -> Reaction {
+        Self::reaction(self, d, &[0.0; 6], rotation.shaft_speed)
+    }
+
+    fn contact_loads(&self, _d: &[f64; 6], _rotation: &Rotation) -> Vec<BallLoad> {
+        Vec::new()
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        Self::depends_on_speed(self)
+    }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    fn tangent_at(&self, speed: f64, _standstill: SiteTangent) -> SiteTangent {
+        self.tangent(speed)
     }
 }

@@ -11,7 +11,7 @@
 //! | `preload_mechanism`, `preload`; `ring_equilibrium`, `spring_preload` | preload: rigid, or by a spring |
 //! | `duplex` | two rows |
 //! | `element` | the bearing; `change`, `cage_equilibrium`: its statics with ball inertia |
-//! | `load` | load of one ball |
+//! | `load`; `model` | load of one ball; what the bearing says of itself to machine and files |
 
 mod cage;
 mod cage_equilibrium;
@@ -29,6 +29,7 @@ mod input;
 mod load;
 pub mod lubrication;
 mod massless;
+mod model;
 mod plane_motion;
 mod preload;
 mod preload_mechanism;

@@ -19,6 +19,7 @@
 
 mod ball;
 mod ball_state;
+mod model;
 mod quasi_static;
 mod step;
 mod tangent;
@@ -26,8 +27,6 @@ mod tangent;
 use std::f64::consts::{PI, TAU};
 
 use ball_state::{BallState, LocalMotion};
-pub use step::NewmarkGain;
-pub use tangent::RadialTangent;
 
 use crate::{BallBearing, Cage, Deviation, Profile, Reaction, Rotation};
 
@@ -93,6 +92,8 @@ pub struct RadialElement {
     damping: [f64; 2],
     tensile_contact: bool,
     mass: f64,
+    /// The same for every ball.
+    masses: Vec<f64>,
     gravity: [f64; 2],
     /// Radius ρ₀ of the ball centre in zero-load contact with the outer race, and ρ_i with the inner race
     /// \[m\].
@@ -120,6 +121,7 @@ impl RadialElement {
             damping: bearing.stiffness_damping,
             tensile_contact: bearing.tensile_contact,
             mass: bearing.ball_mass(),
+            masses: vec![bearing.ball_mass(); g.balls],
             gravity: bearing.gravity,
             outer_contact_radius: 0.5 * g.pitch_diameter + 0.25 * g.radial_clearance,
             inner_contact_radius: 0.5 * g.pitch_diameter - 0.25 * g.radial_clearance,

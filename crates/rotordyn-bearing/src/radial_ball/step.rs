@@ -3,23 +3,13 @@
 use super::ball_state::{BallState, LocalMotion};
 use super::tangent::BALL_COORDINATE;
 use super::{RadialElement, RingForceSum, Rings};
+use crate::internal::{InternalStep, NewmarkGain};
 use crate::{Reaction, Rotation};
 
 /// Convergence of a ball's equation: force residual \[N\], or position increment \[m\].
 const FORCE_TOLERANCE: f64 = 1e-12;
 const POSITION_TOLERANCE: f64 = 1e-19;
 const MAX_ITERATIONS: usize = 200;
-
-/// Newmark coefficients of a step: positions x̄ + `place` a and velocities v̄ + `rate` a with accelerations a
-/// at its end.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NewmarkGain {
-    /// β h² \[s²\] and γ h \[s\].
-    pub position: f64,
-    pub velocity: f64,
-    /// Inverse effective mass of a ball, 1/m′ \[1/kg\].
-    pub inverse_mass: f64,
-}
 
 impl RadialElement {
     /// Solves every ball's equation of a step for the force Q_y on it, at fixed ring displacements.
@@ -29,41 +19,40 @@ impl RadialElement {
     /// contact force Q − Q_y may decrease over less than 1e-10 m at opening; the bracket still contains one
     /// root.)
     ///
-    /// `places`, `rates`: in ȳ and ẏ̄ (predictor, without Q), out the values at the end of the step. `force`:
-    /// Q, in the initial guess, out the solution.
-    /// `follow`: −∂Q/∂(d_x d_y h_x h_y) with velocity increments γ/(β h) times the position increments.
-    /// The reaction's stiffness is the effective (dynamic) stiffness of rings with condensed balls, damping
-    /// included.
-    pub fn step(
+    /// `count`: number of interface rows, 2 or 4. Only force, energy and powers of the reaction are set.
+    pub(super) fn step(
         &self,
         rings: &Rings,
-        [places, rates]: [&mut [f64]; 2],
+        count: usize,
+        balls: InternalStep,
         rotation: &Rotation,
         gain: &NewmarkGain,
-        force: &mut [f64],
-        ball_force_tangent: &mut [[f64; 4]],
     ) -> Reaction {
         let mut sum = RingForceSum::default();
         let mut stiffness = [[0.0; 4]; 4];
         let ratio = gain.velocity / gain.position;
+        // Of a ball with effective mass m′ = m/gain.force: position and velocity per force at the end.
+        let inverse_mass = gain.force / self.mass;
+        let by_force = [gain.position * inverse_mass, gain.velocity * inverse_mass];
+        let InternalStep { position, velocity, force, force_tangent, stiffness: effective } = balls;
         self.for_each_ball(rings, rotation, |j, seen| {
-            let (load, acting) = self.solve(&seen, [places[j], rates[j]], gain, force[j]);
+            let (load, acting) = self.solve(&seen, [position[j], velocity[j]], by_force, force[j]);
             force[j] = load;
-            places[j] += gain.position * gain.inverse_mass * load;
-            rates[j] += gain.velocity * gain.inverse_mass * load;
-            sum.add(&seen, &acting, rates[j], self.mass);
+            position[j] += by_force[0] * load;
+            velocity[j] += by_force[1] * load;
+            sum.add(&seen, &acting, velocity[j], self.mass);
 
             let tangent = acting.tangent(&seen, self.mass);
             let both = |a: usize, b: usize| tangent.stiffness[a][b] + ratio * tangent.damping[a][b];
-            let own = 1.0 + gain.position * gain.inverse_mass * both(BALL_COORDINATE, BALL_COORDINATE);
+            let own = 1.0 + by_force[0] * both(BALL_COORDINATE, BALL_COORDINATE);
             let (c, s) = (seen.cos, seen.sin);
             let global = |v: [f64; 4]| {
                 [v[0] * c - v[1] * s, v[0] * s + v[1] * c, v[2] * c - v[3] * s, v[2] * s + v[3] * c]
             };
             let tangent_row: [f64; 4] = std::array::from_fn(|b| both(BALL_COORDINATE, b) / own);
-            ball_force_tangent[j] = global(tangent_row);
+            force_tangent[j * count..(j + 1) * count].copy_from_slice(&global(tangent_row)[..count]);
             let rows: [[f64; 4]; 4] = std::array::from_fn(|a| {
-                let back = gain.position * gain.inverse_mass * both(a, BALL_COORDINATE);
+                let back = by_force[0] * both(a, BALL_COORDINATE);
                 global(std::array::from_fn(|b| both(a, b) - back * tangent_row[b]))
             });
             for b in 0..4 {
@@ -74,11 +63,10 @@ impl RadialElement {
                 }
             }
         });
-        let mut out = sum.reaction();
-        for (row, values) in out.stiffness.iter_mut().zip(stiffness) {
-            row[..4].copy_from_slice(&values);
+        for (row, values) in effective.chunks_exact_mut(count).zip(stiffness) {
+            row.copy_from_slice(&values[..count]);
         }
-        out
+        sum.reaction()
     }
 
     /// Solution Q and the ball's state under it.
@@ -87,10 +75,9 @@ impl RadialElement {
         &self,
         seen: &LocalMotion,
         [place, rate]: [f64; 2],
-        gain: &NewmarkGain,
+        [by_place, by_rate]: [f64; 2],
         guess: f64,
     ) -> (f64, BallState) {
-        let [by_place, by_rate] = [gain.position * gain.inverse_mass, gain.velocity * gain.inverse_mass];
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut load = guess;
         let mut acting = self.ball_state(seen, place + by_place * load, rate + by_rate * load);

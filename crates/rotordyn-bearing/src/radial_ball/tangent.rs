@@ -4,6 +4,7 @@
 use super::ball_state::{BallState, LocalMotion};
 use super::{RadialElement, Rings};
 use crate::Rotation;
+use crate::internal::InternalTangent;
 
 /// −∂Q/∂q and −∂Q/∂q̇ over q = (d_r d_t h_r h_t y).
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,14 +15,6 @@ pub(super) struct BallTangent {
 
 /// Index of y among the five coordinates.
 pub(super) const BALL_COORDINATE: usize = 4;
-
-/// Tangents of a whole bearing over d_x d_y h_x h_y and the balls.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RadialTangent {
-    /// −∂Q/∂q and −∂Q/∂q̇, rows and columns d_x d_y h_x h_y y_0 y_1 …
-    pub stiffness: Vec<Vec<f64>>,
-    pub damping: Vec<Vec<f64>>,
-}
 
 impl BallState {
     /// Tangents at this state.
@@ -74,11 +67,16 @@ impl BallState {
 }
 
 impl RadialElement {
-    /// Tangents over rings and balls at ball positions y and velocities ẏ.
-    pub fn tangent(&self, rings: &Rings, [places, rates]: [&[f64]; 2], rotation: &Rotation) -> RadialTangent {
+    /// Tangents over d_x d_y h_x h_y and the balls at ball positions y and velocities ẏ.
+    pub fn tangent(
+        &self,
+        rings: &Rings,
+        [places, rates]: [&[f64]; 2],
+        rotation: &Rotation,
+    ) -> InternalTangent {
         let size = 4 + self.balls();
         let mut out =
-            RadialTangent { stiffness: vec![vec![0.0; size]; size], damping: vec![vec![0.0; size]; size] };
+            InternalTangent { stiffness: vec![vec![0.0; size]; size], damping: vec![vec![0.0; size]; size] };
         self.for_each_ball(rings, rotation, |j, seen| {
             let tangent = self.ball_state(&seen, places[j], rates[j]).tangent(&seen, self.mass);
             // Local directions from global ones: q_local = T q.

@@ -4,7 +4,6 @@ use super::dofs::full_rows;
 use crate::element::shaft_matrices::{ConeRule, Matrix12};
 use crate::element::{Belt, Bushing};
 use crate::model::Model;
-use rotordyn_bearing::Bearing;
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets};
 
 /// Matrices over all DOFs.
@@ -59,12 +58,12 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
             m.add_between_rows(&[row], &[[point.mass]]);
         }
     }
-    // Added mass on the housing of balls with radial degrees of freedom.
     for site in &model.bearings {
-        if let Bearing::RadialBall(radial) = &site.bearing {
+        let added = site.bearing.added_housing_mass();
+        if added != 0.0 {
             let [x, y, ..] = full_rows(&site.housing);
             for row in [x, y] {
-                m.add_between_rows(&[row], &[[radial.added_ball_mass()]]);
+                m.add_between_rows(&[row], &[[added]]);
             }
         }
     }

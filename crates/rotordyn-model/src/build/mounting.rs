@@ -114,19 +114,6 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
     fit
 }
 
-/// Directions in which a bearing carries axial load of the shaft: along +z, along −z.
-fn thrust_directions(bearing: &Bearing) -> [bool; 2] {
-    match bearing {
-        Bearing::Linear(linear) => [linear.table.iter().any(|row| row.stiffness[2][2] != 0.0); 2],
-        Bearing::RadialBall(_) => [false; 2],
-        Bearing::Ball(ball) => match ball.duplex {
-            Some(Duplex { arrangement: Arrangement::BackToBack | Arrangement::FaceToFace, .. }) => [true; 2],
-            _ if ball.geometry.contact_angle == 0.0 && ball.preload == Preload::None => [true; 2],
-            _ => [ball.geometry.thrust_direction > 0.0, ball.geometry.thrust_direction < 0.0],
-        },
-    }
-}
-
 /// Report every preload without an axial counter-support (no bearing carries the opposite thrust).
 pub(super) fn check_axial_location(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
@@ -141,14 +128,14 @@ pub(super) fn check_axial_location(top: &Reader, model: &Model) {
     }
     let preloaded = |ball: &BallBearing| ball.preload != Preload::None;
     for (k, site) in model.bearings.iter().enumerate() {
-        let Bearing::Ball(ball) = &site.bearing else { continue };
-        let [along, against] = thrust_directions(&site.bearing);
+        let Some(ball) = site.bearing.static_balls() else { continue };
+        let [along, against] = site.bearing.thrust_directions();
         if !preloaded(ball) || (along && against) {
             continue;
         }
         let opposite = usize::from(along);
         let mut others = model.bearings.iter().enumerate().filter(|(j, _)| *j != k);
-        if others.any(|(_, other)| thrust_directions(&other.bearing)[opposite]) {
+        if others.any(|(_, other)| other.bearing.thrust_directions()[opposite]) {
             continue;
         }
         let (way, other) = if along { ("+z", "-z") } else { ("-z", "+z") };
@@ -176,9 +163,8 @@ pub(super) fn check_mounted_preloads<'a>(
     bearings: impl Iterator<Item = (&'a str, &'a Bearing)>,
     in_machine: bool,
 ) {
-    let is_mounted = |bearing: &Bearing| match bearing {
-        Bearing::Ball(ball) => matches!(ball.preload, Preload::Mounted { .. }),
-        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
+    let is_mounted = |bearing: &Bearing| {
+        bearing.static_balls().is_some_and(|ball| matches!(ball.preload, Preload::Mounted { .. }))
     };
     let names: Vec<&str> =
         bearings.filter(|(_, bearing)| is_mounted(bearing)).map(|(name, _)| name).collect();
@@ -223,10 +209,7 @@ pub(super) fn check_free_rotation(top: &Reader, model: &Model) {
     let apart = |a: &Anchor, b: &Anchor| on_shaft(a.node) != on_shaft(b.node);
     let bushings = model.bushings.iter().filter(|b| apart(&b.a, &b.b) && b.stiffness[5][5] != 0.0);
     let belts = model.belts.iter().filter(|b| b.stiffness[2] != 0.0);
-    let bearings = model.bearings.iter().filter(|site| match &site.bearing {
-        Bearing::Linear(linear) => linear.table.iter().any(|row| row.stiffness[5][5] != 0.0),
-        Bearing::Ball(_) | Bearing::RadialBall(_) => false,
-    });
+    let bearings = model.bearings.iter().filter(|site| site.bearing.supports()[5]);
     let joints = model.joints.iter().filter(|j| apart(&j.a, &j.b) && j.locked[5]);
     let held = bushings
         .map(|b| format!("bushing.{} has k_spin", b.name))

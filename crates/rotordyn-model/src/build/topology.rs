@@ -3,7 +3,6 @@
 use crate::Model;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::reader::Reader;
-use rotordyn_bearing::Bearing;
 use rotordyn_core::element::Anchor;
 
 /// Report bodies without connection to the shaft or to ground, and warn of an unsupported (free-free) shaft.
@@ -77,15 +76,8 @@ fn check_tilt_support(top: &Reader, model: &Model) {
         Some((shaft_node(&b.a, &b.b)?, holds, format!("bushing.{}", b.name)))
     });
     let bearings = model.bearings.iter().map(|site| {
-        let holds = match &site.bearing {
-            Bearing::Ball(_) => (true, true),
-            Bearing::RadialBall(_) => (true, false),
-            Bearing::Linear(linear) => {
-                let any = |i: usize| linear.table.iter().any(|row| stiff(&row.stiffness, i));
-                (any(0) || any(1), any(3) && any(4))
-            }
-        };
-        (site.node, holds, format!("bearing.{}", site.name))
+        let [x, y, _, tilt_x, tilt_y, _] = site.bearing.supports();
+        (site.node, (x || y, tilt_x && tilt_y), format!("bearing.{}", site.name))
     });
     let belts = model.belts.iter().map(|b| {
         (b.node, (b.stiffness[0] != 0.0 || b.stiffness[1] != 0.0, false), format!("belt.{}", b.name))
