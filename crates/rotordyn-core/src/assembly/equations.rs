@@ -129,7 +129,7 @@ impl Assembly {
             gravity_load: dofs.reduce(&gravity),
             static_load: dofs.reduce(&steady),
             spin_momentum: dofs.reduce(&momentum),
-            rotation_drag: dofs.reduce(&super::elements::support_damping(model).mul(&rotation)),
+            rotation_drag: dofs.reduce(&full.support_damping.mul(&rotation)),
             polar_inertia: dot(&momentum, &rotation),
             unbalances: model
                 .unbalances

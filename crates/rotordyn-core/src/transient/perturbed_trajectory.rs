@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::interface::Interface;
 use super::stepper::Stepper;
-use super::system::{Interface, State, System};
+use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 use rotordyn_bearing::Rotation;

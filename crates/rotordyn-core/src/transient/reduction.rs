@@ -7,7 +7,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::system::{Channel, Interface, LoadHistory, Panels, System};
+use super::interface::Interface;
+use super::system::{Channel, LoadHistory, Panels, System};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};

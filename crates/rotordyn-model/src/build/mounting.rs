@@ -118,12 +118,14 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
 pub(super) fn check_axial_location(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
-    let bushing =
-        model.bushings.iter().any(|b| on_shaft(b.a.node) != on_shaft(b.b.node) && b.stiffness[2][2] != 0.0);
+    let held = model.elements().filter_map(|(_, element)| element.connection()).any(|connection| {
+        let [a, b] = connection.ends;
+        on_shaft(a.node) != on_shaft(b.node) && connection.stiff[2]
+    });
     let joint = model.joints.iter().any(|j| on_shaft(j.a.node) != on_shaft(j.b.node) && j.locked[2]);
     let pushed = model.gravity[2] != 0.0
         || model.loads.iter().any(|l| on_shaft(l.at.node) && l.history.is_empty() && l.force[2] != 0.0);
-    if bushing || joint || pushed {
+    if held || joint || pushed {
         return;
     }
     let preloaded = |ball: &BallBearing| ball.preload != Preload::None;
@@ -207,13 +209,12 @@ pub(super) fn check_free_rotation(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
     let apart = |a: &Anchor, b: &Anchor| on_shaft(a.node) != on_shaft(b.node);
-    let bushings = model.bushings.iter().filter(|b| apart(&b.a, &b.b) && b.stiffness[5][5] != 0.0);
-    let belts = model.belts.iter().filter(|b| b.stiffness[2] != 0.0);
+    let connections = model.elements().filter_map(|(_, element)| element.connection());
+    let connections = connections.filter(|c| apart(&c.ends[0], &c.ends[1]) && c.stiff[5]);
     let bearings = model.bearings.iter().filter(|site| site.bearing.supports()[5]);
     let joints = model.joints.iter().filter(|j| apart(&j.a, &j.b) && j.locked[5]);
-    let held = bushings
-        .map(|b| format!("bushing.{} has k_spin", b.name))
-        .chain(belts.map(|b| format!("belt.{} has k_spin", b.name)))
+    let held = connections
+        .map(|c| format!("{} has k_spin", c.name))
         .chain(bearings.map(|b| format!("bearing.{} has k_spin", b.name)))
         .chain(joints.map(|j| format!("joint.{} locks theta_z", j.name)));
     let span = top.table("drive").map_or(0..0, |r| r.span_of("kind"));

@@ -3,7 +3,8 @@
 use nalgebra::DVector;
 
 use super::StepFailure;
-use crate::transient::system::{State, StepTangents, System};
+use crate::transient::interface::StepTangents;
+use crate::transient::system::{State, System};
 use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::small_dense::solve_in_place;
@@ -53,7 +54,7 @@ impl InterfaceNewton {
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
             reactions: vec![Reaction::default(); system.interfaces.len()],
-            tangents: StepTangents::new(system),
+            tangents: StepTangents::new(&system.interfaces),
             iterations: 0,
         }
     }
