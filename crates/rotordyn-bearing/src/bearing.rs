@@ -17,6 +17,11 @@ macro_rules! bearing_models {
             $($variant($model)),+
         }
 
+        impl Bearing {
+            /// Names of all models.
+            pub const MODELS: &[&str] = &[$(stringify!($variant)),+];
+        }
+
         impl Deref for Bearing {
             type Target = dyn BearingModel;
 

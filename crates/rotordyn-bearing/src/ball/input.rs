@@ -82,18 +82,13 @@ impl BallBearing {
 
     /// Lubricant of the contact law, else of the service conditions.
     pub fn lubricant(&self) -> Option<&Lubricant> {
-        match &self.contact {
-            ContactLaw::Film { lubricant, .. } => Some(lubricant),
-            ContactLaw::Ehl(law) => Some(&law.lubricant),
-            ContactLaw::Hertz | ContactLaw::PowerLaw(_) => self.service.lubricant.as_ref(),
-        }
+        self.contact.lubricant().or(self.service.lubricant.as_ref())
     }
 
     /// Whether forces at a given displacement depend on shaft speed: film, ball inertia, centrifugal ring
     /// growth.
     pub fn depends_on_speed(&self) -> bool {
-        let dry = matches!(self.contact, ContactLaw::Hertz | ContactLaw::PowerLaw(_));
-        !dry || self.inertia.depends_on_speed() || self.fit.speed_growth
+        !self.contact.is_dry() || self.inertia.depends_on_speed() || self.fit.speed_growth
     }
 
     /// The dry contacts of a ball at the nominal contact angle.
@@ -159,17 +154,15 @@ impl BallBearing {
         };
         let split = self.inertia.is_on();
         refuse(
-            split && matches!(self.contact, ContactLaw::PowerLaw(_)),
+            split && !self.contact.has_separate_contacts(),
             "ball inertia needs a contact law for each race; a fitted power law gives only both in series",
         );
         refuse(
-            !matches!(self.contact, ContactLaw::Film { .. })
-                && matches!(self.damping, ContactDamping::Film { .. }),
+            !self.contact.has_film_formula() && matches!(self.damping, ContactDamping::Film { .. }),
             "film damping requires the film formula, contact = \"film\"",
         );
         refuse(
-            self.contact_stiffness != ContactStiffness::Elastic
-                && matches!(self.contact, ContactLaw::PowerLaw(_) | ContactLaw::Ehl(_)),
+            self.contact_stiffness != ContactStiffness::Elastic && !self.contact.takes_contact_stiffness(),
             "a contact stiffness cannot be combined with a fitted power law or an EHL film",
         );
         refuse(

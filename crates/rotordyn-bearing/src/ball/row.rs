@@ -147,8 +147,7 @@ impl Row {
 
     /// Whether the force at given displacement and velocity depends on shaft speed.
     pub fn depends_on_speed(&self) -> bool {
-        let dry = |contacts| matches!(contacts, SpeedContacts::Hertz(_) | SpeedContacts::Power { .. });
-        !dry(self.contacts.at_speed(1.0))
+        !self.contacts.at_speed(1.0).is_dry()
             || self.speed_dependent_bearing.is_some()
             || self.inertia.is_some_and(|balls| balls.control.depends_on_speed())
     }

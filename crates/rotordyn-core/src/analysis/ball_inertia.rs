@@ -4,7 +4,6 @@ use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::Assembly;
 use crate::model::Model;
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
-use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::{BallBearing, BallInertia, BearingElement, DefectLaw, InertiaDecision};
 
 const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
@@ -25,10 +24,10 @@ impl InertiaUse {
     /// One bearing, from the largest contact load \[N\] of its massless balls at a speed \[rad/s\].
     pub fn new(name: &str, ball: &BallBearing, speed: f64, contact_load: f64) -> Self {
         let centrifugal = ball.centrifugal_force(speed);
-        let excluded_by = match (&ball.contact, &ball.imperfections.law) {
-            (ContactLaw::PowerLaw(_), _) => Some("the fitted power law"),
-            (_, DefectLaw::Force { .. }) => Some("the force law of its defects"),
-            _ => None,
+        let excluded_by = match &ball.imperfections.law {
+            _ if !ball.contact.has_separate_contacts() => Some("the fitted power law"),
+            DefectLaw::Force { .. } => Some("the force law of its defects"),
+            DefectLaw::Displacement | DefectLaw::UndampedDisplacement => None,
         };
         let on = excluded_by.is_none() && centrifugal > INERTIA_LIMIT * contact_load;
         let compared = InertiaDecision { on, speed: speed.abs(), centrifugal, contact_load };

@@ -350,11 +350,11 @@ fn free_force(point: &BearingPoint) -> f64 {
 
 /// Contact law for the film thickness: the bearing's own, or with the film of its lubricant.
 fn film_law(bearing: &BallBearing) -> ContactLaw {
-    match (&bearing.contact, bearing.lubricant()) {
-        (ContactLaw::Hertz | ContactLaw::PowerLaw(_), Some(oil)) => {
+    match bearing.lubricant() {
+        Some(oil) if bearing.contact.is_dry() => {
             ContactLaw::Film { lubricant: oil.clone(), speed_factor: 1.0 }
         }
-        (law, _) => law.clone(),
+        _ => bearing.contact.clone(),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::BearingSite;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::reader::{Reader, not_negative, positive};
 use crate::file::tree::Value;
-use rotordyn_bearing::contact::{ContactLaw, Lubricant};
+use rotordyn_bearing::contact::Lubricant;
 use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BeyondTable, LinearBearing, LinearBearingRow};
 use rotordyn_core::element::{Anchor, Material};
 use rotordyn_units::{FORCE, SPEED};
@@ -83,7 +83,7 @@ struct Context<'a> {
 type ReadBearing = fn(&Reader, &Context) -> Bearing;
 
 /// Values of the key `model`, with the reader of each.
-const MODELS: [(&str, ReadBearing); 3] = [
+const MODELS: &[(&str, ReadBearing)] = &[
     ("ball", |r, context| ball(r, context.materials, context.lubricants).into()),
     ("radial_ball", |r, context| radial_bearing::read(r, context.materials, context.gravity).into()),
     ("linear", |r, _| linear(r).into()),
@@ -97,7 +97,7 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
             .map_or((String::new(), String::new()), |(last, others)| (last.clone(), others.join(", ")));
         r.missing("model", &format!("{others} or {last}"));
     }
-    r.choice("model", &MODELS).map_or_else(
+    r.choice("model", MODELS).map_or_else(
         || {
             r.entries();
             LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into()
@@ -137,7 +137,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
     bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::contact_law(r, lubricants, &bearing.hertz());
-    if bearing.inertia.is_on() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+    if bearing.inertia.is_on() && !bearing.contact.has_separate_contacts() {
         let message = format!(
             "{} needs separate inner and outer contacts, which a fitted power law does not have",
             r.name("ball_inertia")
