@@ -122,9 +122,7 @@
 //! Imports go down this table only.
 
 pub use rotordyn_bearing::{self as bearing, contact, material};
-#[cfg(feature = "shapes")]
-pub use rotordyn_core::geometry;
-pub use rotordyn_core::{analysis, assembly, conventions, document, element, study, transient};
+pub use rotordyn_core::{analysis, assembly, conventions, document, element, geometry, study, transient};
 pub use rotordyn_identify as identify;
 pub use rotordyn_io::{self as io, error};
 pub use rotordyn_linalg as linalg;

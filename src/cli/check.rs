@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 use rotordyn::assembly::rigid_body_modes;
-use rotordyn::bearing::Bearing;
 use rotordyn::io::json;
 use rotordyn::linalg::dot;
 use rotordyn::model::{Loaded, Model};
@@ -157,18 +156,15 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         .iter()
         .map(|site| {
             let mut row = vec![site.name.clone()];
-            match (&site.bearing, site.bearing.ball()) {
-                (Bearing::Linear(linear), _) => row.push(match linear.table.len() {
-                    1 => "linear".into(),
-                    n => format!("linear, {n} speeds"),
-                }),
-                (_, None) => {}
-                (bearing, Some(ball)) => {
+            let model = site.bearing.description();
+            match site.bearing.ball() {
+                None => row.push(model),
+                Some(ball) => {
                     let g = &ball.geometry;
                     let orders = g.characteristic_orders(g.contact_angle);
-                    let kind =
-                        if matches!(bearing, Bearing::RadialBall(_)) { ", radial ball DOF" } else { "" };
-                    row.push(format!("{} balls of {} mm{kind}", g.balls, number(1e3 * g.ball_diameter, 4)));
+                    let comma = if model.is_empty() { "" } else { ", " };
+                    let diameter = number(1e3 * g.ball_diameter, 4);
+                    row.push(format!("{} balls of {diameter} mm{comma}{model}", g.balls));
                     row.push(number(1e3 * g.pitch_diameter, 5));
                     row.push(format!("{:.1}", 1e6 * g.radial_clearance));
                     row.push(format!("{:.0}", g.contact_angle.to_degrees()));
@@ -208,13 +204,13 @@ fn to_json(found: &CheckedVariant) -> Value {
         .bearings
         .iter()
         .map(|site| match site.bearing.ball() {
-            None => json!({ "name": site.name, "model": "linear" }),
+            None => json!({ "name": site.name, "model": site.bearing.keyword() }),
             Some(ball) => {
                 let g = &ball.geometry;
                 let o = g.characteristic_orders(g.contact_angle);
                 json!({
                     "name": site.name,
-                    "model": if matches!(site.bearing, Bearing::RadialBall(_)) { "radial_ball" } else { "ball" },
+                    "model": site.bearing.keyword(),
                     "balls": g.balls,
                     "ball_diameter": g.ball_diameter,
                     "pitch_diameter": g.pitch_diameter,

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use rotordyn::bearing::BallBearing;
-use rotordyn::geometry::parry::{BearingShapes, Part};
+use rotordyn::geometry::BearingShapes;
+use rotordyn::geometry::parry::Part;
 use rotordyn::io::external_file;
 use rotordyn::model::{
     self, Diagnostic, ExternalFile, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source,

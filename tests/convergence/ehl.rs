@@ -207,9 +207,7 @@ fn stored_films_agree_with_solutions_between_the_nodes() {
         viscosity_rise,
         roelands,
     });
-    // Thicker films, which are soon solved.
-    let random = random_contacts(20_261).filter(|contact| contact.film > 0.08).take(6);
-    for contact in chosen.into_iter().chain(random) {
+    for contact in chosen {
         let [shift, central, minimum] = differences(&contact);
         assert!(shift.abs() < 0.006 && central.abs() < 0.006, "{contact:?}: {shift} {central}");
         assert!(minimum.abs() < MINIMUM_BOUND, "{contact:?}: {minimum}");
@@ -225,20 +223,20 @@ fn stored_films_agree_with_solutions_between_the_nodes() {
     assert_eq!(similar.films(), None);
 }
 
-/// The same for many random contacts: about 3 min. The minimum film of one may differ by more: with wide contacts the side
-/// lobe solved by default depends on the grid by up to 10 %.
+/// The same for random contacts: six of thicker films, which are soon solved, or as many of any film as
+/// ROTORDYN_FILM_CONTACTS says (64 take about 3 min), for a new table. With wide contacts the side lobe solved by
+/// default depends on the grid by up to 10 %: the minimum film of one in 64 may differ by more.
 #[test]
-#[ignore = "solves 64 contacts; for a new table of stored films"]
 fn stored_films_agree_with_solutions_of_random_contacts() {
-    let all: Vec<[f64; 3]> = random_contacts(7).take(64).map(|contact| differences(&contact)).collect();
+    let stated = std::env::var("ROTORDYN_FILM_CONTACTS").ok().map(|n| n.parse::<usize>().unwrap());
+    let count = stated.unwrap_or(6);
+    let chosen = random_contacts(7).filter(|contact| stated.is_some() || contact.film > 0.08).take(count);
+    let all: Vec<[f64; 3]> = chosen.map(|contact| differences(&contact)).collect();
     let figure = |k: usize| all.iter().map(move |one| one[k].abs());
-    let [worst, rms] = [0, 1].map(|mean| {
-        [0, 1, 2].map(|k| match mean {
-            0 => figure(k).fold(0.0, f64::max),
-            _ => (figure(k).map(|d| d * d).sum::<f64>() / all.len() as f64).sqrt(),
-        })
-    });
+    let worst = [0, 1, 2].map(|k| figure(k).fold(0.0, f64::max));
+    let rms = [0, 1, 2].map(|k| (figure(k).map(|d| d * d).sum::<f64>() / all.len() as f64).sqrt());
     eprintln!("shift, h_c, h_min: worst {worst:.4?}, rms {rms:.4?}");
+    assert_eq!(all.len(), count);
     assert!(worst[0] < 0.008 && worst[1] < 0.006 && rms[2] < 0.015, "{worst:?} {rms:?}");
-    assert!(figure(2).filter(|&minimum| minimum >= MINIMUM_BOUND).count() <= 1);
+    assert!(figure(2).filter(|&minimum| minimum >= MINIMUM_BOUND).count() <= count / 64);
 }

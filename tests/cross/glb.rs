@@ -1,6 +1,6 @@
 //! The .glb export read back by an independent minimal reader of the glTF specification.
 
-use rotordyn::geometry::parry::BearingShapes;
+use rotordyn::geometry::BearingShapes;
 use rotordyn::geometry::scene_graph::Scene;
 use rotordyn::io::gltf::to_glb;
 use serde_json::Value;

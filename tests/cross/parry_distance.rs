@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use rotordyn::bearing::{BallBearing, BallElement, Rotation};
-use rotordyn::geometry::parry::{BearingShapes, Race};
+use rotordyn::geometry::{BearingShapes, Race};
 
 use crate::bearing::rig_6205;
 

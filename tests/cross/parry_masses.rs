@@ -6,7 +6,7 @@
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
 use rotordyn::geometry::mesh::Mesh;
-use rotordyn::geometry::parry::{BearingShapes, RevolvedSolid};
+use rotordyn::geometry::{BearingShapes, RevolvedSolid};
 
 use crate::bearing::rig_6205;
 

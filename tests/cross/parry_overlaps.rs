@@ -2,7 +2,8 @@
 
 use nalgebra::{Isometry3, Vector3};
 use rotordyn::bearing::BallBearing;
-use rotordyn::geometry::parry::{BearingShapes, Overlap, Part, Race};
+use rotordyn::geometry::parry::{Overlap, Part};
+use rotordyn::geometry::{BearingShapes, Race};
 
 use crate::bearing::rig_6205;
 

@@ -19,7 +19,6 @@ pub mod document;
 pub mod element;
 pub mod model;
 
-#[cfg(feature = "shapes")]
 pub mod geometry;
 
 pub mod assembly;

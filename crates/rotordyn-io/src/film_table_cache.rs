@@ -162,24 +162,22 @@ mod tests {
     use super::*;
     use rotordyn_bearing::contact::ehl::{self, Domain, Grid, Problem};
     use rotordyn_bearing::contact::{EllipticContact, Lubricant};
+    use rotordyn_bearing::material::Material;
+
+    fn steel() -> Material {
+        Material { name: "steel".into(), young: 2.06e11, shear: 8e10, poisson: 0.3, density: 7850.0 }
+    }
+
+    fn oil() -> Lubricant {
+        Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2.2e-8, density: 870.0 }
+    }
 
     #[test]
     fn no_convergence_writes_last_fields_and_reports_values() {
-        let steel = rotordyn_bearing::material::Material {
-            name: "steel".into(),
-            young: 2.06e11,
-            shear: 8e10,
-            poisson: 0.3,
-            density: 7850.0,
-        };
+        let steel = steel();
         let problem = Problem {
             contact: EllipticContact::new(100.0, 100.0, [&steel, &steel]),
-            lubricant: Lubricant {
-                name: "oil".into(),
-                viscosity: 0.04,
-                pressure_viscosity: 2.2e-8,
-                density: 870.0,
-            },
+            lubricant: oil(),
             speed: 1.0,
             load: 20.0,
             grid: Grid { nx: 25, ny: 13, domain: Domain { inlet: 4.5, outlet: 1.5, side: 3.0 } },
@@ -226,21 +224,10 @@ mod tests {
     /// A table that stops after some contacts finds them again: only the others are solved.
     #[test]
     fn interrupted_table_continues_where_it_was() {
-        let steel = rotordyn_bearing::material::Material {
-            name: "steel".into(),
-            young: 2.06e11,
-            shear: 8e10,
-            poisson: 0.3,
-            density: 7850.0,
-        };
+        let steel = steel();
         let spec = TableSpec {
             contact: EllipticContact::new(200.0, 30.0, [&steel, &steel]),
-            lubricant: Lubricant {
-                name: "oil".into(),
-                viscosity: 0.04,
-                pressure_viscosity: 2.2e-8,
-                density: 870.0,
-            },
+            lubricant: oil(),
             loads: vec![5.0, 20.0],
             speeds: vec![2.0, 4.0],
             points: 2,

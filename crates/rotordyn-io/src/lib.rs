@@ -4,11 +4,9 @@ pub mod error;
 
 pub mod csv;
 pub mod document_tables;
-#[cfg(feature = "shapes")]
 pub mod export_3d;
 pub mod external_file;
 pub mod film_table_cache;
-#[cfg(feature = "shapes")]
 pub mod gltf;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
@@ -27,6 +25,5 @@ pub mod run_export;
 pub mod saved_results;
 pub mod uff;
 pub mod vtk;
-#[cfg(feature = "shapes")]
 mod vtk_machine;
 pub mod wav;

@@ -93,10 +93,7 @@ pub fn envelope_spectrum(
         }
         None => envelope(record)?,
     };
-    let mean = envelope.iter().sum::<f64>() / envelope.len() as f64;
-    for e in &mut envelope {
-        *e -= mean;
-    }
+    subtract_mean(&mut envelope);
     amplitude_spectrum(&envelope, sample_rate, window, level)
 }
 
@@ -118,9 +115,13 @@ pub fn squared_envelope_spectrum(
         None => analytic_signal(record)?,
     };
     let mut power: Vec<f64> = signal.iter().map(|z| z.norm_sqr()).collect();
-    let mean = power.iter().sum::<f64>() / power.len() as f64;
-    for p in &mut power {
-        *p -= mean;
-    }
+    subtract_mean(&mut power);
     amplitude_spectrum(&power, sample_rate, window, level)
+}
+
+fn subtract_mean(record: &mut [f64]) {
+    let mean = record.iter().sum::<f64>() / record.len() as f64;
+    for value in record {
+        *value -= mean;
+    }
 }

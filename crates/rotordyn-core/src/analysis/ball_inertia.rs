@@ -5,8 +5,7 @@ use crate::assembly::Assembly;
 use crate::document::{Document, TO_RPM};
 use crate::model::Model;
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
-use rotordyn_bearing::contact::ContactLaw;
-use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BearingElement, DefectLaw, InertiaDecision};
+use rotordyn_bearing::{BallBearing, BallInertia, BearingElement, DefectLaw, InertiaDecision};
 use serde::{Deserialize, Serialize};
 
 /// Ball inertia used for one bearing in a study, and why.
@@ -25,10 +24,10 @@ impl InertiaUse {
     /// One bearing, from the largest contact load \[N\] of its massless balls at a speed \[rad/s\].
     pub fn new(name: &str, ball: &BallBearing, speed: f64, contact_load: f64) -> Self {
         let centrifugal = ball.centrifugal_force(speed);
-        let excluded_by = match (&ball.contact, &ball.imperfections.law) {
-            (ContactLaw::PowerLaw(_), _) => Some("the fitted power law"),
-            (_, DefectLaw::Force { .. }) => Some("the force law of its defects"),
-            _ => None,
+        let excluded_by = match &ball.imperfections.law {
+            _ if !ball.contact.has_separate_contacts() => Some("the fitted power law"),
+            DefectLaw::Force { .. } => Some("the force law of its defects"),
+            DefectLaw::Displacement | DefectLaw::UndampedDisplacement => None,
         };
         let on = excluded_by.is_none() && centrifugal > INERTIA_LIMIT * contact_load;
         let compared = InertiaDecision { on, speed: speed.abs(), centrifugal, contact_load };
@@ -106,36 +105,32 @@ pub fn ball_inertia(
     let mut massless = model.clone();
     let mut any = false;
     for site in &mut massless.bearings {
-        if let Bearing::Ball(ball) = &mut site.bearing {
+        if let Some(ball) = site.bearing.static_balls_mut() {
             ball.inertia = BallInertia::None;
             any = true;
         }
     }
     let found =
         any.then(|| equilibrium(&massless, assembly, speed, CageTreatment::FixedAngle, start).ok()).flatten();
-    let used = |(k, site): (usize, &crate::model::BearingSite)| match &site.bearing {
-        Bearing::Ball(ball) => {
-            let load = found.as_ref().map_or(0.0, |found| found.bearings[k].largest_ball_load);
-            Some(InertiaUse::new(&site.name, ball, speed, load))
-        }
-        Bearing::Linear(_) | Bearing::RadialBall(_) => None,
+    let used = |(k, site): (usize, &crate::model::BearingSite)| {
+        let ball = site.bearing.static_balls()?;
+        let load = found.as_ref().map_or(0.0, |found| found.bearings[k].largest_ball_load);
+        Some(InertiaUse::new(&site.name, ball, speed, load))
     };
     model.bearings.iter().enumerate().filter_map(used).collect()
 }
 
 /// Whether a bearing of the model has automatic ball inertia that is not yet decided.
 pub fn is_undecided(model: &Model) -> bool {
-    model.bearings.iter().any(|site| match &site.bearing {
-        Bearing::Ball(ball) => ball.inertia == BallInertia::Auto(None),
-        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
-    })
+    let balls = model.bearings.iter().filter_map(|site| site.bearing.static_balls());
+    balls.map(|ball| ball.inertia).any(|inertia| inertia == BallInertia::Auto(None))
 }
 
 /// The model with the decisions of [`ball_inertia`].
 pub fn with_decisions(model: &Model, used: &[InertiaUse]) -> Model {
     let mut out = model.clone();
     for site in &mut out.bearings {
-        if let Bearing::Ball(ball) = &mut site.bearing
+        if let Some(ball) = site.bearing.static_balls_mut()
             && let Some(found) = used.iter().find(|found| found.bearing == site.name)
         {
             ball.inertia = found.inertia;
@@ -168,7 +163,7 @@ pub fn decided_together(models: &[Model], speeds: &[f64]) -> Vec<Model> {
 }
 
 /// Largest contact load of a single bearing at a displacement, over the cage angles \[N\].
-pub fn largest_contact_load(element: &BearingElement, d: &[f64; 6], speed: f64) -> f64 {
+pub fn largest_contact_load(element: &dyn BearingElement, d: &[f64; 6], speed: f64) -> f64 {
     let rotation = rotordyn_bearing::Rotation { shaft_speed: speed, ..Default::default() };
     super::equilibrium::largest_ball_load(element, d, &rotation)
 }

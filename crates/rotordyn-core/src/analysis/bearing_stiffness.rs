@@ -1,9 +1,11 @@
 //! Equilibrium and stiffness matrix of a single bearing under a load or a prescribed displacement.
 
+use std::sync::Arc;
+
 use super::equilibrium::{CAGE_ANGLES_PER_PITCH, CageTreatment};
 use crate::assembly::PhysicsError;
 use rayon::prelude::*;
-use rotordyn_bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
+use rotordyn_bearing::{BallBearing, BallLoad, BearingElement, BearingModel, Reaction, Rotation};
 use rotordyn_linalg::dot;
 use rotordyn_linalg::small_dense::solve_in_place;
 use serde::{Deserialize, Serialize};
@@ -95,7 +97,7 @@ impl BearingEquilibrium {
 #[derive(Clone, Debug)]
 pub struct BearingSolver {
     pub name: String,
-    pub element: BearingElement,
+    pub element: Arc<dyn BearingElement>,
     /// Length by which rotations are scaled: the pitch radius \[m\].
     pub radius: f64,
     /// Series stiffness of a ball's dry contacts, for an initial estimate of the stiffness \[N/m^1.5\].
@@ -114,7 +116,7 @@ impl BearingSolver {
     pub fn new(name: &str, bearing: &BallBearing) -> Self {
         Self {
             name: name.into(),
-            element: BearingElement::new(&Bearing::Ball(bearing.clone())),
+            element: bearing.element(),
             radius: 0.5 * bearing.geometry.pitch_diameter,
             contact_stiffness: bearing.hertz().stiffness,
         }
@@ -133,7 +135,7 @@ impl BearingSolver {
     /// Load of every ball at an equilibrium, at the condition's cage angle.
     pub fn ball_loads(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
         let d = &found.displacement;
-        self.element.ball_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
+        self.element.contact_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
     }
 
     /// Finds the equilibrium by damped Newton-Raphson (line search), from `start` or the centred bearing.

@@ -1,5 +1,7 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
+use std::sync::Arc;
+
 pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::mounted_preload::mounted_preloads;
@@ -70,7 +72,7 @@ impl Equilibrium {
 
 /// The bearings of a model at a speed, for the evaluation of their forces.
 pub(super) struct Sites {
-    elements: Vec<(BearingElement, Rotation)>,
+    elements: Vec<(Arc<dyn BearingElement>, Rotation)>,
     cage: CageTreatment,
 }
 
@@ -85,7 +87,7 @@ impl Sites {
                     shaft_speed: speed,
                     ..Rotation::default()
                 };
-                (BearingElement::new(&site.bearing), rotation)
+                (site.bearing.element(), rotation)
             })
             .collect();
         Self { elements, cage }
@@ -211,8 +213,8 @@ pub fn equilibrium(
                 displacement,
                 force: reactions[k].force,
                 tangent: SiteTangent::from(&reactions[k]),
-                balls: element.ball_loads(&displacement, rotation),
-                largest_ball_load: largest_ball_load(element, &displacement, rotation),
+                balls: element.contact_loads(&displacement, rotation),
+                largest_ball_load: largest_ball_load(element.as_ref(), &displacement, rotation),
                 preload: element.preload_state(speed),
             }
         })
@@ -249,13 +251,13 @@ pub(super) fn residual_force(
 }
 
 /// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
-pub(super) fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
-    let balls = element.balls();
+pub(super) fn largest_ball_load(element: &dyn BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
+    let balls = element.rolling_elements();
     (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
         .flat_map(|k| {
             let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES_PER_PITCH * balls) as f64;
             let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };
-            element.ball_loads(d, &turned)
+            element.contact_loads(d, &turned)
         })
         .fold(0.0, |most, ball| ball.load.max(most))
 }

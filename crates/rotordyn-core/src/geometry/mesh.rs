@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::parry::{CageShape, Ring};
+use super::cage::CageShape;
+use super::ring::Ring;
 
 /// Triangles with a normal at every vertex, lengths \[m\]; counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -12,7 +12,8 @@ use rapier3d_f64::prelude::{
     ColliderBuilder, ColliderHandle, ColliderSet, RigidBody, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
 
-use super::parry::{BearingShapes, vector};
+use super::BearingShapes;
+use super::parry::{ExactShape, vector};
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::{HertzPair, Traction};
 
@@ -88,13 +89,15 @@ impl FreeBallBearing {
         let ring_density = bearing.ring_material.density;
         let (_, outer) = world.insert(
             RigidBodyBuilder::fixed(),
-            collider(SharedShape::new(shapes.outer), ring_density, rings_group),
+            collider(SharedShape::new(ExactShape(shapes.outer)), ring_density, rings_group),
         );
         let inner_ring = RigidBodyBuilder::kinematic_velocity_based()
             .translation(Vector::from_array(settings.displacement))
             .angvel(Vector::new(0.0, 0.0, settings.speed));
-        let (_, inner) =
-            world.insert(inner_ring, collider(SharedShape::new(shapes.inner), ring_density, rings_group));
+        let (_, inner) = world.insert(
+            inner_ring,
+            collider(SharedShape::new(ExactShape(shapes.inner)), ring_density, rings_group),
+        );
         let ball = SharedShape::ball(0.5 * g.ball_diameter);
         let balls = at
             .balls
@@ -110,7 +113,9 @@ impl FreeBallBearing {
                 .enabled_translations(false, false, false)
                 .enabled_rotations(false, false, true)
                 .can_sleep(false);
-            world.insert(body, collider(SharedShape::new(shapes.cage), ring_density, rings_group)).0
+            world
+                .insert(body, collider(SharedShape::new(ExactShape(shapes.cage)), ring_density, rings_group))
+                .0
         });
         Self { world, balls, cage, inner, outer, contacts: bearing.hertz(), settings }
     }

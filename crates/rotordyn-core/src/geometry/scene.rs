@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 
+use super::bearing_shapes::{BearingPose, BearingShapes};
 use super::mesh::{Length, Mesh};
-use super::parry::{BearingPose, BearingShapes};
 use super::scene_graph::{Material, MaterialMesh, Node, Scene};
 use crate::element::{Disc, RigidBody};
 use crate::model::Model;

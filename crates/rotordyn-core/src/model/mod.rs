@@ -11,7 +11,9 @@ pub use external_file::{ExternalColumn, ExternalFile};
 pub use probe::{Probe, Quantity};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
-use crate::element::{Anchor, Belt, Bushing, Disc, Joint, Material, PointMass, RigidBody, ShaftElement};
+use crate::element::{
+    Anchor, Belt, Bushing, Disc, Element, Joint, Material, PointMass, RigidBody, ShaftElement,
+};
 use rotordyn_bearing::Bearing;
 
 /// One rotating machine in SI units; immutable after validation.
@@ -51,6 +53,17 @@ impl Model {
     /// Number of nodes: shaft nodes, then bodies.
     pub fn node_count(&self) -> usize {
         self.node_z.len() + self.bodies.len()
+    }
+
+    /// Every element, with the left node of a shaft element and the node of a body.
+    pub fn elements(&self) -> impl Iterator<Item = (usize, &dyn Element)> {
+        fn each<E: Element>(list: &[E]) -> impl Iterator<Item = (usize, &dyn Element)> {
+            list.iter().enumerate().map(|(k, element)| (k, element as &dyn Element))
+        }
+        let bodies = each(&self.bodies).map(|(k, body)| (self.node_z.len() + k, body));
+        let discs = each(&self.discs).chain(self.rigid_rotor.iter().map(|rotor| (0, rotor as &dyn Element)));
+        let inertias = discs.chain(bodies).chain(each(&self.masses));
+        each(&self.shaft).chain(inertias).chain(each(&self.bushings)).chain(each(&self.belts))
     }
 
     /// Rigid rotating inertias: discs, then the rigid rotor.

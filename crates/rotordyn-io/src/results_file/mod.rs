@@ -38,7 +38,6 @@ pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::error::Error;
-use rotordyn_bearing::Bearing;
 use rotordyn_core::results::{BearingResult, History, HistoryChannel, Results, warnings_section};
 use rotordyn_core::study::Machine;
 
@@ -178,16 +177,10 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     writer.write_texts("dof", &[6], &["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"])?;
     for site in &model.bearings {
         let at = writer.subgroup(&format!("bearings/{}", site.name))?;
-        let Some(ball) = site.bearing.ball() else {
-            at.set_attribute("model", "linear")?;
-            continue;
-        };
+        at.set_attribute("model", site.bearing.keyword())?;
+        let Some(ball) = site.bearing.ball() else { continue };
         let g = &ball.geometry;
         let orders = g.characteristic_orders(g.contact_angle);
-        at.set_attribute(
-            "model",
-            if matches!(site.bearing, Bearing::Ball(_)) { "ball" } else { "radial_ball" },
-        )?;
         at.set_attribute("condition", ball.imperfections.condition())?;
         at.set_attribute("balls", g.balls as i64)?;
         for (name, value) in [

@@ -9,7 +9,7 @@ use crate::BearingSite;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::reader::{Reader, not_negative, positive};
 use crate::file::tree::Value;
-use rotordyn_bearing::contact::{ContactLaw, Lubricant};
+use rotordyn_bearing::contact::Lubricant;
 use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BeyondTable, LinearBearing, LinearBearingRow};
 use rotordyn_core::element::{Anchor, Material};
 use rotordyn_units::{FORCE, SPEED};
@@ -42,13 +42,14 @@ pub(super) fn read(
     gravity: [f64; 3],
     places: &Places,
 ) -> Vec<BearingSite> {
+    let context = Context { materials, lubricants, gravity };
     let read = |(name, r): (&str, Reader)| {
         let (node, z) = places.station(&r, "station");
         let housing = r.text("housing").unwrap_or("ground");
         let housing = places
             .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
             .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
-        let bearing = bearing(&r, materials, lubricants, gravity);
+        let bearing = bearing(&r, &context);
         r.finish();
         BearingSite { name: name.into(), node, housing, bearing }
     };
@@ -62,40 +63,47 @@ pub(super) fn read_bearings_only(
     lubricants: &[Lubricant],
     gravity: [f64; 3],
 ) -> Vec<(String, Bearing)> {
+    let context = Context { materials, lubricants, gravity };
     let read = |(name, r): (&str, Reader)| {
-        let bearing = bearing(&r, materials, lubricants, gravity);
+        let bearing = bearing(&r, &context);
         r.finish();
         (name.to_string(), bearing)
     };
     top.items("bearing").into_iter().map(read).collect()
 }
 
-/// Keywords of the key `model`.
-#[derive(Clone, Copy)]
-enum ModelKeyword {
-    Linear,
-    Ball,
-    RadialBall,
+/// What the reader of a bearing needs beside its table.
+struct Context<'a> {
+    materials: &'a [Material],
+    lubricants: &'a [Lubricant],
+    gravity: [f64; 3],
 }
 
-fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant], gravity: [f64; 3]) -> Bearing {
+/// Reads a bearing of one model from its table.
+type ReadBearing = fn(&Reader, &Context) -> Bearing;
+
+/// Values of the key `model`, with the reader of each.
+const MODELS: &[(&str, ReadBearing)] = &[
+    ("ball", |r, context| ball(r, context.materials, context.lubricants).into()),
+    ("radial_ball", |r, context| radial_bearing::read(r, context.materials, context.gravity).into()),
+    ("linear", |r, _| linear(r).into()),
+];
+
+fn bearing(r: &Reader, context: &Context) -> Bearing {
     if !r.has("model") {
-        r.missing("model", "\"ball\", \"radial_ball\" or \"linear\"");
+        let names: Vec<String> = MODELS.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        let (last, others) = names
+            .split_last()
+            .map_or((String::new(), String::new()), |(last, others)| (last.clone(), others.join(", ")));
+        r.missing("model", &format!("{others} or {last}"));
     }
-    let kinds = [
-        ("linear", ModelKeyword::Linear),
-        ("ball", ModelKeyword::Ball),
-        ("radial_ball", ModelKeyword::RadialBall),
-    ];
-    match r.choice("model", &kinds) {
-        Some(ModelKeyword::Ball) => Bearing::Ball(ball(r, materials, lubricants)),
-        Some(ModelKeyword::RadialBall) => Bearing::RadialBall(radial_bearing::read(r, materials, gravity)),
-        Some(ModelKeyword::Linear) => Bearing::Linear(linear(r)),
-        None => {
+    r.choice("model", MODELS).map_or_else(
+        || {
             r.entries();
-            Bearing::Linear(LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold })
-        }
-    }
+            LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into()
+        },
+        |read| read(r, context),
+    )
 }
 
 fn linear(r: &Reader) -> LinearBearing {
@@ -129,7 +137,7 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
     bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::contact_law(r, lubricants, &bearing.hertz());
-    if bearing.inertia.is_on() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+    if bearing.inertia.is_on() && !bearing.contact.has_separate_contacts() {
         let message = format!(
             "{} needs separate inner and outer contacts, which a fitted power law does not have",
             r.name("ball_inertia")

@@ -5,7 +5,6 @@ use super::{contact, defects};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::reader::{Reader, any, not_negative};
 use crate::file::tree::Value;
-use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::{
     BallBearing, BallGeometry, BallSpin, BallWave, DefectLaw, Imperfections, OffSize, Preload, Wave,
 };
@@ -239,7 +238,7 @@ pub(super) fn check_force_law(r: &Reader, bearing: &BallBearing) {
             "a rigid preload",
         );
     }
-    if stiffness.is_none() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+    if stiffness.is_none() && !bearing.contact.has_separate_contacts() {
         conflict(
             "defect_law",
             format!("{law} needs a Hertz stiffness, which a fitted power law does not have"),

@@ -114,41 +114,30 @@ pub(super) fn fit(r: &Reader, g: &BallGeometry) -> Fit {
     fit
 }
 
-/// Directions in which a bearing carries axial load of the shaft: along +z, along −z.
-fn thrust_directions(bearing: &Bearing) -> [bool; 2] {
-    match bearing {
-        Bearing::Linear(linear) => [linear.table.iter().any(|row| row.stiffness[2][2] != 0.0); 2],
-        Bearing::RadialBall(_) => [false; 2],
-        Bearing::Ball(ball) => match ball.duplex {
-            Some(Duplex { arrangement: Arrangement::BackToBack | Arrangement::FaceToFace, .. }) => [true; 2],
-            _ if ball.geometry.contact_angle == 0.0 && ball.preload == Preload::None => [true; 2],
-            _ => [ball.geometry.thrust_direction > 0.0, ball.geometry.thrust_direction < 0.0],
-        },
-    }
-}
-
 /// Report every preload without an axial counter-support (no bearing carries the opposite thrust).
 pub(super) fn check_axial_location(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
-    let bushing =
-        model.bushings.iter().any(|b| on_shaft(b.a.node) != on_shaft(b.b.node) && b.stiffness[2][2] != 0.0);
+    let held = model.elements().filter_map(|(_, element)| element.connection()).any(|connection| {
+        let [a, b] = connection.ends;
+        on_shaft(a.node) != on_shaft(b.node) && connection.stiff[2]
+    });
     let joint = model.joints.iter().any(|j| on_shaft(j.a.node) != on_shaft(j.b.node) && j.locked[2]);
     let pushed = model.gravity[2] != 0.0
         || model.loads.iter().any(|l| on_shaft(l.at.node) && l.history.is_empty() && l.force[2] != 0.0);
-    if bushing || joint || pushed {
+    if held || joint || pushed {
         return;
     }
     let preloaded = |ball: &BallBearing| ball.preload != Preload::None;
     for (k, site) in model.bearings.iter().enumerate() {
-        let Bearing::Ball(ball) = &site.bearing else { continue };
-        let [along, against] = thrust_directions(&site.bearing);
+        let Some(ball) = site.bearing.static_balls() else { continue };
+        let [along, against] = site.bearing.thrust_directions();
         if !preloaded(ball) || (along && against) {
             continue;
         }
         let opposite = usize::from(along);
         let mut others = model.bearings.iter().enumerate().filter(|(j, _)| *j != k);
-        if others.any(|(_, other)| thrust_directions(&other.bearing)[opposite]) {
+        if others.any(|(_, other)| other.bearing.thrust_directions()[opposite]) {
             continue;
         }
         let (way, other) = if along { ("+z", "-z") } else { ("-z", "+z") };
@@ -176,9 +165,8 @@ pub(super) fn check_mounted_preloads<'a>(
     bearings: impl Iterator<Item = (&'a str, &'a Bearing)>,
     in_machine: bool,
 ) {
-    let is_mounted = |bearing: &Bearing| match bearing {
-        Bearing::Ball(ball) => matches!(ball.preload, Preload::Mounted { .. }),
-        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
+    let is_mounted = |bearing: &Bearing| {
+        bearing.static_balls().is_some_and(|ball| matches!(ball.preload, Preload::Mounted { .. }))
     };
     let names: Vec<&str> =
         bearings.filter(|(_, bearing)| is_mounted(bearing)).map(|(name, _)| name).collect();
@@ -221,16 +209,12 @@ pub(super) fn check_free_rotation(top: &Reader, model: &Model) {
     let shaft = model.node_z.len();
     let on_shaft = |node: Option<usize>| node.is_some_and(|node| node < shaft);
     let apart = |a: &Anchor, b: &Anchor| on_shaft(a.node) != on_shaft(b.node);
-    let bushings = model.bushings.iter().filter(|b| apart(&b.a, &b.b) && b.stiffness[5][5] != 0.0);
-    let belts = model.belts.iter().filter(|b| b.stiffness[2] != 0.0);
-    let bearings = model.bearings.iter().filter(|site| match &site.bearing {
-        Bearing::Linear(linear) => linear.table.iter().any(|row| row.stiffness[5][5] != 0.0),
-        Bearing::Ball(_) | Bearing::RadialBall(_) => false,
-    });
+    let connections = model.elements().filter_map(|(_, element)| element.connection());
+    let connections = connections.filter(|c| apart(&c.ends[0], &c.ends[1]) && c.stiff[5]);
+    let bearings = model.bearings.iter().filter(|site| site.bearing.supports()[5]);
     let joints = model.joints.iter().filter(|j| apart(&j.a, &j.b) && j.locked[5]);
-    let held = bushings
-        .map(|b| format!("bushing.{} has k_spin", b.name))
-        .chain(belts.map(|b| format!("belt.{} has k_spin", b.name)))
+    let held = connections
+        .map(|c| format!("{} has k_spin", c.name))
         .chain(bearings.map(|b| format!("bearing.{} has k_spin", b.name)))
         .chain(joints.map(|j| format!("joint.{} locks theta_z", j.name)));
     let span = top.table("drive").map_or(0..0, |r| r.span_of("kind"));

@@ -96,7 +96,7 @@ fn bearing<'a>(
     bearings: impl Iterator<Item = (&'a String, &'a Bearing)>,
 ) -> Option<BearingStudy> {
     let r = all.table("bearing")?;
-    let balls = bearings.filter(|(_, bearing)| matches!(bearing, Bearing::Ball(_)));
+    let balls = bearings.filter(|(_, bearing)| bearing.static_balls().is_some());
     let study = bearing_study::read(&r, &balls.map(|(name, _)| name.clone()).collect::<Vec<_>>());
     r.finish();
     Some(study)

@@ -3,8 +3,7 @@
 use crate::Model;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::reader::Reader;
-use rotordyn_bearing::Bearing;
-use rotordyn_core::element::Anchor;
+use rotordyn_core::element::{Anchor, Connection};
 
 /// Report bodies without connection to the shaft or to ground, and warn of an unsupported (free-free) shaft.
 pub(super) fn check(top: &Reader, model: &Model) {
@@ -16,14 +15,11 @@ pub(super) fn check(top: &Reader, model: &Model) {
         Some(node) => 2 + node - first_body,
     };
     let mut links: Vec<(usize, usize)> = Vec::new();
-    // a bushing with damping only is no support
-    let has_stiffness = |k: &[[f64; 6]; 6]| k.iter().flatten().any(|&v| v != 0.0);
-    links.extend(
-        model.bushings.iter().filter(|b| has_stiffness(&b.stiffness)).map(|b| (part(&b.a), part(&b.b))),
-    );
+    // A connection has stiffness: a bushing with damping only is no support.
+    let connections: Vec<Connection> = model.elements().filter_map(|(_, e)| e.connection()).collect();
+    links.extend(connections.iter().map(|c| (part(&c.ends[0]), part(&c.ends[1]))));
     links.extend(model.joints.iter().map(|j| (part(&j.a), part(&j.b))));
     links.extend(model.bearings.iter().map(|b| (1, part(&b.housing))));
-    links.extend(model.belts.iter().filter(|b| b.stiffness.iter().any(|&k| k != 0.0)).map(|_| (1, 0)));
     let reach = |start: &[usize]| {
         let mut reached = vec![false; 2 + model.bodies.len()];
         for &s in start {
@@ -66,31 +62,19 @@ fn check_tilt_support(top: &Reader, model: &Model) {
         _ => None,
     };
     // (node, radial support, tilt support, name)
-    let stiff = |k: &[[f64; 6]; 6], i: usize| k[i][i] != 0.0;
     let joints = model.joints.iter().filter_map(|j| {
         let holds = (j.locked[0] || j.locked[1], j.locked[3] && j.locked[4]);
         Some((shaft_node(&j.a, &j.b)?, holds, format!("joint.{}", j.name)))
     });
-    let bushings = model.bushings.iter().filter_map(|b| {
-        let k = &b.stiffness;
-        let holds = (stiff(k, 0) || stiff(k, 1), stiff(k, 3) && stiff(k, 4));
-        Some((shaft_node(&b.a, &b.b)?, holds, format!("bushing.{}", b.name)))
+    let connections = model.elements().filter_map(|(_, element)| {
+        let Connection { name, ends: [a, b], stiff: [x, y, _, tilt_x, tilt_y, _] } = element.connection()?;
+        Some((shaft_node(&a, &b)?, (x || y, tilt_x && tilt_y), name))
     });
     let bearings = model.bearings.iter().map(|site| {
-        let holds = match &site.bearing {
-            Bearing::Ball(_) => (true, true),
-            Bearing::RadialBall(_) => (true, false),
-            Bearing::Linear(linear) => {
-                let any = |i: usize| linear.table.iter().any(|row| stiff(&row.stiffness, i));
-                (any(0) || any(1), any(3) && any(4))
-            }
-        };
-        (site.node, holds, format!("bearing.{}", site.name))
+        let [x, y, _, tilt_x, tilt_y, _] = site.bearing.supports();
+        (site.node, (x || y, tilt_x && tilt_y), format!("bearing.{}", site.name))
     });
-    let belts = model.belts.iter().map(|b| {
-        (b.node, (b.stiffness[0] != 0.0 || b.stiffness[1] != 0.0, false), format!("belt.{}", b.name))
-    });
-    let supports: Vec<_> = joints.chain(bushings).chain(bearings).chain(belts).collect();
+    let supports: Vec<_> = joints.chain(bearings).chain(connections).collect();
     let Some((node, _, name)) = supports.iter().find(|(_, (sideways, _), _)| *sideways) else { return };
     if supports.iter().any(|(other, (sideways, tilt), _)| *tilt || *sideways && other != node) {
         return;

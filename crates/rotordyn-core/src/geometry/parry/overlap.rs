@@ -8,7 +8,10 @@ use parry3d_f64::math::Pose;
 use parry3d_f64::query;
 use parry3d_f64::shape::Ball;
 
-use super::{BearingPose, BearingShapes, Race, Ring, pose, ring, vector};
+use super::convert::vector;
+use super::distance::gap;
+use super::shape::ExactShape;
+use crate::geometry::{BearingPose, BearingShapes, Race, Ring};
 
 /// A part of a bearing, or a surface that cuts one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,8 +124,7 @@ impl BearingShapes {
                     found.add(Part::Ball(j), part, depth);
                 }
             }
-            let gap = ring::gap(&self.cage, &pose(&at.cage), vector(&ball.coords), radius);
-            found.add(Part::Ball(j), Part::Cage, -gap);
+            found.add(Part::Ball(j), Part::Cage, -gap(&ExactShape(self.cage), &at.cage, ball, radius));
         }
     }
 
