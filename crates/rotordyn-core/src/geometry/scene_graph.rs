@@ -1,7 +1,6 @@
 //! A scene graph: meshes with their materials, and the nodes that position them.
 
 use super::mesh::Mesh;
-use serde::{Deserialize, Serialize};
 
 /// Parts to display, in metres, y up: the model's axes are those of glTF.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,7 +19,7 @@ pub struct MaterialMesh {
 }
 
 /// Material: colour (linear red, green, blue, opacity), metallic share and roughness, each in 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     pub name: &'static str,
     pub colour: [f64; 4],
