@@ -1,5 +1,6 @@
 //! Bearing models: force, stiffness and damping between a shaft node and its housing.
 
+mod bearing_contact;
 pub mod contact;
 pub mod geometry;
 pub mod material;
@@ -24,6 +25,7 @@ pub use ball::{
     InertiaDecision, Preload, PreloadState, Service,
 };
 pub use bearing::Bearing;
+pub use bearing_contact::BearingContact;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,
