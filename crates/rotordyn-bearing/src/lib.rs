@@ -1,4 +1,13 @@
 //! Bearing models: force, stiffness and damping between a shaft node and its housing.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`material`], [`contact`] | materials; contacts: Hertz, films, fitted laws, damping |
+//! | [`geometry`], [`imperfection`] | geometry of a ball bearing; waviness, defects and sizes of races and balls |
+//! | [`model`], [`internal`] | what every bearing model says of itself; coordinates of its own |
+//! | [`linear`], [`ball`], [`radial_ball`] | one room for each kind of model |
+//! | [`Bearing`] | the list of models |
+//! | [`rating`] | from the loads of the balls: motion, friction, limits, ratings and life |
 
 mod bearing_contact;
 pub mod contact;
