@@ -316,13 +316,8 @@ fn internal_coordinates_in_equilibrium_give_the_static_force() {
             let (forces, _) = all.forces(internal, &rotation);
             let out = element.reaction(&d, &[0.0; 6], &rotation);
             let size = out.force.iter().fold(1.0, |size: f64, f| size.max(f.abs()));
-            for k in 0..relative {
-                assert!(
-                    (forces[k] - out.force[k]).abs() < 1e-8 * size,
-                    "{name}: {} {}",
-                    forces[k],
-                    out.force[k]
-                );
+            for (found, given) in forces.iter().zip(out.force).take(relative) {
+                assert!((found - given).abs() < 1e-8 * size, "{name}: {found} {given}");
             }
             for force in &forces[rows..] {
                 assert!(force.abs() < 1e-8 * size, "{name}: {force} N on a coordinate of {size} N");

@@ -1,5 +1,15 @@
 //! Bearing models: force, stiffness and damping between a shaft node and its housing.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`material`], [`contact`] | materials; contacts: Hertz, films, fitted laws, damping |
+//! | [`geometry`], [`imperfection`] | geometry of a ball bearing; waviness, defects and sizes of races and balls |
+//! | [`model`], [`internal`] | what every bearing model says of itself; coordinates of its own |
+//! | [`linear`], [`ball`], [`radial_ball`] | one room for each kind of model |
+//! | [`Bearing`] | the list of models |
+//! | [`rating`] | from the loads of the balls: motion, friction, limits, ratings and life |
 
+mod bearing_contact;
 pub mod contact;
 pub mod geometry;
 pub mod material;
@@ -24,6 +34,7 @@ pub use ball::{
     InertiaDecision, Preload, PreloadState, Service,
 };
 pub use bearing::Bearing;
+pub use bearing_contact::BearingContact;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::model::{BearingElement, BearingModel, BearingSymbol, BeyondTable, SpeedRange};
-use crate::{BallLoad, Reaction, Rotation, SiteTangent};
+use crate::{BearingContact, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::pchip::Pchip;
 
 /// Linear bearing: stiffness and damping matrices, constant or tabulated over speed.
@@ -165,7 +165,7 @@ impl BearingElement for LinearElement {
         Self::reaction(self, d, &[0.0; 6], rotation.shaft_speed)
     }
 
-    fn contact_loads(&self, _d: &[f64; 6], _rotation: &Rotation) -> Vec<BallLoad> {
+    fn contact_loads(&self, _d: &[f64; 6], _rotation: &Rotation) -> Vec<BearingContact> {
         Vec::new()
     }
 

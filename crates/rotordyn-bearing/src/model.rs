@@ -4,7 +4,9 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::ball::{BallBearing, BallLoad, PreloadState};
+use crate::ball::{BallBearing, PreloadState};
+use crate::bearing_contact::BearingContact;
+use crate::geometry::CharacteristicOrders;
 use crate::internal::InternalCoordinates;
 use crate::reaction::{Reaction, Rotation, SiteTangent};
 
@@ -64,6 +66,11 @@ pub trait BearingModel: Debug {
     /// Geometry, materials, cage and races of a bearing with balls.
     fn ball(&self) -> Option<&BallBearing> {
         None
+    }
+
+    /// Characteristic orders at the nominal contact angle; `None` for a bearing without rolling elements.
+    fn characteristic_orders(&self) -> Option<CharacteristicOrders> {
+        self.ball().map(|ball| ball.geometry.characteristic_orders(ball.geometry.contact_angle))
     }
 
     /// The bearing as one with static balls and contact angles, to which preload, ball inertia, films and the study of a
@@ -141,7 +148,7 @@ pub trait BearingElement: Debug + Send + Sync {
     fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction;
 
     /// Load, contact angles, approach and film of every contact; empty for a bearing without contacts.
-    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad>;
+    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BearingContact>;
 
     /// Whether the force at given displacement and velocity depends on shaft speed.
     fn depends_on_speed(&self) -> bool;

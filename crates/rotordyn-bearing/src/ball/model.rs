@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use super::element::BallElement;
 use super::input::{Arrangement, BallBearing, Duplex, Preload};
-use super::load::BallLoad;
 use super::preload::PreloadState;
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
-use crate::{Reaction, Rotation};
+use crate::{BearingContact, Reaction, Rotation};
 
 impl BearingModel for BallBearing {
     fn keyword(&self) -> &'static str {
@@ -89,7 +88,7 @@ impl BearingElement for BallElement {
         Self::cage_average(self, d, rotation, angles)
     }
 
-    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
+    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BearingContact> {
         self.ball_loads(d, rotation)
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{RadialBallBearing, RadialElement, Rings};
 use crate::internal::{InternalCoordinates, InternalStep, InternalTangent, Motion, NewmarkGain};
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
-use crate::{BallBearing, BallLoad, Reaction, Rotation};
+use crate::{BallBearing, BearingContact, Reaction, Rotation};
 
 impl BearingModel for RadialBallBearing {
     fn keyword(&self) -> &'static str {
@@ -62,7 +62,7 @@ impl BearingElement for RadialElement {
         Self::cage_average(self, d, rotation, angles)
     }
 
-    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BallLoad> {
+    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BearingContact> {
         self.ball_loads(d, rotation)
     }
 

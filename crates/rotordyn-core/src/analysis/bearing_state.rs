@@ -1,7 +1,7 @@
 //! A bearing at equilibrium, and the cage angles at which it is evaluated.
 
 use crate::document::{Array, Document, Rows, in_json};
-use rotordyn_bearing::{BallLoad, PreloadState, SiteTangent};
+use rotordyn_bearing::{BearingContact, PreloadState, SiteTangent};
 use serde::{Deserialize, Serialize};
 
 /// Number of cage angles per ball pitch over which a bearing is averaged.
@@ -24,8 +24,8 @@ pub struct BearingState {
     pub force: [f64; 6],
     /// Tangent stiffness and damping at equilibrium; opposite sign for the housing.
     pub tangent: SiteTangent,
-    /// Every ball at the cage angle of the model; empty for a linear bearing.
-    pub balls: Vec<BallLoad>,
+    /// Every contact at the cage angle of the model, balls in a ball bearing; empty for a linear bearing.
+    pub balls: Vec<BearingContact>,
     /// Largest ball load over all cage angles at this displacement \[N\]; 0 for a linear bearing.
     pub largest_ball_load: f64,
     /// Preload of the centred bearing at the speed; zero for a linear bearing.

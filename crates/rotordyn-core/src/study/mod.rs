@@ -293,8 +293,7 @@ impl Machine {
     pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
         let mut characteristic_orders: Vec<(String, f64)> = Vec::new();
         for site in &self.model.bearings {
-            if let Some(ball) = site.bearing.ball() {
-                let c = ball.geometry.characteristic_orders(ball.geometry.contact_angle);
+            if let Some(c) = site.bearing.characteristic_orders() {
                 let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
                 characteristic_orders.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
             }
