@@ -168,3 +168,35 @@ fn gauss_jacobi(n: usize) -> Vec<[f64; 2]> {
     };
     (1..=n).map(point).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mean of x^2m y^2n under the pressure: Γ(m + ½) Γ(n + ½) Γ(5/2)/(π Γ(m + n + 5/2)).
+    #[test]
+    fn rule_integrates_polynomials_exactly() {
+        let rule = EllipseRule::new(4, 6);
+        let mean = |m: i32, n: i32| -> f64 {
+            let point =
+                |lane: &[Lane; 4], l: usize| lane[2][l] * lane[0][l].powi(2 * m) * lane[1][l].powi(2 * n);
+            rule.points.iter().map(|lane| (0..LANES).map(|l| point(lane, l)).sum::<f64>()).sum()
+        };
+        // (2m − 1)!! (2n − 1)!! 3/((2m + 2n + 3)!!).
+        let double = |k: i32| (1..=k).rev().step_by(2).map(f64::from).product::<f64>();
+        for (m, n) in [(0, 0), (1, 0), (0, 1), (1, 1), (2, 1), (3, 0), (0, 3), (3, 2)] {
+            let expected = 3.0 * double(2 * m - 1) * double(2 * n - 1) / double(2 * m + 2 * n + 3);
+            assert!((mean(m, n) / expected - 1.0).abs() < 1e-13, "{m} {n}: {} {expected}", mean(m, n));
+        }
+    }
+
+    #[test]
+    fn pressure_of_each_point_is_that_of_the_semi_ellipsoid() {
+        for lane in &EllipseRule::new(3, 5).points {
+            for l in (0..LANES).filter(|&l| lane[2][l] > 0.0) {
+                let expected = (1.0 - lane[0][l].powi(2) - lane[1][l].powi(2)).sqrt();
+                assert!((lane[3][l] - expected).abs() < 1e-14);
+            }
+        }
+    }
+}

@@ -122,3 +122,56 @@ impl Wrench {
         self.moment += from_centre.cross(force);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Centre, axis and x axis of the ring move with its velocity and angular velocity, through the series and beyond.
+    #[test]
+    fn frame_moves_with_its_velocities() {
+        for size in [1e-4, 9e-3, 1.1e-2, 0.8] {
+            let start = RingState {
+                position: [1e-3, -2e-3, 5e-4],
+                velocity: [0.1, 0.3, -0.2],
+                tilt: [size, -0.6 * size],
+                tilt_rate: [0.4, 0.7],
+                angle: 0.3,
+                speed: 20.0,
+            };
+            let end = RingState {
+                position: [2e-3, 1e-3, 0.0],
+                tilt: [0.9 * size, 0.2 * size],
+                angle: 0.9,
+                ..start
+            };
+            let at = |share: f64| RingState::between(&start, &end, 0.01, share);
+            let (share, step) = (0.37, 1e-5);
+            let (frame, ahead, behind) =
+                (at(share).frame(), at(share + step).frame(), at(share - step).frame());
+            let rate = |a: V, b: V| (a - b) / (2.0 * step * 0.01);
+            let spin = frame.rotation - at(share).speed * frame.axis;
+            let scale = frame.rotation.norm();
+            assert!((rate(ahead.centre, behind.centre) - frame.velocity).norm() < 1e-8);
+            assert!(
+                (rate(ahead.axis, behind.axis) - frame.rotation.cross(&frame.axis)).norm() < 1e-7 * scale
+            );
+            // The x axis is tilted, not turned about the ring's axis.
+            assert!((rate(ahead.across, behind.across) - spin.cross(&frame.across)).norm() < 1e-7 * scale);
+            assert!((ahead.angle - behind.angle) / (2.0 * step * 0.01) - at(share).speed < 1e-6 * scale);
+        }
+    }
+
+    #[test]
+    fn interpolation_ends_at_both_states() {
+        let start = RingState::rotating(30.0, 0.1);
+        let end = RingState {
+            velocity: [0.1, 0.0, 0.2],
+            position: [1e-4, 0.0, 2e-4],
+            ..RingState::rotating(50.0, 0.5)
+        };
+        assert_eq!(RingState::between(&start, &end, 0.01, 0.0), start);
+        let reached = RingState::between(&start, &end, 0.01, 1.0);
+        assert!((reached.position[2] - 2e-4).abs() < 1e-18 && (reached.speed - 50.0).abs() < 1e-12);
+    }
+}

@@ -89,6 +89,34 @@ fn forces_and_moments_of_all_contacts_cancel() {
     }
 }
 
+/// In a motion without symmetry, with tilting rings, the stored energy changes by the work of the rings less the losses: no
+/// contact's force deviates from the slope of its energy.
+#[test]
+fn energy_follows_from_the_forces_in_a_general_motion() {
+    let pockets = [Pocket::Cylindrical, Pocket::Spherical, Pocket::Closed { radial_clearance: 1e-5 }];
+    for (pocket, race) in pockets.into_iter().flat_map(|p| [(p, Race::Inner), (p, Race::Outer)]) {
+        let balls = FreeBalls::new(full_bearing(pocket, race, SlipModel::default()), 0.0).unwrap();
+        let (mut state, start) = general_motion(&balls);
+        let duration = 1e-6;
+        let end = start.map(|ring| RingState {
+            position: [0, 1, 2].map(|k| ring.position[k] + duration * ring.velocity[k]),
+            tilt: [0, 1].map(|k| ring.tilt[k] + duration * ring.tilt_rate[k]),
+            angle: ring.angle + duration * ring.speed,
+            ..ring
+        });
+        let before = balls.energy(&state, &start).total();
+        let run = balls.advance(&mut state, [&start, &end], duration, 1e-8).unwrap();
+        let stored = balls.energy(&state, &end).total() - before;
+        let given = run.ring_work.iter().sum::<f64>() - run.losses.iter().sum::<f64>();
+        let scale = run.ring_work.iter().chain(&run.losses).map(|part| part.abs()).sum::<f64>();
+        println!(
+            "{pocket:?} {race:?}: stored {stored:.9e} J, off {:.1e} of {scale:.2e} J",
+            (stored - given) / scale
+        );
+        assert!((stored - given).abs() < 1e-9 * scale);
+    }
+}
+
 /// Without cage two balls that collide keep momentum and, without damping and friction, energy.
 #[test]
 fn colliding_balls_keep_momentum_and_energy() {
