@@ -1,4 +1,8 @@
 //! Time integration of balls and cage: classical Runge-Kutta method of fourth order with fixed steps.
+//!
+//! Accuracy asks for less than stability: the contacts vibrate at tens of kHz, and their motion along the groove loses
+//! energy to the error of the method. A 6205's ball that orbits at 2 to 5 m/s without friction loses 1 % of its speed in 0.3 s
+//! with steps of 10 μs, 2e-5 with 2 μs.
 
 use super::error::{FreeBallError, StepLimit};
 use super::forces::{ForceSums, LOSSES, Parts};
