@@ -22,6 +22,7 @@ pub mod model;
 pub mod imperfection;
 
 pub mod ball;
+pub mod free_ball;
 pub mod linear;
 pub mod radial_ball;
 
