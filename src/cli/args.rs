@@ -360,6 +360,23 @@ Examples:
     #[command(after_long_help = update::UPDATE)]
     Update(Box<UpdateArgs>),
 
+    /// Explain the keys of the model file, or a command
+    ///
+    /// Without a name lists the tables of the model file; with the path of a table lists its keys with values,
+    /// defaults and meaning; with the path of a key explains it. Names of items are left out or given. A name that is
+    /// no key of the file but a command shows the help of the command.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn help
+  rotordyn help bearing
+  rotordyn help bearing.preload
+  rotordyn help study.run_up.step
+  rotordyn help run-up")]
+    Help {
+        /// Path of a table or key, such as bearing.preload, or a command
+        path: Option<String>,
+    },
+
     /// List or look up bearings of the built-in catalogue
     ///
     /// Without a designation lists all; with one (or its first characters) shows internal geometry, clearance
