@@ -2,12 +2,14 @@
 
 mod bearing;
 mod common;
+pub mod keys;
 mod manual;
 mod measured;
 mod update;
 
 use common::assignment;
 pub use common::{ModelArgs, Output, StoredArgs, StudyArgs};
+use keys::{help as key_help, help_with as key_help_with};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -99,8 +101,7 @@ Examples:
     Static {
         #[command(flatten)]
         study: StudyArgs,
-        /// Shaft speed for speed-dependent bearings, such as "1200 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.static.speed"))]
         speed: Option<String>,
         /// Keep the cage angle of the model instead of averaging over it
         #[arg(long, alias = "cage-as-placed")]
@@ -121,11 +122,9 @@ Examples:
     Modal {
         #[command(flatten)]
         study: StudyArgs,
-        /// Speeds, such as "1200 rpm" or "0, 600, 1200 rpm"
-        #[arg(long, value_name = "SPEEDS")]
+        #[arg(long, value_name = "SPEEDS", help = key_help("study.modal.speeds"))]
         speed: Option<String>,
-        /// Number of modes
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.modal.modes"))]
         modes: Option<usize>,
     },
 
@@ -143,8 +142,7 @@ Examples:
         /// Highest speed, such as "6000 rpm"; 25 speeds from 0
         #[arg(long, value_name = "SPEED")]
         max_speed: Option<String>,
-        /// Number of modes
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.campbell.modes"))]
         modes: Option<usize>,
     },
 
@@ -159,11 +157,9 @@ Examples:
     Critical {
         #[command(flatten)]
         study: StudyArgs,
-        /// Highest speed, such as "6000 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.critical.max_speed"))]
         max_speed: Option<String>,
-        /// Orders, such as 1,2,BPFO
-        #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
+        #[arg(long, value_name = "ORDERS", value_delimiter = ',', help = key_help_with("study.critical.orders", "such as 1,2,BPFO"))]
         orders: Vec<String>,
     },
 
@@ -183,14 +179,12 @@ Examples:
     Frf {
         #[command(flatten)]
         study: StudyArgs,
-        /// Speed, such as "1200 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.frf.speed"))]
         speed: Option<String>,
         /// Highest frequency, such as "400 Hz"; from 1 Hz in steps of 0.25 Hz
         #[arg(long, value_name = "FREQUENCY")]
         max_frequency: Option<String>,
-        /// receptance, mobility or accelerance
-        #[arg(long, value_name = "NAME")]
+        #[arg(long, value_name = "NAME", help = key_help("study.frf.quantity"))]
         quantity: Option<String>,
         #[command(flatten)]
         test: NoiseArgs,
@@ -230,17 +224,13 @@ Examples:
     RunUp {
         #[command(flatten)]
         study: StudyArgs,
-        /// Time step, such as "100 us"
-        #[arg(long, value_name = "TIME")]
+        #[arg(long, value_name = "TIME", help = key_help("study.run_up.step"))]
         step: Option<String>,
-        /// generalised-alpha, newmark, rk4 or dormand-prince
-        #[arg(long, value_name = "NAME")]
+        #[arg(long, value_name = "NAME", help = key_help("study.run_up.integrator"))]
         integrator: Option<String>,
-        /// Sampling rate of the channels, such as "4 kHz"
-        #[arg(long, value_name = "FREQUENCY")]
+        #[arg(long, value_name = "FREQUENCY", help = key_help("study.run_up.sample_rate"))]
         sample_rate: Option<String>,
-        /// Repeat the run-up with this many initial cage phases; range of every order cut ([study.orders])
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.run_up.cage_phases"))]
         cage_phases: Option<usize>,
     },
 

@@ -8,8 +8,10 @@ use super::args::Cli;
 use super::failure::Failure;
 use super::terminal::Terminal;
 
-/// Widths of the columns: key, value with range, without it, meaning; 118 columns with two spaces between.
-const WIDTHS: [usize; 4] = [22, 34, 22, 32];
+/// Widest line.
+const WIDTH: usize = 118;
+/// Greatest widths of the columns key, value with range, without it; the meaning has the rest.
+const GREATEST: [usize; 3] = [24, 40, 32];
 /// At least as many keys in a row with the same meaning become one line.
 const COLLAPSED: usize = 4;
 
@@ -62,7 +64,7 @@ fn to_json(key: &KeyDescription) -> Value {
         "required": key.required,
         "default": key.default,
         "absent": key.absent,
-        "conditions": key.conditions,
+        "conditions": key.conditions(),
         "meaning": key.meaning,
         "example": key.example,
         "members": key.members,
@@ -77,32 +79,64 @@ fn print(found: &Found, terminal: &Terminal) {
     for key in &found.keys {
         print_key(key, terminal);
     }
+    let mut rows: Vec<(&[&str], Cells)> = Vec::new();
     let mut rest = found.members.as_slice();
-    let mut condition = None;
     while let Some(first) = rest.first() {
-        let heading = first.conditions.iter().map(|words| leading(words)).collect::<Vec<_>>();
-        if condition.as_ref() != Some(&heading) {
-            terminal.print("");
-            if !heading.iter().all(String::is_empty) {
-                terminal.print(&format!("with {}:", heading.join(" or ")));
-            } else if condition.is_none() {
-                terminal.print(&line(["key", "value", "without it", "meaning"].map(String::from)));
-            }
-            condition = Some(heading);
-        }
         let alike = rest.iter().take_while(|key| key.meaning == first.meaning && key.kind == first.kind);
         let count = match alike.count() {
             count if count >= COLLAPSED && first.kind == KindName::Quantities => count,
             _ => 1,
         };
-        print_row(&rest[..count], terminal);
+        rows.push((&first.groups, cells(&rest[..count])));
         rest = &rest[count..];
+    }
+    if rows.is_empty() {
+        return;
+    }
+    let titles = ["key", "value", "without it", "meaning"].map(String::from);
+    let widths = widths(rows.iter().map(|(_, cells)| cells).chain([&titles]));
+    terminal.print("");
+    terminal.print(&line(&titles, widths));
+    let mut groups: &[&str] = &[""];
+    for (of, cells) in rows {
+        if of != groups {
+            groups = of;
+            terminal.print(&format!("\nwith {}:", of.join(" or ")));
+        }
+        terminal.print(&line(&cells, widths));
     }
 }
 
-/// The condition of a group, without that of the key itself.
-fn leading(condition: &str) -> String {
-    condition.split(", ").next().filter(|words| words.starts_with("model =")).unwrap_or_default().into()
+/// Key, value, what holds without it, meaning.
+type Cells = [String; 4];
+
+/// Cells of one key, or of several keys with the same meaning.
+fn cells(keys: &[KeyDescription]) -> Cells {
+    let key = &keys[0];
+    let meaning = match key.condition {
+        "" => key.meaning.to_string(),
+        condition => format!("{} (with {condition})", key.meaning),
+    };
+    let [first, .., last] = keys else {
+        return [key.name.into(), value(key), key.absent.clone(), meaning];
+    };
+    let mut units: Vec<&str> = keys.iter().map(|key| key.unit).collect();
+    units.sort_unstable();
+    units.dedup();
+    let names = format!("{} ... {}", first.name, last.name);
+    let values = format!("{} components [{}]", keys.len(), units.join(", "));
+    [names, values, first.absent.clone(), meaning]
+}
+
+fn widths<'c>(rows: impl Iterator<Item = &'c Cells>) -> [usize; 4] {
+    let mut widths = [0; 4];
+    for cells in rows {
+        for (width, cell) in widths.iter_mut().zip(cells) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    let [key, value, absent] = [0, 1, 2].map(|k| widths[k].min(GREATEST[k]));
+    [key, value, absent, WIDTH - 8 - key - value - absent]
 }
 
 /// One key in full.
@@ -125,8 +159,7 @@ fn print_key(key: &KeyDescription, terminal: &Terminal) {
         say("example", &example(key));
     }
     say("without it", &key.absent);
-    let conditions: Vec<&str> =
-        key.conditions.iter().map(String::as_str).filter(|words| !words.is_empty()).collect();
+    let conditions: Vec<String> = key.conditions().into_iter().filter(|words| !words.is_empty()).collect();
     say("only with", &conditions.join(" or "));
 }
 
@@ -141,32 +174,17 @@ fn value(key: &KeyDescription) -> String {
     format!("{}{unit}{range}", key.value)
 }
 
-/// One line of a list of keys, or one for several keys with the same meaning.
-fn print_row(keys: &[KeyDescription], terminal: &Terminal) {
-    let [first, .., last] = keys else {
-        let key = &keys[0];
-        terminal.print(&line([key.name.into(), value(key), key.absent.clone(), key.meaning.into()]));
-        return;
-    };
-    let mut units: Vec<&str> = keys.iter().map(|key| key.unit).collect();
-    units.sort_unstable();
-    units.dedup();
-    let names = format!("{} ... {}", first.name, last.name);
-    let values = format!("{} components [{}]", keys.len(), units.join(", "));
-    terminal.print(&line([names, values, first.absent.clone(), first.meaning.into()]));
-}
-
 /// Four cells side by side, each broken at words into the width of its column.
-fn line(cells: [String; 4]) -> String {
+fn line(cells: &Cells, widths: [usize; 4]) -> String {
     let broken: Vec<Vec<String>> =
-        cells.iter().zip(WIDTHS).map(|(cell, width)| broken(cell, width)).collect();
+        cells.iter().zip(widths).map(|(cell, width)| broken(cell, width)).collect();
     let height = broken.iter().map(Vec::len).max().unwrap_or(0);
     let row = |k: usize| {
         let part = |(lines, width): (&Vec<String>, usize)| {
             let text = lines.get(k).map_or("", String::as_str);
             format!("{text}{}", " ".repeat(width.saturating_sub(text.chars().count())))
         };
-        let parts: Vec<String> = broken.iter().zip(WIDTHS).map(part).collect();
+        let parts: Vec<String> = broken.iter().zip(widths).map(part).collect();
         format!("  {}", parts.join("  ")).trim_end().to_string()
     };
     (0..height).map(row).collect::<Vec<_>>().join("\n")

@@ -35,13 +35,29 @@ pub struct KeyDescription {
     pub default: Option<String>,
     /// What holds without the key: its default, how it follows, or when the key is required; empty: nothing.
     pub absent: String,
-    /// Assignments in the same table, in TOML, with which the key applies: alternatives, empty if always.
-    pub conditions: Vec<String>,
+    /// Assignments in the same table, in TOML, with which the key's group applies: alternatives, "" is always.
+    pub groups: Vec<&'static str>,
+    /// Further assignments with which the key applies.
+    pub condition: &'static str,
     pub meaning: &'static str,
     /// Value as it could be written in a file; empty for a table.
     pub example: String,
     /// Number of keys of a table.
     pub members: usize,
+}
+
+impl KeyDescription {
+    /// Assignments in the same table, in TOML, with which the key applies: alternatives, "" is always.
+    pub fn conditions(&self) -> Vec<String> {
+        let both = |group: &&str| {
+            [*group, self.condition]
+                .into_iter()
+                .filter(|words| !words.is_empty())
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        self.groups.iter().map(both).collect()
+    }
 }
 
 /// Type of a key's value.
@@ -259,8 +275,6 @@ fn describe(place: &Place, key: &dyn Declared) -> KeyDescription {
         (Absent::Computed(words), _) => words.into(),
         _ => String::new(),
     };
-    let conditions: Vec<String> =
-        place.conditions.iter().map(|group| joined(group, about.condition)).collect();
     KeyDescription {
         path: place.path.clone(),
         name: key.name(),
@@ -272,16 +286,12 @@ fn describe(place: &Place, key: &dyn Declared) -> KeyDescription {
         required: matches!(about.absent, Absent::Required | Absent::RequiredIf("")),
         default,
         absent,
-        conditions: if conditions.iter().all(String::is_empty) { Vec::new() } else { conditions },
+        groups: place.conditions.clone(),
+        condition: about.condition,
         meaning: about.meaning,
         example: key.example(),
         members: members_of(place).len(),
     }
-}
-
-/// Both conditions, of the group and of the key.
-fn joined(group: &str, own: &str) -> String {
-    [group, own].into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
 /// What is said of a value by its type.

@@ -102,7 +102,7 @@ keys! {
             ("oil_mist", Lubrication::OilMist),
             ("oil_jet", Lubrication::OilJet),
             ("grease", Lubrication::Grease),
-        ], "Method of lubrication, for the friction torque.").default("oil_bath").with("lubricant = \"oil\"");
+        ], "Lubrication, for the friction torque; oil_jet is also an oil bath with a vertical shaft.").default("oil_bath").with("lubricant = \"oil\"");
         lubrication_factor: SubTable = sub_table(LubricationKeys::TABLE).named("lubrication")
             .with("lubricant = \"oil\"");
         sliding_friction: Quantity = quantity(within(NUMBER, [0.0, 1.0]), "Coefficient of friction of spinning balls.")
@@ -117,9 +117,9 @@ keys! {
             .default("0.5");
         reliability: Quantity = quantity(within(NUMBER, [0.9, 0.999]), "Reliability of the rating life.").default("0.9");
         inner_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the inner shoulder.")
-            .computed("0.2 D_w high, higher with a contact angle").example("\"33 mm\"");
+            .computed("0.2 D_w high; with a contact angle at least 25 deg beyond it").example("\"33 mm\"");
         outer_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the outer shoulder.")
-            .computed("0.2 D_w high, higher with a contact angle").example("\"44 mm\"");
+            .computed("0.2 D_w high; with a contact angle at least 25 deg beyond it").example("\"44 mm\"");
     }
 }
 

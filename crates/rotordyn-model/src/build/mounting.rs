@@ -35,11 +35,11 @@ keys! {
             .required("or another form").example("\"150 N\"");
         dry_force: Quantity = quantity(positive(FORCE), "Force with centred rings at rest.").optional()
             .example("\"150 N\"");
-        mounted_force: Quantity = quantity(positive(FORCE), "Force in the machine at rest.").optional()
+        mounted_force: Quantity = quantity(positive(FORCE), "Force in the assembled machine at standstill.").optional()
             .example("\"150 N\"");
-        interference: Quantity = quantity(any(LENGTH), "Axial offset of the rings from contact without clearance.")
+        interference: Quantity = quantity(any(LENGTH), "Rigid axial approach of the rings from their nominal position.")
             .optional().example("\"1.5 um\"");
-        spring: Quantity = quantity(positive(STIFFNESS), "Stiffness of a spring that keeps the force nearly constant.")
+        spring: Quantity = quantity(positive(STIFFNESS), "Stiffness of a spring on a sliding outer ring, with the force when undeflected.")
             .optional().with("force = \"150 N\"").example("\"2e5 N/m\"");
     }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Reader<'a> {
     pub span: Range<usize>,
     /// Path of the table: "bearing.B".
     pub path: String,
+    /// Path without names of items, of the declaration: "bearing".
+    declared_path: String,
     pub log: &'a Log,
     errors_before: usize,
     requested_keys: RefCell<Vec<String>>,
@@ -33,13 +35,13 @@ static EMPTY_TABLE: Table = Table { entries: Vec::new() };
 impl<'a> Reader<'a> {
     /// The whole file.
     pub fn root(table: &'a Table, declared: &'static Declaration, log: &'a Log) -> Self {
-        Self::new(table, declared, String::new(), 0..0, log)
+        Self::new(table, declared, [String::new(), String::new()], 0..0, log)
     }
 
     fn new(
         table: &'a Table,
         declared: &'static Declaration,
-        path: String,
+        [path, declared_path]: [String; 2],
         span: Range<usize>,
         log: &'a Log,
     ) -> Self {
@@ -48,6 +50,7 @@ impl<'a> Reader<'a> {
             declared,
             span,
             path,
+            declared_path,
             log,
             errors_before: log.error_count(),
             requested_keys: RefCell::default(),
@@ -107,6 +110,12 @@ impl<'a> Reader<'a> {
     pub(super) fn entry_name(&self, key: &str) -> String {
         let key = self.table.get(key).map_or(key, Entry::written_key);
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Path of a key in the file and in the declaration.
+    fn paths(&self, key: &dyn Declared) -> [String; 2] {
+        let dot = if self.declared_path.is_empty() { "" } else { "." };
+        [self.name(key), format!("{}{dot}{}", self.declared_path, key.name())]
     }
 
     /// Log an error at a key's value (or at the table).
@@ -282,7 +291,7 @@ impl<'a> Reader<'a> {
         let entry = self.entry(key)?;
         match &entry.node.value {
             Value::Table(table) => {
-                Some(Reader::new(table, declared, self.name(key), entry.key_span.clone(), self.log))
+                Some(Reader::new(table, declared, self.paths(key), entry.key_span.clone(), self.log))
             }
             _ => {
                 self.wrong_type(key.name(), &entry.node, &format!("a table [{}]", self.name(key)));
@@ -294,7 +303,7 @@ impl<'a> Reader<'a> {
     /// The table of this key, or an empty one.
     pub fn table_or_empty(&self, key: &Key<SubTable>) -> Reader<'a> {
         self.table(key).unwrap_or_else(|| {
-            Reader::new(&EMPTY_TABLE, key.value.0, self.name(key), self.span.clone(), self.log)
+            Reader::new(&EMPTY_TABLE, key.value.0, self.paths(key), self.span.clone(), self.log)
         })
     }
 
@@ -307,7 +316,8 @@ impl<'a> Reader<'a> {
             let path = all.entry_name(&entry.key);
             match &entry.node.value {
                 Value::Table(table) => {
-                    let reader = Reader::new(table, declared, path, entry.key_span.clone(), self.log);
+                    let paths = [path, all.declared_path.clone()];
+                    let reader = Reader::new(table, declared, paths, entry.key_span.clone(), self.log);
                     items.push((entry.key.as_str(), reader));
                 }
                 _ => all.wrong_type(&entry.key, &entry.node, &format!("a table [{path}]")),
@@ -327,8 +337,9 @@ impl<'a> Reader<'a> {
         for (k, item) in items.iter().enumerate() {
             match &item.value {
                 Value::Table(table) => {
-                    let path = format!("{}[{k}]", self.name(key));
-                    readers.push(Reader::new(table, key.value.0, path, item.span.clone(), self.log));
+                    let [path, declared_path] = self.paths(key);
+                    let paths = [format!("{path}[{k}]"), declared_path];
+                    readers.push(Reader::new(table, key.value.0, paths, item.span.clone(), self.log));
                 }
                 _ => self.wrong_type(key.name(), item, &format!("tables [[{}]]", self.name(key))),
             }
@@ -354,7 +365,9 @@ impl<'a> Reader<'a> {
             }
             let message = format!("unknown key {}", self.entry_name(&entry.key));
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
-            self.log.error(problem.suggest(&entry.key, known.iter().copied()));
+            let command = format!("rotordyn help {}", self.declared_path);
+            let all_keys = format!("; `{}` explains them", command.trim_end());
+            self.log.error(problem.suggest(&entry.key, known.iter().copied()).after_list(&all_keys));
         }
     }
 }
