@@ -1,7 +1,9 @@
 //! Connectivity check: every body must be connected to ground or to the shaft.
 
+use super::{inertia, loading, rotor, shaft};
 use crate::Model;
 use crate::file::diagnostic::{Kind, Problem};
+use crate::file::key::{Key, NamedTables};
 use crate::file::reader::Reader;
 use rotordyn_core::element::{Anchor, Connection};
 
@@ -33,9 +35,9 @@ pub(super) fn check(top: &Reader, model: &Model) {
     };
     let supported = reach(&[0, 1]);
     for (_, body) in model.bodies.iter().enumerate().filter(|(k, _)| !supported[2 + k]) {
-        let kind = ["body", "housing"].into_iter().find(|kind| named(top, kind, &body.name).is_some());
-        let kind = kind.unwrap_or("body");
-        let span = named(top, kind, &body.name).unwrap_or(0..0);
+        let of_kind = |key: &Key<NamedTables>| Some((key.about.name, item(top, key, &body.name)?.span));
+        let found = of_kind(&inertia::TOP.body).or_else(|| of_kind(&inertia::TOP.housing));
+        let (kind, span) = found.unwrap_or((inertia::TOP.body.about.name, 0..0));
         let message =
             format!("{kind} `{}` is disconnected: nothing connects it to ground or to the shaft", body.name);
         let hint =
@@ -43,7 +45,8 @@ pub(super) fn check(top: &Reader, model: &Model) {
         top.log.error(Problem::new(Kind::Disconnected, &span, message).hint(hint));
     }
     if !reach(&[0])[1] {
-        let span = top.table("shaft").or_else(|| top.table("rotor")).map_or(0..0, |r| r.span);
+        let span =
+            top.table(&shaft::TOP.shaft).or_else(|| top.table(&rotor::TOP.rotor)).map_or(0..0, |r| r.span);
         let problem = Problem::new(
             Kind::Disconnected,
             &span,
@@ -80,14 +83,14 @@ fn check_tilt_support(top: &Reader, model: &Model) {
         return;
     }
     let tilts = |force: &[f64; 6]| force[3] != 0.0 || force[4] != 0.0;
-    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, "load", &l.name)?))) {
+    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, &loading::TOP.load, &l.name)?))) {
         let on_shaft = load.at.node.is_some_and(|node| node < shaft);
         if on_shaft && load.history.is_empty() && tilts(&load.force) {
             let message = format!(
                 "load.{} tilts the shaft, whose only support, {name}, permits tilting like a ball joint",
                 load.name
             );
-            let problem = Problem::new(Kind::Disconnected, &r.span_of("moment"), message);
+            let problem = Problem::new(Kind::Disconnected, &r.span_of(&loading::LOAD.moment), message);
             top.log.error(problem.expected("a second support, or one that resists tilting").hint(
                 "a joint of kind = \"revolute\", a second support at another station, a ball bearing or k_tilt resists tilting",
             ));
@@ -95,10 +98,6 @@ fn check_tilt_support(top: &Reader, model: &Model) {
     }
 }
 
-fn item<'a>(top: &Reader<'a>, collection: &str, name: &str) -> Option<Reader<'a>> {
+fn item<'a>(top: &Reader<'a>, collection: &Key<NamedTables>, name: &str) -> Option<Reader<'a>> {
     top.items(collection).into_iter().find(|(n, _)| *n == name).map(|(_, r)| r)
-}
-
-fn named(top: &Reader, collection: &str, name: &str) -> Option<std::ops::Range<usize>> {
-    item(top, collection, name).map(|r| r.span)
 }
