@@ -33,7 +33,8 @@ pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Er
     for section in sections {
         for table in tables(section.hdf5.trim_start_matches('/'), &section.content) {
             let path = folder.join(format!("{}.csv", file_name(&table.name.replace('/', "_"))));
-            let lines: Vec<String> = std::iter::once(&table.header).chain(&table.rows).map(line).collect();
+            let lines: Vec<String> =
+                std::iter::once(&table.header).chain(&table.rows).map(|cells| line(cells)).collect();
             std::fs::write(&path, lines.concat()).map_err(Error::of_file("write", &path))?;
             files.push(path);
         }
@@ -42,7 +43,7 @@ pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Er
 }
 
 /// A line of CSV; texts with a separator, quote or line break are quoted (RFC 4180).
-fn line(cells: &Vec<String>) -> String {
+fn line(cells: &[String]) -> String {
     let quoted = |cell: &String| match cell.contains([',', '"', '\n']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),
         false => cell.clone(),

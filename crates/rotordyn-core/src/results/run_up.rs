@@ -185,7 +185,7 @@ impl CagePhaseBand {
             let Some(first) = channel.lines.first() else { continue };
             let windows = [channel.lines.len(), first.cut.rpm.len()];
             let all = |pick: fn(&CagePhaseLine) -> &[f64]| {
-                let values: Vec<f64> = channel.lines.iter().flat_map(|l| pick(l)).copied().collect();
+                let values: Vec<f64> = channel.lines.iter().flat_map(pick).copied().collect();
                 Array::real(&windows, &channel.unit, values)
             };
             let group = Document::new()
