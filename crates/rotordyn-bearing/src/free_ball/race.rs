@@ -4,7 +4,7 @@
 //! With the ball's centre at (ρ, z) from the ring's axis and plane, x = (R_g − ρ) e + (z_g − z) a points to the centre
 //! circle (e radial, a axial), δ = |x| − (r_g − r) + w, and the race presses on the ball along n = x/|x|. The groove ends
 //! at the shoulders; beyond their angle the ball touches their edge, a circle, with n from the edge to the ball's centre and
-//! δ = r − distance, continuous with the groove. The far side of the torus does not exist. Waviness and local defects w(φ) turn the normal force
+//! δ = r − distance, continuous with the groove and with its stiffness. The far side of the torus does not exist. Waviness and local defects w(φ) turn the normal force
 //! by its slope to n − (w′/ρ) t; it passes through the ball's centre, so that contact and surface conserve energy.
 
 use super::ellipse::{EllipseRule, SlidingContact, TractionSum, traction_at_centre};

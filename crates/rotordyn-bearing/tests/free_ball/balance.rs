@@ -238,6 +238,28 @@ fn integration_is_of_fourth_order() {
     assert!(orders.iter().all(|order| (order - 4.0).abs() < 0.3));
 }
 
+/// Two intervals in a row give the motion and the impulse of one over both.
+#[test]
+fn intervals_join() {
+    let balls =
+        FreeBalls::new(full_bearing(Pocket::Cylindrical, Race::Outer, SlipModel::Centre), 0.0).unwrap();
+    let speed = rpm(3000.0);
+    let start = balls.initial_state(&rings(speed, 0.0)).unwrap();
+    let (mut once, mut twice) = (start.clone(), start);
+    let ring = |t: f64| rings(speed, t);
+    let whole = balls.advance(&mut once, [&ring(0.0), &ring(2e-3)], 2e-3, 1e-6).unwrap();
+    let parts = [0.0, 1e-3]
+        .map(|t| balls.advance(&mut twice, [&ring(t), &ring(t + 1e-3)], 1e-3, 1e-6).unwrap().rings[0]);
+    for (a, b) in once.values.iter().zip(&twice.values) {
+        assert!((a - b).abs() < 1e-10 * (1.0 + a.abs()), "{a} {b}");
+    }
+    assert!((once.time - twice.time).abs() < 1e-15);
+    for ((whole, first), second) in whole.rings[0].iter().zip(&parts[0]).zip(&parts[1]) {
+        let mean = 0.5 * (first + second);
+        assert!((whole - mean).abs() < 1e-8, "{whole} {mean}");
+    }
+}
+
 /// A cage without forces keeps its angular momentum exactly, and its axis precesses about it at L/I_t.
 #[test]
 fn free_cage_keeps_its_angular_momentum() {

@@ -25,13 +25,15 @@ fn cage_angle(orientation: [f64; 4]) -> f64 {
 /// All balls loaded: cage, balls and outer ball passages at the kinematic speed to 0.01 % plus the micro-slip.
 ///
 /// Slip at the centre leaves the rolling radii D_w/2 − δ/2, 2.7e-5 of speed. Over the ellipse pure rolling holds beside the
-/// centre, where the ball is smaller, 5.5e-4 here (`rolling_lines` has the closed form).
+/// centre, where the ball is smaller, 5.5e-4 of the orbit and 1.4e-3 of the spin here (`rolling_lines_of_the_ellipse_set_the_orbit` has the closed form).
 #[test]
 fn loaded_balls_and_cage_keep_the_kinematic_speed() {
     let ball = ball_bearing(geometry_6205(9, -4e-6));
     let kinematic = ball.geometry.characteristic_orders(0.0).ftf;
     let speed = rpm(1200.0);
-    for (slip, micro_slip) in [(SlipModel::Centre, 2.681e-5), (SlipModel::default(), 5.5e-4)] {
+    for (slip, micro_slip, spin_gain) in
+        [(SlipModel::Centre, 2.681e-5, 1.6e-4), (SlipModel::default(), 5.5e-4, 1.43e-3)]
+    {
         let mut bearing = free(ball.clone(), 0.06, 1e-2, slip);
         bearing.cage = Some(plastic_cage(Pocket::Cylindrical, outer_land(100e-6, 0.1), 0.1));
         bearing.gravity = [0.0, -9.80665, 0.0];
@@ -58,6 +60,12 @@ fn loaded_balls_and_cage_keep_the_kinematic_speed() {
             state.cage().unwrap().position.y
         );
         assert!(off(orbit, 1.0 + micro_slip) < 1e-4 && off(cage, 1.0 + micro_slip) < 1e-4);
+        // Spin of the balls about the bearing's axis, in space: orbit less the rotation against it.
+        let spin = end.iter().map(|ball| ball.rotation[0]).sum::<f64>() / (9.0 * speed);
+        let ratio = 38.5 / 7.938;
+        let expected = kinematic - 0.5 * (ratio - 1.0 / ratio);
+        println!("spin {spin:.6}, kinematic {expected:.6}");
+        assert!(off(spin, expected * (1.0 + spin_gain)) < 1e-4);
     }
 }
 

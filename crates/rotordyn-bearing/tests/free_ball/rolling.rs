@@ -62,5 +62,9 @@ fn rolling_lines_of_the_ellipse_set_the_orbit() {
             expected / g.characteristic_orders(0.0).ftf - 1.0
         );
         assert!(off(found, expected) < 2e-5);
+        // ω_k r − a_i ω_b = Ω (r − a_i) at the inner race.
+        let spin = (expected * radius - (radius - inner)) / inner;
+        println!("   spin {:.6}, closed form {spin:.6}", report.rotation[0] / speed);
+        assert!(off(report.rotation[0] / speed, spin) < 5e-5);
     }
 }
