@@ -1,7 +1,7 @@
 //! Declaration of the keys of the model file: what each is called, what it accepts, what it is without being
 //! given, and what it means.
 //!
-//! A table's keys are declared with [`keys!`](crate::file::key::keys), in the file that reads the table; the
+//! The keys of a table are declared with `keys!`, in the file that reads the table; the
 //! methods of a reader take declared keys only. The reader, its messages and `rotordyn help` use the same
 //! declaration.
 
