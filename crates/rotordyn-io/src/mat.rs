@@ -1,6 +1,7 @@
 //! MATLAB v5 .mat files: numeric and text arrays, compressed or not, either byte order; written uncompressed.
 //!
 //! Cells, structs and sparse matrices are skipped and their names reported. Version 7.3 files are HDF5.
+//! The crate matfile 0.5 reads numbers only, without texts, the names of what it skips, or writing.
 //! Format: MATLAB MAT-File Format, The MathWorks, R2019b.
 
 use std::borrow::Cow;

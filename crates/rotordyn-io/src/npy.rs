@@ -1,11 +1,16 @@
 //! NumPy files: .npy arrays and .npz archives of them, compressed or not; written uncompressed.
 //!
 //! Booleans, integers, floats and complex numbers of any width and byte order, and texts. Format:
-//! numpy.lib.format, versions 1.0 to 3.0; ZIP: PKWARE APPNOTE 6.3.
+//! numpy.lib.format, versions 1.0 to 3.0. The crate npyz would do, but for its parser of headers (pest) and its zip 0.6,
+//! which need a C compiler.
 
+use std::io::{BufWriter, Cursor, Read, Seek, Write};
 use std::path::Path;
 
-use super::inflate;
+use zip::result::{ZipError, ZipResult};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+
 use super::measured::arrays::{Array, Data};
 use crate::error::Error;
 use rotordyn_signal::Complex;
@@ -68,31 +73,21 @@ fn u32_at(bytes: &[u8], at: usize) -> Result<usize, Message> {
     Ok(u16_at(bytes, at)? | u16_at(bytes, at + 2)? << 16)
 }
 
-/// Files of a ZIP archive by its central directory.
+/// Files of a ZIP archive.
 fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Message> {
-    // The end record of the directory is followed by a comment of at most 65535 bytes.
-    let from = bytes.len().saturating_sub(22 + 65_535);
-    let end = bytes[from..].windows(4).rposition(|w| w == b"PK\x05\x06").ok_or(CUT_OFF)? + from;
-    let count = u16_at(bytes, end + 10)?;
-    let mut at = u32_at(bytes, end + 16)?;
-    let mut out = Vec::with_capacity(count);
-    for _ in 0..count {
-        if bytes.get(at..at + 4) != Some(b"PK\x01\x02") {
-            return Err(DAMAGED);
-        }
-        let (method, size) = (u16_at(bytes, at + 10)?, u32_at(bytes, at + 20)?);
-        let lengths = [u16_at(bytes, at + 28)?, u16_at(bytes, at + 30)?, u16_at(bytes, at + 32)?];
-        let local = u32_at(bytes, at + 42)?;
-        let name = bytes.get(at + 46..at + 46 + lengths[0]).ok_or(CUT_OFF)?;
-        at += 46 + lengths.iter().sum::<usize>();
-        let data_at = local + 30 + u16_at(bytes, local + 26)? + u16_at(bytes, local + 28)?;
-        let data = bytes.get(data_at..data_at + size).ok_or(CUT_OFF)?;
-        let data = match method {
-            0 => data.to_vec(),
-            8 => inflate::raw(data).map_err(|_| DAMAGED)?,
-            _ => return Err("an array has a compression method other than deflate"),
-        };
-        out.push((String::from_utf8_lossy(name).into_owned(), data));
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| CUT_OFF)?;
+    let mut out = Vec::with_capacity(archive.len());
+    for k in 0..archive.len() {
+        let mut file = archive.by_index(k).map_err(|error| match error {
+            ZipError::UnsupportedArchive(_) | ZipError::CompressionMethodNotSupported(_) => {
+                "an array has a compression method other than deflate"
+            }
+            _ => DAMAGED,
+        })?;
+        let mut data = Vec::new();
+        file.read_to_end(&mut data).map_err(|_| DAMAGED)?;
+        let name = file.name().map_err(|_| DAMAGED)?.into_owned();
+        out.push((name, data));
     }
     Ok(out)
 }
@@ -177,15 +172,26 @@ fn paired(values: &[f64]) -> Vec<Complex<f64>> {
 /// Writes a .npz archive that `numpy.load` opens.
 ///
 /// # Errors
-/// Arrays of 4 GB or more together, or a file that cannot be written.
+/// A file that cannot be written.
 pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
-    let files: Vec<(String, Vec<u8>)> = arrays.iter().map(|a| (format!("{}.npy", a.name), npy(a))).collect();
-    let bytes = archive(&files).ok_or_else(|| Error::Content {
-        path: path.into(),
-        problem: "the records are too large for a .npz archive".into(),
-        advice: "write HDF5 instead".into(),
-    })?;
-    std::fs::write(path, bytes).map_err(Error::of_file("write", path))
+    let file = std::fs::File::create(path).map_err(Error::of_file("write", path))?;
+    write_archive(BufWriter::new(file), arrays).map_err(Error::of_file("write", path))
+}
+
+/// A ZIP archive of stored files, without the time of writing: the same arrays give the same bytes.
+fn write_archive(file: impl Write + Seek, arrays: &[Array]) -> ZipResult<()> {
+    let stored = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default());
+    let mut archive = ZipWriter::new(file);
+    for array in arrays {
+        let bytes = npy(array);
+        let large = bytes.len() >= u32::MAX as usize;
+        archive.start_file(format!("{}.npy", array.name), stored.large_file(large))?;
+        archive.write_all(&bytes)?;
+    }
+    archive.finish()?.flush()?;
+    Ok(())
 }
 
 fn npy(array: &Array) -> Vec<u8> {
@@ -215,48 +221,4 @@ fn npy(array: &Array) -> Vec<u8> {
     out.extend(header.as_bytes());
     out.extend(data);
     out
-}
-
-/// A ZIP archive of stored files, without dates; `None` if its sizes do not fit 32 bits.
-fn archive(files: &[(String, Vec<u8>)]) -> Option<Vec<u8>> {
-    let (mut out, mut directory) = (Vec::new(), Vec::new());
-    for (name, data) in files {
-        let size = u32::try_from(data.len()).ok()?;
-        let offset = u32::try_from(out.len()).ok()?;
-        // Version 2.0, no flags, stored, 1980-01-01.
-        let mut common = Vec::new();
-        for field in [20_u16, 0, 0, 0, 0x21] {
-            common.extend(field.to_le_bytes());
-        }
-        for field in [crc32(data), size, size] {
-            common.extend(field.to_le_bytes());
-        }
-        common.extend(u16::try_from(name.len()).ok()?.to_le_bytes());
-        common.extend([0, 0]);
-        out.extend(b"PK\x03\x04");
-        out.extend(&common);
-        out.extend(name.as_bytes());
-        out.extend(data);
-        directory.extend(b"PK\x01\x02\x14\x00");
-        directory.extend(&common);
-        directory.extend([0; 10]);
-        directory.extend(offset.to_le_bytes());
-        directory.extend(name.as_bytes());
-    }
-    let (start, length) = (u32::try_from(out.len()).ok()?, u32::try_from(directory.len()).ok()?);
-    let count = u16::try_from(files.len()).ok()?;
-    out.extend(directory);
-    out.extend(b"PK\x05\x06\0\0\0\0");
-    out.extend([count, count].iter().flat_map(|n| n.to_le_bytes()));
-    out.extend([length, start].iter().flat_map(|n| n.to_le_bytes()));
-    out.extend([0, 0]);
-    Some(out)
-}
-
-/// CRC-32 of ZIP, polynomial 0xEDB88320.
-fn crc32(data: &[u8]) -> u32 {
-    let table: [u32; 256] = std::array::from_fn(|byte| {
-        (0..8).fold(byte as u32, |c, _| if c & 1 == 1 { c >> 1 ^ 0xEDB8_8320 } else { c >> 1 })
-    });
-    !data.iter().fold(!0, |crc, byte| table[((crc ^ u32::from(*byte)) & 0xff) as usize] ^ crc >> 8)
 }
