@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use rotordyn::bearing::{Bearing, BearingElement, Rotation};
+use rotordyn::bearing::Rotation;
 use rotordyn::model::{Options, load};
 use rotordyn::study::Machine;
 
@@ -33,8 +33,7 @@ fn run_up(c: &mut Criterion) {
 fn bearing(c: &mut Criterion) {
     let machine = rig(None);
     let site = &machine.model.bearings[1];
-    let element = BearingElement::new(&site.bearing);
-    let Bearing::Ball(_) = &site.bearing else { return };
+    let element = site.bearing.element();
     let d = [7.7e-6, -8.8e-6, 7.2e-6, 8.0e-4, -2.7e-4, 0.0];
     let rotation = Rotation { cage_angle: 0.3, cage_speed: Some(50.0), shaft_angle: 0.7, shaft_speed: 125.0 };
     c.bench_function("ball_bearing_reaction", |b| {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use rotordyn::bearing::{BearingElement, Reaction, Rotation};
+use rotordyn::bearing::{Reaction, Rotation};
 use rotordyn::model::{Options, load};
 use rotordyn::study::Machine;
 
@@ -36,7 +36,7 @@ fn force(c: &mut Criterion) {
     let v = [1e-4, -2e-4, 0.0, 0.0, 0.0, 0.0];
     let rotation = Rotation { cage_angle: 0.3, cage_speed: Some(75.0), shaft_angle: 0.7, shaft_speed: 188.0 };
     for variant in [None, Some("two_dents")] {
-        let element = BearingElement::new(&machine(variant).model.bearings[0].bearing);
+        let element = machine(variant).model.bearings[0].bearing.element();
         let mut out = Reaction::default();
         c.bench_function(&format!("force_of_nine_balls_{}", variant.unwrap_or("sound")), |b| {
             b.iter(|| element.force(black_box(&d), black_box(&v), &rotation, &mut out));

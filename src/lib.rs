@@ -100,6 +100,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
+//! | [`document`] | results as named quantities with units, for files and tables |
 //! | [`units`], [`material`], [`names`] | quantities as text; material data; similar names, file names |
 //! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
 //! | [`signal`] | spectra, STFT, order tracking, envelopes, bearing faults, orbits of sampled records |
@@ -121,7 +122,7 @@
 //! Imports go down this table only.
 
 pub use rotordyn_bearing::{self as bearing, contact, material};
-pub use rotordyn_core::{analysis, assembly, conventions, element, geometry, results, study, transient};
+pub use rotordyn_core::{analysis, assembly, conventions, document, element, geometry, study, transient};
 pub use rotordyn_identify as identify;
 pub use rotordyn_io::{self as io, error};
 pub use rotordyn_linalg as linalg;
@@ -131,3 +132,9 @@ pub use rotordyn_plot::{self as plot, figures};
 pub use rotordyn_signal as signal;
 pub use rotordyn_units::{self as units, names};
 pub use rotordyn_update as update;
+
+/// Results of the studies, saved and loaded without loss by [`save`](results::save) and [`load`](results::load).
+pub mod results {
+    pub use rotordyn_core::results::*;
+    pub use rotordyn_io::saved_results::{load, save};
+}

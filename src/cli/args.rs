@@ -2,14 +2,18 @@
 
 mod bearing;
 mod common;
+pub mod keys;
 mod manual;
 mod measured;
 mod update;
 
 use common::assignment;
 pub use common::{ModelArgs, Output, StoredArgs, StudyArgs};
+use keys::{help as key_help, help_with as key_help_with};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use rotordyn::io::run_export::{self, RunFormat};
 
 use super::signal::args::SignalArgs;
 use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
@@ -43,21 +47,17 @@ pub struct ExportArgs {
     #[command(flatten)]
     pub study: StudyArgs,
     /// File formats of the run-up's channels (time histories), separated by commas
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"])]
-    pub formats: Vec<ChannelFormat>,
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"],
+          value_parser = run_format())]
+    pub formats: Vec<RunFormat>,
     /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub number: u32,
 }
 
-/// File format of exported time histories.
-#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChannelFormat {
-    Csv,
-    Uff,
-    Mat,
-    Npz,
-    Wav,
+fn run_format() -> impl TypedValueParser<Value = RunFormat> {
+    PossibleValuesParser::new(run_export::FORMATS.map(|format| format.name))
+        .try_map(|name| RunFormat::named(&name).ok_or("an unknown format"))
 }
 
 #[derive(Debug, Subcommand)]
@@ -99,8 +99,7 @@ Examples:
     Static {
         #[command(flatten)]
         study: StudyArgs,
-        /// Shaft speed for speed-dependent bearings, such as "1200 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.static.speed"))]
         speed: Option<String>,
         /// Keep the cage angle of the model instead of averaging over it
         #[arg(long, alias = "cage-as-placed")]
@@ -121,11 +120,9 @@ Examples:
     Modal {
         #[command(flatten)]
         study: StudyArgs,
-        /// Speeds, such as "1200 rpm" or "0, 600, 1200 rpm"
-        #[arg(long, value_name = "SPEEDS")]
+        #[arg(long, value_name = "SPEEDS", help = key_help("study.modal.speeds"))]
         speed: Option<String>,
-        /// Number of modes
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.modal.modes"))]
         modes: Option<usize>,
     },
 
@@ -143,8 +140,7 @@ Examples:
         /// Highest speed, such as "6000 rpm"; 25 speeds from 0
         #[arg(long, value_name = "SPEED")]
         max_speed: Option<String>,
-        /// Number of modes
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.campbell.modes"))]
         modes: Option<usize>,
     },
 
@@ -159,11 +155,9 @@ Examples:
     Critical {
         #[command(flatten)]
         study: StudyArgs,
-        /// Highest speed, such as "6000 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.critical.max_speed"))]
         max_speed: Option<String>,
-        /// Orders, such as 1,2,BPFO
-        #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
+        #[arg(long, value_name = "ORDERS", value_delimiter = ',', help = key_help_with("study.critical.orders", "such as 1,2,BPFO"))]
         orders: Vec<String>,
     },
 
@@ -183,14 +177,12 @@ Examples:
     Frf {
         #[command(flatten)]
         study: StudyArgs,
-        /// Speed, such as "1200 rpm"
-        #[arg(long, value_name = "SPEED")]
+        #[arg(long, value_name = "SPEED", help = key_help("study.frf.speed"))]
         speed: Option<String>,
         /// Highest frequency, such as "400 Hz"; from 1 Hz in steps of 0.25 Hz
         #[arg(long, value_name = "FREQUENCY")]
         max_frequency: Option<String>,
-        /// receptance, mobility or accelerance
-        #[arg(long, value_name = "NAME")]
+        #[arg(long, value_name = "NAME", help = key_help("study.frf.quantity"))]
         quantity: Option<String>,
         #[command(flatten)]
         test: NoiseArgs,
@@ -230,17 +222,13 @@ Examples:
     RunUp {
         #[command(flatten)]
         study: StudyArgs,
-        /// Time step, such as "100 us"
-        #[arg(long, value_name = "TIME")]
+        #[arg(long, value_name = "TIME", help = key_help("study.run_up.step"))]
         step: Option<String>,
-        /// generalised-alpha, newmark, rk4 or dormand-prince
-        #[arg(long, value_name = "NAME")]
+        #[arg(long, value_name = "NAME", help = key_help("study.run_up.integrator"))]
         integrator: Option<String>,
-        /// Sampling rate of the channels, such as "4 kHz"
-        #[arg(long, value_name = "FREQUENCY")]
+        #[arg(long, value_name = "FREQUENCY", help = key_help("study.run_up.sample_rate"))]
         sample_rate: Option<String>,
-        /// Repeat the run-up with this many initial cage phases; range of every order cut ([study.orders])
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", help = key_help("study.run_up.cage_phases"))]
         cage_phases: Option<usize>,
     },
 
@@ -359,6 +347,23 @@ Examples:
     /// model file with the updated values, the rest of its text unchanged, and figures before and after.
     #[command(after_long_help = update::UPDATE)]
     Update(Box<UpdateArgs>),
+
+    /// Explain the keys of the model file, or a command
+    ///
+    /// Without a name lists the tables of the model file; with the path of a table lists its keys with values,
+    /// defaults and meaning; with the path of a key explains it. Names of items are left out or given. A name that is
+    /// no key of the file but a command shows the help of the command.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn help
+  rotordyn help bearing
+  rotordyn help bearing.preload
+  rotordyn help study.run_up.step
+  rotordyn help run-up")]
+    Help {
+        /// Path of a table or key, such as bearing.preload, or a command
+        path: Option<String>,
+    },
 
     /// List or look up bearings of the built-in catalogue
     ///

@@ -23,7 +23,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     if !constrained.is_empty() {
         terminal.print(&format!("  constrained DOFs: {}", constrained.join(", ")));
     }
-    if let Some(how) = found.bearing.estimated_geometry {
+    if let Some(how) = &found.bearing.estimated_geometry {
         terminal.print_wrapped(&format!("internal geometry {how}"));
     }
     let imperfections = &found.bearing.imperfections;
@@ -257,7 +257,7 @@ fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepR
     if n == 0 {
         return;
     }
-    let (name, unit, factor) = match (sweep.of, sweep.unit) {
+    let (name, unit, factor) = match (sweep.of, sweep.unit.as_str()) {
         (SweepVariable::Speed, _) => ("speed".to_string(), "rpm", 60.0 / std::f64::consts::TAU),
         (SweepVariable::CageAngle, _) => ("cage angle".to_string(), "deg", 1f64.to_degrees()),
         (_, "m") => (sweep.label.clone(), "um", 1e6),

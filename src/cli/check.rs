@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use rotordyn::assembly::rigid_body_modes;
-use rotordyn::bearing::Bearing;
+use rotordyn::io::json;
 use rotordyn::linalg::dot;
 use rotordyn::model::{Loaded, Model};
 use rotordyn::study::Machine;
@@ -156,18 +156,15 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         .iter()
         .map(|site| {
             let mut row = vec![site.name.clone()];
-            match (&site.bearing, site.bearing.ball()) {
-                (Bearing::Linear(linear), _) => row.push(match linear.table.len() {
-                    1 => "linear".into(),
-                    n => format!("linear, {n} speeds"),
-                }),
-                (_, None) => {}
-                (bearing, Some(ball)) => {
+            let model = site.bearing.description();
+            match site.bearing.ball() {
+                None => row.push(model),
+                Some(ball) => {
                     let g = &ball.geometry;
                     let orders = g.characteristic_orders(g.contact_angle);
-                    let kind =
-                        if matches!(bearing, Bearing::RadialBall(_)) { ", radial ball DOF" } else { "" };
-                    row.push(format!("{} balls of {} mm{kind}", g.balls, number(1e3 * g.ball_diameter, 4)));
+                    let comma = if model.is_empty() { "" } else { ", " };
+                    let diameter = number(1e3 * g.ball_diameter, 4);
+                    row.push(format!("{} balls of {diameter} mm{comma}{model}", g.balls));
                     row.push(number(1e3 * g.pitch_diameter, 5));
                     row.push(format!("{:.1}", 1e6 * g.radial_clearance));
                     row.push(format!("{:.0}", g.contact_angle.to_degrees()));
@@ -207,13 +204,13 @@ fn to_json(found: &CheckedVariant) -> Value {
         .bearings
         .iter()
         .map(|site| match site.bearing.ball() {
-            None => json!({ "name": site.name, "model": "linear" }),
+            None => json!({ "name": site.name, "model": site.bearing.keyword() }),
             Some(ball) => {
                 let g = &ball.geometry;
                 let o = g.characteristic_orders(g.contact_angle);
                 json!({
                     "name": site.name,
-                    "model": if matches!(site.bearing, Bearing::RadialBall(_)) { "radial_ball" } else { "ball" },
+                    "model": site.bearing.keyword(),
                     "balls": g.balls,
                     "ball_diameter": g.ball_diameter,
                     "pitch_diameter": g.pitch_diameter,
@@ -224,6 +221,9 @@ fn to_json(found: &CheckedVariant) -> Value {
             }
         })
         .collect();
+    let belts: Vec<_> = found.machine.belt_pulls().iter().map(|b| (b.name.clone(), b.document())).collect();
+    let preloads = found.machine.mounted_preloads().iter();
+    let preloads: Vec<_> = preloads.map(|p| (p.bearing.clone(), p.document())).collect();
     json!({
         "name": found.name,
         "title": found.loaded.model.title,
@@ -232,8 +232,8 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "bearings": bearings,
-        "belts": rotordyn::io::json::belts(found.machine.belt_pulls()),
-        "preloads": rotordyn::io::json::preloads(found.machine.mounted_preloads()),
+        "belts": json::groups("name", &belts),
+        "preloads": json::groups("bearing", &preloads),
         "forecast": forecast::to_json(&found.machine),
         "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
     })

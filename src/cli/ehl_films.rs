@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rotordyn::bearing::{BallBearing, Bearing};
+use rotordyn::bearing::BallBearing;
 use rotordyn::io::film_table_cache;
 use rotordyn::model::Model;
 
@@ -12,7 +12,7 @@ use super::terminal::Terminal;
 /// Prepares the film tables of all bearings of a machine.
 pub fn prepare_machine_films(model: &mut Model, folder: &Path, terminal: &Terminal) -> Result<(), Failure> {
     for site in &mut model.bearings {
-        if let Bearing::Ball(ball) = &mut site.bearing {
+        if let Some(ball) = site.bearing.static_balls_mut() {
             prepare_bearing_films(&site.name, ball, folder, terminal)?;
         }
     }

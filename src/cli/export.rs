@@ -1,17 +1,15 @@
 //! `export`: geometry as glTF, mode shapes as VTK, time histories, modes and FRFs for measurement programs.
 
-use std::path::{Path, PathBuf};
-
-use rotordyn::error::Error;
 use rotordyn::io::export_3d::{export_geometry, export_modes};
 use rotordyn::io::hdf5::Store;
+use rotordyn::io::run_export::Options;
 use rotordyn::io::{machine_records, measured, results_file};
 use rotordyn::results::Results;
-use rotordyn::signal::record::{MeasuredData, RecordError};
+use rotordyn::signal::record::MeasuredData;
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
 
-use super::args::{ChannelFormat, ExportArgs};
+use super::args::ExportArgs;
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::terminal::Terminal;
@@ -28,7 +26,7 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let modal = machine.model.studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?;
     let results = Results { modal: modal.unwrap_or_default(), ..Results::default() };
     files.extend(export_modes(&results, &machine, &folder)?);
-    if args.formats.contains(&ChannelFormat::Uff) {
+    if args.formats.iter().any(|format| format.name == "uff") {
         let mut write = |name: &str, content: &MeasuredData| {
             let path = folder.join(name);
             files.push(path.clone());
@@ -45,43 +43,12 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
         if file.contains("/time/t") {
             let history = results_file::read_history(&file)?;
             let run = machine_records::run_records(&history, &machine.model);
+            let options = Options { folder: &folder, number: args.number };
             for format in &args.formats {
-                files.extend(channels(&run, *format, args.number, &folder)?);
+                files.extend(format.write(&run, &options)?);
             }
         }
     }
     print_written_files(terminal, &folder, &files);
     Ok(json!({ "command": "export", "files": files }))
-}
-
-/// Writes the channels of a run in one format; WAV has one file per channel.
-fn channels(
-    run: &MeasuredData,
-    format: ChannelFormat,
-    number: u32,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, Error> {
-    let named = |extension: &str| folder.join(format!("channels.{extension}"));
-    let (path, content) = match format {
-        ChannelFormat::Csv => (named("csv"), run.clone()),
-        ChannelFormat::Uff => (named("uff"), run.clone()),
-        ChannelFormat::Npz => (named("npz"), run.clone()),
-        ChannelFormat::Mat => (named("mat"), machine_records::with_cwru_names(run, number)),
-        ChannelFormat::Wav => {
-            let audible: Vec<_> = run.records.iter().filter(|r| machine_records::is_vibration(r)).collect();
-            if audible.is_empty() {
-                return Err(RecordError::NoChannel { name: "vibration".into(), known: "none".into() }.into());
-            }
-            let mut files = Vec::new();
-            for record in audible {
-                let path = folder.join(format!("{}.wav", record.name));
-                let one = MeasuredData { records: vec![record.clone()], ..MeasuredData::default() };
-                measured::write(&path, &one)?;
-                files.push(path);
-            }
-            return Ok(files);
-        }
-    };
-    measured::write(&path, &content)?;
-    Ok(vec![path])
 }

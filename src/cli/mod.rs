@@ -14,6 +14,7 @@ mod export;
 mod failure;
 mod forecast;
 mod free_parameters;
+mod help;
 mod identify;
 mod identify_tables;
 mod interrupt;
@@ -142,6 +143,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Catalogue { designation } => {
             catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
         }
+        Command::Help { path } => help::run(path.as_deref(), terminal).map(Outcome::from),
         Command::Signal(args) => signal::run(args, terminal),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),
     }

@@ -8,7 +8,7 @@ use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{json, machine_records, results_file};
 use rotordyn::model::Model;
-use rotordyn::results::{CampbellResult, ChannelPair, CutPair, level_difference_db};
+use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
 use rotordyn::study::{Machine, MeasuredRun};
 use rotordyn::update::UpdateError;
 use serde_json::{Value, json};
@@ -179,7 +179,7 @@ pub fn compare(
         "seconds": found.run.profile.duration(),
         "step_s": computed.report.step,
         "requested_step_s": computed.requested_step,
-        "step_error": json::run_up_step_error(computed),
+        "step_error": json::document(&StepError::document(computed.step_error.as_ref()))["step_error"],
         "channels": pairs.iter().map(to_json).collect::<Vec<_>>(),
     });
     Ok((document, files))

@@ -1,9 +1,13 @@
-//! Study settings from flags and from defaults for missing sections; every setting is a path and a value, as
-//! in `--set`.
+//! Study settings from flags and from defaults for missing sections.
+//!
+//! Every setting is the path of a declared key and its value as text, as in `--set`: the reader of the file then
+//! checks units and ranges of flags, `--set` and file in one place, with the location in the message, and a stored
+//! run keeps its settings as text beside the text of its model.
 
-use rotordyn::model::Model;
 use rotordyn::model::study::SweepVariable;
+use rotordyn::model::{Model, keys};
 
+use super::args::keys::{default, default_words};
 use super::args::{BearingArgs, StoredArgs};
 use super::failure::Failure;
 
@@ -28,7 +32,9 @@ impl SettingsBuilder {
 
     /// Adds the value of a flag, if given.
     pub fn set_flag(&mut self, key: &str, value: Option<String>) {
-        self.settings.set.extend(value.map(|value| (format!("study.{}.{key}", self.name), value)));
+        let path = format!("study.{}.{key}", self.name);
+        debug_assert!(keys::find(&path).is_ok(), "{path} is not declared");
+        self.settings.set.extend(value.map(|value| (path, value)));
     }
 
     /// Adds the default values if the file has no section of the study; flags take precedence.
@@ -59,9 +65,10 @@ pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Set
     let mut draft = SettingsBuilder::new("modal");
     draft.set_flag("speeds", speed.map(toml_string));
     draft.set_flag("modes", modes.map(|n| n.to_string()));
+    let modes = default("study.modal.modes");
     let (speeds, words) = match top_speed(model) {
-        Some(top) => (format!("\"0, {top} rpm\""), format!("12 modes at 0 and {top} rpm")),
-        None => ("\"0 rpm\"".to_string(), "12 modes at standstill".to_string()),
+        Some(top) => (format!("\"0, {top} rpm\""), format!("{modes} modes at 0 and {top} rpm")),
+        None => (default("study.modal.speeds"), format!("{modes} modes at standstill")),
     };
     draft.defaults(model.studies.modal.is_none(), &words, &[("speeds", speeds)])
 }
@@ -71,7 +78,7 @@ pub fn campbell(model: &Model, max_speed: Option<&String>, modes: Option<usize>)
     draft.set_flag("speeds", max_speed.map(|top| sweep("0 rpm", top, 25)));
     draft.set_flag("modes", modes.map(|n| n.to_string()));
     let top = rpm_or(top_speed(model), 3000.0);
-    let words = format!("25 speeds up to {top}, 12 modes");
+    let words = format!("25 speeds up to {top}, {} modes", default("study.campbell.modes"));
     draft.defaults(model.studies.campbell.is_none(), &words, &[("speeds", sweep("0 rpm", &top, 25))])
 }
 
@@ -128,8 +135,10 @@ pub fn run_up(
     draft.set_flag("integrator", integrator.map(toml_string));
     draft.set_flag("sample_rate", sample_rate.map(toml_string));
     draft.set_flag("cage_phases", cage_phases.map(|n| n.to_string()));
-    let words = "generalised-alpha, time step 100 us, sampling rate 2 kHz";
-    draft.defaults(model.studies.run_up.is_none(), words, &[("step", toml_string("100 us"))])
+    let [integrator, step, rate] =
+        ["integrator", "step", "sample_rate"].map(|key| default_words(&format!("study.run_up.{key}")));
+    let words = format!("{integrator}, time step {step}, sampling rate {rate}");
+    draft.defaults(model.studies.run_up.is_none(), &words, &[("step", default("study.run_up.step"))])
 }
 
 /// Number of points of a sweep given by a flag.
@@ -176,9 +185,10 @@ pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
     draft.set_flag("overlap", args.overlap.clone());
     draft.set_flag("max_frequency", args.max_frequency.as_ref().map(toml_string));
     draft.set_flag("orders", toml_array(&args.orders));
-    let words = "Hann window of 1 s";
-    let settings =
-        draft.defaults(model.studies.spectrogram.is_none(), words, &[("window", toml_string("hann"))]);
+    let [window, length] = ["window", "length"].map(|key| default_words(&format!("study.spectrogram.{key}")));
+    let words = format!("{window} window of {length}");
+    let values = [("window", default("study.spectrogram.window"))];
+    let settings = draft.defaults(model.studies.spectrogram.is_none(), &words, &values);
     with_run_up(model, settings)
 }
 
@@ -190,15 +200,18 @@ pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
     draft.set_flag("overlap", args.overlap.clone());
     draft.set_flag("max_order", args.max_order.clone());
     draft.set_flag("cuts", toml_array(&args.orders));
-    let words = "order resolution 0.05 up to order 20";
-    let settings = draft.defaults(model.studies.orders.is_none(), words, &[("window", toml_string("hann"))]);
+    let [resolution, top] =
+        ["resolution", "max_order"].map(|key| default_words(&format!("study.orders.{key}")));
+    let words = format!("order resolution {resolution} up to order {top}");
+    let values = [("window", default("study.orders.window"))];
+    let settings = draft.defaults(model.studies.orders.is_none(), &words, &values);
     with_run_up(model, settings)
 }
 
 /// Adds the run-up section that the analyses need, missing in the file if the run-up used defaults.
 fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
     if model.studies.run_up.is_none() {
-        settings.set.insert(0, ("study.run_up.step".into(), toml_string("100 us")));
+        settings.set.insert(0, ("study.run_up.step".into(), default("study.run_up.step")));
     }
     settings
 }
@@ -226,4 +239,64 @@ fn sweep(from: &str, to: &str, count: usize) -> String {
 pub fn toml_array(items: &[String]) -> Option<String> {
     let item = |text: &String| if text.parse::<f64>().is_ok() { text.clone() } else { toml_string(text) };
     (!items.is_empty()).then(|| format!("[{}]", items.iter().map(item).collect::<Vec<_>>().join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::args::Cli;
+    use clap::CommandFactory;
+    use rotordyn::model::{Options, load};
+
+    const MACHINE: &str = r#"
+        model = { name = "machine" }
+        material.steel = { young = "207 GPa", poisson = 0.3, density = "7850 kg/m^3" }
+        station = { A = "30 mm", B = "380 mm" }
+        shaft = { element_length = "50 mm", section = [{ length = "500 mm", outer_diameter = "25 mm" }] }
+        bearing.A = { model = "linear", station = "A", k_xx = "1e7 N/m", k_yy = "1e7 N/m" }
+        unbalance.B = { station = "B", magnitude = "10 g mm" }
+        probe.x = { at = "station.B", direction = "x" }
+        speed = { profile = "ramp", to = "3000 rpm", ramp = "10 s" }
+    "#;
+
+    /// Settings of every study of a machine without studies, from the defaults of the command.
+    #[test]
+    fn defaults_of_commands_are_declared_and_valid() {
+        let model = load("machine.toml", MACHINE, &Options::default()).unwrap().model;
+        let stored = StoredArgs::default();
+        let settings = [
+            equilibrium(&model, None, false),
+            modal(&model, None, None),
+            campbell(&model, None, None),
+            critical(&model, None, &[]),
+            frf(&model, None, None, None),
+            unbalance(&model, None),
+            run_up(&model, None, None, None, None),
+            spectrogram(&model, &stored),
+            orders(&model, &stored),
+        ];
+        for Settings { set, note } in settings {
+            assert!(!set.is_empty() && note.is_some());
+            for (path, _) in &set {
+                assert!(keys::find(path).is_ok() || path.starts_with("study.frf.excitation."), "{path}");
+            }
+            let options = Options { set, ..Options::default() };
+            load("machine.toml", MACHINE, &options).unwrap_or_else(|errors| panic!("{note:?}: {errors}"));
+        }
+    }
+
+    /// Help texts that come from a declaration are built with the command.
+    #[test]
+    fn help_of_flags_has_unit_and_default_of_the_key() {
+        let cli = Cli::command();
+        let help = |command: &str, flag: &str| {
+            let command = cli.find_subcommand(command).unwrap();
+            let flag = command.get_arguments().find(|argument| argument.get_long() == Some(flag)).unwrap();
+            flag.get_help().unwrap().to_string()
+        };
+        assert_eq!(help("modal", "modes"), "Number of modes [default: 12]");
+        assert!(help("run-up", "step").ends_with(", such as \"100 us\" [default: 100 us]"));
+        assert!(help("run-up", "integrator").contains("newmark, rk4, dormand-prince"));
+        assert!(help("bearing", "along").ends_with("[default: load]"));
+    }
 }

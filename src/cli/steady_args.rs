@@ -4,6 +4,7 @@ use clap::Args;
 use rotordyn::model::Model;
 
 use super::args::StudyArgs;
+use super::args::keys::{default, default_words, help as key_help, help_with as key_help_with};
 use super::settings::{Settings, SettingsBuilder, toml_array, toml_string, top_speed};
 
 /// Shown with the long help of `poincare`.
@@ -30,30 +31,23 @@ Examples:
 pub struct SteadyArgs {
     #[command(flatten)]
     pub study: StudyArgs,
-    /// Speed, such as "3000 rpm" [default: the highest of the speed profile]
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", help = key_help("study.poincare.speed"))]
     pub speed: Option<String>,
-    /// Poincaré section once per: shaft revolution (shaft), cage revolution (cage) or ball passage
-    /// (ball-pass)
-    #[arg(long, value_name = "CLOCK")]
+    #[arg(long, value_name = "CLOCK", help = key_help("study.poincare.section"))]
     pub section: Option<String>,
-    /// Ball bearing whose cage triggers the section [default: the first of the file]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = key_help("study.poincare.bearing"))]
     pub bearing: Option<String>,
-    /// Phase angle of the section, such as "90 deg"
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help = key_help("study.poincare.phase"))]
     pub phase: Option<String>,
     /// Periods discarded as transient before recording
     #[arg(long, alias = "settle", value_name = "N")]
     pub transient_periods: Option<usize>,
-    /// Periods, transient and record, up to which a run goes on whose motion has not settled
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help = key_help("study.poincare.transient_limit"))]
     pub transient_limit: Option<usize>,
     /// Periods recorded
     #[arg(long, value_name = "N")]
     pub periods: Option<usize>,
-    /// Largest time step, such as "20 us"
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help = key_help("study.poincare.step"))]
     pub step: Option<String>,
     /// generalised-alpha, newmark, rk4 or dormand-prince
     #[arg(long, value_name = "NAME")]
@@ -65,9 +59,7 @@ pub struct SteadyArgs {
 pub struct PoincareArgs {
     #[command(flatten)]
     pub steady: SteadyArgs,
-    /// Plane of the section: two probes "disc_x, disc_y" (orbit), or one with its velocity (phase plane); can
-    /// be repeated
-    #[arg(long, value_name = "PROBES")]
+    #[arg(long, value_name = "PROBES", help = key_help_with("study.poincare.planes", "can be repeated"))]
     pub plane: Vec<String>,
 }
 
@@ -76,8 +68,7 @@ pub struct PoincareArgs {
 pub struct BifurcationArgs {
     #[command(flatten)]
     pub steady: SteadyArgs,
-    /// Bifurcation parameter: path of any model value, or speed; repeated paths vary together
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", help = key_help_with("study.bifurcation.parameter", "can be repeated"))]
     pub parameter: Vec<String>,
     /// First value with its unit, such as "0 um"
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
@@ -88,17 +79,13 @@ pub struct BifurcationArgs {
     /// Number of values [default: 200, or every integer between integer ends]
     #[arg(long, value_name = "N")]
     pub count: Option<usize>,
-    /// Sweep direction: up, down or both
-    #[arg(long, value_name = "WAY")]
+    #[arg(long, value_name = "WAY", help = key_help("study.bifurcation.sweep"))]
     pub sweep: Option<String>,
-    /// Initial state of each value: continuation (final state of the previous value) or equilibrium
-    #[arg(long, value_name = "START")]
+    #[arg(long, value_name = "START", help = key_help("study.bifurcation.start"))]
     pub start: Option<String>,
-    /// Probes to plot, separated by commas
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help = key_help_with("study.bifurcation.channels", "separated by commas"))]
     pub channels: Vec<String>,
-    /// Also compute the largest Lyapunov exponent (twice the computing time)
-    #[arg(long)]
+    #[arg(long, help = key_help("study.bifurcation.lyapunov"))]
     pub lyapunov: bool,
 }
 
@@ -115,7 +102,9 @@ fn common(draft: &mut SettingsBuilder, args: &SteadyArgs) {
 }
 
 /// Note on the defaults used if the file lacks the study.
-fn default_note(model: &Model, transient_periods: usize, periods: usize) -> String {
+fn default_note(model: &Model, study: &str) -> String {
+    let [transient_periods, periods] =
+        ["transient_periods", "periods"].map(|key| default_words(&format!("study.{study}.{key}")));
     let speed = match top_speed(model) {
         Some(top) => format!("{top} rpm, "),
         None => String::new(),
@@ -128,14 +117,22 @@ pub fn poincare(model: &Model, args: &PoincareArgs) -> Settings {
     common(&mut draft, &args.steady);
     draft.set_flag("planes", toml_array(&args.plane));
     let missing = model.studies.poincare.is_none();
-    draft.defaults(missing, &default_note(model, 200, 300), &[("section", toml_string("shaft"))])
+    draft.defaults(
+        missing,
+        &default_note(model, "poincare"),
+        &[("section", default("study.poincare.section"))],
+    )
 }
 
 pub fn lyapunov(model: &Model, args: &SteadyArgs) -> Settings {
     let mut draft = SettingsBuilder::new("lyapunov");
     common(&mut draft, args);
     let missing = model.studies.lyapunov.is_none();
-    draft.defaults(missing, &default_note(model, 200, 1000), &[("section", toml_string("shaft"))])
+    draft.defaults(
+        missing,
+        &default_note(model, "lyapunov"),
+        &[("section", default("study.lyapunov.section"))],
+    )
 }
 
 pub fn bifurcation(model: &Model, args: &BifurcationArgs) -> Settings {
@@ -159,5 +156,9 @@ pub fn bifurcation(model: &Model, args: &BifurcationArgs) -> Settings {
     draft.set_flag("start", args.start.as_ref().map(toml_string));
     draft.set_flag("channels", toml_array(&args.channels));
     draft.set_flag("lyapunov", args.lyapunov.then(|| "true".into()));
-    draft.defaults(missing, &default_note(model, 200, 100), &[("section", toml_string("shaft"))])
+    draft.defaults(
+        missing,
+        &default_note(model, "bifurcation"),
+        &[("section", default("study.bifurcation.section"))],
+    )
 }

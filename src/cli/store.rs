@@ -24,7 +24,7 @@ pub struct ModelText<'a> {
 }
 
 /// One line "name: how" for every bearing with estimated internal geometry.
-pub fn estimated_lines<'b>(bearings: impl Iterator<Item = (&'b str, &'static str)>) -> String {
+pub fn estimated_lines<'b>(bearings: impl Iterator<Item = (&'b str, &'b str)>) -> String {
     bearings.map(|(name, how)| format!("{name}: {how}")).collect::<Vec<_>>().join("\n")
 }
 

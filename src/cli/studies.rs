@@ -304,7 +304,7 @@ impl<'a> Job<'a> {
             self.terminal.print(&format!("  {}: {}", study.name(), bearing.sentence()));
         }
         if !used.is_empty() {
-            self.results.ball_inertia.push((study.name(), used));
+            self.results.ball_inertia.push((study.name().into(), used));
         }
     }
 

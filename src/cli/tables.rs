@@ -297,7 +297,7 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
                 p.response.clone(),
                 format!("{:.1}", rpm(peak.at)),
                 number(peak.amplitude, 4),
-                p.unit.into(),
+                p.unit.clone(),
                 text(peak.amplification(), 2),
                 half_power.map_or("-".into(), |[low, high]| format!("{low:.1} to {high:.1}")),
             ];

@@ -12,7 +12,7 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "rotordyn-core",
         &[
-            &["conventions"],
+            &["conventions", "document"],
             &["element"],
             &["model"],
             &["geometry"],
@@ -27,12 +27,13 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
 ];
 
 /// Foreign crates and the files that may use them.
-const OWNERS: [(&[&str], &[&str]); 10] = [
+const OWNERS: [(&[&str], &[&str]); 11] = [
     (&["faer"], &["rotordyn-linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["rotordyn-core/geometry/rapier"]),
     (&["parry3d", "parry3d_f64"], &["rotordyn-core/geometry/parry"]),
     (&["hdf5"], &["rotordyn-io/hdf5"]),
     (&["flate2"], &["rotordyn-io/inflate"]),
+    (&["rmp_serde", "serde_path_to_error"], &["rotordyn-io/saved_results"]),
     (&["zip"], &["rotordyn-io/npy"]),
     (&["hound"], &["rotordyn-io/wav"]),
     (&["resvg", "usvg", "tiny_skia", "png"], &["rotordyn-plot/"]),

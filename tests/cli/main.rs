@@ -7,6 +7,7 @@ mod belts;
 mod commands;
 mod failures;
 mod forecasts;
+mod help;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;

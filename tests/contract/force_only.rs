@@ -4,19 +4,19 @@ use crate::ball_bearing::Random;
 use crate::ball_combinations::{angular, for_each_combination, lever, sample};
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{
-    BallBearing, Bearing, BearingElement, Defect, DefectForm, DefectLaw, Fit, OffSize, Reaction, Rotation,
-    Shape, Surface,
+    BallBearing, BearingModel, Defect, DefectForm, DefectLaw, Fit, OffSize, Reaction, Rotation, Shape,
+    Surface,
 };
 
 /// Compares both evaluations, which differ only in the summation order over balls.
 pub fn compare(name: &str, bearing: &BallBearing, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) {
-    let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
+    let element = bearing.element();
     let whole = element.reaction(d, v, rotation);
     let mut alone = Reaction::default();
     element.force(d, v, rotation, &mut alone);
     // Sum of ball loads, which may cancel in the resultant, plus damping at 0.01 m/s.
     let loads: f64 =
-        element.ball_loads(d, rotation).iter().map(|b| b.load.abs().max(b.outer_load.abs()) + 3.0).sum();
+        element.contact_loads(d, rotation).iter().map(|b| b.load.abs().max(b.outer_load.abs()) + 3.0).sum();
     for k in 0..6 {
         let error = (alone.force[k] - whole.force[k]) / lever(k);
         assert!(error.abs() < 1e-14 * loads, "{name}: force {k} {error:e} of {loads}");
@@ -99,9 +99,9 @@ fn force_only_for_races_with_defects() {
                 let perfect = {
                     let mut bearing = bearing.clone();
                     bearing.imperfections = Default::default();
-                    BearingElement::new(&Bearing::Ball(bearing))
+                    bearing.element()
                 };
-                let element = BearingElement::new(&Bearing::Ball(bearing.clone()));
+                let element = bearing.element();
                 for step in 0..200 {
                     let (d, v, mut rotation) = sample(&mut random);
                     let d = d.map(|d| 0.1 * d);

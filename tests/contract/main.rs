@@ -16,6 +16,7 @@ mod ehl_table;
 mod force_only;
 mod imperfections;
 mod linear_bearing;
+mod models;
 mod preload;
 mod radial_ball;
 mod spring_preload;

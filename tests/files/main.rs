@@ -16,6 +16,7 @@ mod results_file;
 #[path = "../common/rig.rs"]
 mod rig;
 mod rig_results;
+mod saved_results;
 mod tables;
 mod uff;
 mod uff_measured;

@@ -5,6 +5,8 @@ mod bearing;
 #[path = "../common/ehl.rs"]
 #[allow(dead_code)]
 mod lubricated;
+#[path = "../common/measured_data.rs"]
+mod measured_data;
 #[path = "../common/rig.rs"]
 mod rig;
 #[path = "../common/ross.rs"]
@@ -22,6 +24,7 @@ mod bal_2022_preload;
 mod cakmak_2010;
 mod cakmak_2010_modes;
 mod cwru_6205;
+mod cwru_records;
 mod iso16281;
 mod iso_281_life;
 mod iso_281_ratings;

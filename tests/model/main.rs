@@ -3,8 +3,10 @@
 mod bearing_file;
 mod bearing_keys;
 mod catalogue;
+mod declared_keys;
 mod files;
 mod imperfections;
+mod key_contexts;
 mod papers;
 mod renamed;
 mod rig;

@@ -1,7 +1,9 @@
 //! Internal geometry of a ball bearing.
 
+use serde::{Deserialize, Serialize};
+
 /// Internal geometry of a single-row ball bearing (deep groove or angular contact), all diameters \[m\].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallGeometry {
     /// Number of balls Z.
     pub balls: usize,
@@ -74,7 +76,7 @@ impl BallGeometry {
 ///
 /// Cage ½ (1 − γ), outer race ½ Z (1 − γ), inner race ½ Z (1 + γ), ball spin (D_pw / 2 D_w)(1 − γ²) with
 /// γ = D_w cos α / D_pw. Source: Cakmak & Sanliturk 2010 eq. 20-23 in orders; eq. 23 without its N_b.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CharacteristicOrders {
     /// Cage order (fundamental train frequency, FTF).
     pub ftf: f64,

@@ -1,24 +1,40 @@
 //! Linear bearing: K and C, constant or tabulated over speed.
 
-use super::{LinearBearing, Reaction};
+use std::sync::Arc;
+
+use crate::model::{BearingElement, BearingModel, BearingSymbol, BeyondTable, SpeedRange};
+use crate::{BearingContact, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::pchip::Pchip;
 
-/// Stiffness and damping of a bearing between shaft node and housing point, linearised.
-///
-/// With d = (displacement of the shaft node) − (that of the housing's point), the force on the shaft is
-/// f = −K d − C ḋ; order u_x u_y u_z θ_x θ_y θ_z.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct SiteTangent {
-    /// K \[N/m, N/rad, N m/m, N m/rad\].
-    pub stiffness: [[f64; 6]; 6],
-    /// C, same order \[N s/m ...\].
-    pub damping: [[f64; 6]; 6],
+/// Linear bearing: stiffness and damping matrices, constant or tabulated over speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearBearing {
+    /// Rows sorted by speed \[rad/s\]; one row means constant. Interpolated by monotone cubic (PCHIP); beyond
+    /// its first and last row the values of that row hold.
+    pub table: Vec<LinearBearingRow>,
+    /// Studies at speeds beyond the table.
+    pub beyond: BeyondTable,
 }
 
-impl From<&Reaction> for SiteTangent {
-    fn from(reaction: &Reaction) -> Self {
-        Self { stiffness: reaction.stiffness, damping: reaction.damping }
+impl LinearBearing {
+    /// First and last speed of the table \[rad/s\]; `None` for constant stiffness and damping.
+    pub fn table_range(&self) -> Option<[f64; 2]> {
+        match self.table.as_slice() {
+            [first, .., last] => Some([first.speed, last.speed]),
+            _ => None,
+        }
     }
+}
+
+/// One row of a [`LinearBearing`]'s table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearBearingRow {
+    /// Speed Ω \[rad/s\].
+    pub speed: f64,
+    /// Stiffness K, order u_x u_y u_z θ_x θ_y θ_z.
+    pub stiffness: [[f64; 6]; 6],
+    /// Damping C, same order.
+    pub damping: [[f64; 6]; 6],
 }
 
 /// A linear bearing prepared for evaluation.
@@ -96,5 +112,72 @@ impl LinearElement {
             }
         }
         out
+    }
+}
+
+impl BearingModel for LinearBearing {
+    fn keyword(&self) -> &'static str {
+        "linear"
+    }
+
+    fn description(&self) -> String {
+        match self.table.len() {
+            1 => "linear".into(),
+            n => format!("linear, {n} speeds"),
+        }
+    }
+
+    fn element(&self) -> Arc<dyn BearingElement> {
+        Arc::new(LinearElement::new(self))
+    }
+
+    fn supports(&self) -> [bool; 6] {
+        std::array::from_fn(|k| self.table.iter().any(|row| row.stiffness[k][k] != 0.0))
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.table.len() > 1
+    }
+
+    fn symbol(&self) -> BearingSymbol<'_> {
+        BearingSymbol::Springs(self.table.iter().map(|row| [&row.stiffness, &row.damping]).collect())
+    }
+
+    fn nominal_stiffness(&self) -> [[f64; 6]; 6] {
+        LinearElement::new(self).tangent(0.0).stiffness
+    }
+
+    fn speed_range(&self) -> Option<SpeedRange> {
+        self.table_range().map(|speeds| SpeedRange { speeds, beyond: self.beyond })
+    }
+}
+
+impl BearingElement for LinearElement {
+    fn relative_dofs(&self) -> usize {
+        6
+    }
+
+    fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        Self::reaction(self, d, v, rotation.shaft_speed)
+    }
+
+    fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, _angles: usize) -> Reaction {
+        Self::reaction(self, d, &[0.0; 6], rotation.shaft_speed)
+    }
+
+    fn contact_loads(&self, _d: &[f64; 6], _rotation: &Rotation) -> Vec<BearingContact> {
+        Vec::new()
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        Self::depends_on_speed(self)
+    }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    fn tangent_at(&self, speed: f64, _standstill: SiteTangent) -> SiteTangent {
+        self.tangent(speed)
     }
 }

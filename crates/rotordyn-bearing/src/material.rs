@@ -1,7 +1,9 @@
 //! Isotropic linear-elastic material.
 
+use serde::{Deserialize, Serialize};
+
 /// Isotropic linear-elastic material of a shaft, disc or bearing part.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     pub name: String,
     /// Young's modulus E \[Pa\].

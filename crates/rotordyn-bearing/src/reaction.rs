@@ -1,5 +1,7 @@
 //! Kinematic state of a bearing and its reaction.
 
+use serde::{Deserialize, Serialize};
+
 /// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Rotation {
@@ -53,5 +55,23 @@ impl Reaction {
         self.parametric_power += weight * other.parametric_power;
         self.dissipated_power += weight * other.dissipated_power;
         self.mean_cos += weight * other.mean_cos;
+    }
+}
+
+/// Stiffness and damping of a bearing between shaft node and housing point, linearised.
+///
+/// With d = (displacement of the shaft node) − (that of the housing's point), the force on the shaft is
+/// f = −K d − C ḋ; order u_x u_y u_z θ_x θ_y θ_z.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct SiteTangent {
+    /// K \[N/m, N/rad, N m/m, N m/rad\].
+    pub stiffness: [[f64; 6]; 6],
+    /// C, same order \[N s/m ...\].
+    pub damping: [[f64; 6]; 6],
+}
+
+impl From<&Reaction> for SiteTangent {
+    fn from(reaction: &Reaction) -> Self {
+        Self { stiffness: reaction.stiffness, damping: reaction.damping }
     }
 }

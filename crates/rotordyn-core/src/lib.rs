@@ -3,6 +3,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
+//! | [`document`] | results as named quantities with units, for files and tables |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
 //! | [`model`] | the machine and its studies in SI units |
 //! | [`geometry`] | bearings and machine as solids: overlaps, multibody balls and cage, meshes, scenes |
@@ -14,6 +15,7 @@
 //! Imports go down this table only. No module knows files, pictures or the command line.
 
 pub mod conventions;
+pub mod document;
 pub mod element;
 pub mod model;
 

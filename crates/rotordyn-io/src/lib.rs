@@ -3,6 +3,7 @@
 pub mod error;
 
 pub mod csv;
+pub mod document_tables;
 pub mod export_3d;
 pub mod external_file;
 pub mod film_table_cache;
@@ -20,6 +21,8 @@ pub mod model_file_edit;
 pub mod npy;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
+pub mod run_export;
+pub mod saved_results;
 pub mod uff;
 pub mod vtk;
 mod vtk_machine;

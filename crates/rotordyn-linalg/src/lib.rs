@@ -45,7 +45,7 @@ pub use group_dense::GroupDense;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 
-pub use nalgebra::Complex;
+pub use num_complex::Complex;
 
 /// Complex number of double precision.
 pub type Complex64 = Complex<f64>;

@@ -4,6 +4,7 @@
 
 pub mod build;
 pub mod file;
+pub mod keys;
 pub mod load;
 pub mod parameter_paths;
 

@@ -188,19 +188,18 @@ pub fn load_bearings_with(
         (name, title, sites, studies) = build::build_bearings(&root, &log);
         model = None;
     }
-    let radial = sites.iter().any(|(_, bearing)| matches!(bearing, Bearing::RadialBall(_)));
-    let ball = |(name, bearing): (String, Bearing)| match bearing {
-        Bearing::Ball(ball) => Some((name, ball)),
-        Bearing::Linear(_) | Bearing::RadialBall(_) => None,
-    };
-    let bearings: Vec<_> = Vec::into_iter(sites).filter_map(ball).collect();
+    let sites: Vec<(String, Bearing)> = sites;
+    let other = sites.iter().map(|(_, bearing)| bearing).find(|bearing| bearing.cage().is_some());
+    let ball = |(name, bearing): &(String, Bearing)| Some((name.clone(), bearing.static_balls()?.clone()));
+    let bearings: Vec<_> = sites.iter().filter_map(ball).collect();
     if bearings.is_empty() && log.error_count() == 0 {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
-        log.error(match radial {
-            true => problem
-                .expected("a bearing of model = \"ball\"")
-                .hint("a radial_ball bearing needs a machine model: study.static gives its ball loads"),
-            false => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
+        log.error(match other {
+            Some(other) => problem.expected("a bearing of model = \"ball\"").hint(format!(
+                "a {} bearing needs a machine model: study.static gives its loads",
+                other.keyword()
+            )),
+            None => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
         });
     }
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;

@@ -122,8 +122,14 @@ fn load_arrow(svg: &mut Svg, center: Point, [x, y]: [f64; 2], radius: f64) {
     let at = |r: f64| [center[0] + r * x / size, center[1] - r * y / size];
     let start = if x.max(y) > 0.8 * size { 35.0 } else { 0.0 };
     svg.arrow(at(start), at(0.97 * radius), 8.0, RED, 2.0);
-    // Beside the arrow, away from the names of the axes.
-    let side = if x * y < 0.0 { [-1.0, -1.0] } else { [-1.0, 1.0] };
-    let label = [center[0] + 0.3 * radius * side[0] - 4.0, center[1] - 0.3 * radius * side[1]];
-    svg.text(label, "F", Text::new(LABEL, RED).end().halo());
+    // Beside the arrow's head, on the side away from the names of the axes.
+    let [tip_x, tip_y] = at(0.78 * radius);
+    let at_side = |side: f64| [tip_x + side * 10.0 * y / size, tip_y + side * 10.0 * x / size];
+    let room = |[px, py]: Point| {
+        let to = |axis: Point| (px - axis[0]).hypot(py - axis[1]);
+        to([center[0] + 27.0, center[1]]).min(to([center[0], center[1] - 27.0]))
+    };
+    let place = if room(at_side(1.0)) >= room(at_side(-1.0)) { at_side(1.0) } else { at_side(-1.0) };
+    let label = [place[0], place[1] + 4.0];
+    svg.text(label, "F", Text::new(LABEL, RED).middle().halo());
 }

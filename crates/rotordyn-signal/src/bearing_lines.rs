@@ -1,6 +1,7 @@
 //! Bearing defect frequencies (FTF, BPFO, BPFI, 2 BSF) in an envelope spectrum: level over background,
 //! significance, and the damaged part.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
 
 use super::SignalError;
@@ -33,7 +34,7 @@ pub struct DefectFrequencies {
 }
 
 /// The damaged part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BearingPart {
     OuterRace,
     InnerRace,
@@ -77,7 +78,7 @@ impl BearingPart {
 }
 
 /// Side band: offset of a line from its harmonic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Modulation {
     /// ± multiple of the shaft speed: load-zone modulation of an inner race defect, unbalance.
     Shaft(i32),
@@ -86,7 +87,7 @@ pub enum Modulation {
 }
 
 /// An expected bearing line (harmonic or side band) and the peak measured there.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLine {
     pub part: BearingPart,
     pub harmonic: usize,
@@ -109,7 +110,7 @@ pub struct BearingLine {
 }
 
 /// Lines of one damaged part: harmonics of its defect frequency with side bands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LineFamily {
     pub part: BearingPart,
     /// Nominal (catalogue) defect frequency \[Hz\].
@@ -125,7 +126,7 @@ pub struct LineFamily {
 }
 
 /// All lines of a bearing, the strongest family first, and the diagnosis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
     /// Diagnosed (damaged) part: that of the strongest detected family; `None`: no bearing line.

@@ -2,6 +2,7 @@
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_rate, check_record};
@@ -9,7 +10,7 @@ use super::segment::bin_axis;
 use super::spectrum::Spectrum;
 
 /// A cepstrum: values over quefrency \[s\], 0 to half the record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cepstrum {
     pub quefrencies: Vec<f64>,
     pub values: Vec<f64>,

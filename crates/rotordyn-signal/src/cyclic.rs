@@ -1,5 +1,6 @@
 //! Cyclic spectral coherence (cyclostationary analysis): carrier and modulation frequencies.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
@@ -13,7 +14,7 @@ use super::spectrum::{Spectrum, Welch};
 use rotordyn_linalg::dot;
 
 /// Squared magnitude of the cyclic spectral coherence over cyclic frequency α and frequency f.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CyclicCoherence {
     /// Cyclic frequencies α \[Hz\]: modulation frequencies.
     pub cyclic_frequencies: Vec<f64>,

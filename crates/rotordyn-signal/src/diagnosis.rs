@@ -1,6 +1,7 @@
 //! Bearing diagnosis of a record: band selection, envelope analysis, bearing defect frequencies.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::bearing_lines::{
@@ -18,7 +19,7 @@ use super::window::WindowKind;
 const MIN_SPEED: f64 = 0.1;
 
 /// Demodulation band: how the band of the envelope is chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BandRule {
     /// From low to high \[Hz\].
     Given(f64, f64),

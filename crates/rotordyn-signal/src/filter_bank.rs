@@ -1,5 +1,6 @@
 //! Binary-ternary filter bank of the fast kurtogram: complex sub-bands in 1, 2, 3, 4, 6, 8, 12 … equal parts.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
@@ -29,7 +30,7 @@ pub struct SubBand<'a> {
 }
 
 /// One level of the filter bank: a value for each of its equal bands, from low to high.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BankLevel {
     /// log₂ of the number of bands: 0, 1, 1.58, 2, 2.58, 3 …
     pub level: f64,

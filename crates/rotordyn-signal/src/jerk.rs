@@ -1,6 +1,7 @@
 //! Jerk: its jumps, at which a ball enters and leaves a defect, and detection of impulses.
 
 use rustfft::num_complex::Complex;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
@@ -28,7 +29,7 @@ pub fn jerk(acceleration: &[f64], sample_rate: f64) -> Result<Vec<f64>, SignalEr
 }
 
 /// A jump of the jerk: a kink of the acceleration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JerkJump {
     /// Its time \[s\] from the first sample, between samples.
     pub time: f64,

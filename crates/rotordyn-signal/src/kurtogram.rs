@@ -1,6 +1,7 @@
 //! Spectral kurtosis and fast kurtogram: frequency bands in which a record is impulsive.
 
 use rustfft::num_complex::Complex;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_length, check_record};
@@ -9,7 +10,7 @@ use super::segment::{SegmentTransform, bin_axis, has_mirror};
 use super::spectrum::{Spectrum, Welch};
 
 /// Kurtogram: a value for every band of a binary-ternary filter bank, starting with the whole record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Kurtogram {
     /// Levels by their number of bands, 1, 2, 3, 4, 6, 8 …
     pub levels: Vec<BankLevel>,

@@ -2,12 +2,13 @@
 
 use super::SignalError;
 use super::error::{check_length, check_record, check_same_length};
+use serde::{Deserialize, Serialize};
 
 /// Maximum number of batches for the standard error.
 const MAX_BATCHES: usize = 20;
 
 /// Largest Lyapunov exponent with its standard error and convergence history.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LyapunovExponent {
     /// λ \[1/s\].
     pub value: f64,

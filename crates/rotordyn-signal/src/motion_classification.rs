@@ -1,5 +1,6 @@
 //! Classification of a steady motion from its Poincaré section: period k, quasi-periodic or chaotic.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 use super::SignalError;
@@ -17,7 +18,7 @@ const MAX_DECAY_RATIO: f64 = 0.3;
 const ROUND_OFF: f64 = 1e-12;
 
 /// Type of a steady motion sampled once per forcing period.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Motion {
     /// Repeats after this number of forcing periods.
     Periodic(usize),
@@ -58,7 +59,7 @@ impl Motion {
 }
 
 /// A classified motion with the criteria values.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Classification {
     pub motion: Motion,
     /// Recurrence error: largest change over one period of the motion, relative to the size of the orbit; of

@@ -2,6 +2,7 @@
 
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_rate, check_record, check_same_length};
@@ -12,7 +13,7 @@ const J: Complex<f64> = Complex::new(0.0, 1.0);
 /// Filtered (elliptic) orbit, x = Re(X e^{jνθ}), y = Re(Y e^{jνθ}), x + jy = R_f e^{jνθ} + R_b e^{−jνθ}.
 ///
 /// Forward whirl is from x towards y, the direction of shaft rotation for increasing θ.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FilteredOrbit {
     pub order: f64,
     /// Mean position of the record.

@@ -1,5 +1,6 @@
 //! Order tracking by angular resampling: order spectrogram, averaged order spectrum, order cuts.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{SQRT_2, TAU};
 
 use rustfft::num_complex::Complex;
@@ -42,7 +43,7 @@ impl OrderSettings {
 }
 
 /// Order spectrogram: amplitudes over speed and order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrderSpectrogram {
     /// Time at each window's centre in angle \[s\].
     pub times: Vec<f64>,
@@ -58,7 +59,7 @@ pub struct OrderSpectrogram {
 }
 
 /// Order cut: the RMS level of one order against speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OrderCut {
     pub order: f64,
     pub times: Vec<f64>,

@@ -1,5 +1,6 @@
 //! Localised race defects (dents and bumps) from jerk jumps, synchronously averaged over ball passages.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 use rustfft::num_complex::Complex;
@@ -25,7 +26,7 @@ pub struct BallPassage {
 }
 
 /// Kind of a localised race defect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DefectKind {
     /// Depression (spall): the contact force drops, then rises.
     Dent,
@@ -34,7 +35,7 @@ pub enum DefectKind {
 }
 
 /// A detected race defect.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RaceDefect {
     /// Start angle, in the direction of increasing angle \[rad\]: 0..2π with two channels, 0..2π/Z with one.
     pub angle: f64,
@@ -46,7 +47,7 @@ pub struct RaceDefect {
 }
 
 /// Jerk changes over one ball spacing of a race, averaged over all ball passages (folded).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FoldedJerk {
     /// Angle on the race of each bin \[rad\], 0..2π/Z.
     pub angles: Vec<f64>,

@@ -2,9 +2,10 @@
 
 use super::SignalError;
 use super::error::{check, check_record, check_same_length};
+use serde::{Deserialize, Serialize};
 
 /// A local maximum, interpolated between bins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     /// Bin of the highest sample.
     pub bin: usize,

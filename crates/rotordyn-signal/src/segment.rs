@@ -1,5 +1,6 @@
 //! The windowed real Fourier transform of one segment, with plan and buffers reused.
 
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use realfft::{RealFftPlanner, RealToComplex};
@@ -8,7 +9,7 @@ use rustfft::num_complex::Complex;
 use super::window::{WindowKind, noise_bandwidth};
 
 /// Amplitude convention: a tone a cos ωt has peak a and RMS a/√2.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Level {
     Peak,
     Rms,

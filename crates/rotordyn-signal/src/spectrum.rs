@@ -1,6 +1,7 @@
 //! Amplitude spectra, and power and cross spectral densities by Welch's method.
 
 use rustfft::num_complex::Complex;
+use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
@@ -10,7 +11,7 @@ use super::window::WindowKind;
 pub use super::segment::Level;
 
 /// A one-sided spectrum: values over frequencies \[Hz\].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spectrum {
     pub frequencies: Vec<f64>,
     pub values: Vec<f64>,

@@ -4,6 +4,7 @@ use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
 use super::segment::{Level, SegmentTransform, bin_axis};
 use super::window::WindowKind;
+use serde::{Deserialize, Serialize};
 
 /// Settings of a short-time Fourier transform.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +31,7 @@ impl StftSettings {
 }
 
 /// Amplitudes over time and frequency.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spectrogram {
     /// Centre of each frame \[s\] from the record's first sample.
     pub times: Vec<f64>,

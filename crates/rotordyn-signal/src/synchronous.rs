@@ -2,9 +2,10 @@
 
 use super::SignalError;
 use super::error::{check, check_length, check_record};
+use serde::{Deserialize, Serialize};
 
 /// Average over whole periods of a record that is uniform in angle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SynchronousAverage {
     /// Mean at each sample of the period.
     pub mean: Vec<f64>,

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::StudyArgs;
+use super::keys::{help as key_help, help_with as key_help_with};
 
 /// Loads, ball inertia, friction and examples.
 pub(super) const HELP: &str = "\
@@ -31,30 +32,22 @@ Examples:
 pub struct BearingArgs {
     #[command(flatten)]
     pub study: StudyArgs,
-    /// Bearing names, separated by commas [default: all ball bearings]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help = key_help_with("study.bearing.bearings", "separated by commas"))]
     pub bearing: Vec<String>,
-    /// Load F_x, F_y, F_z of the shaft on the bearing, such as "0, -500, 100 N"
-    #[arg(long, value_name = "FORCES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCES", allow_hyphen_values = true, help = key_help("study.bearing.load"))]
     pub load: Option<String>,
-    /// Moments M_x, M_y, such as "0, 4 N m"
-    #[arg(long, value_name = "MOMENTS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MOMENTS", allow_hyphen_values = true, help = key_help("study.bearing.moment"))]
     pub moment: Option<String>,
-    /// Shaft speed, such as "3000 rpm" [default: the highest of the speed profile]
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", help = key_help("study.bearing.speed"))]
     pub speed: Option<String>,
-    /// DOFs constrained at the centred position, such as z,theta_x,theta_y
-    #[arg(long, alias = "hold", value_name = "MOTIONS", value_delimiter = ',')]
+    #[arg(long, alias = "hold", value_name = "MOTIONS", value_delimiter = ',', help = key_help_with("study.bearing.constrain", "such as z,theta_x,theta_y"))]
     pub constrain: Vec<String>,
     /// Quantity to sweep: load, displacement, speed or cage_angle, with a range or with its default range,
     /// such as load="0 N .. 2 kN" or speed; can be repeated
     #[arg(long, value_name = "NAME[=RANGE]")]
     pub sweep: Vec<String>,
-    /// Direction of load and displacement sweeps: load (all components in proportion), x, y, z, theta_x,
-    /// theta_y
-    #[arg(long, value_name = "MOTION")]
+    #[arg(long, value_name = "MOTION", help = key_help("study.bearing.along"))]
     pub along: Option<String>,
-    /// Average over the cage angle instead of using the cage angle of the model
-    #[arg(long, alias = "averaged")]
+    #[arg(long, alias = "averaged", help = key_help("study.bearing.cage_average"))]
     pub cage_average: bool,
 }

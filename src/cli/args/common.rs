@@ -1,5 +1,6 @@
 //! Arguments shared by commands: model, results folder, output, stored runs.
 
+use super::keys::{help as key_help, help_with as key_help_with};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -52,26 +53,20 @@ pub struct StoredArgs {
     /// Channels, separated by commas [default: those of the model file, else all vibration channels]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub channels: Vec<String>,
-    /// Window length, such as "0.5 s" (spectrogram only)
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", help = key_help_with("study.spectrogram.length", "spectrogram only"))]
     pub length: Option<String>,
-    /// Highest frequency, such as "220 Hz" (spectrogram only)
-    #[arg(long, value_name = "FREQUENCY")]
+    #[arg(long, value_name = "FREQUENCY", help = key_help_with("study.spectrogram.max_frequency", "spectrogram only"))]
     pub max_frequency: Option<String>,
-    /// Order resolution, such as 0.05 (orders only)
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", help = key_help_with("study.orders.resolution", "orders only"))]
     pub resolution: Option<String>,
-    /// Highest order (orders only)
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", help = key_help_with("study.orders.max_order", "orders only"))]
     pub max_order: Option<String>,
     /// Order lines to draw or to extract (order cuts), such as 1,2,BPFO,"2 BPFO"
     #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
     pub orders: Vec<String>,
-    /// Overlap of successive windows, from 0 to below 1
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", help = key_help("study.orders.overlap"))]
     pub overlap: Option<String>,
-    /// Window function: rectangular, hann, hamming, blackman, flat-top
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = key_help("study.orders.window"))]
     pub window: Option<String>,
     /// Draw no figures
     #[arg(long)]

@@ -1,12 +1,13 @@
 //! Contact damping of balls: constant, Hunt-Crossley, lubricant film.
 
 use super::{ContactLoad, SpeedContacts};
+use serde::{Deserialize, Serialize};
 
 /// Damping law: force against the approach rate of the races along a ball's contact line.
 ///
 /// With Q_e the elastic load of both contacts in series at the approach δ, the ball carries
 /// Q = max(0, Q_e + F_d(δ, δ̇)): no tensile force. F_d = 0 where Q_e = 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ContactDamping {
     /// F_d = c w(δ) δ̇ with a constant c \[N s/m\]; w rises smoothly from 0 where load begins to 1 over `ramp` \[m\].
     Constant { coefficient: f64, ramp: f64 },

@@ -2,6 +2,7 @@
 
 use super::elliptic;
 use crate::material::Material;
+use serde::{Deserialize, Serialize};
 
 /// Elliptic Hertzian contact of two bodies: the load-independent quantities.
 ///
@@ -187,7 +188,7 @@ fn in_series(each: [f64; 2]) -> f64 {
 }
 
 /// Source of the stiffness K of a ball's dry contacts, Q = K δ^{3/2} \[N/m^1.5\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum ContactStiffness {
     /// Computed from curvatures and elasticity (Hertz).
     #[default]

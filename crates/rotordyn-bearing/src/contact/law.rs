@@ -2,9 +2,10 @@
 
 use super::ehl::EhlLaw;
 use super::{Lubricant, PowerLaw};
+use serde::{Deserialize, Serialize};
 
 /// Contact law of a ball's two contacts, as selected for a bearing.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum ContactLaw {
     /// Dry elastic Hertzian contact.
     #[default]
@@ -15,4 +16,35 @@ pub enum ContactLaw {
     PowerLaw(PowerLaw),
     /// Numerical EHL film, tabulated over loads and speeds before the machine is computed.
     Ehl(EhlLaw),
+}
+
+impl ContactLaw {
+    /// Lubricant of the law; `None` for a dry one.
+    pub fn lubricant(&self) -> Option<&Lubricant> {
+        match self {
+            Self::Film { lubricant, .. } => Some(lubricant),
+            Self::Ehl(law) => Some(&law.lubricant),
+            Self::Hertz | Self::PowerLaw(_) => None,
+        }
+    }
+
+    /// Whether the law has no film, so that loads do not depend on speed.
+    pub fn is_dry(&self) -> bool {
+        self.lubricant().is_none()
+    }
+
+    /// Whether inner and outer contact have a law each, and not only both in series.
+    pub fn has_separate_contacts(&self) -> bool {
+        !matches!(self, Self::PowerLaw(_))
+    }
+
+    /// Whether the film is that of the formula, which film damping needs.
+    pub fn has_film_formula(&self) -> bool {
+        matches!(self, Self::Film { .. })
+    }
+
+    /// Whether the law is based on a Hertz stiffness that may be given.
+    pub fn takes_contact_stiffness(&self) -> bool {
+        matches!(self, Self::Hertz | Self::Film { .. })
+    }
 }

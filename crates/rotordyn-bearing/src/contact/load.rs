@@ -1,7 +1,9 @@
 //! Load of a contact over its approach.
 
+use serde::{Deserialize, Serialize};
+
 /// One race.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Race {
     Inner,
     Outer,

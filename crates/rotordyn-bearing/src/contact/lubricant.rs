@@ -1,8 +1,10 @@
 //! Lubricant properties at operating temperature: viscosity, pressure-viscosity coefficient, density; ISO VG
 //! grades.
 
+use serde::{Deserialize, Serialize};
+
 /// Lubricating oil at one temperature, for film formulae and the numerical EHL contact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lubricant {
     pub name: String,
     /// Dynamic viscosity η₀ at ambient pressure \[Pa s\].

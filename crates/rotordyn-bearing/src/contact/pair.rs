@@ -120,6 +120,11 @@ impl BallContacts {
 }
 
 impl SpeedContacts<'_> {
+    /// Whether there is no film.
+    pub fn is_dry(&self) -> bool {
+        matches!(self, Self::Hertz(_) | Self::Power { .. })
+    }
+
     /// Both contacts in series under the same load (massless ball) at the total approach δ of the races \[m\].
     ///
     /// Limits: Q = 0 and slope 0 where unloaded; Q and dQ/dδ continuous everywhere.

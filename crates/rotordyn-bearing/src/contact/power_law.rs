@@ -2,12 +2,13 @@
 
 use super::ContactLoad;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 /// Q = K δⁿ + ΔQ between the two races, fitted over a range of loads.
 ///
 /// Source: Zhang 2016 eq. 2 and 11, after Nonato & Cavalca 2014. Below [`PowerLaw::smooth_below`] a softer
 /// curve continues it to zero load (see [`PowerSpring`]).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PowerLaw {
     /// K \[N/mⁿ\].
     pub stiffness: f64,

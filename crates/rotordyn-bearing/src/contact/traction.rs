@@ -1,9 +1,10 @@
 //! Traction between rolling bodies: Coulomb friction regularised at zero slip.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 /// Regularised Coulomb traction.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Traction {
     /// Coefficient of friction μ \[-\].
     pub friction: f64,

@@ -2,15 +2,14 @@
 
 use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::Assembly;
+use crate::document::{Document, TO_RPM};
 use crate::model::Model;
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
-use rotordyn_bearing::contact::ContactLaw;
-use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BearingElement, DefectLaw, InertiaDecision};
-
-const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
+use rotordyn_bearing::{BallBearing, BallInertia, BearingElement, DefectLaw, InertiaDecision};
+use serde::{Deserialize, Serialize};
 
 /// Ball inertia used for one bearing in a study, and why.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InertiaUse {
     pub bearing: String,
     /// As stated in the model, or `Auto` with its decision.
@@ -18,17 +17,17 @@ pub struct InertiaUse {
     /// F_c and largest contact load of massless balls at the highest speed of the study.
     pub compared: InertiaDecision,
     /// Property of the bearing that excludes ball inertia.
-    pub excluded_by: Option<&'static str>,
+    pub excluded_by: Option<String>,
 }
 
 impl InertiaUse {
     /// One bearing, from the largest contact load \[N\] of its massless balls at a speed \[rad/s\].
     pub fn new(name: &str, ball: &BallBearing, speed: f64, contact_load: f64) -> Self {
         let centrifugal = ball.centrifugal_force(speed);
-        let excluded_by = match (&ball.contact, &ball.imperfections.law) {
-            (ContactLaw::PowerLaw(_), _) => Some("the fitted power law"),
-            (_, DefectLaw::Force { .. }) => Some("the force law of its defects"),
-            _ => None,
+        let excluded_by = match &ball.imperfections.law {
+            _ if !ball.contact.has_separate_contacts() => Some("the fitted power law"),
+            DefectLaw::Force { .. } => Some("the force law of its defects"),
+            DefectLaw::Displacement | DefectLaw::UndampedDisplacement => None,
         };
         let on = excluded_by.is_none() && centrifugal > INERTIA_LIMIT * contact_load;
         let compared = InertiaDecision { on, speed: speed.abs(), centrifugal, contact_load };
@@ -36,7 +35,20 @@ impl InertiaUse {
             BallInertia::Auto(decided) => BallInertia::Auto(Some(decided.unwrap_or(compared))),
             stated => stated,
         };
-        Self { bearing: name.into(), inertia, compared, excluded_by }
+        Self { bearing: name.into(), inertia, compared, excluded_by: excluded_by.map(str::to_string) }
+    }
+
+    /// What is written to files, without the bearing's name.
+    pub fn document(&self) -> Document<'_> {
+        let compared = &self.compared;
+        Document::new()
+            .text("stated", self.inertia.keyword())
+            .text("used", self.inertia.in_effect().keyword())
+            .quantity("speed", "rad/s", compared.speed)
+            .quantity("centrifugal_force", "N", compared.centrifugal)
+            .quantity("largest_contact_load", "N", compared.contact_load)
+            .number("ratio", "1", compared.ratio())
+            .number("limit", "1", INERTIA_LIMIT)
     }
 
     /// What was used and why, in two lines.
@@ -71,7 +83,7 @@ impl InertiaUse {
         if !matters || self.inertia.is_on() {
             return None;
         }
-        let why = match self.excluded_by {
+        let why = match &self.excluded_by {
             Some(excluded_by) => format!("{excluded_by} excludes ball inertia"),
             None => "ball_inertia = \"auto\" includes it".to_string(),
         };
@@ -93,36 +105,32 @@ pub fn ball_inertia(
     let mut massless = model.clone();
     let mut any = false;
     for site in &mut massless.bearings {
-        if let Bearing::Ball(ball) = &mut site.bearing {
+        if let Some(ball) = site.bearing.static_balls_mut() {
             ball.inertia = BallInertia::None;
             any = true;
         }
     }
     let found =
         any.then(|| equilibrium(&massless, assembly, speed, CageTreatment::FixedAngle, start).ok()).flatten();
-    let used = |(k, site): (usize, &crate::model::BearingSite)| match &site.bearing {
-        Bearing::Ball(ball) => {
-            let load = found.as_ref().map_or(0.0, |found| found.bearings[k].largest_ball_load);
-            Some(InertiaUse::new(&site.name, ball, speed, load))
-        }
-        Bearing::Linear(_) | Bearing::RadialBall(_) => None,
+    let used = |(k, site): (usize, &crate::model::BearingSite)| {
+        let ball = site.bearing.static_balls()?;
+        let load = found.as_ref().map_or(0.0, |found| found.bearings[k].largest_ball_load);
+        Some(InertiaUse::new(&site.name, ball, speed, load))
     };
     model.bearings.iter().enumerate().filter_map(used).collect()
 }
 
 /// Whether a bearing of the model has automatic ball inertia that is not yet decided.
 pub fn is_undecided(model: &Model) -> bool {
-    model.bearings.iter().any(|site| match &site.bearing {
-        Bearing::Ball(ball) => ball.inertia == BallInertia::Auto(None),
-        Bearing::Linear(_) | Bearing::RadialBall(_) => false,
-    })
+    let balls = model.bearings.iter().filter_map(|site| site.bearing.static_balls());
+    balls.map(|ball| ball.inertia).any(|inertia| inertia == BallInertia::Auto(None))
 }
 
 /// The model with the decisions of [`ball_inertia`].
 pub fn with_decisions(model: &Model, used: &[InertiaUse]) -> Model {
     let mut out = model.clone();
     for site in &mut out.bearings {
-        if let Bearing::Ball(ball) = &mut site.bearing
+        if let Some(ball) = site.bearing.static_balls_mut()
             && let Some(found) = used.iter().find(|found| found.bearing == site.name)
         {
             ball.inertia = found.inertia;
@@ -155,7 +163,7 @@ pub fn decided_together(models: &[Model], speeds: &[f64]) -> Vec<Model> {
 }
 
 /// Largest contact load of a single bearing at a displacement, over the cage angles \[N\].
-pub fn largest_contact_load(element: &BearingElement, d: &[f64; 6], speed: f64) -> f64 {
+pub fn largest_contact_load(element: &dyn BearingElement, d: &[f64; 6], speed: f64) -> f64 {
     let rotation = rotordyn_bearing::Rotation { shaft_speed: speed, ..Default::default() };
     super::equilibrium::largest_ball_load(element, d, &rotation)
 }

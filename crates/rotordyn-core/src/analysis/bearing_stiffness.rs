@@ -1,11 +1,14 @@
 //! Equilibrium and stiffness matrix of a single bearing under a load or a prescribed displacement.
 
+use std::sync::Arc;
+
 use super::equilibrium::{CAGE_ANGLES_PER_PITCH, CageTreatment};
 use crate::assembly::PhysicsError;
 use rayon::prelude::*;
-use rotordyn_bearing::{BallBearing, BallLoad, Bearing, BearingElement, Reaction, Rotation};
+use rotordyn_bearing::{BallBearing, BallLoad, BearingElement, BearingModel, Reaction, Rotation};
 use rotordyn_linalg::dot;
 use rotordyn_linalg::small_dense::solve_in_place;
+use serde::{Deserialize, Serialize};
 
 const MAX_ITERATIONS: usize = 100;
 const MAX_HALVINGS: usize = 80;
@@ -23,7 +26,7 @@ const SMALLEST_FORCE: f64 = 2e-9;
 
 /// Boundary conditions of a single bearing: for each inner-ring motion (u_x u_y u_z θ_x θ_y) the applied load
 /// or the prescribed displacement.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Condition {
     /// Load of the shaft on the bearing F_x F_y F_z M_x M_y \[N, N m\]; ignored for prescribed motions.
     pub load: [f64; 5],
@@ -37,7 +40,7 @@ pub struct Condition {
 }
 
 /// A bearing in equilibrium.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingEquilibrium {
     pub condition: Condition,
     /// Displacement of the inner ring relative to the outer one \[m, rad\].
@@ -94,7 +97,7 @@ impl BearingEquilibrium {
 #[derive(Clone, Debug)]
 pub struct BearingSolver {
     pub name: String,
-    pub element: BearingElement,
+    pub element: Arc<dyn BearingElement>,
     /// Length by which rotations are scaled: the pitch radius \[m\].
     pub radius: f64,
     /// Series stiffness of a ball's dry contacts, for an initial estimate of the stiffness \[N/m^1.5\].
@@ -113,7 +116,7 @@ impl BearingSolver {
     pub fn new(name: &str, bearing: &BallBearing) -> Self {
         Self {
             name: name.into(),
-            element: BearingElement::new(&Bearing::Ball(bearing.clone())),
+            element: bearing.element(),
             radius: 0.5 * bearing.geometry.pitch_diameter,
             contact_stiffness: bearing.hertz().stiffness,
         }
@@ -132,7 +135,7 @@ impl BearingSolver {
     /// Load of every ball at an equilibrium, at the condition's cage angle.
     pub fn ball_loads(&self, found: &BearingEquilibrium) -> Vec<BallLoad> {
         let d = &found.displacement;
-        self.element.ball_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
+        self.element.contact_loads(&[d[0], d[1], d[2], d[3], d[4], 0.0], &rotation(&found.condition))
     }
 
     /// Finds the equilibrium by damped Newton-Raphson (line search), from `start` or the centred bearing.

@@ -1,11 +1,13 @@
 //! Pull of the belts at static equilibrium.
 
 use crate::assembly::Assembly;
+use crate::document::{Document, in_json, quantity};
 use crate::element::Anchor;
 use crate::model::Model;
+use serde::{Deserialize, Serialize};
 
 /// Pull of a belt at static equilibrium beside the stated one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeltPull {
     pub name: String,
     /// Pull stated in the model file, along x and y \[N\].
@@ -25,6 +27,15 @@ impl BeltPull {
         let size = self.stated[0].powi(2) + self.stated[1].powi(2);
         let along = self.stated[0] * self.remaining[0] + self.stated[1] * self.remaining[1];
         (size > 0.0).then(|| along / size)
+    }
+
+    /// What is written to files, without the name.
+    pub fn document(&self) -> Document<'_> {
+        Document::new()
+            .numbers(quantity("stated_pull", "N"), "N", &self.stated)
+            .numbers(quantity("pull", "N"), "N", &self.remaining)
+            .optional(in_json("remaining_share"), "1", self.remaining_share())
+            .numbers(quantity("displacement", "m"), "m", &self.displacement)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
 use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
 
 /// Modes computed in addition to the requested ones, so that a branch continues when others drop below it.
 pub(super) const EXTRA_MODES: usize = 4;
@@ -22,7 +23,7 @@ pub trait Tangents: Fn(f64) -> Result<Vec<SiteTangent>, PhysicsError> + Sync {}
 impl<F: Fn(f64) -> Result<Vec<SiteTangent>, PhysicsError> + Sync> Tangents for F {}
 
 /// Modes over speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Campbell {
     /// Speeds Ω \[rad/s\].
     pub speeds: Vec<f64>,
@@ -37,7 +38,7 @@ pub struct Campbell {
 }
 
 /// One mode tracked over speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Branch {
     /// Label at the lowest speed at which the branch exists and the shaft rotates; made unique by a number.
     pub label: String,
@@ -62,7 +63,7 @@ impl Branch {
 }
 
 /// A branch with no similar mode (MAC) at the next speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LostBranch {
     /// Index of the branch.
     pub branch: usize,

@@ -1,13 +1,17 @@
 //! Static equilibrium of the machine on its nonlinear bearings.
 
+use std::sync::Arc;
+
 pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatment};
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::mounted_preload::mounted_preloads;
 use super::preload::MountedPreload;
-use crate::assembly::{Assembly, PhysicsError};
+use crate::assembly::{Assembly, DofMap, PhysicsError};
+use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::Model;
 use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot};
+use serde::{Deserialize, Serialize};
 
 /// Residual over the largest load or bearing force.
 const TOLERANCE: f64 = 1e-11;
@@ -23,7 +27,7 @@ const ROUND_OFF: f64 = 1e-14;
 const RESOLUTION: f64 = 1e-18;
 
 /// Static equilibrium K q = f_gravity + f_static + Σ Rᵀ f_bearing(R q).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// Speed at which speed-dependent bearings are evaluated \[rad/s\].
     pub speed: f64,
@@ -43,11 +47,32 @@ impl Equilibrium {
     pub fn tangents(&self) -> Vec<SiteTangent> {
         self.bearings.iter().map(|b| b.tangent).collect()
     }
+
+    /// What is written to files.
+    pub fn document(&self, dofs: &DofMap) -> Document<'_> {
+        let q = dofs.expand(&self.q);
+        let nodes: Vec<_> = dofs.node_names.iter().zip(q.chunks(6)).collect();
+        let rows = Rows::of(&nodes).text(in_json("node"), |(name, _)| name).numbers(
+            "displacement",
+            "m, rad",
+            &[6],
+            |(_, q)| q,
+        );
+        Document::new()
+            .quantity("speed", "rad/s", self.speed)
+            .text(in_hdf5("cage"), self.cage.name())
+            .integer("iterations", self.iterations)
+            .quantity("residual", "N", self.residual)
+            .table(named("nodes", ""), rows)
+            .groups("belts", "name", self.belts.iter().map(|b| (b.name.clone(), b.document())))
+            .groups("preloads", "bearing", self.preloads.iter().map(|p| (p.bearing.clone(), p.document())))
+            .groups("bearings", "name", self.bearings.iter().map(|b| (b.name.clone(), b.document())))
+    }
 }
 
 /// The bearings of a model at a speed, for the evaluation of their forces.
 pub(super) struct Sites {
-    elements: Vec<(BearingElement, Rotation)>,
+    elements: Vec<(Arc<dyn BearingElement>, Rotation)>,
     cage: CageTreatment,
 }
 
@@ -62,7 +87,7 @@ impl Sites {
                     shaft_speed: speed,
                     ..Rotation::default()
                 };
-                (BearingElement::new(&site.bearing), rotation)
+                (site.bearing.element(), rotation)
             })
             .collect();
         Self { elements, cage }
@@ -188,8 +213,8 @@ pub fn equilibrium(
                 displacement,
                 force: reactions[k].force,
                 tangent: SiteTangent::from(&reactions[k]),
-                balls: element.ball_loads(&displacement, rotation),
-                largest_ball_load: largest_ball_load(element, &displacement, rotation),
+                balls: element.contact_loads(&displacement, rotation),
+                largest_ball_load: largest_ball_load(element.as_ref(), &displacement, rotation),
                 preload: element.preload_state(speed),
             }
         })
@@ -226,13 +251,13 @@ pub(super) fn residual_force(
 }
 
 /// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
-pub(super) fn largest_ball_load(element: &BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
-    let balls = element.balls();
+pub(super) fn largest_ball_load(element: &dyn BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
+    let balls = element.rolling_elements();
     (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
         .flat_map(|k| {
             let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES_PER_PITCH * balls) as f64;
             let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };
-            element.ball_loads(d, &turned)
+            element.contact_loads(d, &turned)
         })
         .fold(0.0, |most, ball| ball.load.max(most))
 }

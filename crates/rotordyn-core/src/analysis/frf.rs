@@ -5,10 +5,11 @@ use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Frequency responses H of every response to every excitation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frf {
     /// Frequencies \[Hz\].
     pub frequencies: Vec<f64>,

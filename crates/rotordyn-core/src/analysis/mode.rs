@@ -1,10 +1,11 @@
 //! A mode: eigenvalue, shape, kind, energies.
 
 use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// One oscillatory mode, q(t) = Re(φ e^{λt}).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mode {
     /// λ \[1/s\].
     pub eigenvalue: Complex64,
@@ -56,7 +57,7 @@ pub(super) fn inner(a: &[Complex64], b: &[Complex64]) -> Complex64 {
 }
 
 /// Kind of a mode, by kinetic energy and whirl direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ModeKind {
     /// Bending, forward whirl (in the direction of spin, x towards y) of at least 95 % of the orbit area.
     Forward,
@@ -96,7 +97,7 @@ impl ModeKind {
 }
 
 /// Kinetic energy distribution of a mode; the fractions sum to 1.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// Shaft, along u_x and θ_y.
     pub bending_x: f64,

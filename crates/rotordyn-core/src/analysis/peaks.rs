@@ -1,5 +1,7 @@
 //! Peaks of a response over speed: amplification factor and separation margin.
 
+use serde::{Deserialize, Serialize};
+
 /// Fraction of a peak's amplitude at its half-power points, 1/√2.
 const HALF_POWER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// A peak falls at least to this fraction of its amplitude on both sides before a higher one follows.
@@ -8,7 +10,7 @@ const VALLEY: f64 = 0.95;
 const CRITICALLY_DAMPED: f64 = 2.5;
 
 /// A resonance peak of an amplitude over speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     /// N_c: speed of the peak, in the unit of the speeds.
     pub at: f64,

@@ -5,7 +5,7 @@ use super::equilibrium::{CageTreatment, equilibrium};
 pub use super::mounted_preload::MountedPreload;
 use crate::assembly::{Assembly, PhysicsError};
 use crate::model::Model;
-use rotordyn_bearing::{BallBearing, Bearing, BearingElement, Preload};
+use rotordyn_bearing::{Bearing, Preload};
 
 /// Relative tolerance of the axial force of a mounted preload.
 const TOLERANCE: f64 = 1e-9;
@@ -21,10 +21,8 @@ const LARGEST_OFFSET: f64 = 1e-3;
 /// # Errors
 /// No equilibrium; [`PhysicsError::NoMountedPreload`] if no interference gives the force.
 pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option<Model>, PhysicsError> {
-    let mounted = |bearing: &Bearing| match bearing {
-        Bearing::Ball(BallBearing { preload: Preload::Mounted { force, interference: None }, .. }) => {
-            Some(*force)
-        }
+    let mounted = |bearing: &Bearing| match bearing.static_balls()?.preload {
+        Preload::Mounted { force, interference: None } => Some(force),
         _ => None,
     };
     let Some((index, force)) =
@@ -36,7 +34,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
     let mut start: Option<Vec<f64>> = None;
     let direction = model.bearings[index].bearing.ball().map_or(1.0, |ball| ball.geometry.thrust_direction);
     let set = |model: &mut Model, interference: f64| {
-        if let Bearing::Ball(ball) = &mut model.bearings[index].bearing {
+        if let Some(ball) = model.bearings[index].bearing.static_balls_mut() {
             ball.preload = Preload::Mounted { force, interference: Some(interference) };
         }
     };
@@ -46,7 +44,7 @@ pub fn with_mounted_preload(model: &Model, assembly: &Assembly) -> Result<Option
         start = Some(found.q);
         Ok(-direction * found.bearings[index].force[2] - force)
     };
-    let estimate = BearingElement::new(&model.bearings[index].bearing).preload_state(0.0).offset;
+    let estimate = model.bearings[index].bearing.element().preload_state(0.0).offset;
 
     // Bracket: steps that double from the estimate, the first of the size of a contact deflection.
     let mut at = (estimate, excess(estimate)?);

@@ -3,9 +3,10 @@
 use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
 use super::modal::Mode;
 use crate::assembly::{Assembly, PhysicsError};
+use serde::{Deserialize, Serialize};
 
 /// A zero crossing of a mode's damping.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Threshold {
     /// Ω \[rad/s\].
     pub speed: f64,

@@ -2,7 +2,7 @@
 
 use crate::assembly::PhysicsError;
 use crate::model::Model;
-use rotordyn_bearing::{Bearing, BeyondTable};
+use rotordyn_bearing::BeyondTable;
 use std::f64::consts::TAU;
 
 /// Distance beyond the end of a table that is still taken as its end, as a fraction of its highest speed.
@@ -18,8 +18,8 @@ pub const TABLE_MARGIN: f64 = 0.01;
 pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<String>, PhysicsError> {
     let mut warnings = Vec::new();
     for site in &model.bearings {
-        let Bearing::Linear(linear) = &site.bearing else { continue };
-        let Some(table) = linear.table_range() else { continue };
+        let Some(range) = site.bearing.speed_range() else { continue };
+        let table = range.speeds;
         let margin = TABLE_MARGIN * table[1];
         if speeds[0] >= table[0] - margin && speeds[1] <= table[1] + margin {
             continue;
@@ -31,7 +31,7 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
             table_rpm,
             study_rpm,
         };
-        if linear.beyond == BeyondTable::Refuse {
+        if range.beyond == BeyondTable::Refuse {
             return Err(found);
         }
         warnings.push(format!("{found}; beyond it the values of its end hold"));

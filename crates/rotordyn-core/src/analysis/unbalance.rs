@@ -8,9 +8,10 @@ use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
+use serde::{Deserialize, Serialize};
 
 /// Complex amplitudes q(t) = Re(Q e^{jΩt}) over speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnbalanceResponse {
     /// Speeds Ω \[rad/s\].
     pub speeds: Vec<f64>,

@@ -32,7 +32,7 @@ impl DofMap {
         let full = 6 * model.node_count();
         let mut rows: Vec<SparseRow> = Vec::new();
         for joint in &model.joints {
-            let (a, b) = (full_rows(&joint.a), full_rows(&joint.b));
+            let (a, b) = (joint.a.rows(), joint.b.rows());
             for i in (0..6).filter(|&i| joint.locked[i]) {
                 let mut row = a[i].clone();
                 row.add_scaled(-1.0, &b[i]);
@@ -107,7 +107,7 @@ impl DofMap {
     /// Displacement (u_x u_y u_z θ_x θ_y θ_z) of an anchor's point as rows over the free DOFs; no entries
     /// for ground.
     pub fn anchor_rows(&self, anchor: &Anchor) -> [SparseRow; 6] {
-        full_rows(anchor).map(|row| {
+        anchor.rows().map(|row| {
             let mut out = SparseRow::default();
             for &(i, v) in &row.0 {
                 out.add_scaled(v, &self.basis[i]);
@@ -126,32 +126,14 @@ impl DofMap {
     }
 }
 
-/// Displacement of an anchor's point over all DOFs: u + θ × r and θ.
-pub(super) fn full_rows(anchor: &Anchor) -> [SparseRow; 6] {
-    let Some(node) = anchor.node else { return Default::default() };
-    let [x, y, z] = anchor.offset;
-    let at = 6 * node;
-    let row = |terms: &[(usize, f64)]| {
-        SparseRow(terms.iter().filter(|t| t.1 != 0.0).map(|&(i, v)| (at + i, v)).collect())
-    };
-    [
-        row(&[(0, 1.0), (4, z), (5, -y)]),
-        row(&[(1, 1.0), (3, -z), (5, x)]),
-        row(&[(2, 1.0), (3, y), (4, -x)]),
-        row(&[(3, 1.0)]),
-        row(&[(4, 1.0)]),
-        row(&[(5, 1.0)]),
-    ]
-}
-
 /// Rigid-body constraint rows of every node of a rigid rotor to its centre node, solved for the former.
 fn rigid_rows(model: &Model) -> Vec<(usize, SparseRow)> {
     let Some(rotor) = &model.rigid_rotor else { return Vec::new() };
     let mut solved = Vec::new();
     for (node, z) in model.node_z.iter().enumerate().filter(|(node, _)| *node != rotor.node) {
         let offset = [0.0, 0.0, z - model.node_z[rotor.node]];
-        for (i, constrained) in full_rows(&Anchor { node: Some(rotor.node), offset }).into_iter().enumerate()
-        {
+        let centre = Anchor { node: Some(rotor.node), offset };
+        for (i, constrained) in centre.rows().into_iter().enumerate() {
             let mut row = SparseRow::unit(6 * node + i);
             row.add_scaled(-1.0, &constrained);
             solved.push((6 * node + i, row));

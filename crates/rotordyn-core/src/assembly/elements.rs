@@ -1,85 +1,38 @@
-//! Assembly of the element matrices over all DOFs (six per node), before elimination of constraints.
+//! Assembly of the elements over all DOFs (six per node), before elimination of constraints.
 
-use super::dofs::full_rows;
-use crate::element::shaft_matrices::{ConeRule, Matrix12};
-use crate::element::{Belt, Bushing};
+use crate::element::ElementMatrices;
+use crate::element::shaft_matrices::ConeRule;
 use crate::model::Model;
-use rotordyn_bearing::Bearing;
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets};
 
 /// Matrices over all DOFs.
 pub(super) struct FullMatrices {
     pub mass: SparseMatrix,
     pub stiffness: SparseMatrix,
+    /// Of belts with constant pull.
     pub belt_stiffness: SparseMatrix,
     pub damping: SparseMatrix,
+    /// The part of the damping between shaft and supports.
+    pub support_damping: SparseMatrix,
     pub gyroscopic: SparseMatrix,
     pub circulatory: SparseMatrix,
 }
 
 pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
-    let n = 6 * model.node_count();
-    let [mut m, mut k, mut kb, mut c, mut g, mut kc] = std::array::from_fn(|_| Triplets::new(n, n));
-    for (e, element) in model.shaft.iter().enumerate() {
-        let mass = element.mass_matrix(rule);
-        let elastic = element.elastic_stiffness(rule);
-        let geometric = element.geometric_stiffness();
-        add12(&mut m, e, &mass, 1.0);
-        add12(&mut k, e, &elastic, 1.0);
-        add12(&mut k, e, &geometric, 1.0);
-        add12(&mut c, e, &mass, element.proportional_damping[0]);
-        add12(&mut c, e, &elastic, element.proportional_damping[1] + element.internal_viscous);
-        add12(&mut c, e, &geometric, element.proportional_damping[1]);
-        add12(&mut g, e, &element.gyroscopic_matrix(), 1.0);
-        if element.internal_viscous != 0.0 {
-            add12(&mut kc, e, &element.circulatory_stiffness(), 1.0);
-        }
+    let mut all = ElementMatrices::new(6 * model.node_count(), rule);
+    for (node, element) in model.elements() {
+        element.add_matrices(node, &mut all);
     }
-    for disc in model.rotating_inertias() {
-        let at = 6 * disc.node;
-        let (mass, id, ip) = (disc.mass, disc.diametral_inertia, disc.polar_inertia);
-        for (i, v) in [mass, mass, mass, id, id, ip].into_iter().enumerate() {
-            m.add(at + i, at + i, v);
-        }
-        g.add(at + 3, at + 4, ip);
-        g.add(at + 4, at + 3, -ip);
-    }
-    for (b, body) in model.bodies.iter().enumerate() {
-        let at = 6 * (model.node_z.len() + b);
-        for i in 0..3 {
-            m.add(at + i, at + i, body.mass);
-            for j in 0..3 {
-                m.add(at + 3 + i, at + 3 + j, body.inertia[i][j]);
-            }
-        }
-    }
-    for point in &model.masses {
-        let [x, y, z, ..] = full_rows(&point.anchor);
-        for row in [x, y, z] {
-            m.add_between_rows(&[row], &[[point.mass]]);
-        }
-    }
-    // Added mass on the housing of balls with radial degrees of freedom.
     for site in &model.bearings {
-        if let Bearing::RadialBall(radial) = &site.bearing {
-            let [x, y, ..] = full_rows(&site.housing);
+        let added = site.bearing.added_housing_mass();
+        if added != 0.0 {
+            let [x, y, ..] = site.housing.rows();
             for row in [x, y] {
-                m.add_between_rows(&[row], &[[radial.added_ball_mass()]]);
+                all.mass.add_between_rows(&[row], &[[added]]);
             }
         }
     }
-    for bushing in &model.bushings {
-        let rows = bushing_rows(bushing);
-        k.add_between_rows(&rows, &bushing.stiffness);
-        c.add_between_rows(&rows, &bushing.damping);
-    }
-    for belt in &model.belts {
-        for (dof, stiffness, damping) in belt_terms(belt) {
-            if belt.constant_pull { &mut kb } else { &mut k }.add(dof, dof, stiffness);
-            c.add(dof, dof, damping);
-        }
-    }
-    let [mass, stiffness, mut damping] = [m.build(), k.build(), c.build()];
+    let [mass, stiffness, mut damping] = [all.mass.build(), all.stiffness.build(), all.damping.build()];
     let [alpha, beta] = model.damping.proportional;
     if alpha != 0.0 || beta != 0.0 {
         damping = SparseMatrix::sum(&[(1.0, &damping), (alpha, &mass), (beta, &stiffness)]);
@@ -87,35 +40,12 @@ pub(super) fn assemble(model: &Model, rule: ConeRule) -> FullMatrices {
     FullMatrices {
         mass,
         stiffness,
-        belt_stiffness: kb.build(),
+        belt_stiffness: all.deviation_stiffness.build(),
         damping,
-        gyroscopic: g.build(),
-        circulatory: kc.build(),
+        support_damping: all.support_damping.build(),
+        gyroscopic: all.gyroscopic.build(),
+        circulatory: all.circulatory.build(),
     }
-}
-
-/// Damping of bushings and belts over all DOFs.
-pub(super) fn support_damping(model: &Model) -> SparseMatrix {
-    let n = 6 * model.node_count();
-    let mut c = Triplets::new(n, n);
-    for bushing in &model.bushings {
-        c.add_between_rows(&bushing_rows(bushing), &bushing.damping);
-    }
-    for belt in &model.belts {
-        for (dof, _, damping) in belt_terms(belt) {
-            c.add(dof, dof, damping);
-        }
-    }
-    c.build()
-}
-
-/// Displacement of a bushing's end a relative to b over all DOFs.
-fn bushing_rows(bushing: &Bushing) -> [SparseRow; 6] {
-    let (mut rows, other) = (full_rows(&bushing.a), full_rows(&bushing.b));
-    for (row, b) in rows.iter_mut().zip(&other) {
-        row.add_scaled(-1.0, b);
-    }
-    rows
 }
 
 /// Sᵀ C_i S from K_c = −C_i S over all DOFs, S the turn by 90° about z: −Sᵀ K_c, with Sᵀ (x, y) = (y, −x).
@@ -131,38 +61,16 @@ pub(super) fn rotating_damping(circulatory: &SparseMatrix, n: usize) -> SparseMa
     out.build()
 }
 
-/// (full DOF, stiffness, damping) of a belt.
-fn belt_terms(belt: &Belt) -> [(usize, f64, f64); 3] {
-    let at = 6 * belt.node;
-    let (k, c) = (belt.stiffness, belt.damping);
-    [(at, k[0], c[0]), (at + 1, k[1], c[1]), (at + 5, k[2], c[2])]
-}
-
-/// Adds factor × the matrix of shaft element `e`, whose nodes are e and e + 1.
-pub(super) fn add12(to: &mut Triplets, e: usize, matrix: &Matrix12, factor: f64) {
-    if factor == 0.0 {
-        return;
-    }
-    for (i, row) in matrix.iter().enumerate() {
-        for (j, &v) in row.iter().enumerate() {
-            if v != 0.0 {
-                to.add(6 * e + i, 6 * e + j, factor * v);
-            }
-        }
-    }
-}
-
-/// Gravity on every mass, and constant loads with the belts' static pull, over all DOFs.
+/// Gravity on every mass, and constant loads with those of elements, over all DOFs.
 pub(super) fn loads(model: &Model, mass: &SparseMatrix) -> (Vec<f64>, Vec<f64>) {
     let n = 6 * model.node_count();
     let acceleration: Vec<f64> = (0..n).map(|i| if i % 6 < 3 { model.gravity[i % 6] } else { 0.0 }).collect();
     let mut static_load = vec![0.0; n];
     for load in model.loads.iter().filter(|load| load.history.is_empty()) {
-        add_force(&full_rows(&load.at), &load.force, &mut static_load);
+        add_force(&load.at.rows(), &load.force, &mut static_load);
     }
-    for belt in &model.belts {
-        static_load[6 * belt.node] += belt.pull[0];
-        static_load[6 * belt.node + 1] += belt.pull[1];
+    for (_, element) in model.elements() {
+        element.add_load(&mut static_load);
     }
     (mass.mul(&acceleration), static_load)
 }

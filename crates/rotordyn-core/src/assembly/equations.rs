@@ -60,8 +60,8 @@ pub struct Site {
     pub name: String,
     /// Shaft node minus housing point: u_x u_y u_z θ_x θ_y θ_z as rows over the free DOFs.
     pub rows: [SparseRow; 6],
-    /// Housing point: u_x u_y; no entries for ground.
-    pub housing_rows: [SparseRow; 2],
+    /// Housing point: u_x u_y u_z θ_x θ_y θ_z; no entries for ground.
+    pub housing_rows: [SparseRow; 6],
 }
 
 impl Site {
@@ -129,7 +129,7 @@ impl Assembly {
             gravity_load: dofs.reduce(&gravity),
             static_load: dofs.reduce(&steady),
             spin_momentum: dofs.reduce(&momentum),
-            rotation_drag: dofs.reduce(&super::elements::support_damping(model).mul(&rotation)),
+            rotation_drag: dofs.reduce(&full.support_damping.mul(&rotation)),
             polar_inertia: dot(&momentum, &rotation),
             unbalances: model
                 .unbalances
@@ -152,10 +152,7 @@ impl Assembly {
                 .map(|b| Site {
                     name: b.name.clone(),
                     rows: dofs.relative_rows(&Anchor::node(b.node), &b.housing),
-                    housing_rows: {
-                        let [x, y, ..] = dofs.anchor_rows(&b.housing);
-                        [x, y]
-                    },
+                    housing_rows: dofs.anchor_rows(&b.housing),
                 })
                 .collect(),
             modal_damping: model.damping.modal.clone(),

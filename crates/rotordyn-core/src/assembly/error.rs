@@ -1,7 +1,9 @@
 //! Errors of the physics and of its numerical solution.
 
+use serde::{Deserialize, Serialize};
+
 /// A failure of the physics or of its numerical solution, with item, speed, time and residual if known.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum PhysicsError {
     #[error(
         "the system is singular: {motion} is unconstrained; constrain it with a bearing, bushing, joint or drive"

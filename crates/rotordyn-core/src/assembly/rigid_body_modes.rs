@@ -3,7 +3,6 @@
 use super::dofs::DOF_NAMES;
 use super::{Assembly, LinearSystem, PhysicsError};
 use crate::model::{Drive, Model};
-use rotordyn_bearing::{Bearing, LinearElement};
 use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
 
 /// Natural frequency \[rad/s\] below which a mode counts as rigid-body mode: one cycle in ten minutes.
@@ -33,27 +32,16 @@ pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result
     rigid_body_modes(assembly, &system.stiffness)
 }
 
-/// All rigid-body modes of structure and bearings at standstill, all ball bearings taken as in contact;
+/// All rigid-body modes of structure and bearings at standstill, all contacts of bearings taken as closed;
 /// rotation about z is reported only with a prescribed drive station, which should constrain it.
 ///
 /// # Errors
 /// No convergence of the undamped modes.
 pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, PhysicsError> {
-    // Nominal stiffness: only the constrained directions matter, not the value.
-    const NOMINAL_CONTACT_STIFFNESS: [f64; 6] = [1e7, 1e7, 1e7, 1e3, 1e3, 0.0];
-    let diagonal =
-        |k: [f64; 6]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { k[i] } else { 0.0 }));
     let n = assembly.dofs.len();
     let mut bearings = Triplets::new(n, n);
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
-        let stiffness = match &site.bearing {
-            Bearing::Linear(linear) => LinearElement::new(linear).tangent(0.0).stiffness,
-            Bearing::Ball(_) => diagonal(NOMINAL_CONTACT_STIFFNESS),
-            Bearing::RadialBall(_) => {
-                diagonal([NOMINAL_CONTACT_STIFFNESS[0], NOMINAL_CONTACT_STIFFNESS[1], 0.0, 0.0, 0.0, 0.0])
-            }
-        };
-        bearings.add_between_rows(&place.rows, &stiffness);
+        bearings.add_between_rows(&place.rows, &site.bearing.nominal_stiffness());
     }
     let stiffness = SparseMatrix::sum(&[
         (1.0, &assembly.stiffness),

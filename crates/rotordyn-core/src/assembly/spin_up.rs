@@ -1,6 +1,6 @@
 //! Stiffness matrix of angular acceleration (run-up, coast-down), K_s in Ω̇ K_s.
 
-use super::elements::add12;
+use crate::element::shaft_contribution::add12;
 use crate::model::{Drive, Model};
 use rotordyn_linalg::{SparseMatrix, Triplets};
 

@@ -1,6 +1,7 @@
 //! Rigid bodies (housing, bench block), discs and point masses: inertia only.
 
 use super::anchor::Anchor;
+use super::contribution::{Element, ElementMatrices};
 
 /// Rigid body with six DOFs at its centre of mass; does not rotate with the shaft.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,4 +40,37 @@ pub struct PointMass {
     pub anchor: Anchor,
     /// Mass m \[kg\].
     pub mass: f64,
+}
+
+impl Element for RigidBody {
+    fn add_matrices(&self, node: usize, to: &mut ElementMatrices) {
+        let at = 6 * node;
+        for i in 0..3 {
+            to.mass.add(at + i, at + i, self.mass);
+            for j in 0..3 {
+                to.mass.add(at + 3 + i, at + 3 + j, self.inertia[i][j]);
+            }
+        }
+    }
+}
+
+impl Element for Disc {
+    fn add_matrices(&self, _node: usize, to: &mut ElementMatrices) {
+        let at = 6 * self.node;
+        let (mass, id, ip) = (self.mass, self.diametral_inertia, self.polar_inertia);
+        for (i, v) in [mass, mass, mass, id, id, ip].into_iter().enumerate() {
+            to.mass.add(at + i, at + i, v);
+        }
+        to.gyroscopic.add(at + 3, at + 4, ip);
+        to.gyroscopic.add(at + 4, at + 3, -ip);
+    }
+}
+
+impl Element for PointMass {
+    fn add_matrices(&self, _node: usize, to: &mut ElementMatrices) {
+        let [x, y, z, ..] = self.anchor.rows();
+        for row in [x, y, z] {
+            to.mass.add_between_rows(&[row], &[[self.mass]]);
+        }
+    }
 }

@@ -11,7 +11,9 @@ pub use external_file::{ExternalColumn, ExternalFile};
 pub use probe::{Probe, Quantity};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
-use crate::element::{Anchor, Belt, Bushing, Disc, Joint, Material, PointMass, RigidBody, ShaftElement};
+use crate::element::{
+    Anchor, Belt, Bushing, Disc, Element, Joint, Material, PointMass, RigidBody, ShaftElement,
+};
 use rotordyn_bearing::Bearing;
 
 /// One rotating machine in SI units; immutable after validation.
@@ -53,16 +55,27 @@ impl Model {
         self.node_z.len() + self.bodies.len()
     }
 
+    /// Every element, with the left node of a shaft element and the node of a body.
+    pub fn elements(&self) -> impl Iterator<Item = (usize, &dyn Element)> {
+        fn each<E: Element>(list: &[E]) -> impl Iterator<Item = (usize, &dyn Element)> {
+            list.iter().enumerate().map(|(k, element)| (k, element as &dyn Element))
+        }
+        let bodies = each(&self.bodies).map(|(k, body)| (self.node_z.len() + k, body));
+        let discs = each(&self.discs).chain(self.rigid_rotor.iter().map(|rotor| (0, rotor as &dyn Element)));
+        let inertias = discs.chain(bodies).chain(each(&self.masses));
+        each(&self.shaft).chain(inertias).chain(each(&self.bushings)).chain(each(&self.belts))
+    }
+
     /// Rigid rotating inertias: discs, then the rigid rotor.
     pub fn rotating_inertias(&self) -> impl Iterator<Item = &Disc> {
         self.discs.iter().chain(&self.rigid_rotor)
     }
 
     /// Names of the bearings with estimated internal geometry, and how each was estimated.
-    pub fn estimated_geometries(&self) -> impl Iterator<Item = (&str, &'static str)> {
-        self.bearings
-            .iter()
-            .filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?.estimated_geometry?)))
+    pub fn estimated_geometries(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.bearings.iter().filter_map(|site| {
+            Some((site.name.as_str(), site.bearing.ball()?.estimated_geometry.as_deref()?))
+        })
     }
 }
 

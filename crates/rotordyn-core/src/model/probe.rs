@@ -2,9 +2,10 @@
 
 use crate::element::Anchor;
 pub use rotordyn_signal::Quantity;
+use serde::{Deserialize, Serialize};
 
 /// A probe (virtual sensor): one direction at one point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
     pub name: String,
     pub at: Anchor,

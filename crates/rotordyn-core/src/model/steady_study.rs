@@ -2,6 +2,7 @@
 
 use super::Probe;
 use super::study::Integrator;
+use serde::{Deserialize, Serialize};
 
 /// Sampling event of a stroboscopic Poincaré section: once per revolution of the shaft or of a cage, or per
 /// ball passage.
@@ -69,7 +70,7 @@ pub struct LyapunovStudy {
 }
 
 /// Bifurcation parameter: any value of the model file, with its successive settings.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Parameter {
     /// Paths set to the value, as for `--set`: one, or several changed together.
     pub paths: Vec<String>,

@@ -5,6 +5,7 @@ pub use super::steady_study::*;
 use super::{Probe, Quantity};
 use crate::element::Anchor;
 pub use rotordyn_signal::WindowKind;
+use serde::{Deserialize, Serialize};
 
 /// Studies requested by a model file, each with its settings; `None` means not requested.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -198,7 +199,7 @@ pub struct BearingSweep {
 }
 
 /// Quantity varied in a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SweepVariable {
     Load,
     Displacement,

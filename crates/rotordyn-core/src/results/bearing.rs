@@ -3,6 +3,7 @@
 use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
+use crate::document::{Array, Column, Document, MissingCell, Rows, Section, in_hdf5, in_json, named};
 use crate::model::study::SweepVariable;
 use rotordyn_bearing::contact::Race;
 use rotordyn_bearing::contact::ehl::Solution;
@@ -11,9 +12,10 @@ use rotordyn_bearing::{
     BallBearing, BallMotion, CharacteristicOrders, FrictionTorque, MountedGeometry, PreloadState,
     ShoulderMargin,
 };
+use serde::{Deserialize, Serialize};
 
 /// Results of one ball bearing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingResult {
     pub name: String,
     pub bearing: BallBearing,
@@ -39,22 +41,99 @@ pub struct BearingResult {
     pub warnings: Vec<String>,
 }
 
+impl BearingResult {
+    /// What is written to files.
+    pub fn section(&self) -> Section<'_> {
+        Section::listed("bearings", format!("bearings/{}", self.name), self.document())
+    }
+
+    fn document(&self) -> Document<'_> {
+        let (rating, orders) = (&self.rating, &self.nominal_orders);
+        let rating = Document::new()
+            .number(named("dynamic", "dynamic_rating"), "N", rating.dynamic)
+            .number(named("static", "static_rating"), "N", rating.static_rating)
+            .number(named("fatigue", "fatigue_limit"), "N", rating.fatigue);
+        let preload = Document::new()
+            .number(named("offset", "preload_offset"), "m", self.preload.offset)
+            .number(named("axial_force", "preload_force"), "N", self.preload.axial_force);
+        let inertia = Document::new()
+            .text(in_json("bearing"), &self.ball_inertia.bearing)
+            .and(self.ball_inertia.document());
+        let mut out = Document::new()
+            .text(in_json("name"), &self.name)
+            .text("load_source", &self.load_source)
+            .group("ball_inertia", inertia)
+            .table(in_json("prescribed"), Rows::of(&self.prescribed).flag("", |prescribed| *prescribed))
+            .group(named("rating", ""), rating)
+            .group(named("preload", ""), preload)
+            .group(named("nominal_orders", ""), orders_document(orders))
+            .record("operating", BearingPoint::columns(Rows::of([&self.point])))
+            .list("sweeps", self.sweeps.iter().map(BearingSweepResult::document))
+            .list("films", self.films.iter().map(|film| film.document()))
+            .texts(in_json("warnings"), &self.warnings);
+        for sweep in &self.sweeps {
+            out = out.group(in_hdf5(format!("sweep_{}", sweep.of.name())), sweep.document());
+        }
+        for film in &self.films {
+            out = out.group(in_hdf5(format!("film_{}", film.race)), film.document());
+        }
+        // What a bearing does not have is omitted.
+        if let Some(mounted) = &self.mounted_preload {
+            let content = Document::new().text("bearing", &mounted.bearing).and(mounted.document());
+            out = out.group(in_json("mounted_preload"), content).numbers(
+                in_hdf5("mounted_preload"),
+                "N",
+                &mounted.rows,
+            );
+        }
+        out.and_if(self.bearing.estimated_geometry.as_ref(), |out, how| out.text("estimated_geometry", how))
+    }
+}
+
+/// What is written of characteristic orders.
+pub(super) fn orders_document<'a>(orders: &CharacteristicOrders) -> Document<'a> {
+    Document::new()
+        .number("ftf", "1/revolution", orders.ftf)
+        .number("bpfo", "1/revolution", orders.bpfo)
+        .number("bpfi", "1/revolution", orders.bpfi)
+        .number("bsf", "1/revolution", orders.bsf)
+}
+
 /// EHL (elastohydrodynamic) solution of one contact: pressure and film thickness.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EhlFilm {
     /// "inner" or "outer".
-    pub race: &'static str,
+    pub race: String,
     /// Load \[N\] and entrainment speed \[m/s\].
     pub load: f64,
     pub speed: f64,
     pub solution: Solution,
 }
 
+impl EhlFilm {
+    fn document(&self) -> Document<'_> {
+        let s = &self.solution;
+        let map = |unit, data| Array::real(&[s.x.len(), s.y.len()], unit, data).over(0, "x").over(1, "y");
+        Document::new()
+            .text(in_json("race"), &self.race)
+            .number("load", "N", self.load)
+            .number("entrainment_speed", "m/s", self.speed)
+            .number("central_film", "m", s.central_film)
+            .number("minimum_film", "m", s.minimum_film)
+            .number("approach", "m", s.approach)
+            .number("rolling_force", "N", s.rolling_force)
+            .numbers(in_hdf5("x"), "m", &s.x)
+            .numbers(in_hdf5("y"), "m", &s.y)
+            .array(in_hdf5("pressure"), map("Pa", &s.pressure))
+            .array(in_hdf5("film"), map("m", &s.film))
+    }
+}
+
 /// One of a ball's two contacts.
 pub type PickContact = fn(&BallState) -> &ContactState;
 
 /// A bearing under one load at one speed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingPoint {
     pub state: BearingEquilibrium,
     pub balls: Vec<BallState>,
@@ -77,7 +156,7 @@ pub struct BearingPoint {
 
 /// Rating lives \[10⁶ revolutions\], at 90 % reliability except the modified life; NaN where the standard
 /// defines none.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLife {
     /// Dynamic equivalent load P = X F_r + Y F_a \[N\] (ISO 281).
     pub equivalent_load: f64,
@@ -107,7 +186,7 @@ pub struct BearingLife {
 }
 
 /// One ball with its two contacts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallState {
     /// Row of a matched pair, 0 or 1; 0 in a single row.
     pub row: usize,
@@ -138,10 +217,18 @@ impl BallState {
         }),
         ("ball_advance", "rad", |b| b.advance),
     ];
+
+    fn columns<'a, 'r>(rows: Rows<'a, 'r, Self>) -> Rows<'a, 'r, Self> {
+        rows.integer("row", |b| b.row)
+            .number("position", "rad", |b| b.position)
+            .columns(&Self::COLUMNS, MissingCell::Omitted)
+            .group("inner", |b| &b.inner, ContactState::columns)
+            .group("outer", |b| &b.outer, ContactState::columns)
+    }
 }
 
 /// One contact of a ball.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Q \[N\].
     pub load: f64,
@@ -166,9 +253,6 @@ pub struct ContactState {
     pub shoulder: ShoulderMargin,
 }
 
-/// A named value of a record type, with its SI unit, for tables and files.
-pub type Column<T> = (&'static str, &'static str, fn(&T) -> f64);
-
 impl ContactState {
     /// Every value with its name in files.
     pub const COLUMNS: [Column<Self>; 15] = [
@@ -188,6 +272,10 @@ impl ContactState {
         ("shoulder_distance", "m", |c| c.shoulder.arc),
         ("fraction_beyond_shoulder", "1", |c| c.shoulder.fraction_beyond),
     ];
+
+    fn columns<'a, 'r>(rows: Rows<'a, 'r, Self>) -> Rows<'a, 'r, Self> {
+        rows.columns(&Self::COLUMNS, MissingCell::Numbers)
+    }
 }
 
 impl BearingPoint {
@@ -237,6 +325,15 @@ impl BearingPoint {
         ("free_contact_angle", "rad", |p| p.mounted.free_contact_angle),
     ];
 
+    /// Quantities for which a standard gives no value (NaN) are omitted in JSON.
+    fn columns<'a, 'r>(rows: Rows<'a, 'r, Self>) -> Rows<'a, 'r, Self> {
+        rows.numbers("load", "N, N m", &[5], |p| &p.state.load)
+            .numbers("displacement", "m, rad", &[5], |p| &p.state.displacement)
+            .numbers("stiffness", "N/m, N, N m/rad", &[5, 5], |p| p.state.stiffness.as_flattened())
+            .columns(&Self::COLUMNS, MissingCell::Omitted)
+            .nested("balls", |p| &p.balls, BallState::columns)
+    }
+
     /// Largest load of a contact \[N\].
     pub fn largest_load(&self) -> f64 {
         self.contacts().map(|c| c.load).fold(0.0, f64::max)
@@ -269,13 +366,24 @@ impl BearingPoint {
 }
 
 /// One sweep: the varied quantity, and the bearing at every value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingSweepResult {
     pub of: SweepVariable,
     /// Name of the varied quantity, such as "load along the operating load", and its SI unit.
     pub label: String,
-    pub unit: &'static str,
+    pub unit: String,
     /// Values with an equilibrium.
     pub values: Vec<f64>,
     pub points: Vec<BearingPoint>,
+}
+
+impl BearingSweepResult {
+    fn document(&self) -> Document<'_> {
+        Document::new()
+            .text(in_json("variable"), self.of.name())
+            .text("label", &self.label)
+            .text(in_json("unit"), &self.unit)
+            .numbers(named("values", "swept_value"), &self.unit, &self.values)
+            .table(named("points", ""), BearingPoint::columns(Rows::of(&self.points)).over("swept_value"))
+    }
 }

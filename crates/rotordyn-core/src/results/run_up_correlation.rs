@@ -1,9 +1,10 @@
 //! Correlation of a measured and a computed run, channel by channel; arrays are \[measured, computed\].
 
 use super::{OrderLine, OrderResult, SpectrogramResult};
+use serde::{Deserialize, Serialize};
 
 /// One channel, measured and computed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ChannelPair {
     pub channel: String,
     pub unit: String,
@@ -15,7 +16,7 @@ pub struct ChannelPair {
 }
 
 /// One order, measured and computed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CutPair {
     pub line: OrderLine,
     /// Maximum of each.
@@ -25,7 +26,7 @@ pub struct CutPair {
 }
 
 /// Maximum of an order cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CutPeak {
     /// \[rpm\].
     pub rpm: f64,

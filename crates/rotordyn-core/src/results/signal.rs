@@ -1,21 +1,33 @@
 //! Results of a signal analysis of one channel.
 
+mod average;
+mod curves;
+mod cyclic;
+mod envelope;
+mod jerk;
+mod kurtogram;
+mod orders;
+
+pub use average::ShaftAverage;
+pub use cyclic::{CyclicLine, CyclicResult};
+pub use envelope::EnvelopeResult;
+pub use jerk::{JerkResult, RaceResult};
+pub use kurtogram::KurtogramResult;
+pub use orders::ShaftOrders;
+use serde::{Deserialize, Serialize};
+
+use super::bearing::orders_document;
+use crate::document::{Array, Document, Section, in_hdf5, in_json, named};
+use curves::{highest_peaks, over_axis, peak_rows};
 use rotordyn_bearing::CharacteristicOrders;
-use rotordyn_signal::bearing_lines::{BearingLines, BearingPart};
 use rotordyn_signal::cepstrum::Cepstrum;
-use rotordyn_signal::cyclic::CyclicCoherence;
-use rotordyn_signal::diagnosis::BandRule;
-use rotordyn_signal::jerk::JerkJump;
-use rotordyn_signal::kurtogram::Kurtogram;
-use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
-use rotordyn_signal::race_defects::{FoldedJerk, RaceDefect};
 use rotordyn_signal::spectrum::Spectrum;
 use rotordyn_signal::statistics::Statistics;
 use rotordyn_signal::stft::Spectrogram;
-use rotordyn_signal::synchronous::SynchronousAverage;
+use std::f64::consts::TAU;
 
 /// Results of one channel; analyses not requested are empty.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SignalResult {
     pub channel: String,
     /// SI unit; empty if unknown.
@@ -49,7 +61,7 @@ pub struct SignalResult {
 }
 
 /// Shaft speed during a record.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShaftSummary {
     /// Description of the speed's source.
     pub source: String,
@@ -62,7 +74,7 @@ pub struct ShaftSummary {
 }
 
 /// A bearing with its characteristic orders (per shaft revolution).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingWithOrders {
     pub name: String,
     /// Description of the orders' source.
@@ -75,100 +87,124 @@ pub struct BearingWithOrders {
 }
 
 /// Amplitudes over time and frequency, with the speed at each time if known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpectrogramWithSpeed {
     pub map: Spectrogram,
     /// \[rpm\]; empty if unknown.
     pub rpm: Vec<f64>,
 }
 
-/// Envelope (demodulated) spectrum of a band, and the bearing's lines in it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EnvelopeResult {
-    pub rule: BandRule,
-    /// Band \[Hz\].
-    pub band: (f64, f64),
-    /// Amplitude spectrum \[unit\], over Hz, or over orders at varying speed.
-    pub spectrum: Spectrum,
-    pub over_orders: bool,
-    /// Score of every candidate band.
-    pub band_scores: Option<Kurtogram>,
-    /// Lines and diagnosis if a bearing is known.
-    pub lines: Option<BearingLines>,
+impl SignalResult {
+    /// The group of the channel.
+    pub fn section(&self) -> Section<'_> {
+        Section::listed("channels", self.channel.replace('/', "_"), self.document())
+    }
+
+    /// What is written to files.
+    pub fn document(&self) -> Document<'_> {
+        let unit = self.unit.as_str();
+        let [time, rpm] = &self.speed;
+        let resolution = |s: &Spectrum| {
+            let peaks = peak_rows(&highest_peaks(&s.frequencies, &s.values), "frequency_hz", "amplitude");
+            Document::new()
+                .number(in_json("resolution_hz"), "Hz", s.frequencies[1] - s.frequencies[0])
+                .with(in_json("peaks"), peaks)
+        };
+        Document::new()
+            .text(in_json("channel"), &self.channel)
+            .text("unit", unit)
+            .number(named("sample_rate_hz", "sample_rate"), "Hz", self.sample_rate)
+            .quantity("start", "s", self.start)
+            .integer(in_json("samples"), self.samples.len())
+            .numbers(in_hdf5("record"), unit, &self.samples)
+            .and_if(self.shaft.as_ref(), |out, shaft| out.group(named("shaft", ""), shaft.document()))
+            .and_if((!time.is_empty()).then_some(()), |out, ()| {
+                let speed = Document::new()
+                    .array("rpm", Array::real(&[rpm.len()], "rpm", rpm).over(0, "time"))
+                    .numbers(named("time_s", "time"), "s", time);
+                out.group("speed", speed)
+            })
+            .and_if(self.bearing.as_ref(), |out, b| out.group(named("bearing", ""), b.document()))
+            .group(named("statistics", ""), statistics_document(&self.statistics))
+            .and_if(self.spectrum.as_ref(), |out, s| {
+                out.group("spectrum", over_axis(s, "frequency", "Hz", unit).and(resolution(s)))
+            })
+            .and_if(self.density.as_ref(), |out, s| {
+                let unit = format!("({unit})^2/Hz");
+                out.group("density", over_axis(s, "frequency", "Hz", &unit).and(resolution(s)))
+            })
+            .and_if(self.spectrogram.as_ref(), |out, s| out.group(in_hdf5("spectrogram"), s.document(unit)))
+            .and_if(self.envelope.as_ref(), |out, found| out.and(found.document(unit)))
+            .and_if(self.kurtogram.as_ref(), |out, found| out.and(found.document()))
+            .and_if(self.cepstrum.as_ref(), |out, c| {
+                let peaks = peak_rows(&highest_peaks(&c.quefrencies, &c.values), "quefrency_s", "value");
+                let values = Array::real(&[c.values.len()], "1", &c.values).over(0, "quefrency");
+                let content = Document::new()
+                    .with(in_json("peaks"), peaks)
+                    .array(in_hdf5("values"), values)
+                    .numbers(in_hdf5("quefrency"), "s", &c.quefrencies);
+                out.group("cepstrum", content)
+            })
+            .and_if(self.jerk.as_ref(), |out, found| out.and(found.document(unit)))
+            .and_if(self.orders.as_ref(), |out, found| out.group("orders", found.document(unit)))
+            .and_if(self.average.as_ref(), |out, found| {
+                out.group("synchronous_average", found.document(unit))
+            })
+            .and_if(self.cyclic.as_ref(), |out, found| out.group("cyclic_coherence", found.document()))
+            .texts(in_json("warnings"), &self.warnings)
+    }
 }
 
-/// Impulsiveness over frequency: kurtogram and spectral kurtosis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct KurtogramResult {
-    pub kurtogram: Kurtogram,
-    /// Spectral kurtosis over segments.
-    pub spectral: Spectrum,
+impl ShaftSummary {
+    fn document(&self) -> Document<'_> {
+        Document::new()
+            .text(named("source", "speed_source"), &self.source)
+            .number(in_json("mean_rpm"), "rpm", 60.0 * self.mean)
+            .number(in_json("min_rpm"), "rpm", 60.0 * self.min)
+            .number(in_json("max_rpm"), "rpm", 60.0 * self.max)
+            .number(in_hdf5("speed"), "rad/s", TAU * self.mean)
+            .number(in_hdf5("min_speed"), "rad/s", TAU * self.min)
+            .number(in_hdf5("max_speed"), "rad/s", TAU * self.max)
+            .flag(in_json("steady"), self.steady)
+    }
 }
 
-/// Jerk, its jumps, and the race defects located from them.
-#[derive(Clone, Debug)]
-pub struct JerkResult {
-    /// \[unit/s\].
-    pub jerk: Vec<f64>,
-    /// Jumps in the unfolded record.
-    pub jumps: Vec<JerkJump>,
-    /// The jerk folded over the ball passages, and the defects located from it.
-    pub race: Option<RaceResult>,
+impl BearingWithOrders {
+    fn document(&self) -> Document<'_> {
+        Document::new()
+            .text(named("name", "bearing"), &self.name)
+            .text(in_json("source"), &self.source)
+            .integer(in_json("balls"), self.balls)
+            .group(named("orders", ""), orders_document(&self.orders))
+    }
 }
 
-/// Defects of a race located from jerk jumps.
-#[derive(Clone, Debug)]
-pub struct RaceResult {
-    /// "outer race" or "inner race".
-    pub race: &'static str,
-    /// Radius of the raceway \[m\].
-    pub radius: Option<f64>,
-    /// Whether two directions were given, so that angles are known over the full circumference.
-    pub full_circumference: bool,
-    pub fold: FoldedJerk,
-    pub defects: Vec<RaceDefect>,
+fn statistics_document<'a>(s: &Statistics) -> Document<'a> {
+    let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    Document::new()
+        .number("mean", "", s.mean)
+        .number("standard_deviation", "", s.standard_deviation)
+        .number("rms", "", s.rms)
+        .number("peak", "", s.peak)
+        .number("crest_factor", "1", known(s.crest_factor))
+        .number("kurtosis", "1", known(s.kurtosis))
+        .number("skewness", "1", known(s.skewness))
+        .number(in_json("peak_to_peak"), "", s.peak_to_peak)
+        .number(in_json("mean_absolute"), "", s.mean_absolute)
+        .number(in_json("shape_factor"), "1", known(s.shape_factor))
+        .number(in_json("impulse_factor"), "1", known(s.impulse_factor))
+        .number(in_json("clearance_factor"), "1", known(s.clearance_factor))
 }
 
-/// Order tracking: map, mean order spectrum and cuts.
-#[derive(Clone, Debug)]
-pub struct ShaftOrders {
-    pub map: OrderSpectrogram,
-    /// Power average over all speeds.
-    pub average: Vec<f64>,
-    pub cuts: Vec<(super::OrderLine, OrderCut)>,
-}
-
-/// Time synchronous average (TSA) over shaft revolutions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ShaftAverage {
-    pub average: SynchronousAverage,
-    /// RMS (means removed) of the record resampled in angle, of the average, and of the residual.
-    pub rms: [f64; 3],
-}
-
-/// Cyclic spectral coherence over carrier and modulation frequency.
-#[derive(Clone, Debug)]
-pub struct CyclicResult {
-    pub coherence: CyclicCoherence,
-    /// Enhanced envelope spectrum: mean coherence over the carriers, over modulation frequency.
-    pub enhanced: Spectrum,
-    /// The bearing's first two harmonics in it; none without a bearing.
-    pub lines: Vec<CyclicLine>,
-    /// Duration of the analysed part \[s\].
-    pub duration: f64,
-}
-
-/// A peak of the enhanced envelope spectrum near a characteristic frequency.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CyclicLine {
-    pub part: BearingPart,
-    pub harmonic: usize,
-    /// Nominal characteristic frequency, and frequency of the highest coherence near it \[Hz\].
-    pub expected: f64,
-    pub rate: f64,
-    /// Mean |γ| over the carriers there, and its median in the neighbourhood.
-    pub coherence: f64,
-    pub background: f64,
-    /// Excess over the background in robust standard deviations.
-    pub deviations: f64,
+impl SpectrogramWithSpeed {
+    fn document(&self, unit: &str) -> Document<'_> {
+        let map = &self.map;
+        let shape = [map.times.len(), map.frequencies.len()];
+        let amplitude = Array::real(&shape, unit, &map.amplitude).over(0, "time").over(1, "frequency");
+        Document::new()
+            .array("amplitude", amplitude)
+            .numbers("time", "s", &map.times)
+            .numbers("frequency", "Hz", &map.frequencies)
+            .and_if((!self.rpm.is_empty()).then_some(&self.rpm), |out, rpm| out.numbers("rpm", "rpm", rpm))
+    }
 }

@@ -15,7 +15,7 @@ use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::rating::LoadRating;
-use rotordyn_bearing::{BallBearing, Bearing, Preload, PreloadState, kinematics};
+use rotordyn_bearing::{BallBearing, Preload, PreloadState, kinematics};
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
@@ -28,10 +28,9 @@ impl Machine {
     /// # Errors
     /// No equilibrium of the machine, or of a bearing at its operating point.
     pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
-        let balls = self.model.bearings.iter().filter_map(|site| match &site.bearing {
-            Bearing::Ball(ball) => Some((site.name.clone(), ball.clone())),
-            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
-        });
+        let bearings = self.model.bearings.iter();
+        let balls =
+            bearings.filter_map(|site| Some((site.name.clone(), site.bearing.static_balls()?.clone())));
         let balls: Vec<_> = balls.collect();
         let speed = study.speed.unwrap_or(self.model.profile.top_speed());
         let mut study = BearingStudy { speed: Some(speed), ..study.clone() };
@@ -255,7 +254,7 @@ impl<'a> SingleBearingStudy<'a> {
         }
         let values = values[..found.len()].to_vec();
         let points = found.into_iter().map(|state| self.point(state)).collect();
-        Some(BearingSweepResult { of, label, unit, values, points })
+        Some(BearingSweepResult { of, label, unit: unit.into(), values, points })
     }
 
     /// Default range of values about the operating point.
@@ -351,11 +350,11 @@ fn free_force(point: &BearingPoint) -> f64 {
 
 /// Contact law for the film thickness: the bearing's own, or with the film of its lubricant.
 fn film_law(bearing: &BallBearing) -> ContactLaw {
-    match (&bearing.contact, bearing.lubricant()) {
-        (ContactLaw::Hertz | ContactLaw::PowerLaw(_), Some(oil)) => {
+    match bearing.lubricant() {
+        Some(oil) if bearing.contact.is_dry() => {
             ContactLaw::Film { lubricant: oil.clone(), speed_factor: 1.0 }
         }
-        (law, _) => law.clone(),
+        _ => bearing.contact.clone(),
     }
 }
 

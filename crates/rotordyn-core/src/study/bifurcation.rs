@@ -88,7 +88,7 @@ pub fn bifurcation(
             value: values[value_index(name, step, n)],
             motion: found,
         };
-        BifurcationSweep { name, points: outcomes.into_iter().enumerate().map(point).collect() }
+        BifurcationSweep { name: name.into(), points: outcomes.into_iter().enumerate().map(point).collect() }
     };
     let sweeps: Vec<BifurcationSweep> =
         directions.iter().copied().zip(joined.into_iter().map(|(o, _)| o)).map(sweep).collect();

@@ -1,6 +1,5 @@
 //! Order cuts over the initial cage phase: run-ups that differ in the cage angles at the start only.
 
-use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
@@ -10,7 +9,6 @@ use crate::model::Model;
 use crate::model::study::{OrderStudy, RunUpStudy};
 use crate::results::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, OrderResult};
 use crate::transient::run::End;
-use rotordyn_bearing::{BallBearing, Bearing};
 
 impl Machine {
     /// Range of the order cuts over `study.cage_phases` initial cage phases; `base` are the cuts of the model's own.
@@ -37,7 +35,7 @@ impl Machine {
             places
                 .map(|(k, (site, own))| {
                     let share = (phase * (k + 1) % count) as f64 / count as f64;
-                    own + share * self.model.bearings[*site].bearing.ball().map_or(0.0, period)
+                    own + share * self.model.bearings[*site].bearing.cage().map_or(0.0, |cage| cage.period)
                 })
                 .collect()
         };
@@ -77,10 +75,10 @@ impl Machine {
         }))
     }
 
-    /// Bearings with balls and their cage angle at the start \[rad\].
+    /// Bearings with a cage and their cage angle at the start \[rad\].
     pub fn cage_angles(&self) -> Vec<(String, f64)> {
-        let with_balls = self.model.bearings.iter().filter(|site| site.bearing.ball().is_some());
-        with_balls.map(|site| (site.name.clone(), site.bearing.cage_angle())).collect()
+        let bearings = self.model.bearings.iter();
+        bearings.filter_map(|site| Some((site.name.clone(), site.bearing.cage()?.angle))).collect()
     }
 
     /// Order cuts of a run-up with given initial cage angles of some bearings; `None` if stopped.
@@ -93,9 +91,7 @@ impl Machine {
     ) -> Result<Option<Vec<OrderResult>>, StudyError> {
         let mut model = self.model.clone();
         for (site, angle) in turned.iter().zip(angles) {
-            if let Some(ball) = ball_of(&mut model.bearings[*site].bearing) {
-                ball.cage_angle = *angle;
-            }
+            model.bearings[*site].bearing.set_cage_angle(*angle);
         }
         let machine = Self::new(model)?;
         let reduction = machine.reduce(study)?;
@@ -112,25 +108,12 @@ impl Machine {
     }
 }
 
-/// Bearings whose cages are turned: all with balls but the first, or the only one.
+/// Bearings whose cages are turned: all but the first, or the only one.
 fn turned_bearings(model: &Model) -> Vec<usize> {
-    let with_balls: Vec<usize> =
-        (0..model.bearings.len()).filter(|k| model.bearings[*k].bearing.ball().is_some()).collect();
-    match with_balls.as_slice() {
+    let with_cage: Vec<usize> =
+        (0..model.bearings.len()).filter(|k| model.bearings[*k].bearing.cage().is_some()).collect();
+    match with_cage.as_slice() {
         [_, others @ ..] if !others.is_empty() => others.to_vec(),
-        _ => with_balls,
-    }
-}
-
-/// Angle by which a cage looks the same again \[rad\].
-fn period(ball: &BallBearing) -> f64 {
-    if ball.balls_are_alike() { TAU / ball.geometry.balls as f64 } else { TAU }
-}
-
-fn ball_of(bearing: &mut Bearing) -> Option<&mut BallBearing> {
-    match bearing {
-        Bearing::Linear(_) => None,
-        Bearing::Ball(ball) => Some(ball),
-        Bearing::RadialBall(radial) => Some(&mut radial.ball),
+        _ => with_cage,
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn ehl_films(
             continue;
         }
         match ehl::extrapolate(&problem, None) {
-            Ok(limit) => found.push(EhlFilm { race, load, speed, solution: limit.solution() }),
+            Ok(limit) => found.push(EhlFilm { race: race.into(), load, speed, solution: limit.solution() }),
             Err(failure) => warnings.push(format!("bearing {name}, {race} race: {failure}")),
         }
     }

@@ -27,6 +27,7 @@ pub use steady_motion::{Progress, RestartState};
 pub use step_error::Checkpoints;
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
@@ -40,7 +41,7 @@ use crate::model::{Drive, Model};
 use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, Sample, Settings, run};
-use rotordyn_bearing::{Bearing, BearingElement, SiteTangent};
+use rotordyn_bearing::{BearingElement, SiteTangent};
 use rotordyn_linalg::{SparseMatrix, krylov};
 
 /// An assembled model with the static equilibrium about which linear studies are linearised.
@@ -49,7 +50,7 @@ pub struct Machine {
     pub assembly: Assembly,
     /// Equilibrium with cage-averaged bearings at standstill.
     standstill_equilibrium: Equilibrium,
-    bearings: Vec<BearingElement>,
+    bearings: Vec<Arc<dyn BearingElement>>,
 }
 
 impl Machine {
@@ -64,7 +65,7 @@ impl Machine {
         let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
             .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
         assembly.set_standstill(&base.tangents())?;
-        let bearings = model.bearings.iter().map(|site| BearingElement::new(&site.bearing)).collect();
+        let bearings = model.bearings.iter().map(|site| site.bearing.element()).collect();
         Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
     }
 
@@ -137,24 +138,15 @@ impl Machine {
             )?;
             return Ok(found.tangents());
         }
-        let tangent = |(element, state): (&BearingElement, _)| match element {
-            BearingElement::Linear(linear) => linear.tangent(speed),
-            BearingElement::Ball(_) | BearingElement::RadialBall(_) => state,
-        };
-        Ok(self.bearings.iter().zip(self.standstill_equilibrium.tangents()).map(tangent).collect())
+        let at_standstill = self.bearings.iter().zip(self.standstill_equilibrium.tangents());
+        Ok(at_standstill.map(|(element, tangent)| element.tangent_at(speed, tangent)).collect())
     }
 
-    /// Whether the ball bearings' tangents depend on speed: directly, or because a speed-dependent linear
+    /// Whether the tangents of nonlinear bearings depend on speed: directly, or because a speed-dependent linear
     /// bearing redistributes the load.
     fn bearings_depend_on_speed(&self) -> bool {
-        let sites = &self.model.bearings;
-        let any_ball = sites.iter().any(|site| site.bearing.ball().is_some());
-        any_ball
-            && sites.iter().any(|site| match &site.bearing {
-                Bearing::Ball(ball) => ball.depends_on_speed(),
-                Bearing::RadialBall(radial) => radial.ball_mass() > 0.0,
-                Bearing::Linear(linear) => linear.table.len() > 1,
-            })
+        self.bearings.iter().any(|element| !element.is_linear())
+            && self.model.bearings.iter().any(|site| site.bearing.depends_on_speed())
     }
 
     /// The equations of motion linearised about the equilibrium at a speed.
@@ -301,8 +293,7 @@ impl Machine {
     pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
         let mut characteristic_orders: Vec<(String, f64)> = Vec::new();
         for site in &self.model.bearings {
-            if let Some(ball) = site.bearing.ball() {
-                let c = ball.geometry.characteristic_orders(ball.geometry.contact_angle);
+            if let Some(c) = site.bearing.characteristic_orders() {
                 let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
                 characteristic_orders.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
             }

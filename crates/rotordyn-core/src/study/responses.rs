@@ -226,7 +226,7 @@ fn undamped_peaks(
 fn response_peaks(speeds: &[f64], channels: &[UnbalanceChannel], orbits: &[DiscOrbit]) -> Vec<ResponsePeak> {
     let mut found = Vec::new();
     let mut add = |response: String, unit: &'static str, sizes: Vec<f64>| {
-        let of = |peak| ResponsePeak { response: response.clone(), unit, peak };
+        let of = |peak| ResponsePeak { response: response.clone(), unit: unit.into(), peak };
         found.extend(peaks(speeds, &sizes).into_iter().map(of));
     };
     for channel in channels {

@@ -147,7 +147,7 @@ impl Machine {
         let fits = |c: &&RestartState| {
             c.displacement.len() == n
                 && c.cages.len() == system.interfaces.len()
-                && c.balls[0].len() == system.ball_masses.len()
+                && c.balls[0].len() == system.internal_masses.len()
         };
         let state = match carried.filter(fits) {
             None => {
@@ -159,7 +159,7 @@ impl Machine {
                 // Vᵀ M q: projection on this model's basis.
                 let project = |q: &[f64], balls: &[f64]| {
                     let x = reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
-                    let balls = balls.iter().zip(&system.ball_masses).map(|(y, mass)| mass.sqrt() * y);
+                    let balls = balls.iter().zip(&system.internal_masses).map(|(y, mass)| mass.sqrt() * y);
                     DVector::from_iterator(system.size(), x.iter().copied().chain(balls))
                 };
                 let time = carried.shaft / steady.speed;

@@ -4,13 +4,14 @@
 //! gyroscopic terms, internal damping and cages exchange with it stays inside the machine.
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use super::system::{State, System};
 use super::torque::DriveEnergy;
 use rotordyn_bearing::{Reaction, Rotation};
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
     /// ½ ẋᵀ ẋ (mass-normalised coordinates); under a torque drive with the energy of the rotation.
     pub kinetic: f64,
@@ -160,14 +161,14 @@ fn powers(system: &System, state: &State) -> [f64; 2] {
 }
 
 /// Change of the bearings' energy by the change of speed alone since `before` \[J\]: film, ball inertia,
-/// preload and clearance depend on speed. (The stored energy of balls with own degrees of freedom does not.)
+/// preload and clearance depend on speed. (The stored energy of bearings with internal coordinates does not.)
 fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -> f64 {
     let mut sum = 0.0;
     for ((interface, reaction), (now, before)) in
         system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))
     {
         let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
-        if before != *now && interface.balls == 0 && interface.element.depends_on_speed() {
+        if before != *now && interface.internal == 0 && interface.element.depends_on_speed() {
             let [d, rate] = interface.motion(&state.d, &state.d_rate, &before);
             let slower = interface.element.reaction(&d, &rate, &before);
             sum += reaction.elastic_energy - slower.elastic_energy;

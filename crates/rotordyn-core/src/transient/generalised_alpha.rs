@@ -3,7 +3,7 @@
 //! A step is predict, assemble, solve, update: [`GeneralisedAlpha::step`] reads so. The linear part changes only with
 //! the speed Ω, so one inverse of the effective matrix serves many steps (`effective_matrix`). The nonlinear bearings
 //! act on a few interface rows, so Newton's method solves for those rows (`interface_newton`) and the other coordinates
-//! follow by back-substitution. Balls with coordinates of their own are coupled to their bearing alone, which solves
+//! follow by back-substitution. Internal coordinates of a bearing are coupled to that bearing alone, which solves
 //! their equations at every Newton iteration.
 
 mod driven_buffers;
@@ -151,11 +151,11 @@ impl GeneralisedAlpha {
         let (gain, weight) = (self.scheme.gain(step), 1.0 - alpha_f);
         let matrix = self.matrices.at(system, self.scheme, step, spin);
 
-        let (right, on_balls) = self.right.as_slice().split_at(system.structure());
+        let (right, on_internal) = self.right.as_slice().split_at(system.structure());
         self.a.fill(0.0);
-        let (a, balls) = self.a.as_mut_slice().split_at_mut(system.structure());
+        let (a, internal) = self.a.as_mut_slice().split_at_mut(system.structure());
         matrix.add_inverse(spin.speed, right, &mut self.scratch, a);
-        for (a, right) in balls.iter_mut().zip(on_balls) {
+        for (a, right) in internal.iter_mut().zip(on_internal) {
             *a = right / (1.0 - alpha_m);
         }
         if system.interface_size() == 0 {
@@ -175,11 +175,11 @@ impl GeneralisedAlpha {
         self.previous_force.copy_from_slice(&state.force);
         self.previous_step = step;
 
-        let (force, on_balls) = newton.force.split_at(system.rows());
-        let (a, balls) = self.a.as_mut_slice().split_at_mut(system.structure());
+        let (force, on_internal) = newton.force.split_at(system.rows());
+        let (a, internal) = self.a.as_mut_slice().split_at_mut(system.structure());
         matrix.add_response(spin.speed, weight, force, &mut self.scratch, a);
-        for ((a, force), mass) in balls.iter_mut().zip(on_balls).zip(&system.ball_masses) {
-            *a += gain.inverse_mass * force / mass.sqrt();
+        for ((a, force), mass) in internal.iter_mut().zip(on_internal).zip(&system.internal_masses) {
+            *a += gain.force * force / mass.sqrt();
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 pub mod cage;
 pub mod energy;
 pub mod generalised_alpha;
+pub mod interface;
 pub mod perturbed_trajectory;
 pub mod reduction;
 pub mod run;

@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::interface::Interface;
 use super::stepper::Stepper;
-use super::system::{Interface, State, System};
+use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 use rotordyn_bearing::Rotation;
@@ -46,8 +47,8 @@ impl PerturbedTrajectory {
         let mut moved = vec![0.0; system.interface_size()];
         system.to_interface(&dx, &mut moved);
         let translations = |i: &Interface| moved[i.row_range()].iter().take(3).copied().collect::<Vec<_>>();
-        let balls = moved[system.rows()..].iter().copied();
-        let translations = system.interfaces.iter().flat_map(translations).chain(balls);
+        let internal = moved[system.rows()..].iter().copied();
+        let translations = system.interfaces.iter().flat_map(translations).chain(internal);
         let largest = translations.fold(0.0, |m: f64, d| m.max(d.abs()));
         let scale = displacement / if largest > 0.0 { largest } else { dx.amax() };
         let mut perturbed = Self {
@@ -125,8 +126,8 @@ impl PerturbedTrajectory {
     }
 }
 
-/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state; for balls with their own degrees of
-/// freedom the diagonal entry, with both contacts at the preload by the centrifugal force.
+/// K + Wᵀ K_b W + ε with the bearings' elastic stiffness at a state; for internal
+/// coordinates the diagonal entry, under their own inertial load.
 fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
     let (n, structure) = (system.size(), system.structure());
     let mut out = DMatrix::identity(n, n);
@@ -143,11 +144,10 @@ fn elastic_stiffness(system: &System, state: &State) -> DMatrix<f64> {
         block += map.transpose() * symmetric * map;
     }
     for (interface, rotation) in system.interfaces.iter().zip(&state.rotations) {
-        if let Some(radial) = interface.element.radial() {
-            for ball in interface.ball_range() {
-                out[(structure + ball, structure + ball)] +=
-                    radial.outer_contact_stiffness(rotation) / system.ball_masses[ball];
-            }
+        let Some(internal) = interface.element.internal() else { continue };
+        for (own, k) in interface.internal_range().enumerate() {
+            out[(structure + k, structure + k)] +=
+                internal.stiffness(own, rotation) / system.internal_masses[k];
         }
     }
     out

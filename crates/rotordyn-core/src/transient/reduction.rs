@@ -7,13 +7,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::system::{Channel, Interface, LoadHistory, Panels, System};
+use super::interface::Interface;
+use super::system::{Channel, LoadHistory, Panels, System};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
 use crate::model::{Drive, Model};
-use rotordyn_bearing::radial::Rings;
-use rotordyn_bearing::{BearingElement, Rotation};
+use rotordyn_bearing::Rotation;
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 
 /// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
@@ -26,7 +26,7 @@ pub struct Reduction {
     pub system: System,
     /// Basis V (free DOFs × coordinates), Vᵀ M V = 1.
     pub basis: DMatrix<f64>,
-    /// Coordinates of the equilibrium about which the model was reduced, balls included.
+    /// Coordinates of the equilibrium about which the model was reduced, internal ones of bearings included.
     pub equilibrium: DVector<f64>,
     /// Number of vibration modes and of static correction modes in the basis.
     pub modes: usize,
@@ -41,13 +41,13 @@ impl Reduction {
         &self.basis * x.rows(0, self.basis.ncols())
     }
 
-    /// A row over the free DOFs in terms of the coordinates: Vᵀ r, zero for the balls.
+    /// A row over the free DOFs in terms of the coordinates: Vᵀ r, zero for internal coordinates.
     pub fn row(&self, row: Vec<f64>) -> DVector<f64> {
         padded(self.basis.tr_mul(&DVector::from_vec(row)), self.system.size())
     }
 }
 
-/// A vector over the structure's coordinates with zeros for the balls.
+/// A vector over the structure's coordinates with zeros for internal ones.
 fn padded(vector: DVector<f64>, size: usize) -> DVector<f64> {
     vector.resize_vertically(size, 0.0)
 }
@@ -111,30 +111,36 @@ pub fn reduce(
         vec![static_load.clone(), belt_preload.clone(), assembly.spin_momentum.clone()];
     let mut interfaces: Vec<Interface> = Vec::new();
     let mut map: Vec<&SparseRow> = Vec::new();
-    let mut ball_masses = Vec::new();
+    let mut internal_masses: Vec<f64> = Vec::new();
+    let [mut first_stiffness, mut first_tangent] = [0; 2];
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
-        let element = BearingElement::new(&site.bearing);
+        let element = site.bearing.element();
         let mut rows: Vec<&SparseRow> = place.rows[..element.relative_dofs()].iter().collect();
-        let first_ball = ball_masses.len();
-        if let Some(radial) = element.radial() {
+        let first_internal = internal_masses.len();
+        if let Some(internal) = element.internal() {
             if site.housing.node.is_some() {
-                rows.extend(&place.housing_rows);
+                rows.extend(&place.housing_rows[..internal.housing_dofs()]);
             }
-            ball_masses.extend(std::iter::repeat_n(radial.ball_mass(), radial.balls()));
+            internal_masses.extend(internal.masses());
             forces.extend(rows.iter().map(|row| dense(row)));
         } else {
             forces.extend(place.rows.iter().map(dense));
         }
-        interfaces.push(Interface {
+        let interface = Interface {
             name: site.name.clone(),
             first_row: map.len(),
             rows: rows.len(),
-            first_ball,
-            balls: ball_masses.len() - first_ball,
+            first_internal,
+            internal: internal_masses.len() - first_internal,
+            first_stiffness,
+            first_tangent,
             cage_angle: site.bearing.cage_angle(),
             free_rotation: matches!(model.drive, Drive::Torque { .. }),
             element,
-        });
+        };
+        first_stiffness = interface.stiffness_range().end;
+        first_tangent = interface.tangent_range().end;
+        interfaces.push(interface);
         map.extend(rows);
     }
     forces.extend(assembly.unbalances.iter().flat_map(|u| [dense(&u.x), dense(&u.y)]));
@@ -151,7 +157,7 @@ pub fn reduce(
     }
     let momentum = basis.transpose() * &mass;
     let project = |m: &SparseMatrix| basis.transpose() * m.to_dense() * &basis;
-    let size = basis.ncols() + ball_masses.len();
+    let size = basis.ncols() + internal_masses.len();
     let vector = |v: &[f64]| padded(basis.transpose() * DVector::from_column_slice(v), size);
     let row = |r: &SparseRow| vector(&dense(r));
     let structure_stiffness =
@@ -209,19 +215,18 @@ pub fn reduce(
     let static_error = (&basis * &structure - &q0).amax() / q0.amax().max(f64::MIN_POSITIVE);
     let mut x0 = padded(structure, size);
     for ((interface, place), state) in interfaces.iter().zip(&assembly.sites).zip(&equilibrium.bearings) {
-        let Some(radial) = interface.element.radial() else { continue };
-        let rings = Rings {
-            relative_displacement: [state.displacement[0], state.displacement[1]],
-            housing_displacement: [0, 1].map(|k| place.housing_rows[k].dot(&equilibrium.q)),
-            ..Rings::default()
-        };
+        let Some(internal) = interface.element.internal() else { continue };
+        let relative = interface.element.relative_dofs();
+        let housing = place.housing_rows[..interface.rows - relative].iter();
+        let housing = housing.map(|row| row.dot(&equilibrium.q));
+        let at: Vec<f64> = state.displacement[..relative].iter().copied().chain(housing).collect();
         let rotation = Rotation {
             cage_angle: interface.cage_angle,
             shaft_speed: equilibrium.speed,
             ..Rotation::default()
         };
-        for (ball, place) in interface.ball_range().zip(radial.equilibrium_positions(&rings, &rotation)) {
-            x0[basis.ncols() + ball] = ball_masses[ball].sqrt() * place;
+        for (k, y) in interface.internal_range().zip(internal.equilibrium(&at, &rotation)) {
+            x0[basis.ncols() + k] = internal_masses[k].sqrt() * y;
         }
     }
     let matrices = [
@@ -251,7 +256,7 @@ pub fn reduce(
             .collect(),
         interface_map,
         interfaces,
-        ball_masses,
+        internal_masses,
         channels: model
             .probes
             .iter()

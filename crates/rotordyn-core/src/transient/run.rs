@@ -1,5 +1,6 @@
 //! Runs a reduced machine through its speed profile.
 
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 use super::energy::{Energy, EnergyBalance};
@@ -30,7 +31,7 @@ pub struct Sample<'a> {
 }
 
 /// Outcome and cost of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Step used \[s\]; `None` if error control chose the steps.
     pub step: Option<f64>,
@@ -47,7 +48,7 @@ pub struct Report {
 }
 
 /// Why a run ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum End {
     Complete,
     /// Stopped by the observer (Ctrl-C).

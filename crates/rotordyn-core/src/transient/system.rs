@@ -1,77 +1,18 @@
 //! The reduced equations of motion of a machine with nonlinear bearings, for time integration.
 //!
 //! ẍ + (C + Ω G) ẋ + (K + Ω̇ K_s + Ω K_c) x = p(t) + Wᵀ f(d, ḋ, rotation), d = W x,
-//! in mass-normalised coordinates q = V x; f holds the bearing forces on the shaft. Balls with their own
-//! degree of freedom y are appended: √m y to x, y to d, and the force on y to f.
+//! in mass-normalised coordinates q = V x; f holds the bearing forces on the shaft. Internal coordinates y of
+//! bearings are appended: √m y to x, y to d, and the force on y to f.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::interface::{Interface, StepTangents};
 use super::torque::{DrivenState, TorqueDrive};
 use crate::model::{Quantity, SpeedCurve, Spin};
-use rotordyn_bearing::radial::{NewmarkGain, Rings};
-use rotordyn_bearing::{BearingElement, Reaction, Rotation};
+use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
+use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::panel::Panel;
 use rotordyn_linalg::{Outside, piecewise};
-
-/// A nonlinear bearing of the reduced system and the rows of W that give its relative displacement.
-#[derive(Clone, Debug)]
-pub struct Interface {
-    pub name: String,
-    pub element: BearingElement,
-    /// First row of W and number of rows: 6; 5 for ball bearings, θ_z being free; for a planar bearing the 2
-    /// of the shaft relative to the housing and, if that moves, the 2 of the housing.
-    pub first_row: usize,
-    pub rows: usize,
-    /// Index of the first ball and number of balls with their own degree of freedom.
-    pub first_ball: usize,
-    pub balls: usize,
-    /// Cage angle at the start \[rad\].
-    pub cage_angle: f64,
-    /// Whether θ_z, the twist, leaves out a rotation with an inertia of its own (torque drive): its rate is then the
-    /// speed of the shaft plus that of the twist.
-    pub free_rotation: bool,
-}
-
-impl Interface {
-    /// Its rows of W.
-    pub fn row_range(&self) -> std::ops::Range<usize> {
-        self.first_row..self.first_row + self.rows
-    }
-
-    /// Its balls among those of all interfaces.
-    pub fn ball_range(&self) -> std::ops::Range<usize> {
-        self.first_ball..self.first_ball + self.balls
-    }
-
-    /// Whether balls in a cage turn with the shaft.
-    pub fn has_cage(&self) -> bool {
-        !matches!(self.element, BearingElement::Linear(_))
-    }
-
-    /// Reaction at displacements and velocities of all interfaces.
-    fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
-        let [at, rate] = self.motion(d, d_rate, rotation);
-        self.element.reaction(&at, &rate, rotation)
-    }
-
-    /// Ring motions of a planar bearing.
-    pub fn ring_motions(&self, d: &[f64], d_rate: &[f64]) -> Rings {
-        Rings::from_rows(&d[self.row_range()], &d_rate[self.row_range()])
-    }
-
-    /// Its relative displacement and velocity among those of all interfaces.
-    pub fn motion(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> [[f64; 6]; 2] {
-        let [at, mut rate] = [d, d_rate].map(|all| {
-            let mut own = [0.0; 6];
-            own[..self.rows].copy_from_slice(&all[self.row_range()]);
-            own
-        });
-        if self.free_rotation && self.rows == 6 {
-            rate[5] += rotation.shaft_speed;
-        }
-        [at, rate]
-    }
-}
 
 /// A load p(t) = factor(t) · vector, factor piecewise linear and zero outside its table.
 #[derive(Clone, Debug)]
@@ -117,8 +58,8 @@ pub struct System {
     /// Interface map W, rows × coordinates of the structure.
     pub interface_map: DMatrix<f64>,
     pub interfaces: Vec<Interface>,
-    /// Mass of every ball with its own degree of freedom \[kg\].
-    pub ball_masses: Vec<f64>,
+    /// Mass of every internal coordinate \[kg\].
+    pub internal_masses: Vec<f64>,
     pub channels: Vec<Channel>,
     pub curve: SpeedCurve,
     /// Torque drive, if the shaft speed follows from a torque balance instead of the profile.
@@ -182,7 +123,7 @@ pub struct State {
     pub rotations: Vec<Rotation>,
     /// Per interface: force, tangents and energies at this state.
     pub reactions: Vec<Reaction>,
-    /// Relative displacements W x and velocities W ẋ, then positions and velocities of the balls.
+    /// Relative displacements W x and velocities W ẋ, then positions and velocities of the internal coordinates.
     pub d: Vec<f64>,
     pub d_rate: Vec<f64>,
     /// The corresponding forces.
@@ -192,9 +133,9 @@ pub struct State {
 }
 
 impl System {
-    /// Number of coordinates: structure and balls.
+    /// Number of coordinates: those of the structure and internal ones of bearings.
     pub fn size(&self) -> usize {
-        self.structure() + self.ball_masses.len()
+        self.structure() + self.internal_masses.len()
     }
 
     /// Number of the structure's coordinates.
@@ -207,9 +148,9 @@ impl System {
         self.interfaces.last().map_or(0, |i| i.first_row + i.rows)
     }
 
-    /// Number of interface displacements: rows of W and balls.
+    /// Number of interface displacements: rows of W and internal coordinates.
     pub fn interface_size(&self) -> usize {
-        self.rows() + self.ball_masses.len()
+        self.rows() + self.internal_masses.len()
     }
 
     /// The shaft's rotation `offset` after (time, spin): from the profile, or at constant acceleration under
@@ -228,15 +169,20 @@ impl System {
     /// Name of an interface row, for messages.
     pub fn name_of_row(&self, row: usize) -> String {
         const DIRECTIONS: [&str; 6] = ["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"];
-        const IN_PLANE: [&str; 4] = ["u_x", "u_y", "u_x of its housing", "u_y of its housing"];
         let rows = self.rows();
         let place = |i: &Interface| match row.checked_sub(rows) {
-            None if !(i.first_row..i.first_row + i.rows).contains(&row) => None,
-            None if i.balls > 0 => Some(IN_PLANE[row - i.first_row].to_string()),
-            None => Some(DIRECTIONS[row - i.first_row].to_string()),
-            Some(ball) => (i.first_ball..i.first_ball + i.balls)
-                .contains(&ball)
-                .then(|| format!("ball {}", ball - i.first_ball)),
+            None if !i.row_range().contains(&row) => None,
+            None => {
+                let (k, relative) = (row - i.first_row, i.element.relative_dofs());
+                Some(match k.checked_sub(relative) {
+                    None => DIRECTIONS[k].to_string(),
+                    Some(k) => format!("{} of its housing", DIRECTIONS[k]),
+                })
+            }
+            Some(k) => {
+                let own = k.checked_sub(i.first_internal).filter(|own| *own < i.internal)?;
+                Some(i.element.internal()?.name(own))
+            }
         };
         let named = |i: &Interface| Some(format!("bearing {}, {}", i.name, place(i)?));
         self.interfaces.iter().find_map(named).unwrap_or("the structure".into())
@@ -300,30 +246,30 @@ impl System {
         self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
     }
 
-    /// W y for coordinates y, then the ball positions, written to `out`.
+    /// W y for coordinates y, then the internal coordinates, written to `out`.
     pub fn to_interface(&self, y: &DVector<f64>, out: &mut [f64]) {
-        let (structure, balls) = y.as_slice().split_at(self.structure());
+        let (structure, internal) = y.as_slice().split_at(self.structure());
         let (rows, places) = out.split_at_mut(self.rows());
         rows.fill(0.0);
         self.panels.to_interface.mul_add(structure, rows);
-        for ((place, y), mass) in places.iter_mut().zip(balls).zip(&self.ball_masses) {
+        for ((place, y), mass) in places.iter_mut().zip(internal).zip(&self.internal_masses) {
             *place = y / mass.sqrt();
         }
     }
 
-    /// Adds Wᵀ f to `out`, and the ball forces to the balls' coordinates.
+    /// Adds Wᵀ f to `out`, and the forces on the internal coordinates to these.
     pub fn add_from_interface(&self, force: &[f64], out: &mut DVector<f64>) {
-        let (rows, on_balls) = force.split_at(self.rows());
-        let (structure, balls) = out.as_mut_slice().split_at_mut(self.structure());
+        let (rows, on_internal) = force.split_at(self.rows());
+        let (structure, internal) = out.as_mut_slice().split_at_mut(self.structure());
         self.panels.from_interface.mul_add(rows, structure);
-        for ((ball, f), mass) in balls.iter_mut().zip(on_balls).zip(&self.ball_masses) {
-            *ball += f / mass.sqrt();
+        for ((y, f), mass) in internal.iter_mut().zip(on_internal).zip(&self.internal_masses) {
+            *y += f / mass.sqrt();
         }
     }
 
     /// Bearing forces with tangent stiffness and damping at displacements and velocities.
     ///
-    /// No tangents for bearings whose balls have their own degrees of freedom.
+    /// No tangents for bearings with internal coordinates.
     pub fn bearing_reactions(
         &self,
         d: &[f64],
@@ -355,30 +301,35 @@ impl System {
         force: &mut [f64],
         tangents: bool,
     ) {
-        let (rows, on_balls) = force.split_at_mut(self.rows());
+        let (rows, on_internal) = force.split_at_mut(self.rows());
         for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
-            match interface.element.radial() {
-                None if tangents => *reaction = interface.reaction(d, d_rate, rotation),
-                None => {
+            let own = interface.row_range();
+            let Some(internal) = interface.element.internal() else {
+                if tangents {
+                    *reaction = interface.reaction(d, d_rate, rotation);
+                } else {
                     let [at, rate] = interface.motion(d, d_rate, rotation);
                     interface.element.force(&at, &rate, rotation, reaction);
                 }
-                Some(radial) => {
-                    let rings = interface.ring_motions(d, d_rate);
-                    let balls = interface.ball_range();
-                    let places = [d, d_rate].map(|y| &y[rows.len()..][balls.clone()]);
-                    *reaction = radial.forces(&rings, places, rotation, &mut on_balls[balls]);
-                }
-            }
-            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+                rows[own].copy_from_slice(&reaction.force[..interface.rows]);
+                continue;
+            };
+            let [position, velocity] = [d, d_rate].map(|y| &y[rows.len()..][interface.internal_range()]);
+            *reaction = internal.forces(
+                Motion { position: &d[own.clone()], velocity: &d_rate[own.clone()] },
+                Motion { position, velocity },
+                rotation,
+                &mut rows[own],
+                &mut on_internal[interface.internal_range()],
+            );
         }
     }
 
-    /// Bearing forces with tangents at the end of an implicit step; solves the ball equations.
+    /// Bearing forces with tangents at the end of an implicit step; solves the internal coordinates.
     ///
-    /// `d`, `d_rate`: displacements and velocities of the rows, and the force-free prediction of the balls,
-    /// replaced by the values at the step's end. `force`: initial guess for the balls, replaced by the
-    /// solution. `follow`: −∂(force on every ball)/∂(rows).
+    /// `d`, `d_rate`: displacements and velocities of the rows, and the force-free prediction of the internal
+    /// coordinates, replaced by the values at the step's end. `force`: initial guess for the internal coordinates,
+    /// replaced by the solution. `tangents`: of the bearings with internal coordinates.
     pub fn bearing_reactions_in_step(
         &self,
         [d, d_rate]: [&mut [f64]; 2],
@@ -386,30 +337,28 @@ impl System {
         gain: &NewmarkGain,
         reactions: &mut [Reaction],
         force: &mut [f64],
-        ball_force_tangent: &mut [[f64; 4]],
+        tangents: &mut StepTangents,
     ) {
-        let (rows, on_balls) = force.split_at_mut(self.rows());
+        let count = self.rows();
+        let (rows, on_internal) = force.split_at_mut(count);
         for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
-            *reaction = match interface.element.radial() {
-                None => interface.reaction(d, d_rate, rotation),
-                Some(radial) => {
-                    let rings = interface.ring_motions(d, d_rate);
-                    let balls = interface.ball_range();
-                    let gain = NewmarkGain { inverse_mass: gain.inverse_mass / radial.ball_mass(), ..*gain };
-                    let (_, places) = d.split_at_mut(rows.len());
-                    let (_, rates) = d_rate.split_at_mut(rows.len());
-                    let at = [&mut places[balls.clone()], &mut rates[balls.clone()]];
-                    radial.step(
-                        &rings,
-                        at,
-                        rotation,
-                        &gain,
-                        &mut on_balls[balls.clone()],
-                        &mut ball_force_tangent[balls],
-                    )
-                }
+            let own = interface.row_range();
+            let Some(internal) = interface.element.internal() else {
+                *reaction = interface.reaction(d, d_rate, rotation);
+                rows[own].copy_from_slice(&reaction.force[..interface.rows]);
+                continue;
             };
-            rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
+            let (d_rows, d_internal) = d.split_at_mut(count);
+            let (rate_rows, rate_internal) = d_rate.split_at_mut(count);
+            let step = InternalStep {
+                position: &mut d_internal[interface.internal_range()],
+                velocity: &mut rate_internal[interface.internal_range()],
+                force: &mut on_internal[interface.internal_range()],
+                force_tangent: &mut tangents.internal_force[interface.tangent_range()],
+                stiffness: &mut tangents.stiffness[interface.stiffness_range()],
+            };
+            let motion = Motion { position: &d_rows[own.clone()], velocity: &rate_rows[own.clone()] };
+            *reaction = internal.step(motion, step, rotation, gain, &mut rows[own]);
         }
     }
 

@@ -23,23 +23,22 @@
 //! Every data set has an attribute `unit`. Missing values (a lost mode, fewer modes at a speed) are NaN, or
 //! an empty text. Writing a study again replaces its earlier results.
 
-mod bearing;
 mod external_files;
 mod group_writer;
-mod linear;
-mod run;
+mod run_up_correlation;
+mod section;
 mod signal;
-mod steady;
 pub mod validation;
 
 pub use external_files::{read_external_files, write_external_files};
 use group_writer::GroupWriter;
+pub use run_up_correlation::write_run_up_correlation;
+pub use section::write_section;
 pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::error::Error;
-use rotordyn_bearing::Bearing;
-use rotordyn_core::results::{ChannelPair, History, HistoryChannel, Results};
+use rotordyn_core::results::{BearingResult, History, HistoryChannel, Results, warnings_section};
 use rotordyn_core::study::Machine;
 
 /// Version of the names of groups, data sets and attributes, in `/meta`.
@@ -96,41 +95,8 @@ pub fn schema(store: &Store) -> Result<i64, Error> {
 /// The file cannot be written.
 pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Result<(), Error> {
     write_labels(store, machine)?;
-    if let Some(found) = &results.equilibrium {
-        linear::equilibrium(store, found, machine)?;
-    }
-    if !results.modal.is_empty() {
-        linear::modes(store, &results.modal, machine)?;
-    }
-    if let Some(found) = &results.campbell {
-        linear::campbell(store, found)?;
-    }
-    if let Some(found) = &results.critical {
-        let writer = GroupWriter::new(store, "/critical_speeds")?;
-        writer.set_attribute("max_speed", found.max_speed)?;
-        linear::crossings(&writer, &found.crossings.list)?;
-    }
-    if let Some(found) = &results.frf {
-        linear::frf(store, found)?;
-    }
-    if let Some(found) = &results.unbalance {
-        linear::unbalance(store, found)?;
-    }
-    if let Some(found) = &results.run_up {
-        run::summary(store, found)?;
-    }
-    results.spectrograms.iter().try_for_each(|found| run::spectrogram(store, "", found))?;
-    results.orders.iter().try_for_each(|found| run::orders(store, "", found))?;
-    results.cage_phases.iter().try_for_each(|found| run::cage_phases(store, found))?;
-    results.poincare.iter().try_for_each(|found| steady::poincare(store, found))?;
-    results.lyapunov.iter().try_for_each(|found| steady::lyapunov(store, found))?;
-    results.bifurcation.iter().try_for_each(|found| steady::bifurcation(store, found))?;
-    bearing::write(store, &results.bearings)?;
-    for (study, used) in &results.ball_inertia {
-        let writer = GroupWriter::new(store, &format!("/ball_inertia/{study}"))?;
-        used.iter().try_for_each(|used| bearing::inertia_use(&writer.subgroup(&used.bearing)?, used))?;
-    }
-    write_warnings(store, &results.warnings)?;
+    let sections = results.sections(&machine.assembly.dofs);
+    sections.iter().try_for_each(|section| write_section(store, "", section))?;
     store.flush()
 }
 
@@ -139,22 +105,10 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
 /// # Errors
 /// The file cannot be written.
 pub fn write_bearings(store: &Store, results: &Results) -> Result<(), Error> {
-    bearing::write(store, &results.bearings)?;
-    write_warnings(store, &results.warnings)?;
+    let bearings = results.bearings.iter().map(BearingResult::section);
+    let mut sections = bearings.chain(warnings_section(&results.warnings));
+    sections.try_for_each(|section| write_section(store, "", &section))?;
     store.flush()
-}
-
-/// Writes a measured and a computed run as `/measured` and `/computed`, with their spectra.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_run_up_correlation(
-    store: &Store,
-    pairs: &[ChannelPair],
-    measured: &History,
-    computed: &History,
-) -> Result<(), Error> {
-    run::run_up_correlation(store, pairs, [measured, computed])
 }
 
 /// Records in `/meta` that the run's speed is a measured one, not that of the model's text.
@@ -163,13 +117,6 @@ pub fn write_run_up_correlation(
 /// The file cannot be written.
 pub fn note_measured_speed(store: &Store, source: &str) -> Result<(), Error> {
     store.set_attribute("/meta", "speed", format!("as measured: {source}"))
-}
-
-fn write_warnings(store: &Store, warnings: &[String]) -> Result<(), Error> {
-    if warnings.is_empty() {
-        return Ok(());
-    }
-    GroupWriter::new(store, "/warnings")?.write_texts("text", &[warnings.len()], warnings)
 }
 
 /// The channels of a history in the form of a stream.
@@ -230,16 +177,10 @@ fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     writer.write_texts("dof", &[6], &["u_x", "u_y", "u_z", "theta_x", "theta_y", "theta_z"])?;
     for site in &model.bearings {
         let at = writer.subgroup(&format!("bearings/{}", site.name))?;
-        let Some(ball) = site.bearing.ball() else {
-            at.set_attribute("model", "linear")?;
-            continue;
-        };
+        at.set_attribute("model", site.bearing.keyword())?;
+        let Some(ball) = site.bearing.ball() else { continue };
         let g = &ball.geometry;
         let orders = g.characteristic_orders(g.contact_angle);
-        at.set_attribute(
-            "model",
-            if matches!(site.bearing, Bearing::Ball(_)) { "ball" } else { "radial_ball" },
-        )?;
         at.set_attribute("condition", ball.imperfections.condition())?;
         at.set_attribute("balls", g.balls as i64)?;
         for (name, value) in [

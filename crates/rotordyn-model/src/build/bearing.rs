@@ -1,38 +1,87 @@
 //! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
 
-use super::ball_keys::{check_geometry, common_properties, designation};
+use super::ball_inertia::{self, BALL_INERTIA, BallInertiaKeys};
+use super::ball_keys::{BallKeys, check_geometry, common_properties, designation};
+use super::contact::{BallContactKeys, ContactStiffnessKeys, ServiceKeys};
+use super::defects::DefectsKeys;
+use super::imperfections::ImperfectionKeys;
 use super::increasing::check_increasing;
+use super::lubricants::OilOfBearingKeys;
+use super::mounting::MountingKeys;
 use super::places::Places;
-use super::springs::{self, MatrixKind};
-use super::{contact, imperfections, mounting, radial_bearing};
+use super::radial_bearing::{self, RadialBallKeys};
+use super::springs::{
+    BEARING_DAMPING, BEARING_DAMPING_LIST, BEARING_STIFFNESS, BEARING_STIFFNESS_LIST, MatrixKeys,
+};
+use super::{contact, imperfections, mounting};
 use crate::BearingSite;
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, not_negative, positive};
-use crate::file::tree::Value;
-use rotordyn_bearing::contact::{ContactLaw, Lubricant};
-use rotordyn_bearing::{BallBearing, BallInertia, Bearing, BeyondTable, LinearBearing, LinearBearingRow};
+use crate::file::key::{
+    Group, NamedTables, Quantities, Table, Text, Words, keys, named_tables, not_negative, quantities, text,
+    words,
+};
+use crate::file::reader::Reader;
+use rotordyn_bearing::contact::Lubricant;
+use rotordyn_bearing::{BallBearing, Bearing, BeyondTable, LinearBearing, LinearBearingRow};
 use rotordyn_core::element::{Anchor, Material};
-use rotordyn_units::{FORCE, SPEED};
+use rotordyn_units::SPEED;
 
-const INERTIAS: [(&str, BallInertia); 7] = [
-    ("auto", BallInertia::Auto(None)),
-    ("none", BallInertia::None),
-    ("outer_race_control", BallInertia::OuterRaceControl),
-    ("inner_race_control", BallInertia::InnerRaceControl),
-    ("harris_inner_race_control", BallInertia::HarrisInnerRaceControl),
-    ("shared", BallInertia::Shared),
-    ("centrifugal", BallInertia::Centrifugal),
-];
-
-/// Ball inertia: a keyword, or `{ centrifugal_force = "120 N" }`.
-fn ball_inertia(r: &Reader) -> BallInertia {
-    if !matches!(r.entry("ball_inertia").map(|e| &e.node.value), Some(Value::Table(_))) {
-        return r.choice("ball_inertia", &INERTIAS).unwrap_or_default();
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        bearing: NamedTables = named_tables(&BEARING_TABLE);
     }
-    let Some(given) = r.table("ball_inertia") else { return BallInertia::default() };
-    let force = given.need("centrifugal_force", positive(FORCE));
-    given.finish();
-    BallInertia::CentrifugalForce(force)
+}
+
+static BEARING_TABLE: Table = Table {
+    meaning: "A bearing between the shaft and a housing, a body or ground.",
+    groups: &[
+        Group::always(BearingKeys::LIST),
+        Group { condition: BALL, keys: BallKeys::LIST },
+        Group { condition: BALL, keys: BallInertiaKeys::LIST },
+        Group { condition: BALL, keys: BallContactKeys::LIST },
+        Group { condition: BALL, keys: ContactStiffnessKeys::LIST },
+        Group { condition: BALL, keys: OilOfBearingKeys::LIST },
+        Group { condition: BALL, keys: MountingKeys::LIST },
+        Group { condition: BALL, keys: ImperfectionKeys::LIST },
+        Group { condition: BALL, keys: DefectsKeys::LIST },
+        Group { condition: BALL, keys: ServiceKeys::LIST },
+        Group { condition: RADIAL_BALL, keys: BallKeys::LIST },
+        Group { condition: RADIAL_BALL, keys: ContactStiffnessKeys::LIST },
+        Group { condition: RADIAL_BALL, keys: RadialBallKeys::LIST },
+        Group { condition: RADIAL_BALL, keys: ImperfectionKeys::LIST },
+        Group { condition: RADIAL_BALL, keys: DefectsKeys::LIST },
+        Group { condition: LINEAR, keys: LinearKeys::LIST },
+        Group { condition: LINEAR, keys: &BEARING_STIFFNESS_LIST },
+        Group { condition: LINEAR, keys: &BEARING_DAMPING_LIST },
+        Group { condition: LINEAR, keys: MatrixKeys::LIST },
+    ],
+};
+
+const BALL: &str = "model = \"ball\"";
+const RADIAL_BALL: &str = "model = \"radial_ball\"";
+const LINEAR: &str = "model = \"linear\"";
+
+keys! {
+    /// Of every bearing.
+    static BEARING: BearingKeys {
+        station: Text = text("name of a station", "Where it sits on the shaft; not in a file with bearings only.")
+            .example("\"A\"");
+        housing: Text = text("ground or name of a housing or body", "What holds its outer ring.").default("ground");
+        model: Words<ReadBearing> = words(MODELS,
+            "Ball bearing in space, plane bearing with one radial DOF per ball, or stiffness matrix.");
+    }
+}
+
+keys! {
+    /// Of a linear bearing.
+    static LINEAR_BEARING: LinearKeys {
+        speed: Quantities = quantities(not_negative(SPEED), "one or more, increasing",
+            "Speeds of a table; every component then has one value or one per speed.").default("0 rpm");
+        beyond_table: Words<BeyondTable> = words(&[("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)],
+            "At speeds beyond the table: its last value, or an error.").default("hold")
+            .with("speed = \"0, 3000 rpm\"");
+    }
 }
 
 pub(super) fn read(
@@ -42,17 +91,18 @@ pub(super) fn read(
     gravity: [f64; 3],
     places: &Places,
 ) -> Vec<BearingSite> {
+    let context = Context { materials, lubricants, gravity };
     let read = |(name, r): (&str, Reader)| {
-        let (node, z) = places.station(&r, "station");
-        let housing = r.text("housing").unwrap_or("ground");
+        let (node, z) = places.station(&r, &BEARING.station);
+        let housing = r.text(&BEARING.housing).unwrap_or_default();
         let housing = places
-            .find(&r, housing, &r.span_of("housing"), &["ground", "housing", "body"])
+            .find(&r, housing, &r.span_of(&BEARING.housing), &["ground", "housing", "body"])
             .map_or(Anchor::GROUND, |place| place.anchor_at([0.0, 0.0, z]));
-        let bearing = bearing(&r, materials, lubricants, gravity);
+        let bearing = bearing(&r, &context);
         r.finish();
         BearingSite { name: name.into(), node, housing, bearing }
     };
-    top.items("bearing").into_iter().map(read).collect()
+    top.items(&TOP.bearing).into_iter().map(read).collect()
 }
 
 /// Bearings of a bearing-only file, without station and housing.
@@ -62,58 +112,64 @@ pub(super) fn read_bearings_only(
     lubricants: &[Lubricant],
     gravity: [f64; 3],
 ) -> Vec<(String, Bearing)> {
+    let context = Context { materials, lubricants, gravity };
     let read = |(name, r): (&str, Reader)| {
-        let bearing = bearing(&r, materials, lubricants, gravity);
+        let bearing = bearing(&r, &context);
         r.finish();
         (name.to_string(), bearing)
     };
-    top.items("bearing").into_iter().map(read).collect()
+    top.items(&TOP.bearing).into_iter().map(read).collect()
 }
 
-/// Keywords of the key `model`.
-#[derive(Clone, Copy)]
-enum ModelKeyword {
-    Linear,
-    Ball,
-    RadialBall,
+/// What the reader of a bearing needs beside its table.
+struct Context<'a> {
+    materials: &'a [Material],
+    lubricants: &'a [Lubricant],
+    gravity: [f64; 3],
 }
 
-fn bearing(r: &Reader, materials: &[Material], lubricants: &[Lubricant], gravity: [f64; 3]) -> Bearing {
-    if !r.has("model") {
-        r.missing("model", "\"ball\", \"radial_ball\" or \"linear\"");
+/// Reads a bearing of one model from its table.
+type ReadBearing = fn(&Reader, &Context) -> Bearing;
+
+/// Values of the key `model`, with the reader of each.
+const MODELS: &[(&str, ReadBearing)] = &[
+    ("ball", |r, context| ball(r, context.materials, context.lubricants).into()),
+    ("radial_ball", |r, context| radial_bearing::read(r, context.materials, context.gravity).into()),
+    ("linear", |r, _| linear(r).into()),
+];
+
+fn bearing(r: &Reader, context: &Context) -> Bearing {
+    if !r.has(&BEARING.model) {
+        let names: Vec<String> = MODELS.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        let (last, others) = names
+            .split_last()
+            .map_or((String::new(), String::new()), |(last, others)| (last.clone(), others.join(", ")));
+        r.missing_as(&BEARING.model, &format!("{others} or {last}"));
     }
-    let kinds = [
-        ("linear", ModelKeyword::Linear),
-        ("ball", ModelKeyword::Ball),
-        ("radial_ball", ModelKeyword::RadialBall),
-    ];
-    match r.choice("model", &kinds) {
-        Some(ModelKeyword::Ball) => Bearing::Ball(ball(r, materials, lubricants)),
-        Some(ModelKeyword::RadialBall) => Bearing::RadialBall(radial_bearing::read(r, materials, gravity)),
-        Some(ModelKeyword::Linear) => Bearing::Linear(linear(r)),
-        None => {
+    r.choice(&BEARING.model).map_or_else(
+        || {
             r.entries();
-            Bearing::Linear(LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold })
-        }
-    }
+            LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into()
+        },
+        |read| read(r, context),
+    )
 }
 
 fn linear(r: &Reader) -> LinearBearing {
-    let speeds = r.list("speed", not_negative(SPEED)).unwrap_or_else(|| vec![0.0]);
-    check_increasing(r, "speed", &speeds);
-    let stiffness = springs::table(r, MatrixKind::Stiffness, speeds.len(), false);
-    let damping = springs::table(r, MatrixKind::Damping, speeds.len(), false);
+    let speeds = r.list(&LINEAR_BEARING.speed).unwrap_or_else(|| vec![0.0]);
+    check_increasing(r, &LINEAR_BEARING.speed, &speeds);
+    let stiffness = BEARING_STIFFNESS.table(r, speeds.len());
+    let damping = BEARING_DAMPING.table(r, speeds.len());
     if r.has_no_errors() && stiffness.iter().flatten().flatten().all(|&k| k == 0.0) {
-        r.missing("k_xx", "\"1e7 N/m\" (and k_yy)");
+        r.missing_or(BEARING_STIFFNESS.component(0, 0), " (and k_yy)");
     }
-    let choices = [("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)];
-    let beyond = r.choice("beyond_table", &choices);
-    if beyond.is_some() && speeds.len() < 2 && r.has_no_errors() {
-        r.missing("speed", "\"0, 3000 rpm\", with a value of k_xx per speed");
+    let beyond = r.word(&LINEAR_BEARING.beyond_table);
+    if r.has(&LINEAR_BEARING.beyond_table) && speeds.len() < 2 && r.has_no_errors() {
+        r.missing_as(&LINEAR_BEARING.speed, "\"0, 3000 rpm\", with a value of k_xx per speed");
     }
     let rows = speeds.into_iter().zip(stiffness).zip(damping);
     LinearBearing {
-        beyond: beyond.unwrap_or_default(),
+        beyond,
         table: rows
             .map(|((speed, stiffness), damping)| LinearBearingRow { speed, stiffness, damping })
             .collect(),
@@ -124,17 +180,17 @@ fn ball(r: &Reader, materials: &[Material], lubricants: &[Lubricant]) -> BallBea
     let mut bearing = common_properties(r, materials, designation(r).as_ref(), None);
     bearing.service = contact::service(r, lubricants);
     bearing.damping = contact::damping(r);
-    bearing.inertia = ball_inertia(r);
+    bearing.inertia = ball_inertia::read(r);
     bearing.preload = mounting::preload(r);
     bearing.duplex = mounting::duplex(r, bearing.geometry.contact_angle);
     bearing.fit = mounting::fit(r, &bearing.geometry);
     bearing.contact = contact::contact_law(r, lubricants, &bearing.hertz());
-    if bearing.inertia.is_on() && matches!(bearing.contact, ContactLaw::PowerLaw(_)) {
+    if bearing.inertia.is_on() && !bearing.contact.has_separate_contacts() {
         let message = format!(
             "{} needs separate inner and outer contacts, which a fitted power law does not have",
-            r.name("ball_inertia")
+            r.name(&BALL_INERTIA.ball_inertia)
         );
-        let problem = Problem::new(Kind::Conflict, &r.span_of("ball_inertia"), message);
+        let problem = Problem::new(Kind::Conflict, &r.span_of(&BALL_INERTIA.ball_inertia), message);
         r.log.error(problem.expected("contact = \"hertz\" or \"film\", with separate inner and outer contacts").hint(
             "a power law covers both contacts in series and includes the centrifugal force at the speed of the fit",
         ));

@@ -1,54 +1,114 @@
 //! Bushings, joints and belts.
 
-use super::places::Places;
-use super::springs::{self, DOFS, MatrixKind};
+use super::places::{BetweenKeys, Places};
+use super::springs::{
+    DOFS, MatrixKeys, PASSIVE_DAMPING, PASSIVE_DAMPING_LIST, PASSIVE_STIFFNESS, PASSIVE_STIFFNESS_LIST,
+};
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, any, not_negative};
+use crate::file::key::{
+    Flag, Group, NamedTables, Quantities, Quantity, Table, Text, Texts, Words, any, flag, keys, named_tables,
+    not_negative, quantities, quantity, text, texts, words,
+};
+use crate::file::reader::Reader;
 use rotordyn_core::element::{Belt, Bushing, Joint};
 use rotordyn_units::{DAMPING, FORCE, STIFFNESS, TILT_DAMPING, TILT_STIFFNESS};
+
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        bushing: NamedTables = named_tables(&BUSHING);
+        joint: NamedTables = named_tables(&JOINT);
+        belt: NamedTables = named_tables(BeltKeys::TABLE);
+    }
+}
+
+static BUSHING: Table = Table {
+    meaning: "Springs and dampers between two places.",
+    groups: &[
+        Group::always(BetweenKeys::LIST),
+        Group::always(&PASSIVE_STIFFNESS_LIST),
+        Group::always(&PASSIVE_DAMPING_LIST),
+        Group::always(MatrixKeys::LIST),
+    ],
+};
+
+static JOINT: Table = Table {
+    meaning: "An exact constraint between two places.",
+    groups: &[Group::always(BetweenKeys::LIST), Group::always(JointKeys::LIST)],
+};
+
+keys! {
+    /// `[joint.x]`.
+    static CONSTRAINT: JointKeys {
+        kind: Words<[bool; 6]> = words(KINDS, "Constrained DOFs by the kind of joint.").required("or constrain");
+        axial: Words<bool> = words(&[("fixed", true), ("free", false)], "Overrides the constraint along z.")
+            .computed("by kind").with("kind = \"spherical\"");
+        constrain: Texts = texts("some of x, y, z, tx, ty, tz", "Constrained DOFs one by one.").required("or kind")
+            .example("[\"z\", \"tx\", \"ty\"]");
+    }
+}
+
+keys! {
+    /// `[belt.x]`.
+    static BELT: BeltKeys = "A belt on the shaft, to ground." {
+        station: Text = text("name of a station", "Where it runs.").example("\"A\"");
+        pull: Quantities = quantities(any(FORCE), "two: x, y", "Static force on the shaft.").default("0, 0 N")
+            .example("\"0, -120 N\"");
+        constant_pull: Flag = flag("Pull is that of the machine at rest; otherwise of the undeflected shaft.")
+            .default("false");
+        k_x: Quantity = quantity(not_negative(STIFFNESS), "Stiffness along x.").default("0 N/m");
+        k_y: Quantity = quantity(not_negative(STIFFNESS), "Stiffness along y.").default("0 N/m");
+        k_spin: Quantity = quantity(not_negative(TILT_STIFFNESS), "Stiffness of rotation about z.")
+            .default("0 N m/rad");
+        c_x: Quantity = quantity(not_negative(DAMPING), "Damping along x.").default("0 N s/m");
+        c_y: Quantity = quantity(not_negative(DAMPING), "Damping along y.").default("0 N s/m");
+        c_spin: Quantity = quantity(not_negative(TILT_DAMPING), "Damping of rotation about z.")
+            .default("0 N m s/rad");
+    }
+}
 
 pub(super) fn bushings(top: &Reader, places: &Places) -> Vec<Bushing> {
     let read = |(name, r): (&str, Reader)| {
         let [a, b] = places.between(&r);
-        let stiffness = springs::matrix(&r, MatrixKind::Stiffness, true);
-        let damping = springs::matrix(&r, MatrixKind::Damping, true);
+        let stiffness = PASSIVE_STIFFNESS.matrix(&r);
+        let damping = PASSIVE_DAMPING.matrix(&r);
         if r.has_no_errors() && stiffness.iter().chain(&damping).flatten().all(|&v| v == 0.0) {
-            r.missing("k_x", "\"1e6 N/m\" or another component of stiffness or damping");
+            r.missing_or(PASSIVE_STIFFNESS.diagonal(0), " or another component of stiffness or damping");
         }
         r.finish();
         Bushing { name: name.into(), a, b, stiffness, damping }
     };
-    top.items("bushing").into_iter().map(read).collect()
+    top.items(&TOP.bushing).into_iter().map(read).collect()
 }
 
 const SPHERICAL: [bool; 6] = [true, true, true, false, false, false];
 const CYLINDRICAL: [bool; 6] = [true, true, false, true, true, false];
 const REVOLUTE: [bool; 6] = [true, true, true, true, true, false];
 const FIXED: [bool; 6] = [true; 6];
+const KINDS: &[(&str, [bool; 6])] =
+    &[("spherical", SPHERICAL), ("cylindrical", CYLINDRICAL), ("revolute", REVOLUTE), ("fixed", FIXED)];
 
 /// Joints by kind, or by their constrained DOFs.
 pub(super) fn joints(top: &Reader, places: &Places) -> Vec<Joint> {
     let read = |(name, r): (&str, Reader)| {
         let [a, b] = places.between(&r);
-        let locked = match r.one_of(&["kind", "constrain"]) {
-            Some("constrain") => constrained_dofs(&r),
+        let locked = match r.one_of(&[&CONSTRAINT.kind, &CONSTRAINT.constrain]) {
+            Some(given) if given.is(&CONSTRAINT.constrain) => constrained_dofs(&r),
             _ => constrained_by_kind(&r),
         };
         r.finish();
         Joint { name: name.into(), a, b, locked }
     };
-    top.items("joint").into_iter().map(read).collect()
+    top.items(&TOP.joint).into_iter().map(read).collect()
 }
 
 /// Constrained DOFs of a `kind`; `axial = "free"` or `"fixed"` overrides its constraint along z.
 fn constrained_by_kind(r: &Reader) -> [bool; 6] {
-    let kinds =
-        [("spherical", SPHERICAL), ("cylindrical", CYLINDRICAL), ("revolute", REVOLUTE), ("fixed", FIXED)];
-    if !r.has("kind") {
-        r.missing("kind", "\"spherical\", or constrain = [\"z\", \"tx\", \"ty\"]");
+    if !r.has(&CONSTRAINT.kind) {
+        r.missing_or(&CONSTRAINT.kind, ", or constrain = [\"z\", \"tx\", \"ty\"]");
     }
-    let mut locked = r.choice("kind", &kinds).unwrap_or(FIXED);
-    if let Some(constrained) = r.choice("axial", &[("fixed", true), ("free", false)]) {
+    let mut locked = r.choice(&CONSTRAINT.kind).unwrap_or(FIXED);
+    if let Some(constrained) = r.choice(&CONSTRAINT.axial) {
         locked[2] = constrained;
     }
     locked
@@ -57,10 +117,10 @@ fn constrained_by_kind(r: &Reader) -> [bool; 6] {
 /// Constrained DOFs as listed, e.g. `constrain = ["z", "tx", "ty"]` for planar motion.
 fn constrained_dofs(r: &Reader) -> [bool; 6] {
     let mut locked = [false; 6];
-    for (motion, span) in r.texts("constrain").unwrap_or_default() {
+    for (motion, span) in r.texts(&CONSTRAINT.constrain).unwrap_or_default() {
         match DOFS.iter().position(|m| *m == motion) {
             Some(k) if locked[k] => {
-                let message = format!("{} names {motion} twice", r.name("constrain"));
+                let message = format!("{} names {motion} twice", r.name(&CONSTRAINT.constrain));
                 r.log.error(Problem::new(Kind::Conflict, &span, message));
             }
             Some(k) => locked[k] = true,
@@ -74,8 +134,8 @@ fn constrained_dofs(r: &Reader) -> [bool; 6] {
     if r.has_no_errors() && locked == [false; 6] {
         r.error(
             Kind::OutOfRange,
-            "constrain",
-            format!("{} constrains no degree of freedom", r.name("constrain")),
+            &CONSTRAINT.constrain,
+            format!("{} constrains no degree of freedom", r.name(&CONSTRAINT.constrain)),
         );
     }
     locked
@@ -83,27 +143,26 @@ fn constrained_dofs(r: &Reader) -> [bool; 6] {
 
 pub(super) fn belts(top: &Reader, places: &Places) -> Vec<Belt> {
     let read = |(name, r): (&str, Reader)| {
-        let (node, _) = places.station(&r, "station");
-        let pull = match r.list("pull", any(FORCE)).as_deref() {
+        let (node, _) = places.station(&r, &BELT.station);
+        let pull = match r.list(&BELT.pull).as_deref() {
             None => [0.0; 2],
             Some(&[x, y]) => [x, y],
             Some(_) => {
-                r.error(Kind::WrongType, "pull", format!("{} has two components, x and y", r.name("pull")));
+                let message = format!("{} has two components, x and y", r.name(&BELT.pull));
+                r.error(Kind::WrongType, &BELT.pull, message);
                 [0.0; 2]
             }
         };
-        let k = |key| r.or(key, not_negative(STIFFNESS), 0.0);
-        let c = |key| r.or(key, not_negative(DAMPING), 0.0);
         let belt = Belt {
             name: name.into(),
             node,
             pull,
-            constant_pull: r.flag("constant_pull", false),
-            stiffness: [k("k_x"), k("k_y"), r.or("k_spin", not_negative(TILT_STIFFNESS), 0.0)],
-            damping: [c("c_x"), c("c_y"), r.or("c_spin", not_negative(TILT_DAMPING), 0.0)],
+            constant_pull: r.flag(&BELT.constant_pull),
+            stiffness: [&BELT.k_x, &BELT.k_y, &BELT.k_spin].map(|key| r.value(key)),
+            damping: [&BELT.c_x, &BELT.c_y, &BELT.c_spin].map(|key| r.value(key)),
         };
         r.finish();
         belt
     };
-    top.items("belt").into_iter().map(read).collect()
+    top.items(&TOP.belt).into_iter().map(read).collect()
 }

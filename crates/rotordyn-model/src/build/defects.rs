@@ -1,13 +1,17 @@
 //! Local defects (dents, bumps, spalls) of a ball bearing, `[[bearing.x.defect]]`.
 
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, any, not_negative};
+use crate::file::key::{
+    Count, Declared, Group, Quantity, Table, TableList, Words, any, count, keys, not_negative, quantity,
+    table_list, words,
+};
+use crate::file::reader::Reader;
 use rotordyn_bearing::{BallGeometry, Defect, DefectForm, Shape, Surface};
 use rotordyn_units::{ANGLE, LENGTH};
 use std::f64::consts::{PI, TAU};
 
 /// Keywords of the key `kind`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum KindKeyword {
     Dent,
     Bump,
@@ -15,12 +19,59 @@ enum KindKeyword {
 }
 
 /// Keywords of the key `on`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum SurfaceKeyword {
     Inner,
     Outer,
     Ball,
 }
+
+keys! {
+    /// `[[bearing.x.defect]]`.
+    static DEFECT: DefectKeys {
+        kind: Words<KindKeyword> = words(&[
+            ("dent", KindKeyword::Dent), ("bump", KindKeyword::Bump), ("spall", KindKeyword::Spall),
+        ], "Indentation, raised material, or removed material with edges.");
+        on: Words<SurfaceKeyword> = words(&[
+            ("outer", SurfaceKeyword::Outer), ("inner", SurfaceKeyword::Inner), ("ball", SurfaceKeyword::Ball),
+        ], "The race or ball that it is on.");
+        width: Quantity = quantity(not_negative(LENGTH), "Width along the circumference.").example("\"0.17 mm\"");
+        angle: Quantity = quantity(any(ANGLE), "Where it starts; on the inner race and balls at a shaft angle of zero.")
+            .required("or centre");
+        centre: Quantity = quantity(any(ANGLE), "Where its centre is, instead of angle.").required("or angle");
+        depth: Quantity = quantity(not_negative(LENGTH), "Depth of a spall, or of a dent.")
+            .required("with kind = \"spall\"; a dent is as deep as a ball reaches").with("kind = \"spall\"")
+            .example("\"20 um\"");
+        height: Quantity = quantity(not_negative(LENGTH), "Height of a bump.").required("with kind = \"bump\"")
+            .with("kind = \"bump\"").example("\"0.25 um\"");
+        shape: Words<Shape> = words(&[("half_sine", Shape::HalfSine), ("cap", Shape::Cap)],
+            "Profile of a dent or bump: half a sine, or a spherical cap.").default("half_sine")
+            .with("kind = \"dent\"");
+        edge_radius: Quantity = quantity(not_negative(LENGTH), "Radius of the edges of a spall.").default("0 mm")
+            .with("kind = \"spall\"").example("\"0.05 mm\"");
+        ball: Count = count([0, 999], "The ball, counted from 0, which is at the cage angle.")
+            .required("with on = \"ball\"").with("on = \"ball\"");
+    }
+}
+
+keys! {
+    /// Of every ball bearing.
+    pub(super) static DEFECTS: DefectsKeys {
+        defect: TableList = table_list(&DEFECT_TABLE);
+    }
+}
+
+keys! {
+    /// Row of an imperfection.
+    pub(super) static ROW: RowKeys {
+        row: Count = count([0, 1], "Row of a pair that has it.").computed("both rows");
+    }
+}
+
+static DEFECT_TABLE: Table = Table {
+    meaning: "A local defect of a race or a ball.",
+    groups: &[Group::always(DefectKeys::LIST), Group::always(RowKeys::LIST)],
+};
 
 /// All defects of a bearing; `pair`: whether it has two rows.
 pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<Defect> {
@@ -36,96 +87,86 @@ pub(super) fn read(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<Defect> {
         d.finish();
         out
     };
-    r.tables("defect").into_iter().filter_map(one).collect()
+    r.tables(&DEFECTS.defect).into_iter().filter_map(one).collect()
 }
 
 /// Row index in a matched pair.
 pub(super) fn row(r: &Reader, pair: bool) -> Option<usize> {
-    if !r.has("row") {
+    if !r.has(&ROW.row) {
         return None;
     }
     if !pair {
-        let message = format!("{} does not apply to a bearing with one row", r.name("row"));
-        let problem = Problem::new(Kind::Conflict, &r.span_of("row"), message);
+        let message = format!("{} does not apply to a bearing with one row", r.name(&ROW.row));
+        let problem = Problem::new(Kind::Conflict, &r.span_of(&ROW.row), message);
         r.log.error(problem.hint("remove it, or define a pair with arrangement and row_spacing"));
     }
-    Some(r.count("row", 0, 0..=1))
+    Some(r.count_or(&ROW.row, 0))
 }
 
 fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
-    let kinds = [("dent", KindKeyword::Dent), ("bump", KindKeyword::Bump), ("spall", KindKeyword::Spall)];
-    let places =
-        [("outer", SurfaceKeyword::Outer), ("inner", SurfaceKeyword::Inner), ("ball", SurfaceKeyword::Ball)];
-    for (key, example) in
-        [("kind", "\"dent\", \"bump\" or \"spall\""), ("on", "\"outer\", \"inner\" or \"ball\"")]
-    {
+    for (key, example) in [
+        (&DEFECT.kind as &dyn Declared, "\"dent\", \"bump\" or \"spall\""),
+        (&DEFECT.on, "\"outer\", \"inner\" or \"ball\""),
+    ] {
         if !d.has(key) {
-            d.missing(key, example);
+            d.missing_as(key, example);
         }
     }
-    let (kind, place) = (d.choice("kind", &kinds), d.choice("on", &places));
+    let (kind, place) = (d.choice(&DEFECT.kind), d.choice(&DEFECT.on));
     let row = row(d, pair);
-    let size = |key: &str, example: &str| {
-        if !d.has(key) {
-            d.missing(key, example);
-        }
-        d.or(key, not_negative(LENGTH), 1.0)
-    };
-    let width = size("width", "\"0.17 mm\"");
-    let ball = d.has("ball").then(|| d.count("ball", 0, 0..=g.balls - 1));
+    let width = d.value(&DEFECT.width);
+    let ball = d.has(&DEFECT.ball).then(|| d.count_up_to(&DEFECT.ball, g.balls - 1).unwrap_or(0));
     let on = match (place, ball) {
         (Some(SurfaceKeyword::Inner), None) => Surface::Inner,
         (Some(SurfaceKeyword::Outer), None) => Surface::Outer,
         (Some(SurfaceKeyword::Ball), Some(ball)) => Surface::Ball(ball),
         (Some(SurfaceKeyword::Ball), None) => {
-            d.missing("ball", "0 (the first, at the cage angle)");
+            d.missing_or(&DEFECT.ball, " (the first, at the cage angle)");
             Surface::Ball(0)
         }
         (Some(_), Some(_)) => {
-            let message = format!("{} does not apply to a defect on a race", d.name("ball"));
-            d.log.error(Problem::new(Kind::Conflict, &d.span_of("ball"), message).expected("on = \"ball\""));
+            let message = format!("{} does not apply to a defect on a race", d.name(&DEFECT.ball));
+            d.log.error(
+                Problem::new(Kind::Conflict, &d.span_of(&DEFECT.ball), message).expected("on = \"ball\""),
+            );
             Surface::Outer
         }
         (None, _) => Surface::Outer,
     };
-    let angle = d.one_of(&["angle", "centre"]);
+    let angle = d.one_of(&[&DEFECT.angle, &DEFECT.centre]);
     if angle.is_none() {
-        d.missing("angle", "\"12 deg\" (where it starts), or centre");
+        d.missing_or(&DEFECT.angle, " (where it starts), or centre");
     }
-    let given = angle.and_then(|key| d.get(key, any(ANGLE))).unwrap_or(0.0);
+    let centred = angle.is_some_and(|given| given.is(&DEFECT.centre));
+    let given = d.get(if centred { &DEFECT.centre } else { &DEFECT.angle }).unwrap_or(0.0);
     let Some(kind) = kind else {
         // the other valid keys depend on the kind
         d.entries();
         return None;
     };
-    let shape =
-        || d.choice("shape", &[("half_sine", Shape::HalfSine), ("cap", Shape::Cap)]).unwrap_or_default();
-    let without = |keys: &[&str], expected: &str| {
-        for key in keys.iter().copied().filter(|key| d.has(key)) {
+    let without = |keys: &[&dyn Declared], expected: &str| {
+        for key in keys.iter().copied().filter(|key| d.has(*key)) {
             let message = format!("{} does not apply to {expected}", d.name(key));
             d.error(Kind::Conflict, key, message);
         }
     };
     let form = match kind {
         KindKeyword::Dent => {
-            without(&["height", "edge_radius"], "a dent, which has a depth and a shape");
-            DefectForm::Dent { depth: d.get("depth", not_negative(LENGTH)), shape: shape() }
+            without(&[&DEFECT.height, &DEFECT.edge_radius], "a dent, which has a depth and a shape");
+            DefectForm::Dent { depth: d.get(&DEFECT.depth), shape: d.word(&DEFECT.shape) }
         }
         KindKeyword::Bump => {
-            without(&["depth", "edge_radius"], "a bump, which has a height and a shape");
-            DefectForm::Bump { height: size("height", "\"0.25 um\""), shape: shape() }
+            without(&[&DEFECT.depth, &DEFECT.edge_radius], "a bump, which has a height and a shape");
+            DefectForm::Bump { height: d.value(&DEFECT.height), shape: d.word(&DEFECT.shape) }
         }
         KindKeyword::Spall => {
-            without(&["height", "shape"], "a spall, which has a depth and an edge_radius");
-            DefectForm::Spall {
-                depth: size("depth", "\"20 um\""),
-                edge_radius: d.or("edge_radius", not_negative(LENGTH), 0.0),
-            }
+            without(&[&DEFECT.height, &DEFECT.shape], "a spall, which has a depth and an edge_radius");
+            DefectForm::Spall { depth: d.value(&DEFECT.depth), edge_radius: d.value(&DEFECT.edge_radius) }
         }
     };
     place?;
     let mut out = Defect { surface: on, row, start: given, width, form };
-    if angle == Some("centre") {
+    if centred {
         out.start -= 0.5 * out.angle(g);
     }
     Some(out)
@@ -133,37 +174,37 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
 
 /// Geometric feasibility check of a defect, with warnings about parts that the balls do not reach.
 fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
-    let problem = |kind, key: &str, message: String| Problem::new(kind, &d.span_of(key), message);
+    let problem = |kind, key: &dyn Declared, message: String| Problem::new(kind, &d.span_of(key), message);
     let (radius, angle) = (defect.surface.radius(g), defect.angle(g));
     let mm = |x: f64| x * 1e3;
     let um = |x: f64| x * 1e6;
     if angle >= TAU {
-        let message = format!("{} covers the whole circumference", d.name("width"));
+        let message = format!("{} covers the whole circumference", d.name(&DEFECT.width));
         let room = format!("less than the circumference of {:.3} mm", mm(TAU * radius));
-        d.log.error(problem(Kind::Geometry, "width", message).expected(room));
+        d.log.error(problem(Kind::Geometry, &DEFECT.width, message).expected(room));
         return;
     }
     match defect.form {
         DefectForm::Spall { edge_radius, .. } if edge_radius > 0.5 * defect.width => {
-            let message = format!("{} leaves no pit between the edges", d.name("edge_radius"));
+            let message = format!("{} leaves no pit between the edges", d.name(&DEFECT.edge_radius));
             let most = format!("at most half the width, {:.4} mm", mm(0.5 * defect.width));
-            d.log.error(problem(Kind::Geometry, "edge_radius", message).expected(most));
+            d.log.error(problem(Kind::Geometry, &DEFECT.edge_radius, message).expected(most));
             return;
         }
         DefectForm::Bump { height, shape: Shape::Cap } if height > 0.0 && height >= 0.5 * defect.width => {
-            let message = format!("{} is not possible for a spherical cap", d.name("height"));
+            let message = format!("{} is not possible for a spherical cap", d.name(&DEFECT.height));
             let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
-            d.log.error(problem(Kind::Geometry, "height", message).expected(most));
+            d.log.error(problem(Kind::Geometry, &DEFECT.height, message).expected(most));
             return;
         }
         DefectForm::Dent { depth: None, .. } if defect.width >= g.ball_diameter => {
             let message = format!(
                 "{} is not smaller than the ball diameter of {:.3} mm",
-                d.name("width"),
+                d.name(&DEFECT.width),
                 mm(g.ball_diameter)
             );
             d.log.error(
-                problem(Kind::Geometry, "width", message)
+                problem(Kind::Geometry, &DEFECT.width, message)
                     .expected("a depth as well, since no ball spans this width"),
             );
             return;
@@ -171,9 +212,9 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
         DefectForm::Dent { shape: Shape::Cap, .. }
             if -defect.height(g) >= 0.5 * defect.width && defect.width > 0.0 =>
         {
-            let message = format!("{} is not possible for a spherical cap", d.name("depth"));
+            let message = format!("{} is not possible for a spherical cap", d.name(&DEFECT.depth));
             let most = format!("below half the width, {:.4} mm", mm(0.5 * defect.width));
-            d.log.error(problem(Kind::Geometry, "depth", message).expected(most));
+            d.log.error(problem(Kind::Geometry, &DEFECT.depth, message).expected(most));
             return;
         }
         _ => {}
@@ -183,10 +224,10 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
         Surface::Inner | Surface::Outer => (TAU / g.balls as f64, "two balls at once"),
     };
     if angle > room {
-        let message = format!("{} extends under {what}", d.name("width"));
+        let message = format!("{} extends under {what}", d.name(&DEFECT.width));
         let spacing = format!("below {:.3} mm, one contact at a time", mm(room * radius));
         d.log.warn(
-            problem(Kind::Geometry, "width", message)
+            problem(Kind::Geometry, &DEFECT.width, message)
                 .expected(spacing)
                 .hint("the analysis continues; each contact follows its own path"),
         );
@@ -195,10 +236,10 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
         && defect.width > 0.0
         && depth > defect.max_depth(g)
     {
-        let message = format!("{} is deeper than a ball can reach", d.name("depth"));
+        let message = format!("{} is deeper than a ball can reach", d.name(&DEFECT.depth));
         let reach = format!("{:.4} um at most in an opening of this width", um(defect.max_depth(g)));
         d.log.warn(
-            problem(Kind::Geometry, "depth", message)
+            problem(Kind::Geometry, &DEFECT.depth, message)
                 .expected(reach)
                 .hint("the analysis continues: the ball rests on the edges and does not touch the bottom"),
         );

@@ -1,18 +1,103 @@
 //! Discs, rigid bodies, housings and sensors.
 
 use super::material;
-use super::places::{Place, Places};
-use super::springs::{self, MatrixKind};
+use super::places::{ANCHOR, AnchorKeys, Place, Places};
+use super::springs::{
+    MATRICES, MatrixKeys, PASSIVE_DAMPING, PASSIVE_DAMPING_LIST, PASSIVE_STIFFNESS, PASSIVE_STIFFNESS_LIST,
+};
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, any, not_negative, positive};
+use crate::file::key::{
+    Group, NamedTables, Quantities, Quantity, Table, Text, any, keys, named_tables, not_negative, positive,
+    quantities, quantity, text,
+};
+use crate::file::reader::Reader;
 use rotordyn_core::element::{Bushing, Disc, Material, PointMass, RigidBody};
 use rotordyn_units::{INERTIA, LENGTH, MASS};
 use std::f64::consts::PI;
 
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        disc: NamedTables = named_tables(DiscKeys::TABLE);
+        body: NamedTables = named_tables(&BODY_TABLE);
+        housing: NamedTables = named_tables(&HOUSING_TABLE);
+        sensor: NamedTables = named_tables(&SENSOR_TABLE);
+    }
+}
+
+keys! {
+    /// `[disc.x]`.
+    static DISC: DiscKeys = "A disc on the shaft, by its dimensions or by its mass." {
+        station: Text = text("name of a station", "Where it sits.").example("\"A\"");
+        outer_diameter: Quantity = quantity(positive(LENGTH), "Outer diameter; with a mass only for pictures.")
+            .required("without mass");
+        inner_diameter: Quantity = quantity(not_negative(LENGTH), "Diameter of the bore.").default("0 mm")
+            .example("\"20 mm\"");
+        thickness: Quantity = quantity(positive(LENGTH), "Length along the shaft; with a mass only for pictures.")
+            .required("without mass");
+        material: Text = text("name of a material", "Material of a disc by dimensions.")
+            .computed("the only material of the file").example("\"steel\"");
+        mass: Quantity = quantity(positive(MASS), "Mass, instead of dimensions and material.").required("with inertia");
+        polar_inertia: Quantity = quantity(not_negative(INERTIA), "Moment of inertia about z.").required("with mass");
+        diametral_inertia: Quantity = quantity(not_negative(INERTIA), "Moment of inertia about x and y.")
+            .required("with mass");
+    }
+}
+
+keys! {
+    /// Of `[body.x]` and `[housing.x]`.
+    static BODY: BodyKeys {
+        station: Text = text("name of a station", "Station at the centre of mass.").required("or position")
+            .example("\"A\"");
+        offset: Quantities = quantities(any(LENGTH), "three: x, y, z", "Distance of the centre of mass from the station.")
+            .default("0, 0, 0 m").with("station = \"A\"").example("\"0, -60, 0 mm\"");
+        position: Quantities = quantities(any(LENGTH), "three: x, y, z", "Position of the centre of mass.")
+            .required("or station").example("\"0, -230, 270 mm\"");
+        mass: Quantity = quantity(positive(MASS), "Mass.");
+        inertia: Quantities = quantities(any(INERTIA), "one, or three: xx, yy, zz",
+            "Moments of inertia about the centre of mass.");
+        inertia_products: Quantities = quantities(any(INERTIA), "three: xy, yz, zx",
+            "Off-diagonal elements of the inertia tensor.").default("0, 0, 0 kg m^2")
+            .example("\"0, 0.0001, 0 kg m^2\"");
+    }
+}
+
+keys! {
+    /// Of `[housing.x]`.
+    static HOUSING: HousingKeys {
+        on: Text = text("ground or name of a body", "What its springs stand on.").default("ground");
+    }
+}
+
+static BODY_TABLE: Table = Table { meaning: "A rigid body.", groups: &[Group::always(BodyKeys::LIST)] };
+
+static HOUSING_TABLE: Table = Table {
+    meaning: "A rigid body that holds a bearing, on springs: k_x, k_y, k_z, k_tilt and k_spin are required.",
+    groups: &[
+        Group::always(BodyKeys::LIST),
+        Group::always(HousingKeys::LIST),
+        Group::always(&PASSIVE_STIFFNESS_LIST),
+        Group::always(&PASSIVE_DAMPING_LIST),
+        Group::always(MatrixKeys::LIST),
+    ],
+};
+
+keys! {
+    /// Of `[sensor.x]`.
+    static SENSOR: SensorKeys {
+        mass: Quantity = quantity(positive(MASS), "Mass.");
+    }
+}
+
+static SENSOR_TABLE: Table = Table {
+    meaning: "A point mass, such as an accelerometer.",
+    groups: &[Group::always(AnchorKeys::LIST), Group::always(SensorKeys::LIST)],
+};
+
 pub(super) fn discs(top: &Reader, materials: &[Material], places: &mut Places) -> Vec<Disc> {
     let mut discs = Vec::new();
-    for (name, r) in top.items("disc") {
-        let (node, z) = places.station(&r, "station");
+    for (name, r) in top.items(&TOP.disc) {
+        let (node, z) = places.station(&r, &DISC.station);
         let disc = disc(name, &r, node, materials);
         r.finish();
         places.add(format!("disc.{name}"), node, [0.0, 0.0, z]);
@@ -24,30 +109,25 @@ pub(super) fn discs(top: &Reader, materials: &[Material], places: &mut Places) -
 /// Disc by mass and moments of inertia, or by dimensions: m = ρ π/4 (D² − d²) h, I_p = m (D² + d²)/8,
 /// I_d = I_p/2 + m h²/12.
 fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
-    let by_mass = ["mass", "polar_inertia", "diametral_inertia"].iter().any(|k| r.has(k));
+    let by_mass = r.has(&DISC.mass) || r.has(&DISC.polar_inertia) || r.has(&DISC.diametral_inertia);
     let (outer, thickness) = if by_mass {
-        (r.or("outer_diameter", positive(LENGTH), 0.0), r.or("thickness", positive(LENGTH), 0.0))
+        (r.or(&DISC.outer_diameter, 0.0), r.or(&DISC.thickness, 0.0))
     } else {
-        (r.need("outer_diameter", positive(LENGTH)), r.need("thickness", positive(LENGTH)))
+        (r.value(&DISC.outer_diameter), r.value(&DISC.thickness))
     };
-    let inner = r.or("inner_diameter", not_negative(LENGTH), 0.0);
+    let inner = r.value(&DISC.inner_diameter);
     if (outer > 0.0 || !by_mass) && inner >= outer && r.has_no_errors() {
-        let message = format!("{} is not less than the outer diameter", r.name("inner_diameter"));
-        r.error(Kind::Geometry, "inner_diameter", message);
+        let message = format!("{} is not less than the outer diameter", r.name(&DISC.inner_diameter));
+        r.error(Kind::Geometry, &DISC.inner_diameter, message);
     }
     let (mass, polar, diametral) = if by_mass {
-        if r.has("material") {
-            r.error(
-                Kind::Conflict,
-                "material",
-                format!("{} has no effect with a given mass", r.name("material")),
-            );
+        if r.has(&DISC.material) {
+            let message = format!("{} has no effect with a given mass", r.name(&DISC.material));
+            r.error(Kind::Conflict, &DISC.material, message);
         }
-        let mass = r.need("mass", positive(MASS));
-        let polar = r.need("polar_inertia", not_negative(INERTIA));
-        (mass, polar, r.need("diametral_inertia", not_negative(INERTIA)))
+        (r.value(&DISC.mass), r.value(&DISC.polar_inertia), r.value(&DISC.diametral_inertia))
     } else {
-        let density = material(r, "material", materials).map_or(1.0, |m| m.density);
+        let density = material(r, &DISC.material, materials).map_or(1.0, |m| m.density);
         let mass = density * PI / 4.0 * (outer * outer - inner * inner) * thickness;
         let polar = mass * (outer * outer + inner * inner) / 8.0;
         (mass, polar, polar / 2.0 + mass * thickness * thickness / 12.0)
@@ -56,9 +136,9 @@ fn disc(name: &str, r: &Reader, node: usize, materials: &[Material]) -> Disc {
     if polar > 2.0 * diametral * (1.0 + 1e-9) && r.has_no_errors() {
         let message = format!(
             "{} is more than twice the diametral inertia, which is impossible",
-            r.name("polar_inertia")
+            r.name(&DISC.polar_inertia)
         );
-        r.error(Kind::OutOfRange, "polar_inertia", message);
+        r.error(Kind::OutOfRange, &DISC.polar_inertia, message);
     }
     Disc {
         name: name.into(),
@@ -81,28 +161,31 @@ pub(super) struct Bodies {
 pub(super) fn bodies(top: &Reader, places: &mut Places, first_node: usize) -> Bodies {
     let mut bodies: Vec<RigidBody> = Vec::new();
     let mut bushings = Vec::new();
-    for (name, r) in top.items("body") {
+    for (name, r) in top.items(&TOP.body) {
         let body = body(name, &r, places);
         places.add(format!("body.{name}"), first_node + bodies.len(), body.position);
         bodies.push(body);
         r.finish();
     }
-    for (name, r) in top.items("housing") {
+    for (name, r) in top.items(&TOP.housing) {
         if bodies.iter().any(|b| b.name == name) {
             let message = format!("a body and a housing are both called `{name}`");
             r.log.error(Problem::new(Kind::Conflict, &r.span, message).hint("give one of them another name"));
         }
         let body = body(name, &r, places);
-        let on = r.text("on").unwrap_or("ground");
-        let base: Option<Place> = places.find(&r, on, &r.span_of("on"), &["ground", "body"]).cloned();
-        for key in ["k_x", "k_y", "k_z", "k_tilt", "k_spin"] {
-            let given = r.has(key)
-                || r.has("stiffness_si")
-                || key == "k_tilt" && r.has("k_tilt_x") && r.has("k_tilt_y")
-                || r.has(&format!("k_{0}{0}", &key[2..]));
-            if !given {
-                let example = if key.len() == 3 { "\"1e7 N/m\"" } else { "\"1e5 N m/rad\"" };
-                r.missing(key, example);
+        let on = r.text(&HOUSING.on).unwrap_or_default();
+        let base: Option<Place> = places.find(&r, on, &r.span_of(&HOUSING.on), &["ground", "body"]).cloned();
+        let springs = &PASSIVE_STIFFNESS;
+        let diagonal = |i: usize| r.has(springs.diagonal(i)) || r.has(springs.component(i, i));
+        for (key, given) in [
+            (springs.diagonal(0), diagonal(0)),
+            (springs.diagonal(1), diagonal(1)),
+            (springs.diagonal(2), diagonal(2)),
+            (springs.tilts(), r.has(springs.tilts()) || diagonal(3) && diagonal(4)),
+            (springs.diagonal(5), diagonal(5)),
+        ] {
+            if !given && !r.has(&MATRICES.stiffness_si) {
+                r.missing(key);
             }
         }
         let own = Place {
@@ -110,8 +193,8 @@ pub(super) fn bodies(top: &Reader, places: &mut Places, first_node: usize) -> Bo
             node: Some(first_node + bodies.len()),
             position: body.position,
         };
-        let stiffness = springs::matrix(&r, MatrixKind::Stiffness, true);
-        let damping = springs::matrix(&r, MatrixKind::Damping, true);
+        let stiffness = PASSIVE_STIFFNESS.matrix(&r);
+        let damping = PASSIVE_DAMPING.matrix(&r);
         if let Some(base) = base {
             bushings.push(Bushing {
                 name: format!("housing.{name}"),
@@ -129,38 +212,35 @@ pub(super) fn bodies(top: &Reader, places: &mut Places, first_node: usize) -> Bo
 }
 
 fn body(name: &str, r: &Reader, places: &Places) -> RigidBody {
-    let position = match r.one_of(&["station", "position"]) {
-        Some("station") => {
-            let (_, z) = places.station(r, "station");
-            let offset = r.vector("offset", LENGTH).unwrap_or_default();
+    let position = match r.one_of(&[&BODY.station, &BODY.position]) {
+        Some(given) if given.is(&BODY.station) => {
+            let (_, z) = places.station(r, &BODY.station);
+            let offset = r.vector(&BODY.offset).unwrap_or_default();
             [offset[0], offset[1], z + offset[2]]
         }
-        Some(_) => r.vector("position", LENGTH).unwrap_or_default(),
+        Some(_) => r.vector(&BODY.position).unwrap_or_default(),
         None => {
-            r.missing("station", "\"A\" or position = \"0, -230, 270 mm\"");
+            r.missing_or(&BODY.station, " or position = \"0, -230, 270 mm\"");
             [0.0; 3]
         }
     };
-    let mass = r.need("mass", positive(MASS));
-    let moments = r.need_list("inertia", any(INERTIA));
-    let products = r.list("inertia_products", any(INERTIA)).unwrap_or_else(|| vec![0.0; 3]);
+    let mass = r.value(&BODY.mass);
+    let moments = r.need_list(&BODY.inertia);
+    let products = r.list(&BODY.inertia_products).unwrap_or_else(|| vec![0.0; 3]);
     let [xx, yy, zz] = match moments[..] {
         [all] => [all; 3],
         [xx, yy, zz] => [xx, yy, zz],
         _ => {
-            r.error(
-                Kind::WrongType,
-                "inertia",
-                format!("{} is one value or three (x, y, z)", r.name("inertia")),
-            );
+            let message = format!("{} is one value or three (x, y, z)", r.name(&BODY.inertia));
+            r.error(Kind::WrongType, &BODY.inertia, message);
             [1.0; 3]
         }
     };
     let [xy, yz, zx] = match products[..] {
         [xy, yz, zx] => [xy, yz, zx],
         _ => {
-            let message = format!("{} has three values: xy, yz, zx", r.name("inertia_products"));
-            r.error(Kind::WrongType, "inertia_products", message);
+            let message = format!("{} has three values: xy, yz, zx", r.name(&BODY.inertia_products));
+            r.error(Kind::WrongType, &BODY.inertia_products, message);
             [0.0; 3]
         }
     };
@@ -168,8 +248,8 @@ fn body(name: &str, r: &Reader, places: &Places) -> RigidBody {
     let minor = xx * yy - xy * xy;
     let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
     if !(xx > 0.0 && minor > 0.0 && determinant > 0.0) && r.has_no_errors() {
-        let message = format!("{} is not positive definite", r.name("inertia"));
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of("inertia"), message);
+        let message = format!("{} is not positive definite", r.name(&BODY.inertia));
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(&BODY.inertia), message);
         r.log.error(problem.expected("moments of inertia greater than zero"));
     }
     RigidBody { name: name.into(), position, mass, inertia }
@@ -178,13 +258,12 @@ fn body(name: &str, r: &Reader, places: &Places) -> RigidBody {
 /// `[sensor.x]`: point masses.
 pub(super) fn masses(top: &Reader, places: &Places) -> Vec<PointMass> {
     let read = |(name, r): (&str, Reader)| {
-        let mass =
-            PointMass { name: name.into(), anchor: places.anchor(&r), mass: r.need("mass", positive(MASS)) };
+        let mass = PointMass { name: name.into(), anchor: places.anchor(&r), mass: r.value(&SENSOR.mass) };
         if mass.anchor.node.is_none() && r.has_no_errors() {
-            r.error(Kind::Conflict, "at", format!("{} is on ground, where it has no effect", r.path));
+            r.error(Kind::Conflict, &ANCHOR.at, format!("{} is on ground, where it has no effect", r.path));
         }
         r.finish();
         mass
     };
-    top.items("sensor").into_iter().map(read).collect()
+    top.items(&TOP.sensor).into_iter().map(read).collect()
 }

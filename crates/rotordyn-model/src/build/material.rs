@@ -1,18 +1,19 @@
 //! The material that a key names.
 
 use super::super::file::diagnostic::{Kind, Problem};
+use super::super::file::key::{Key, Text};
 use super::super::file::reader::Reader;
 use rotordyn_core::element::Material;
 
 /// Material named by a key; without the key, the only material of the file.
-pub(super) fn material(r: &Reader, key: &str, materials: &[Material]) -> Option<Material> {
+pub(super) fn material(r: &Reader, key: &Key<Text>, materials: &[Material]) -> Option<Material> {
     let Some(name) = r.text(key) else {
         if !r.has(key) {
             if let [only] = materials {
                 return Some(only.clone());
             }
             let example = materials.first().map_or("steel", |m| &m.name);
-            r.missing(key, &format!("\"{example}\""));
+            r.missing_as(key, &format!("\"{example}\""));
         }
         return None;
     };

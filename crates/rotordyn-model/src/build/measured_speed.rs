@@ -2,10 +2,34 @@
 
 use super::increasing::check_increasing;
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, not_negative, positive};
+use crate::file::key::{
+    Count, Declared, Quantities, Quantity, Text, count, keys, not_negative, positive, quantities, quantity,
+    text,
+};
+use crate::file::reader::Reader;
 use crate::{ExternalColumn, ExternalFile, SpeedProfile};
 use rotordyn_signal::tacho::PulseTrain;
 use rotordyn_units::TIME;
+
+keys! {
+    /// Of a measured speed.
+    pub(super) static MEASURED: MeasuredKeys {
+        pulses: Quantities = quantities(not_negative(TIME), "four or more, increasing", "Times of the tacho pulses.")
+            .required("or file").example("\"0, 0.1, 0.2, 0.29, 0.38 s\"");
+        file: Text = text("path from the folder of the model file", "Data file with pulse times, or with speeds and time.")
+            .required("or pulses").example("\"tacho.csv\"");
+        column: Text = text("name of a column", "Column of the file.").computed("the only one beside time")
+            .with("file = \"tacho.csv\"").example("\"pulse\"");
+        unit: Text = text("s, ms, us, rpm, rad/s or Hz", "Unit of the column.").computed("as the file says")
+            .with("file = \"tacho.csv\"").example("\"s\"");
+        pulses_per_revolution: Count = count([1, 10_000], "Pulses per revolution.").default("1");
+        smoothing: Count = count([0, MAX_SMOOTHING_PULSES], "Pulses averaged on either side; 1 is no smoothing and refused.")
+            .default("0");
+        from: Quantity = quantity(not_negative(TIME), "Start of the part used.").computed("the first pulse")
+            .example("\"0 s\"");
+        to: Quantity = quantity(positive(TIME), "End of the part used.").computed("the last pulse");
+    }
+}
 
 /// Minimum number of pulses: required by the cubic spline.
 const MIN_PULSES: usize = 4;
@@ -15,28 +39,27 @@ const MAX_SMOOTHING_PULSES: usize = 100;
 /// Pulses in the model file (`pulses = [...]`), or a column of a data file: pulse times, or speeds with a
 /// time column.
 pub(super) fn read(r: &Reader, files: &[ExternalFile]) -> Option<SpeedProfile> {
-    let per_turn = r.count("pulses_per_revolution", 1, 1..=10_000);
-    let smoothing = r.count("smoothing", 0, 0..=MAX_SMOOTHING_PULSES);
-    let ends = [r.get("from", not_negative(TIME)), r.get("to", positive(TIME))];
-    let source = r.one_of(&["pulses", "file"]);
-    if let Some("pulses") = source {
-        for key in ["column", "unit"].iter().filter(|key| r.has(key)) {
+    let per_turn = r.count(&MEASURED.pulses_per_revolution);
+    let smoothing = r.count(&MEASURED.smoothing);
+    let ends = [r.get(&MEASURED.from), r.get(&MEASURED.to)];
+    let source = r.one_of(&[&MEASURED.pulses, &MEASURED.file]);
+    if source.is_some_and(|given| given.is(&MEASURED.pulses)) {
+        for key in [&MEASURED.column, &MEASURED.unit].into_iter().filter(|key| r.has(*key)) {
             r.error(Kind::Conflict, key, format!("{} applies only to a data file", r.name(key)));
         }
-        let pulses = r.need_list("pulses", not_negative(TIME));
-        check_increasing(r, "pulses", &pulses);
+        let pulses = r.need_list(&MEASURED.pulses);
+        check_increasing(r, &MEASURED.pulses, &pulses);
         return r
             .has_no_errors()
-            .then(|| from_pulses(r, "pulses", &pulses, per_turn, smoothing, ends))
+            .then(|| from_pulses(r, &MEASURED.pulses, &pulses, per_turn, smoothing, ends))
             .flatten();
     }
+    let [wanted, unit] = [r.text(&MEASURED.column), r.text(&MEASURED.unit)];
     if source.is_none() {
-        r.missing("file", "\"tacho.csv\", or pulses = \"0.1, 0.3, 0.45 s\"");
-        ["column", "unit"].iter().for_each(|key| _ = r.has(key));
+        r.missing_or(&MEASURED.file, ", or pulses = \"0.1, 0.3, 0.45 s\"");
         return None;
     }
-    let path = r.text("file");
-    let (wanted, unit) = (r.text("column"), r.text("unit"));
+    let path = r.text(&MEASURED.file);
     let columns = columns(r, path?, files)?;
     let column = select_column(r, columns, wanted)?;
     check_finite(r, column)?;
@@ -49,7 +72,7 @@ pub(super) fn read(r: &Reader, files: &[ExternalFile]) -> Option<SpeedProfile> {
             };
             let times: Vec<f64> = column.values.iter().map(|t| t / divisor).collect();
             check_increasing_times(r, column, &times)?;
-            from_pulses(r, "file", &times, per_turn, smoothing, ends)
+            from_pulses(r, &MEASURED.file, &times, per_turn, smoothing, ends)
         }
         "rpm" => from_speeds(r, columns, column, std::f64::consts::PI / 30.0, ends),
         "rad/s" => from_speeds(r, columns, column, 1.0, ends),
@@ -59,7 +82,7 @@ pub(super) fn read(r: &Reader, files: &[ExternalFile]) -> Option<SpeedProfile> {
                 "" => format!("column `{}` has no unit", column.name),
                 other => format!("column `{}` is in {other}", column.name),
             };
-            let problem = Problem::new(Kind::WrongDimension, &r.span_of("file"), message);
+            let problem = Problem::new(Kind::WrongDimension, &r.span_of(&MEASURED.file), message);
             r.log.error(
                 problem
                     .expected("times of pulses in s, ms or us, or speeds in rpm, rad/s or Hz")
@@ -71,7 +94,7 @@ pub(super) fn read(r: &Reader, files: &[ExternalFile]) -> Option<SpeedProfile> {
 }
 
 fn columns<'f>(r: &Reader, path: &str, files: &'f [ExternalFile]) -> Option<&'f [ExternalColumn]> {
-    let problem = |message: String| Problem::new(Kind::UnknownName, &r.span_of("file"), message);
+    let problem = |message: String| Problem::new(Kind::UnknownName, &r.span_of(&MEASURED.file), message);
     let Some(file) = files.iter().find(|file| file.path == path) else {
         r.log.error(
             problem(format!("`{path}` was not read")).hint("pass the file to the loader (model::load_with)"),
@@ -103,7 +126,7 @@ fn select_column<'f>(
         if found.is_none() {
             let problem = Problem::new(
                 Kind::UnknownName,
-                &r.span_of("column"),
+                &r.span_of(&MEASURED.column),
                 format!("the file has no column `{name}`"),
             );
             r.log.error(problem.suggest(name, names()));
@@ -118,7 +141,7 @@ fn select_column<'f>(
         (Some(one), None) => Some(one),
         _ => {
             let message = format!("the file has {} columns", columns.len());
-            let problem = Problem::new(Kind::MissingKey, &r.span_of("file"), message);
+            let problem = Problem::new(Kind::MissingKey, &r.span_of(&MEASURED.file), message);
             let names: Vec<&str> = names().collect();
             r.log.error(problem.hint(format!("add column = one of {}", names.join(", "))));
             None
@@ -132,7 +155,7 @@ const TIME_COLUMN: &str = "time";
 fn check_finite(r: &Reader, column: &ExternalColumn) -> Option<()> {
     let Some(k) = column.values.iter().position(|v| !v.is_finite()) else { return Some(()) };
     let message = format!("column `{}` contains {} at value {}", column.name, column.values[k], k + 1);
-    r.log.error(Problem::new(Kind::OutOfRange, &r.span_of("file"), message));
+    r.log.error(Problem::new(Kind::OutOfRange, &r.span_of(&MEASURED.file), message));
     None
 }
 
@@ -145,7 +168,7 @@ fn check_increasing_times(r: &Reader, column: &ExternalColumn, times: &[f64]) ->
         times[k],
         k + 2
     );
-    let problem = Problem::new(Kind::OutOfRange, &r.span_of("file"), message);
+    let problem = Problem::new(Kind::OutOfRange, &r.span_of(&MEASURED.file), message);
     r.log.error(problem.expected("increasing pulse times"));
     None
 }
@@ -153,7 +176,7 @@ fn check_increasing_times(r: &Reader, column: &ExternalColumn, times: &[f64]) ->
 /// Shaft angles at the pulses, including one pulse before and after the requested part.
 fn from_pulses(
     r: &Reader,
-    key: &str,
+    key: &dyn Declared,
     times: &[f64],
     per_turn: usize,
     smoothing: usize,
@@ -184,14 +207,14 @@ fn from_pulses(
         match train.smoothed(smoothing) {
             Ok(smooth) => train = smooth,
             Err(error) => {
-                r.error(Kind::OutOfRange, "smoothing", error.to_string());
+                r.error(Kind::OutOfRange, &MEASURED.smoothing, error.to_string());
                 return None;
             }
         }
     } else if smoothing == 1 {
         let problem = Problem::new(
             Kind::OutOfRange,
-            &r.span_of("smoothing"),
+            &r.span_of(&MEASURED.smoothing),
             "one pulse on either side gives no smoothing",
         );
         r.log.error(problem.expected("0, or 2 pulses or more"));
@@ -203,7 +226,7 @@ fn from_pulses(
     if duration <= 0.0 {
         r.error(
             Kind::OutOfRange,
-            if to.is_some() { "to" } else { key },
+            if to.is_some() { &MEASURED.to } else { key },
             "there are no pulses between from and to",
         );
         return None;
@@ -222,7 +245,7 @@ fn from_speeds(
 ) -> Option<SpeedProfile> {
     let Some(time) = columns.iter().find(|c| c.name == TIME_COLUMN) else {
         let message = format!("the file has speeds, `{}`, but no time column", speeds.name);
-        let problem = Problem::new(Kind::MissingKey, &r.span_of("file"), message);
+        let problem = Problem::new(Kind::MissingKey, &r.span_of(&MEASURED.file), message);
         r.log.error(problem.hint("name the time column time_s"));
         return None;
     };
@@ -235,7 +258,7 @@ fn from_speeds(
             speeds.values[k],
             k + 1
         );
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of("file"), message);
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(&MEASURED.file), message);
         r.log.error(problem.expected("rotation in one direction: speeds of zero or more"));
         return None;
     }
@@ -244,7 +267,9 @@ fn from_speeds(
     let all: Vec<[f64; 2]> = pairs.map(|(t, v)| [*t, factor * v]).collect();
     let [first, _, ..] = all[..] else {
         let message = format!("{} speeds are too few", all.len());
-        r.log.error(Problem::new(Kind::OutOfRange, &r.span_of("file"), message).expected("two or more"));
+        r.log.error(
+            Problem::new(Kind::OutOfRange, &r.span_of(&MEASURED.file), message).expected("two or more"),
+        );
         return None;
     };
     Some(SpeedProfile::Table { points: all.iter().map(|[t, v]| [t - first[0], *v]).collect() })

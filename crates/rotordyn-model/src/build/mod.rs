@@ -1,9 +1,11 @@
 //! Model builder: from the tree of a model file to the validated [`Model`] in SI units, reporting all
 //! problems at once.
 
+mod ball_inertia;
 mod ball_keys;
 mod bearing;
 mod bearing_study;
+mod bifurcation_parameter;
 pub mod catalogue;
 mod connections;
 mod contact;
@@ -12,9 +14,11 @@ mod imperfections;
 mod increasing;
 mod inertia;
 mod loading;
+mod lubricants;
 mod material;
 mod measured_speed;
 mod mounting;
+mod orders;
 mod places;
 mod radial_bearing;
 mod rotor;
@@ -27,7 +31,12 @@ mod topology;
 mod work_limits;
 
 use super::file::diagnostic::{Kind, Log, Problem};
-use super::file::reader::{Reader, any, not_negative, positive};
+use super::file::key::{
+    Group, NamedTables, Quantities, Quantity, SubTable, Table as Declaration, Text, any, keys, named_tables,
+    not_negative, positive, quantities, quantity, sub_table, text, within,
+};
+use super::file::overlay::VariantTopKeys;
+use super::file::reader::Reader;
 use super::file::tree::Table;
 use super::study::Studies;
 use super::{ExternalFile, Model};
@@ -37,16 +46,64 @@ use rotordyn_bearing::Bearing;
 use rotordyn_core::element::Material;
 use rotordyn_units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};
 
-/// Standard gravity \[m/s²\].
-const STANDARD_GRAVITY: f64 = 9.80665;
+/// The model file.
+pub(crate) static FILE: Declaration = Declaration {
+    meaning: "A machine, or bearings only: a file without shaft, rotor and stations.",
+    groups: &[
+        Group::always(TopKeys::LIST),
+        Group::always(lubricants::TopKeys::LIST),
+        Group::always(shaft::TopKeys::LIST),
+        Group::always(rotor::TopKeys::LIST),
+        Group::always(inertia::TopKeys::LIST),
+        Group::always(connections::TopKeys::LIST),
+        Group::always(bearing::TopKeys::LIST),
+        Group::always(loading::TopKeys::LIST),
+        Group::always(study::TopKeys::LIST),
+        Group::always(VariantTopKeys::LIST),
+    ],
+};
+
+keys! {
+    /// Tables of this file.
+    static TOP: TopKeys {
+        model: SubTable = sub_table(HeaderKeys::TABLE).required("");
+        material: NamedTables = named_tables(MaterialKeys::TABLE);
+    }
+}
+
+keys! {
+    /// `[model]`.
+    static HEADER: HeaderKeys = "Name of the model and gravity." {
+        name: Text = text("letters, digits, _, - and .", "Name of the model; the results go to out/NAME.")
+            .example("\"my_machine\"");
+        title: Text = text("text", "Title of figures.").computed("name").example("\"My machine\"");
+        gravity: Quantities = quantities(any(ACCELERATION), "one, along -y, or three: x, y, z",
+            "Acceleration of gravity.").default("9.80665 m/s^2").example("\"0, -9.81, 0 m/s^2\"");
+    }
+}
+
+keys! {
+    /// `[material.x]`.
+    static MATERIAL: MaterialKeys = "An elastic material." {
+        young: Quantity = quantity(positive(PRESSURE), "Young's modulus.");
+        density: Quantity = quantity(not_negative(DENSITY), "Density.");
+        poisson: Quantity = quantity(within(NUMBER, [-1.0, 0.5]), "Poisson's ratio.").required("or shear")
+            .example("0.3");
+        shear: Quantity = quantity(positive(PRESSURE), "Shear modulus.").required("or poisson").example("\"80 GPa\"");
+    }
+}
 
 /// Build the whole model; `files` are its external data files. It is valid only if no error was logged.
 pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Model {
-    let top = Reader::new(root, "", 0..0, log);
+    let top = Reader::root(root, &FILE, log);
     let (name, title, gravity) = model_header(&top);
     let materials = materials(&top);
-    let lubricants = contact::lubricants(&top);
-    let line = if top.has("rotor") { rotor::read(&top, &materials) } else { shaft::read(&top, &materials) };
+    let lubricants = lubricants::lubricants(&top);
+    let line = if top.has(&rotor::TOP.rotor) {
+        rotor::read(&top, &materials)
+    } else {
+        shaft::read(&top, &materials)
+    };
     let mut places = Places::new(&line.stations);
     if let Some(rotor) = &line.rigid_rotor {
         places.add("rotor".into(), rotor.node, [0.0, 0.0, line.node_z[rotor.node]]);
@@ -89,9 +146,11 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     model.studies = study::read(&top, &model, &places);
     if log.error_count() == 0 {
         topology::check(&top, &model);
-        mounting::check_axial_location(&top, &model);
+        let sites = top.items(&bearing::TOP.bearing);
+        mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
-        mounting::check_mounted_preloads(&top, model.bearings.iter().map(|s| (&*s.name, &s.bearing)), true);
+        let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
+        mounting::check_mounted_preloads(&sites, bearings, true, log);
     }
     top.finish();
     model
@@ -99,39 +158,44 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
 
 /// Build a bearing-only file: its name and title, bearings and studies.
 pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(String, Bearing)>, Studies) {
-    let top = Reader::new(root, "", 0..0, log);
+    let top = Reader::root(root, &FILE, log);
     let (name, title, gravity) = model_header(&top);
     let materials = materials(&top);
-    let bearings = bearing::read_bearings_only(&top, &materials, &contact::lubricants(&top), gravity);
+    let bearings = bearing::read_bearings_only(&top, &materials, &lubricants::lubricants(&top), gravity);
     let studies = study::read_for_bearings(&top, &bearings);
-    mounting::check_mounted_preloads(&top, bearings.iter().map(|(name, b)| (&**name, b)), false);
+    let sites = top.items(&bearing::TOP.bearing);
+    mounting::check_mounted_preloads(&sites, bearings.iter().map(|(name, b)| (&**name, b)), false, log);
     top.finish();
     (name, title, bearings, studies)
 }
 
 fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
-    if !top.has("model") {
+    if !top.has(&TOP.model) {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [model] table");
         top.log.error(problem.hint("start the file with\n[model]\nname = \"my_machine\""));
         return (String::new(), String::new(), [0.0; 3]);
     }
-    let r = top.table_or_empty("model");
-    let name = r.need_text("name", "\"my_machine\"").unwrap_or_default().to_string();
+    let r = top.table_or_empty(&TOP.model);
+    let name = r.need_text(&HEADER.name).unwrap_or_default().to_string();
     if name.is_empty() && r.has_no_errors() {
-        r.error(Kind::OutOfRange, "name", "model.name is empty");
+        r.error(Kind::OutOfRange, &HEADER.name, "model.name is empty");
     }
     if !name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.')) || name.starts_with('.') {
         let problem =
-            Problem::new(Kind::OutOfRange, &r.span_of("name"), "model.name is not a valid folder name");
+            Problem::new(Kind::OutOfRange, &r.span_of(&HEADER.name), "model.name is not a valid folder name");
         r.log.error(problem.expected("letters, digits, `_`, `-` and `.` (the results go to out/NAME)"));
     }
-    let title = r.text("title").unwrap_or(&name).to_string();
-    let gravity = match r.list("gravity", any(ACCELERATION)).as_deref() {
-        None => [0.0, -STANDARD_GRAVITY, 0.0],
+    let title = r.text(&HEADER.title).unwrap_or(&name).to_string();
+    let gravity = match r.list(&HEADER.gravity).as_deref() {
+        None => [0.0; 3],
         Some(&[down]) => [0.0, -down, 0.0],
         Some(&[x, y, z]) => [x, y, z],
         Some(_) => {
-            r.error(Kind::WrongType, "gravity", "model.gravity is one value (downwards, along -y) or three");
+            r.error(
+                Kind::WrongType,
+                &HEADER.gravity,
+                "model.gravity is one value (downwards, along -y) or three",
+            );
             [0.0; 3]
         }
     };
@@ -141,20 +205,15 @@ fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
 
 fn materials(top: &Reader) -> Vec<Material> {
     let read = |(name, r): (&str, Reader)| {
-        let young = r.need("young", positive(PRESSURE));
-        let density = r.need("density", not_negative(DENSITY));
-        let shear = r.get("shear", positive(PRESSURE));
-        let poisson = r.get("poisson", any(NUMBER));
-        if poisson.is_some_and(|nu| !(-1.0..=0.5).contains(&nu)) {
-            r.error(Kind::OutOfRange, "poisson", format!("{} must be from -1 to 0.5", r.name("poisson")));
-        }
-        if !r.has("shear") && !r.has("poisson") {
-            r.missing("poisson", "0.3");
+        let (young, density) = (r.value(&MATERIAL.young), r.value(&MATERIAL.density));
+        let (shear, poisson) = (r.get(&MATERIAL.shear), r.get(&MATERIAL.poisson));
+        if !r.has(&MATERIAL.shear) && !r.has(&MATERIAL.poisson) {
+            r.missing(&MATERIAL.poisson);
         }
         let poisson = poisson.or_else(|| shear.map(|g| young / (2.0 * g) - 1.0)).unwrap_or(0.3);
         let shear = shear.unwrap_or(young / (2.0 * (1.0 + poisson)));
         r.finish();
         Material { name: name.into(), young, shear, poisson, density }
     };
-    top.items("material").into_iter().map(read).collect()
+    top.items(&TOP.material).into_iter().map(read).collect()
 }

@@ -2,11 +2,32 @@
 
 use crate::Station;
 use crate::file::diagnostic::{Kind, Problem};
+use crate::file::key::{Key, Quantities, Text, Texts, any, keys, quantities, text, texts};
 use crate::file::reader::Reader;
 use rotordyn_core::element::Anchor;
 use rotordyn_units::LENGTH;
 use rotordyn_units::names::nearest;
 use std::ops::Range;
+
+keys! {
+    /// Where an element acts.
+    pub(super) static ANCHOR: AnchorKeys {
+        at: Text = text("name of a station, disc, body, housing or ground", "Where it acts.")
+            .example("\"station.A\"");
+        offset: Quantities = quantities(any(LENGTH), "three: x, y, z", "Distance from there; on ground the position.")
+            .default("0, 0, 0 m").example("\"0, 60, 0 mm\"");
+    }
+}
+
+keys! {
+    /// What an element connects.
+    pub(super) static BETWEEN: BetweenKeys {
+        between: Texts = texts("names of two places", "The two places that it connects.")
+            .example("[\"station.A\", \"ground\"]");
+        point: Quantities = quantities(any(LENGTH), "three: x, y, z", "Position of the connection.")
+            .computed("the first place that is not ground").example("\"0, 0, 270 mm\"");
+    }
+}
 
 /// Attachment point with its full name: "station.B", "housing.A", "ground".
 #[derive(Clone, Debug)]
@@ -88,17 +109,17 @@ impl Places {
     }
 
     /// Shaft node and position of the station named by a key; node 0 as placeholder after an error.
-    pub fn station(&self, r: &Reader, key: &str) -> (usize, f64) {
-        let Some(name) = r.need_text(key, "\"A\"") else { return (0, 0.0) };
+    pub fn station(&self, r: &Reader, key: &Key<Text>) -> (usize, f64) {
+        let Some(name) = r.need_text(key) else { return (0, 0.0) };
         let place = self.find(r, name, &r.span_of(key), &["station"]);
         place.map_or((0, 0.0), |p| (p.node.unwrap_or(0), p.position[2]))
     }
 
     /// Anchor of the key `at` with the key `offset` (on ground: position).
     pub fn anchor(&self, r: &Reader) -> Anchor {
-        let name = r.need_text("at", "\"station.A\"");
-        let offset = r.vector("offset", LENGTH).unwrap_or_default();
-        let place = name.and_then(|n| self.find(r, n, &r.span_of("at"), &[]));
+        let name = r.need_text(&ANCHOR.at);
+        let offset = r.vector(&ANCHOR.offset).unwrap_or_default();
+        let place = name.and_then(|n| self.find(r, n, &r.span_of(&ANCHOR.at), &[]));
         Anchor { node: place.and_then(|p| p.node), offset }
     }
 
@@ -106,13 +127,14 @@ impl Places {
     /// on ground.
     pub fn between(&self, r: &Reader) -> [Anchor; 2] {
         let nowhere = [Anchor::GROUND; 2];
-        if !r.has("between") {
-            r.missing("between", "[\"station.A\", \"ground\"]");
+        if !r.has(&BETWEEN.between) {
+            r.missing(&BETWEEN.between);
         }
-        let point = r.vector("point", LENGTH);
-        let Some(names) = r.texts("between") else { return nowhere };
+        let point = r.vector(&BETWEEN.point);
+        let Some(names) = r.texts(&BETWEEN.between) else { return nowhere };
         let [(first, first_span), (second, second_span)] = &names[..] else {
-            r.error(Kind::WrongType, "between", format!("{} must name two places", r.name("between")));
+            let message = format!("{} must name two places", r.name(&BETWEEN.between));
+            r.error(Kind::WrongType, &BETWEEN.between, message);
             return nowhere;
         };
         let a = self.find(r, first, first_span, &[]);
@@ -120,7 +142,7 @@ impl Places {
         let (Some(a), Some(b)) = (a, b) else { return nowhere };
         if a.node == b.node {
             let message = format!("{} connects a place to itself", r.path);
-            r.error(Kind::Conflict, "between", message);
+            r.error(Kind::Conflict, &BETWEEN.between, message);
         }
         let own = if a.node.is_some() { a.position } else { b.position };
         let point = point.unwrap_or(own);

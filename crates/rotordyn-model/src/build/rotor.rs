@@ -3,25 +3,56 @@
 use super::material;
 use super::shaft::{self, MeshedShaft};
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, any, not_negative, positive};
+use crate::file::key::{
+    Quantity, SubTable, Text, any, keys, not_negative, positive, quantity, sub_table, text,
+};
+use crate::file::reader::Reader;
 use rotordyn_core::element::{Disc, Material};
 use rotordyn_units::{INERTIA, LENGTH, MASS};
 use std::f64::consts::PI;
+
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        rotor: SubTable = sub_table(RotorKeys::TABLE);
+    }
+}
+
+keys! {
+    /// `[rotor]`.
+    static ROTOR: RotorKeys = "A rigid rotor instead of a flexible shaft: by mass and inertia, or a cylinder." {
+        centre: Quantity = quantity(any(LENGTH), "Position of the centre of mass along z.");
+        length: Quantity = quantity(positive(LENGTH), "Length of the cylinder; the stations lie on it.")
+            .required("without inertia");
+        outer_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the cylinder.").required("without inertia");
+        inner_diameter: Quantity = quantity(not_negative(LENGTH), "Diameter of its bore.").default("0 mm")
+            .example("\"20 mm\"");
+        material: Text = text("name of a material", "Material of the cylinder; or give its mass.")
+            .computed("the only material of the file").example("\"steel\"");
+        mass: Quantity = quantity(positive(MASS), "Mass.").required("with inertia");
+        polar_inertia: Quantity = quantity(not_negative(INERTIA), "Moment of inertia about z.")
+            .required("or length and outer_diameter").example("\"0.001 kg m^2\"");
+        diametral_inertia: Quantity = quantity(positive(INERTIA), "Moment of inertia about x and y.")
+            .required("with polar_inertia").example("\"0.001 kg m^2\"");
+        minimum_spacing: Quantity = quantity(positive(LENGTH), "Smallest distance of two stations.")
+            .default("100 um");
+    }
+}
 
 /// Stations closer than this to the centre of mass share its node \[m\].
 const POSITION_TOLERANCE: f64 = 1e-9;
 
 /// Nodes at the centre of mass and at every station.
 pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
-    let r = top.table_or_empty("rotor");
-    if top.has("shaft") {
+    let r = top.table_or_empty(&TOP.rotor);
+    if top.has(&shaft::TOP.shaft) {
         let problem = Problem::new(Kind::Conflict, &r.span, "rotor and shaft are mutually exclusive");
         top.log.error(problem.hint("use [shaft] for a flexible shaft, [rotor] for a rigid rotor"));
-        top.table("shaft").inspect(|s| _ = s.entries());
+        top.table(&shaft::TOP.shaft).inspect(|s| _ = s.entries());
     }
-    let centre = r.need("centre", any(LENGTH));
-    let spacing = r.or("minimum_spacing", positive(LENGTH), 1e-4);
-    let length = r.get("length", positive(LENGTH));
+    let centre = r.value(&ROTOR.centre);
+    let spacing = r.value(&ROTOR.minimum_spacing);
+    let length = r.get(&ROTOR.length);
     let mut rotor = inertia(&r, length, materials);
     let ends = length.map(|l| [centre - 0.5 * l, centre + 0.5 * l]);
     let sound = r.has_no_errors();
@@ -52,40 +83,40 @@ fn inertia(r: &Reader, length: Option<f64>, materials: &[Material]) -> Disc {
         mass: 1.0,
         polar_inertia: 0.0,
         diametral_inertia: 0.0,
-        outer_diameter: r.or("outer_diameter", positive(LENGTH), 0.0),
+        outer_diameter: r.or(&ROTOR.outer_diameter, 0.0),
         thickness: length.unwrap_or(0.0),
     };
-    let inner = r.or("inner_diameter", not_negative(LENGTH), 0.0);
+    let inner = r.value(&ROTOR.inner_diameter);
     let outer = rotor.outer_diameter;
     if outer > 0.0 && inner >= outer {
-        let message = format!("{} is not less than the outer diameter", r.name("inner_diameter"));
-        r.error(Kind::Geometry, "inner_diameter", message);
+        let message = format!("{} is not less than the outer diameter", r.name(&ROTOR.inner_diameter));
+        r.error(Kind::Geometry, &ROTOR.inner_diameter, message);
     }
-    if r.has("polar_inertia") || r.has("diametral_inertia") {
-        rotor.mass = r.need("mass", positive(MASS));
-        rotor.polar_inertia = r.need("polar_inertia", not_negative(INERTIA));
-        rotor.diametral_inertia = r.need("diametral_inertia", positive(INERTIA));
+    if r.has(&ROTOR.polar_inertia) || r.has(&ROTOR.diametral_inertia) {
+        rotor.mass = r.value(&ROTOR.mass);
+        rotor.polar_inertia = r.value(&ROTOR.polar_inertia);
+        rotor.diametral_inertia = r.value(&ROTOR.diametral_inertia);
         // holds for any rigid body, see the discs
         if rotor.polar_inertia > 2.0 * rotor.diametral_inertia * (1.0 + 1e-9) && r.has_no_errors() {
             let message = format!(
                 "{} is more than twice the diametral inertia, which is impossible",
-                r.name("polar_inertia")
+                r.name(&ROTOR.polar_inertia)
             );
-            r.error(Kind::OutOfRange, "polar_inertia", message);
+            r.error(Kind::OutOfRange, &ROTOR.polar_inertia, message);
         }
         return rotor;
     }
-    if !r.has("length") && !r.has("outer_diameter") {
-        r.missing("polar_inertia", "\"0.001 kg m^2\" and diametral_inertia, or length and outer_diameter");
-        r.has("mass");
-        r.has("material");
+    if !r.has(&ROTOR.length) && !r.has(&ROTOR.outer_diameter) {
+        r.missing_or(&ROTOR.polar_inertia, " and diametral_inertia, or length and outer_diameter");
+        r.has(&ROTOR.mass);
+        r.has(&ROTOR.material);
         return rotor;
     }
-    let (length, outer) = (r.need("length", positive(LENGTH)), r.need("outer_diameter", positive(LENGTH)));
-    rotor.mass = match r.one_of(&["mass", "material"]) {
-        Some("mass") => r.need("mass", positive(MASS)),
+    let (length, outer) = (r.value(&ROTOR.length), r.value(&ROTOR.outer_diameter));
+    rotor.mass = match r.one_of(&[&ROTOR.mass, &ROTOR.material]) {
+        Some(given) if given.is(&ROTOR.mass) => r.value(&ROTOR.mass),
         _ => {
-            let density = material(r, "material", materials).map_or(1.0, |m| m.density);
+            let density = material(r, &ROTOR.material, materials).map_or(1.0, |m| m.density);
             density * PI / 4.0 * (outer * outer - inner * inner) * length
         }
     };

@@ -2,11 +2,52 @@
 
 use crate::Model;
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, not_negative, positive};
+use crate::file::key::{Key, Quantity, Texts, Words, keys, positive, quantity, within, words};
+use crate::file::quantities::declared_default;
+use crate::file::reader::Reader;
 use crate::study::Integrator;
-use rotordyn_units::{LENGTH, NUMBER};
+use rotordyn_units::{LENGTH, NUMBER, TIME};
 
-pub(super) fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Method {
+    Alpha,
+    Newmark,
+    Rk4,
+    Dopri,
+}
+
+keys! {
+    /// Of run-ups and of runs at constant speed.
+    pub(super) static INTEGRATOR: IntegratorKeys {
+        integrator: Words<Method> = words(&[
+            ("generalised-alpha", Method::Alpha),
+            ("newmark", Method::Newmark),
+            ("rk4", Method::Rk4),
+            ("dormand-prince", Method::Dopri),
+        ], "Time integration; rk4 and dormand-prince are explicit.").default("generalised-alpha");
+        rho_infinity: Quantity = quantity(within(NUMBER, [0.0, 1.0]),
+            "Spectral radius of generalised-alpha at high frequencies; smaller damps more.").default("0.8");
+        relative_tolerance: Quantity = quantity(positive(NUMBER), "Relative error per step.").default("1e-6")
+            .with("integrator = \"dormand-prince\"");
+        absolute_tolerance: Quantity = quantity(positive(LENGTH), "Absolute error per step.").default("1e-12 m")
+            .with("integrator = \"dormand-prince\"");
+    }
+}
+
+keys! {
+    /// Of run-ups; those of runs at constant speed default to it.
+    pub(super) static RUN_STEP: StepKeys {
+        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval.")
+            .default("100 us");
+    }
+}
+
+/// The integrator of a run without settings.
+pub(super) fn default_integrator() -> Integrator {
+    Integrator::GeneralisedAlpha { rho_infinity: declared_default(&INTEGRATOR.rho_infinity) }
+}
+
+pub(super) fn channels(r: &Reader, key: &Key<Texts>, model: &Model) -> Vec<String> {
     let mut channels = Vec::new();
     for (name, span) in r.texts(key).unwrap_or_default() {
         if !model.probes.iter().any(|p| p.name == name) {
@@ -20,26 +61,10 @@ pub(super) fn channels(r: &Reader, key: &str, model: &Model) -> Vec<String> {
 
 /// The requested integrator or the default; reject settings of other integrators.
 pub(super) fn integrator(r: &Reader, default: Integrator) -> Integrator {
-    #[derive(Clone, Copy)]
-    enum Method {
-        Alpha,
-        Newmark,
-        Rk4,
-        Dopri,
-    }
-    let methods = [
-        ("generalised-alpha", Method::Alpha),
-        ("newmark", Method::Newmark),
-        ("rk4", Method::Rk4),
-        ("dormand-prince", Method::Dopri),
-    ];
-    let rho = r.get("rho_infinity", not_negative(NUMBER));
-    if rho.is_some_and(|rho| rho > 1.0) {
-        r.error(Kind::OutOfRange, "rho_infinity", format!("{} must be from 0 to 1", r.name("rho_infinity")));
-    }
-    let relative = r.get("relative_tolerance", positive(NUMBER));
-    let absolute = r.get("absolute_tolerance", positive(LENGTH));
-    let Some(method) = r.choice("integrator", &methods) else {
+    let keys = &INTEGRATOR;
+    let rho = r.get(&keys.rho_infinity);
+    let [relative, absolute] = [&keys.relative_tolerance, &keys.absolute_tolerance].map(|key| r.get(key));
+    let Some(method) = r.choice(&keys.integrator) else {
         return match (default, rho) {
             (Integrator::GeneralisedAlpha { .. }, Some(rho_infinity)) => {
                 Integrator::GeneralisedAlpha { rho_infinity }
@@ -47,22 +72,26 @@ pub(super) fn integrator(r: &Reader, default: Integrator) -> Integrator {
             _ => default,
         };
     };
-    let foreign = |key: &str, given: bool, owner: &str| {
-        if given {
+    let foreign = |key: &Key<Quantity>, owner: &str| {
+        if r.has(key) {
             r.error(Kind::Conflict, key, format!("{} belongs to integrator = \"{owner}\"", r.name(key)));
         }
     };
-    let dopri = matches!(method, Method::Dopri);
-    foreign("rho_infinity", rho.is_some() && !matches!(method, Method::Alpha), "generalised-alpha");
-    foreign("relative_tolerance", relative.is_some() && !dopri, "dormand-prince");
-    foreign("absolute_tolerance", absolute.is_some() && !dopri, "dormand-prince");
+    if !matches!(method, Method::Alpha) {
+        foreign(&keys.rho_infinity, "generalised-alpha");
+    }
+    if !matches!(method, Method::Dopri) {
+        foreign(&keys.relative_tolerance, "dormand-prince");
+        foreign(&keys.absolute_tolerance, "dormand-prince");
+    }
+    let or_default = |value: Option<f64>, key| value.unwrap_or_else(|| declared_default(key));
     match method {
-        Method::Alpha => Integrator::GeneralisedAlpha { rho_infinity: rho.unwrap_or(0.8) },
+        Method::Alpha => Integrator::GeneralisedAlpha { rho_infinity: or_default(rho, &keys.rho_infinity) },
         Method::Newmark => Integrator::Newmark,
         Method::Rk4 => Integrator::RungeKutta4,
         Method::Dopri => Integrator::DormandPrince {
-            relative_tolerance: relative.unwrap_or(1e-6),
-            absolute_tolerance: absolute.unwrap_or(1e-12),
+            relative_tolerance: or_default(relative, &keys.relative_tolerance),
+            absolute_tolerance: or_default(absolute, &keys.absolute_tolerance),
         },
     }
 }

@@ -3,10 +3,90 @@
 use super::material;
 use crate::Station;
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, any, not_negative, positive};
+use crate::file::key::{
+    Flag, Group, Key, NamedQuantities, Quantity, SubTable, Table, TableList, Text, Words, any, flag, keys,
+    named_quantities, not_negative, positive, quantity, sub_table, table_list, text, words,
+};
+use crate::file::reader::Reader;
+use crate::file::tree::Value;
 use rotordyn_core::element::{Disc, Material, ShaftElement, ShearCoefficient};
 use rotordyn_units::{FORCE, LENGTH, MOMENT, NUMBER, RATE, TIME};
 use std::f64::consts::PI;
+
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        shaft: SubTable = sub_table(&SHAFT_TABLE);
+        station: NamedQuantities = named_quantities(any(LENGTH), "Named axial positions.").optional();
+    }
+}
+
+static SHAFT_TABLE: Table = Table {
+    meaning: "A flexible shaft of sections; an automatic mesh has a node at every section end and station.",
+    groups: &[Group::always(ShaftKeys::LIST), Group::always(PropertyKeys::LIST)],
+};
+
+keys! {
+    /// Of `[shaft]`.
+    static SHAFT: ShaftKeys {
+        start: Quantity = quantity(any(LENGTH), "Position of its first end.").default("0 m").example("\"-50 mm\"");
+        minimum_spacing: Quantity = quantity(positive(LENGTH), "Smallest distance of nodes.").default("100 um");
+        section: TableList = table_list(&SECTION_TABLE).required("")
+            .example("[{ length = \"625 mm\", outer_diameter = \"25 mm\" }]");
+    }
+}
+
+static SECTION_TABLE: Table = Table {
+    meaning: "A cylinder or cone, solid or hollow; properties of the shaft may be overridden.",
+    groups: &[Group::always(SectionKeys::LIST), Group::always(PropertyKeys::LIST)],
+};
+
+keys! {
+    /// Of `[[shaft.section]]`.
+    static SECTION: SectionKeys {
+        from: Quantity = quantity(any(LENGTH), "Position of its first end.").computed("the end of the previous section");
+        to: Quantity = quantity(any(LENGTH), "Position of its other end.").required("or length");
+        length: Quantity = quantity(positive(LENGTH), "Length.").required("or to").example("\"625 mm\"");
+        outer_diameter: Quantity = quantity(positive(LENGTH), "Outer diameter, of a cone at its first end.")
+            .example("\"25 mm\"");
+        outer_diameter_end: Quantity = quantity(positive(LENGTH), "Outer diameter of a cone at its other end.")
+            .computed("outer_diameter");
+        inner_diameter: Quantity = quantity(not_negative(LENGTH), "Diameter of the bore.").default("0 mm")
+            .example("\"10 mm\"");
+        inner_diameter_end: Quantity = quantity(not_negative(LENGTH), "Diameter of the bore at its other end.")
+            .computed("inner_diameter").example("\"10 mm\"");
+    }
+}
+
+keys! {
+    /// Properties of the whole shaft, which a section may override.
+    static PROPERTY: PropertyKeys {
+        element_length: Quantity = quantity(positive(LENGTH), "Greatest length of an element.")
+            .required("in [shaft]");
+        material: Text = text("name of a material", "Material.").computed("the only material of the file")
+            .example("\"steel\"");
+        shear: Words<ShearCoefficient> = words(SHEAR, "Shear coefficient of a Timoshenko beam; none: rigid in shear.")
+            .default("cowper");
+        shear_coefficient: Quantity = quantity(positive(NUMBER), "Shear coefficient, as a number.").named("shear")
+            .optional().example("0.9");
+        rotary_inertia: Flag = flag("Whether the cross sections have moments of inertia.").default("true");
+        axial_force: Quantity = quantity(any(FORCE), "Tension of the shaft; negative: compression.").default("0 N");
+        torque: Quantity = quantity(any(MOMENT), "Torque that the shaft transmits.").default("0 N m");
+        mass_damping: Quantity = quantity(not_negative(RATE), "Rayleigh damping, factor of the mass matrix.")
+            .default("0 1/s");
+        stiffness_damping: Quantity = quantity(not_negative(TIME), "Rayleigh damping, factor of the stiffness matrix.")
+            .default("0 s").example("\"1e-5 s\"");
+        internal_damping: Quantity = quantity(not_negative(TIME),
+            "Internal (rotating) damping, factor of the stiffness matrix in the rotating frame.")
+            .default("0 s").example("\"1e-5 s\"");
+    }
+}
+
+const SHEAR: &[(&str, ShearCoefficient)] = &[
+    ("cowper", ShearCoefficient::Cowper),
+    ("hutchinson", ShearCoefficient::Hutchinson),
+    ("none", ShearCoefficient::Rigid),
+];
 
 /// The meshed shaft.
 #[derive(Default)]
@@ -64,18 +144,18 @@ const RELATIVE_POSITION_TOLERANCE: f64 = 1e-9;
 const MAX_NODES: f64 = 5000.0;
 
 pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
-    if !top.has("shaft") {
+    if !top.has(&TOP.shaft) {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [shaft] table");
         top.log.error(
             problem
                 .hint("add [shaft] with material, element_length and [[shaft.section]], or a rigid [rotor]"),
         );
-        top.table("station").inspect(|r| _ = r.entries());
+        top.has(&TOP.station);
         return MeshedShaft::default();
     }
-    let r = top.table_or_empty("shaft");
-    let start = r.or("start", any(LENGTH), 0.0);
-    let spacing = r.or("minimum_spacing", positive(LENGTH), 1e-4);
+    let r = top.table_or_empty(&TOP.shaft);
+    let start = r.value(&SHAFT.start);
+    let spacing = r.value(&SHAFT.minimum_spacing);
     let common = properties(&r, None, materials);
     let sections = sections(&r, start, &common, materials);
     let before = r.log.error_count();
@@ -92,79 +172,69 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
 
 fn properties(r: &Reader, common: Option<&Properties>, materials: &[Material]) -> Properties {
     let material = match common {
-        Some(c) if !r.has("material") => c.material.clone(),
-        _ => material(r, "material", materials),
+        Some(c) if !r.has(&PROPERTY.material) => c.material.clone(),
+        _ => material(r, &PROPERTY.material, materials),
     };
-    let shear = match r.entry("shear").map(|e| &e.node.value) {
-        Some(crate::file::tree::Value::Text(_)) => {
-            let words = [
-                ("cowper", ShearCoefficient::Cowper),
-                ("hutchinson", ShearCoefficient::Hutchinson),
-                ("none", ShearCoefficient::Rigid),
-            ];
-            r.choice("shear", &words)
-        }
-        Some(_) => r.get("shear", positive(NUMBER)).map(ShearCoefficient::Value),
+    let shear = match r.entry(&PROPERTY.shear).map(|e| &e.node.value) {
+        Some(Value::Text(_)) => r.choice(&PROPERTY.shear),
+        Some(_) => r.get(&PROPERTY.shear_coefficient).map(ShearCoefficient::Value),
         None => None,
     };
     let element_length = match common {
-        None => r.need("element_length", positive(LENGTH)),
-        Some(c) => r.or("element_length", positive(LENGTH), c.element_length),
+        None => r.value(&PROPERTY.element_length),
+        Some(c) => r.or(&PROPERTY.element_length, c.element_length),
     };
-    let base = |pick: fn(&Properties) -> f64| common.map_or(0.0, pick);
+    let inherited = |key: &Key<Quantity>, pick: fn(&Properties) -> f64| match common {
+        None => r.value(key),
+        Some(c) => r.or(key, pick(c)),
+    };
     Properties {
         material,
         element_length,
-        shear: shear.unwrap_or(common.map_or(ShearCoefficient::Cowper, |c| c.shear)),
-        rotary_inertia: r.flag("rotary_inertia", common.is_none_or(|c| c.rotary_inertia)),
-        axial_force: r.or("axial_force", any(FORCE), base(|c| c.axial_force)),
-        torque: r.or("torque", any(MOMENT), base(|c| c.torque)),
+        shear: shear.unwrap_or_else(|| common.map_or_else(|| PROPERTY.shear.default_word(), |c| c.shear)),
+        rotary_inertia: common.map_or_else(
+            || r.flag(&PROPERTY.rotary_inertia),
+            |c| r.flag_or(&PROPERTY.rotary_inertia, c.rotary_inertia),
+        ),
+        axial_force: inherited(&PROPERTY.axial_force, |c| c.axial_force),
+        torque: inherited(&PROPERTY.torque, |c| c.torque),
         proportional: [
-            r.or("mass_damping", not_negative(RATE), base(|c| c.proportional[0])),
-            r.or("stiffness_damping", not_negative(TIME), base(|c| c.proportional[1])),
+            inherited(&PROPERTY.mass_damping, |c| c.proportional[0]),
+            inherited(&PROPERTY.stiffness_damping, |c| c.proportional[1]),
         ],
-        internal_viscous: r.or("internal_damping", not_negative(TIME), base(|c| c.internal_viscous)),
+        internal_viscous: inherited(&PROPERTY.internal_damping, |c| c.internal_viscous),
     }
 }
 
 fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material]) -> Vec<Section> {
-    if !r.has("section") {
-        r.missing("section", "[{ length = \"625 mm\", outer_diameter = \"25 mm\" }]");
+    if !r.has(&SHAFT.section) {
+        r.missing(&SHAFT.section);
     }
     let mut sections: Vec<Section> = Vec::new();
     let mut end = start;
-    for s in r.tables("section") {
-        let from = s.or("from", any(LENGTH), end);
+    for s in r.tables(&SHAFT.section) {
+        let from = s.or(&SECTION.from, end);
         if (from - end).abs() > RELATIVE_POSITION_TOLERANCE * (from.abs() + end.abs()) && s.has_no_errors() {
             let word = if from > end { "leaves a gap after" } else { "overlaps" };
             let other = if sections.is_empty() { "the shaft's start" } else { "the previous section" };
-            s.error(
-                Kind::Geometry,
-                "from",
-                format!("{} {word} {other}, which ends at {end} m", s.name("from")),
-            );
+            let message = format!("{} {word} {other}, which ends at {end} m", s.name(&SECTION.from));
+            s.error(Kind::Geometry, &SECTION.from, message);
         }
-        let to = match s.one_of(&["length", "to"]) {
-            Some("to") => s.need("to", any(LENGTH)),
-            _ => from + s.need("length", positive(LENGTH)),
+        let to = match s.one_of(&[&SECTION.length, &SECTION.to]) {
+            Some(given) if given.is(&SECTION.to) => s.value(&SECTION.to),
+            _ => from + s.value(&SECTION.length),
         };
         if to <= from && s.has_no_errors() {
-            s.error(
-                Kind::Geometry,
-                "to",
-                format!("{} lies before the section's start, {from} m", s.name("to")),
-            );
+            let message = format!("{} lies before the section's start, {from} m", s.name(&SECTION.to));
+            s.error(Kind::Geometry, &SECTION.to, message);
         }
-        let outer = s.need("outer_diameter", positive(LENGTH));
-        let inner = s.or("inner_diameter", not_negative(LENGTH), 0.0);
-        let outer = [outer, s.or("outer_diameter_end", positive(LENGTH), outer)];
-        let inner = [inner, s.or("inner_diameter_end", not_negative(LENGTH), inner)];
+        let outer = s.value(&SECTION.outer_diameter);
+        let inner = s.value(&SECTION.inner_diameter);
+        let outer = [outer, s.or(&SECTION.outer_diameter_end, outer)];
+        let inner = [inner, s.or(&SECTION.inner_diameter_end, inner)];
         if (0..2).any(|k| inner[k] >= outer[k]) && s.has_no_errors() {
-            s.error(
-                Kind::Geometry,
-                "inner_diameter",
-                format!("{} is not less than the outer diameter", s.name("inner_diameter")),
-            );
+            let message = format!("{} is not less than the outer diameter", s.name(&SECTION.inner_diameter));
+            s.error(Kind::Geometry, &SECTION.inner_diameter, message);
         }
         let properties = properties(&s, Some(common), materials);
         s.finish();
@@ -176,18 +246,15 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
 
 /// Stations in file order, within the shaft ends if known; their nodes are assigned later.
 pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Vec<Station> {
-    let Some(r) = top.table("station") else { return Vec::new() };
     let mut stations: Vec<Station> = Vec::new();
-    for entry in r.entries() {
-        let before = r.log.error_count();
-        let z = r.need(&entry.key, any(LENGTH));
-        if r.log.error_count() == before {
+    for (entry, z) in top.named_quantities(&TOP.station) {
+        if let Some(z) = z {
             if let Some([start, end]) = ends {
                 let slack = RELATIVE_POSITION_TOLERANCE * (end - start);
                 if z < start - slack || z > end + slack {
                     let message = format!("station `{}` at {z} m is not on the shaft", entry.key);
                     let problem = Problem::new(Kind::Geometry, &entry.node.span, message);
-                    r.log.error(problem.expected(format!("from {start} m to {end} m")));
+                    top.log.error(problem.expected(format!("from {start} m to {end} m")));
                 }
             }
             if let Some(other) = stations.iter().find(|s| (s.z - z).abs() < spacing) {
@@ -195,12 +262,11 @@ pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Ve
                 let problem = Problem::new(Kind::Geometry, &entry.node.span, message);
                 let problem =
                     problem.expected(format!("at least {} mm from `{}`", spacing * 1e3, other.name));
-                r.log.error(problem.hint("use one station for both, or set shaft.minimum_spacing"));
+                top.log.error(problem.hint("use one station for both, or set shaft.minimum_spacing"));
             }
         }
-        stations.push(Station { name: entry.key.clone(), node: 0, z });
+        stations.push(Station { name: entry.key.clone(), node: 0, z: z.unwrap_or(1.0) });
     }
-    r.finish();
     stations
 }
 
@@ -211,7 +277,7 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
     let nodes: f64 = sections.iter().map(|s| (s.z[1] - s.z[0]) / s.properties.element_length).sum();
     if nodes > MAX_NODES {
         let message = format!("the shaft would have {nodes:.0} elements");
-        let span = top.table("shaft").map_or(0..0, |r| r.span_of("element_length"));
+        let span = top.table(&TOP.shaft).map_or(0..0, |r| r.span_of(&PROPERTY.element_length));
         let problem = Problem::new(Kind::OutOfRange, &span, message);
         top.log.error(
             problem.hint(format!("at most {MAX_NODES} are allowed; check the unit of element_length")),
@@ -236,7 +302,7 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
             if to - from < spacing {
                 let station = stations.iter().find(|s| s.z == from || s.z == to);
                 let name = station.map_or("", |s| &s.name);
-                let span = top.table("station").map_or(0..0, |r| r.span_of(name));
+                let span = top.named_span(&TOP.station, name);
                 let message = format!("station `{name}` is {:.3e} m from the end of a section", to - from);
                 let problem = Problem::new(Kind::Geometry, &span, message);
                 top.log.error(problem.hint("put it at the section's end, or set shaft.minimum_spacing"));

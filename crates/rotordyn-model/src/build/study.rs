@@ -1,77 +1,270 @@
 //! Studies requested by a file, with their defaults.
 
+use super::bearing_study::{self, BearingStudyKeys};
 use super::increasing::check_increasing;
-use super::loading::{QUANTITIES, anchor_and_direction};
-use super::places::Places;
-use super::run_keys::{channels, integrator};
-use super::{bearing_study, steady, work_limits};
+use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
+use super::orders::{ORDER, orders};
+use super::places::{AnchorKeys, Places};
+use super::run_keys::{IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, integrator};
+use super::steady::{self, SteadyStudyKeys};
+use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
-use crate::file::reader::{Reader, not_negative, positive};
-use crate::file::tree::{Node, Value};
-use crate::study::{
-    BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, Integrator,
-    ModalStudy, OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+use crate::file::key::{
+    Count, Flag, Group, Key, NamedTables, Quantity, Spaced, Special, SubTable, Table, Texts, Words, below,
+    count, flag, keys, named_tables, not_negative, positive, quantity, spaced, special, sub_table, texts,
+    words,
 };
-use crate::{Drive, Model, Probe, Quantity};
-use rotordyn_bearing::{Bearing, Cage};
+use crate::file::reader::Reader;
+use crate::study::{
+    BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy,
+    OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+};
+use crate::{Drive, Model, Probe, Quantity as MotionQuantity};
+use rotordyn_bearing::Bearing;
 use rotordyn_units::{FREQUENCY, NUMBER, SPEED, TIME};
 
-const DEFAULT_MODES: usize = 12;
+keys! {
+    /// Tables of this file.
+    pub(super) static TOP: TopKeys {
+        study: SubTable = sub_table(&STUDY_TABLE);
+    }
+}
+
+static STUDY_TABLE: Table = Table {
+    meaning: "Studies of the machine; each is done if its table is in the file, with defaults if that is empty.",
+    groups: &[Group::always(StudyKeys::LIST), Group::always(SteadyStudyKeys::LIST)],
+};
+
+keys! {
+    /// `[study]`.
+    static STUDY: StudyKeys {
+        equilibrium: SubTable = sub_table(StaticKeys::TABLE).named("static");
+        modal: SubTable = sub_table(ModalKeys::TABLE);
+        campbell: SubTable = sub_table(CampbellKeys::TABLE);
+        critical: SubTable = sub_table(CriticalKeys::TABLE);
+        frf: SubTable = sub_table(&FRF_TABLE);
+        unbalance: SubTable = sub_table(&UNBALANCE_TABLE);
+        run_up: SubTable = sub_table(&RUN_UP_TABLE);
+        spectrogram: SubTable = sub_table(&SPECTROGRAM_TABLE);
+        orders: SubTable = sub_table(&ORDERS_TABLE);
+        bearing: SubTable = sub_table(BearingStudyKeys::TABLE);
+    }
+}
+
+keys! {
+    /// `[study.static]`.
+    static STATIC: StaticKeys = "Static equilibrium." {
+        speed: Quantity = quantity(not_negative(SPEED), "Shaft speed, for what depends on it.").default("0 rpm");
+        cage_average: Flag = flag("Average over the cage angle instead of keeping that of the model.")
+            .default("false");
+    }
+}
+
+keys! {
+    /// `[study.modal]`.
+    static MODAL: ModalKeys = "Natural frequencies, damping and mode shapes." {
+        speeds: Spaced = spaced(not_negative(SPEED), "Speeds.").default("0 rpm").example("\"0, 3000 rpm\"");
+        modes: Count = count([1, 10_000], "Number of modes.").default("12");
+    }
+}
+
+keys! {
+    /// `[study.campbell]`.
+    static CAMPBELL: CampbellKeys = "Campbell diagram of the linearised machine." {
+        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
+        modes: Count = count([1, 10_000], "Number of modes.").default("12");
+        orders: Special = special(ORDER, "Order lines for critical speeds.").default("1");
+        speed_dependent_bearings: Flag = flag("Linearise the bearings at every speed, not only at the first.")
+            .default("true");
+    }
+}
+
+keys! {
+    /// `[study.critical]`.
+    static CRITICAL: CriticalKeys = "Critical speeds." {
+        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.").example("\"6000 rpm\"");
+        orders: Special = special(ORDER, "Orders of the excitation.").default("1");
+    }
+}
+
+static FRF_TABLE: Table = Table {
+    meaning: "Frequency response functions of every probe to every excitation.",
+    groups: &[Group::always(FrfKeys::LIST), Group::always(ResponseKeys::LIST)],
+};
+
+keys! {
+    /// `[study.frf]`.
+    static FRF: FrfKeys {
+        frequencies: Spaced = spaced(not_negative(FREQUENCY), "Frequencies, increasing.")
+            .example("{ from = \"1 Hz\", to = \"400 Hz\", step = \"0.25 Hz\" }");
+        quantity: Words<MotionQuantity> = words(&[
+            ("receptance", MotionQuantity::Displacement),
+            ("mobility", MotionQuantity::Velocity),
+            ("accelerance", MotionQuantity::Acceleration),
+        ], "Response per force.").default("receptance");
+        excitation: NamedTables = named_tables(&EXCITATION_TABLE).required("");
+        speed: Quantity = quantity(not_negative(SPEED), "Shaft speed.").default("0 rpm");
+        refine: Flag = flag("Add frequencies around the natural frequencies.").default("true");
+    }
+}
+
+static EXCITATION_TABLE: Table = Table {
+    meaning: "A unit force or moment on a point, such as a hammer impact.",
+    groups: &[Group::always(AnchorKeys::LIST), Group::always(DirectionKeys::LIST)],
+};
+
+keys! {
+    /// Responses of `[study.frf]` and `[study.unbalance]`.
+    static RESPONSE: ResponseKeys {
+        responses: Texts = texts("names of probes", "Points of the response.").computed("every probe")
+            .example("[\"disc_x\"]");
+        response_quantity: Words<MotionQuantity> = words(&QUANTITIES, "Quantity of the response.")
+            .computed("by quantity; displacement of an unbalance response");
+    }
+}
+
+static UNBALANCE_TABLE: Table = Table {
+    meaning: "Synchronous response to unbalance over speed.",
+    groups: &[Group::always(UnbalanceStudyKeys::LIST), Group::always(ResponseKeys::LIST)],
+};
+
+keys! {
+    /// `[study.unbalance]`.
+    static UNBALANCE: UnbalanceStudyKeys {
+        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
+        refine: Flag = flag("Add speeds around the critical speeds.").default("true");
+    }
+}
+
+static RUN_UP_TABLE: Table = Table {
+    meaning: "Nonlinear transient run through the profile of [speed].",
+    groups: &[
+        Group::always(StepKeys::LIST),
+        Group::always(RunUpKeys::LIST),
+        Group::always(IntegratorKeys::LIST),
+    ],
+};
+
+keys! {
+    /// `[study.run_up]`.
+    pub(super) static RUN_UP: RunUpKeys {
+        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate of the channels.").default("2 kHz");
+        cutoff: Quantity = quantity(positive(FREQUENCY), "Modes below it are kept, with static correction modes.")
+            .computed("all modes").example("\"2 kHz\"");
+        from_equilibrium: Flag = flag("Start at static equilibrium, otherwise at rest without loads.")
+            .default("true");
+        cage_phases: Count = count([0, 360], "Runs with this many cage phases, for the range of the order cuts.")
+            .default("0").example("8");
+    }
+}
+
+keys! {
+    /// Windows of `[study.spectrogram]` and `[study.orders]`.
+    static WINDOW: WindowKeys {
+        channels: Texts = texts("names of probes", "Channels.").computed("all vibration channels")
+            .example("[\"disc_x\"]");
+        window: Words<WindowKind> = words(&[
+            ("rectangular", WindowKind::Rectangular),
+            ("hann", WindowKind::Hann),
+            ("hamming", WindowKind::Hamming),
+            ("blackman", WindowKind::Blackman),
+            ("flat-top", WindowKind::FlatTop),
+        ], "Window function.").default("hann");
+        overlap: Quantity = quantity(below(NUMBER, [0.0, 1.0]), "Overlap of successive windows.").default("0.75");
+    }
+}
+
+static SPECTROGRAM_TABLE: Table = Table {
+    meaning: "Spectrograms of the run-up over time and speed.",
+    groups: &[Group::always(WindowKeys::LIST), Group::always(SpectrogramKeys::LIST)],
+};
+
+keys! {
+    /// `[study.spectrogram]`.
+    static SPECTROGRAM: SpectrogramKeys {
+        length: Quantity = quantity(positive(TIME), "Length of a window.").default("1 s");
+        max_frequency: Quantity = quantity(positive(FREQUENCY), "Highest frequency.")
+            .computed("half the sampling rate");
+        dynamic_range_db: Quantity = quantity(positive(NUMBER), "Range of the colours in dB.").default("60");
+        orders: Special = special(ORDER, "Order lines.").default("1");
+    }
+}
+
+static ORDERS_TABLE: Table = Table {
+    meaning: "Order tracking of the run-up.",
+    groups: &[Group::always(WindowKeys::LIST), Group::always(OrderKeys::LIST)],
+};
+
+keys! {
+    /// `[study.orders]`.
+    static ORDERS: OrderKeys {
+        resolution: Quantity = quantity(positive(NUMBER), "Order resolution.").default("0.05");
+        max_order: Quantity = quantity(positive(NUMBER), "Highest order.").default("20");
+        cuts: Special = special(ORDER, "Order cuts: levels of these orders over speed.").default("1");
+    }
+}
+
+const SPEEDS: &str = "{ from = \"0 rpm\", to = \"1200 rpm\", count = 25 }";
 
 pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
-    let all = top.table_or_empty("study");
+    let all = top.table_or_empty(&TOP.study);
     let mut studies = Studies::default();
-    if let Some(r) = all.table("static") {
-        let speed = r.or("speed", not_negative(SPEED), 0.0);
-        studies.equilibrium = Some(EquilibriumStudy { speed, cage_average: r.flag("cage_average", false) });
+    if let Some(r) = all.table(&STUDY.equilibrium) {
+        let (speed, cage_average) = (r.value(&STATIC.speed), r.flag(&STATIC.cage_average));
+        studies.equilibrium = Some(EquilibriumStudy { speed, cage_average });
         r.finish();
     }
-    if let Some(r) = all.table("modal") {
-        let speeds = r.sweep("speeds", not_negative(SPEED)).unwrap_or_else(|| vec![0.0]);
-        studies.modal = Some(ModalStudy { speeds, modes: r.count("modes", DEFAULT_MODES, 1..=10_000) });
+    if let Some(r) = all.table(&STUDY.modal) {
+        let speeds = r.spaced(&MODAL.speeds).unwrap_or_else(|| vec![0.0]);
+        studies.modal = Some(ModalStudy { speeds, modes: r.count(&MODAL.modes) });
         r.finish();
     }
-    if let Some(r) = all.table("campbell") {
+    if let Some(r) = all.table(&STUDY.campbell) {
         studies.campbell = Some(CampbellStudy {
-            speeds: speeds(&r),
-            modes: r.count("modes", DEFAULT_MODES, 1..=10_000),
-            orders: orders(&r, "orders", model, &[1.0]),
-            speed_dependent_bearings: r.flag("speed_dependent_bearings", true),
+            speeds: speeds(&r, &CAMPBELL.speeds),
+            modes: r.count(&CAMPBELL.modes),
+            orders: orders(&r, &CAMPBELL.orders, model),
+            speed_dependent_bearings: r.flag(&CAMPBELL.speed_dependent_bearings),
         });
         r.finish();
     }
-    if let Some(r) = all.table("critical") {
-        let max_speed = r.need("max_speed", positive(SPEED));
-        studies.critical = Some(CriticalStudy { max_speed, orders: orders(&r, "orders", model, &[1.0]) });
+    if let Some(r) = all.table(&STUDY.critical) {
+        let max_speed = r.value(&CRITICAL.max_speed);
+        studies.critical = Some(CriticalStudy { max_speed, orders: orders(&r, &CRITICAL.orders, model) });
         r.finish();
     }
-    if let Some(r) = all.table("frf") {
+    if let Some(r) = all.table(&STUDY.frf) {
         studies.frf = Some(frf(&r, model, places));
         r.finish();
     }
-    if let Some(r) = all.table("unbalance") {
-        let responses = responses(&r, model, Quantity::Displacement);
-        studies.unbalance =
-            Some(UnbalanceStudy { speeds: speeds(&r), refine: r.flag("refine", true), responses });
+    if let Some(r) = all.table(&STUDY.unbalance) {
+        let responses = responses(&r, model, MotionQuantity::Displacement);
+        let (speeds, refine) = (speeds(&r, &UNBALANCE.speeds), r.flag(&UNBALANCE.refine));
+        studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
         }
         r.finish();
     }
-    if let Some(r) = all.table("run_up") {
+    if let Some(r) = all.table(&STUDY.run_up) {
         let study = run_up(top, &r, model);
-        work_limits::check_run_up(&r, &study, model.profile.duration());
+        work_limits::check_run_up(
+            &r,
+            [&RUN_STEP.step, &RUN_UP.sample_rate],
+            &study,
+            model.profile.duration(),
+        );
         studies.run_up = Some(study);
         r.finish();
     }
     let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
-    if let Some(r) = all.table("spectrogram") {
+    if let Some(r) = all.table(&STUDY.spectrogram) {
         needs_run_up(&r, &studies);
         studies.spectrogram = Some(spectrogram(&r, model, sample_rate));
         r.finish();
     }
-    if let Some(r) = all.table("orders") {
+    if let Some(r) = all.table(&STUDY.orders) {
         needs_run_up(&r, &studies);
         studies.orders = Some(order_spectra(&r, model));
         r.finish();
@@ -85,7 +278,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
 
 /// Studies of a bearing-only file.
 pub(super) fn read_for_bearings(top: &Reader, bearings: &[(String, Bearing)]) -> Studies {
-    let all = top.table_or_empty("study");
+    let all = top.table_or_empty(&TOP.study);
     let bearing = bearing(&all, bearings.iter().map(|(name, bearing)| (name, bearing)));
     all.finish();
     Studies { bearing, ..Studies::default() }
@@ -95,8 +288,8 @@ fn bearing<'a>(
     all: &Reader,
     bearings: impl Iterator<Item = (&'a String, &'a Bearing)>,
 ) -> Option<BearingStudy> {
-    let r = all.table("bearing")?;
-    let balls = bearings.filter(|(_, bearing)| matches!(bearing, Bearing::Ball(_)));
+    let r = all.table(&STUDY.bearing)?;
+    let balls = bearings.filter(|(_, bearing)| bearing.static_balls().is_some());
     let study = bearing_study::read(&r, &balls.map(|(name, _)| name.clone()).collect::<Vec<_>>());
     r.finish();
     Some(study)
@@ -109,46 +302,41 @@ fn needs_run_up(r: &Reader, studies: &Studies) {
     }
 }
 
-fn speeds(r: &Reader) -> Vec<f64> {
-    if !r.has("speeds") {
-        r.missing("speeds", "{ from = \"0 rpm\", to = \"1200 rpm\", count = 25 }");
+fn speeds(r: &Reader, key: &Key<Spaced>) -> Vec<f64> {
+    if !r.has(key) {
+        r.missing(key);
     }
-    let speeds = r.sweep("speeds", not_negative(SPEED)).unwrap_or_else(|| vec![0.0]);
-    check_increasing(r, "speeds", &speeds);
+    let speeds = r.spaced(key).unwrap_or_else(|| vec![0.0]);
+    check_increasing(r, key, &speeds);
     speeds
 }
 
 fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
-    if !r.has("frequencies") {
-        r.missing("frequencies", "{ from = \"1 Hz\", to = \"400 Hz\", step = \"0.25 Hz\" }");
+    if !r.has(&FRF.frequencies) {
+        r.missing(&FRF.frequencies);
     }
-    let frequencies = r.sweep("frequencies", not_negative(FREQUENCY)).unwrap_or_default();
-    check_increasing(r, "frequencies", &frequencies);
-    let kinds = [
-        ("receptance", Quantity::Displacement),
-        ("mobility", Quantity::Velocity),
-        ("accelerance", Quantity::Acceleration),
-    ];
-    let quantity = r.choice("quantity", &kinds).unwrap_or(Quantity::Displacement);
+    let frequencies = r.spaced(&FRF.frequencies).unwrap_or_default();
+    check_increasing(r, &FRF.frequencies, &frequencies);
+    let quantity = r.word(&FRF.quantity);
     let read = |(name, excitation): (&str, Reader)| {
         let (at, direction) = anchor_and_direction(&excitation, places);
         excitation.finish();
         Excitation { name: name.into(), at, direction }
     };
-    let excitations: Vec<Excitation> = r.items("excitation").into_iter().map(read).collect();
+    let excitations: Vec<Excitation> = r.items(&FRF.excitation).into_iter().map(read).collect();
     if excitations.is_empty() && r.has_no_errors() {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.frf has no excitation");
         r.log.error(problem.hint("add [study.frf.excitation.NAME] with at and direction"));
     }
-    let speed = r.or("speed", not_negative(SPEED), 0.0);
-    let refine = r.flag("refine", true);
+    let speed = r.value(&FRF.speed);
+    let refine = r.flag(&FRF.refine);
     FrfStudy { speed, frequencies, refine, excitations, responses: responses(r, model, quantity), quantity }
 }
 
 /// Probes of the given names, or all, with the study's quantity.
-fn responses(r: &Reader, model: &Model, quantity: Quantity) -> Vec<Probe> {
-    let names = channels(r, "responses", model);
-    let quantity = r.choice("response_quantity", &QUANTITIES).unwrap_or(quantity);
+fn responses(r: &Reader, model: &Model, quantity: MotionQuantity) -> Vec<Probe> {
+    let names = channels(r, &RESPONSE.responses, model);
+    let quantity = r.choice(&RESPONSE.response_quantity).unwrap_or(quantity);
     let wanted = |p: &&Probe| names.is_empty() || names.contains(&p.name);
     let chosen: Vec<Probe> =
         model.probes.iter().filter(wanted).map(|p| Probe { quantity, ..p.clone() }).collect();
@@ -160,23 +348,23 @@ fn responses(r: &Reader, model: &Model, quantity: Quantity) -> Vec<Probe> {
 }
 
 fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
-    if !top.has("speed") {
+    if !top.has(&loading::TOP.speed) {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
     }
     RunUpStudy {
-        integrator: integrator(r, Integrator::GeneralisedAlpha { rho_infinity: 0.8 }),
-        step: r.or("step", positive(TIME), 1e-4),
-        sample_rate: r.or("sample_rate", positive(FREQUENCY), 2000.0),
-        cutoff: r.or("cutoff", positive(FREQUENCY), f64::INFINITY),
-        from_equilibrium: r.flag("from_equilibrium", true),
+        integrator: integrator(r, default_integrator()),
+        step: r.value(&RUN_STEP.step),
+        sample_rate: r.value(&RUN_UP.sample_rate),
+        cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),
+        from_equilibrium: r.flag(&RUN_UP.from_equilibrium),
         cage_phases: cage_phases(top, r, model),
     }
 }
 
 /// Number of cage phases: of a machine with a ball bearing and a prescribed speed, whose order cuts are requested.
 fn cage_phases(top: &Reader, r: &Reader, model: &Model) -> usize {
-    let count = r.count("cage_phases", 0, 0..=360);
+    let count = r.count(&RUN_UP.cage_phases);
     if count == 0 || !r.has_no_errors() {
         return count;
     }
@@ -189,7 +377,7 @@ fn cage_phases(top: &Reader, r: &Reader, model: &Model) -> usize {
             "needs a prescribed speed, so that all runs have the same speeds",
             "set drive.kind = \"prescribed\"",
         ))
-    } else if top.table("study").and_then(|all| all.table("orders")).is_none() {
+    } else if top.table(&TOP.study).and_then(|all| all.table(&STUDY.orders)).is_none() {
         Some((
             "gives a range of order cuts, but the file has no [study.orders]",
             "add [study.orders] with cuts = [1, \"BPFO\"]",
@@ -198,132 +386,38 @@ fn cage_phases(top: &Reader, r: &Reader, model: &Model) -> usize {
         None
     };
     if let Some((problem, hint)) = conflict {
-        let message = format!("{} {problem}", r.name("cage_phases"));
-        r.log.error(Problem::new(Kind::Conflict, &r.span_of("cage_phases"), message).hint(hint));
+        let message = format!("{} {problem}", r.name(&RUN_UP.cage_phases));
+        r.log.error(Problem::new(Kind::Conflict, &r.span_of(&RUN_UP.cage_phases), message).hint(hint));
     }
     count
 }
 
-fn window(r: &Reader) -> WindowKind {
-    let windows = [
-        ("rectangular", WindowKind::Rectangular),
-        ("hann", WindowKind::Hann),
-        ("hamming", WindowKind::Hamming),
-        ("blackman", WindowKind::Blackman),
-        ("flat-top", WindowKind::FlatTop),
-    ];
-    r.choice("window", &windows).unwrap_or(WindowKind::Hann)
-}
-
-fn overlap(r: &Reader) -> f64 {
-    let overlap = r.or("overlap", not_negative(NUMBER), 0.75);
-    if overlap >= 1.0 {
-        let problem = Problem::new(
-            Kind::OutOfRange,
-            &r.span_of("overlap"),
-            format!("{} is too large", r.name("overlap")),
-        );
-        r.log.error(problem.expected("from 0 to below 1"));
-    }
-    overlap
-}
-
 fn spectrogram(r: &Reader, model: &Model, sample_rate: f64) -> SpectrogramStudy {
-    let max_frequency = r.or("max_frequency", positive(FREQUENCY), 0.5 * sample_rate);
+    let highest = &SPECTROGRAM.max_frequency;
+    let max_frequency = r.or(highest, 0.5 * sample_rate);
     if max_frequency > 0.5 * sample_rate && sample_rate > 0.0 {
-        let message = format!("{} is above half the sampling rate", r.name("max_frequency"));
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of("max_frequency"), message);
+        let message = format!("{} is above half the sampling rate", r.name(highest));
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(highest), message);
         r.log.error(problem.hint("raise study.run_up.sample_rate"));
     }
     SpectrogramStudy {
-        channels: channels(r, "channels", model),
-        window: window(r),
-        length: r.or("length", positive(TIME), 1.0),
-        overlap: overlap(r),
+        channels: channels(r, &WINDOW.channels, model),
+        window: r.word(&WINDOW.window),
+        length: r.value(&SPECTROGRAM.length),
+        overlap: r.value(&WINDOW.overlap),
         max_frequency,
-        dynamic_range_db: r.or("dynamic_range_db", positive(NUMBER), 60.0),
-        orders: orders(r, "orders", model, &[1.0]),
+        dynamic_range_db: r.value(&SPECTROGRAM.dynamic_range_db),
+        orders: orders(r, &SPECTROGRAM.orders, model),
     }
 }
 
 fn order_spectra(r: &Reader, model: &Model) -> OrderStudy {
     OrderStudy {
-        channels: channels(r, "channels", model),
-        resolution: r.or("resolution", positive(NUMBER), 0.05),
-        max_order: r.or("max_order", positive(NUMBER), 20.0),
-        overlap: overlap(r),
-        window: window(r),
-        cuts: orders(r, "cuts", model, &[1.0]),
-    }
-}
-
-/// Orders as numbers or by name: "BPFO", "2 BPFO", "BPFI", "BSF", "FTF", with the bearing if they differ
-/// between bearings: "B.BPFO".
-fn orders(r: &Reader, key: &str, model: &Model, default: &[f64]) -> Vec<f64> {
-    let Some(entry) = r.entry(key) else { return default.to_vec() };
-    let items: &[Node] = match &entry.node.value {
-        Value::List(items) => items,
-        _ => std::slice::from_ref(&entry.node),
-    };
-    let mut orders = Vec::new();
-    for item in items {
-        let order = match &item.value {
-            #[allow(clippy::cast_precision_loss)] // orders are small
-            Value::Integer(i) => Some(*i as f64),
-            Value::Float(f) => Some(*f),
-            Value::Text(text) => match named_order(text, model) {
-                Ok(order) => Some(order),
-                Err(message) => {
-                    let problem = Problem::new(Kind::UnknownName, &item.span, message);
-                    r.log.error(problem.expected("an order such as 1, \"BPFO\", \"2 BPFO\" or \"B.BPFO\""));
-                    continue;
-                }
-            },
-            _ => None,
-        };
-        match order {
-            Some(order) if order.is_finite() && order > 0.0 => orders.push(order),
-            _ => {
-                let message = format!("{} has an item that is not an order", r.name(key));
-                let problem = Problem::new(Kind::OutOfRange, &item.span, message);
-                r.log.error(problem.expected("a number above zero, or a name such as \"BPFO\""));
-            }
-        }
-    }
-    orders
-}
-
-fn named_order(text: &str, model: &Model) -> Result<f64, String> {
-    let (factor, name) = match text.trim().split_once(' ') {
-        Some((factor, name)) => {
-            (factor.parse::<f64>().map_err(|_| format!("`{text}` is not an order"))?, name.trim())
-        }
-        None => (1.0, text.trim()),
-    };
-    let (wanted, frequency) = name.rsplit_once('.').map_or((None, name), |(b, f)| (Some(b), f));
-    let mut found: Vec<f64> = Vec::new();
-    for site in &model.bearings {
-        if let Some(ball) = site.bearing.ball()
-            && wanted.is_none_or(|w| w == site.name || w.strip_prefix("bearing.") == Some(&site.name))
-        {
-            let g = &ball.geometry;
-            let ratio = g.ball_diameter / g.pitch_diameter * g.contact_angle.cos();
-            let cage = match ball.cage {
-                Cage::Rolling => 0.5 * (1.0 - ratio),
-                Cage::Ratio(cage) => cage,
-            };
-            found.push(match frequency {
-                "BPFO" => g.balls as f64 * cage,
-                "BPFI" => g.balls as f64 * (1.0 - cage),
-                "BSF" => g.pitch_diameter / (2.0 * g.ball_diameter) * (1.0 - ratio * ratio),
-                "FTF" => cage,
-                _ => return Err(format!("`{frequency}` is not one of BPFO, BPFI, BSF, FTF")),
-            });
-        }
-    }
-    match found[..] {
-        [] => Err(format!("`{text}` needs a ball bearing, but no such bearing exists")),
-        [first, ..] if found.iter().all(|f| (f - first).abs() <= 1e-9 * first) => Ok(factor * first),
-        _ => Err(format!("`{text}` differs between bearings; write BEARING.{frequency}")),
+        channels: channels(r, &WINDOW.channels, model),
+        resolution: r.value(&ORDERS.resolution),
+        max_order: r.value(&ORDERS.max_order),
+        overlap: r.value(&WINDOW.overlap),
+        window: r.word(&WINDOW.window),
+        cuts: orders(r, &ORDERS.cuts, model),
     }
 }

@@ -1,10 +1,11 @@
 //! Connectivity check: every body must be connected to ground or to the shaft.
 
+use super::{inertia, loading, rotor, shaft};
 use crate::Model;
 use crate::file::diagnostic::{Kind, Problem};
+use crate::file::key::{Key, NamedTables};
 use crate::file::reader::Reader;
-use rotordyn_bearing::Bearing;
-use rotordyn_core::element::Anchor;
+use rotordyn_core::element::{Anchor, Connection};
 
 /// Report bodies without connection to the shaft or to ground, and warn of an unsupported (free-free) shaft.
 pub(super) fn check(top: &Reader, model: &Model) {
@@ -16,14 +17,11 @@ pub(super) fn check(top: &Reader, model: &Model) {
         Some(node) => 2 + node - first_body,
     };
     let mut links: Vec<(usize, usize)> = Vec::new();
-    // a bushing with damping only is no support
-    let has_stiffness = |k: &[[f64; 6]; 6]| k.iter().flatten().any(|&v| v != 0.0);
-    links.extend(
-        model.bushings.iter().filter(|b| has_stiffness(&b.stiffness)).map(|b| (part(&b.a), part(&b.b))),
-    );
+    // A connection has stiffness: a bushing with damping only is no support.
+    let connections: Vec<Connection> = model.elements().filter_map(|(_, e)| e.connection()).collect();
+    links.extend(connections.iter().map(|c| (part(&c.ends[0]), part(&c.ends[1]))));
     links.extend(model.joints.iter().map(|j| (part(&j.a), part(&j.b))));
     links.extend(model.bearings.iter().map(|b| (1, part(&b.housing))));
-    links.extend(model.belts.iter().filter(|b| b.stiffness.iter().any(|&k| k != 0.0)).map(|_| (1, 0)));
     let reach = |start: &[usize]| {
         let mut reached = vec![false; 2 + model.bodies.len()];
         for &s in start {
@@ -37,9 +35,9 @@ pub(super) fn check(top: &Reader, model: &Model) {
     };
     let supported = reach(&[0, 1]);
     for (_, body) in model.bodies.iter().enumerate().filter(|(k, _)| !supported[2 + k]) {
-        let kind = ["body", "housing"].into_iter().find(|kind| named(top, kind, &body.name).is_some());
-        let kind = kind.unwrap_or("body");
-        let span = named(top, kind, &body.name).unwrap_or(0..0);
+        let of_kind = |key: &Key<NamedTables>| Some((key.about.name, item(top, key, &body.name)?.span));
+        let found = of_kind(&inertia::TOP.body).or_else(|| of_kind(&inertia::TOP.housing));
+        let (kind, span) = found.unwrap_or((inertia::TOP.body.about.name, 0..0));
         let message =
             format!("{kind} `{}` is disconnected: nothing connects it to ground or to the shaft", body.name);
         let hint =
@@ -47,7 +45,8 @@ pub(super) fn check(top: &Reader, model: &Model) {
         top.log.error(Problem::new(Kind::Disconnected, &span, message).hint(hint));
     }
     if !reach(&[0])[1] {
-        let span = top.table("shaft").or_else(|| top.table("rotor")).map_or(0..0, |r| r.span);
+        let span =
+            top.table(&shaft::TOP.shaft).or_else(|| top.table(&rotor::TOP.rotor)).map_or(0..0, |r| r.span);
         let problem = Problem::new(
             Kind::Disconnected,
             &span,
@@ -66,44 +65,32 @@ fn check_tilt_support(top: &Reader, model: &Model) {
         _ => None,
     };
     // (node, radial support, tilt support, name)
-    let stiff = |k: &[[f64; 6]; 6], i: usize| k[i][i] != 0.0;
     let joints = model.joints.iter().filter_map(|j| {
         let holds = (j.locked[0] || j.locked[1], j.locked[3] && j.locked[4]);
         Some((shaft_node(&j.a, &j.b)?, holds, format!("joint.{}", j.name)))
     });
-    let bushings = model.bushings.iter().filter_map(|b| {
-        let k = &b.stiffness;
-        let holds = (stiff(k, 0) || stiff(k, 1), stiff(k, 3) && stiff(k, 4));
-        Some((shaft_node(&b.a, &b.b)?, holds, format!("bushing.{}", b.name)))
+    let connections = model.elements().filter_map(|(_, element)| {
+        let Connection { name, ends: [a, b], stiff: [x, y, _, tilt_x, tilt_y, _] } = element.connection()?;
+        Some((shaft_node(&a, &b)?, (x || y, tilt_x && tilt_y), name))
     });
     let bearings = model.bearings.iter().map(|site| {
-        let holds = match &site.bearing {
-            Bearing::Ball(_) => (true, true),
-            Bearing::RadialBall(_) => (true, false),
-            Bearing::Linear(linear) => {
-                let any = |i: usize| linear.table.iter().any(|row| stiff(&row.stiffness, i));
-                (any(0) || any(1), any(3) && any(4))
-            }
-        };
-        (site.node, holds, format!("bearing.{}", site.name))
+        let [x, y, _, tilt_x, tilt_y, _] = site.bearing.supports();
+        (site.node, (x || y, tilt_x && tilt_y), format!("bearing.{}", site.name))
     });
-    let belts = model.belts.iter().map(|b| {
-        (b.node, (b.stiffness[0] != 0.0 || b.stiffness[1] != 0.0, false), format!("belt.{}", b.name))
-    });
-    let supports: Vec<_> = joints.chain(bushings).chain(bearings).chain(belts).collect();
+    let supports: Vec<_> = joints.chain(bearings).chain(connections).collect();
     let Some((node, _, name)) = supports.iter().find(|(_, (sideways, _), _)| *sideways) else { return };
     if supports.iter().any(|(other, (sideways, tilt), _)| *tilt || *sideways && other != node) {
         return;
     }
     let tilts = |force: &[f64; 6]| force[3] != 0.0 || force[4] != 0.0;
-    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, "load", &l.name)?))) {
+    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, &loading::TOP.load, &l.name)?))) {
         let on_shaft = load.at.node.is_some_and(|node| node < shaft);
         if on_shaft && load.history.is_empty() && tilts(&load.force) {
             let message = format!(
                 "load.{} tilts the shaft, whose only support, {name}, permits tilting like a ball joint",
                 load.name
             );
-            let problem = Problem::new(Kind::Disconnected, &r.span_of("moment"), message);
+            let problem = Problem::new(Kind::Disconnected, &r.span_of(&loading::LOAD.moment), message);
             top.log.error(problem.expected("a second support, or one that resists tilting").hint(
                 "a joint of kind = \"revolute\", a second support at another station, a ball bearing or k_tilt resists tilting",
             ));
@@ -111,10 +98,6 @@ fn check_tilt_support(top: &Reader, model: &Model) {
     }
 }
 
-fn item<'a>(top: &Reader<'a>, collection: &str, name: &str) -> Option<Reader<'a>> {
+fn item<'a>(top: &Reader<'a>, collection: &Key<NamedTables>, name: &str) -> Option<Reader<'a>> {
     top.items(collection).into_iter().find(|(n, _)| *n == name).map(|(_, r)| r)
-}
-
-fn named(top: &Reader, collection: &str, name: &str) -> Option<std::ops::Range<usize>> {
-    item(top, collection, name).map(|r| r.span)
 }

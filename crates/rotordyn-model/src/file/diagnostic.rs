@@ -99,6 +99,14 @@ impl Problem {
         }
     }
 
+    /// Append to a hint that lists names.
+    pub fn after_list(mut self, text: &str) -> Self {
+        if let Some(hint) = self.hint.as_mut().filter(|hint| hint.starts_with("known here")) {
+            hint.push_str(text);
+        }
+        self
+    }
+
     /// Suggest the nearest known name, or list the known names if none is close.
     pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
         let known: Vec<&str> = known.into_iter().collect();

@@ -6,7 +6,9 @@
 //! continues and so reports all problems of a file at once, each with its exact span.
 
 pub(crate) mod diagnostic;
+pub mod key;
 pub(crate) mod overlay;
+pub(crate) mod quantities;
 pub(crate) mod reader;
 pub(crate) mod renamed;
 pub(crate) mod tree;

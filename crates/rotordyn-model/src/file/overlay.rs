@@ -1,6 +1,7 @@
 //! Overrides of the document before validation: variants and `--set` arguments.
 
 use super::diagnostic::{Kind, Log, Problem, Sources};
+use super::key::{NamedTables, Text, Texts, keys, named_tables, text, texts};
 use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
 use std::ops::Range;
@@ -22,12 +23,29 @@ pub(crate) const COLLECTIONS: &[&str] = &[
     "probe",
 ];
 
+keys! {
+    /// Tables of this file.
+    pub(crate) static TOP: VariantTopKeys {
+        variant: NamedTables = named_tables(VariantKeys::TABLE);
+    }
+}
+
+keys! {
+    /// `[variant.x]`.
+    pub(crate) static VARIANT: VariantKeys = "A variant of the machine: besides these keys any other of the file, which it overrides." {
+        based_on: Text = text("name of another variant", "Variant that it builds on.").optional()
+            .example("\"wavy\"");
+        remove: Texts = texts("paths of items", "Items that it lacks.").optional()
+            .example("[\"housing.A\", \"belt.drive\"]");
+    }
+}
+
 /// Merge the named variant into the document and remove the `variant` table.
 ///
 /// A variant may build on another (`based_on = "wavy"`), remove items (`remove = ["housing.A"]`), and set any
 /// other key of the file: tables are merged, all other values are replaced.
 pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
-    let (variants, place) = match root.remove("variant") {
+    let (variants, place) = match root.remove(TOP.variant.about.name) {
         Some(Entry { key_span, node: Node { value: Value::Table(table), .. }, .. }) => (table, key_span),
         Some(entry) => {
             log.error(
@@ -64,7 +82,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
         }
         chain.push(entry);
         if let Value::Table(table) = &entry.node.value
-            && let Some(base) = table.get("based_on")
+            && let Some(base) = table.get(VARIANT.based_on.about.name)
         {
             match &base.node.value {
                 Value::Text(base_name) => next = Some((base_name.clone(), base.node.span.clone())),
@@ -86,8 +104,8 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
             continue;
         };
         let mut overrides = table.clone();
-        overrides.remove("based_on");
-        if let Some(list) = overrides.remove("remove") {
+        overrides.remove(VARIANT.based_on.about.name);
+        if let Some(list) = overrides.remove(VARIANT.remove.about.name) {
             remove(root, &list, log);
         }
         renamed::translate(&mut overrides, log);

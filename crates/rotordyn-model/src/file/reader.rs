@@ -1,49 +1,30 @@
 //! Typed access to one table of the file: every problem is logged with its span and reading continues.
 //!
-//! A method that must return a value returns a placeholder after an error; a model with errors is never
-//! returned.
+//! A reader takes declared keys only. A method that must return a value returns a placeholder after an error; a
+//! model with errors is never returned.
 //! Every requested key is recorded as known, so [`Reader::finish`] can report unknown keys with a suggestion.
 
 use super::diagnostic::{Kind, Log, Problem};
+use super::key::{
+    Absent, Count, Declared, Flag, Key, NamedTables, SubTable, Table as Declaration, TableList, Text, Texts,
+    Words,
+};
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::nearest;
-use rotordyn_units::{self as units, Dimension, NUMBER, UnitError};
 use std::cell::RefCell;
 use std::ops::Range;
-
-/// A dimension with the range its value must be in.
-#[derive(Clone, Copy)]
-pub(crate) struct Spec {
-    dimension: Dimension,
-    bound: Bound,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Bound {
-    Any,
-    Positive,
-    NotNegative,
-}
-
-pub(crate) const fn any(dimension: Dimension) -> Spec {
-    Spec { dimension, bound: Bound::Any }
-}
-
-pub(crate) const fn positive(dimension: Dimension) -> Spec {
-    Spec { dimension, bound: Bound::Positive }
-}
-
-pub(crate) const fn not_negative(dimension: Dimension) -> Spec {
-    Spec { dimension, bound: Bound::NotNegative }
-}
 
 /// One table of the file.
 pub(crate) struct Reader<'a> {
     table: &'a Table,
+    /// Keys that may be read.
+    declared: &'static Declaration,
     /// Span of the table's key.
     pub span: Range<usize>,
     /// Path of the table: "bearing.B".
     pub path: String,
+    /// Path without names of items, of the declaration: "bearing".
+    declared_path: String,
     pub log: &'a Log,
     errors_before: usize,
     requested_keys: RefCell<Vec<String>>,
@@ -52,11 +33,24 @@ pub(crate) struct Reader<'a> {
 static EMPTY_TABLE: Table = Table { entries: Vec::new() };
 
 impl<'a> Reader<'a> {
-    pub fn new(table: &'a Table, path: impl Into<String>, span: Range<usize>, log: &'a Log) -> Self {
+    /// The whole file.
+    pub fn root(table: &'a Table, declared: &'static Declaration, log: &'a Log) -> Self {
+        Self::new(table, declared, [String::new(), String::new()], 0..0, log)
+    }
+
+    fn new(
+        table: &'a Table,
+        declared: &'static Declaration,
+        [path, declared_path]: [String; 2],
+        span: Range<usize>,
+        log: &'a Log,
+    ) -> Self {
         Self {
             table,
+            declared,
             span,
-            path: path.into(),
+            path,
+            declared_path,
             log,
             errors_before: log.error_count(),
             requested_keys: RefCell::default(),
@@ -68,270 +62,135 @@ impl<'a> Reader<'a> {
         self.log.error_count() == self.errors_before
     }
 
-    pub fn entry(&self, key: &str) -> Option<&'a Entry> {
-        if !self.requested_keys.borrow().iter().any(|k| k == key) {
-            self.requested_keys.borrow_mut().push(key.into());
-        }
-        self.table.get(key)
+    pub fn entry(&self, key: &dyn Declared) -> Option<&'a Entry> {
+        let is_declared = self.declared.keys().any(|declared| declared.is(key));
+        debug_assert!(is_declared, "the key `{}` is not declared for {}", key.name(), self.path);
+        self.mark_known(key.name());
+        self.table.get(key.name())
     }
 
-    pub fn has(&self, key: &str) -> bool {
+    fn mark_known(&self, name: &str) {
+        if !self.requested_keys.borrow().iter().any(|k| k == name) {
+            self.requested_keys.borrow_mut().push(name.into());
+        }
+    }
+
+    pub fn has(&self, key: &dyn Declared) -> bool {
         self.entry(key).is_some()
     }
 
+    /// Whether the key's value is a table.
+    pub fn has_table(&self, key: &dyn Declared) -> bool {
+        matches!(self.entry(key).map(|e| &e.node.value), Some(Value::Table(_)))
+    }
+
+    /// The key's value if it is a text; not checked otherwise.
+    pub fn given_text(&self, key: &dyn Declared) -> Option<&'a str> {
+        match self.entry(key).map(|e| &e.node.value) {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        }
+    }
+
     /// Span of the key's value, or of the table if the key is absent.
-    pub fn span_of(&self, key: &str) -> Range<usize> {
-        self.table.get(key).map_or_else(|| self.span.clone(), |e| e.node.span.clone())
+    pub fn span_of(&self, key: &dyn Declared) -> Range<usize> {
+        self.entry_span(key.name())
+    }
+
+    /// Span of the value of a name that the user chose.
+    pub fn entry_span(&self, name: &str) -> Range<usize> {
+        self.table.get(name).map_or_else(|| self.span.clone(), |e| e.node.span.clone())
     }
 
     /// Name of a key for messages, as written in the file: "bearing.B.balls".
-    pub fn name(&self, key: &str) -> String {
+    pub fn name(&self, key: &dyn Declared) -> String {
+        self.entry_name(key.name())
+    }
+
+    pub(super) fn entry_name(&self, key: &str) -> String {
         let key = self.table.get(key).map_or(key, Entry::written_key);
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 
+    /// Path of a key in the file and in the declaration.
+    fn paths(&self, key: &dyn Declared) -> [String; 2] {
+        let dot = if self.declared_path.is_empty() { "" } else { "." };
+        [self.name(key), format!("{}{dot}{}", self.declared_path, key.name())]
+    }
+
     /// Log an error at a key's value (or at the table).
-    pub fn error(&self, kind: Kind, key: &str, message: impl Into<String>) {
+    pub fn error(&self, kind: Kind, key: &dyn Declared, message: impl Into<String>) {
         self.log.error(Problem::new(kind, &self.span_of(key), message));
     }
 
-    pub fn missing(&self, key: &str, example: &str) {
-        let problem = Problem::new(Kind::MissingKey, &self.span, self.missing_message(key));
-        self.log.error(problem.hint(format!("add {key} = {example}")));
+    /// Log that a key is missing, with its example.
+    pub fn missing(&self, key: &dyn Declared) {
+        self.missing_or(key, "");
+    }
+
+    /// [`missing`](Self::missing), with what may be given instead.
+    pub fn missing_or(&self, key: &dyn Declared, instead: &str) {
+        self.missing_as(key, &format!("{}{instead}", key.example()));
+    }
+
+    /// [`missing`](Self::missing) with an example that depends on the model.
+    pub fn missing_as(&self, key: &dyn Declared, example: &str) {
+        let problem = Problem::new(Kind::MissingKey, &self.span, self.missing_message(key.name()));
+        self.log.error(problem.hint(format!("add {} = {example}", key.name())));
     }
 
     fn missing_message(&self, key: &str) -> String {
-        format!("{} is missing", self.name(key))
+        format!("{} is missing", self.entry_name(key))
     }
 
-    fn wrong_type(&self, key: &str, node: &Node, expected: &str) {
-        let message = format!("{} is {}", self.name(key), node.value.type_name());
+    pub(super) fn wrong_type(&self, name: &str, node: &Node, expected: &str) {
+        let message = format!("{} is {}", self.entry_name(name), node.value.type_name());
         self.log.error(Problem::new(Kind::WrongType, &node.span, message).expected(expected));
     }
 
     /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given.
-    pub fn one_of<'k>(&self, keys: &[&'k str]) -> Option<&'k str> {
-        let given: Vec<&'k str> = keys.iter().copied().filter(|k| self.has(k)).collect();
+    pub fn one_of<'k>(&self, keys: &[&'k dyn Declared]) -> Option<&'k dyn Declared> {
+        let given: Vec<&'k dyn Declared> = keys.iter().copied().filter(|k| self.has(*k)).collect();
         if let [first, second, ..] = given[..] {
-            let message = format!("{} and `{second}` are mutually exclusive", self.name(first));
+            let message = format!("{} and `{}` are mutually exclusive", self.name(first), second.name());
             let problem = Problem::new(Kind::Conflict, &self.span_of(second), message);
-            self.log.error(problem.hint(format!("give one of {}", keys.join(", "))));
+            let names: Vec<&str> = keys.iter().map(|key| key.name()).collect();
+            self.log.error(problem.hint(format!("give one of {}", names.join(", "))));
         }
         given.first().copied()
     }
 
-    // --- quantities ---
-
-    pub fn get(&self, key: &str, spec: Spec) -> Option<f64> {
-        let entry = self.entry(key)?;
-        let values = self.quantities(key, &entry.node, spec)?;
-        if values.len() > 1 {
-            let message = format!("{} must be a single value, but has {}", self.name(key), values.len());
-            self.error(Kind::WrongType, key, message);
-        }
-        values.first().copied()
-    }
-
-    pub fn or(&self, key: &str, spec: Spec, default: f64) -> f64 {
-        self.get(key, spec).unwrap_or(default)
-    }
-
-    pub fn need(&self, key: &str, spec: Spec) -> f64 {
-        if !self.has(key) {
-            self.missing(key, &quoted_example(spec.dimension));
-        }
-        self.get(key, spec).unwrap_or(1.0)
-    }
-
-    /// A list of quantities: `"0, 600 rpm"` or `["0 rpm", "600 rpm"]`.
-    pub fn list(&self, key: &str, spec: Spec) -> Option<Vec<f64>> {
-        let entry = self.entry(key)?;
-        self.quantities(key, &entry.node, spec)
-    }
-
-    pub fn need_list(&self, key: &str, spec: Spec) -> Vec<f64> {
-        if !self.has(key) {
-            self.missing(key, &quoted_example(spec.dimension));
-        }
-        self.list(key, spec).unwrap_or_else(|| vec![1.0])
-    }
-
-    /// Three components.
-    pub fn vector(&self, key: &str, dimension: Dimension) -> Option<[f64; 3]> {
-        let values = self.list(key, any(dimension))?;
-        let vector = values.as_slice().try_into().ok();
-        if vector.is_none() {
-            let message =
-                format!("{} has {} components instead of three (x, y, z)", self.name(key), values.len());
-            self.error(Kind::WrongType, key, message);
-        }
-        vector
-    }
-
-    fn quantities(&self, key: &str, node: &Node, spec: Spec) -> Option<Vec<f64>> {
-        let values = match &node.value {
-            Value::List(items) => {
-                let mut values = Vec::new();
-                let mut failed = false;
-                for item in items {
-                    match self.quantities(key, item, spec) {
-                        Some(one) => values.extend(one),
-                        None => failed = true,
-                    }
-                }
-                if values.is_empty() && !failed {
-                    self.error(Kind::OutOfRange, key, format!("{} is an empty list", self.name(key)));
-                }
-                return (!failed && !values.is_empty()).then_some(values);
-            }
-            Value::Text(text) => match units::parse_list(text, spec.dimension) {
-                Ok(values) => values,
-                Err(error) => {
-                    self.log.error(self.unit_problem(key, node, spec.dimension, &error));
-                    return None;
-                }
-            },
-            #[allow(clippy::cast_precision_loss)] // integers in a model file are small
-            Value::Integer(i) => vec![self.bare_number(key, node, spec.dimension, *i as f64)?],
-            Value::Float(f) => vec![self.bare_number(key, node, spec.dimension, *f)?],
-            _ => {
-                self.wrong_type(key, node, &expected_quantity(spec.dimension));
-                return None;
-            }
-        };
-        for value in &values {
-            let (fits, must) = match spec.bound {
-                Bound::Any => (true, ""),
-                Bound::Positive => (*value > 0.0, "greater than zero"),
-                Bound::NotNegative => (*value >= 0.0, "zero or greater"),
-            };
-            if !fits {
-                let what = if *value < 0.0 { "negative" } else { "zero" };
-                let message = format!("{} is {what}", self.name(key));
-                let problem = Problem::new(Kind::OutOfRange, &node.span, message);
-                self.log.error(problem.expected(format!("{} {must}", with_article(spec.dimension.name))));
-                return None;
-            }
-        }
-        Some(values)
-    }
-
-    fn bare_number(&self, key: &str, node: &Node, dimension: Dimension, value: f64) -> Option<f64> {
-        let name = self.name(key);
-        let problem = if !value.is_finite() {
-            Problem::new(Kind::OutOfRange, &node.span, format!("{name} is not a finite number"))
-                .expected(expected_quantity(dimension))
-        } else if dimension == NUMBER {
-            return Some(value);
-        } else {
-            Problem::new(Kind::MissingUnit, &node.span, format!("{name} has no unit"))
-                .expected(expected_quantity(dimension))
-                .hint(format!("if {} is meant, write \"{value} {}\"", dimension.unit, dimension.unit))
-        };
-        self.log.error(problem);
-        None
-    }
-
-    fn unit_problem(&self, key: &str, node: &Node, dimension: Dimension, error: &UnitError) -> Problem {
-        let name = self.name(key);
-        let expected = expected_quantity(dimension);
-        let problem = |kind, message: String| Problem::new(kind, &node.span, message).expected(&expected);
-        match error {
-            UnitError::NoUnit(text) => problem(Kind::MissingUnit, format!("{name} has no unit"))
-                .hint(format!("if {} is meant, write \"{text} {}\"", dimension.unit, dimension.unit)),
-            UnitError::WrongDimension { unit, found, expected: dimension } => {
-                let p = problem(
-                    Kind::WrongDimension,
-                    format!("{name} must be {}; {unit} is {}", with_article(dimension), with_article(found)),
-                );
-                if *dimension == units::FORCE.name && unit.contains("lb") {
-                    p.hint("lb is a mass; write lbf for the force")
-                } else if unit == "1/s" {
-                    p.hint("1/s is ambiguous (revolutions or radians): write Hz, rpm or rad/s")
-                } else {
-                    p
-                }
-            }
-            UnitError::UnknownUnit(unit) => {
-                problem(Kind::BadQuantity, format!("{name}: unknown unit `{unit}`"))
-                    .suggest(unit, units::unit_names())
-            }
-            UnitError::ScaleOfTemperature(_) => problem(Kind::WrongDimension, format!("{name}: {error}"))
-                .hint("write K: a temperature difference has the same value in K and degC"),
-            UnitError::NotFinite(_) => problem(Kind::OutOfRange, format!("{name} is not a finite number")),
-            _ => problem(Kind::BadQuantity, format!("{name}: {error}")),
-        }
-    }
-
-    /// Values as a list, or spaced evenly: `{ from = "0 rpm", to = "1200 rpm", count = 25 }` or `step = "50 rpm"`;
-    /// `spacing = "log"` for equal ratios.
-    pub fn sweep(&self, key: &str, spec: Spec) -> Option<Vec<f64>> {
-        let entry = self.entry(key)?;
-        let Value::Table(table) = &entry.node.value else { return self.list(key, spec) };
-        let r = Reader::new(table, self.name(key), entry.key_span.clone(), self.log);
-        let (from, to) = (r.need("from", spec), r.need("to", spec));
-        let logarithmic = r.choice("spacing", &[("linear", false), ("log", true)]).unwrap_or(false);
-        let count = match r.one_of(&["count", "step"]) {
-            Some("step") => {
-                let step = r.need("step", positive(spec.dimension));
-                let steps = (to - from) / step;
-                if !(1.0..1e6).contains(&steps) {
-                    r.error(Kind::OutOfRange, "step", format!("{} gives {steps:.0} steps", r.name("step")));
-                    2
-                } else {
-                    steps.round() as usize + 1
-                }
-            }
-            Some(_) => r.count("count", 2, 2..=1_000_000),
-            None => {
-                r.missing("count", "25");
-                2
-            }
-        };
-        if to <= from && r.has_no_errors() {
-            r.error(Kind::OutOfRange, "to", format!("{} must be above {}", r.name("to"), r.name("from")));
-        }
-        if logarithmic && from <= 0.0 && r.has_no_errors() {
-            r.error(
-                Kind::OutOfRange,
-                "from",
-                format!("{} must be above zero for equal ratios", r.name("from")),
-            );
-        }
-        let sound = r.has_no_errors();
-        r.finish();
-        let part = |k: usize| k as f64 / (count - 1) as f64;
-        let value = |k| match k {
-            0 => from,
-            k if k + 1 == count => to,
-            k if logarithmic => from * (to / from).powf(part(k)),
-            k => from + (to - from) * part(k),
-        };
-        sound.then(|| (0..count).map(value).collect())
-    }
-
     // --- words and counts ---
 
-    pub fn text(&self, key: &str) -> Option<&'a str> {
-        let entry = self.entry(key)?;
+    /// The text of a key, or its default.
+    pub fn text(&self, key: &Key<Text>) -> Option<&'a str> {
+        let default = match key.about.absent {
+            Absent::Default(text) => Some(text),
+            _ => None,
+        };
+        self.entry(key).map_or(default, |entry| self.text_of(key, entry).or(default))
+    }
+
+    fn text_of(&self, key: &dyn Declared, entry: &'a Entry) -> Option<&'a str> {
         match &entry.node.value {
             Value::Text(text) => Some(text),
             _ => {
-                self.wrong_type(key, &entry.node, "a string in quotes");
+                self.wrong_type(key.name(), &entry.node, "a string in quotes");
                 None
             }
         }
     }
 
-    pub fn need_text(&self, key: &str, example: &str) -> Option<&'a str> {
+    /// The text of a key that must be given.
+    pub fn need_text(&self, key: &Key<Text>) -> Option<&'a str> {
         if !self.has(key) {
-            self.missing(key, example);
+            self.missing(key);
         }
         self.text(key)
     }
 
     /// A list of strings, each with its span; a single string counts as a list of one.
-    pub fn texts(&self, key: &str) -> Option<Vec<(&'a str, Range<usize>)>> {
+    pub fn texts(&self, key: &Key<Texts>) -> Option<Vec<(&'a str, Range<usize>)>> {
         let entry = self.entry(key)?;
         let items = match &entry.node.value {
             Value::List(items) => items.as_slice(),
@@ -341,43 +200,71 @@ impl<'a> Reader<'a> {
         for item in items {
             match &item.value {
                 Value::Text(text) => texts.push((text.as_str(), item.span.clone())),
-                _ => self.wrong_type(key, item, "a string in quotes"),
+                _ => self.wrong_type(key.name(), item, "a string in quotes"),
             }
         }
         Some(texts)
     }
 
-    pub fn flag(&self, key: &str, default: bool) -> bool {
+    /// True or false as given, else the default.
+    pub fn flag(&self, key: &Key<Flag>) -> bool {
+        self.flag_or(key, matches!(key.about.absent, Absent::Default("true")))
+    }
+
+    /// [`flag`](Self::flag) with a computed default.
+    pub fn flag_or(&self, key: &Key<Flag>, default: bool) -> bool {
         let Some(entry) = self.entry(key) else { return default };
         match entry.node.value {
             Value::Boolean(b) => b,
             _ => {
-                self.wrong_type(key, &entry.node, "true or false");
+                self.wrong_type(key.name(), &entry.node, "true or false");
                 default
             }
         }
     }
 
-    pub fn count(&self, key: &str, default: usize, range: std::ops::RangeInclusive<usize>) -> usize {
-        let Some(entry) = self.entry(key) else { return default };
+    /// A whole number as given, else the default; the least number as placeholder.
+    pub fn count(&self, key: &Key<Count>) -> usize {
+        let default = match key.about.absent {
+            Absent::Default(text) => text.parse().ok(),
+            Absent::DefaultCount(value) => Some(value),
+            _ => None,
+        };
+        if default.is_none() && !self.has(key) {
+            self.missing(key);
+        }
+        self.count_or(key, default.unwrap_or(key.value.least))
+    }
+
+    /// [`count`](Self::count) with a computed default.
+    pub fn count_or(&self, key: &Key<Count>, default: usize) -> usize {
+        self.count_up_to(key, key.value.greatest).unwrap_or(default)
+    }
+
+    /// A whole number of at most `greatest`; `None` without the key and after an error.
+    pub fn count_up_to(&self, key: &Key<Count>, greatest: usize) -> Option<usize> {
+        let entry = self.entry(key)?;
+        let range = key.value.least..=greatest;
         let expected = format!("a whole number from {} to {}", range.start(), range.end());
         match entry.node.value {
             Value::Integer(i) => match usize::try_from(i) {
-                Ok(n) if range.contains(&n) => return n,
+                Ok(n) if range.contains(&n) => return Some(n),
                 _ => {
                     let message = format!("{} is out of range", self.name(key));
                     self.log
                         .error(Problem::new(Kind::OutOfRange, &entry.node.span, message).expected(expected));
                 }
             },
-            _ => self.wrong_type(key, &entry.node, &expected),
+            _ => self.wrong_type(key.name(), &entry.node, &expected),
         }
-        default
+        None
     }
 
-    /// One of several keywords.
-    pub fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Option<T> {
-        let word = self.text(key)?;
+    /// What the given word stands for; `None` without the key and after an error.
+    pub fn choice<T: Copy + Sync + std::fmt::Debug>(&self, key: &Key<Words<T>>) -> Option<T> {
+        let entry = self.entry(key)?;
+        let word = self.text_of(key, entry)?;
+        let choices = key.value.0;
         let found = choices.iter().find(|c| c.0 == word).map(|c| c.1);
         if found.is_none() {
             let message = format!("{} cannot be `{word}`", self.name(key));
@@ -388,35 +275,49 @@ impl<'a> Reader<'a> {
         found
     }
 
+    /// What the given word or the default stands for.
+    pub fn word<T: Copy + Sync + std::fmt::Debug>(&self, key: &Key<Words<T>>) -> T {
+        self.choice(key).unwrap_or_else(|| key.default_word())
+    }
+
     // --- tables ---
 
     /// The table of this key, if present.
-    pub fn table(&self, key: &str) -> Option<Reader<'a>> {
+    pub fn table(&self, key: &Key<SubTable>) -> Option<Reader<'a>> {
+        self.table_of(key, key.value.0)
+    }
+
+    pub(super) fn table_of(&self, key: &dyn Declared, declared: &'static Declaration) -> Option<Reader<'a>> {
         let entry = self.entry(key)?;
         match &entry.node.value {
-            Value::Table(table) => Some(Reader::new(table, self.name(key), entry.key_span.clone(), self.log)),
+            Value::Table(table) => {
+                Some(Reader::new(table, declared, self.paths(key), entry.key_span.clone(), self.log))
+            }
             _ => {
-                self.wrong_type(key, &entry.node, &format!("a table [{}]", self.name(key)));
+                self.wrong_type(key.name(), &entry.node, &format!("a table [{}]", self.name(key)));
                 None
             }
         }
     }
 
     /// The table of this key, or an empty one.
-    pub fn table_or_empty(&self, key: &str) -> Reader<'a> {
-        self.table(key)
-            .unwrap_or_else(|| Reader::new(&EMPTY_TABLE, self.name(key), self.span.clone(), self.log))
+    pub fn table_or_empty(&self, key: &Key<SubTable>) -> Reader<'a> {
+        self.table(key).unwrap_or_else(|| {
+            Reader::new(&EMPTY_TABLE, key.value.0, self.paths(key), self.span.clone(), self.log)
+        })
     }
 
     /// The named tables under a key, `[disc.a]`, `[disc.b]`, in file order.
-    pub fn items(&self, key: &str) -> Vec<(&'a str, Reader<'a>)> {
-        let Some(all) = self.table(key) else { return Vec::new() };
+    pub fn items(&self, key: &Key<NamedTables>) -> Vec<(&'a str, Reader<'a>)> {
+        let declared = key.value.0;
+        let Some(all) = self.table_of(key, declared) else { return Vec::new() };
         let mut items = Vec::new();
         for entry in &all.table.entries {
-            let path = all.name(&entry.key);
+            let path = all.entry_name(&entry.key);
             match &entry.node.value {
                 Value::Table(table) => {
-                    let reader = Reader::new(table, path, entry.key_span.clone(), self.log);
+                    let paths = [path, all.declared_path.clone()];
+                    let reader = Reader::new(table, declared, paths, entry.key_span.clone(), self.log);
                     items.push((entry.key.as_str(), reader));
                 }
                 _ => all.wrong_type(&entry.key, &entry.node, &format!("a table [{path}]")),
@@ -426,7 +327,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The tables of a list, `[[shaft.section]]`.
-    pub fn tables(&self, key: &str) -> Vec<Reader<'a>> {
+    pub fn tables(&self, key: &Key<TableList>) -> Vec<Reader<'a>> {
         let Some(entry) = self.entry(key) else { return Vec::new() };
         let items = match &entry.node.value {
             Value::List(items) => items.as_slice(),
@@ -436,10 +337,11 @@ impl<'a> Reader<'a> {
         for (k, item) in items.iter().enumerate() {
             match &item.value {
                 Value::Table(table) => {
-                    let path = format!("{}[{k}]", self.name(key));
-                    readers.push(Reader::new(table, path, item.span.clone(), self.log));
+                    let [path, declared_path] = self.paths(key);
+                    let paths = [format!("{path}[{k}]"), declared_path];
+                    readers.push(Reader::new(table, key.value.0, paths, item.span.clone(), self.log));
                 }
-                _ => self.wrong_type(key, item, &format!("tables [[{}]]", self.name(key))),
+                _ => self.wrong_type(key.name(), item, &format!("tables [[{}]]", self.name(key))),
             }
         }
         readers
@@ -448,7 +350,7 @@ impl<'a> Reader<'a> {
     /// All entries of this table, marked as known.
     pub fn entries(&self) -> &'a [Entry] {
         for entry in &self.table.entries {
-            self.entry(&entry.key);
+            self.mark_known(&entry.key);
         }
         &self.table.entries
     }
@@ -461,23 +363,11 @@ impl<'a> Reader<'a> {
             if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
                 self.log.retract_missing(&self.span, &self.missing_message(meant));
             }
-            let message = format!("unknown key {}", self.name(&entry.key));
+            let message = format!("unknown key {}", self.entry_name(&entry.key));
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
-            self.log.error(problem.suggest(&entry.key, known.iter().copied()));
+            let command = format!("rotordyn help {}", self.declared_path);
+            let all_keys = format!("; `{}` explains them", command.trim_end());
+            self.log.error(problem.suggest(&entry.key, known.iter().copied()).after_list(&all_keys));
         }
     }
-}
-
-/// Example of a quantity as it is written in the file.
-fn quoted_example(dimension: Dimension) -> String {
-    if dimension == NUMBER { dimension.example.into() } else { format!("\"{}\"", dimension.example) }
-}
-
-fn expected_quantity(dimension: Dimension) -> String {
-    format!("{} such as {}", with_article(dimension.name), quoted_example(dimension))
-}
-
-fn with_article(noun: &str) -> String {
-    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {noun}")
 }

@@ -47,7 +47,7 @@ fn joined(path: &[String], key: &str) -> String {
 }
 
 /// Present spelling of key `parts[k]` of a dotted path, if it has been renamed.
-pub(super) fn renamed_part(parts: &[&str], k: usize) -> Option<&'static str> {
+pub(crate) fn renamed_part(parts: &[&str], k: usize) -> Option<&'static str> {
     renamed(KEYS, &parts[..k], parts[k])
 }
 

@@ -235,7 +235,7 @@ fn crossing(sweep: &BearingSweepResult, load: f64) -> Option<f64> {
 
 /// Name, unit and factor from SI of the swept quantity.
 fn abscissa(sweep: &BearingSweepResult) -> (String, &'static str, f64) {
-    match (sweep.of, sweep.unit) {
+    match (sweep.of, sweep.unit.as_str()) {
         (SweepVariable::Speed, _) => ("shaft speed".into(), "rpm", TO_RPM),
         (SweepVariable::CageAngle, _) => ("cage angle".into(), "°", 1f64.to_degrees()),
         (_, "N m") => (sweep.label.clone(), "N·m", 1.0),

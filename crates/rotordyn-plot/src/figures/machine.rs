@@ -6,7 +6,7 @@ use crate::{
     LayoutBlock, LayoutRow, LayoutSection, LayoutSpring, LayoutSupport, MachineLayout, Mark, ModeShape,
     ModeShapes, Rotor, RotorDisc, RotorSupport, SupportSymbol, Whirl,
 };
-use rotordyn_bearing::{BallBearing, Bearing, LinearBearing};
+use rotordyn_bearing::{BallBearing, BearingSymbol};
 use rotordyn_core::analysis::Mode;
 use rotordyn_core::analysis::equilibrium::{BearingState, Equilibrium};
 use rotordyn_core::analysis::mode_kind::ModeKind;
@@ -106,9 +106,12 @@ fn shaft_supports(model: &Model) -> Vec<LayoutSupport> {
         grounded,
     };
     let bearings = model.bearings.iter().map(|site| {
-        let symbol = match &site.bearing {
-            Bearing::Linear(linear) => linear_symbol(linear),
-            Bearing::Ball(_) | Bearing::RadialBall(_) => SupportSymbol::Ball,
+        let symbol = match site.bearing.symbol() {
+            BearingSymbol::RollingElement => SupportSymbol::Ball,
+            BearingSymbol::Springs(matrices) => {
+                let none = SupportSymbol::SpringDamper { spring: false, damper: false, axial: false };
+                matrix_symbol(&matrices).unwrap_or(none)
+            }
         };
         at(format!("bearing {}", site.name), site.node, symbol, site.housing.node.is_none())
     });
@@ -123,7 +126,7 @@ fn shaft_supports(model: &Model) -> Vec<LayoutSupport> {
         if length(model, bushing) > ZERO_LENGTH {
             return None;
         }
-        let symbol = matrix_symbol(&[(&bushing.stiffness, &bushing.damping)])?;
+        let symbol = matrix_symbol(&[[&bushing.stiffness, &bushing.damping]])?;
         // Below a disc at the node, which would cover it.
         let discs = model.discs.iter().filter(|d| d.node == node).map(|d| scene::disc_size(d).0);
         let support = at(format!("bushing {}", bushing.name), node, symbol, grounded);
@@ -132,20 +135,14 @@ fn shaft_supports(model: &Model) -> Vec<LayoutSupport> {
     bearings.chain(joints).chain(bushings).collect()
 }
 
-fn linear_symbol(linear: &LinearBearing) -> SupportSymbol {
-    let rows: Vec<_> = linear.table.iter().map(|row| (&row.stiffness, &row.damping)).collect();
-    let none = SupportSymbol::SpringDamper { spring: false, damper: false, axial: false };
-    matrix_symbol(&rows).unwrap_or(none)
-}
-
 /// 6 × 6 matrices K and C of a spring-damper.
-type Matrices<'a> = (&'a [[f64; 6]; 6], &'a [[f64; 6]; 6]);
+type Matrices<'a> = [&'a [[f64; 6]; 6]; 2];
 
 /// Spring, damper or both, by the entries of K and C; axial if only u_z has any. None if all are zero.
 fn matrix_symbol(rows: &[Matrices]) -> Option<SupportSymbol> {
     let acts =
         |matrix: &[[f64; 6]; 6], dofs: &[usize]| dofs.iter().any(|&d| matrix[d].iter().any(|v| *v != 0.0));
-    let any = |dofs: &[usize]| (rows.iter().any(|r| acts(r.0, dofs)), rows.iter().any(|r| acts(r.1, dofs)));
+    let any = |dofs: &[usize]| (rows.iter().any(|r| acts(r[0], dofs)), rows.iter().any(|r| acts(r[1], dofs)));
     let (spring, damper) = any(&[0, 1, 2, 3, 4, 5]);
     let axial = any(&[2]) != (false, false) && any(&[0, 1, 3, 4, 5]) == (false, false);
     (spring || damper).then_some(SupportSymbol::SpringDamper { spring, damper, axial })
@@ -172,7 +169,7 @@ fn length(model: &Model, bushing: &Bushing) -> f64 {
 /// A bushing that is not a support of the shaft, from its body to the ground or between two points.
 fn spring(model: &Model, bushing: &Bushing) -> Option<LayoutSpring> {
     let Some(SupportSymbol::SpringDamper { spring, damper, .. }) =
-        matrix_symbol(&[(&bushing.stiffness, &bushing.damping)])
+        matrix_symbol(&[[&bushing.stiffness, &bushing.damping]])
     else {
         return None;
     };
@@ -296,7 +293,7 @@ fn body_box(model: &Model, k: usize, body: &RigidBody) -> BodyBox {
         (None, Some(b)) => b == node,
         _ => false,
     });
-    let matrices: Vec<Matrices> = grounded.map(|b| (&b.stiffness, &b.damping)).collect();
+    let matrices: Vec<Matrices> = grounded.map(|b| [&b.stiffness, &b.damping]).collect();
     let to_ground = match matrix_symbol(&matrices) {
         Some(SupportSymbol::SpringDamper { spring, damper, .. }) => (spring, damper),
         _ => (false, false),

@@ -127,7 +127,7 @@ pub fn bifurcation(found: &BifurcationResult, machine: &Machine) -> Vec<Named> {
 }
 
 fn points(sweep: &BifurcationSweep, channel: usize, factor: f64) -> SweepPoints {
-    let label = match sweep.name {
+    let label = match sweep.name.as_str() {
         "up" => "sweep up",
         "down" => "sweep down",
         _ => "",

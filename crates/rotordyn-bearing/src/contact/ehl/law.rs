@@ -2,10 +2,11 @@
 
 use super::{Curve, Table, TableSpec, geometric};
 use crate::contact::{ContactLoad, HertzPair, Lubricant, Race};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// EHL contact law of a ball: specification of the film tables, and the tables once computed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EhlLaw {
     pub lubricant: Lubricant,
     /// Factor on the entrainment speed.

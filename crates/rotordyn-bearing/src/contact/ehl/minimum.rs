@@ -1,12 +1,13 @@
 //! Minimum film of a solution between its nodes, at the exit and in the side lobe.
 
 use super::scaled::Scaled;
+use serde::{Deserialize, Serialize};
 
 /// Minimum films in units of b_x²/R_x.
 ///
 /// The film has two minima: at the exit on the line of symmetry, and near the end of the ellipse across (side lobe).
 /// Each is smooth in the parameters of the contact; the lesser of them has a kink where they are equal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Minima {
     /// Least film between the line of symmetry and the ridge before the side lobe.
     pub exit: f64,

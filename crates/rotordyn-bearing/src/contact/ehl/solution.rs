@@ -4,9 +4,10 @@ use super::Problem;
 use super::minimum::Minima;
 use super::newton::{Field, InitialGuess};
 use super::scaled::Scaled;
+use serde::{Deserialize, Serialize};
 
 /// EHL solution: fields over the whole domain, index i·ny + j at (xᵢ, yⱼ), and scalar results.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
     /// Along rolling, upstream first \[m\].
     pub x: Vec<f64>,

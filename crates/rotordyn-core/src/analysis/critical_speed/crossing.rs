@@ -4,12 +4,14 @@ use super::super::campbell::Tangents;
 use super::super::modal::Mode;
 use super::refine;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use crate::document::{Rows, TO_RPM, in_json, named};
+use serde::{Deserialize, Serialize};
 
 /// Relative step of speed for the derivative of a frequency.
 const SLOPE_STEP: f64 = 1e-5;
 
 /// A mode on an order line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CriticalSpeed {
     /// Ω \[rad/s\].
     pub speed: f64,
@@ -38,10 +40,22 @@ impl CriticalSpeed {
         let [below, above] = [omega_at(self.speed - step)?, omega_at(self.speed + step)?];
         Ok(above.zip(below).map_or(0.0, |(above, below)| 0.5 * (above - below) / step))
     }
+
+    /// What is written to files, one row a crossing.
+    pub fn columns<'a, 'r>(rows: Rows<'a, 'r, Self>) -> Rows<'a, 'r, Self> {
+        rows.number(named("speed_rpm", "rpm"), "rpm", |c| c.speed * TO_RPM)
+            .number("order", "1/revolution", |c| c.order)
+            .number(named("frequency_hz", "frequency"), "Hz", |c| c.mode.frequency_hz())
+            .number(in_json("damping_ratio"), "1", |c| c.mode.zeta())
+            .number(named("log_decrement", "log_dec"), "1", |c| c.mode.log_dec())
+            .text(named("kind", "whirl"), |c| c.mode.kind.name())
+            .text("label", |c| &c.mode.label)
+            .complex(in_json("eigenvalue"), "1/s", |c| c.mode.eigenvalue)
+    }
 }
 
 /// Crossings over a range of speeds, and what the list lacks.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CrossingList {
     /// By speed.
     pub list: Vec<CriticalSpeed>,
@@ -51,8 +65,18 @@ pub struct CrossingList {
     pub uncertain: Vec<UncertainRange>,
 }
 
+impl UncertainRange {
+    /// What is written to files, one row a range.
+    pub fn columns<'a>(found: &[Self]) -> Rows<'a, '_, Self> {
+        Rows::of(found)
+            .number("order", "1/revolution", |range| range.order)
+            .number("from_rpm", "rpm", |range| range.from * TO_RPM)
+            .number("to_rpm", "rpm", |range| range.to * TO_RPM)
+    }
+}
+
 /// A range of speeds in which crossings of an order may have been missed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UncertainRange {
     pub order: f64,
     /// Ω \[rad/s\].

@@ -32,7 +32,7 @@ impl SingleBearingStudy<'_> {
         let found = solver.solve(&Condition { load, prescribed, speed, cage, cage_angle }, None);
         let largest = found.map_or(0.0, |found| {
             let [x, y, z, a, b] = found.displacement;
-            largest_contact_load(&solver.element, &[x, y, z, a, b, 0.0], speed)
+            largest_contact_load(solver.element.as_ref(), &[x, y, z, a, b, 0.0], speed)
         });
         ball.inertia = InertiaUse::new(self.name, &ball, speed, largest).inertia;
         ball

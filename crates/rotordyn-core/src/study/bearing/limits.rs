@@ -6,7 +6,6 @@ use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::model::study::BearingStudy;
 use crate::results::BearingPoint;
-use rotordyn_bearing::Bearing;
 use rotordyn_bearing::limits::{BearingLoad, ExceededLimit};
 use std::mem::discriminant;
 
@@ -34,10 +33,8 @@ impl Machine {
     }
 
     fn exceeded_limits(&self, speed: f64) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {
-        let balls = self.model.bearings.iter().enumerate().filter_map(|(k, site)| match &site.bearing {
-            Bearing::Ball(ball) => Some((k, &*site.name, ball)),
-            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
-        });
+        let bearings = self.model.bearings.iter().enumerate();
+        let balls = bearings.filter_map(|(k, site)| Some((k, &*site.name, site.bearing.static_balls()?)));
         let balls: Vec<_> = balls.collect();
         if balls.is_empty() {
             return Ok(Vec::new());

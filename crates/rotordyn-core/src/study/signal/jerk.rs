@@ -30,7 +30,7 @@ impl Job<'_> {
                 let orthogonal = self.channel.orthogonal.as_ref();
                 let orthogonal = orthogonal.map(|y| &y[self.first..self.first + self.x.len()]);
                 Some(RaceResult {
-                    race,
+                    race: race.into(),
                     radius: bearing.raceway_radii.map(|radii| radii[radius]),
                     full_circumference: orthogonal.is_some(),
                     fold: fold_jerk(self.x, orthogonal, self.rate, &passage)?,

@@ -3,8 +3,9 @@
 use nalgebra::DVector;
 
 use super::StepFailure;
+use crate::transient::interface::StepTangents;
 use crate::transient::system::{State, System};
-use rotordyn_bearing::radial::NewmarkGain;
+use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::small_dense::solve_in_place;
 
@@ -15,7 +16,7 @@ const MAX_ITERATIONS: usize = 25;
 
 /// The interface problem d = d̄ + β h² u, ḋ = ḋ̄ + γ h u, u = Ỹ f(d, ḋ) with Ỹ = (1−α_f) Y, and its buffers.
 ///
-/// Displacements, velocities and forces hold the interface rows, then one entry per ball with a coordinate.
+/// Displacements, velocities and forces hold the interface rows, then one entry per internal coordinate.
 pub(super) struct InterfaceNewton {
     /// Displacement d̄ and velocity ḋ̄ at the end of the step without bearing forces in it.
     free_d: Vec<f64>,
@@ -32,8 +33,8 @@ pub(super) struct InterfaceNewton {
     /// Bearing forces: the initial guess, then the solution.
     pub force: Vec<f64>,
     reactions: Vec<Reaction>,
-    /// −∂(force on every ball)/∂(rows of its bearing).
-    ball_force_tangent: Vec<[f64; 4]>,
+    /// Of bearings with internal coordinates.
+    tangents: StepTangents,
     /// Newton iterations so far.
     pub iterations: u64,
 }
@@ -53,7 +54,7 @@ impl InterfaceNewton {
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
             reactions: vec![Reaction::default(); system.interfaces.len()],
-            ball_force_tangent: vec![[0.0; 4]; places - rows],
+            tangents: StepTangents::new(&system.interfaces),
             iterations: 0,
         }
     }
@@ -111,7 +112,7 @@ impl InterfaceNewton {
         Err(failure)
     }
 
-    /// Bearing reactions at the present u; balls with coordinates are solved inside.
+    /// Bearing reactions at the present u; internal coordinates are solved inside.
     fn evaluate(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
         let rows = system.rows();
         self.set_row_motion(gain);
@@ -123,7 +124,7 @@ impl InterfaceNewton {
             gain,
             &mut self.reactions,
             &mut self.force,
-            &mut self.ball_force_tangent,
+            &mut self.tangents,
         );
     }
 
@@ -138,6 +139,16 @@ impl InterfaceNewton {
             line.fill(0.0);
             for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
                 let (first, count) = (interface.first_row, interface.rows);
+                let effective = &self.tangents.stiffness[interface.stiffness_range()];
+                for (b, k) in effective.chunks_exact(count).enumerate() {
+                    let yd = gain.position * y[first + b];
+                    for (column, k) in k.iter().enumerate() {
+                        line[first + column] += yd * k;
+                    }
+                }
+                if !effective.is_empty() {
+                    continue;
+                }
                 for b in 0..count {
                     let (yd, yv) = (gain.position * y[first + b], gain.velocity * y[first + b]);
                     let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
@@ -167,23 +178,37 @@ impl InterfaceNewton {
     /// f ← f + (β h² K + γ h C) Δ.
     fn apply_last_correction(&mut self, system: &System, gain: &NewmarkGain) {
         let rows = system.rows();
-        let (on_rows, on_balls) = self.force.split_at_mut(rows);
+        let (on_rows, on_internal) = self.force.split_at_mut(rows);
         for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
             let correction = &self.correction[interface.row_range()];
-            for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
-                for (column, by) in correction.iter().enumerate() {
-                    let (k, c) = (reaction.stiffness[b][column], reaction.damping[b][column]);
-                    *force += (gain.position * k + gain.velocity * c) * by;
+            let on_rows = &mut on_rows[interface.row_range()];
+            if interface.internal == 0 {
+                for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
+                    for (column, by) in correction.iter().enumerate() {
+                        let (k, c) = (reaction.stiffness[b][column], reaction.damping[b][column]);
+                        *force += (gain.position * k + gain.velocity * c) * by;
+                    }
+                }
+                on_rows.copy_from_slice(&reaction.force[..interface.rows]);
+                continue;
+            }
+            let effective = self.tangents.stiffness[interface.stiffness_range()].chunks_exact(interface.rows);
+            for (force, k) in on_rows.iter_mut().zip(effective) {
+                for (k, by) in k.iter().zip(correction) {
+                    *force += gain.position * k * by;
                 }
             }
-            on_rows[interface.row_range()].copy_from_slice(&reaction.force[..interface.rows]);
-            for ball in interface.ball_range() {
-                let tangent = &self.ball_force_tangent[ball];
+            for (force, on_row) in reaction.force.iter_mut().zip(on_rows) {
+                *force = *on_row;
+            }
+            let tangents =
+                self.tangents.internal_force[interface.tangent_range()].chunks_exact(interface.rows);
+            for (k, tangent) in interface.internal_range().zip(tangents) {
                 let change: f64 = tangent.iter().zip(correction).map(|(k, by)| k * by).sum();
-                on_balls[ball] += gain.position * change;
-                let acceleration = gain.inverse_mass / system.ball_masses[ball] * on_balls[ball];
-                self.d[rows + ball] = self.free_d[rows + ball] + gain.position * acceleration;
-                self.d_rate[rows + ball] = self.free_d_rate[rows + ball] + gain.velocity * acceleration;
+                on_internal[k] += gain.position * change;
+                let acceleration = gain.force / system.internal_masses[k] * on_internal[k];
+                self.d[rows + k] = self.free_d[rows + k] + gain.position * acceleration;
+                self.d_rate[rows + k] = self.free_d_rate[rows + k] + gain.velocity * acceleration;
             }
         }
         self.set_row_motion(gain);

@@ -1,6 +1,6 @@
 //! Parameters of the generalised-α family, and a step that failed.
 
-use rotordyn_bearing::radial::NewmarkGain;
+use rotordyn_bearing::internal::NewmarkGain;
 
 /// Parameters of the family (Chung & Hulbert 1993, eq. 17-20 and 25).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,11 +29,11 @@ impl Scheme {
     /// Newmark's average acceleration, γ = ½, β = ¼.
     pub const NEWMARK: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
 
-    /// How displacement, velocity and ball acceleration at the end of a step of length h follow from the end's forces:
+    /// How displacement, velocity and the acceleration of internal coordinates at the end of a step of length h follow from the end's forces:
     /// β h², γ h and (1−α_f)/(1−α_m).
     pub(super) fn gain(&self, step: f64) -> NewmarkGain {
-        let ball = (1.0 - self.alpha_f) / (1.0 - self.alpha_m);
-        NewmarkGain { position: self.beta * step * step, velocity: self.gamma * step, inverse_mass: ball }
+        let force = (1.0 - self.alpha_f) / (1.0 - self.alpha_m);
+        NewmarkGain { position: self.beta * step * step, velocity: self.gamma * step, force }
     }
 }
 

@@ -1,0 +1,16 @@
+//! What the loads of the balls mean for a ball bearing: motion of the balls, friction, limits, ratings and life.
+
+pub mod friction;
+pub mod kinematics;
+pub mod life;
+pub mod limits;
+pub mod load_rating;
+pub mod shoulder;
+
+pub use friction::FrictionTorque;
+pub use kinematics::{BallMotion, MountedGeometry};
+pub use load_rating::{
+    EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, STANDARD_OSCULATION, STATIC_CONTACT_STRESS,
+    equivalent_load, static_equivalent_load, static_factor,
+};
+pub use shoulder::{ShoulderMargin, shoulder_margin};

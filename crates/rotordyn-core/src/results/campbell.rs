@@ -1,0 +1,71 @@
+//! Campbell diagram.
+
+use super::OrderLine;
+use crate::analysis::Mode;
+use crate::analysis::campbell::Campbell;
+use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
+use crate::analysis::stability::Threshold;
+use crate::document::{Document, Rows, TO_RPM, in_hdf5, in_json, named};
+use rotordyn_linalg::Complex64;
+use serde::{Deserialize, Serialize};
+
+/// Campbell diagram with order lines and their crossings (critical speeds).
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CampbellResult {
+    pub diagram: Campbell,
+    pub orders: Vec<OrderLine>,
+    pub crossings: CrossingList,
+    /// Stability thresholds: speeds at which a mode's damping changes sign.
+    pub thresholds: Vec<Threshold>,
+}
+
+impl CampbellResult {
+    /// What is written to files.
+    pub fn document(&self) -> Document<'_> {
+        let diagram = &self.diagram;
+        let speeds: Vec<f64> = diagram.speeds.iter().map(|speed| speed * TO_RPM).collect();
+        let cell = [speeds.len()];
+        let over = |modes: &[Option<Mode>], value: fn(&Mode) -> f64| -> Vec<f64> {
+            modes.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect()
+        };
+        let nan = Complex64::new(f64::NAN, f64::NAN);
+        let branches = Rows::of(&diagram.branches)
+            .text("label", |b| &b.label)
+            .text("kind", |b| b.kind.name())
+            .texts("labels", speeds.len(), |b| {
+                b.modes.iter().map(|m| m.as_ref().map(|m| m.label.clone())).collect()
+            })
+            .numbers(named("frequency_hz", "frequency"), "Hz", &cell, |b| over(&b.modes, Mode::frequency_hz))
+            .cells_over(0, "rpm")
+            .numbers(in_hdf5("zeta"), "1", &cell, |b| over(&b.modes, Mode::zeta))
+            .cells_over(0, "rpm")
+            .numbers(named("log_decrement", "log_dec"), "1", &cell, |b| over(&b.modes, Mode::log_dec))
+            .cells_over(0, "rpm")
+            .complex_numbers(in_json("eigenvalue"), "1/s", &cell, |b| -> Vec<_> {
+                b.modes.iter().map(|m| m.as_ref().map_or(nan, |m| m.eigenvalue)).collect()
+            });
+        let orders =
+            Rows::of(&self.orders).text("label", |o| &o.label).number("order", "1/revolution", |o| o.order);
+        let omitted = Rows::of(&self.crossings.omitted)
+            .number("order", "1/revolution", |(order, _)| *order)
+            .integer("modes", |(_, modes)| *modes);
+        let lost = Rows::of(&diagram.lost)
+            .integer("branch", |lost| lost.branch)
+            .number("from_rpm", "rpm", |lost| lost.speeds[0] * TO_RPM)
+            .number("to_rpm", "rpm", |lost| lost.speeds[1] * TO_RPM)
+            .optional_integer("continued_by", |lost| lost.continued_by);
+        let thresholds = Rows::of(&self.thresholds)
+            .number(named("speed_rpm", "rpm"), "rpm", |t| t.speed * TO_RPM)
+            .flag("unstable_above", |t| t.unstable_above)
+            .text("label", |t| &t.mode.label);
+        Document::new()
+            .numbers(named("speeds_rpm", "rpm"), "rpm", speeds)
+            .table(named("branches", ""), branches)
+            .table("orders", orders)
+            .table("crossings", CriticalSpeed::columns(Rows::of(&self.crossings.list)))
+            .table(in_json("crossings_omitted"), omitted)
+            .table(in_json("uncertain"), UncertainRange::columns(&self.crossings.uncertain))
+            .table(in_json("lost_branches"), lost)
+            .table("thresholds", thresholds)
+    }
+}

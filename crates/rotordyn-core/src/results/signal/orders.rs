@@ -1,0 +1,35 @@
+//! Order tracking of a record.
+
+use crate::document::{Array, Document, Rows, in_hdf5, in_json};
+use crate::results::OrderLine;
+use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
+use serde::{Deserialize, Serialize};
+
+/// Order tracking: map, mean order spectrum and cuts.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ShaftOrders {
+    pub map: OrderSpectrogram,
+    /// Power average over all speeds.
+    pub average: Vec<f64>,
+    pub cuts: Vec<(OrderLine, OrderCut)>,
+}
+
+impl ShaftOrders {
+    pub(super) fn document(&self, unit: &str) -> Document<'_> {
+        let map = &self.map;
+        let (windows, bins) = (map.times.len(), map.orders.len());
+        let amplitude = Array::real(&[windows, bins], unit, &map.amplitude);
+        let cuts = Rows::of(&self.cuts)
+            .text("label", |(line, _)| &line.label)
+            .number("order", "1/revolution", |(line, _)| line.order)
+            .series("rpm", "rpm", |(_, cut)| &cut.rpm)
+            .series("rms", unit, |(_, cut)| &cut.rms);
+        Document::new()
+            .table(in_json("cuts"), cuts)
+            .array(in_hdf5("amplitude"), amplitude.over(0, "rpm").over(0, "time").over(1, "order"))
+            .numbers(in_hdf5("rpm"), "rpm", &map.rpm)
+            .numbers(in_hdf5("time"), "s", &map.times)
+            .numbers(in_hdf5("order"), "1/revolution", &map.orders)
+            .array(in_hdf5("average"), Array::real(&[bins], unit, &self.average).over(0, "order"))
+    }
+}

@@ -1,0 +1,114 @@
+//! Hits of an impact test: found in a record, and their quality.
+
+use rotordyn_signal::SignalError;
+use rotordyn_signal::impact::{Hit, Limits, Trigger, inspect};
+
+use crate::noise;
+
+/// A half-sine of `length` samples from `at` on, added to a record.
+fn strike(record: &mut [f64], at: usize, length: usize, peak: f64) {
+    for n in 0..length {
+        record[at + n] += peak * (std::f64::consts::PI * (n as f64 + 0.5) / length as f64).sin();
+    }
+}
+
+/// Decay after a hit at `at`.
+fn ring(n: usize, at: usize, samples: f64) -> Vec<f64> {
+    let value = |k: f64| if k < 0.0 { 0.0 } else { (0.3 * k).sin() * (-k / samples).exp() };
+    (0..n).map(|k| value(k as f64 - at as f64)).collect()
+}
+
+#[test]
+fn hits_are_found_in_a_long_record() {
+    let mut force: Vec<f64> = noise(5, 10_000).iter().map(|v| 0.01 * v).collect();
+    for (at, peak) in [(500, 80.0), (3_000, 120.0), (3_060, 60.0), (6_000, 90.0), (9_500, 100.0)] {
+        strike(&mut force, at, 8, peak);
+    }
+    let trigger = Trigger { level: 0.3, before: 20, length: 2_000 };
+    let found = trigger.find(&force).unwrap();
+    // Each begins where the force passes 36 N, within two samples; the last one's block is not whole.
+    let starts: Vec<usize> = found.iter().map(|r| r.start).collect();
+    assert!(starts.iter().zip([481, 2_980, 5_981]).all(|(a, b)| a.abs_diff(b) <= 2), "{starts:?}");
+    assert!(found.len() == 3 && found.iter().all(|r| r.len() == 2_000));
+    assert_eq!(trigger.find(&[0.0; 50]).unwrap(), []);
+    // A hit at the very start has no samples before it.
+    let early = Trigger { level: 0.5, before: 5, length: 10 }
+        .find(&[9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(early.unwrap()[0], 0..10);
+}
+
+#[test]
+fn contact_of_a_usable_hit() {
+    let mut force = vec![0.0; 4_000];
+    strike(&mut force, 100, 9, -50.0);
+    // An anti-aliasing filter rings with changing sign.
+    force[97..100].copy_from_slice(&[-4.0, 7.0, 9.0]);
+    force[109..112].copy_from_slice(&[8.0, -5.0, 3.0]);
+    let response = ring(4_000, 104, 300.0);
+    let hit = Hit { force: &force, response: &response };
+    let quality = inspect(&hit, &Limits::default(), None).unwrap();
+    assert_eq!(quality.peak, (104, -50.0));
+    assert_eq!(quality.contact, 100..109);
+    assert!(quality.is_good() && !quality.truncated && quality.faults().is_empty(), "{quality:?}");
+}
+
+#[test]
+fn double_hits_overloads_and_truncated_decays_are_reported() {
+    let clean = ring(4_000, 100, 300.0);
+    let mut single = vec![0.0; 4_000];
+    strike(&mut single, 100, 9, 50.0);
+    let limits = Limits::default();
+    let look = |force: &[f64], response: &[f64], limits: &Limits| {
+        inspect(&Hit { force, response }, limits, None).unwrap()
+    };
+
+    // A second hit of 30 %, before or after the first.
+    for at in [40, 112, 700] {
+        let mut double = single.clone();
+        strike(&mut double, at, 9, 15.0);
+        let quality = look(&double, &clean, &limits);
+        assert!(
+            quality.double_hit.is_some_and(|n| (at..at + 9).contains(&n)) && !quality.is_good(),
+            "{quality:?}"
+        );
+        assert!(quality.faults()[0].ends_with("repeat the hit"));
+        let generous = Limits { double_hit: 0.4, ..limits };
+        assert!(look(&double, &clean, &generous).is_good());
+    }
+
+    // Clipped by the converter: three samples at the top; or beyond a range that is known.
+    let clipped: Vec<f64> = single.iter().map(|f| f.min(40.0)).collect();
+    let quality = look(&clipped, &clean, &limits);
+    assert!(quality.overload[0].is_some_and(|n| (100..109).contains(&n)) && quality.overload[1].is_none());
+    assert!(quality.faults()[0].contains("overload of the force"), "{:?}", quality.faults());
+    let clipped: Vec<f64> = clean.iter().map(|x| x.clamp(-0.5, 0.5)).collect();
+    let quality = look(&single, &clipped, &limits);
+    assert!(quality.overload[0].is_none() && quality.overload[1].is_some());
+    let known = Limits { full_scale: [Some(60.0), Some(0.9)], ..limits };
+    let quality = look(&single, &clean, &known);
+    assert!(quality.overload[0].is_none() && quality.overload[1].is_some_and(|n| clean[n].abs() >= 0.9));
+
+    // A decay that the block cuts off, and an exponential window that ends it.
+    let long = ring(4_000, 100, 4_000.0);
+    let quality = look(&single, &long, &limits);
+    assert!(quality.is_good() && quality.truncated && (0.2..0.4).contains(&quality.residual), "{quality:?}");
+    assert!(quality.faults()[0].contains("take longer blocks or an exponential window"));
+    let window: Vec<f64> = (0..4_000).map(|n| (-f64::from(n) / 1_000.0).exp()).collect();
+    let hit = Hit { force: &single, response: &long };
+    assert!(!inspect(&hit, &limits, Some(&window)).unwrap().truncated);
+}
+
+#[test]
+fn unusable_records_are_errors() {
+    let trigger = Trigger { level: 0.1, before: 0, length: 10 };
+    assert!(matches!(trigger.find(&[f64::NAN]), Err(SignalError::NotFinite { .. })));
+    assert!(Trigger { level: 1.5, ..trigger }.find(&[1.0]).is_err());
+    assert!(Trigger { length: 0, ..trigger }.find(&[1.0]).is_err());
+    assert!(Trigger { before: 10, ..trigger }.find(&[1.0]).is_err());
+    let refuse = |force: &[f64], response: &[f64]| {
+        inspect(&Hit { force, response }, &Limits::default(), None).unwrap_err()
+    };
+    assert!(matches!(refuse(&[0.0; 4], &[1.0; 4]), SignalError::OutOfRange { name: "largest force", .. }));
+    assert!(matches!(refuse(&[1.0; 4], &[1.0; 3]), SignalError::LengthMismatch { .. }));
+    assert!(matches!(refuse(&[], &[]), SignalError::Empty { .. }));
+}

@@ -1,0 +1,161 @@
+//! Speed from pulses.
+
+use std::f64::consts::TAU;
+
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::tacho::{PulseTrain, rising_edges};
+
+use crate::{assert_close, noise, sampled};
+
+/// Times at which a shaft from rest at 12 rev/s² to 40 rev/s, then steady, then braked, passes whole turns.
+fn pulses() -> Vec<f64> {
+    let turns = |t: f64| match t {
+        t if t < 3.0 => 6.0 * t * t,
+        t if t < 5.0 => 54.0 + 36.0 * (t - 3.0),
+        t => 126.0 + 36.0 * (t - 5.0) - 4.0 * (t - 5.0).powi(2),
+    };
+    (1..=180)
+        .map(|k| {
+            let (mut low, mut high) = (0.0, 8.0);
+            for _ in 0..80 {
+                let middle: f64 = 0.5 * (low + high);
+                if turns(middle) < f64::from(k) { low = middle } else { high = middle }
+            }
+            0.5 * (low + high)
+        })
+        .collect()
+}
+
+#[test]
+fn all_pulses_of_a_start_from_rest_are_kept() {
+    let times = pulses();
+    let train = PulseTrain::new(&times, 1).unwrap();
+    assert_eq!((train.missing, train.dropped), (0, 0));
+    assert_eq!(train.times, times);
+    assert_eq!(train.revolutions, (0..180).map(f64::from).collect::<Vec<_>>());
+}
+
+/// Gaps of one to three pulses and false pulses, on jitter of 1 % of the interval: the count of turns stays right.
+#[test]
+fn missing_and_false_pulses_are_corrected() {
+    let times = pulses();
+    let jitter = noise(17, times.len());
+    let mut given = Vec::new();
+    let mut truth = Vec::new();
+    for (k, t) in times.iter().enumerate() {
+        if [30, 55, 56, 90, 91, 92, 140].contains(&k) {
+            continue;
+        }
+        let interval = if k > 0 { t - times[k - 1] } else { 0.2 };
+        given.push(t + 0.01 * interval * jitter[k]);
+        truth.push(k as f64);
+        if [20, 70, 120, 121].contains(&k) {
+            let next = times[k + 1] - t;
+            given.push(t + [0.05, 0.5, 0.3, 0.9][k % 4] * next);
+            truth.push(f64::NAN);
+        }
+    }
+    let train = PulseTrain::new(&given, 1).unwrap();
+    assert_eq!((train.missing, train.dropped), (7, 4));
+    let kept: Vec<f64> = truth.into_iter().filter(|k| k.is_finite()).collect();
+    assert_eq!(train.revolutions, kept);
+}
+
+#[test]
+fn several_pulses_a_turn() {
+    let times: Vec<f64> = (0..100).map(|k| f64::from(k) / 60.0).collect();
+    let train = PulseTrain::new(&times, 4).unwrap();
+    let (_, rpm) = train.speeds_rpm();
+    assert!(rpm.iter().all(|v| (v - 900.0).abs() < 1e-6));
+    assert_close("turns", *train.revolutions.last().unwrap(), 99.0 / 4.0, 1e-12);
+}
+
+/// Jitter of 2 % of an interval falls by the stated factor, a steady ramp is kept.
+#[test]
+fn smoothing() {
+    let truth: Vec<f64> = (0..200).map(|k| (f64::from(k) / 50.0).sqrt() + 1.0).collect();
+    let jitter = noise(3, 200);
+    let shaken: Vec<f64> = truth
+        .iter()
+        .enumerate()
+        .map(|(k, t)| if k < 2 { *t } else { t + 0.02 * (t - truth[k - 1]) * jitter[k] })
+        .collect();
+    let error = |train: &PulseTrain| {
+        let one = |(t, r): (&f64, &f64)| (r - 50.0 * (t - 1.0).powi(2)).powi(2);
+        (train.times.iter().zip(&train.revolutions).skip(20).map(one).sum::<f64>() / 180.0).sqrt()
+    };
+    let raw = PulseTrain::new(&shaken, 1).unwrap();
+    let smooth = raw.smoothed(8).unwrap();
+    let gain = error(&raw) / error(&smooth);
+    assert!((2.0..4.0).contains(&gain), "{gain}");
+    let exact = PulseTrain::new(&truth, 1).unwrap().smoothed(4).unwrap();
+    assert!(error(&exact) < 1e-9, "{}", error(&exact));
+}
+
+/// A square pulse with noise on it gives one edge a turn; a slow slope is interpolated.
+#[test]
+fn edges_of_a_noisy_channel() {
+    let rough = noise(2, 20_000);
+    let x: Vec<f64> = sampled(20_000, 10_000.0, |t| if (t * 25.0).fract() < 0.1 { 5.0 } else { 0.0 })
+        .iter()
+        .zip(&rough)
+        .map(|(a, b)| a + 0.4 * b)
+        .collect();
+    let edges = rising_edges(&x, 10_000.0, None, 0.2).unwrap();
+    assert_eq!(edges.len(), 49);
+    for (k, t) in edges.iter().enumerate() {
+        assert_close("edge", *t, 0.04 * (k + 1) as f64, 1.01e-4);
+    }
+    let slope = sampled(1000, 1000.0, |t| (TAU * 5.0 * t).sin());
+    for (k, t) in rising_edges(&slope, 1000.0, Some(0.0), 0.1).unwrap().iter().enumerate() {
+        assert_close("zero", *t, 0.2 * (k + 1) as f64, 1e-6);
+    }
+}
+
+/// Tones at orders 1 and 3.585 of the run: sharp in order, smeared in frequency.
+#[test]
+fn pulses_sharpen_orders() {
+    let rate = 5000.0;
+    let train = PulseTrain::new(&pulses(), 1).unwrap().smoothed(3).unwrap();
+    let (theta, from) = train.angle(rate, 40_000).unwrap();
+    // The record is made from the true motion, not from the pulses.
+    let turns = |t: f64| match t {
+        t if t < 3.0 => 6.0 * t * t,
+        t if t < 5.0 => 54.0 + 36.0 * (t - 3.0),
+        t => 126.0 + 36.0 * (t - 5.0) - 4.0 * (t - 5.0).powi(2),
+    };
+    let x: Vec<f64> = (from..from + theta.len())
+        .map(|n| {
+            let a = TAU * turns(n as f64 / rate);
+            a.cos() + (3.585 * a).cos()
+        })
+        .collect();
+    let mut tracker = OrderTracker::new(&theta, rate, OrderSettings::new(0.05, 10.0)).unwrap();
+    let angle = tracker.resample(&[&x]).unwrap();
+    let average = tracker.spectrogram(&angle[0]).average(0.0, 1e5).unwrap();
+    let orders = tracker.spectrogram(&angle[0]).orders;
+    for (order, tolerance) in [(1.0, 0.03), (3.585, 0.1)] {
+        let bin = (order / 0.05f64).round() as usize;
+        let peak = average[bin - 1..=bin + 1].iter().copied().fold(0.0, f64::max);
+        assert!(peak > 1.0 - tolerance - 0.15, "order {order}: {peak}");
+        for (o, a) in orders.iter().zip(&average) {
+            let near = (o - 1.0).abs() < 0.25 || (o - 3.585).abs() < 0.25;
+            assert!(near || *a < 0.05, "order {o}: {a}");
+        }
+    }
+}
+
+#[test]
+fn bad_input() {
+    let message = |times: &[f64]| PulseTrain::new(times, 1).unwrap_err().to_string();
+    assert_eq!(
+        message(&[0.0, 1.0, 2.0]),
+        "pulse times has 3 samples: at least 4 are needed for a speed that can be checked"
+    );
+    assert!(message(&[0.0, 1.0, 1.0, 2.0]).starts_with("time is not uniform"));
+    assert!(message(&[0.0, 1.0, f64::NAN, 2.0]).contains("holds NaN at sample 2"));
+    assert!(rising_edges(&[1.0; 50], 100.0, None, 0.1).is_err());
+    let train = PulseTrain::new(&[0.0, 0.1, 0.2, 0.3, 0.4], 1).unwrap();
+    assert!(train.smoothed(3).is_err());
+    assert!(train.angle(1.0, 10).is_err());
+}

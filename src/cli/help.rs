@@ -1,0 +1,208 @@
+//! `help`: the keys of the model file as they are declared, or the help of a command.
+
+use clap::CommandFactory;
+use rotordyn::model::keys::{self, Found, KeyDescription, KindName};
+use serde_json::{Value, json};
+
+use super::args::Cli;
+use super::failure::Failure;
+use super::terminal::Terminal;
+
+/// Widest line.
+const WIDTH: usize = 118;
+/// Greatest widths of the columns key, value with range, without it; the meaning has the rest.
+const GREATEST: [usize; 3] = [24, 40, 32];
+/// At least as many keys in a row with the same meaning become one line.
+const COLLAPSED: usize = 4;
+
+/// Explains a path of the model file, else a command.
+///
+/// # Errors
+/// Neither a declared path nor a command.
+pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
+    let path = path.unwrap_or_default().trim();
+    let found = match keys::find(path) {
+        Ok(found) => found,
+        Err(unknown) => {
+            let help = command_help(path)
+                .ok_or_else(|| Failure::Input(format!("{unknown} (`rotordyn help` lists the tables)")))?;
+            terminal.print(&help);
+            return Ok(json!({ "command": "help", "path": path, "text": help }));
+        }
+    };
+    if let Some(former) = &found.former {
+        terminal.note(&format!("`{former}` is now `{}`", found.path));
+    }
+    print(&found, terminal);
+    if !path.is_empty() && command_help(path).is_some() {
+        terminal.print(&format!("\nThe command of this name: rotordyn {path} --help"));
+    }
+    Ok(json!({
+        "command": "help",
+        "path": found.path,
+        "keys": found.keys.iter().map(to_json).collect::<Vec<_>>(),
+        "members": found.members.iter().map(to_json).collect::<Vec<_>>(),
+    }))
+}
+
+/// Long help of a command.
+fn command_help(name: &str) -> Option<String> {
+    let mut cli = Cli::command();
+    let command = cli.find_subcommand_mut(name)?;
+    Some(command.render_long_help().to_string())
+}
+
+fn to_json(key: &KeyDescription) -> Value {
+    json!({
+        "path": key.path,
+        "name": key.name,
+        "kind": key.kind.name(),
+        "value": key.value,
+        "unit": key.unit,
+        "range": key.range,
+        "words": key.words,
+        "required": key.required,
+        "default": key.default,
+        "absent": key.absent,
+        "conditions": key.conditions(),
+        "meaning": key.meaning,
+        "example": key.example,
+        "members": key.members,
+    })
+}
+
+fn print(found: &Found, terminal: &Terminal) {
+    if found.path.is_empty() {
+        terminal.print(keys::meaning());
+        terminal.print("Units are written in the values; `rotordyn help TABLE` lists the keys of a table.");
+    }
+    for key in &found.keys {
+        print_key(key, terminal);
+    }
+    let mut rows: Vec<(&[&str], Cells)> = Vec::new();
+    let mut rest = found.members.as_slice();
+    while let Some(first) = rest.first() {
+        let alike = rest.iter().take_while(|key| key.meaning == first.meaning && key.kind == first.kind);
+        let count = match alike.count() {
+            count if count >= COLLAPSED && first.kind == KindName::Quantities => count,
+            _ => 1,
+        };
+        rows.push((&first.groups, cells(&rest[..count])));
+        rest = &rest[count..];
+    }
+    if rows.is_empty() {
+        return;
+    }
+    let titles = ["key", "value", "without it", "meaning"].map(String::from);
+    let widths = widths(rows.iter().map(|(_, cells)| cells).chain([&titles]));
+    terminal.print("");
+    terminal.print(&line(&titles, widths));
+    let mut groups: &[&str] = &[""];
+    for (of, cells) in rows {
+        if of != groups {
+            groups = of;
+            terminal.print(&format!("\nwith {}:", of.join(" or ")));
+        }
+        terminal.print(&line(&cells, widths));
+    }
+}
+
+/// Key, value, what holds without it, meaning.
+type Cells = [String; 4];
+
+/// Cells of one key, or of several keys with the same meaning.
+fn cells(keys: &[KeyDescription]) -> Cells {
+    let key = &keys[0];
+    let meaning = match key.condition {
+        "" => key.meaning.to_string(),
+        condition => format!("{} (with {condition})", key.meaning),
+    };
+    let [first, .., last] = keys else {
+        return [key.name.into(), value(key), key.absent.clone(), meaning];
+    };
+    let mut units: Vec<&str> = keys.iter().map(|key| key.unit).collect();
+    units.sort_unstable();
+    units.dedup();
+    let names = format!("{} ... {}", first.name, last.name);
+    let values = format!("{} components [{}]", keys.len(), units.join(", "));
+    [names, values, first.absent.clone(), meaning]
+}
+
+fn widths<'c>(rows: impl Iterator<Item = &'c Cells>) -> [usize; 4] {
+    let mut widths = [0; 4];
+    for cells in rows {
+        for (width, cell) in widths.iter_mut().zip(cells) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    let [key, value, absent] = [0, 1, 2].map(|k| widths[k].min(GREATEST[k]));
+    [key, value, absent, WIDTH - 8 - key - value - absent]
+}
+
+/// One key in full.
+fn print_key(key: &KeyDescription, terminal: &Terminal) {
+    let title = match key.kind {
+        KindName::NamedTables => format!("[{}.NAME]", key.path),
+        KindName::TableList => format!("[[{}]]", key.path),
+        KindName::Table => format!("[{}]", key.path),
+        _ => key.path.clone(),
+    };
+    terminal.heading(&title);
+    terminal.print_wrapped(key.meaning);
+    let say = |what: &str, text: &str| {
+        if !text.is_empty() {
+            terminal.print_wrapped(&format!("{what}: {text}"));
+        }
+    };
+    if key.members == 0 || key.kind == KindName::Spaced {
+        say("value", &value(key));
+        say("example", &example(key));
+    }
+    say("without it", &key.absent);
+    let conditions: Vec<String> = key.conditions().into_iter().filter(|words| !words.is_empty()).collect();
+    say("only with", &conditions.join(" or "));
+}
+
+fn example(key: &KeyDescription) -> String {
+    if key.example.is_empty() { String::new() } else { format!("{} = {}", key.name, key.example) }
+}
+
+/// Type, unit and range of the value in words.
+fn value(key: &KeyDescription) -> String {
+    let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
+    let range = if key.range.is_empty() { String::new() } else { format!(", {}", key.range) };
+    format!("{}{unit}{range}", key.value)
+}
+
+/// Four cells side by side, each broken at words into the width of its column.
+fn line(cells: &Cells, widths: [usize; 4]) -> String {
+    let broken: Vec<Vec<String>> =
+        cells.iter().zip(widths).map(|(cell, width)| broken(cell, width)).collect();
+    let height = broken.iter().map(Vec::len).max().unwrap_or(0);
+    let row = |k: usize| {
+        let part = |(lines, width): (&Vec<String>, usize)| {
+            let text = lines.get(k).map_or("", String::as_str);
+            format!("{text}{}", " ".repeat(width.saturating_sub(text.chars().count())))
+        };
+        let parts: Vec<String> = broken.iter().zip(widths).map(part).collect();
+        format!("  {}", parts.join("  ")).trim_end().to_string()
+    };
+    (0..height).map(row).collect::<Vec<_>>().join("\n")
+}
+
+fn broken(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        let used = lines[last].chars().count();
+        if used > 0 && used + 1 + word.chars().count() > width {
+            lines.push(word.into());
+            continue;
+        }
+        if used > 0 {
+            lines[last].push(' ');
+        }
+        lines[last].push_str(word);
+    }
+    lines
+}

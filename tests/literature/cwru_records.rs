@@ -1,0 +1,91 @@
+//! Records of the Case Western Reserve University Bearing Data Center: the damaged race is diagnosed.
+
+use rotordyn::io::measured;
+use rotordyn::results::BearingWithOrders;
+use rotordyn::signal::bearing_lines::BearingPart;
+use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::study::signal::{
+    Analysis, AnalysisSelection, ShaftMotion, SignalChannel, SignalSettings, analyse,
+};
+
+/// 6205-2RS JEM as the centre states it: nine balls of 7.94 mm on 39.04 mm.
+fn drive_end() -> BearingWithOrders {
+    let gamma = 7.94004 / 39.0398;
+    let orders = rotordyn::bearing::CharacteristicOrders {
+        ftf: 0.5 * (1.0 - gamma),
+        bpfo: 4.5 * (1.0 - gamma),
+        bpfi: 4.5 * (1.0 + gamma),
+        bsf: 0.5 / gamma * (1.0 - gamma * gamma),
+    };
+    BearingWithOrders {
+        name: "6205-2RS".into(),
+        source: "stated".into(),
+        orders,
+        balls: 9,
+        raceway_radii: None,
+    }
+}
+
+#[test]
+fn faults_of_inner_and_outer_race() {
+    for (file, part, rms, kurtosis) in [
+        ("cwru/105_IR007_0hp_12k.mat", BearingPart::InnerRace, 0.29153, 5.396),
+        ("cwru/130_OR007at6_0hp_12k.mat", BearingPart::OuterRace, 0.66951, 7.649),
+    ] {
+        let Some(path) = crate::measured_data::measured(file) else { return };
+        let found = measured::read(&path).unwrap();
+        let record = &found.records[0];
+        let speed = record.speed_rpm.unwrap() / 60.0;
+        let channel = SignalChannel {
+            name: record.name.clone(),
+            unit: String::new(),
+            sample_rate: 12_000.0,
+            start: 0.0,
+            samples: record.time_samples().unwrap().to_vec(),
+            orthogonal: None,
+        };
+        let shaft = ShaftMotion::constant(speed, "the file".into());
+        for rule in [BandRule::Lines, BandRule::Kurtosis, BandRule::Whole, BandRule::Given(500.0, 5500.0)] {
+            let settings = SignalSettings {
+                analyses: AnalysisSelection::Only(vec![Analysis::Envelope]),
+                band: Some(rule),
+                ..SignalSettings::default()
+            };
+            let found = analyse(&channel, Some(&shaft), Some(&drive_end()), &settings).unwrap();
+            assert!((found.statistics.rms - rms).abs() < 5e-6, "{file}");
+            assert!((found.statistics.kurtosis.unwrap() - kurtosis).abs() < 5e-4, "{file}");
+            let lines = found.envelope.unwrap().lines.unwrap();
+            assert_eq!(lines.diagnosis, Some(part), "{file} {rule:?}");
+            let strongest = lines.strongest_line().unwrap();
+            assert_eq!((strongest.part, strongest.modulation), (part, None), "{file} {rule:?}");
+            // Within 0.5 % of the catalogue.
+            assert!((strongest.frequency / strongest.expected - 1.0).abs() < 5e-3, "{file} {strongest:?}");
+        }
+    }
+}
+
+/// Without shaft angle, order analyses are errors if requested and warnings otherwise.
+#[test]
+fn order_analyses_need_the_shaft_angle() {
+    let channel = SignalChannel {
+        name: "A".into(),
+        unit: "m/s^2".into(),
+        sample_rate: 1000.0,
+        start: 0.0,
+        samples: (0..4000).map(|k| f64::from(k * 7919 % 2003) / 1001.0 - 1.0).collect(),
+        orthogonal: None,
+    };
+    for (analysis, words) in [
+        (Analysis::Orders, "order tracking needs the shaft's angle"),
+        (Analysis::Average, "an average over the shaft's turns needs the shaft's angle"),
+    ] {
+        let settings =
+            SignalSettings { analyses: AnalysisSelection::Only(vec![analysis]), ..SignalSettings::default() };
+        let error = analyse(&channel, None, None, &settings).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+        let all = SignalSettings { analyses: AnalysisSelection::All, ..settings };
+        let found = analyse(&channel, None, None, &all).unwrap();
+        assert!(found.orders.is_none() && found.envelope.is_some() && found.cyclic.is_some());
+        assert!(found.warnings.iter().any(|w| w.contains(words)), "{:?}", found.warnings);
+    }
+}
