@@ -7,7 +7,7 @@ use rotordyn::analysis::bearing_stiffness::{BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
 use rotordyn::bearing::{BallBearing, BallElement, BallInertia, Preload, Rotation};
 
-#[path = "../tests/common/bearing.rs"]
+#[path = "../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 
 /// Displacement that loads four of the rig's nine balls.

@@ -7,7 +7,7 @@ use rotordyn::contact::ehl::{self, Domain, Grid, Problem, TableSpec};
 use rotordyn::contact::{EllipticContact, Lubricant};
 use std::hint::black_box;
 
-#[path = "../tests/common/ehl.rs"]
+#[path = "../crates/rotordyn-bearing/tests/common/ehl.rs"]
 mod lubricated;
 
 fn solver(c: &mut Criterion) {

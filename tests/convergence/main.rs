@@ -1,7 +1,5 @@
 //! Fitted orders of convergence.
 
-#[path = "../common/ehl.rs"]
-mod lubricated;
 #[path = "../common/machine.rs"]
 #[allow(dead_code)]
 mod machine;
@@ -11,7 +9,6 @@ mod rig;
 #[allow(dead_code)]
 mod ross;
 
-mod ehl;
 mod integrators;
 mod radial_balls;
 mod shaft_element;

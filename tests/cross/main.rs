@@ -1,6 +1,6 @@
 //! Cross-checks with independent readers and with the methods of other libraries (parry, rapier).
 
-#[path = "../common/bearing.rs"]
+#[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 
 mod glb;

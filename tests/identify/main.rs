@@ -6,9 +6,6 @@ mod measured_data;
 mod rig;
 
 mod changed_rig;
-mod exact;
+#[path = "../../crates/rotordyn-identify/tests/identify/known_modes.rs"]
 mod known_modes;
-mod noise;
 mod plane_ema;
-mod refusals;
-mod single;

@@ -1,16 +1,16 @@
 //! Identities that hold for any machine, checked on random and example machines.
 
-#[path = "../common/ehl.rs"]
-mod lubricated;
+#[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
+mod bearing;
 #[path = "../common/machine.rs"]
 mod machine;
 #[path = "../common/rig.rs"]
 mod rig;
 
 mod automatic_ball_inertia;
+mod bearing_solver;
 mod complete_crossings;
 mod double_eigenvalues;
-mod ehl;
 mod linear;
 mod modal_damping;
 mod planes;

@@ -1,8 +1,8 @@
 //! Comparison with published values; the file name gives the source.
 
-#[path = "../common/bearing.rs"]
+#[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
-#[path = "../common/ehl.rs"]
+#[path = "../../crates/rotordyn-bearing/tests/common/ehl.rs"]
 #[allow(dead_code)]
 mod lubricated;
 #[path = "../common/measured_data.rs"]

@@ -93,7 +93,7 @@ impl Config {
             library.define(name, None);
         }
         library.define("_POSIX_C_SOURCE", "200809L").define("_FILE_OFFSET_BITS", "64");
-        library.std("gnu11").opt_level(2).debug(false).warnings(false).flag_if_supported("-w");
+        library.std("gnu11").opt_level(1).debug(false).warnings(false).flag_if_supported("-w");
         library.file("H5build_settings.c");
         let mut files: Vec<_> = or_exit("list the sources", fs::read_dir(&sources))
             .map(|entry| or_exit("list the sources", entry).path())

@@ -1,0 +1,66 @@
+//! Error messages with hints for data that cannot be identified.
+
+use rotordyn_identify::{Settings, identify};
+use rotordyn_linalg::Complex64;
+use rotordyn_signal::record::FrfMatrix;
+
+use crate::known_modes::{KnownMode, bending_shape, frfs, lines};
+
+fn good() -> FrfMatrix {
+    frfs(&[KnownMode::real(40.0, 0.01, &bending_shape(1, 3), &[1])], &lines(5.0, 85.0, 0.2), 2)
+}
+
+fn error_message(change: impl FnOnce(&mut FrfMatrix, &mut Settings)) -> String {
+    let (mut made, mut settings) = (good(), Settings::default());
+    change(&mut made, &mut settings);
+    match identify(&made, &settings) {
+        Err(error) => error.to_string(),
+        Ok(found) => panic!("{:?}", found.modes),
+    }
+}
+
+#[test]
+fn errors_contain_hints() {
+    let cases: [(String, [&str; 2]); 9] = [
+        (error_message(|made, _| made.values[1][0][130].re = f64::NAN), ["31.000 Hz", "leave it out"]),
+        (
+            error_message(|made, _| made.values[2][0].fill(Complex64::default())),
+            ["response 3:+y is zero", "dead channel"],
+        ),
+        (
+            error_message(|_, s| (s.band, s.max_order) = (Some([35.0, 45.0]), Some(60))),
+            ["51 lines", "lower the order to 24"],
+        ),
+        (error_message(|_, s| s.band = Some([39.0, 41.0])), ["11 lines", "choose a wider band"]),
+        (
+            error_message(|_, s| s.band = Some([300.0, 400.0])),
+            ["0 lines of the 5.000 .. 85.000 Hz", "choose a wider band"],
+        ),
+        (error_message(|_, s| s.max_order = Some(3)), ["highest order", "8 or more"]),
+        (error_message(|made, _| made.frequencies[9] += 0.1), ["uniformly spaced", "interpolate"]),
+        (
+            // Noise alone, of a fixed sequence.
+            error_message(|made, _| {
+                let mut state = 1u32;
+                made.values.iter_mut().flatten().flatten().for_each(|h| {
+                    let mut next = || {
+                        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                        f64::from(state) / 2f64.powi(31) - 1.0
+                    };
+                    *h = Complex64::new(next(), next());
+                });
+            }),
+            ["no mode was found in 5.000 .. 85.000 Hz", "check the coherence"],
+        ),
+        (
+            error_message(|made, _| {
+                made.values.iter_mut().flatten().flatten().for_each(|h| *h = Complex64::new(1e-3, 0.0))
+            }),
+            ["no mode was found", "choose a band with a resonance"],
+        ),
+    ];
+    for (text, parts) in &cases {
+        println!("{text}");
+        assert!(parts.iter().all(|part| text.contains(part)), "{parts:?} is not in\n{text}");
+    }
+}
