@@ -5,6 +5,7 @@ mod common;
 pub mod keys;
 mod manual;
 mod measured;
+mod steady;
 mod update;
 
 use common::assignment;
@@ -16,10 +17,10 @@ use clap::{Args, Parser, Subcommand};
 use rotordyn::io::run_export::{self, RunFormat};
 
 use super::signal::args::SignalArgs;
-use super::steady_args::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use bearing::BearingArgs;
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
+pub use steady::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use update::{FitResidual, MeasuredArgs, UpdateArgs, ValidateArgs};
 
 /// Simulates rotating machines on real bearings: modes, Campbell diagrams, FRFs, nonlinear run-ups.
@@ -258,14 +259,14 @@ Examples:
     /// Starts at static equilibrium, discards the transient, then samples the state once per shaft
     /// revolution, cage revolution or ball passage. Classes: period n, quasi-periodic, chaotic. Settings come
     /// from [study.poincare]; flags override them.
-    #[command(after_long_help = super::steady_args::POINCARE)]
+    #[command(after_long_help = steady::POINCARE)]
     Poincare(Box<PoincareArgs>),
 
     /// Largest Lyapunov exponent at constant speed, with its standard error
     ///
     /// Integrates a perturbed trajectory with the same shaft and cage angles and measures its separation from
     /// the reference trajectory. Settings come from [study.lyapunov]; flags override them.
-    #[command(after_long_help = super::steady_args::LYAPUNOV)]
+    #[command(after_long_help = steady::LYAPUNOV)]
     Lyapunov(Box<SteadyArgs>),
 
     /// Bifurcation diagram over any model parameter, swept up and down in parallel
@@ -273,7 +274,7 @@ Examples:
     /// By default each value starts from the final state of the previous one, so up and down sweeps show
     /// coexisting motions (hysteresis). Settings come from [study.bifurcation]; flags override them. Ctrl-C
     /// keeps the points computed so far.
-    #[command(after_long_help = super::steady_args::BIFURCATION)]
+    #[command(after_long_help = steady::BIFURCATION)]
     Bifurcation(Box<BifurcationArgs>),
 
     /// Ball bearing analysis: load distribution, contacts, stiffness, film, defect frequencies, life

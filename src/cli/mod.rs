@@ -28,7 +28,7 @@ mod run_up_tables;
 mod settings;
 mod signal;
 mod steady;
-mod steady_args;
+mod steady_settings;
 mod steady_tables;
 mod store;
 mod stored_run;
@@ -123,14 +123,14 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
             })
         }
         Command::Poincare(args) => {
-            run_one(&args.steady.study, Study::Poincare, &|model| steady_args::poincare(model, args))
+            run_one(&args.steady.study, Study::Poincare, &|model| steady_settings::poincare(model, args))
         }
         Command::Lyapunov(args) => {
-            run_one(&args.study, Study::Lyapunov, &|model| steady_args::lyapunov(model, args))
+            run_one(&args.study, Study::Lyapunov, &|model| steady_settings::lyapunov(model, args))
         }
-        Command::Bifurcation(args) => {
-            run_one(&args.steady.study, Study::Bifurcation, &|model| steady_args::bifurcation(model, args))
-        }
+        Command::Bifurcation(args) => run_one(&args.steady.study, Study::Bifurcation, &|model| {
+            steady_settings::bifurcation(model, args)
+        }),
         Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
