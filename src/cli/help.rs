@@ -206,3 +206,23 @@ fn broken(text: &str, width: usize) -> Vec<String> {
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Help texts that come from a declaration are built with the command.
+    #[test]
+    fn help_of_flags_has_unit_and_default_of_the_key() {
+        let cli = Cli::command();
+        let help = |command: &str, flag: &str| {
+            let command = cli.find_subcommand(command).unwrap();
+            let flag = command.get_arguments().find(|argument| argument.get_long() == Some(flag)).unwrap();
+            flag.get_help().unwrap().to_string()
+        };
+        assert_eq!(help("modal", "modes"), "Number of modes [default: 12]");
+        assert!(help("run-up", "step").ends_with(", such as \"100 us\" [default: 100 us]"));
+        assert!(help("run-up", "integrator").contains("newmark, rk4, dormand-prince"));
+        assert!(help("bearing", "along").ends_with("[default: load]"));
+    }
+}

@@ -244,8 +244,6 @@ pub fn toml_array(items: &[String]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::args::Cli;
-    use clap::CommandFactory;
     use rotordyn::model::{Options, load};
 
     const MACHINE: &str = r#"
@@ -283,20 +281,5 @@ mod tests {
             let options = Options { set, ..Options::default() };
             load("machine.toml", MACHINE, &options).unwrap_or_else(|errors| panic!("{note:?}: {errors}"));
         }
-    }
-
-    /// Help texts that come from a declaration are built with the command.
-    #[test]
-    fn help_of_flags_has_unit_and_default_of_the_key() {
-        let cli = Cli::command();
-        let help = |command: &str, flag: &str| {
-            let command = cli.find_subcommand(command).unwrap();
-            let flag = command.get_arguments().find(|argument| argument.get_long() == Some(flag)).unwrap();
-            flag.get_help().unwrap().to_string()
-        };
-        assert_eq!(help("modal", "modes"), "Number of modes [default: 12]");
-        assert!(help("run-up", "step").ends_with(", such as \"100 us\" [default: 100 us]"));
-        assert!(help("run-up", "integrator").contains("newmark, rk4, dormand-prince"));
-        assert!(help("bearing", "along").ends_with("[default: load]"));
     }
 }
