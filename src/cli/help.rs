@@ -174,8 +174,24 @@ fn value(key: &KeyDescription) -> String {
     format!("{}{unit}{range}", key.value)
 }
 
-/// Four cells side by side, each broken at words into the width of its column.
+/// Least width of the column of meanings; below it they stand under their row.
+const LEAST_MEANING: usize = 40;
+
+/// Four cells side by side, each broken at words into the width of its column; the meaning under the others where its
+/// column would be narrow.
 fn line(cells: &Cells, widths: [usize; 4]) -> String {
+    let [key, _, _, meaning] = widths;
+    if meaning < LEAST_MEANING {
+        let [name, value, absent, words] = cells.clone();
+        let first = side_by_side(&[name, value, absent, String::new()], widths);
+        let below = broken(&words, WIDTH - key - 6);
+        let below = below.iter().map(|text| format!("\n  {}    {text}", " ".repeat(key)));
+        return first + &below.collect::<String>();
+    }
+    side_by_side(cells, widths)
+}
+
+fn side_by_side(cells: &Cells, widths: [usize; 4]) -> String {
     let broken: Vec<Vec<String>> =
         cells.iter().zip(widths).map(|(cell, width)| broken(cell, width)).collect();
     let height = broken.iter().map(Vec::len).max().unwrap_or(0);

@@ -7,5 +7,6 @@ mod rig;
 
 mod changed_rig;
 #[path = "../../crates/rotordyn-identify/tests/identify/known_modes.rs"]
+#[allow(dead_code)]
 mod known_modes;
 mod plane_ema;

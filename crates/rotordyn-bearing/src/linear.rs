@@ -127,6 +127,8 @@ impl BearingModel for LinearBearing {
         }
     }
 
+    fn set_cage_angle(&mut self, _angle: f64) {}
+
     fn element(&self) -> Arc<dyn BearingElement> {
         Arc::new(LinearElement::new(self))
     }

@@ -38,7 +38,7 @@ pub trait BearingModel: Debug {
         [self.supports()[2]; 2]
     }
 
-    /// Stiffness at standstill where only the constrained directions matter: with all contacts closed.
+    /// Stiffness at standstill where only the constrained directions matter: with all contacts closed \[N/m, N, N m\].
     fn nominal_stiffness(&self) -> [[f64; 6]; 6] {
         let supports = self.supports();
         let entry = |i: usize, j: usize| if i == j && supports[i] { NOMINAL_STIFFNESS[i] } else { 0.0 };
@@ -60,8 +60,8 @@ pub trait BearingModel: Debug {
         None
     }
 
-    /// Turns the cage at the start to an angle \[rad\].
-    fn set_cage_angle(&mut self, _angle: f64) {}
+    /// Turns the cage at the start to an angle \[rad\]; nothing for a bearing without cage.
+    fn set_cage_angle(&mut self, angle: f64);
 
     /// Geometry, materials, cage and races of a bearing with balls.
     fn ball(&self) -> Option<&BallBearing> {
@@ -135,7 +135,7 @@ pub trait BearingElement: Debug + Send + Sync {
     fn relative_dofs(&self) -> usize;
 
     /// Force on the shaft and both tangents at displacement `d` and velocity `v` of the shaft relative to the housing
-    /// (order u_x u_y u_z θ_x θ_y θ_z); internal coordinates are in static equilibrium.
+    /// (order u_x u_y u_z θ_x θ_y θ_z \[m, rad; m/s, rad/s\]); internal coordinates are in static equilibrium.
     fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction;
 
     /// The force of [`BearingElement::reaction`] with its energy, powers and mean contact angle, written to `out`; the

@@ -27,12 +27,15 @@ pub fn tables(name: &str, document: &Document) -> Vec<TextTable> {
 /// Writes every table of the sections as `<section>_<table>.csv`; returns the files.
 ///
 /// # Errors
-/// A file cannot be written.
+/// A file cannot be written, or two tables have the same file name.
 pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for section in sections {
         for table in tables(section.hdf5.trim_start_matches('/'), &section.content) {
             let path = folder.join(format!("{}.csv", file_name(&table.name.replace('/', "_"))));
+            if files.contains(&path) {
+                return Err(Error::of_file("write", &path)("two tables have this name"));
+            }
             let lines: Vec<String> =
                 std::iter::once(&table.header).chain(&table.rows).map(|cells| line(cells)).collect();
             std::fs::write(&path, lines.concat()).map_err(Error::of_file("write", &path))?;
@@ -65,7 +68,8 @@ fn collect(out: &mut Vec<TextTable>, name: &str, document: &Document) {
         let name = join(name, name_of(field));
         match &field.value {
             Value::Group(members) => collect(out, &name, members),
-            Value::Groups { groups, .. } => {
+            // Lists of JSON alone repeat groups that have names in HDF5.
+            Value::Groups { groups, .. } if field.names.hdf5.is_some() => {
                 groups.iter().for_each(|(of, members)| collect(out, &join(&name, of), members));
             }
             Value::Table(table) => collect_table(out, &name, table),

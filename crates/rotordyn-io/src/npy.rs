@@ -75,13 +75,15 @@ fn u32_at(bytes: &[u8], at: usize) -> Result<usize, Message> {
 
 /// Files of a ZIP archive.
 fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Message> {
+    // The directory of an archive is at its end.
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| CUT_OFF)?;
     let mut out = Vec::with_capacity(archive.len());
     for k in 0..archive.len() {
         let mut file = archive.by_index(k).map_err(|error| match error {
-            ZipError::UnsupportedArchive(_) | ZipError::CompressionMethodNotSupported(_) => {
+            ZipError::CompressionMethodNotSupported(_) => {
                 "an array has a compression method other than deflate"
             }
+            ZipError::UnsupportedArchive(_) => "the archive is encrypted or of an unsupported kind",
             _ => DAMAGED,
         })?;
         let mut data = Vec::new();
@@ -116,9 +118,12 @@ fn array(name: &str, bytes: &[u8]) -> Result<Option<Array>, Message> {
     let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(damaged)?;
     let (order, kind) = descr.split_at(usize::from(descr.starts_with(['<', '>', '|', '='])));
     let big = order == ">";
+    if !kind.is_ascii() {
+        return Err(damaged);
+    }
     let (kind, width) = kind.split_at(kind.len().min(1));
     let width: usize = width.parse().unwrap_or(1);
-    let element = if kind == "U" { 4 * width } else { width };
+    let element = if kind == "U" { width.checked_mul(4).ok_or(damaged)? } else { width };
     let size = count.checked_mul(element).ok_or(damaged)?;
     let data = bytes[start + length..].get(..size).ok_or(CUT_OFF)?;
     let values = |width: usize, read: fn([u8; 8]) -> f64| -> Vec<f64> {

@@ -5,6 +5,7 @@
 //! for other programs are in JSON and HDF5.
 
 use crate::error::Error;
+use rmp_serde::decode::Error as DecodeError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -21,12 +22,22 @@ struct Header {
     version: String,
 }
 
-/// Saves a result; an existing file is replaced.
+/// Saves a result; an existing file is replaced when the new one is complete.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Error> {
     let path = path.as_ref();
+    let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
+    let saved = write_to(&temporary, result)
+        .and_then(|()| std::fs::rename(&temporary, path).map_err(Error::of_file("write", path)));
+    if saved.is_err() {
+        let _ = std::fs::remove_file(&temporary);
+    }
+    saved
+}
+
+fn write_to<T: Serialize>(path: &Path, result: &T) -> Result<(), Error> {
     let mut out = BufWriter::new(File::create(path).map_err(Error::of_file("create", path))?);
     let header = Header { format: FORMAT.into(), version: env!("CARGO_PKG_VERSION").into() };
     let write = |out: &mut BufWriter<File>| -> Result<(), rmp_serde::encode::Error> {
@@ -50,6 +61,11 @@ pub fn load<T: DeserializeOwned>(path: impl AsRef<Path>) -> Result<T, Error> {
         Ok(header) => {
             let message = format!("its format is {:?} instead of {FORMAT:?}", header.format);
             return Err(Error::of_file("read", path)(message));
+        }
+        Err(DecodeError::InvalidMarkerRead(e) | DecodeError::InvalidDataRead(e))
+            if e.kind() != std::io::ErrorKind::UnexpectedEof =>
+        {
+            return Err(Error::of_file("read", path)(e));
         }
         Err(_) => return Err(Error::of_file("read", path)("it contains no results saved by rotordyn")),
     }

@@ -35,16 +35,25 @@ impl ContactLaw {
 
     /// Whether inner and outer contact have a law each, and not only both in series.
     pub fn has_separate_contacts(&self) -> bool {
-        !matches!(self, Self::PowerLaw(_))
+        match self {
+            Self::PowerLaw(_) => false,
+            Self::Hertz | Self::Film { .. } | Self::Ehl(_) => true,
+        }
     }
 
     /// Whether the film is that of the formula, which film damping needs.
     pub fn has_film_formula(&self) -> bool {
-        matches!(self, Self::Film { .. })
+        match self {
+            Self::Film { .. } => true,
+            Self::Hertz | Self::Ehl(_) | Self::PowerLaw(_) => false,
+        }
     }
 
     /// Whether the law is based on a Hertz stiffness that may be given.
     pub fn takes_contact_stiffness(&self) -> bool {
-        matches!(self, Self::Hertz | Self::Film { .. })
+        match self {
+            Self::Hertz | Self::Film { .. } => true,
+            Self::Ehl(_) | Self::PowerLaw(_) => false,
+        }
     }
 }

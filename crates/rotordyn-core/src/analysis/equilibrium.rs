@@ -253,7 +253,9 @@ pub(super) fn residual_force(
 /// Largest ball load over [`CAGE_ANGLES_PER_PITCH`] positions within one ball pitch.
 pub(super) fn largest_ball_load(element: &dyn BearingElement, d: &[f64; 6], rotation: &Rotation) -> f64 {
     let balls = element.rolling_elements();
-    (0..if balls > 0 { CAGE_ANGLES_PER_PITCH } else { 0 })
+    // Contacts without a cage do not turn.
+    let (angles, balls) = if balls > 0 { (CAGE_ANGLES_PER_PITCH, balls) } else { (1, 1) };
+    (0..angles)
         .flat_map(|k| {
             let turn = std::f64::consts::TAU * k as f64 / (CAGE_ANGLES_PER_PITCH * balls) as f64;
             let turned = Rotation { cage_angle: rotation.cage_angle + turn, ..*rotation };

@@ -42,9 +42,14 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
 
     fn column(mut self, names: impl Into<Names>, cell: &[usize], unit: &str, data: Data<'a>) -> Self {
         let shape: Vec<usize> = [self.rows.len()].into_iter().chain(cell.iter().copied()).collect();
-        debug_assert_eq!(shape.iter().product::<usize>(), data.len(), "rows of one cell shape");
+        let names = names.into();
+        assert_eq!(
+            shape.iter().product::<usize>(),
+            data.len(),
+            "{names:?}: every row has one cell of this shape"
+        );
         let value = Value::Array(Array::new(&shape, unit, data));
-        self.columns.fields.push(Field { names: names.into(), value });
+        self.columns.fields.push(Field { names, value });
         self
     }
 
@@ -177,7 +182,10 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
     pub fn series(self, json: &str, unit: &str, of: impl Fn(&'r T) -> &'r [f64]) -> Self {
         let series: Vec<&[f64]> = self.rows.iter().map(|row| of(row)).collect();
         let counts = series.iter().map(|values| values.len()).collect();
-        self.within(json, counts, Document::new().numbers("", unit, series.concat()))
+        // The numbers have no name of their own that would state their unit.
+        let factor = in_json(json).json_factor(unit).unwrap_or(1.0);
+        let values: Vec<f64> = series.concat().iter().map(|value| value * factor).collect();
+        self.within(json, counts, Document::new().numbers("", unit, values))
     }
 
     fn within(mut self, json: &str, counts: Vec<usize>, columns: Document<'a>) -> Self {

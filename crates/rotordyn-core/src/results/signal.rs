@@ -107,7 +107,11 @@ impl SignalResult {
         let resolution = |s: &Spectrum| {
             let peaks = peak_rows(&highest_peaks(&s.frequencies, &s.values), "frequency_hz", "amplitude");
             Document::new()
-                .number(in_json("resolution_hz"), "Hz", s.frequencies[1] - s.frequencies[0])
+                .number(
+                    in_json("resolution_hz"),
+                    "Hz",
+                    s.frequencies.get(1).map_or(f64::NAN, |f| f - s.frequencies[0]),
+                )
                 .with(in_json("peaks"), peaks)
         };
         Document::new()

@@ -10,6 +10,7 @@ use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::PhysicsError;
+use crate::document::TO_RPM;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
@@ -79,8 +80,6 @@ pub fn single_bearings(
     };
     bearings.iter().filter(|(name, _)| is_requested(study, name)).map(one).collect()
 }
-
-const TO_RPM: f64 = 60.0 / std::f64::consts::TAU;
 
 fn is_requested(study: &BearingStudy, name: &String) -> bool {
     study.bearings.is_empty() || study.bearings.contains(name)

@@ -34,8 +34,8 @@ pub struct RestartState {
     /// spin repeats with neither.
     shaft: f64,
     cages: Vec<f64>,
-    /// Positions and velocities of balls with their own degrees of freedom \[m, m/s\].
-    balls: [Vec<f64>; 2],
+    /// Positions and velocities of the internal coordinates of bearings \[m, m/s\].
+    internal: [Vec<f64>; 2],
 }
 
 /// Callback after every period of the clock with the completed fraction; can stop the run.
@@ -147,7 +147,7 @@ impl Machine {
         let fits = |c: &&RestartState| {
             c.displacement.len() == n
                 && c.cages.len() == system.interfaces.len()
-                && c.balls[0].len() == system.internal_masses.len()
+                && c.internal[0].len() == system.internal_masses.len()
         };
         let state = match carried.filter(fits) {
             None => {
@@ -157,14 +157,15 @@ impl Machine {
             }
             Some(carried) => {
                 // Vᵀ M q: projection on this model's basis.
-                let project = |q: &[f64], balls: &[f64]| {
+                let project = |q: &[f64], internal: &[f64]| {
                     let x = reduction.basis.tr_mul(&DVector::from_vec(self.assembly.mass.mul(q)));
-                    let balls = balls.iter().zip(&system.internal_masses).map(|(y, mass)| mass.sqrt() * y);
-                    DVector::from_iterator(system.size(), x.iter().copied().chain(balls))
+                    let internal =
+                        internal.iter().zip(&system.internal_masses).map(|(y, mass)| mass.sqrt() * y);
+                    DVector::from_iterator(system.size(), x.iter().copied().chain(internal))
                 };
                 let time = carried.shaft / steady.speed;
-                let x = project(&carried.displacement, &carried.balls[0]);
-                let v = project(&carried.velocity, &carried.balls[1]);
+                let x = project(&carried.displacement, &carried.internal[0]);
+                let v = project(&carried.velocity, &carried.internal[1]);
                 system.state_at(time, &carried.cages, x, v)
             }
         };
@@ -202,7 +203,7 @@ impl RestartState {
             displacement: full(&state.x),
             velocity: full(&state.v),
             shaft: state.spin.angle,
-            balls: [&state.d, &state.d_rate].map(|d| d[rows..].to_vec()),
+            internal: [&state.d, &state.d_rate].map(|d| d[rows..].to_vec()),
             cages: state.rotations.iter().map(|r| r.cage_angle).collect(),
         }
     }

@@ -59,11 +59,13 @@ impl Interface {
         self.element.reaction(&at, &rate, rotation)
     }
 
-    /// Its relative displacement and velocity among those of all interfaces.
+    /// Its relative displacement and velocity among those of all interfaces; for a bearing without internal coordinates,
+    /// which has at most six rows.
     pub fn motion(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> [[f64; 6]; 2] {
         let [at, mut rate] = [d, d_rate].map(|all| {
             let mut own = [0.0; 6];
-            own[..self.rows].copy_from_slice(&all[self.row_range()]);
+            let rows = self.rows.min(6);
+            own[..rows].copy_from_slice(&all[self.first_row..self.first_row + rows]);
             own
         });
         if self.free_rotation && self.rows == 6 {

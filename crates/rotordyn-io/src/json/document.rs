@@ -45,7 +45,10 @@ fn insert(out: &mut Map<String, Json>, Field { names, value }: &Field) {
         Value::Flag(flag) => json!(flag),
         Value::Texts(texts) => json!(texts),
         Value::Missing => Json::Null,
-        Value::Array(array) => return insert_array(out, name, array, &array.shape, 0..array.data.len()),
+        Value::Array(array) => {
+            let factor = names.json_factor(&array.unit);
+            return insert_cell(out, name, array, &array.shape, 0..array.data.len(), factor);
+        }
         Value::Group(members) => document(members),
         Value::Groups { key, groups: found } => groups(key, found),
         Value::Table(table) => rows(table),
@@ -95,16 +98,6 @@ fn row(columns: &Document, k: usize) -> Json {
         }
     }
     unwrapped(out)
-}
-
-fn insert_array(
-    out: &mut Map<String, Json>,
-    name: &str,
-    array: &Array,
-    shape: &[usize],
-    range: Range<usize>,
-) {
-    insert_cell(out, name, array, shape, range, None);
 }
 
 /// Values of one cell; complex ones as `re` and `im`, in the surrounding object if the name is empty.

@@ -15,12 +15,13 @@
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/ball_inertia/<study>/<bearing>` | attributes: stated and used ball inertia; speed, centrifugal_force, largest_contact_load, ratio, limit: why |
-//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value` |
+//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value`; `film_<race>` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
-//! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance |
+//! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance; `step_error`, `cage_phases` |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
+//! | `/warnings` | messages of all studies |
 //!
-//! Every data set has an attribute `unit`. Missing values (a lost mode, fewer modes at a speed) are NaN, or
+//! Every data set of numbers has an attribute `unit`. Missing values (a lost mode, fewer modes at a speed) are NaN, or
 //! an empty text. Writing a study again replaces its earlier results.
 
 mod external_files;
@@ -95,6 +96,7 @@ pub fn schema(store: &Store) -> Result<i64, Error> {
 /// The file cannot be written.
 pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Result<(), Error> {
     write_labels(store, machine)?;
+    store.remove("/warnings")?;
     let sections = results.sections(&machine.assembly.dofs);
     sections.iter().try_for_each(|section| write_section(store, "", section))?;
     store.flush()
@@ -105,6 +107,7 @@ pub fn write_study(store: &Store, results: &Results, machine: &Machine) -> Resul
 /// # Errors
 /// The file cannot be written.
 pub fn write_bearings(store: &Store, results: &Results) -> Result<(), Error> {
+    store.remove("/warnings")?;
     let bearings = results.bearings.iter().map(BearingResult::section);
     let mut sections = bearings.chain(warnings_section(&results.warnings));
     sections.try_for_each(|section| write_section(store, "", &section))?;

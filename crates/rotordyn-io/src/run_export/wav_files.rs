@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::machine_records::is_vibration;
 use crate::measured;
 use rotordyn_signal::record::{MeasuredData, RecordError};
+use rotordyn_units::names::file_name;
 use std::path::PathBuf;
 
 /// Writes the files.
@@ -18,7 +19,7 @@ pub(super) fn write(run: &MeasuredData, options: &Options) -> Result<Vec<PathBuf
     }
     let mut files = Vec::new();
     for record in audible {
-        let path = options.folder.join(format!("{}.wav", record.name));
+        let path = options.folder.join(format!("{}.wav", file_name(&record.name)));
         let one = MeasuredData { records: vec![record.clone()], ..MeasuredData::default() };
         measured::write(&path, &one)?;
         files.push(path);
