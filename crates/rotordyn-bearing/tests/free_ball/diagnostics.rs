@@ -81,6 +81,31 @@ fn overlap_at_the_start_is_an_error() {
     assert!(error.to_string().starts_with("ball 0 touches the next ball at the start"), "{error}");
 }
 
+/// The radial stop of a closed pocket presses on a ball without driving it; the pocket's wall drives it by its load.
+#[test]
+fn pocket_force_of_the_report_is_along_the_orbit() {
+    let prepared = |pocket: Pocket| {
+        let mut bearing = free(ball_bearing(geometry_6205(9, 1e-5)), 0.06, 1e-2, SlipModel::Centre);
+        bearing.cage = Some(plastic_cage(pocket, Guidance::Balls, 0.0));
+        FreeBalls::new(bearing, 0.0).unwrap()
+    };
+    let open = prepared(Pocket::Cylindrical);
+    let closed = prepared(Pocket::Closed { radial_clearance: 1e-6 });
+    let mut state = open.initial_state(&STILL).unwrap();
+    // K δ^{3/2} of the stop, 1.5 μm deep.
+    let stop = 1e8 * 1.5e-6_f64.powf(1.5);
+    let reports = closed.report(&state, &STILL);
+    assert!(closed.energy(&state, &STILL).elastic > open.energy(&state, &STILL).elastic);
+    assert!(reports.iter().all(|ball| ball.pocket.abs() < 1e-9 * stop), "{reports:?}");
+    // Ball 0 lies at x = r; its clearance of 81 μm and 4 μm more along the orbit. The cage's wall presses it back.
+    state.values[1] += 85e-6;
+    for balls in [&open, &closed] {
+        let force = balls.report(&state, &STILL)[0].pocket;
+        println!("pocket force {force:.4} N");
+        assert!((force / (-1e8 * 4e-6_f64.powf(1.5)) - 1.0).abs() < 3e-3, "{force}");
+    }
+}
+
 /// A ball on one or between two races, its spin disturbed; the share of the spin left after 60 steps of a share of the
 /// stated limit.
 fn disturbed(share: f64, races: usize) -> Result<f64, FreeBallError> {
