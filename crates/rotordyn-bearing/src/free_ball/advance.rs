@@ -75,8 +75,9 @@ impl Parts {
     /// Advances a state over an interval in equal steps no longer than `step` \[s\].
     ///
     /// `rings`: inner and outer ring at the start and at the end of the interval, moved between as
-    /// [`RingState::between`]; `duration` \[s\]. Errors: a step beyond a stability limit at any time of the interval, a
-    /// ball that leaves the bearing.
+    /// [`RingState::between`]; `duration` \[s\]. Errors: a duration or step that is not positive and finite, a step
+    /// beyond a stability limit at any time of the interval, a ball that leaves the bearing. On an error the state is
+    /// that after the last accepted step, at its time.
     pub fn advance(
         &self,
         state: &mut FreeBallState,
@@ -84,6 +85,12 @@ impl Parts {
         duration: f64,
         step: f64,
     ) -> Result<Interval, FreeBallError> {
+        let positive = |time: f64| time > 0.0 && time.is_finite();
+        if !(positive(duration) && positive(step)) {
+            let why =
+                format!("an interval of {duration} s in steps of {step} s: both must be positive and finite");
+            return Err(FreeBallError::Input(vec![why]));
+        }
         let steps = ((duration / step - 1e-9).ceil() as usize).max(1);
         let h = duration / steps as f64;
         let n = state.values.len();
@@ -100,8 +107,7 @@ impl Parts {
             if s % STEPS_BETWEEN_CHECKS == 0 {
                 self.check_balls(state, &before)?;
             }
-            let sums = self.step(&mut state.values, &mut stages, &[before, middle, after], h, &mut tracked);
-            StableStep::of(&sums).check(h, state.time)?;
+            self.step(state, &mut stages, &[before, middle, after], h, &mut tracked)?;
             normalise_orientation(&mut state.values, self.balls.len());
             state.time = start + (s + 1) as f64 * h;
             before = after;
@@ -116,17 +122,21 @@ impl Parts {
         })
     }
 
-    /// One step; adds the integrals of forces and powers to `tracked` and returns the sums at its start.
+    /// One step of the state's values; adds the integrals of forces and powers to `tracked`.
+    ///
+    /// Error: a step beyond the stability limit at its start; the state is then unchanged.
     fn step(
         &self,
-        values: &mut [f64],
+        state: &mut FreeBallState,
         stages: &mut Stages,
         rings: &[[RingFrame; 2]; 3],
         h: f64,
         tracked: &mut [f64; TRACKED],
-    ) -> ForceSums {
+    ) -> Result<(), FreeBallError> {
         const PLACES: [(usize, f64); 3] = [(1, 0.5), (1, 0.5), (2, 1.0)];
+        let values = &mut state.values;
         let first = self.rates(values, &rings[0], &mut stages.rates[0]);
+        StableStep::of(&first).check(h, state.time)?;
         track(tracked, &first, h / 6.0);
         for (k, (place, share)) in PLACES.into_iter().enumerate() {
             let (done, next) = stages.rates.split_at_mut(k + 1);
@@ -140,7 +150,7 @@ impl Parts {
         for (i, value) in values.iter_mut().enumerate() {
             *value += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
         }
-        first
+        Ok(())
     }
 
     fn check_balls(&self, state: &FreeBallState, rings: &[RingFrame; 2]) -> Result<(), FreeBallError> {

@@ -165,10 +165,28 @@ fn step_beyond_the_contact_limit_is_refused() {
     let stiffness = slope(hertz.inner.stiffness) + slope(hertz.outer.stiffness);
     let expected = 8_f64.sqrt() / (stiffness / balls.ball_inertia(0)[0]).sqrt();
     balls.advance(&mut state, [&STILL; 2], 1e-3, 0.95 * expected).unwrap();
+    let before = state.clone();
     let error = balls.advance(&mut state, [&STILL; 2], 1e-2, 1e-4).unwrap_err();
     println!("{error}");
+    assert_eq!(state, before, "a refused step changed the state");
     let FreeBallError::Step { stable, limit, .. } = error else { panic!("{error}") };
     assert!(limit == StepLimit::Contact && (stable / expected - 1.0).abs() < 1e-3, "{stable:e} {expected:e}");
+}
+
+#[test]
+fn interval_without_positive_finite_times_is_refused() {
+    let balls =
+        FreeBalls::new(free(ball_bearing(geometry_6205(9, -4e-6)), 0.0, 1e-2, SlipModel::Centre), 0.0)
+            .unwrap();
+    let start = balls.initial_state(&STILL).unwrap();
+    for wrong in [0.0, -1e-6, f64::NAN, f64::INFINITY] {
+        for (duration, step) in [(1e-3, wrong), (wrong, 1e-6)] {
+            let mut state = start.clone();
+            let error = balls.advance(&mut state, [&STILL; 2], duration, step).unwrap_err();
+            assert!(matches!(error, FreeBallError::Input(_)), "{error}");
+            assert_eq!(state, start);
+        }
+    }
 }
 
 /// A ball pushed along the axis at 2 m/s stays between the shoulders with a clearance of 1 mm; with more clearance than
