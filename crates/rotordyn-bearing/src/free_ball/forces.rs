@@ -145,6 +145,8 @@ impl Parts {
         }
         if let Some((contacts, frame)) = &cage {
             self.add_land(&mut sums, &mut cage_force, &mut cage_rates, contacts, frame, rings);
+            let inertia = contacts.cage.polar_inertia.min(contacts.cage.transverse_inertia);
+            cage_rates.0[2] += self.drag.cage_moment / inertia;
             let moment = -self.drag.cage_moment * (frame.rotation - rings[1].rotation);
             cage_force.moment += moment;
             sums.rings[1].moment -= moment;

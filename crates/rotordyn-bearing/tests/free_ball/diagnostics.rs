@@ -173,6 +173,63 @@ fn step_beyond_the_contact_limit_is_refused() {
     assert!(limit == StepLimit::Contact && (stable / expected - 1.0).abs() < 1e-3, "{stable:e} {expected:e}");
 }
 
+/// Bearing with a cage of moment of drag c \[N m s/rad\] and its smaller moment of inertia \[kg m²\].
+fn with_cage_drag(cage_moment: f64) -> (FreeBalls, f64) {
+    let mut bearing = free(ball_bearing(geometry_6205(9, 1e-5)), 0.0, 1e-2, SlipModel::Centre);
+    let cage = plastic_cage(Pocket::Cylindrical, Guidance::Balls, 0.0);
+    bearing.cage = Some(cage);
+    bearing.drag.cage_moment = cage_moment;
+    (FreeBalls::new(bearing, 0.0).unwrap(), cage.polar_inertia.min(cage.transverse_inertia))
+}
+
+/// Drag of the cage: RK4 is stable up to h c/I = 2.785. Below it a disturbance decays, beyond it the step is refused.
+#[test]
+fn step_beyond_the_limit_of_the_cages_drag_is_refused() {
+    let step = 1e-6;
+    let (_, inertia) = with_cage_drag(0.0);
+    let run = |product: f64| {
+        let (balls, _) = with_cage_drag(product * inertia / step);
+        let mut state = balls.initial_state(&STILL).unwrap();
+        // Angular momentum about a diameter, with the smaller moment of inertia of this cage.
+        let momentum = state.values.len() - 3;
+        state.values[momentum] = 1e-3 * inertia;
+        let run = balls.advance(&mut state, [&STILL; 2], 200.0 * step, step);
+        run.map(|_| state.values[momentum] / (1e-3 * inertia))
+    };
+    let left = run(2.7).unwrap();
+    let error = run(2.9).unwrap_err();
+    println!("{left:.1e} of the disturbance left; {error}");
+    assert!(left.abs() < 1e-3);
+    let FreeBallError::Step { stable, limit, .. } = error else { panic!("{error}") };
+    assert!(limit == StepLimit::Friction && (stable / step * 2.9 / 2.785 - 1.0).abs() < 1e-3, "{stable:e}");
+}
+
+/// A cage that touches nothing any more ends the run: not a number, or its centre out of the bearing.
+#[test]
+fn lost_cage_ends_the_run() {
+    let (balls, _) = with_cage_drag(0.0);
+    let start = balls.initial_state(&STILL).unwrap();
+    let run = |change: &dyn Fn(&mut FreeBallState)| {
+        let mut state = start.clone();
+        change(&mut state);
+        balls.advance(&mut state, [&STILL; 2], 1e-6, 1e-6).unwrap_err()
+    };
+    let cage = 9 * 9;
+    for k in 0..13 {
+        let error = run(&|state| state.values[cage + k] = f64::NAN);
+        assert!(
+            matches!(&error, FreeBallError::CageLost { cause, .. } if cause.contains("diverged")),
+            "{error}"
+        );
+    }
+    let error = run(&|state| state.values[cage + 2] = 20e-3);
+    println!("{error}");
+    assert!(
+        matches!(&error, FreeBallError::CageLost { cause, .. } if cause.contains("centre moved")),
+        "{error}"
+    );
+}
+
 #[test]
 fn interval_without_positive_finite_times_is_refused() {
     let balls =
