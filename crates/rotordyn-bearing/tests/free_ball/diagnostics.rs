@@ -3,7 +3,7 @@
 use crate::bearings::{ball_bearing, free, geometry_6205, plastic_cage, touch};
 use rotordyn_bearing::contact::Race;
 use rotordyn_bearing::free_ball::{
-    BallBody, FreeBallError, FreeBallState, FreeBalls, Guidance, Land, Pocket, RingState, SlipModel,
+    BallBody, Drag, FreeBallError, FreeBallState, FreeBalls, Guidance, Land, Pocket, RingState, SlipModel,
     StepLimit,
 };
 use rotordyn_bearing::{OffSize, Preload};
@@ -202,6 +202,60 @@ fn step_beyond_the_limit_of_the_cages_drag_is_refused() {
     assert!(left.abs() < 1e-3);
     let FreeBallError::Step { stable, limit, .. } = error else { panic!("{error}") };
     assert!(limit == StepLimit::Friction && (stable / step * 2.9 / 2.785 - 1.0).abs() < 1e-3, "{stable:e}");
+}
+
+/// Ball at rest on the outer race under its weight, without traction.
+fn resting(rolling_loss: f64, drag: Drag) -> (FreeBalls, FreeBallState) {
+    let weight = 9.80665;
+    let mut bearing = free(ball_bearing(geometry_6205(1, 1e-3)), 0.0, 1e-5, SlipModel::Centre);
+    bearing.gravity = [0.0, -weight, 0.0];
+    (bearing.rolling_loss, bearing.drag) = (rolling_loss, drag);
+    let stiffness = bearing.ball.hertz().outer.stiffness;
+    let balls = FreeBalls::new(bearing, 0.0).unwrap();
+    let [mass, _] = balls.ball_inertia(0);
+    let depth = (mass * weight / stiffness).powf(2.0 / 3.0);
+    let position = V::new(0.0, -(19.25e-3 + 0.25e-3 + depth), 0.0);
+    (balls, FreeBallState::new(&[BallBody { position, ..BallBody::default() }], None))
+}
+
+/// Rolling resistance (3/16) η Q b ω/ω₀ at small ω, ω₀ = v₀/r: RK4 is stable up to h (3/16) η Q b/(ω₀ I) = 2.785.
+#[test]
+fn step_beyond_the_limit_of_rolling_resistance_is_refused() {
+    let step = 1e-6;
+    let (balls, start) = resting(0.0, Drag::default());
+    let race = balls.report(&start, &STILL)[0].races[1].unwrap();
+    let fading = 1e-5 / 3.969e-3;
+    let unit = 3.0 / 16.0 * race.load * race.semi_axes[0] / (fading * balls.ball_inertia(0)[1]);
+    let run = |product: f64| {
+        let (balls, mut state) = resting(product / (unit * step), Drag::default());
+        state.values[8] = 1e-3 * fading;
+        let run = balls.advance(&mut state, [&STILL; 2], 200.0 * step, step);
+        run.map(|_| state.values[8] / (1e-3 * fading))
+    };
+    let left = run(2.7).unwrap();
+    let error = run(2.9).unwrap_err();
+    println!("{left:.1e} of the disturbance left; {error}");
+    assert!(left.abs() < 1e-3);
+    let FreeBallError::Step { stable, limit, .. } = error else { panic!("{error}") };
+    assert!(limit == StepLimit::Friction && (stable / step * 2.9 / 2.785 - 1.0).abs() < 1e-3, "{stable:e}");
+}
+
+/// Drag ½ ρ C_d π r² v² and ½ ρ C_n r⁵ ω²: the steeper of ρ C_d π r² v/m and ρ C_n r⁵ ω/I limits the step.
+#[test]
+fn drag_of_balls_limits_the_step() {
+    let drag = Drag { density: 40.0, ball_force: 0.5, ball_moment: 0.02, cage_moment: 0.0 };
+    let (balls, start) = resting(0.0, drag);
+    let [mass, inertia] = balls.ball_inertia(0);
+    let radius = 3.969e-3_f64;
+    for (velocity, rotation) in [(30.0, 100.0), (0.1, 9000.0)] {
+        let mut state = start.clone();
+        (state.values[3], state.values[7]) = (velocity, rotation);
+        let force = 40.0 * 0.5 * std::f64::consts::PI * radius * radius * velocity / mass;
+        let moment = 40.0 * 0.02 * radius.powi(5) * rotation / inertia;
+        let limit = balls.stable_step(&state, &STILL).friction;
+        println!("by force {:.2e} s, by moment {:.2e} s: {limit:.2e} s", 2.785 / force, 2.785 / moment);
+        assert!((limit * f64::max(force, moment) / 2.785 - 1.0).abs() < 1e-3);
+    }
 }
 
 /// A cage that touches nothing any more ends the run: not a number, or its centre out of the bearing.
