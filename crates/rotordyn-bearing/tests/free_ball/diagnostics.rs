@@ -3,8 +3,8 @@
 use crate::bearings::{ball_bearing, free, geometry_6205, plastic_cage, touch};
 use rotordyn_bearing::contact::Race;
 use rotordyn_bearing::free_ball::{
-    BallBody, Drag, FreeBallError, FreeBallState, FreeBalls, Guidance, Land, Pocket, RingState, SlipModel,
-    StepLimit,
+    BallBody, Drag, FreeBallError, FreeBallState, FreeBalls, FreeCage, Guidance, Land, Pocket, RingState,
+    SlipModel, StepLimit,
 };
 use rotordyn_bearing::{OffSize, Preload};
 
@@ -63,6 +63,59 @@ fn input_that_cannot_be_is_refused() {
         "free balls have rings of given motion, so no preload by a spring",
     ];
     assert_eq!(messages, expected);
+}
+
+/// Every number of the contacts of pockets, land and balls: out of range or not a number.
+#[test]
+fn contacts_that_cannot_be_are_refused() {
+    const NAN: f64 = f64::NAN;
+    let good = touch(1e6, 1.0, 0.1);
+    let with = |k: usize, value: f64| {
+        let mut law = good;
+        *[&mut law.stiffness, &mut law.damping, &mut law.friction.friction, &mut law.friction.slip_speed]
+            [k] = value;
+        law
+    };
+    let wrong = [(0, 0.0), (0, NAN), (1, -1.0), (1, NAN), (2, -0.1), (2, NAN), (3, 0.0), (3, NAN)];
+    let cage = |pocket: Pocket, guidance: Guidance| plastic_cage(pocket, guidance, 0.1);
+    for (k, value) in wrong {
+        let law = with(k, value);
+        let pocket = refusal(|bearing| {
+            bearing.cage =
+                Some(FreeCage { pocket_contact: law, ..cage(Pocket::Cylindrical, Guidance::Balls) });
+        });
+        assert!(pocket.starts_with("contact of the cage pockets: "), "{k} {value}: {pocket}");
+        let edge = refusal(|bearing| {
+            let land =
+                Land { race: Race::Outer, radius: 21.6e-3, clearance: 1e-4, width: 1e-2, contact: law };
+            bearing.cage = Some(cage(Pocket::Cylindrical, Guidance::Land(land)));
+        });
+        assert!(edge.starts_with("contact of the cage's land: "), "{k} {value}: {edge}");
+        if k > 1 {
+            let balls = refusal(|bearing| (bearing.cage, bearing.ball_friction) = (None, law.friction));
+            assert!(balls.starts_with("friction of balls that touch each other: "), "{k} {value}: {balls}");
+        }
+    }
+    for value in [0.0, -1e-3, NAN] {
+        for (k, expected) in ["the cage touches its", "radius or width", "radius or width"].iter().enumerate()
+        {
+            let message = refusal(|bearing| {
+                let mut land =
+                    Land { race: Race::Outer, radius: 21.6e-3, clearance: 1e-4, width: 1e-2, contact: good };
+                *[&mut land.clearance, &mut land.radius, &mut land.width][k] = value;
+                bearing.cage = Some(cage(Pocket::Cylindrical, Guidance::Land(land)));
+            });
+            assert!(message.starts_with(expected), "{k} {value}: {message}");
+        }
+        let closed = Pocket::Closed { radial_clearance: value };
+        let message = refusal(|bearing| bearing.cage = Some(cage(closed, Guidance::Balls)));
+        assert_eq!(message, "a closed pocket has no radial clearance");
+        let message = refusal(|bearing| {
+            bearing.cage =
+                Some(FreeCage { pocket_diameter: value, ..cage(Pocket::Cylindrical, Guidance::Balls) });
+        });
+        assert_eq!(message, "a cage pocket is not larger than the ball");
+    }
 }
 
 /// Balls that touch their pockets in the kinematic solution, or each other without cage.
