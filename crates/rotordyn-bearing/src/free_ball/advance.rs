@@ -7,7 +7,7 @@
 use super::error::{FreeBallError, StepLimit};
 use super::forces::{ForceSums, LOSSES, Parts};
 use super::ring::{RingFrame, RingState};
-use super::state::{FreeBallState, normalise_orientation};
+use super::state::{BALL, FreeBallState, cage_at, normalise_orientation};
 
 /// Stability limits of RK4 on the imaginary and on the negative real axis.
 const IMAGINARY_LIMIT: f64 = 2.828_427;
@@ -31,7 +31,7 @@ pub struct Interval {
 pub struct StableStep {
     /// By the stiffness and damping of the contacts.
     pub contact: f64,
-    /// By the friction law.
+    /// By friction, rolling resistance and drag.
     pub friction: f64,
 }
 
@@ -59,7 +59,7 @@ impl StableStep {
     }
 }
 
-/// Steps after which the balls are searched for in the bearing: they move by micrometres in a step.
+/// Steps after which balls and cage are searched for in the bearing: they move by micrometres in a step.
 const STEPS_BETWEEN_CHECKS: usize = 16;
 
 /// Arrays of one step.
@@ -75,8 +75,9 @@ impl Parts {
     /// Advances a state over an interval in equal steps no longer than `step` \[s\].
     ///
     /// `rings`: inner and outer ring at the start and at the end of the interval, moved between as
-    /// [`RingState::between`]; `duration` \[s\]. Errors: a step beyond a stability limit at any time of the interval, a
-    /// ball that leaves the bearing.
+    /// [`RingState::between`]; `duration` \[s\]. Errors: a duration or step that is not positive and finite, a step
+    /// beyond a stability limit at any time of the interval, a ball or cage that leaves the bearing. On an error the state is
+    /// that after the last accepted step, at its time.
     pub fn advance(
         &self,
         state: &mut FreeBallState,
@@ -84,6 +85,12 @@ impl Parts {
         duration: f64,
         step: f64,
     ) -> Result<Interval, FreeBallError> {
+        let positive = |time: f64| time > 0.0 && time.is_finite();
+        if !(positive(duration) && positive(step)) {
+            let why =
+                format!("an interval of {duration} s in steps of {step} s: both must be positive and finite");
+            return Err(FreeBallError::Input(vec![why]));
+        }
         let steps = ((duration / step - 1e-9).ceil() as usize).max(1);
         let h = duration / steps as f64;
         let n = state.values.len();
@@ -98,15 +105,14 @@ impl Parts {
             let share = |part: f64| (s as f64 + part) / steps as f64;
             let (middle, after) = (frames(share(0.5)), frames(share(1.0)));
             if s % STEPS_BETWEEN_CHECKS == 0 {
-                self.check_balls(state, &before)?;
+                self.check_bodies(state, &before)?;
             }
-            let sums = self.step(&mut state.values, &mut stages, &[before, middle, after], h, &mut tracked);
-            StableStep::of(&sums).check(h, state.time)?;
+            self.step(state, &mut stages, &[before, middle, after], h, &mut tracked)?;
             normalise_orientation(&mut state.values, self.balls.len());
             state.time = start + (s + 1) as f64 * h;
             before = after;
         }
-        self.check_balls(state, &before)?;
+        self.check_bodies(state, &before)?;
         let mean = |k: usize| std::array::from_fn(|i| tracked[6 * k + i] / duration);
         Ok(Interval {
             rings: [mean(0), mean(1)],
@@ -116,17 +122,21 @@ impl Parts {
         })
     }
 
-    /// One step; adds the integrals of forces and powers to `tracked` and returns the sums at its start.
+    /// One step of the state's values; adds the integrals of forces and powers to `tracked`.
+    ///
+    /// Error: a step beyond the stability limit at its start; the state is then unchanged.
     fn step(
         &self,
-        values: &mut [f64],
+        state: &mut FreeBallState,
         stages: &mut Stages,
         rings: &[[RingFrame; 2]; 3],
         h: f64,
         tracked: &mut [f64; TRACKED],
-    ) -> ForceSums {
+    ) -> Result<(), FreeBallError> {
         const PLACES: [(usize, f64); 3] = [(1, 0.5), (1, 0.5), (2, 1.0)];
+        let values = &mut state.values;
         let first = self.rates(values, &rings[0], &mut stages.rates[0]);
+        StableStep::of(&first).check(h, state.time)?;
         track(tracked, &first, h / 6.0);
         for (k, (place, share)) in PLACES.into_iter().enumerate() {
             let (done, next) = stages.rates.split_at_mut(k + 1);
@@ -140,16 +150,27 @@ impl Parts {
         for (i, value) in values.iter_mut().enumerate() {
             *value += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
         }
-        first
+        Ok(())
     }
 
-    fn check_balls(&self, state: &FreeBallState, rings: &[RingFrame; 2]) -> Result<(), FreeBallError> {
+    /// Errors: a ball or the cage that has left the bearing or whose motion is not finite.
+    fn check_bodies(&self, state: &FreeBallState, rings: &[RingFrame; 2]) -> Result<(), FreeBallError> {
         for (ball, &[radius, ..]) in self.balls.iter().enumerate() {
             let position = state.ball(ball).position;
             for (groove, ring) in self.grooves.iter().zip(rings) {
                 if let Some(cause) = groove.lost(ring, &position, radius) {
                     return Err(FreeBallError::BallLost { ball, time: state.time, cause });
                 }
+            }
+        }
+        let lost = |cause: String| Err(FreeBallError::CageLost { time: state.time, cause });
+        if state.values.iter().skip(BALL * self.balls.len()).any(|value| !value.is_finite()) {
+            return lost("its motion diverged".into());
+        }
+        if let Some(contacts) = &self.cage {
+            let apart = (cage_at(&state.values, self.balls.len()).position - rings[1].centre).norm();
+            if apart > contacts.pitch_radius {
+                return lost(format!("its centre moved {apart:.3e} m from that of the outer ring"));
             }
         }
         Ok(())

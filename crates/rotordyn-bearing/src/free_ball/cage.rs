@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 pub(super) struct CageContacts {
     pub cage: FreeCage,
     /// Radius of the circle of pocket centres \[m\].
-    pitch_radius: f64,
+    pub pitch_radius: f64,
     /// cos and sin of the angle of each pocket.
     pockets: Vec<[f64; 2]>,
 }

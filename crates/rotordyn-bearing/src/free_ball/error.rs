@@ -17,6 +17,9 @@ pub enum FreeBallError {
     /// A ball has left the bearing.
     #[error("ball {ball} left the bearing at t = {time:.6} s: {cause}")]
     BallLost { ball: usize, time: f64, cause: String },
+    /// The cage has left the bearing or its motion has diverged.
+    #[error("the cage left the bearing at t = {time:.6} s: {cause}")]
+    CageLost { time: f64, cause: String },
 }
 
 /// What limits the time step.
@@ -24,7 +27,7 @@ pub enum FreeBallError {
 pub enum StepLimit {
     /// Stiffness and damping of the contacts against the mass of balls and cage.
     Contact,
-    /// Slope of the friction law at zero slip against the mass of balls and cage.
+    /// Friction over slip and drag over speed against the mass and inertia of balls and cage.
     Friction,
 }
 
@@ -32,7 +35,7 @@ impl std::fmt::Display for StepLimit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Contact => "the contact stiffness",
-            Self::Friction => "the friction law",
+            Self::Friction => "friction and drag",
         })
     }
 }

@@ -107,6 +107,7 @@ impl Parts {
             let mut total = Wrench { force: mass * self.gravity, moment: V::zeros() };
             let mut own = Rates::default();
             let mut friction = [0.0; 2];
+            let mut rolling = 0.0;
             for (k, ring) in rings.iter().enumerate() {
                 let Some(force) = self.grooves[k].react(ring, &ball) else { continue };
                 let from_ring = ball.position - ring.centre;
@@ -118,8 +119,9 @@ impl Parts {
                 sums.elastic_energy += force.energy;
                 own.add(&[force.slopes[0], force.slopes[1], 0.0], 1.0 / mass);
                 friction[k] = force.slopes[2] / mass;
+                rolling += force.rolling_slope / inertia;
             }
-            own.0[2] = sliding_rate(friction);
+            own.0[2] = sliding_rate(friction) + rolling;
             if let Some((contacts, frame)) = &cage {
                 contacts.pocket(frame, &ball, j, |CageContact { contact, arm }| {
                     let on_ball = arm + frame.body.position - ball.position;
@@ -131,7 +133,8 @@ impl Parts {
                     cage_rates.add(&contact.slopes, cage_mobility(contacts, &arm));
                 });
             }
-            self.add_ball_drag(&mut total, &mut sums, &ball, &rings[1]);
+            let [force_slope, moment_slope] = self.add_ball_drag(&mut total, &mut sums, &ball, &rings[1]);
+            own.0[2] += f64::max(force_slope / mass, moment_slope / inertia);
             for (high, own) in highest_ball.0.iter_mut().zip(own.0) {
                 *high = f64::max(*high, own);
             }
@@ -145,6 +148,8 @@ impl Parts {
         }
         if let Some((contacts, frame)) = &cage {
             self.add_land(&mut sums, &mut cage_force, &mut cage_rates, contacts, frame, rings);
+            let inertia = contacts.cage.polar_inertia.min(contacts.cage.transverse_inertia);
+            cage_rates.0[2] += self.drag.cage_moment / inertia;
             let moment = -self.drag.cage_moment * (frame.rotation - rings[1].rotation);
             cage_force.moment += moment;
             sums.rings[1].moment -= moment;
@@ -200,28 +205,32 @@ impl Parts {
         highest
     }
 
+    /// Drag of a ball; returns the slopes of its force \[N s/m\] and of its moment \[N m s\].
     fn add_ball_drag(
         &self,
         total: &mut Wrench,
         sums: &mut ForceSums,
         ball: &BallMotionState,
         housing: &RingFrame,
-    ) {
+    ) -> [f64; 2] {
         let Drag { density, ball_force, ball_moment, .. } = self.drag;
         if density == 0.0 {
-            return;
+            return [0.0; 2];
         }
         let from_ring = ball.position - housing.centre;
         let velocity = ball.velocity - housing.velocity_at(&from_ring);
         let rotation = ball.rotation - housing.rotation;
         let area = std::f64::consts::PI * ball.radius * ball.radius;
-        let force = -0.5 * density * ball_force * area * velocity.norm() * velocity;
-        let moment = -0.5 * density * ball_moment * ball.radius.powi(5) * rotation.norm() * rotation;
+        // Half the slopes: both grow with the square of the speed.
+        let over_speed = 0.5 * density * ball_force * area * velocity.norm();
+        let over_rotation = 0.5 * density * ball_moment * ball.radius.powi(5) * rotation.norm();
+        let (force, moment) = (-over_speed * velocity, -over_rotation * rotation);
         total.force += force;
         total.moment += moment;
         sums.rings[1].add(&-force, &from_ring);
         sums.rings[1].moment -= moment;
         sums.losses[Loss::Drag as usize] -= force.dot(&velocity) + moment.dot(&rotation);
+        [2.0 * over_speed, 2.0 * over_rotation]
     }
 
     fn add_land(

@@ -71,31 +71,55 @@ impl FreeBallBearing {
         let Drag { density, ball_force, ball_moment, cage_moment } = self.drag;
         let resistances = [self.damping, self.rolling_loss, density, ball_force, ball_moment, cage_moment];
         refuse(
-            resistances.iter().any(|value| value.is_nan() || *value < 0.0),
+            !resistances.iter().all(|value| *value >= 0.0),
             "a damping, a loss factor or a drag is negative",
+        );
+        refuse(
+            self.cage.is_none() && !regularised(&self.ball_friction),
+            "friction of balls that touch each other: coefficient negative or slip speed not positive",
         );
         let larger = ball.imperfections.off_size.iter().map(|size| size.diameter_difference);
         let largest = g.ball_diameter + larger.fold(0.0, f64::max);
         if let Some(cage) = &self.cage {
-            refuse(cage.pocket_diameter <= largest, "a cage pocket is not larger than the ball");
+            let larger = cage.pocket_diameter > largest;
+            refuse(!larger, "a cage pocket is not larger than the ball");
             let spacing = g.pitch_diameter * (PI / g.balls.max(1) as f64).sin();
             refuse(g.balls > 1 && cage.pocket_diameter >= spacing, "neighbouring cage pockets overlap");
             let inertia = [cage.mass, cage.polar_inertia, cage.transverse_inertia];
+            refuse(!inertia.into_iter().all(positive), "mass or inertia of the cage is not positive");
             refuse(
-                inertia.iter().any(|value| value.is_nan() || *value <= 0.0),
-                "mass or inertia of the cage is not positive",
+                !cage.pocket_contact.is_valid(),
+                "contact of the cage pockets: stiffness or slip speed not positive, or damping or friction negative",
             );
             refuse(
-                matches!(cage.pocket, Pocket::Closed { radial_clearance } if radial_clearance <= 0.0),
+                matches!(cage.pocket, Pocket::Closed { radial_clearance } if !positive(radial_clearance)),
                 "a closed pocket has no radial clearance",
             );
-            refuse(
-                matches!(cage.guidance, Guidance::Land(land) if land.clearance <= 0.0 || land.radius <= 0.0),
-                "the cage touches its guiding ring at rest: its clearance is not positive",
-            );
+            if let Guidance::Land(land) = &cage.guidance {
+                refuse(
+                    !positive(land.clearance),
+                    "the cage touches its guiding ring at rest: its clearance is not positive",
+                );
+                let sizes = positive(land.radius) && positive(land.width);
+                refuse(!sizes, "radius or width of the cage's land is not positive");
+                refuse(
+                    !land.contact.is_valid(),
+                    "contact of the cage's land: stiffness or slip speed not positive, or damping or friction negative",
+                );
+            }
         }
         out
     }
+}
+
+/// Positive and finite; false for NaN.
+fn positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+/// Regularised Coulomb friction with μ ≥ 0 and v₀ > 0; v₀ = 0 would give 0/0 at rest.
+fn regularised(law: &Traction) -> bool {
+    law.friction >= 0.0 && law.friction.is_finite() && positive(law.slip_speed)
 }
 
 /// Where slip is evaluated in the contact of a ball and a race.
@@ -192,6 +216,14 @@ pub struct PointContactLaw {
     /// χ \[s/m\].
     pub damping: f64,
     pub friction: Traction,
+}
+
+impl PointContactLaw {
+    /// K > 0, χ ≥ 0, μ ≥ 0 and v₀ > 0, all finite.
+    fn is_valid(&self) -> bool {
+        let damped = self.damping >= 0.0 && self.damping.is_finite();
+        positive(self.stiffness) && damped && regularised(&self.friction)
+    }
 }
 
 /// Resistance of the lubricant around balls and cage, at rest relative to the outer ring.

@@ -102,7 +102,8 @@ impl FreeBalls {
     /// Advances a state over an interval and returns mean forces and energies.
     ///
     /// `rings`: inner and outer ring at the start and at the end; `duration` and longest `step` \[s\]. Between, the rings
-    /// move as [`RingState::between`]. Errors: a step beyond a stability limit, a ball that leaves the bearing.
+    /// move as [`RingState::between`]. Errors: a duration or step that is not positive and finite, a step beyond a
+    /// stability limit, a ball or cage that leaves the bearing; the state is then that after the last accepted step.
     pub fn advance(
         &self,
         state: &mut FreeBallState,

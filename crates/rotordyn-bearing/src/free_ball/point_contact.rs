@@ -26,9 +26,8 @@ pub(super) struct PointContact {
 /// Force of a contact, power and stiffness.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PointForce {
-    /// Approach δ \[m\] and normal load \[N\].
+    /// Approach δ \[m\].
     pub depth: f64,
-    pub load: f64,
     /// Force on the first body \[N\].
     pub force: V,
     /// Elastic energy \[J\].
@@ -62,7 +61,6 @@ impl PointContact {
             / (slip.norm_squared() + law.friction.slip_speed * law.friction.slip_speed).sqrt();
         PointForce {
             depth: *depth,
-            load,
             force: load * normal - friction * slip,
             energy,
             power: friction * slip.norm_squared() + (load - elastic) * rate,

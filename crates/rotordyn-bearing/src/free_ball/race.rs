@@ -82,6 +82,8 @@ pub(super) struct RaceForce {
     pub damping_power: f64,
     /// Slopes dQ/dδ \[N/m\], dQ/dδ̇ \[N s/m\], and friction over slip \[N s/m\].
     pub slopes: [f64; 3],
+    /// Moment of rolling resistance over the rotation of rolling \[N m s\].
+    pub rolling_slope: f64,
 }
 
 impl Groove {
@@ -206,7 +208,8 @@ impl Groove {
         } else {
             TractionSum::default()
         };
-        let (resistance, rolling_power) = self.rolling_resistance(&(relative - spin * n), load, semi_axes[0]);
+        let roll = relative - spin * n;
+        let rolling_slope = self.rolling_slope(&roll, load, semi_axes[0]);
         let moment = traction.moment[0] * along + traction.moment[1] * across + traction.moment[2] * n;
         Some(RaceForce {
             load,
@@ -214,16 +217,17 @@ impl Groove {
             normal: load * pressed,
             friction: traction.force[0] * along + traction.force[1] * across,
             arm,
-            moment: moment + resistance,
+            moment: moment - rolling_slope * roll,
             slip: sliding.slip,
             spin,
             rolling,
             semi_axes,
             energy: 0.4 * elastic * depth,
             traction_power: traction.power,
-            rolling_power,
+            rolling_power: rolling_slope * roll.norm_squared(),
             damping_power: (load - elastic) * rate,
             slopes: [1.5 * self.stiffness * root, damping, traction.slope],
+            rolling_slope,
         })
     }
 
@@ -242,16 +246,14 @@ impl Groove {
         (edge.map(|to_edge| -to_edge / distance), ball_radius - distance)
     }
 
-    /// Moment of rolling resistance on the ball \[N m\] and its power \[W\], from the rolling part of the rotation.
+    /// Moment of rolling resistance against the rolling part of the rotation, over that rotation \[N m s\].
     #[inline(always)]
-    fn rolling_resistance(&self, roll: &V, load: f64, semi_axis: f64) -> (V, f64) {
+    fn rolling_slope(&self, roll: &V, load: f64, semi_axis: f64) -> f64 {
         let [factor, fading] = self.rolling;
         if factor == 0.0 {
-            return (V::zeros(), 0.0);
+            return 0.0;
         }
-        let squared = roll.norm_squared();
-        let over_speed = factor * load * semi_axis / (squared + fading * fading).sqrt();
-        (-over_speed * roll, over_speed * squared)
+        factor * load * semi_axis / (roll.norm_squared() + fading * fading).sqrt()
     }
 
     /// Friction at an entrainment speed \[m/s\].

@@ -17,7 +17,7 @@ pub struct BallReport {
     pub rotation: [f64; 3],
     /// Contact with inner and outer race; `None` where they do not touch.
     pub races: [Option<RaceContactReport>; 2],
-    /// Normal load of the pocket \[N\], positive where it drives the ball along +z rotation; 0 without contact.
+    /// Force of the pocket on the ball along the orbit \[N\], positive where it drives along +z rotation; 0 without contact.
     pub pocket: f64,
 }
 
@@ -83,8 +83,7 @@ impl Parts {
             let mut pocket = 0.0;
             if let Some((contacts, frame)) = &cage {
                 contacts.pocket(frame, &ball, j, |contact| {
-                    let drive = contact.contact.force.dot(&along);
-                    pocket += contact.contact.load * drive.signum();
+                    pocket += contact.contact.force.dot(&along);
                 });
             }
             let race = |k: usize| self.grooves[k].react(&rings[k], &ball);

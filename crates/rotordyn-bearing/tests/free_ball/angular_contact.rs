@@ -81,14 +81,17 @@ fn settled_with(friction: f64, speed: f64, slip: SlipModel, slip_speed: f64, ste
             report.orbital_speed / speed,
             report.pitch_angle().to_degrees(),
         ];
-        let change = (0..6).map(|i| (now[i] / last[i] - 1.0).abs()).fold(0.0, f64::max);
+        // Angles against 10 deg at least: a pitch angle may decay to zero.
+        let least = [10.0, 10.0, 0.0, 0.0, 0.0, 10.0];
+        let relative = |i: usize| (now[i] - last[i]).abs() / f64::max(now[i].abs(), least[i]);
+        let change = (0..6).map(relative).fold(0.0, f64::max);
         last = now;
         if change < 1e-6 && (run.rings[0][2] / THRUST + 1.0).abs() < 1e-5 {
             println!("steady after {:.3} s", state.time);
-            break;
+            return last;
         }
     }
-    last
+    panic!("not steady after {:.3} s: {last:.5?}", state.time)
 }
 
 /// Figures of a second engine: contact angles, loads, cage speed, spin axis; slip integrated over the ellipse.
