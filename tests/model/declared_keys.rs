@@ -55,8 +55,11 @@ fn every_key_is_read() {
         for context in contexts_of(&key) {
             let found = errors(&context, key.name, &value(&key.example));
             let is_key = |d: &&Diagnostic| d.message.rsplit(['.', ' ']).next() == Some(key.name);
-            let unknown = found.iter().filter(is_key).find(|d| d.kind == Kind::UnknownKey);
-            failures.extend(unknown.map(|d| format!("{}: {}", key.path, d.message)));
+            let refused = found.iter().filter(is_key).find(|d| d.kind == Kind::UnknownKey);
+            let foreign = found
+                .iter()
+                .find(|d| d.kind == Kind::Conflict && d.message.contains("does not belong to model"));
+            failures.extend(refused.or(foreign).map(|d| format!("{}: {}", key.path, d.message)));
         }
     }
     assert_none(&failures);
