@@ -37,7 +37,7 @@ pub struct KeyDescription {
     pub absent: String,
     /// Assignments in the same table, in TOML, with which the key's group applies: alternatives, "" is always.
     pub groups: Vec<&'static str>,
-    /// Further assignments with which the key applies.
+    /// Example of further assignments, in TOML, with which the key applies; "" is always.
     pub condition: &'static str,
     pub meaning: &'static str,
     /// Value as it could be written in a file; empty for a table.
@@ -47,7 +47,7 @@ pub struct KeyDescription {
 }
 
 impl KeyDescription {
-    /// Assignments in the same table, in TOML, with which the key applies: alternatives, "" is always.
+    /// Examples of assignments in the same table, in TOML, with which the key applies, one per group: "" is always.
     pub fn conditions(&self) -> Vec<String> {
         let both = |group: &&str| {
             [*group, self.condition]

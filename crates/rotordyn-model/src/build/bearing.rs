@@ -81,7 +81,7 @@ keys! {
         speed: Quantities = quantities(not_negative(SPEED), "one or more, increasing",
             "Speeds of a table; every component then has one value or one per speed.").default("0 rpm");
         beyond_table: Words<BeyondTable> = words(&[("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)],
-            "At speeds beyond the table: its last value, or an error.").default("hold")
+            "At speeds beyond a table of two or more: its last value, or an error.").default("hold")
             .with("speed = \"0, 3000 rpm\"");
     }
 }

@@ -35,7 +35,7 @@ keys! {
             ("ehl", ContactKeyword::Ehl),
         ], "Dry contact, with the film thickness of Hamrock and Dowson, fitted, or with a solved film.")
             .default("hertz");
-        speed_factor: Quantity = quantity(positive(NUMBER), "Factor of the entrainment speed.").default("1")
+        speed_factor: Quantity = quantity(positive(NUMBER), "Factor of the entrainment speed, of the contacts film and ehl.").default("1")
             .with("contact = \"film\"");
         power_law: SubTable = sub_table(PowerLawKeys::TABLE).required("with contact = \"power_law\"")
             .with("contact = \"power_law\"");
@@ -45,7 +45,7 @@ keys! {
         damping_ramp: Quantity = quantity(positive(LENGTH), "Deflection over which this damping sets in.")
             .default("1 um");
         hunt_crossley: Quantity = quantity(not_negative(INVERSE_SPEED), "Damping by Hunt and Crossley.").optional();
-        film_damping: Quantity = quantity(positive(NUMBER), "Damping by the film, factor of its relaxation time, about 1.")
+        film_damping: Quantity = quantity(positive(NUMBER), "Damping by the film, factor of its relaxation time, about 1; of the contacts film and ehl.")
             .optional().with("contact = \"film\"").example("1");
     }
 }
@@ -102,7 +102,8 @@ keys! {
             ("oil_mist", Lubrication::OilMist),
             ("oil_jet", Lubrication::OilJet),
             ("grease", Lubrication::Grease),
-        ], "Lubrication, for the friction torque; oil_jet is also an oil bath with a vertical shaft.").default("oil_bath").with("lubricant = \"oil\"");
+        ], "Lubrication with a lubricant or film, for the friction torque; oil_jet is also an oil bath with a vertical shaft.")
+            .default("oil_bath").with("lubricant = \"oil\"");
         lubrication_factor: SubTable = sub_table(LubricationKeys::TABLE).named("lubrication")
             .with("lubricant = \"oil\"");
         sliding_friction: Quantity = quantity(within(NUMBER, [0.0, 1.0]), "Coefficient of friction of spinning balls.")
@@ -125,7 +126,7 @@ keys! {
 
 keys! {
     /// `lubrication = { ... }`.
-    static LUBRICATION: LubricationKeys = "Factor of the viscous part of the friction torque, instead of a method." {
+    static LUBRICATION: LubricationKeys = "Factor of the viscous part of the friction torque with a lubricant or film, instead of a method." {
         f_0: Quantity = quantity(positive(NUMBER), "Factor f_0 of Palmgren.").example("1.5");
     }
 }

@@ -57,7 +57,7 @@ keys! {
             ("force_on_loaded", DefectLawKeyword::ForceOnLoaded),
         ], "How a defect acts; all but displacement are those of Atef et al. (2022).")
             .default("displacement");
-        defect_stiffness: PowerStiffness = power_stiffness("1.5", "Contact stiffness of the force law.")
+        defect_stiffness: PowerStiffness = power_stiffness("1.5", "Contact stiffness of the laws force and force_on_loaded.")
             .computed("that of the contacts").with("defect_law = \"force\"").example("\"1.58e10 N/m^1.5\"");
     }
 }
