@@ -66,7 +66,7 @@ keys! {
     /// A harmonic of waviness.
     static WAVE: WaveKeys = "A harmonic of waviness." {
         order: Count = count([1, MAX_WAVINESS_ORDER], "Waves per circumference.").example("2");
-        amplitude: Quantity = quantity(not_negative(LENGTH), "Amplitude of the radial deviation.").example("\"1 um\"");
+        amplitude: Quantity = quantity(not_negative(LENGTH), "Amplitude of the deviation along the contact normal.").example("\"1 um\"");
         phase: Quantity = quantity(any(ANGLE), "Phase of the wave.").default("0 deg").example("\"90 deg\"");
     }
 }

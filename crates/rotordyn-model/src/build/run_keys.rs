@@ -37,7 +37,7 @@ keys! {
 keys! {
     /// Of run-ups; those of runs at constant speed default to it.
     pub(super) static RUN_STEP: StepKeys {
-        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval.")
+        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval; of dormand-prince the first.")
             .default("100 us");
     }
 }
