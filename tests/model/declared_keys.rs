@@ -238,6 +238,8 @@ fn a_path_is_found_with_and_without_names() {
     assert_eq!(at("").members[0].name, "model");
     assert_eq!(at("bearing.B.preload").path, "bearing.preload");
     assert_eq!(at("bearing.preload").members.len(), 5);
+    assert_eq!(at("station.A").path, "station");
+    assert!(keys::find("station.A.x").is_err());
     assert_eq!(at("shaft.section.0.length").path, "shaft.section.length");
     assert_eq!(at("study.modal.speeds.step").keys[0].unit, "rad/s");
     let former = at("bearing.contacts_pull");
