@@ -7,7 +7,7 @@ use crate::file::key::{
     quantities, quantity, spaced, texts, words,
 };
 use crate::file::reader::Reader;
-use crate::study::{BearingStudy, BearingSweep, DOF_NAMES, SweepDirection, SweepVariable};
+use crate::study::{BearingStudy, BearingSweep, DOF_NAMES, ROUGHNESS, SweepDirection, SweepVariable};
 use rotordyn_units::{ANGLE, FORCE, LENGTH, MOMENT, SPEED};
 
 /// Load without the key.
@@ -31,7 +31,7 @@ keys! {
             .example("\"3000 rpm\"");
         cage_average: Flag = flag("Average over the cage angle instead of using that of the model.").default("false");
         roughness: Quantity = quantity(positive(LENGTH), "Composite RMS roughness of ball and race, for the lambda ratio.")
-            .default("100 nm");
+            .default_si(ROUGHNESS);
         along: Words<SweepDirection> = words(&[
             ("load", SweepDirection::Load),
             (DOF_NAMES[0], SweepDirection::Axis(0)),

@@ -9,6 +9,7 @@ use crate::file::key::{
 use crate::file::reader::Reader;
 use crate::file::tree::Value;
 use rotordyn_bearing::Service;
+use rotordyn_bearing::ball::{CONTAMINATION, RELIABILITY};
 use rotordyn_bearing::contact::ehl::{DEFAULT_POINTS, EhlLaw};
 use rotordyn_bearing::contact::{
     ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant, PowerLaw,
@@ -115,8 +116,9 @@ keys! {
         fatigue_limit: Quantity = quantity(positive(FORCE), "Fatigue load limit C_u.").computed("from the geometry")
             .example("\"335 N\"");
         contamination: Quantity = quantity(within(NUMBER, [0.0, 1.0]), "Contamination factor e_C of ISO 281.")
-            .default("0.5");
-        reliability: Quantity = quantity(within(NUMBER, [0.9, 0.999]), "Reliability of the rating life.").default("0.9");
+            .default_si(CONTAMINATION);
+        reliability: Quantity = quantity(within(NUMBER, [0.9, 0.999]), "Reliability of the rating life.")
+            .default_si(RELIABILITY);
         inner_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the inner shoulder.")
             .computed("0.2 D_w high; with a contact angle at least 25 deg beyond it").example("\"33 mm\"");
         outer_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the outer shoulder.")
