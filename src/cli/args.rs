@@ -121,7 +121,8 @@ Examples:
     Modal {
         #[command(flatten)]
         study: StudyArgs,
-        #[arg(long, value_name = "SPEEDS", help = key_help("study.modal.speeds"))]
+        /// Speeds, such as "0, 3000 rpm" [default: 0 and the highest of [speed]]
+        #[arg(long, value_name = "SPEEDS")]
         speed: Option<String>,
         #[arg(long, value_name = "N", help = key_help("study.modal.modes"))]
         modes: Option<usize>,

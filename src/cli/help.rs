@@ -115,7 +115,7 @@ fn cells(keys: &[KeyDescription]) -> Cells {
     let key = &keys[0];
     let meaning = match key.condition {
         "" => key.meaning.to_string(),
-        condition => format!("{} (with {condition})", key.meaning),
+        condition => format!("{} (for example with {condition})", key.meaning),
     };
     let [first, .., last] = keys else {
         return [key.name.into(), value(key), key.absent.clone(), meaning];
@@ -159,8 +159,8 @@ fn print_key(key: &KeyDescription, terminal: &Terminal) {
         say("example", &example(key));
     }
     say("without it", &key.absent);
-    let conditions: Vec<String> = key.conditions().into_iter().filter(|words| !words.is_empty()).collect();
-    say("only with", &conditions.join(" or "));
+    say("only with", &key.groups.join(" or "));
+    say("for example with", key.condition);
 }
 
 fn example(key: &KeyDescription) -> String {

@@ -55,8 +55,11 @@ fn every_key_is_read() {
         for context in contexts_of(&key) {
             let found = errors(&context, key.name, &value(&key.example));
             let is_key = |d: &&Diagnostic| d.message.rsplit(['.', ' ']).next() == Some(key.name);
-            let unknown = found.iter().filter(is_key).find(|d| d.kind == Kind::UnknownKey);
-            failures.extend(unknown.map(|d| format!("{}: {}", key.path, d.message)));
+            let refused = found.iter().filter(is_key).find(|d| d.kind == Kind::UnknownKey);
+            let foreign = found
+                .iter()
+                .find(|d| d.kind == Kind::Conflict && d.message.contains("does not belong to model"));
+            failures.extend(refused.or(foreign).map(|d| format!("{}: {}", key.path, d.message)));
         }
     }
     assert_none(&failures);
@@ -235,6 +238,8 @@ fn a_path_is_found_with_and_without_names() {
     assert_eq!(at("").members[0].name, "model");
     assert_eq!(at("bearing.B.preload").path, "bearing.preload");
     assert_eq!(at("bearing.preload").members.len(), 5);
+    assert_eq!(at("station.A").path, "station");
+    assert!(keys::find("station.A.x").is_err());
     assert_eq!(at("shaft.section.0.length").path, "shaft.section.length");
     assert_eq!(at("study.modal.speeds.step").keys[0].unit, "rad/s");
     let former = at("bearing.contacts_pull");

@@ -2,7 +2,7 @@
 
 use rotordyn::bearing::{Bearing, Cage};
 use rotordyn::model::study::Integrator;
-use rotordyn::model::{self, Drive, Model, Options, Quantity, SpeedProfile};
+use rotordyn::model::{self, Drive, Kind, Model, Options, Quantity, SpeedProfile};
 
 const HEAD: &str = r#"
 [model]
@@ -266,6 +266,20 @@ bearing.A = { k_xx = "1e5 N/m", k_yy = "3 N/m" }
     assert_eq!(stiffness(None, &[]), (1e7, 0.0, "AMB".into()));
     assert_eq!(stiffness(Some("soft"), &[]), (1e6, 0.0, "AMBC".into()));
     assert_eq!(stiffness(Some("softer"), &[("bearing.A.k_xx", "7 N/m")]), (7.0, 3.0, "ABC".into()));
+}
+
+#[test]
+fn poissons_ratio_is_in_range_when_it_follows_from_the_shear_modulus() {
+    let with = |line: &str| {
+        let loaded = model::load("test.toml", HEAD.replace("poisson = 0.25", line), &Options::default());
+        loaded.map(|loaded| loaded.model).map_err(|errors| errors.diagnostics[0].kind)
+    };
+    let poisson = |line: &str| with(line).unwrap().materials[0].poisson;
+    assert_eq!(poisson("shear = \"80 GPa\""), 0.25);
+    assert!((poisson("shear = \"66.6667 GPa\"") - 0.5).abs() < 1e-6);
+    assert_eq!(with("shear = \"60 GPa\"").unwrap_err(), Kind::OutOfRange);
+    assert_eq!(with("shear = \"11000 GPa\"").unwrap_err(), Kind::OutOfRange);
+    assert_eq!(with("poisson = -1").unwrap_err(), Kind::OutOfRange);
 }
 
 #[test]

@@ -37,7 +37,7 @@ pub struct KeyDescription {
     pub absent: String,
     /// Assignments in the same table, in TOML, with which the key's group applies: alternatives, "" is always.
     pub groups: Vec<&'static str>,
-    /// Further assignments with which the key applies.
+    /// Example of further assignments, in TOML, with which the key applies; "" is always.
     pub condition: &'static str,
     pub meaning: &'static str,
     /// Value as it could be written in a file; empty for a table.
@@ -47,7 +47,7 @@ pub struct KeyDescription {
 }
 
 impl KeyDescription {
-    /// Assignments in the same table, in TOML, with which the key applies: alternatives, "" is always.
+    /// Examples of assignments in the same table, in TOML, with which the key applies, one per group: "" is always.
     pub fn conditions(&self) -> Vec<String> {
         let both = |group: &&str| {
             [*group, self.condition]
@@ -140,7 +140,7 @@ struct Place {
     each: Option<Quantity>,
 }
 
-/// Find a key by its path, with or without names of items: `bearing.preload.force`, `bearing.B.preload`.
+/// Find a key by its path, with or without names of items: `bearing.preload.force`, `bearing.B.preload`, `station.A`.
 ///
 /// # Errors
 /// A path that is not declared, with the nearest ones.
@@ -159,7 +159,13 @@ pub fn find(path: &str) -> Result<Found, UnknownKey> {
             let is_item = here
                 .iter()
                 .any(|place| matches!(place.key.kind(), ValueKind::NamedTables(_) | ValueKind::TableList(_)));
-            if is_item && (k + 1 < parts.len() || part.parse::<usize>().is_ok() || *part == "*") {
+            let is_last = k + 1 == parts.len();
+            if is_item && (!is_last || part.parse::<usize>().is_ok() || *part == "*") {
+                continue;
+            }
+            let is_quantity =
+                here.iter().any(|place| matches!(place.key.kind(), ValueKind::NamedQuantities(_)));
+            if is_quantity && is_last {
                 continue;
             }
             return Err(unknown(path, part, &members));

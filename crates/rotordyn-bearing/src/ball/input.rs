@@ -56,8 +56,12 @@ pub struct Service {
     pub shoulder_diameters: [Option<f64>; 2],
 }
 
+/// Default contamination factor e_C: normal cleanliness of a small bearing (ISO 281 table 13).
+pub const CONTAMINATION: f64 = 0.5;
+/// Default reliability of the rating life.
+pub const RELIABILITY: f64 = 0.9;
+
 impl Default for Service {
-    /// Normal cleanliness of a small bearing (ISO 281 table 13), reliability of 90 %.
     fn default() -> Self {
         Self {
             dynamic_rating: None,
@@ -66,8 +70,8 @@ impl Default for Service {
             lubricant: None,
             lubrication: Lubrication::default(),
             sliding_friction: SLIDING_FRICTION,
-            contamination: 0.5,
-            reliability: 0.9,
+            contamination: CONTAMINATION,
+            reliability: RELIABILITY,
             shoulder_diameters: [None; 2],
         }
     }

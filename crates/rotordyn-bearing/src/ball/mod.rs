@@ -42,7 +42,7 @@ mod sum;
 pub use element::BallElement;
 pub use fit::{Fit, FitMaterials};
 pub use inertia::{BallInertia, InertiaDecision};
-pub use input::{Arrangement, BallBearing, Cage, Duplex, Preload, Service};
+pub use input::{Arrangement, BallBearing, CONTAMINATION, Cage, Duplex, Preload, RELIABILITY, Service};
 pub use load::BallLoad;
 pub use lubrication::Lubrication;
 pub use preload::PreloadState;

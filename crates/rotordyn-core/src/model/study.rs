@@ -172,6 +172,9 @@ pub struct BearingStudy {
     pub sweeps: Vec<BearingSweep>,
 }
 
+/// Default composite roughness \[m\]: ground races of normal precision; that of the balls is negligible.
+pub const ROUGHNESS: f64 = 1e-7;
+
 impl Default for BearingStudy {
     fn default() -> Self {
         Self {
@@ -181,8 +184,7 @@ impl Default for BearingStudy {
             constrained: None,
             speed: None,
             cage_average: false,
-            // ground races of a bearing of normal precision; the roughness of the balls is negligible
-            roughness: 0.1e-6,
+            roughness: ROUGHNESS,
             sweep_direction: SweepDirection::default(),
             sweeps: Vec::new(),
         }

@@ -34,17 +34,10 @@ keys! {
             .computed("from inner_osculation").example("\"4.13 mm\"");
         outer_groove_radius: Quantity = quantity(positive(LENGTH), "Radius of the outer groove, instead of its osculation.")
             .computed("from outer_osculation").example("\"4.21 mm\"");
-        contact_angle: Quantity = quantity(not_negative(ANGLE), "Nominal contact angle, below 90 deg.")
-            .computed("of the designation, else 0 deg").example("\"15 deg\"");
-        thrust: Words<f64> = words(&[("+z", 1.0), ("-z", -1.0)],
-            "Direction of the shaft's axial load that the bearing transmits to the housing.")
-            .required("with a contact angle or preload");
         radial_clearance: Quantity = quantity(any(LENGTH), "Radial internal clearance, diametral; negative: preload.")
             .computed("by clearance, with a contact angle 0").example("\"10 um\"");
         clearance: Words<&'static str> = words(&CLEARANCES, "Clearance class of ISO 5753-1, instead of radial_clearance.")
             .default("CN");
-        moment_arm: Quantity = quantity(positive(LENGTH), "Radius at which axial ball forces act.")
-            .computed("that of the inner groove centres").example("\"19 mm\"");
         bore: Quantity = quantity(positive(LENGTH), "Bore of the inner ring.")
             .computed("of the designation, else D_pw - 2.2 D_w").example("\"25 mm\"");
         outside_diameter: Quantity = quantity(positive(LENGTH), "Outside diameter of the outer ring.")
@@ -64,6 +57,19 @@ keys! {
             .default("0 deg").example("\"20 deg\"");
         cage_pocket_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the cage pockets.")
             .computed("from the geometry").example("\"8.2 mm\"");
+    }
+}
+
+keys! {
+    /// Of `model = "ball"` only.
+    pub(super) static AXIAL: AxialKeys {
+        contact_angle: Quantity = quantity(not_negative(ANGLE), "Nominal contact angle, below 90 deg.")
+            .computed("of the designation, else 0 deg").example("\"15 deg\"");
+        thrust: Words<f64> = words(&[("+z", 1.0), ("-z", -1.0)],
+            "Direction of the shaft's axial load that the bearing transmits to the housing.")
+            .required("with a contact angle or preload");
+        moment_arm: Quantity = quantity(positive(LENGTH), "Radius at which axial ball forces act.")
+            .computed("that of the inner groove centres").example("\"19 mm\"");
     }
 }
 
@@ -170,8 +176,8 @@ pub(super) fn check_geometry(r: &Reader, bearing: &BallBearing) {
     }
     if g.contact_angle >= FRAC_PI_2 {
         r.log.error(problem(
-            &BALL.contact_angle,
-            format!("{} must be below 90 deg", r.name(&BALL.contact_angle)),
+            &AXIAL.contact_angle,
+            format!("{} must be below 90 deg", r.name(&AXIAL.contact_angle)),
         ));
     }
     let (inside, outside) = (g.pitch_diameter - g.ball_diameter, g.pitch_diameter + g.ball_diameter);
@@ -248,7 +254,7 @@ pub(super) fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Opti
     };
     let inner_groove_radius = groove(&BALL.inner_groove_radius, &BALL.inner_osculation, 0);
     let outer_groove_radius = groove(&BALL.outer_groove_radius, &BALL.outer_osculation, 1);
-    let contact_angle = r.or(&BALL.contact_angle, entry.map_or(0.0, |e| e.contact_angle));
+    let contact_angle = r.or(&AXIAL.contact_angle, entry.map_or(0.0, |e| e.contact_angle));
     let thrust = thrust(r, contact_angle);
     let bore = r.or(&BALL.bore, entry.map_or(pitch_diameter - 2.2 * ball_diameter, |e| e.bore));
     let outside = entry.map_or(pitch_diameter + 2.2 * ball_diameter, |e| e.outside_diameter);
@@ -261,7 +267,7 @@ pub(super) fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Opti
         radial_clearance: clearance(r, bore, contact_angle),
         contact_angle,
         thrust_direction: thrust,
-        moment_arm: r.get(&BALL.moment_arm),
+        moment_arm: r.get(&AXIAL.moment_arm),
         bore,
         outside_diameter: r.or(&BALL.outside_diameter, outside),
         width: r.or(&BALL.width, entry.map_or(1.8 * ball_diameter, |e| e.width)),
@@ -273,19 +279,19 @@ pub(super) fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Opti
 pub(super) fn thrust(r: &Reader, contact_angle: f64) -> f64 {
     let arrangement = r.given_text(&MOUNTING.arrangement);
     let both_ways = matches!(arrangement, Some("back_to_back" | "face_to_face"));
-    let thrust = r.choice(&BALL.thrust);
+    let thrust = r.choice(&AXIAL.thrust);
     if both_ways && thrust.is_some() {
         let message = format!(
             "{} does not apply to a pair that carries thrust in both directions",
-            r.name(&BALL.thrust)
+            r.name(&AXIAL.thrust)
         );
-        r.error(Kind::Conflict, &BALL.thrust, message);
+        r.error(Kind::Conflict, &AXIAL.thrust, message);
     }
     // a misspelt arrangement was already reported; whether it needs a direction is unknown
     let one_way = !r.has(&MOUNTING.arrangement) || arrangement == Some("tandem");
-    if one_way && (contact_angle > 0.0 || r.has(&MOUNTING.preload)) && !r.has(&BALL.thrust) {
+    if one_way && (contact_angle > 0.0 || r.has(&MOUNTING.preload)) && !r.has(&AXIAL.thrust) {
         r.missing_or(
-            &BALL.thrust,
+            &AXIAL.thrust,
             " (direction of the shaft's axial load that the bearing transmits to the housing)",
         );
     }

@@ -1,10 +1,10 @@
 //! Bearings: linear bearings, and ball bearings from the catalogue or by their geometry.
 
 use super::ball_inertia::{self, BALL_INERTIA, BallInertiaKeys};
-use super::ball_keys::{BallKeys, check_geometry, common_properties, designation};
+use super::ball_keys::{AxialKeys, BallKeys, check_geometry, common_properties, designation};
 use super::contact::{BallContactKeys, ContactStiffnessKeys, ServiceKeys};
 use super::defects::DefectsKeys;
-use super::imperfections::ImperfectionKeys;
+use super::imperfections::{DefectLawKeys, ImperfectionKeys};
 use super::increasing::check_increasing;
 use super::lubricants::OilOfBearingKeys;
 use super::mounting::MountingKeys;
@@ -38,6 +38,7 @@ static BEARING_TABLE: Table = Table {
     groups: &[
         Group::always(BearingKeys::LIST),
         Group { condition: BALL, keys: BallKeys::LIST },
+        Group { condition: BALL, keys: AxialKeys::LIST },
         Group { condition: BALL, keys: BallInertiaKeys::LIST },
         Group { condition: BALL, keys: BallContactKeys::LIST },
         Group { condition: BALL, keys: ContactStiffnessKeys::LIST },
@@ -45,6 +46,7 @@ static BEARING_TABLE: Table = Table {
         Group { condition: BALL, keys: MountingKeys::LIST },
         Group { condition: BALL, keys: ImperfectionKeys::LIST },
         Group { condition: BALL, keys: DefectsKeys::LIST },
+        Group { condition: BALL, keys: DefectLawKeys::LIST },
         Group { condition: BALL, keys: ServiceKeys::LIST },
         Group { condition: RADIAL_BALL, keys: BallKeys::LIST },
         Group { condition: RADIAL_BALL, keys: ContactStiffnessKeys::LIST },
@@ -79,7 +81,7 @@ keys! {
         speed: Quantities = quantities(not_negative(SPEED), "one or more, increasing",
             "Speeds of a table; every component then has one value or one per speed.").default("0 rpm");
         beyond_table: Words<BeyondTable> = words(&[("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)],
-            "At speeds beyond the table: its last value, or an error.").default("hold")
+            "At speeds beyond a table of two or more: its last value, or an error.").default("hold")
             .with("speed = \"0, 3000 rpm\"");
     }
 }

@@ -7,24 +7,31 @@ use crate::file::key::{
     quantities, quantity, spaced, texts, words,
 };
 use crate::file::reader::Reader;
-use crate::study::{BearingStudy, BearingSweep, DOF_NAMES, SweepDirection, SweepVariable};
+use crate::study::{BearingStudy, BearingSweep, DOF_NAMES, ROUGHNESS, SweepDirection, SweepVariable};
 use rotordyn_units::{ANGLE, FORCE, LENGTH, MOMENT, SPEED};
+
+/// Load without the key.
+const LOAD: &str = "zero with moment; else that in the machine, or without machine a tenth of the dynamic rating \
+    along -y, with thrust for a single row that is not preloaded";
+/// Constrained DOFs without the key.
+const CONSTRAINED: &str = "in the machine z and tilts; with load or moment, or without machine, the tilts unless \
+    moment is given, and z of a preloaded single row without axial load";
 
 keys! {
     /// `[study.bearing]`.
     pub(super) static STUDY: BearingStudyKeys = "Analysis of single ball bearings." {
         bearings: Texts = texts("names of ball bearings", "Bearings.").computed("all").example("[\"B\"]");
         load: Quantities = quantities(any(FORCE), "three: F_x, F_y, F_z", "Load of the shaft on the bearing.")
-            .computed("of the static equilibrium, else a tenth of the dynamic rating").example("\"0, -500, 100 N\"");
+            .computed(LOAD).example("\"0, -500, 100 N\"");
         moment: Quantities = quantities(any(MOMENT), "two: M_x, M_y", "Moments of the shaft on the bearing.")
             .computed("tilts are constrained").example("\"0, 4 N m\"");
-        constrain: Texts = texts("some of x, y, z, theta_x, theta_y", "DOFs constrained at the centred position.")
-            .computed("tilts, in a machine also z").example("[\"theta_x\", \"theta_y\"]");
+        constrain: Texts = texts("some of x, y, z, theta_x, theta_y", "DOFs constrained at the centred position, in the machine at that of its equilibrium.")
+            .computed(CONSTRAINED).example("[\"theta_x\", \"theta_y\"]");
         speed: Quantity = quantity(not_negative(SPEED), "Shaft speed.").computed("the highest of [speed]")
             .example("\"3000 rpm\"");
         cage_average: Flag = flag("Average over the cage angle instead of using that of the model.").default("false");
         roughness: Quantity = quantity(positive(LENGTH), "Composite RMS roughness of ball and race, for the lambda ratio.")
-            .default("100 nm");
+            .default_si(ROUGHNESS);
         along: Words<SweepDirection> = words(&[
             ("load", SweepDirection::Load),
             (DOF_NAMES[0], SweepDirection::Axis(0)),

@@ -41,7 +41,7 @@ keys! {
     /// `[joint.x]`.
     static CONSTRAINT: JointKeys {
         kind: Words<[bool; 6]> = words(KINDS, "Constrained DOFs by the kind of joint.").required("or constrain");
-        axial: Words<bool> = words(&[("fixed", true), ("free", false)], "Overrides the constraint along z.")
+        axial: Words<bool> = words(&[("fixed", true), ("free", false)], "Overrides the constraint along z, of any kind.")
             .computed("by kind").with("kind = \"spherical\"");
         constrain: Texts = texts("some of x, y, z, tx, ty, tz", "Constrained DOFs one by one.").required("or kind")
             .example("[\"z\", \"tx\", \"ty\"]");

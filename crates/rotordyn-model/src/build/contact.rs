@@ -9,6 +9,7 @@ use crate::file::key::{
 use crate::file::reader::Reader;
 use crate::file::tree::Value;
 use rotordyn_bearing::Service;
+use rotordyn_bearing::ball::{CONTAMINATION, RELIABILITY};
 use rotordyn_bearing::contact::ehl::{DEFAULT_POINTS, EhlLaw};
 use rotordyn_bearing::contact::{
     ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant, PowerLaw,
@@ -35,7 +36,7 @@ keys! {
             ("ehl", ContactKeyword::Ehl),
         ], "Dry contact, with the film thickness of Hamrock and Dowson, fitted, or with a solved film.")
             .default("hertz");
-        speed_factor: Quantity = quantity(positive(NUMBER), "Factor of the entrainment speed.").default("1")
+        speed_factor: Quantity = quantity(positive(NUMBER), "Factor of the entrainment speed, of the contacts film and ehl.").default("1")
             .with("contact = \"film\"");
         power_law: SubTable = sub_table(PowerLawKeys::TABLE).required("with contact = \"power_law\"")
             .with("contact = \"power_law\"");
@@ -45,7 +46,7 @@ keys! {
         damping_ramp: Quantity = quantity(positive(LENGTH), "Deflection over which this damping sets in.")
             .default("1 um");
         hunt_crossley: Quantity = quantity(not_negative(INVERSE_SPEED), "Damping by Hunt and Crossley.").optional();
-        film_damping: Quantity = quantity(positive(NUMBER), "Damping by the film, factor of its relaxation time, about 1.")
+        film_damping: Quantity = quantity(positive(NUMBER), "Damping by the film, factor of its relaxation time, about 1; of the contacts film and ehl.")
             .optional().with("contact = \"film\"").example("1");
     }
 }
@@ -102,7 +103,8 @@ keys! {
             ("oil_mist", Lubrication::OilMist),
             ("oil_jet", Lubrication::OilJet),
             ("grease", Lubrication::Grease),
-        ], "Lubrication, for the friction torque; oil_jet is also an oil bath with a vertical shaft.").default("oil_bath").with("lubricant = \"oil\"");
+        ], "Lubrication with a lubricant or film, for the friction torque; oil_jet is also an oil bath with a vertical shaft.")
+            .default("oil_bath").with("lubricant = \"oil\"");
         lubrication_factor: SubTable = sub_table(LubricationKeys::TABLE).named("lubrication")
             .with("lubricant = \"oil\"");
         sliding_friction: Quantity = quantity(within(NUMBER, [0.0, 1.0]), "Coefficient of friction of spinning balls.")
@@ -114,8 +116,9 @@ keys! {
         fatigue_limit: Quantity = quantity(positive(FORCE), "Fatigue load limit C_u.").computed("from the geometry")
             .example("\"335 N\"");
         contamination: Quantity = quantity(within(NUMBER, [0.0, 1.0]), "Contamination factor e_C of ISO 281.")
-            .default("0.5");
-        reliability: Quantity = quantity(within(NUMBER, [0.9, 0.999]), "Reliability of the rating life.").default("0.9");
+            .default_si(CONTAMINATION);
+        reliability: Quantity = quantity(within(NUMBER, [0.9, 0.999]), "Reliability of the rating life.")
+            .default_si(RELIABILITY);
         inner_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the inner shoulder.")
             .computed("0.2 D_w high; with a contact angle at least 25 deg beyond it").example("\"33 mm\"");
         outer_shoulder_diameter: Quantity = quantity(positive(LENGTH), "Diameter of the outer shoulder.")
@@ -125,7 +128,7 @@ keys! {
 
 keys! {
     /// `lubrication = { ... }`.
-    static LUBRICATION: LubricationKeys = "Factor of the viscous part of the friction torque, instead of a method." {
+    static LUBRICATION: LubricationKeys = "Factor of the viscous part of the friction torque with a lubricant or film, instead of a method." {
         f_0: Quantity = quantity(positive(NUMBER), "Factor f_0 of Palmgren.").example("1.5");
     }
 }

@@ -36,7 +36,8 @@ keys! {
             ("outer", SurfaceKeyword::Outer), ("inner", SurfaceKeyword::Inner), ("ball", SurfaceKeyword::Ball),
         ], "The race or ball that it is on.");
         width: Quantity = quantity(not_negative(LENGTH), "Width along the circumference.").example("\"0.17 mm\"");
-        angle: Quantity = quantity(any(ANGLE), "Where it starts; on the inner race and balls at a shaft angle of zero.")
+        angle: Quantity = quantity(any(ANGLE),
+            "Where it starts: from +x towards +y at shaft angle zero; on a ball from its point at the outer race, against its spin.")
             .required("or centre");
         centre: Quantity = quantity(any(ANGLE), "Where its centre is, instead of angle.").required("or angle");
         depth: Quantity = quantity(not_negative(LENGTH), "Depth of a spall, or of a dent.")

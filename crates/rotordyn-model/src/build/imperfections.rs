@@ -41,15 +41,6 @@ keys! {
         off_size: TableList = table_list(&OFF_SIZE_TABLE);
         inner_eccentricity: SubTable = sub_table(EccentricityKeys::TABLE);
         outer_eccentricity: SubTable = sub_table(EccentricityKeys::TABLE);
-        defect_law: Words<DefectLawKeyword> = words(&[
-            ("displacement", DefectLawKeyword::Displacement),
-            ("undamped_displacement", DefectLawKeyword::Undamped),
-            ("force", DefectLawKeyword::Force),
-            ("force_on_loaded", DefectLawKeyword::ForceOnLoaded),
-        ], "How a defect acts; all but displacement are those of Atef et al. (2022), of model = \"ball\".")
-            .default("displacement");
-        defect_stiffness: PowerStiffness = power_stiffness("1.5", "Contact stiffness of the force law.")
-            .computed("that of the contacts").with("defect_law = \"force\"").example("\"1.58e10 N/m^1.5\"");
         ball_spin: Words<BallSpin> = words(&[("rolling", BallSpin::Rolling), ("shaft", BallSpin::Shaft)],
             "Spin of the balls with their imperfections: that of rolling, or the speed of the shaft.")
             .default("rolling");
@@ -57,10 +48,25 @@ keys! {
 }
 
 keys! {
+    /// Of `model = "ball"` only.
+    pub(super) static DEFECT_LAW: DefectLawKeys {
+        defect_law: Words<DefectLawKeyword> = words(&[
+            ("displacement", DefectLawKeyword::Displacement),
+            ("undamped_displacement", DefectLawKeyword::Undamped),
+            ("force", DefectLawKeyword::Force),
+            ("force_on_loaded", DefectLawKeyword::ForceOnLoaded),
+        ], "How a defect acts; all but displacement are those of Atef et al. (2022).")
+            .default("displacement");
+        defect_stiffness: PowerStiffness = power_stiffness("1.5", "Contact stiffness of the laws force and force_on_loaded.")
+            .computed("that of the contacts").with("defect_law = \"force\"").example("\"1.58e10 N/m^1.5\"");
+    }
+}
+
+keys! {
     /// A harmonic of waviness.
     static WAVE: WaveKeys = "A harmonic of waviness." {
         order: Count = count([1, MAX_WAVINESS_ORDER], "Waves per circumference.").example("2");
-        amplitude: Quantity = quantity(not_negative(LENGTH), "Amplitude of the radial deviation.").example("\"1 um\"");
+        amplitude: Quantity = quantity(not_negative(LENGTH), "Amplitude of the deviation along the contact normal.").example("\"1 um\"");
         phase: Quantity = quantity(any(ANGLE), "Phase of the wave.").default("0 deg").example("\"90 deg\"");
     }
 }
@@ -282,7 +288,7 @@ fn off_size(r: &Reader, g: &BallGeometry, pair: bool) -> Vec<OffSize> {
 
 /// `defect_law`, with `defect_stiffness` if it is a force law.
 fn defect_law(r: &Reader) -> DefectLaw {
-    let (law_key, stiffness) = (&IMPERFECTIONS.defect_law, &IMPERFECTIONS.defect_stiffness);
+    let (law_key, stiffness) = (&DEFECT_LAW.defect_law, &DEFECT_LAW.defect_stiffness);
     let word = r.choice(law_key);
     let law = word.unwrap_or(law_key.default_word());
     let force = matches!(law, DefectLawKeyword::Force | DefectLawKeyword::ForceOnLoaded);
@@ -313,7 +319,7 @@ pub(super) fn check_force_law(r: &Reader, bearing: &BallBearing) {
             "defect_law = \"displacement\" works with every bearing; the force law is from the literature",
         ));
     };
-    let law = r.name(&IMPERFECTIONS.defect_law);
+    let law = r.name(&DEFECT_LAW.defect_law);
     if bearing.inertia.is_on() {
         conflict(
             &BALL_INERTIA.ball_inertia,
@@ -330,7 +336,7 @@ pub(super) fn check_force_law(r: &Reader, bearing: &BallBearing) {
     }
     if stiffness.is_none() && !bearing.contact.has_separate_contacts() {
         conflict(
-            &IMPERFECTIONS.defect_law,
+            &DEFECT_LAW.defect_law,
             format!("{law} needs a Hertz stiffness, which a fitted power law does not have"),
             "defect_stiffness as well, such as \"1.58e10 N/m^1.5\"",
         );

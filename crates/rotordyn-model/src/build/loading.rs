@@ -34,12 +34,12 @@ keys! {
         station: Text = text("name of a station", "Where it sits.").example("\"A\"");
         magnitude: Quantity = quantity(not_negative(UNBALANCE), "Unbalance.").required("or mass, or grade");
         mass: Quantity = quantity(not_negative(MASS), "Mass at a radius.").required("or magnitude, or grade");
-        radius: Quantity = quantity(positive(LENGTH), "Radius of the mass.").required("with mass").with("mass = \"5 g\"");
+        radius: Quantity = quantity(positive(LENGTH), "Radius at which the mass is.").required("with mass").with("mass = \"5 g\"");
         grade: Text = text("a balance quality grade", "Permissible unbalance of ISO 21940-11 at a speed.")
             .required("or magnitude, or mass").example("\"G6.3\"");
-        speed: Quantity = quantity(positive(SPEED), "Service speed of the grade.").required("with grade")
+        speed: Quantity = quantity(positive(SPEED), "Service speed, of any grade.").required("with grade")
             .with("grade = \"G6.3\"");
-        rotor_mass: Quantity = quantity(positive(MASS), "Mass of the grade.")
+        rotor_mass: Quantity = quantity(positive(MASS), "Mass of the rotor, of any grade.")
             .computed("shaft and discs").with("grade = \"G6.3\"");
         phase: Quantity = quantity(any(ANGLE), "Position from +x towards +y at a shaft angle of zero.")
             .default("0 deg").example("\"90 deg\"");
@@ -97,7 +97,7 @@ keys! {
             .required("with kind = \"torque\"").with("kind = \"torque\"").example("\"0, 3000 rpm\"");
         torque: Quantities = quantities(any(MOMENT), "as many as speed", "Torques of the characteristic.")
             .required("with kind = \"torque\"").with("kind = \"torque\"").example("\"5, 0 N m\"");
-        drag: Quantity = quantity(not_negative(TILT_DAMPING), "Viscous drag torque over speed.")
+        drag: Quantity = quantity(not_negative(TILT_DAMPING), "Viscous drag torque over speed of a torque drive.")
             .default("0 N m s/rad").with("kind = \"torque\"");
     }
 }

@@ -24,7 +24,7 @@ keys! {
     static OIL: OilKeys = "An oil at its operating temperature, by its viscosity grade or its properties." {
         grade: Text = text("a viscosity grade", "Viscosity grade of ISO 3448 of a mineral oil.").required("or viscosity")
             .example("\"ISO VG 68\"");
-        temperature: Quantity = quantity(within(TEMPERATURE, Lubricant::GRADE_TEMPERATURES), "Temperature of the oil.")
+        temperature: Quantity = quantity(within(TEMPERATURE, Lubricant::GRADE_TEMPERATURES), "Temperature of the oil, of any grade.")
             .required("with grade").with("grade = \"ISO VG 68\"");
         viscosity: Quantity = quantity(positive(VISCOSITY), "Dynamic viscosity at the operating temperature.")
             .required("or grade");

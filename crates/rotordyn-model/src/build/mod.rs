@@ -82,14 +82,20 @@ keys! {
     }
 }
 
+/// Least and greatest Poisson's ratio; the shear modulus is infinite at -1.
+const POISSON: [f64; 2] = [-0.99, 0.5];
+/// Round-off of a Poisson's ratio that follows from two rounded moduli.
+const RATIO_TOLERANCE: f64 = 1e-6;
+
 keys! {
     /// `[material.x]`.
     static MATERIAL: MaterialKeys = "An elastic material." {
         young: Quantity = quantity(positive(PRESSURE), "Young's modulus.");
         density: Quantity = quantity(not_negative(DENSITY), "Density.");
-        poisson: Quantity = quantity(within(NUMBER, [-1.0, 0.5]), "Poisson's ratio.").required("or shear")
+        poisson: Quantity = quantity(within(NUMBER, POISSON), "Poisson's ratio.").required("or shear")
             .example("0.3");
-        shear: Quantity = quantity(positive(PRESSURE), "Shear modulus.").required("or poisson").example("\"80 GPa\"");
+        shear: Quantity = quantity(positive(PRESSURE), "Shear modulus; with poisson it need not be E / (2 (1 + nu)).")
+            .required("or poisson").example("\"80 GPa\"");
     }
 }
 
@@ -210,7 +216,18 @@ fn materials(top: &Reader) -> Vec<Material> {
         if !r.has(&MATERIAL.shear) && !r.has(&MATERIAL.poisson) {
             r.missing(&MATERIAL.poisson);
         }
-        let poisson = poisson.or_else(|| shear.map(|g| young / (2.0 * g) - 1.0)).unwrap_or(0.3);
+        let derived = shear.map(|g| young / (2.0 * g) - 1.0);
+        let [least, greatest] = POISSON;
+        let is_allowed = |ratio: f64| (least..=greatest + RATIO_TOLERANCE).contains(&ratio);
+        if !r.has(&MATERIAL.poisson) && r.has_no_errors() && !derived.is_none_or(is_allowed) {
+            let [low, high] = [greatest, least].map(|ratio| 0.5e-9 * young / (1.0 + ratio));
+            let message = format!("{} does not fit to Young's modulus", r.name(&MATERIAL.shear));
+            let problem = Problem::new(Kind::OutOfRange, &r.span_of(&MATERIAL.shear), message);
+            let moduli =
+                format!("from {low:.4} GPa to {high:.4} GPa, Poisson's ratio from {greatest} to {least}");
+            r.log.error(problem.expected(moduli));
+        }
+        let poisson = poisson.or(derived).unwrap_or(0.3);
         let shear = shear.unwrap_or(young / (2.0 * (1.0 + poisson)));
         r.finish();
         Material { name: name.into(), young, shear, poisson, density }

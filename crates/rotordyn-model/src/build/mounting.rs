@@ -22,7 +22,7 @@ keys! {
             ("face_to_face", Arrangement::FaceToFace),
             ("tandem", Arrangement::Tandem),
         ], "Duplex pair of angular contact bearings.").optional();
-        row_spacing: Quantity = quantity(positive(LENGTH), "Distance of the two rows of a pair.")
+        row_spacing: Quantity = quantity(positive(LENGTH), "Distance of the two rows, of a pair in any arrangement.")
             .required("with arrangement").with("arrangement = \"back_to_back\"").example("\"16 mm\"");
         fit: SubTable = sub_table(FitKeys::TABLE);
     }

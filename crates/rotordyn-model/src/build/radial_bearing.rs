@@ -1,10 +1,10 @@
 //! Planar ball bearings with one radial degree of freedom per ball, `model = "radial_ball"`.
 
 use super::ball_inertia::BALL_INERTIA;
-use super::ball_keys::{self, BALL};
+use super::ball_keys::{self, AXIAL, BALL};
 use super::catalogue::CatalogueEntry;
 use super::contact::{BALL_CONTACT, CONTACT_STIFFNESS};
-use super::imperfections::{self, IMPERFECTIONS};
+use super::imperfections::{self, DEFECT_LAW};
 use super::mounting::MOUNTING;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{Declared, Flag, Quantity, SubTable, flag, keys, not_negative, quantity, sub_table};
@@ -40,9 +40,9 @@ const PLANE_HINT: &str = "the balls move in the plane of the bearing";
 
 /// Keys of `model = "ball"` that do not apply here, with a hint for each.
 const INAPPLICABLE_KEYS: [(&dyn Declared, &str); 11] = [
-    (&BALL.contact_angle, PLANE_HINT),
-    (&BALL.thrust, PLANE_HINT),
-    (&BALL.moment_arm, PLANE_HINT),
+    (&AXIAL.contact_angle, PLANE_HINT),
+    (&AXIAL.thrust, PLANE_HINT),
+    (&AXIAL.moment_arm, PLANE_HINT),
     (
         &MOUNTING.preload,
         "a planar bearing carries no axial load; a negative radial_clearance preloads it radially",
@@ -76,8 +76,8 @@ pub(super) fn read(r: &Reader, materials: &[Material], gravity: [f64; 3]) -> Rad
     imperfections::check_force_law(r, &ball);
     if ball.imperfections.law != DefectLaw::Displacement {
         let message =
-            format!("{} does not belong to model = \"radial_ball\"", r.name(&IMPERFECTIONS.defect_law));
-        let problem = Problem::new(Kind::Conflict, &r.span_of(&IMPERFECTIONS.defect_law), message);
+            format!("{} does not belong to model = \"radial_ball\"", r.name(&DEFECT_LAW.defect_law));
+        let problem = Problem::new(Kind::Conflict, &r.span_of(&DEFECT_LAW.defect_law), message);
         r.log.error(problem.expected("\"displacement\", applied to each contact separately"));
     }
     let damping = damping(r);

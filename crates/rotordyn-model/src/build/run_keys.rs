@@ -27,9 +27,9 @@ keys! {
         ], "Time integration; rk4 and dormand-prince are explicit.").default("generalised-alpha");
         rho_infinity: Quantity = quantity(within(NUMBER, [0.0, 1.0]),
             "Spectral radius of generalised-alpha at high frequencies; smaller damps more.").default("0.8");
-        relative_tolerance: Quantity = quantity(positive(NUMBER), "Relative error per step.").default("1e-6")
+        relative_tolerance: Quantity = quantity(positive(NUMBER), "Relative error per step of dormand-prince.").default("1e-6")
             .with("integrator = \"dormand-prince\"");
-        absolute_tolerance: Quantity = quantity(positive(LENGTH), "Absolute error per step.").default("1e-12 m")
+        absolute_tolerance: Quantity = quantity(positive(LENGTH), "Absolute error per step of dormand-prince.").default("1e-12 m")
             .with("integrator = \"dormand-prince\"");
     }
 }
@@ -37,7 +37,7 @@ keys! {
 keys! {
     /// Of run-ups; those of runs at constant speed default to it.
     pub(super) static RUN_STEP: StepKeys {
-        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval.")
+        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval; of dormand-prince the first.")
             .default("100 us");
     }
 }

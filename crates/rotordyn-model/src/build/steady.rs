@@ -138,7 +138,7 @@ keys! {
         channels: Texts = texts("names of probes", "Channels.").computed("all displacements")
             .example("[\"disc_x\"]");
         sweep: Words<Sweep> = words(&[("up", Sweep::Up), ("down", Sweep::Down), ("both", Sweep::Both)],
-            "Direction of the sweep.").default("both").with("start = \"continuation\"");
+            "Direction of the sweep by continuation.").default("both").with("start = \"continuation\"");
         start: Words<bool> = words(&[("continuation", true), ("equilibrium", false)],
             "Initial state: the final state of the previous value, or static equilibrium.").default("continuation");
         chunks: Count = count([1, 1000], "Parts of the range, which run in parallel.")

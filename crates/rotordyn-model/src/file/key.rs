@@ -14,7 +14,8 @@ pub struct About {
     /// What the key means, in one sentence.
     pub meaning: &'static str,
     pub absent: Absent,
-    /// Assignments in the same table without which the key does not apply, in TOML; may be empty.
+    /// Example of assignments in the same table, in TOML, with which the key applies; others may do as well,
+    /// as the meaning says. May be empty.
     pub condition: &'static str,
     /// Value as written in a file; empty: the example of its dimension, the default or a word.
     example: &'static str,
@@ -341,7 +342,7 @@ impl<V: Copy> Key<V> {
         self.absent(Absent::RequiredIf(words))
     }
 
-    /// Assignments in the same table, in TOML, without which the key does not apply.
+    /// Example of assignments in the same table, in TOML, with which the key applies.
     pub const fn with(mut self, condition: &'static str) -> Self {
         self.about.condition = condition;
         self
