@@ -25,7 +25,7 @@ impl InertiaUse {
     pub fn new(name: &str, ball: &BallBearing, speed: f64, contact_load: f64) -> Self {
         let centrifugal = ball.centrifugal_force(speed);
         let excluded_by = match &ball.imperfections.law {
-            _ if !ball.contact.has_separate_contacts() => Some("a contact law of both races in series"),
+            _ if !ball.contact.has_separate_contacts() => Some("the fitted power law"),
             DefectLaw::Force { .. } => Some("the force law of its defects"),
             DefectLaw::Displacement | DefectLaw::UndampedDisplacement => None,
         };
