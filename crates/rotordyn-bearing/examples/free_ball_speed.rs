@@ -1,54 +1,21 @@
 //! Cost of a bearing with free balls: ball evaluations per second, CPU time per simulated second.
 
-use rotordyn_bearing::contact::{ContactDamping, ContactLaw, Traction};
+use rotordyn_bearing::BallBearing;
+use rotordyn_bearing::contact::{ContactDamping, Traction};
 use rotordyn_bearing::free_ball::{
     Drag, FreeBallBearing, FreeBalls, FreeCage, FrictionLaw, Guidance, Pocket, PointContactLaw, RingState,
     SlipModel,
 };
-use rotordyn_bearing::material::Material;
-use rotordyn_bearing::{BallBearing, BallGeometry, BallInertia, Cage, Fit, Preload};
 use std::time::Instant;
 
+#[path = "../tests/free_ball/bearings.rs"]
+#[allow(dead_code)]
+mod bearings;
+
 fn bearing(slip: SlipModel) -> FreeBallBearing {
-    let (young, poisson, ball_diameter) = (2.06e11, 0.3, 7.938e-3);
-    let steel = Material {
-        name: "steel".into(),
-        young,
-        shear: young / (2.0 * (1.0 + poisson)),
-        poisson,
-        density: 7850.0,
-    };
-    let geometry = BallGeometry {
-        balls: 9,
-        ball_diameter,
-        pitch_diameter: 38.5e-3,
-        inner_groove_radius: 0.515 * ball_diameter,
-        outer_groove_radius: 0.525 * ball_diameter,
-        radial_clearance: -4e-6,
-        contact_angle: 0.0,
-        thrust_direction: 1.0,
-        moment_arm: None,
-        bore: 25e-3,
-        outside_diameter: 52e-3,
-        width: 15e-3,
-    };
     let ball = BallBearing {
-        cage_pocket_diameter: geometry.default_cage_pocket(),
-        geometry,
-        ball_material: steel.clone(),
-        ring_material: steel,
-        contact: ContactLaw::Hertz,
-        contact_stiffness: Default::default(),
         damping: ContactDamping::HuntCrossley { factor: 0.0 },
-        inertia: BallInertia::OuterRaceControl,
-        preload: Preload::None,
-        duplex: None,
-        fit: Fit::default(),
-        cage: Cage::Rolling,
-        cage_angle: 0.0,
-        imperfections: Default::default(),
-        service: Default::default(),
-        estimated_geometry: None,
+        ..bearings::ball_bearing(bearings::geometry_6205(9, -4e-6))
     };
     let [mass, polar_inertia, transverse_inertia] = FreeCage::ring_inertia(1150.0, [17e-3, 21.5e-3], 10e-3);
     let friction = Traction { friction: 0.1, slip_speed: 1e-2 };

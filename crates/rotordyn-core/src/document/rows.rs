@@ -139,9 +139,15 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
         cell: &[usize],
         of: impl Fn(&'r T) -> V,
     ) -> Self {
-        let mut data = Vec::new();
-        self.rows.iter().for_each(|row| data.extend_from_slice(of(row).as_ref()));
+        let data = self.cells_of(of);
         self.column(names, cell, unit, Data::Real(data.into()))
+    }
+
+    /// The cells of all rows, one after the other.
+    fn cells_of<N: Clone, V: AsRef<[N]>>(&self, of: impl Fn(&'r T) -> V) -> Vec<N> {
+        let mut cells = Vec::new();
+        self.rows.iter().for_each(|row| cells.extend_from_slice(of(row).as_ref()));
+        cells
     }
 
     pub fn complex(self, names: impl Into<Names>, unit: &str, of: impl Fn(&'r T) -> Complex64) -> Self {
@@ -155,8 +161,7 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
         cell: &[usize],
         of: impl Fn(&'r T) -> V,
     ) -> Self {
-        let mut data = Vec::new();
-        self.rows.iter().for_each(|row| data.extend_from_slice(of(row).as_ref()));
+        let data = self.cells_of(of);
         self.column(names, cell, unit, Data::Complex(data.into()))
     }
 
