@@ -10,7 +10,7 @@ use crate::radial_ball::RadialBallBearing;
 /// Declares [`Bearing`] with a variant per model, which passes every question on to its model.
 macro_rules! bearing_models {
     ($($variant:ident($model:ty)),+ $(,)?) => {
-        /// A bearing of one of the models; what every model says of itself is in [`BearingModel`].
+        /// A bearing of one of the models; [`BearingModel`] is their interface.
         #[derive(Clone, Debug, PartialEq)]
         #[allow(clippy::large_enum_variant)] // a machine has a handful of bearings
         pub enum Bearing {

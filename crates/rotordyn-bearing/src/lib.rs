@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`material`], [`contact`] | materials; contacts: Hertz, films, fitted laws, damping |
 //! | [`geometry`], [`imperfection`] | geometry of a ball bearing; waviness, defects and sizes of races and balls |
-//! | [`model`], [`internal`] | what every bearing model says of itself; coordinates of its own |
+//! | [`model`], [`internal`] | interfaces of all bearing models; internal coordinates |
 //! | [`linear`], [`ball`], [`radial_ball`] | one module for each kind of model |
 //! | [`free_ball`] | balls and cage as free bodies between given rings |
 //! | [`Bearing`] | the list of models |

@@ -1,4 +1,4 @@
-//! What every bearing model says of itself: as given in the model file ([`BearingModel`]) and prepared for evaluation
+//! Interfaces of all bearing models: as given in the model file ([`BearingModel`]) and prepared for evaluation
 //! ([`BearingElement`]). Methods with a default are answered by some models only.
 
 use std::fmt::Debug;

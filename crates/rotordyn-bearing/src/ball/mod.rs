@@ -11,7 +11,7 @@
 //! | `preload_mechanism`, `preload`; `ring_equilibrium`, `spring_preload` | preload: rigid, or by a spring |
 //! | `duplex` | two rows |
 //! | `element` | the bearing; `change`, `cage_equilibrium`: its statics with ball inertia |
-//! | `load`; `model` | load of one ball; what the bearing says of itself (`BearingModel`, `BearingElement`) |
+//! | `load`; `model` | load of one ball; implementation of `BearingModel` and `BearingElement` |
 
 mod cage;
 mod cage_equilibrium;

@@ -1,4 +1,4 @@
-//! What a ball bearing with static balls says of itself.
+//! Ball bearings with static balls as a bearing model.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

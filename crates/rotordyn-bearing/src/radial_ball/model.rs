@@ -1,4 +1,4 @@
-//! What a plane ball bearing with one coordinate per ball says of itself.
+//! Plane ball bearings with one coordinate per ball as a bearing model.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What every element says of itself: its part of the matrices and loads, and what it connects.
+//! Interface of all elements: their part of the matrices and loads, and what it connects.
 
 use super::anchor::Anchor;
 use super::shaft_matrices::ConeRule;
