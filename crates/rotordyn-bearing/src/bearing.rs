@@ -3,6 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use crate::ball::BallBearing;
+use crate::free_ball::FreeBallBearing;
 use crate::linear::LinearBearing;
 use crate::model::BearingModel;
 use crate::radial_ball::RadialBallBearing;
@@ -52,4 +53,5 @@ bearing_models! {
     Linear(LinearBearing),
     Ball(BallBearing),
     RadialBall(RadialBallBearing),
+    FreeBall(FreeBallBearing),
 }

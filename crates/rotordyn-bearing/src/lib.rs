@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`material`], [`contact`] | materials; contacts: Hertz, films, fitted laws, damping |
 //! | [`geometry`], [`imperfection`] | geometry of a ball bearing; waviness, defects and sizes of races and balls |
-//! | [`model`], [`internal`] | interfaces of all bearing models; internal coordinates |
+//! | [`model`], [`internal`], [`bodies`] | interfaces of all bearing models; internal coordinates; free bodies |
 //! | [`linear`], [`ball`], [`radial_ball`] | one module for each kind of model |
 //! | [`free_ball`] | balls and cage as free bodies between given rings |
 //! | [`Bearing`] | the list of models |
@@ -17,6 +17,7 @@ pub mod material;
 mod reaction;
 mod root_finding;
 
+pub mod bodies;
 pub mod internal;
 pub mod model;
 
@@ -37,6 +38,7 @@ pub use ball::{
 };
 pub use bearing::Bearing;
 pub use bearing_contact::BearingContact;
+pub use bodies::FreeBodies;
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,

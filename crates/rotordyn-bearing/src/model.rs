@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::ball::{BallBearing, PreloadState};
 use crate::bearing_contact::BearingContact;
+use crate::bodies::FreeBodies;
 use crate::geometry::CharacteristicOrders;
 use crate::internal::InternalCoordinates;
 use crate::reaction::{Reaction, Rotation, SiteTangent};
@@ -185,6 +186,12 @@ pub trait BearingElement: Debug + Send + Sync {
 
     /// The bearing's own coordinates in a transient; `None` if its force follows from displacement and velocity.
     fn internal(&self) -> Option<&dyn InternalCoordinates> {
+        None
+    }
+
+    /// Bodies with states of their own in a transient; statics and linear studies have them in equilibrium. A bearing has
+    /// internal coordinates or bodies, not both.
+    fn bodies(&self) -> Option<&dyn FreeBodies> {
         None
     }
 }

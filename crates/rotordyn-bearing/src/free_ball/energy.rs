@@ -53,6 +53,16 @@ impl Parts {
         out
     }
 
+    /// Power of gravity on all bodies \[W\].
+    pub fn gravity_power(&self, values: &[f64]) -> f64 {
+        let balls = self.balls.iter().enumerate();
+        let mut momentum: V = balls.map(|(j, &[_, mass, _])| mass * ball_at(values, j).velocity).sum();
+        if let Some(contacts) = &self.cage {
+            momentum += contacts.cage.mass * cage_at(values, self.balls.len()).velocity;
+        }
+        self.gravity.dot(&momentum)
+    }
+
     /// Momentum of all bodies.
     pub fn momentum(&self, values: &[f64]) -> Momentum {
         self.momentum_of(values, values)

@@ -5,7 +5,7 @@ use super::input::{Drag, PointContactLaw};
 use super::point_contact::PointForce;
 use super::race::{BallMotionState, Groove, RaceForce};
 use super::ring::{RingFrame, V, Wrench};
-use super::state::{BALL, ball_at, cage_at};
+use super::state::{BALL, CAGE, ball_at, cage_at};
 use crate::contact::Race;
 
 /// Ways in which power is lost, in the order of [`LOSSES`].
@@ -79,6 +79,11 @@ impl Rates {
 }
 
 impl Parts {
+    /// Numbers of a state.
+    pub fn values(&self) -> usize {
+        BALL * self.balls.len() + if self.cage.is_some() { CAGE } else { 0 }
+    }
+
     /// Motion of a ball in a state.
     #[inline(always)]
     pub fn motion(&self, values: &[f64], ball: usize) -> BallMotionState {

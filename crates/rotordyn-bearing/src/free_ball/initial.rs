@@ -8,7 +8,7 @@ use crate::{BallBearing, BallElement, BallInertia, BallLoad, Rotation};
 
 impl Parts {
     /// Balls at the positions of the quasi-static bearing under the displacement of its rings, on rolling orbits; cage at
-    /// the centre of the outer ring with their mean speed.
+    /// the centre of the outer ring, in the plane of the balls, with their mean speed.
     ///
     /// A ball without load at the outer race lies there under its centrifugal force alone.
     pub fn kinematic_state(&self, bearing: &BallBearing, rings: &[RingState; 2]) -> FreeBallState {
@@ -52,7 +52,10 @@ impl Parts {
             .collect();
         let cage = self.cage.as_ref().map(|contacts| {
             let mean = orbit_sum / balls.len() as f64;
-            let [centre, velocity] = [outer.position, outer.velocity].map(V::from);
+            let [ring, velocity] = [outer.position, outer.velocity].map(V::from);
+            let axis = outer.frame().axis;
+            let heights = balls.iter().map(|ball| (ball.position - ring).dot(&axis));
+            let centre = ring + heights.sum::<f64>() / balls.len() as f64 * axis;
             CageBody::rotating(centre, velocity, bearing.cage_angle, mean, contacts.cage.polar_inertia)
         });
         FreeBallState::new(&balls, cage.as_ref())

@@ -60,6 +60,10 @@ impl FreeBallBearing {
             ball.imperfections.ball_numbers().any(|number| number >= g.balls),
             "a size is on a ball number that does not exist (balls count from 0)",
         );
+        refuse(
+            ball.fit.speed_growth,
+            "free balls keep the clearance they have at standstill: no growth of the rings with speed",
+        );
         refuse(g.balls == 0, "a bearing needs a ball");
         refuse(self.slip.is_empty(), "the contact ellipse needs at least one point in each direction");
         let law = match &self.friction {

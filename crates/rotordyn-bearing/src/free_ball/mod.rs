@@ -7,10 +7,12 @@
 //!
 //! The way of one evaluation, file by file: `ring` (motion of the rings), `state` (numbers of balls and cage), `race`
 //! (ball in a groove), `friction` and `ellipse` (traction), `point_contact` and `cage` (pockets, land, ball to ball), `forces` (sum
-//! of all), `advance` (time steps); `initial` starts from the kinematic solution, `energy` balances.
+//! of all), `advance` (time steps between given rings) or `element` (in a machine); `initial` starts from the kinematic
+//! solution, `energy` balances.
 
 mod advance;
 mod cage;
+mod element;
 mod ellipse;
 mod energy;
 mod error;
@@ -25,6 +27,7 @@ mod ring;
 mod state;
 
 pub use advance::{Interval, StableStep};
+pub use element::FreeBallElement;
 pub use energy::{Momentum, StoredEnergy};
 pub use error::{FreeBallError, StepLimit};
 pub use forces::{ForceSums, LOSSES, Loss};

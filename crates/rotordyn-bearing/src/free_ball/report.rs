@@ -6,6 +6,7 @@ use super::race::RaceForce;
 use super::ring::{RingFrame, V};
 use super::state::cage_at;
 use crate::contact::Race;
+use std::f64::consts::TAU;
 
 /// One ball in a state.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -96,6 +97,21 @@ impl Parts {
             }
         };
         (0..self.balls.len()).map(one).collect()
+    }
+
+    /// Angle of the cage about z, or without cage the mean angle of the balls less their spacing; −π to π \[rad\].
+    pub fn cage_angle(&self, values: &[f64]) -> f64 {
+        let balls = self.balls.len();
+        if self.cage.is_some() {
+            let [across, ..] = cage_at(values, balls).axes();
+            return across.y.atan2(across.x);
+        }
+        let mean = (0..balls).fold([0.0; 2], |[x, y], j| {
+            let place = self.motion(values, j).position;
+            let (sin, cos) = (place.y.atan2(place.x) - TAU * j as f64 / balls as f64).sin_cos();
+            [x + cos, y + sin]
+        });
+        mean[1].atan2(mean[0])
     }
 
     /// The first contact of the cage with a ball or its land, or of two balls without cage, with its depth \[m\].

@@ -43,6 +43,8 @@ pub enum PhysicsError {
     NoMountedPreload { item: String, force: f64, reached: f64 },
     #[error("bearing {bearing}, {race} race: {reason}")]
     Film { bearing: String, race: String, reason: String },
+    #[error("bearing {bearing} at t = {time:.6} s, {speed_rpm:.1} rpm: {reason}")]
+    FreeBodies { bearing: String, time: f64, speed_rpm: f64, reason: String },
     #[error("no derivative with respect to the parameter: {reason}")]
     NoDerivative { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]

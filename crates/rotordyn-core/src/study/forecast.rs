@@ -218,7 +218,7 @@ impl Machine {
         let reduction = self.reduce(study)?;
         let x = &reduction.equilibrium * if study.from_equilibrium { 1.0 } else { 0.0 };
         let v = &reduction.equilibrium * 0.0;
-        let state = reduction.system.initial_state(x, v);
+        let state = reduction.system.initial_state(x, v)?;
         let step = study.step.min(1.0 / study.sample_rate);
         Ok(step_time(&reduction, state, study.integrator, step))
     }

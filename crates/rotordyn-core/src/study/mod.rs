@@ -279,7 +279,10 @@ impl Machine {
         let start = if study.from_equilibrium { 1.0 } else { 0.0 };
         let x = &reduction.equilibrium * start;
         let v = &reduction.equilibrium * 0.0;
-        let state = reduction.system.initial_state(x, v);
+        let state = match reduction.system.initial_state(x, v) {
+            Ok(state) => state,
+            Err(error) => return Report::not_started(error),
+        };
         let settings = Settings {
             integrator: study.integrator,
             step: study.step,

@@ -17,7 +17,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
-    /// angle; the terms of the energy balance, with the work of a torque drive.
+    /// angle, with free balls their motion, slip, forces and losses; the terms of the energy balance, with the work of a torque drive.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
         let mut channels: Vec<HistoryChannel> =
             model.probes.iter().map(|p| probe_channel(model, p)).collect();
@@ -36,6 +36,9 @@ impl Recorder {
                 channels.push(plain(format!("{site}_force_{axis}"), "N", "force", site, axis));
             }
             channels.push(plain(format!("{site}_cage_angle"), "rad", "angle", site, "cage"));
+            for c in interface.element.bodies().map_or(&[][..], |bodies| bodies.channels()) {
+                channels.push(plain(format!("{site}_{}", c.name), c.unit, c.quantity, site, c.direction));
+            }
         }
         let drive = system.drive.is_some();
         for name in ENERGIES.into_iter().chain(drive.then_some("drive")) {
@@ -55,10 +58,11 @@ impl Recorder {
         self.row.clear();
         self.row.extend_from_slice(sample.channels);
         let bearings = state.reactions.iter().zip(&state.rotations);
-        for ((reaction, rotation), directions) in bearings.zip(&self.directions) {
+        for (k, ((reaction, rotation), directions)) in bearings.zip(&self.directions).enumerate() {
             let along = |k: usize| if k < *directions { reaction.force[k] } else { 0.0 };
             self.row.extend([along(0), along(1), along(2)]);
             self.row.push(rotation.cage_angle);
+            sample.system.read_bodies(k, state, &mut self.row);
         }
         let e = sample.energy;
         self.row.extend([

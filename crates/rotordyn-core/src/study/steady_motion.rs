@@ -36,6 +36,8 @@ pub struct RestartState {
     cages: Vec<f64>,
     /// Positions and velocities of the internal coordinates of bearings \[m, m/s\].
     internal: [Vec<f64>; 2],
+    /// States of free bodies of bearings.
+    bodies: Vec<f64>,
 }
 
 /// Callback after every period of the clock with the completed fraction; can stop the run.
@@ -148,12 +150,13 @@ impl Machine {
             c.displacement.len() == n
                 && c.cages.len() == system.interfaces.len()
                 && c.internal[0].len() == system.internal_masses.len()
+                && c.bodies.len() == system.body_states()
         };
         let state = match carried.filter(fits) {
             None => {
                 let x = reduction.equilibrium.clone();
                 let v = &x * 0.0;
-                system.initial_state(x, v)
+                system.initial_state(x, v)?
             }
             Some(carried) => {
                 // Vᵀ M q: projection on this model's basis.
@@ -166,7 +169,7 @@ impl Machine {
                 let time = carried.shaft / steady.speed;
                 let x = project(&carried.displacement, &carried.internal[0]);
                 let v = project(&carried.velocity, &carried.internal[1]);
-                system.state_at(time, &carried.cages, x, v)
+                system.state_at(time, &carried.cages, &carried.bodies, [x, v])?
             }
         };
         Ok((reduction, state))
@@ -204,6 +207,7 @@ impl RestartState {
             velocity: full(&state.v),
             shaft: state.spin.angle,
             internal: [&state.d, &state.d_rate].map(|d| d[rows..].to_vec()),
+            bodies: state.bodies.clone(),
             cages: state.rotations.iter().map(|r| r.cage_angle).collect(),
         }
     }

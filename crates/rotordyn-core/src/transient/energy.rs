@@ -13,7 +13,7 @@ use rotordyn_bearing::{Reaction, Rotation};
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// ½ ẋᵀ ẋ (mass-normalised coordinates); under a torque drive with the energy of the rotation.
+    /// ½ ẋᵀ ẋ (mass-normalised coordinates) and of free bodies; under a torque drive with the energy of the rotation.
     pub kinetic: f64,
     /// ½ xᵀ K x of the linear parts.
     pub strain: f64,
@@ -25,7 +25,7 @@ pub struct Energy {
     /// Work of a torque drive since the start.
     pub drive: f64,
     /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation) since
-    /// the start.
+    /// the start; on free bodies by the shaft's prescribed rotation and by gravity.
     pub parametric: f64,
     /// Energy dissipated by linear damping since the start.
     pub damping_loss: f64,
@@ -66,6 +66,8 @@ pub struct EnergyBalance {
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
+    /// Work of free bodies at the last state: given, lost \[J\].
+    body_work: [f64; 2],
     rotations: Vec<Rotation>,
     rotation: Option<DriveEnergy>,
     time: f64,
@@ -84,6 +86,7 @@ impl EnergyBalance {
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(system, state),
+            body_work: system.body_work(state),
             rotations: state.rotations.clone(),
             rotation: system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state)),
             time: state.time,
@@ -122,6 +125,10 @@ impl EnergyBalance {
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
         self.powers = now;
+        let body_work = system.body_work(state);
+        e.parametric += body_work[0] - self.body_work[0];
+        e.contact_loss += body_work[1] - self.body_work[1];
+        self.body_work = body_work;
         self.rotations.copy_from_slice(&state.rotations);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
@@ -143,6 +150,7 @@ impl EnergyBalance {
         if let Some(drive) = &system.drive {
             e.kinetic += drive.kinetic_energy(system, state);
         }
+        e.kinetic += system.body_energy(state);
         let x = state.x.rows(0, system.structure());
         let mut pull = self.linear.rows_mut(0, system.structure());
         pull.gemv(0.5, &system.stiffness, &x, 0.0);
@@ -168,7 +176,7 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
         system.interfaces.iter().zip(&state.reactions).zip(state.rotations.iter().zip(before))
     {
         let before = Rotation { cage_speed: before.cage_speed, shaft_speed: before.shaft_speed, ..*now };
-        if before != *now && interface.internal == 0 && interface.element.depends_on_speed() {
+        if before != *now && interface.has_no_inertia() && interface.element.depends_on_speed() {
             let [d, rate] = interface.motion(&state.d, &state.d_rate, &before);
             let slower = interface.element.reaction(&d, &rate, &before);
             sum += reaction.elastic_energy - slower.elastic_energy;

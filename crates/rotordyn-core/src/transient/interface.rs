@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use rotordyn_bearing::internal::Motion;
 use rotordyn_bearing::{BearingElement, Reaction, Rotation};
 
 /// A nonlinear bearing of the reduced system and the rows of W that give its relative displacement.
@@ -20,6 +21,9 @@ pub struct Interface {
     /// Index of the first entry of its blocks rows × rows and internal coordinates × rows among those of all interfaces.
     pub first_stiffness: usize,
     pub first_tangent: usize,
+    /// Index of the first state of free bodies and their number.
+    pub first_body_state: usize,
+    pub body_states: usize,
     /// Cage angle at the start \[rad\].
     pub cage_angle: f64,
     /// Whether θ_z, the twist, leaves out a rotation with an inertia of its own (torque drive): its rate is then the
@@ -48,15 +52,39 @@ impl Interface {
         self.first_tangent..self.first_tangent + self.internal * self.rows
     }
 
-    /// Whether rolling elements in a cage turn with the shaft.
+    /// States of its free bodies among those of all interfaces.
+    pub fn body_range(&self) -> Range<usize> {
+        self.first_body_state..self.first_body_state + self.body_states
+    }
+
+    /// Whether its energy follows from the displacements of its rows alone.
+    pub fn has_no_inertia(&self) -> bool {
+        self.internal == 0 && self.body_states == 0
+    }
+
+    /// Whether rolling elements in a kinematic cage turn with the shaft.
     pub fn has_cage(&self) -> bool {
-        self.element.rolling_elements() > 0
+        self.element.rolling_elements() > 0 && self.body_states == 0
     }
 
     /// Reaction at displacements and velocities of all interfaces.
     pub(super) fn reaction(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> Reaction {
         let [at, rate] = self.motion(d, d_rate, rotation);
         self.element.reaction(&at, &rate, rotation)
+    }
+
+    /// Motion of its rows, and of the shaft where free bodies take it: with a torque drive the whole rotation of the shaft
+    /// about z is that of the rows, so that its work is.
+    pub(super) fn ring_motion(&self, d: &[f64], d_rate: &[f64], rotation: &Rotation) -> RowMotion {
+        let mut out = RowMotion { rows: self.rows, rotation: *rotation, ..RowMotion::default() };
+        out.position[..self.rows].copy_from_slice(&d[self.row_range()]);
+        out.velocity[..self.rows].copy_from_slice(&d_rate[self.row_range()]);
+        if self.free_rotation {
+            out.position[5] += rotation.shaft_angle;
+            out.velocity[5] += rotation.shaft_speed;
+            (out.rotation.shaft_angle, out.rotation.shaft_speed) = (0.0, 0.0);
+        }
+        out
     }
 
     /// Its relative displacement and velocity among those of all interfaces; for a bearing without internal coordinates,
@@ -72,6 +100,21 @@ impl Interface {
             rate[5] += rotation.shaft_speed;
         }
         [at, rate]
+    }
+}
+
+/// Motion of the rows of a bearing with free bodies, at most those of two bodies in space, and of its shaft.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RowMotion {
+    rows: usize,
+    position: [f64; 12],
+    velocity: [f64; 12],
+    pub rotation: Rotation,
+}
+
+impl RowMotion {
+    pub fn rows(&self) -> Motion<'_> {
+        Motion { position: &self.position[..self.rows], velocity: &self.velocity[..self.rows] }
     }
 }
 

@@ -3,6 +3,7 @@
 
 pub mod cage;
 pub mod energy;
+mod free_bodies;
 pub mod generalised_alpha;
 pub mod interface;
 pub mod perturbed_trajectory;

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::interface::Interface;
 use super::stepper::Stepper;
-use super::system::{State, System};
+use super::system::{Bodies, State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 use rotordyn_bearing::Rotation;
@@ -116,8 +116,9 @@ impl PerturbedTrajectory {
         state.rotations.copy_from_slice(&reference.rotations);
         system.to_interface(&state.x, &mut state.d);
         system.to_interface(&state.v, &mut state.d_rate);
-        let State { d, d_rate, rotations, reactions, force, .. } = state;
-        system.bearing_reactions(d, d_rate, rotations, reactions, force);
+        let State { d, d_rate, rotations, reactions, force, bodies, body_rates, .. } = state;
+        let bodies = Bodies { states: bodies, rates: body_rates };
+        system.bearing_reactions(d, d_rate, rotations, bodies, reactions, force);
         (norm / self.size).ln()
     }
 

@@ -112,7 +112,7 @@ pub fn reduce(
     let mut interfaces: Vec<Interface> = Vec::new();
     let mut map: Vec<&SparseRow> = Vec::new();
     let mut internal_masses: Vec<f64> = Vec::new();
-    let [mut first_stiffness, mut first_tangent] = [0; 2];
+    let [mut first_stiffness, mut first_tangent, mut first_body_state] = [0; 3];
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
         let element = site.bearing.element();
         let mut rows: Vec<&SparseRow> = place.rows[..element.relative_dofs()].iter().collect();
@@ -122,6 +122,11 @@ pub fn reduce(
                 rows.extend(&place.housing_rows[..internal.housing_dofs()]);
             }
             internal_masses.extend(internal.masses());
+            forces.extend(rows.iter().map(|row| dense(row)));
+        } else if element.bodies().is_some() {
+            if site.housing.node.is_some() {
+                rows.extend(&place.housing_rows);
+            }
             forces.extend(rows.iter().map(|row| dense(row)));
         } else {
             forces.extend(place.rows.iter().map(dense));
@@ -134,12 +139,15 @@ pub fn reduce(
             internal: internal_masses.len() - first_internal,
             first_stiffness,
             first_tangent,
+            first_body_state,
+            body_states: element.bodies().map_or(0, |bodies| bodies.states()),
             cage_angle: site.bearing.cage_angle(),
             free_rotation: matches!(model.drive, Drive::Torque { .. }),
             element,
         };
         first_stiffness = interface.stiffness_range().end;
         first_tangent = interface.tangent_range().end;
+        first_body_state = interface.body_range().end;
         interfaces.push(interface);
         map.extend(rows);
     }

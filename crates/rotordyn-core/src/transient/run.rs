@@ -23,6 +23,7 @@ pub struct Settings {
 
 /// Data passed to the observer at every sampling instant.
 pub struct Sample<'a> {
+    pub system: &'a System,
     pub index: usize,
     pub state: &'a State,
     /// Values of the system's channels, in order.
@@ -33,7 +34,7 @@ pub struct Sample<'a> {
 /// Outcome and cost of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Step used \[s\]; `None` if error control chose the steps.
+    /// Step used, with free bodies the shortest \[s\]; `None` if error control chose the steps.
     pub step: Option<f64>,
     pub samples: usize,
     pub steps: u64,
@@ -45,6 +46,22 @@ pub struct Report {
     pub halvings: u64,
     pub energy: Energy,
     pub end: End,
+}
+
+impl Report {
+    /// Report of a run without initial state.
+    pub fn not_started(error: PhysicsError) -> Self {
+        Self {
+            step: None,
+            samples: 0,
+            steps: 0,
+            iterations: 0,
+            refactored: 0,
+            halvings: 0,
+            energy: Energy::default(),
+            end: End::Failed(error),
+        }
+    }
 }
 
 /// Why a run ended.
@@ -88,6 +105,10 @@ pub fn run(
         energy: balance.energy,
         end: End::Complete,
     };
+    if let Err(error) = system.check_integrator(settings.integrator, &state) {
+        report.end = End::Failed(error);
+        return report;
+    }
     for index in 0..=samples {
         if index > 0 {
             let advanced = (0..calls).try_for_each(|k| {
@@ -105,7 +126,7 @@ pub fn run(
         balance.update_stored_energy(system, &state);
         system.read_channels(&state, &mut channels);
         report.samples = index + 1;
-        let sample = Sample { index, state: &state, channels: &channels, energy: &balance.energy };
+        let sample = Sample { system, index, state: &state, channels: &channels, energy: &balance.energy };
         if observe(&sample).is_break() {
             report.end = End::Stopped;
             break;
@@ -113,6 +134,7 @@ pub fn run(
     }
     (report.iterations, report.refactored) = stepper.iteration_counts();
     (report.steps, report.halvings) = (stepper.steps, stepper.halvings);
+    report.step = report.step.map(|step| step.min(stepper.shortest_step()));
     report.energy = balance.energy;
     report
 }

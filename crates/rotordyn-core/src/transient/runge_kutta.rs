@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::cage;
-use super::system::{State, System};
+use super::system::{Bodies, State, System};
 use super::torque::coupling::{Motion, Workspace};
 use crate::model::Spin;
 use rotordyn_bearing::{Reaction, Rotation};
@@ -57,6 +57,9 @@ pub struct RungeKutta {
     tableau: &'static Tableau,
     /// (ẋ, ẍ) of every stage.
     stages: Vec<(DVector<f64>, DVector<f64>)>,
+    /// States of free bodies, and their rates at every stage.
+    bodies: Vec<f64>,
+    body_stages: Vec<Vec<f64>>,
     x: DVector<f64>,
     v: DVector<f64>,
     x_error: DVector<f64>,
@@ -90,6 +93,8 @@ impl RungeKutta {
         Self {
             tableau,
             stages: (0..tableau.c.len()).map(|_| (zero(), zero())).collect(),
+            bodies: vec![0.0; system.body_states()],
+            body_stages: vec![vec![0.0; system.body_states()]; tableau.c.len()],
             x: zero(),
             v: zero(),
             x_error: zero(),
@@ -126,7 +131,9 @@ impl RungeKutta {
         cage::advance(system, state, &spin, &mut self.rotations);
         system.to_interface(x, &mut self.d);
         system.to_interface(v, &mut self.d_rate);
-        system.bearing_forces(&self.d, &self.d_rate, &self.rotations, &mut self.reactions, &mut self.force);
+        let bodies = Bodies { states: &self.bodies, rates: &mut self.body_stages[stage] };
+        let (reactions, force) = (&mut self.reactions, &mut self.force);
+        system.bearing_forces(&self.d, &self.d_rate, &self.rotations, bodies, reactions, force);
         let (rate, acceleration) = &mut self.stages[stage];
         rate.copy_from(&self.v);
         system.load(time, &spin, acceleration);
@@ -147,6 +154,10 @@ impl RungeKutta {
             add(x, from_x.take(), step * weight, rate.as_slice());
             add(v, from_v.take(), step * weight, acceleration.as_slice());
         }
+        let mut from_bodies = Some(state.bodies.as_slice());
+        for (weight, rates) in weights.iter().zip(&self.body_stages).filter(|(w, _)| **w != 0.0) {
+            add(&mut self.bodies, from_bodies.take(), step * weight, rates);
+        }
     }
 
     /// Tries a step; returns the error estimate in units of the tolerance (0 without error control).
@@ -165,6 +176,7 @@ impl RungeKutta {
         // The first stage is the state's own rate.
         self.stages[0].0.copy_from(&state.v);
         self.stages[0].1.copy_from(&state.a);
+        self.body_stages[0].copy_from_slice(&state.body_rates);
         for stage in 1..c.len() {
             self.combine(state, step, a[stage]);
             let offset = c[stage] * step;
@@ -205,6 +217,11 @@ impl RungeKutta {
         state.d.copy_from_slice(&self.d);
         state.d_rate.copy_from_slice(&self.d_rate);
         state.force.copy_from_slice(&self.force);
+        if system.has_bodies() {
+            state.bodies.copy_from_slice(&self.bodies);
+            state.body_rates.copy_from_slice(&self.body_stages[if last_is_end { c.len() - 1 } else { 0 }]);
+            system.finish_bodies(state);
+        }
         estimate
     }
 }

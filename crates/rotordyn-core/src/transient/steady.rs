@@ -84,6 +84,10 @@ pub fn run_steady(
     let perturbed_from = start + (settings.transient_periods / 2) as f64;
     let margin = MARGIN_SAMPLES / per_period;
 
+    system.check_integrator(settings.integrator, &state)?;
+    if perturbation.is_some() {
+        system.refuse_bodies("a Lyapunov exponent", &state)?;
+    }
     let mut stepper = Stepper::new(system, settings.integrator, step);
     let mut perturbed: Option<PerturbedTrajectory> = None;
     let mut run = SteadyRun {

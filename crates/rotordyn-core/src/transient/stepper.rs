@@ -8,6 +8,8 @@ use crate::model::study::Integrator;
 
 /// Largest number of halvings of a step: 2⁻¹² of its length.
 const MAX_HALVINGS: u32 = 12;
+/// No step for free bodies is shorter \[s\]: friction so stiff makes the run diverge, which ends it.
+const SHORTEST_STEP: f64 = 1e-9;
 /// Bearing displacement above which the run counts as diverged \[m\].
 const MAX_DISPLACEMENT: f64 = 0.1;
 
@@ -18,6 +20,10 @@ pub struct Stepper {
     pub steps: u64,
     /// Steps that were halved (implicit) or rejected by error control (explicit).
     pub halvings: u64,
+    /// Longest step for the structure where free bodies set the step \[s\]; found at the first step.
+    structure_step: Option<f64>,
+    /// Shortest step taken with free bodies \[s\].
+    shortest: f64,
 }
 
 #[allow(clippy::large_enum_variant)] // there is one
@@ -51,7 +57,12 @@ impl Stepper {
                 step,
             },
         };
-        Self { method, steps: 0, halvings: 0 }
+        Self { method, steps: 0, halvings: 0, structure_step: None, shortest: f64::INFINITY }
+    }
+
+    /// Shortest step taken where free bodies divide the given one \[s\]; else infinite.
+    pub fn shortest_step(&self) -> f64 {
+        self.shortest
     }
 
     /// Whether the step size is controlled by the error estimate.
@@ -81,6 +92,7 @@ impl Stepper {
     ) -> Result<(), PhysicsError> {
         match &self.method {
             Method::Implicit(_) => self.implicit(system, state, step, 0, taken)?,
+            Method::Fixed(_) if system.has_bodies() => self.divided_step(system, state, step, taken)?,
             Method::Fixed(_) => {
                 self.exact_step(system, state, step)?;
                 taken(state, step)?;
@@ -109,6 +121,27 @@ impl Stepper {
         }
         self.steps += 1;
         Ok(())
+    }
+
+    /// Equal parts of a step, short enough for the free bodies as they are at its start.
+    fn divided_step(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+        taken: OnStep,
+    ) -> Result<(), PhysicsError> {
+        system.check_bodies(state)?;
+        let for_structure = *self.structure_step.get_or_insert_with(|| system.structure_step(state));
+        let longest = for_structure.min(system.body_step(state)).max(SHORTEST_STEP);
+        let parts = (step / longest).ceil().max(1.0);
+        let part = step / parts;
+        self.shortest = self.shortest.min(part);
+        for _ in 0..parts as u64 {
+            self.exact_step(system, state, part)?;
+            taken(state, part)?;
+        }
+        system.check_bodies(state)
     }
 
     /// One implicit step, halved while Newton does not converge.

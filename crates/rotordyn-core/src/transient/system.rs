@@ -2,12 +2,14 @@
 //!
 //! ẍ + (C + Ω G) ẋ + (K + Ω̇ K_s + Ω K_c) x = p(t) + Wᵀ f(d, ḋ, rotation), d = W x,
 //! in mass-normalised coordinates q = V x; f holds the bearing forces on the shaft. Internal coordinates y of
-//! bearings are appended: √m y to x, y to d, and the force on y to f.
+//! bearings are appended: √m y to x, y to d, and the force on y to f. Free bodies of bearings have states z of their own
+//! with ż = g(z, d, ḋ, rotation).
 
 use nalgebra::{DMatrix, DVector};
 
 use super::interface::{Interface, StepTangents};
 use super::torque::{DrivenState, TorqueDrive};
+use crate::assembly::PhysicsError;
 use crate::model::{Quantity, SpeedCurve, Spin};
 use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
 use rotordyn_bearing::{Reaction, Rotation};
@@ -128,8 +130,17 @@ pub struct State {
     pub d_rate: Vec<f64>,
     /// The corresponding forces.
     pub force: Vec<f64>,
+    /// States of the free bodies of all bearings, and their rates.
+    pub bodies: Vec<f64>,
+    pub body_rates: Vec<f64>,
     /// What a torque drive needs in addition; empty without.
     pub driven: DrivenState,
+}
+
+/// States of free bodies, and their rates to be found.
+pub struct Bodies<'a> {
+    pub states: &'a [f64],
+    pub rates: &'a mut [f64],
 }
 
 impl System {
@@ -275,10 +286,11 @@ impl System {
         d: &[f64],
         d_rate: &[f64],
         rotations: &[Rotation],
+        bodies: Bodies,
         reactions: &mut [Reaction],
         force: &mut [f64],
     ) {
-        self.evaluate([d, d_rate], rotations, reactions, force, true);
+        self.evaluate([d, d_rate], rotations, bodies, (reactions, force), true);
     }
 
     /// Bearing forces without tangents (those in `reactions` are stale): for explicit steps.
@@ -287,23 +299,37 @@ impl System {
         d: &[f64],
         d_rate: &[f64],
         rotations: &[Rotation],
+        bodies: Bodies,
         reactions: &mut [Reaction],
         force: &mut [f64],
     ) {
-        self.evaluate([d, d_rate], rotations, reactions, force, false);
+        self.evaluate([d, d_rate], rotations, bodies, (reactions, force), false);
     }
 
     fn evaluate(
         &self,
         [d, d_rate]: [&[f64]; 2],
         rotations: &[Rotation],
-        reactions: &mut [Reaction],
-        force: &mut [f64],
+        bodies: Bodies,
+        (reactions, force): (&mut [Reaction], &mut [f64]),
         tangents: bool,
     ) {
         let (rows, on_internal) = force.split_at_mut(self.rows());
         for ((interface, rotation), reaction) in self.interfaces.iter().zip(rotations).zip(reactions) {
             let own = interface.row_range();
+            if let Some(free) = interface.element.bodies() {
+                let motion = interface.ring_motion(d, d_rate, rotation);
+                let states = interface.body_range();
+                let rates = &mut bodies.rates[states.clone()];
+                *reaction = free.rates(
+                    motion.rows(),
+                    &motion.rotation,
+                    &bodies.states[states],
+                    rates,
+                    &mut rows[own],
+                );
+                continue;
+            }
             let Some(internal) = interface.element.internal() else {
                 if tangents {
                     *reaction = interface.reaction(d, d_rate, rotation);
@@ -363,7 +389,10 @@ impl System {
     }
 
     /// The state at t = 0 with given coordinates and velocities and consistent acceleration.
-    pub fn initial_state(&self, x: DVector<f64>, v: DVector<f64>) -> State {
+    ///
+    /// # Errors
+    /// Free bodies that overlap.
+    pub fn initial_state(&self, x: DVector<f64>, v: DVector<f64>) -> Result<State, PhysicsError> {
         let mut spin = self.curve.at(0.0);
         if self.drive.is_some() {
             spin.acceleration = 0.0;
@@ -390,15 +419,30 @@ impl System {
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
+            bodies: Vec::new(),
+            body_rates: vec![0.0; self.body_states()],
             driven: DrivenState::default(),
         };
+        self.start_bodies(&mut state)?;
         self.refresh(&mut state);
-        state
+        Ok(state)
     }
 
-    /// The state at a given time with given cage angles.
-    pub fn state_at(&self, time: f64, cage_angles: &[f64], x: DVector<f64>, v: DVector<f64>) -> State {
-        let mut state = self.initial_state(x, v);
+    /// The state at a given time with given cage angles and, unless empty, states of free bodies.
+    ///
+    /// # Errors
+    /// As [`Self::initial_state`].
+    pub fn state_at(
+        &self,
+        time: f64,
+        cage_angles: &[f64],
+        bodies: &[f64],
+        [x, v]: [DVector<f64>; 2],
+    ) -> Result<State, PhysicsError> {
+        let mut state = self.initial_state(x, v)?;
+        if bodies.len() == state.bodies.len() {
+            state.bodies.copy_from_slice(bodies);
+        }
         state.time = time;
         state.spin = self.curve.at(time);
         for (rotation, angle) in state.rotations.iter_mut().zip(cage_angles) {
@@ -406,7 +450,7 @@ impl System {
             rotation.shaft_angle = state.spin.angle;
         }
         self.refresh(&mut state);
-        state
+        Ok(state)
     }
 
     /// Recomputes reactions and acceleration of a state from its x, v, time and rotations.
@@ -414,8 +458,9 @@ impl System {
         let (x, v) = (state.x.clone(), state.v.clone());
         self.to_interface(&x, &mut state.d);
         self.to_interface(&v, &mut state.d_rate);
-        let State { d, d_rate, rotations, reactions, force, .. } = state;
-        self.bearing_reactions(d, d_rate, rotations, reactions, force);
+        let State { d, d_rate, rotations, reactions, force, bodies, body_rates, .. } = state;
+        let bodies = Bodies { states: bodies, rates: body_rates };
+        self.bearing_reactions(d, d_rate, rotations, bodies, reactions, force);
         let mut a = DVector::zeros(self.size());
         self.load(state.time, &state.spin, &mut a);
         self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);

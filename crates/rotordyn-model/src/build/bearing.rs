@@ -4,6 +4,8 @@ use super::ball_inertia::{self, BALL_INERTIA, BallInertiaKeys};
 use super::ball_keys::{AxialKeys, BallKeys, check_geometry, common_properties, designation};
 use super::contact::{BallContactKeys, ContactStiffnessKeys, ServiceKeys};
 use super::defects::DefectsKeys;
+use super::free_ball::{self, FreeBallKeys};
+use super::free_cage::FreeCageKeys;
 use super::imperfections::{DefectLawKeys, ImperfectionKeys};
 use super::increasing::check_increasing;
 use super::lubricants::OilOfBearingKeys;
@@ -53,6 +55,18 @@ static BEARING_TABLE: Table = Table {
         Group { condition: RADIAL_BALL, keys: RadialBallKeys::LIST },
         Group { condition: RADIAL_BALL, keys: ImperfectionKeys::LIST },
         Group { condition: RADIAL_BALL, keys: DefectsKeys::LIST },
+        Group { condition: FREE_BALL, keys: BallKeys::LIST },
+        Group { condition: FREE_BALL, keys: AxialKeys::LIST },
+        Group { condition: FREE_BALL, keys: BallInertiaKeys::LIST },
+        Group { condition: FREE_BALL, keys: ContactStiffnessKeys::LIST },
+        Group { condition: FREE_BALL, keys: FreeBallKeys::LIST },
+        Group { condition: FREE_BALL, keys: FreeCageKeys::LIST },
+        Group { condition: FREE_BALL, keys: OilOfBearingKeys::LIST },
+        Group { condition: FREE_BALL, keys: MountingKeys::LIST },
+        Group { condition: FREE_BALL, keys: ImperfectionKeys::LIST },
+        Group { condition: FREE_BALL, keys: DefectsKeys::LIST },
+        Group { condition: FREE_BALL, keys: DefectLawKeys::LIST },
+        Group { condition: FREE_BALL, keys: ServiceKeys::LIST },
         Group { condition: LINEAR, keys: LinearKeys::LIST },
         Group { condition: LINEAR, keys: &BEARING_STIFFNESS_LIST },
         Group { condition: LINEAR, keys: &BEARING_DAMPING_LIST },
@@ -62,6 +76,7 @@ static BEARING_TABLE: Table = Table {
 
 const BALL: &str = "model = \"ball\"";
 const RADIAL_BALL: &str = "model = \"radial_ball\"";
+const FREE_BALL: &str = "model = \"free_ball\"";
 const LINEAR: &str = "model = \"linear\"";
 
 keys! {
@@ -71,7 +86,7 @@ keys! {
             .example("\"A\"");
         housing: Text = text("ground or name of a housing or body", "What holds its outer ring.").default("ground");
         model: Words<ReadBearing> = words(MODELS,
-            "Ball bearing in space, plane bearing with one radial DOF per ball, or stiffness matrix.");
+            "Ball bearing in space, plane bearing with one radial DOF per ball, balls and cage as free bodies, or stiffness matrix.");
     }
 }
 
@@ -137,6 +152,9 @@ type ReadBearing = fn(&Reader, &Context) -> Bearing;
 const MODELS: &[(&str, ReadBearing)] = &[
     ("ball", |r, context| ball(r, context.materials, context.lubricants).into()),
     ("radial_ball", |r, context| radial_bearing::read(r, context.materials, context.gravity).into()),
+    ("free_ball", |r, context| {
+        free_ball::read(r, context.materials, context.lubricants, context.gravity).into()
+    }),
     ("linear", |r, _| linear(r).into()),
 ];
 

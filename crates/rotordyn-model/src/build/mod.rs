@@ -10,6 +10,8 @@ pub mod catalogue;
 mod connections;
 mod contact;
 mod defects;
+mod free_ball;
+mod free_cage;
 mod imperfections;
 mod increasing;
 mod inertia;

@@ -24,7 +24,7 @@ keys! {
             ("newmark", Method::Newmark),
             ("rk4", Method::Rk4),
             ("dormand-prince", Method::Dopri),
-        ], "Time integration; rk4 and dormand-prince are explicit.").default("generalised-alpha");
+        ], "Time integration; rk4 and dormand-prince are explicit. With free balls rk4, also by default.").default("generalised-alpha");
         rho_infinity: Quantity = quantity(within(NUMBER, [0.0, 1.0]),
             "Spectral radius of generalised-alpha at high frequencies; smaller damps more.").default("0.8");
         relative_tolerance: Quantity = quantity(positive(NUMBER), "Relative error per step of dormand-prince.").default("1e-6")
@@ -37,13 +37,21 @@ keys! {
 keys! {
     /// Of run-ups; those of runs at constant speed default to it.
     pub(super) static RUN_STEP: StepKeys {
-        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval; of dormand-prince the first.")
+        step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval; of dormand-prince the first; free balls divide it further.")
             .default("100 us");
     }
 }
 
-/// The integrator of a run without settings.
-pub(super) fn default_integrator() -> Integrator {
+/// Whether a bearing has free bodies.
+fn has_bodies(model: &Model) -> bool {
+    model.bearings.iter().any(|site| site.bearing.element().bodies().is_some())
+}
+
+/// The integrator of a run without settings: with free balls rk4.
+pub(super) fn default_integrator(model: &Model) -> Integrator {
+    if has_bodies(model) {
+        return Integrator::RungeKutta4;
+    }
     Integrator::GeneralisedAlpha { rho_infinity: declared_default(&INTEGRATOR.rho_infinity) }
 }
 
@@ -59,23 +67,39 @@ pub(super) fn channels(r: &Reader, key: &Key<Texts>, model: &Model) -> Vec<Strin
     channels
 }
 
-/// The requested integrator or the default; reject settings of other integrators.
-pub(super) fn integrator(r: &Reader, default: Integrator) -> Integrator {
+/// The requested integrator or the default; reject settings of other integrators, and integrators that do not take free
+/// balls.
+pub(super) fn integrator(r: &Reader, default: Integrator, model: &Model) -> Integrator {
+    let chosen = chosen_integrator(r, default);
+    let key = &INTEGRATOR.integrator;
+    if r.has(key) && chosen != Integrator::RungeKutta4 && has_bodies(model) {
+        let message = format!("{} does not take balls and cage as free bodies", r.name(key));
+        let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
+        r.log.error(problem.expected("\"rk4\", whose steps the bearing divides as it needs").hint("leave the key out"));
+    }
+    chosen
+}
+
+fn chosen_integrator(r: &Reader, default: Integrator) -> Integrator {
     let keys = &INTEGRATOR;
     let rho = r.get(&keys.rho_infinity);
     let [relative, absolute] = [&keys.relative_tolerance, &keys.absolute_tolerance].map(|key| r.get(key));
+    let foreign = |key: &Key<Quantity>, owner: &str| {
+        if r.has(key) {
+            r.error(Kind::Conflict, key, format!("{} belongs to integrator = \"{owner}\"", r.name(key)));
+        }
+    };
     let Some(method) = r.choice(&keys.integrator) else {
         return match (default, rho) {
             (Integrator::GeneralisedAlpha { .. }, Some(rho_infinity)) => {
                 Integrator::GeneralisedAlpha { rho_infinity }
             }
+            (Integrator::RungeKutta4, Some(_)) => {
+                foreign(&keys.rho_infinity, "generalised-alpha");
+                default
+            }
             _ => default,
         };
-    };
-    let foreign = |key: &Key<Quantity>, owner: &str| {
-        if r.has(key) {
-            r.error(Kind::Conflict, key, format!("{} belongs to integrator = \"{owner}\"", r.name(key)));
-        }
     };
     if !matches!(method, Method::Alpha) {
         foreign(&keys.rho_infinity, "generalised-alpha");

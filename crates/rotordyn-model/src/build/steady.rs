@@ -205,7 +205,7 @@ fn steady(
     let limit = DEFAULT_LIMIT_FACTOR * (transient_periods + periods);
     let settings = SteadyRunSettings {
         speed: r.or(&STEADY.speed, top),
-        integrator: integrator(r, run_up.map_or_else(default_integrator, |s| s.integrator)),
+        integrator: integrator(r, run_up.map_or_else(|| default_integrator(model), |s| s.integrator), model),
         step: r.or(&STEADY.step, run_up.map_or_else(|| declared_default(&RUN_STEP.step), |s| s.step)),
         cutoff: r.or(&STEADY.cutoff, run_up.map_or(f64::INFINITY, |s| s.cutoff)),
         trigger: section_trigger(r, model),

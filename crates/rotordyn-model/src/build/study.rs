@@ -353,7 +353,7 @@ fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
     }
     RunUpStudy {
-        integrator: integrator(r, default_integrator()),
+        integrator: integrator(r, default_integrator(model), model),
         step: r.value(&RUN_STEP.step),
         sample_rate: r.value(&RUN_UP.sample_rate),
         cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),

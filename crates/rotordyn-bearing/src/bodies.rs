@@ -1,0 +1,83 @@
+//! Bodies of a bearing that move by themselves: balls and a cage with states of their own.
+//!
+//! A bearing with free bodies has states z with ż = g(z, r, ṙ, t), integrated in time with the machine by explicit steps.
+//! Its rows r are the six relative displacements, then the six displacements of a housing that moves.
+
+use std::fmt::Debug;
+
+use crate::free_ball::FreeBallError;
+use crate::internal::Motion;
+use crate::reaction::{Reaction, Rotation};
+
+/// One quantity of free bodies that runs record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyChannel {
+    /// Name after that of the bearing: "cage_speed".
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub quantity: &'static str,
+    /// Body or direction in words: "cage".
+    pub direction: &'static str,
+}
+
+/// Balls and cage of a bearing as free bodies.
+pub trait FreeBodies: Debug {
+    /// Number of states; the last two are the work \[J\] of [`BodyWork`].
+    fn states(&self) -> usize;
+
+    /// States at the start, from the kinematic solution at given motion of the rows.
+    ///
+    /// Errors: parts that overlap, data that are not supported.
+    fn start(&self, rows: Motion, rotation: &Rotation) -> Result<Vec<f64>, FreeBallError>;
+
+    /// Rates ż of the states, and the forces on the rows.
+    ///
+    /// The first six of the forces on the rows are also those of the reaction, which has no tangents and no powers: the
+    /// states hold the work.
+    fn rates(
+        &self,
+        rows: Motion,
+        rotation: &Rotation,
+        states: &[f64],
+        rates: &mut [f64],
+        on_rows: &mut [f64],
+    ) -> Reaction;
+
+    /// Step \[s\] that resolves the motion of the bodies, a share of the stability limits of RK4.
+    fn step(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> f64;
+
+    /// Restores what integration departs from, such as the length of quaternions.
+    fn normalise(&self, states: &mut [f64]);
+
+    /// Errors: a body that has left the bearing or whose motion is not finite.
+    fn check(&self, rows: Motion, rotation: &Rotation, states: &[f64], time: f64) -> Result<(), FreeBallError>;
+
+    /// Kinetic energy of the bodies \[J\].
+    fn kinetic_energy(&self, states: &[f64]) -> f64;
+
+    /// Work on the bodies and energy lost, since the start.
+    fn work(&self, states: &[f64]) -> BodyWork {
+        match states {
+            [.., given, lost] => BodyWork { given: *given, lost: *lost },
+            _ => BodyWork::default(),
+        }
+    }
+
+    /// Angle of the cage, or mean angle of the balls less their spacing without one, within a turn of 0 \[rad\].
+    fn cage_angle(&self, states: &[f64]) -> f64;
+
+    /// Quantities that runs record.
+    fn channels(&self) -> &[BodyChannel];
+
+    /// Their values, written to `out` in order.
+    fn read(&self, rows: Motion, rotation: &Rotation, states: &[f64], out: &mut [f64]);
+}
+
+/// Work on free bodies that does not go through the rows, since the start \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyWork {
+    /// By the prescribed rotation of the shaft and by gravity.
+    pub given: f64,
+    /// Lost in friction, damping and drag.
+    pub lost: f64,
+}

@@ -1,0 +1,319 @@
+//! Free balls as a bearing of a machine: quasi-static in statics and linear studies, free bodies in runs.
+
+use std::sync::Arc;
+
+use super::forces::LOSSES;
+use super::ring::{RingFrame, RingState, V};
+use super::state::{FreeBallState, cage_at, normalise_orientation};
+use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep};
+use crate::ball::{BallElement, PreloadState};
+use crate::bodies::{BodyChannel, FreeBodies};
+use crate::internal::Motion;
+use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
+use crate::{BallBearing, BearingContact, Reaction, Rotation};
+
+/// Share of the stability limit by contact stiffness that a step takes: contacts then vibrate with 11 steps to a period
+/// and lose 2e-4 of their amplitude a step to the integration.
+const CONTACT_SHARE: f64 = 0.2;
+/// Share of the limit by friction, whose fastest motion only has to decay; loads may double within a step's validity.
+const FRICTION_SHARE: f64 = 0.5;
+/// Speed of the shaft \[rad/s\] below which no cage slip is given.
+const SLOWEST: f64 = 0.1;
+/// Numbers behind those of the bodies: work given and energy lost.
+const WORK: usize = 2;
+
+const CHANNELS: [BodyChannel; 9] = [
+    BodyChannel { name: "cage_speed", unit: "rad/s", quantity: "speed", direction: "cage" },
+    BodyChannel { name: "cage_slip", unit: "", quantity: "ratio", direction: "cage" },
+    BodyChannel { name: "ball_speed", unit: "rad/s", quantity: "speed", direction: "balls" },
+    BodyChannel { name: "ball_pitch_angle", unit: "rad", quantity: "angle", direction: "balls" },
+    BodyChannel { name: "cage_x", unit: "m", quantity: "displacement", direction: "x" },
+    BodyChannel { name: "cage_y", unit: "m", quantity: "displacement", direction: "y" },
+    BodyChannel { name: "pocket_force", unit: "N", quantity: "force", direction: "cage" },
+    BodyChannel { name: "friction_torque", unit: "N m", quantity: "moment", direction: "shaft" },
+    BodyChannel { name: "friction_power", unit: "W", quantity: "power", direction: "" },
+];
+
+impl BearingModel for FreeBallBearing {
+    fn keyword(&self) -> &'static str {
+        "free_ball"
+    }
+
+    fn description(&self) -> String {
+        match self.cage {
+            Some(_) => "free balls and cage".into(),
+            None => "free balls, full complement".into(),
+        }
+    }
+
+    fn element(&self) -> Arc<dyn BearingElement> {
+        Arc::new(FreeBallElement::new(self))
+    }
+
+    fn supports(&self) -> [bool; 6] {
+        self.ball.supports()
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.ball.depends_on_speed()
+    }
+
+    fn symbol(&self) -> BearingSymbol<'_> {
+        self.ball.symbol()
+    }
+
+    fn thrust_directions(&self) -> [bool; 2] {
+        self.ball.thrust_directions()
+    }
+
+    fn cage(&self) -> Option<CageStart> {
+        self.ball.cage()
+    }
+
+    fn set_cage_angle(&mut self, angle: f64) {
+        self.ball.cage_angle = angle;
+    }
+
+    fn ball(&self) -> Option<&BallBearing> {
+        Some(&self.ball)
+    }
+
+    fn static_balls(&self) -> Option<&BallBearing> {
+        Some(&self.ball)
+    }
+
+    fn static_balls_mut(&mut self) -> Option<&mut BallBearing> {
+        Some(&mut self.ball)
+    }
+}
+
+/// A bearing with free balls prepared for evaluation.
+///
+/// Statics and linear studies take the quasi-static bearing of the same geometry, to which free balls settle without
+/// traction; its six relative degrees of freedom include θ_z, about which friction acts.
+#[derive(Clone, Debug)]
+pub struct FreeBallElement {
+    quasi_static: BallElement,
+    bodies: Result<FreeBalls, FreeBallError>,
+}
+
+impl FreeBallElement {
+    /// Prepares a bearing; its clearance is that at standstill.
+    pub fn new(bearing: &FreeBallBearing) -> Self {
+        Self {
+            quasi_static: BallElement::new(&bearing.ball),
+            bodies: FreeBalls::new(bearing.clone(), 0.0),
+        }
+    }
+}
+
+impl BearingElement for FreeBallElement {
+    fn relative_dofs(&self) -> usize {
+        6
+    }
+
+    fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
+        self.quasi_static.reaction(d, v, rotation)
+    }
+
+    fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
+        self.quasi_static.force(d, v, rotation, out);
+    }
+
+    fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
+        self.quasi_static.cage_average(d, rotation, angles)
+    }
+
+    fn contact_loads(&self, d: &[f64; 6], rotation: &Rotation) -> Vec<BearingContact> {
+        self.quasi_static.contact_loads(d, rotation)
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.quasi_static.depends_on_speed()
+    }
+
+    fn preload_state(&self, speed: f64) -> PreloadState {
+        self.quasi_static.preload_state(speed)
+    }
+
+    fn rolling_elements(&self) -> usize {
+        self.quasi_static.rolling_elements()
+    }
+
+    fn cage_ratio(&self, mean_cos: f64) -> f64 {
+        self.quasi_static.cage_ratio(mean_cos)
+    }
+
+    fn nominal_cos(&self) -> f64 {
+        self.quasi_static.nominal_cos()
+    }
+
+    fn bodies(&self) -> Option<&dyn FreeBodies> {
+        Some(self)
+    }
+}
+
+/// Inner and outer ring of a bearing whose rows move; the inner ring has the housing's motion and the relative one.
+fn rings(rows: Motion, rotation: &Rotation) -> [RingState; 2] {
+    let housing = |values: &[f64], k: usize| values.get(6 + k).copied().unwrap_or(0.0);
+    let [position, velocity] = [rows.position, rows.velocity];
+    let outer = RingState {
+        position: std::array::from_fn(|k| housing(position, k)),
+        velocity: std::array::from_fn(|k| housing(velocity, k)),
+        tilt: std::array::from_fn(|k| housing(position, 3 + k)),
+        tilt_rate: std::array::from_fn(|k| housing(velocity, 3 + k)),
+        angle: housing(position, 5),
+        speed: housing(velocity, 5),
+    };
+    let inner = RingState {
+        position: std::array::from_fn(|k| outer.position[k] + position[k]),
+        velocity: std::array::from_fn(|k| outer.velocity[k] + velocity[k]),
+        tilt: std::array::from_fn(|k| outer.tilt[k] + position[3 + k]),
+        tilt_rate: std::array::from_fn(|k| outer.tilt_rate[k] + velocity[3 + k]),
+        angle: outer.angle + rotation.shaft_angle + position[5],
+        speed: outer.speed + rotation.shaft_speed + velocity[5],
+    };
+    [inner, outer]
+}
+
+impl FreeBallElement {
+    /// The free bodies, and the numbers of their state without the work.
+    fn parts<'a>(&self, states: &'a [f64]) -> Option<(&FreeBalls, &'a [f64])> {
+        let balls = self.bodies.as_ref().ok()?;
+        Some((balls, &states[..states.len().checked_sub(WORK)?]))
+    }
+}
+
+impl FreeBodies for FreeBallElement {
+    fn states(&self) -> usize {
+        self.bodies.as_ref().map_or(0, |balls| balls.parts.values() + WORK)
+    }
+
+    fn start(&self, rows: Motion, rotation: &Rotation) -> Result<Vec<f64>, FreeBallError> {
+        let balls = self.bodies.as_ref().map_err(FreeBallError::clone)?;
+        let mut values = balls.initial_state(&rings(rows, rotation))?.values;
+        values.extend([0.0; WORK]);
+        Ok(values)
+    }
+
+    fn rates(
+        &self,
+        rows: Motion,
+        rotation: &Rotation,
+        states: &[f64],
+        rates: &mut [f64],
+        on_rows: &mut [f64],
+    ) -> Reaction {
+        let Some((balls, values)) = self.parts(states) else { return Reaction::default() };
+        let frames = rings(rows, rotation).map(|ring| ring.frame());
+        let (bodies, work) = rates.split_at_mut(values.len());
+        let sums = balls.parts.rates(values, &frames, bodies);
+        let [inner, outer] = &sums.rings;
+        let mut force = [0.0; 6];
+        for k in 0..3 {
+            (force[k], force[3 + k]) = (inner.force[k], inner.moment[k]);
+        }
+        on_rows[..6].copy_from_slice(&force);
+        if let Some(on_housing) = on_rows.get_mut(6..12) {
+            for k in 0..3 {
+                on_housing[k] = inner.force[k] + outer.force[k];
+                on_housing[3 + k] = inner.moment[k] + outer.moment[k];
+            }
+        }
+        // What the moving rings give beyond the power of the rows: by the rotation of the shaft.
+        let through_rows: f64 = on_rows.iter().zip(rows.velocity).map(|(f, v)| f * v).sum();
+        let by_rotation = sums.ring_power[0] + sums.ring_power[1] + through_rows;
+        work[0] = by_rotation + balls.parts.gravity_power(values);
+        work[1] = sums.losses.iter().sum();
+        Reaction {
+            force,
+            elastic_energy: sums.elastic_energy,
+            mean_cos: self.quasi_static.nominal_cos(),
+            ..Reaction::default()
+        }
+    }
+
+    fn step(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> f64 {
+        let Some((balls, values)) = self.parts(states) else { return f64::INFINITY };
+        let frames = rings(rows, rotation).map(|ring| ring.frame());
+        let mut rates = vec![0.0; values.len()];
+        let stable = StableStep::of(&balls.parts.rates(values, &frames, &mut rates));
+        (CONTACT_SHARE * stable.contact).min(FRICTION_SHARE * stable.friction)
+    }
+
+    fn normalise(&self, states: &mut [f64]) {
+        if let Ok(balls) = &self.bodies {
+            let end = states.len().saturating_sub(WORK);
+            normalise_orientation(&mut states[..end], balls.parts.balls.len());
+        }
+    }
+
+    fn check(
+        &self,
+        rows: Motion,
+        rotation: &Rotation,
+        states: &[f64],
+        time: f64,
+    ) -> Result<(), FreeBallError> {
+        let Some((balls, values)) = self.parts(states) else { return Ok(()) };
+        let frames = rings(rows, rotation).map(|ring| ring.frame());
+        let state = FreeBallState { time, values: values.to_vec(), balls: balls.parts.balls.len() };
+        balls.parts.check_bodies(&state, &frames)
+    }
+
+    fn kinetic_energy(&self, states: &[f64]) -> f64 {
+        self.parts(states).map_or(0.0, |(balls, values)| {
+            let energy = balls.parts.energy(values);
+            energy.balls + energy.cage
+        })
+    }
+
+    fn cage_angle(&self, states: &[f64]) -> f64 {
+        self.parts(states).map_or(0.0, |(balls, values)| balls.parts.cage_angle(values))
+    }
+
+    fn channels(&self) -> &[BodyChannel] {
+        &CHANNELS
+    }
+
+    fn read(&self, rows: Motion, rotation: &Rotation, states: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        let Some((balls, values)) = self.parts(states) else { return };
+        let frames = rings(rows, rotation).map(|ring| ring.frame());
+        let mut rates = vec![0.0; values.len()];
+        let sums = balls.parts.rates(values, &frames, &mut rates);
+        let reports = balls.parts.report(values, &frames);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+        let orbital: Vec<f64> = reports.iter().map(|ball| ball.orbital_speed).collect();
+        let loaded = reports.iter().filter(|ball| ball.races[0].is_some());
+        let pitch: Vec<f64> = loaded.clone().map(|ball| ball.pitch_angle()).collect();
+        let cosines: Vec<f64> = loaded.filter_map(|ball| Some(ball.races[0]?.angle.cos())).collect();
+        let mean_cos = if cosines.is_empty() { self.quasi_static.nominal_cos() } else { mean(&cosines) };
+        let [inner, outer]: &[RingFrame; 2] = &frames;
+        let ball_speed = mean(&orbital);
+        let (mut cage_speed, mut centre) = (ball_speed, V::zeros());
+        if let Some(contacts) = &balls.parts.cage {
+            let cage = cage_at(values, reports.len());
+            let (polar, transverse) = (contacts.cage.polar_inertia, contacts.cage.transverse_inertia);
+            cage_speed =
+                (cage.rotation(&cage.axes()[2], polar, transverse) - outer.rotation).dot(&outer.axis);
+            centre = cage.position - outer.centre;
+        }
+        let shaft_speed = (inner.rotation - outer.rotation).dot(&outer.axis);
+        let rolling = self.quasi_static.cage_ratio(mean_cos) * shaft_speed;
+        let slip = if shaft_speed.abs() > SLOWEST { 1.0 - cage_speed / rolling } else { 0.0 };
+        let pocket = reports.iter().map(|ball| ball.pocket.abs()).fold(0.0, f64::max);
+        let values = [
+            cage_speed,
+            slip,
+            ball_speed,
+            mean(&pitch),
+            centre.x,
+            centre.y,
+            pocket,
+            -sums.rings[0].moment.dot(&inner.axis),
+            sums.losses[..LOSSES.len()].iter().sum(),
+        ];
+        out.copy_from_slice(&values);
+    }
+}
