@@ -4,6 +4,7 @@ mod args;
 mod ball_motion_tables;
 mod bearing;
 mod bearing_tables;
+mod cage_tables;
 mod catalogue;
 mod check;
 mod compare;

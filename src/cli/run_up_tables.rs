@@ -34,6 +34,8 @@ pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
             number(1e6 * error.other_step, 4),
             100.0 * error.cost
         ));
+    } else if found.has_free_balls() {
+        terminal.print("  the shortest step; contacts and friction of the free balls choose the steps");
     } else if found.report.step.is_some() {
         terminal.print("  no estimate of the step's error: the run is too short, or not complete");
     }

@@ -11,14 +11,14 @@ use rotordyn::io::hdf5::{ChannelStream, Store};
 use rotordyn::io::results_file;
 use rotordyn::model::study::{RunUpStudy, Studies};
 use rotordyn::model::{Drive, Model};
-use rotordyn::results::{CagePhaseBand, Results, RunUpResult};
+use rotordyn::results::{CageComparison, CagePhaseBand, History, Results, RunUpResult};
 use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
 use super::failure::Failure;
 use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
-use super::{bearing_tables, interrupt, run_up_tables, tables};
+use super::{bearing_tables, cage_tables, interrupt, run_up_tables, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -371,6 +371,10 @@ impl<'a> Job<'a> {
         let step_error = machine.step_error(settings, &reduction, &orders, (&checkpoints, &history, &report));
         let check_seconds = start.elapsed().as_secs_f64();
         spinner.finish_and_clear();
+        let cage_comparison = match &failure {
+            None => self.cage_comparison(settings, &history)?,
+            Some(_) => None,
+        };
         let found = RunUpResult {
             modes: reduction.modes,
             corrections: reduction.corrections,
@@ -381,8 +385,12 @@ impl<'a> Job<'a> {
             requested_step: settings.step,
             cage_angles: machine.cage_angles(),
             step_error,
+            cage_comparison,
         };
         tables::run_up(self.terminal, &found, check_seconds);
+        if let Some(comparison) = &found.cage_comparison {
+            cage_tables::comparison(self.terminal, comparison);
+        }
         let failure = match (failure, &machine.model.drive) {
             (None, Drive::Torque { table, .. }) => {
                 let reached = speed_range(&found.history.speed);
@@ -406,6 +414,20 @@ impl<'a> Job<'a> {
         }
         self.results.run_up = Some(found);
         failure.map_or(Ok(()), Err)
+    }
+
+    /// Run-up with kinematic cages beside one with free balls.
+    fn cage_comparison(
+        &self,
+        settings: &RunUpStudy,
+        history: &History,
+    ) -> Result<Option<CageComparison>, Failure> {
+        let spinner = self.terminal.spinner("kinematic cages");
+        let found = self.machine.compare_cages(settings, history, &mut || {
+            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        spinner.finish_and_clear();
+        Ok(found?)
     }
 
     /// Range of the order cuts over the initial cage phases.

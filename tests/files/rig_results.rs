@@ -54,6 +54,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             requested_step: 25e-6,
             cage_angles: machine.cage_angles(),
             step_error: None,
+            cage_comparison: None,
         }),
         cage_phases: None,
         ball_inertia: Vec::new(),

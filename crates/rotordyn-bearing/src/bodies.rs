@@ -50,7 +50,13 @@ pub trait FreeBodies: Debug {
     fn normalise(&self, states: &mut [f64]);
 
     /// Errors: a body that has left the bearing or whose motion is not finite.
-    fn check(&self, rows: Motion, rotation: &Rotation, states: &[f64], time: f64) -> Result<(), FreeBallError>;
+    fn check(
+        &self,
+        rows: Motion,
+        rotation: &Rotation,
+        states: &[f64],
+        time: f64,
+    ) -> Result<(), FreeBallError>;
 
     /// Kinetic energy of the bodies \[J\].
     fn kinetic_energy(&self, states: &[f64]) -> f64;

@@ -5,6 +5,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use crate::ball::{BallBearing, PreloadState};
+use crate::bearing::Bearing;
 use crate::bearing_contact::BearingContact;
 use crate::bodies::FreeBodies;
 use crate::geometry::CharacteristicOrders;
@@ -53,6 +54,11 @@ pub trait BearingModel: Debug {
 
     /// Speeds of the bearing's table; `None` for a model that holds at every speed.
     fn speed_range(&self) -> Option<SpeedRange> {
+        None
+    }
+
+    /// The same bearing with a cage that rolls without slip; `None` unless its balls are free bodies.
+    fn with_rolling_cage(&self) -> Option<Bearing> {
         None
     }
 

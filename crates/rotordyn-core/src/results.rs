@@ -2,6 +2,7 @@
 
 mod bearing;
 mod bifurcation;
+mod cage_comparison;
 mod campbell;
 mod critical;
 mod frf;
@@ -23,6 +24,7 @@ pub use bearing::{
     PickContact,
 };
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
+pub use cage_comparison::{CageComparison, CageLine, CageSpeed};
 pub use campbell::CampbellResult;
 pub use critical::CriticalResult;
 pub use frf::FrfResult;

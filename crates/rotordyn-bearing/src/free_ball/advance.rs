@@ -154,7 +154,11 @@ impl Parts {
     }
 
     /// Errors: a ball or the cage that has left the bearing or whose motion is not finite.
-    pub(super) fn check_bodies(&self, state: &FreeBallState, rings: &[RingFrame; 2]) -> Result<(), FreeBallError> {
+    pub(super) fn check_bodies(
+        &self,
+        state: &FreeBallState,
+        rings: &[RingFrame; 2],
+    ) -> Result<(), FreeBallError> {
         for (ball, &[radius, ..]) in self.balls.iter().enumerate() {
             let position = state.ball(ball).position;
             for (groove, ring) in self.grooves.iter().zip(rings) {

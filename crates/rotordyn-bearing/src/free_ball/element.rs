@@ -1,5 +1,6 @@
 //! Free balls as a bearing of a machine: quasi-static in statics and linear studies, free bodies in runs.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::forces::LOSSES;
@@ -10,19 +11,21 @@ use crate::ball::{BallElement, PreloadState};
 use crate::bodies::{BodyChannel, FreeBodies};
 use crate::internal::Motion;
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
-use crate::{BallBearing, BearingContact, Reaction, Rotation};
+use crate::{BallBearing, Bearing, BearingContact, Reaction, Rotation};
 
 /// Share of the stability limit by contact stiffness that a step takes: contacts then vibrate with 11 steps to a period
 /// and lose 2e-4 of their amplitude a step to the integration.
 const CONTACT_SHARE: f64 = 0.2;
-/// Share of the limit by friction, whose fastest motion only has to decay; loads may double within a step's validity.
-const FRICTION_SHARE: f64 = 0.5;
+/// Share of the limit by friction, whose fastest motion only has to decay; loads may grow by 40 % before
+/// the share is found anew.
+const FRICTION_SHARE: f64 = 0.7;
 /// Speed of the shaft \[rad/s\] below which no cage slip is given.
 const SLOWEST: f64 = 0.1;
 /// Numbers behind those of the bodies: work given and energy lost.
 const WORK: usize = 2;
 
-const CHANNELS: [BodyChannel; 9] = [
+const CHANNELS: [BodyChannel; 10] = [
+    BodyChannel { name: "ball_angle", unit: "rad", quantity: "angle", direction: "balls" },
     BodyChannel { name: "cage_speed", unit: "rad/s", quantity: "speed", direction: "cage" },
     BodyChannel { name: "cage_slip", unit: "", quantity: "ratio", direction: "cage" },
     BodyChannel { name: "ball_speed", unit: "rad/s", quantity: "speed", direction: "balls" },
@@ -66,6 +69,10 @@ impl BearingModel for FreeBallBearing {
         self.ball.thrust_directions()
     }
 
+    fn with_rolling_cage(&self) -> Option<Bearing> {
+        Some(self.ball.clone().into())
+    }
+
     fn cage(&self) -> Option<CageStart> {
         self.ball.cage()
     }
@@ -100,10 +107,7 @@ pub struct FreeBallElement {
 impl FreeBallElement {
     /// Prepares a bearing; its clearance is that at standstill.
     pub fn new(bearing: &FreeBallBearing) -> Self {
-        Self {
-            quasi_static: BallElement::new(&bearing.ball),
-            bodies: FreeBalls::new(bearing.clone(), 0.0),
-        }
+        Self { quasi_static: BallElement::new(&bearing.ball), bodies: FreeBalls::new(bearing.clone(), 0.0) }
     }
 }
 
@@ -174,6 +178,11 @@ fn rings(rows: Motion, rotation: &Rotation) -> [RingState; 2] {
         speed: outer.speed + rotation.shaft_speed + velocity[5],
     };
     [inner, outer]
+}
+
+/// An angle plus whole turns, so that it is nearest another \[rad\].
+fn near(angle: f64, other: f64) -> f64 {
+    angle + ((other - angle) / TAU).round() * TAU
 }
 
 impl FreeBallElement {
@@ -304,6 +313,7 @@ impl FreeBodies for FreeBallElement {
         let slip = if shaft_speed.abs() > SLOWEST { 1.0 - cage_speed / rolling } else { 0.0 };
         let pocket = reports.iter().map(|ball| ball.pocket.abs()).fold(0.0, f64::max);
         let values = [
+            near(balls.parts.ball_angle(values), rotation.cage_angle),
             cage_speed,
             slip,
             ball_speed,

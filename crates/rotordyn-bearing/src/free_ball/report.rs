@@ -99,13 +99,18 @@ impl Parts {
         (0..self.balls.len()).map(one).collect()
     }
 
-    /// Angle of the cage about z, or without cage the mean angle of the balls less their spacing; −π to π \[rad\].
+    /// Angle of the cage about z, or without cage that of the balls; −π to π \[rad\].
     pub fn cage_angle(&self, values: &[f64]) -> f64 {
-        let balls = self.balls.len();
-        if self.cage.is_some() {
-            let [across, ..] = cage_at(values, balls).axes();
-            return across.y.atan2(across.x);
+        if self.cage.is_none() {
+            return self.ball_angle(values);
         }
+        let [across, ..] = cage_at(values, self.balls.len()).axes();
+        across.y.atan2(across.x)
+    }
+
+    /// Mean angle of the balls about z less their spacing; −π to π \[rad\].
+    pub fn ball_angle(&self, values: &[f64]) -> f64 {
+        let balls = self.balls.len();
         let mean = (0..balls).fold([0.0; 2], |[x, y], j| {
             let place = self.motion(values, j).position;
             let (sin, cos) = (place.y.atan2(place.x) - TAU * j as f64 / balls as f64).sin_cos();

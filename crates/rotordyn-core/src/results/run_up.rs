@@ -1,7 +1,7 @@
 //! A run-up, and its reliability: error of its time step, dependence on the initial cage phase.
 
-use super::OrderLine;
 use super::history::{History, HistoryChannel};
+use super::{CageComparison, OrderLine};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named, quantity};
 use crate::transient::run::{End, Report};
 use rotordyn_signal::order::OrderCut;
@@ -25,9 +25,16 @@ pub struct RunUpResult {
     pub cage_angles: Vec<(String, f64)>,
     /// Estimated error of the order levels by the step.
     pub step_error: Option<StepError>,
+    /// Free balls beside cages that roll without slip, if there are free balls.
+    pub cage_comparison: Option<CageComparison>,
 }
 
 impl RunUpResult {
+    /// Whether balls were free bodies: the run then recorded their mean angle.
+    pub fn has_free_balls(&self) -> bool {
+        self.history.channels.iter().any(|channel| channel.name.ends_with("_ball_angle"))
+    }
+
     /// What is written to files; the samples are streamed.
     pub fn document(&self) -> Document<'_> {
         let (report, e) = (&self.report, &self.report.energy);
@@ -73,6 +80,9 @@ impl RunUpResult {
             .integer(in_json("samples"), self.history.time.len())
             .integer(in_hdf5("samples"), report.samples)
             .table(in_json("channels"), HistoryChannel::columns(&self.history.channels));
+        if let Some(comparison) = &self.cage_comparison {
+            out = out.group("cage_comparison", comparison.document());
+        }
         for (bearing, angle) in &self.cage_angles {
             out = out.number(in_hdf5(format!("initial_cage_angle_{bearing}")), "rad", *angle);
         }

@@ -4,6 +4,7 @@ mod ball_states;
 mod bearing;
 mod bearing_life;
 mod bifurcation;
+mod cage_comparison;
 mod cage_phases;
 mod ehl_film;
 mod error;

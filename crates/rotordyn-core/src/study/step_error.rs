@@ -52,7 +52,8 @@ impl Checkpoints {
 impl Machine {
     /// Estimates the step's error in the levels of the given orders, of all probes.
     ///
-    /// `None` for error-controlled steps, for a run that ended early, and for one too short: an order needs four cycles
+    /// `None` for error-controlled steps, for those that free balls choose (whose collisions make lines below the noise of
+    /// the run differ at any step), for a run that ended early, and for one too short: an order needs four cycles
     /// within the stretch.
     pub fn step_error(
         &self,
@@ -63,7 +64,7 @@ impl Machine {
     ) -> Option<StepError> {
         let step = report.step.filter(|_| report.end == End::Complete)?;
         let every = checkpoints.every;
-        if every < FEWEST_SAMPLES {
+        if every < FEWEST_SAMPLES || reduction.system.has_bodies() {
             return None;
         }
         let probes = self.model.probes.len();
@@ -175,7 +176,7 @@ fn variance(values: &[f64]) -> f64 {
 }
 
 /// RMS level of an order in a record over the shaft angle, with a Hann window over the whole angle.
-fn line_level(angle: &[f64], values: &[f64], order: f64) -> f64 {
+pub(super) fn line_level(angle: &[f64], values: &[f64], order: f64) -> f64 {
     let (start, span) = match angle {
         [first, .., last] if last != first => (*first, last - first),
         _ => return 0.0,

@@ -1,8 +1,9 @@
-//! Cage kinematics: every cage rolls with the shaft without slip, also at varying speed.
+//! Cage kinematics: every cage rolls with the shaft without slip, also at varying speed, or turns as given.
 
 use super::system::{State, System};
 use crate::model::Spin;
 use rotordyn_bearing::Rotation;
+use rotordyn_linalg::{Outside, piecewise};
 
 /// Cage and shaft angles at the end of a step, written to `out`.
 ///
@@ -15,9 +16,17 @@ pub fn advance(system: &System, state: &State, spin: &Spin, out: &mut [Rotation]
         system.interfaces.iter().zip(&state.rotations).zip(&state.reactions).zip(out)
     {
         let ratio = interface.element.cage_ratio(reaction.mean_cos);
+        let (cage_angle, cage_speed) = match &interface.cage_angles {
+            None => (before.cage_angle + ratio * turned, ratio * spin.speed),
+            Some(given) => {
+                let [_, angle] = piecewise(given, spin.angle, Outside::Constant);
+                let ratio = if turned == 0.0 { ratio } else { (angle - before.cage_angle) / turned };
+                (angle, ratio * spin.speed)
+            }
+        };
         *after = Rotation {
-            cage_angle: before.cage_angle + ratio * turned,
-            cage_speed: Some(ratio * spin.speed),
+            cage_angle,
+            cage_speed: Some(cage_speed),
             shaft_angle: spin.angle,
             shaft_speed: spin.speed,
         };

@@ -104,9 +104,9 @@ impl System {
 
     /// Kinetic energy of all free bodies \[J\].
     pub fn body_energy(&self, state: &State) -> f64 {
-        let energies = self.bodies_at(state).map(|(interface, bodies, _)| {
-            bodies.kinetic_energy(&state.bodies[interface.body_range()])
-        });
+        let energies = self
+            .bodies_at(state)
+            .map(|(interface, bodies, _)| bodies.kinetic_energy(&state.bodies[interface.body_range()]));
         energies.sum()
     }
 

@@ -26,6 +26,8 @@ pub struct Interface {
     pub body_states: usize,
     /// Cage angle at the start \[rad\].
     pub cage_angle: f64,
+    /// Cage angle over shaft angle \[rad\], increasing, instead of a cage that rolls without slip.
+    pub cage_angles: Option<Vec<[f64; 2]>>,
     /// Whether θ_z, the twist, leaves out a rotation with an inertia of its own (torque drive): its rate is then the
     /// speed of the shaft plus that of the twist.
     pub free_rotation: bool,

@@ -142,6 +142,7 @@ pub fn reduce(
             first_body_state,
             body_states: element.bodies().map_or(0, |bodies| bodies.states()),
             cage_angle: site.bearing.cage_angle(),
+            cage_angles: None,
             free_rotation: matches!(model.drive, Drive::Torque { .. }),
             element,
         };

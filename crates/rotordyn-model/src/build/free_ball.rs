@@ -4,9 +4,9 @@ use super::ball_inertia;
 use super::ball_keys::{self, BALL};
 use super::contact::{self, BALL_CONTACT};
 use super::free_cage;
+use super::imperfections;
 use super::lubricants;
 use super::mounting::{self, MOUNTING};
-use super::imperfections;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
     Count, Declared, Flag, Quantity, SubTable, Words, count, flag, keys, not_negative, positive, quantity,
@@ -15,9 +15,7 @@ use crate::file::key::{
 use crate::file::reader::Reader;
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::{ContactDamping, Lubricant, Traction};
-use rotordyn_bearing::free_ball::{
-    Drag, FilmShear, FreeBallBearing, FrictionLaw, SlipModel, TractionCurve,
-};
+use rotordyn_bearing::free_ball::{Drag, FilmShear, FreeBallBearing, FrictionLaw, SlipModel, TractionCurve};
 use rotordyn_core::element::Material;
 use rotordyn_units::{DENSITY, INVERSE_SPEED, NUMBER, PRESSURE, TILT_DAMPING, VELOCITY};
 
@@ -41,7 +39,7 @@ keys! {
         friction: Quantity = quantity(not_negative(NUMBER), "Coefficient of friction of balls and races; with film the limit of its shear stress over pressure.")
             .default("0.06");
         slip_speed: Quantity = quantity(positive(VELOCITY), "Slip up to which friction is proportional to slip; the time step shrinks with it.")
-            .default("10 mm/s");
+            .default("20 mm/s");
         traction_curve: SubTable = sub_table(TractionCurveKeys::TABLE).required("with friction_law = \"curve\"")
             .with("friction_law = \"curve\"");
         eyring_stress: Quantity = quantity(positive(PRESSURE), "Shear stress above which the film is no longer Newtonian.")
@@ -106,7 +104,8 @@ pub(super) fn read(
     let ball = ball(r, materials, lubricants);
     let cage = free_cage::read(r, &ball, materials, !r.flag(&FREE_BALL.full_complement));
     let slip_speed = r.value(&FREE_BALL.slip_speed);
-    let [along, across] = [&FREE_BALL.slip_points_along, &FREE_BALL.slip_points_across].map(|key| r.count(key));
+    let [along, across] =
+        [&FREE_BALL.slip_points_along, &FREE_BALL.slip_points_across].map(|key| r.count(key));
     let over_ellipse = r.word(&FREE_BALL.slip);
     for key in [&FREE_BALL.slip_points_along, &FREE_BALL.slip_points_across] {
         if r.has(key) && !over_ellipse {

@@ -75,7 +75,11 @@ pub(super) fn integrator(r: &Reader, default: Integrator, model: &Model) -> Inte
     if r.has(key) && chosen != Integrator::RungeKutta4 && has_bodies(model) {
         let message = format!("{} does not take balls and cage as free bodies", r.name(key));
         let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
-        r.log.error(problem.expected("\"rk4\", whose steps the bearing divides as it needs").hint("leave the key out"));
+        r.log.error(
+            problem
+                .expected("\"rk4\", whose steps the bearing divides as it needs")
+                .hint("leave the key out"),
+        );
     }
     chosen
 }

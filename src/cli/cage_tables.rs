@@ -1,0 +1,59 @@
+//! Tables of a run-up with free balls beside cages that roll without slip.
+
+use rotordyn::results::CageComparison;
+
+use super::terminal::{Terminal, number};
+
+/// Speeds of the cages, levels of the order lines, and whether a rolling cage was good enough.
+pub fn comparison(terminal: &Terminal, found: &CageComparison) {
+    let percent = |share: f64| number(100.0 * share, 3);
+    let cages = found.cages.iter().map(|cage| {
+        vec![
+            cage.bearing.clone(),
+            number(cage.order, 6),
+            number(cage.rolling_order, 6),
+            number(cage.bpfo, 6),
+            number(cage.rolling_bpfo, 6),
+            percent(cage.slip()),
+            percent(cage.largest_slip),
+            number(cage.pocket_force, 3),
+            number(1e3 * cage.friction_torque, 3),
+            number(cage.friction_power, 3),
+        ]
+    });
+    let title = format!(
+        "Free balls beside cages that roll without slip, {:.3} to {:.3} s, {:.1} revolutions",
+        found.stretch[0], found.stretch[1], found.revolutions
+    );
+    let header = [
+        "bearing",
+        "FTF",
+        "rolling",
+        "BPFO",
+        "rolling",
+        "slip %",
+        "largest %",
+        "pocket N",
+        "torque N mm",
+        "losses W",
+    ];
+    terminal.table(&title, &header, &cages.collect::<Vec<_>>());
+    let lines = found.lines.iter().map(|line| {
+        vec![
+            line.channel.clone(),
+            line.line.label.clone(),
+            number(line.free, 4),
+            number(line.rolling, 4),
+            number(line.driven, 4),
+            line.unit.clone(),
+            percent(line.difference()),
+            percent(line.difference_driven()),
+        ]
+    });
+    let header =
+        ["channel", "line", "free balls", "rolling", "driven", "unit", "to rolling %", "to driven %"];
+    let title =
+        "Levels of the order lines (RMS): free balls, rolling cage, cage driven by the balls' mean angle";
+    terminal.table(title, &header, &lines.collect::<Vec<_>>());
+    terminal.print(&format!("  {}", found.verdict()));
+}
