@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::forces::LOSSES;
 use super::ring::{RingFrame, RingState, V};
 use super::state::{FreeBallState, cage_at, normalise_orientation};
+use super::surfaces::ClosedForms;
 use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep};
 use crate::ball::{BallElement, PreloadState};
 use crate::bodies::{BodyChannel, FreeBodies};
@@ -100,10 +101,7 @@ pub struct FreeBallElement {
 impl FreeBallElement {
     /// Prepares a bearing; its clearance is that at standstill.
     pub fn new(bearing: &FreeBallBearing) -> Self {
-        Self {
-            quasi_static: BallElement::new(&bearing.ball),
-            bodies: FreeBalls::new(bearing.clone(), 0.0),
-        }
+        Self { quasi_static: BallElement::new(&bearing.ball), bodies: FreeBalls::new(bearing.clone(), 0.0) }
     }
 }
 
@@ -207,7 +205,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return Reaction::default() };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let (bodies, work) = rates.split_at_mut(values.len());
-        let sums = balls.parts.rates(values, &frames, bodies);
+        let sums = balls.parts.rates(&ClosedForms, values, &frames, bodies);
         let [inner, outer] = &sums.rings;
         let mut force = [0.0; 6];
         for k in 0..3 {
@@ -237,7 +235,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return f64::INFINITY };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let mut rates = vec![0.0; values.len()];
-        let stable = StableStep::of(&balls.parts.rates(values, &frames, &mut rates));
+        let stable = StableStep::of(&balls.parts.rates(&ClosedForms, values, &frames, &mut rates));
         (CONTACT_SHARE * stable.contact).min(FRICTION_SHARE * stable.friction)
     }
 
@@ -281,7 +279,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let mut rates = vec![0.0; values.len()];
-        let sums = balls.parts.rates(values, &frames, &mut rates);
+        let sums = balls.parts.rates(&ClosedForms, values, &frames, &mut rates);
         let reports = balls.parts.report(values, &frames);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let orbital: Vec<f64> = reports.iter().map(|ball| ball.orbital_speed).collect();
