@@ -4,6 +4,7 @@ mod bearing;
 mod bifurcation;
 mod campbell;
 mod critical;
+mod free_ball;
 mod frf;
 mod history;
 mod lyapunov;
@@ -25,6 +26,7 @@ pub use bearing::{
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
 pub use campbell::CampbellResult;
 pub use critical::CriticalResult;
+pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};
 pub use frf::FrfResult;
 pub use history::{History, HistoryChannel};
 pub use lyapunov::LyapunovResult;
