@@ -83,6 +83,10 @@ impl BearingModel for FreeBallBearing {
         Some(&self.ball)
     }
 
+    fn free_balls(&self) -> Option<&FreeBallBearing> {
+        Some(self)
+    }
+
     fn static_balls_mut(&mut self) -> Option<&mut BallBearing> {
         Some(&mut self.ball)
     }
