@@ -15,7 +15,9 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
-use super::{Outcome, bearing_tables, diagnostics, ehl_films, print_written_files, renamed, settings};
+use super::{
+    Outcome, bearing_tables, diagnostics, ehl_films, free_ball_tables, print_written_files, renamed, settings,
+};
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
@@ -38,6 +40,9 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     let seconds = start.elapsed().as_secs_f64();
     for bearing in &bearings {
         bearing_tables::bearing(terminal, bearing);
+        if let Some(free) = &bearing.free_balls {
+            free_ball_tables::print(terminal, free);
+        }
     }
     let mut results = Results { bearings, ..Results::default() };
     results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();

@@ -8,6 +8,7 @@ use crate::ball::{BallBearing, PreloadState};
 use crate::bearing::Bearing;
 use crate::bearing_contact::BearingContact;
 use crate::bodies::FreeBodies;
+use crate::free_ball::FreeBallBearing;
 use crate::geometry::CharacteristicOrders;
 use crate::internal::InternalCoordinates;
 use crate::reaction::{Reaction, Rotation, SiteTangent};
@@ -86,7 +87,12 @@ pub trait BearingModel: Debug {
         None
     }
 
-    /// The same, to set its preload, ball inertia or films.
+    /// The bearing with its balls and cage as free bodies, to which the study of their steady motion applies.
+    fn free_balls(&self) -> Option<&FreeBallBearing> {
+        None
+    }
+
+    /// [`static_balls`](Self::static_balls), to set its preload, ball inertia or films.
     fn static_balls_mut(&mut self) -> Option<&mut BallBearing> {
         None
     }

@@ -5,6 +5,7 @@ mod bifurcation;
 mod cage_comparison;
 mod campbell;
 mod critical;
+mod free_ball;
 mod frf;
 mod history;
 mod lyapunov;
@@ -27,6 +28,7 @@ pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, Ste
 pub use cage_comparison::{CageComparison, CageLine, CageSpeed};
 pub use campbell::CampbellResult;
 pub use critical::CriticalResult;
+pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};
 pub use frf::FrfResult;
 pub use history::{History, HistoryChannel};
 pub use lyapunov::LyapunovResult;

@@ -8,6 +8,7 @@ use super::error::{FreeBallError, StepLimit};
 use super::forces::{ForceSums, LOSSES, Parts};
 use super::ring::{RingFrame, RingState};
 use super::state::{BALL, FreeBallState, cage_at, normalise_orientation};
+use super::surfaces::Distances;
 
 /// Stability limits of RK4 on the imaginary and on the negative real axis.
 const IMAGINARY_LIMIT: f64 = 2.828_427;
@@ -78,8 +79,9 @@ impl Parts {
     /// [`RingState::between`]; `duration` \[s\]. Errors: a duration or step that is not positive and finite, a step
     /// beyond a stability limit at any time of the interval, a ball or cage that leaves the bearing. On an error the state is
     /// that after the last accepted step, at its time.
-    pub fn advance(
+    pub fn advance<D: Distances>(
         &self,
+        distances: &D,
         state: &mut FreeBallState,
         rings: [&[RingState; 2]; 2],
         duration: f64,
@@ -107,7 +109,7 @@ impl Parts {
             if s % STEPS_BETWEEN_CHECKS == 0 {
                 self.check_bodies(state, &before)?;
             }
-            self.step(state, &mut stages, &[before, middle, after], h, &mut tracked)?;
+            self.step(distances, state, &mut stages, &[before, middle, after], h, &mut tracked)?;
             normalise_orientation(&mut state.values, self.balls.len());
             state.time = start + (s + 1) as f64 * h;
             before = after;
@@ -125,8 +127,9 @@ impl Parts {
     /// One step of the state's values; adds the integrals of forces and powers to `tracked`.
     ///
     /// Error: a step beyond the stability limit at its start; the state is then unchanged.
-    fn step(
+    fn step<D: Distances>(
         &self,
+        distances: &D,
         state: &mut FreeBallState,
         stages: &mut Stages,
         rings: &[[RingFrame; 2]; 3],
@@ -135,7 +138,7 @@ impl Parts {
     ) -> Result<(), FreeBallError> {
         const PLACES: [(usize, f64); 3] = [(1, 0.5), (1, 0.5), (2, 1.0)];
         let values = &mut state.values;
-        let first = self.rates(values, &rings[0], &mut stages.rates[0]);
+        let first = self.rates(distances, values, &rings[0], &mut stages.rates[0]);
         StableStep::of(&first).check(h, state.time)?;
         track(tracked, &first, h / 6.0);
         for (k, (place, share)) in PLACES.into_iter().enumerate() {
@@ -143,7 +146,7 @@ impl Parts {
             for ((at, value), rate) in stages.values.iter_mut().zip(values.iter()).zip(&done[k]) {
                 *at = value + share * h * rate;
             }
-            let sums = self.rates(&stages.values, &rings[place], &mut next[0]);
+            let sums = self.rates(distances, &stages.values, &rings[place], &mut next[0]);
             track(tracked, &sums, h / if k == 2 { 6.0 } else { 3.0 });
         }
         let [a, b, c, d] = &stages.rates;

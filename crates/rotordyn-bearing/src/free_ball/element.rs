@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::forces::LOSSES;
 use super::ring::{RingFrame, RingState, V};
 use super::state::{FreeBallState, cage_at, normalise_orientation};
+use super::surfaces::ClosedForms;
 use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep};
 use crate::ball::{BallElement, PreloadState};
 use crate::bodies::{BodyChannel, FreeBodies};
@@ -87,6 +88,10 @@ impl BearingModel for FreeBallBearing {
 
     fn static_balls(&self) -> Option<&BallBearing> {
         Some(&self.ball)
+    }
+
+    fn free_balls(&self) -> Option<&FreeBallBearing> {
+        Some(self)
     }
 
     fn static_balls_mut(&mut self) -> Option<&mut BallBearing> {
@@ -216,7 +221,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return Reaction::default() };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let (bodies, work) = rates.split_at_mut(values.len());
-        let sums = balls.parts.rates(values, &frames, bodies);
+        let sums = balls.parts.rates(&ClosedForms, values, &frames, bodies);
         let [inner, outer] = &sums.rings;
         let mut force = [0.0; 6];
         for k in 0..3 {
@@ -246,7 +251,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return f64::INFINITY };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let mut rates = vec![0.0; values.len()];
-        let stable = StableStep::of(&balls.parts.rates(values, &frames, &mut rates));
+        let stable = StableStep::of(&balls.parts.rates(&ClosedForms, values, &frames, &mut rates));
         (CONTACT_SHARE * stable.contact).min(FRICTION_SHARE * stable.friction)
     }
 
@@ -290,7 +295,7 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let mut rates = vec![0.0; values.len()];
-        let sums = balls.parts.rates(values, &frames, &mut rates);
+        let sums = balls.parts.rates(&ClosedForms, values, &frames, &mut rates);
         let reports = balls.parts.report(values, &frames);
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let orbital: Vec<f64> = reports.iter().map(|ball| ball.orbital_speed).collect();

@@ -6,6 +6,7 @@ use super::point_contact::PointForce;
 use super::race::{BallMotionState, Groove, RaceForce};
 use super::ring::{RingFrame, V, Wrench};
 use super::state::{BALL, CAGE, ball_at, cage_at};
+use super::surfaces::Distances;
 use crate::contact::Race;
 
 /// Ways in which power is lost, in the order of [`LOSSES`].
@@ -93,7 +94,13 @@ impl Parts {
     }
 
     /// Rates of all numbers of the state to `rates`, and the sums.
-    pub fn rates(&self, values: &[f64], rings: &[RingFrame; 2], rates: &mut [f64]) -> ForceSums {
+    pub fn rates<D: Distances>(
+        &self,
+        distances: &D,
+        values: &[f64],
+        rings: &[RingFrame; 2],
+        rates: &mut [f64],
+    ) -> ForceSums {
         let mut sums = ForceSums::default();
         let mut cage_force = Wrench::default();
         let mut cage_rates = Rates::default();
@@ -104,7 +111,7 @@ impl Parts {
             .as_ref()
             .map(|contacts| (contacts, CageFrame::new(cage_at(values, self.balls.len()), &contacts.cage)));
         if cage.is_none() {
-            highest = self.ball_contacts(values, rates, &mut sums);
+            highest = self.ball_contacts(distances, values, rates, &mut sums);
         }
         let mut highest_ball = Rates::default();
         for (j, &[_, mass, inertia]) in self.balls.iter().enumerate() {
@@ -114,7 +121,7 @@ impl Parts {
             let mut friction = [0.0; 2];
             let mut rolling = 0.0;
             for (k, ring) in rings.iter().enumerate() {
-                let Some(force) = self.grooves[k].react(ring, &ball) else { continue };
+                let Some(force) = self.grooves[k].react(distances, ring, &ball) else { continue };
                 let from_ring = ball.position - ring.centre;
                 add_race_force(&mut total, &force);
                 take_race_force(&mut sums.rings[k], &force, &from_ring);
@@ -128,7 +135,7 @@ impl Parts {
             }
             own.0[2] = sliding_rate(friction) + rolling;
             if let Some((contacts, frame)) = &cage {
-                contacts.pocket(frame, &ball, j, |CageContact { contact, arm }| {
+                contacts.pocket(distances, frame, &ball, j, |CageContact { contact, arm }| {
                     let on_ball = arm + frame.body.position - ball.position;
                     total.add(&contact.force, &on_ball);
                     cage_force.add(&-contact.force, &arm);
@@ -152,7 +159,7 @@ impl Parts {
             }
         }
         if let Some((contacts, frame)) = &cage {
-            self.add_land(&mut sums, &mut cage_force, &mut cage_rates, contacts, frame, rings);
+            self.add_land(distances, &mut sums, &mut cage_force, &mut cage_rates, contacts, frame, rings);
             let inertia = contacts.cage.polar_inertia.min(contacts.cage.transverse_inertia);
             cage_rates.0[2] += self.drag.cage_moment / inertia;
             let moment = -self.drag.cage_moment * (frame.rotation - rings[1].rotation);
@@ -179,14 +186,21 @@ impl Parts {
     }
 
     /// Contacts between neighbouring balls; returns their rates.
-    fn ball_contacts(&self, values: &[f64], rates: &mut [f64], sums: &mut ForceSums) -> Rates {
+    fn ball_contacts<D: Distances>(
+        &self,
+        distances: &D,
+        values: &[f64],
+        rates: &mut [f64],
+        sums: &mut ForceSums,
+    ) -> Rates {
         let mut highest = Rates::default();
         let balls = self.balls.len();
         let pairs = if balls > 2 { balls } else { balls - 1 };
         for first in 0..pairs {
             let second = (first + 1) % balls;
             let motions = [first, second].map(|ball| self.motion(values, ball));
-            let Some((contact, arm)) = ball_contact(&self.ball_contact, &motions[0], &motions[1]) else {
+            let Some((contact, arm)) = ball_contact(distances, &self.ball_contact, &motions[0], &motions[1])
+            else {
                 continue;
             };
             let arms = [arm, arm + motions[0].position - motions[1].position];
@@ -238,8 +252,10 @@ impl Parts {
         [2.0 * over_speed, 2.0 * over_rotation]
     }
 
-    fn add_land(
+    #[allow(clippy::too_many_arguments)] // all that a land acts on
+    fn add_land<D: Distances>(
         &self,
+        distances: &D,
         sums: &mut ForceSums,
         cage_force: &mut Wrench,
         cage_rates: &mut Rates,
@@ -249,12 +265,18 @@ impl Parts {
     ) {
         let Some(land) = contacts.land() else { return };
         let k = if land.race == Race::Inner { 0 } else { 1 };
-        contacts.land_contacts(land, frame, &rings[k], |CageContact { contact, arm }, ring_arm| {
-            cage_force.add(&contact.force, &arm);
-            sums.rings[k].add(&-contact.force, &ring_arm);
-            add_point_force(sums, Loss::Guidance, &contact);
-            cage_rates.add(&contact.slopes, cage_mobility(contacts, &arm));
-        });
+        contacts.land_contacts(
+            distances,
+            land,
+            frame,
+            &rings[k],
+            |CageContact { contact, arm }, ring_arm| {
+                cage_force.add(&contact.force, &arm);
+                sums.rings[k].add(&-contact.force, &ring_arm);
+                add_point_force(sums, Loss::Guidance, &contact);
+                cage_rates.add(&contact.slopes, cage_mobility(contacts, &arm));
+            },
+        );
     }
 }
 

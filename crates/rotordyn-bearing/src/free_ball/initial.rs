@@ -73,16 +73,16 @@ impl Parts {
     ) -> BallBody {
         let (groove, [radius, mass, _]) = (&self.grooves[1], self.balls[number]);
         let frame = outer.frame();
-        let centrifugal = mass * groove.centre_radius * orbit * orbit;
+        let centrifugal = mass * groove.torus.centre_radius * orbit * orbit;
         let pressed = if load.outer_load > 0.0 { load.outer_load } else { centrifugal };
         let (sin, cos) = load.outer_contact_angle.sin_cos();
         let (sin_place, cos_place) = load.position.sin_cos();
         let second = frame.axis.cross(&frame.across);
         let outward = cos_place * frame.across + sin_place * second;
         let [height, _] = groove.surface_height(&frame, &outward, &frame.axis.cross(&outward));
-        let distance = groove.radius - radius - height + (pressed / groove.stiffness).powf(2.0 / 3.0);
-        let from_ring =
-            (groove.centre_radius + distance * cos) * outward + (groove.axial + distance * sin) * frame.axis;
+        let distance = groove.torus.radius - radius - height + (pressed / groove.stiffness).powf(2.0 / 3.0);
+        let from_ring = (groove.torus.centre_radius + distance * cos) * outward
+            + (groove.torus.axial + distance * sin) * frame.axis;
         BallBody {
             position: frame.centre + from_ring,
             velocity: frame.velocity + orbit * frame.axis.cross(&from_ring),

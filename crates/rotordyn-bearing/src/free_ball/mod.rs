@@ -5,7 +5,8 @@
 //! for each ball and guided by the balls or on a land. All forces act in pairs, so that momentum is conserved and
 //! energy balanced; the equations are integrated by the Runge-Kutta method of fourth order.
 //!
-//! The way of one evaluation, file by file: `ring` (motion of the rings), `state` (numbers of balls and cage), `race`
+//! The way of one evaluation, file by file: `ring` (motion of the rings), `state` (numbers of balls and cage), `surfaces`
+//! (distances in closed form or from another source, such as the shapes of parry), `race`
 //! (ball in a groove), `friction` and `ellipse` (traction), `point_contact` and `cage` (pockets, land, ball to ball), `forces` (sum
 //! of all), `advance` (time steps between given rings) or `element` (in a machine); `initial` starts from the kinematic
 //! solution, `energy` balances.
@@ -21,10 +22,12 @@ mod friction;
 mod initial;
 mod input;
 mod point_contact;
+mod proximity;
 mod race;
 mod report;
 mod ring;
 mod state;
+mod surfaces;
 
 pub use advance::{Interval, StableStep};
 pub use element::FreeBallElement;
@@ -35,9 +38,14 @@ pub use friction::{FilmShear, FrictionLaw, TractionCurve};
 pub use input::{
     Drag, FreeBallBearing, FreeCage, Guidance, Land, Pocket, PointContactLaw, SlipModel, pocket_stiffness,
 };
+pub use proximity::{ContactPart, Proximity};
 pub use report::{BallReport, RaceContactReport};
 pub use ring::{RingState, Wrench};
 pub use state::{BallBody, CageBody, FreeBallState};
+pub use surfaces::{
+    Approach, ClosedForms, Distances, GroovePlace, GrooveSurface, LandPlace, Placement, PocketPlace,
+    PocketSurface,
+};
 
 use crate::BallElement;
 use crate::contact::{EllipticContact, Race};
@@ -96,7 +104,7 @@ impl FreeBalls {
     /// Errors: the cage touches a ball or its land there.
     pub fn initial_state(&self, rings: &[RingState; 2]) -> Result<FreeBallState, FreeBallError> {
         let state = self.parts.kinematic_state(&self.bearing.ball, rings);
-        match self.parts.overlap(&state.values, &rings.map(|ring| ring.frame())) {
+        match proximity::first_overlap(&self.proximities(&ClosedForms, &state, rings, 0.0)) {
             Some((what, depth)) => Err(FreeBallError::Overlap { what, depth }),
             None => Ok(state),
         }
@@ -114,13 +122,64 @@ impl FreeBalls {
         duration: f64,
         step: f64,
     ) -> Result<Interval, FreeBallError> {
-        self.parts.advance(state, rings, duration, step)
+        self.parts.advance(&ClosedForms, state, rings, duration, step)
+    }
+
+    /// [`advance`](Self::advance) with distances from another source than the closed forms.
+    pub fn advance_with<D: Distances>(
+        &self,
+        distances: &D,
+        state: &mut FreeBallState,
+        rings: [&[RingState; 2]; 2],
+        duration: f64,
+        step: f64,
+    ) -> Result<Interval, FreeBallError> {
+        self.parts.advance(distances, state, rings, duration, step)
     }
 
     /// Forces on the rings and powers in a state.
     pub fn forces(&self, state: &FreeBallState, rings: &[RingState; 2]) -> ForceSums {
+        self.forces_with(&ClosedForms, state, rings)
+    }
+
+    /// [`forces`](Self::forces) with distances from another source than the closed forms.
+    pub fn forces_with<D: Distances>(
+        &self,
+        distances: &D,
+        state: &FreeBallState,
+        rings: &[RingState; 2],
+    ) -> ForceSums {
         let mut rates = vec![0.0; state.values.len()];
-        self.parts.rates(&state.values, &rings.map(|ring| ring.frame()), &mut rates)
+        self.parts.rates(distances, &state.values, &rings.map(|ring| ring.frame()), &mut rates)
+    }
+
+    /// All pairs of parts whose distance by a source is below `margin` \[m\].
+    ///
+    /// Balls and their pockets, cage and land, or neighbouring balls without cage; then balls and races, without the height
+    /// of their surfaces.
+    pub fn proximities<D: Distances>(
+        &self,
+        distances: &D,
+        state: &FreeBallState,
+        rings: &[RingState; 2],
+        margin: f64,
+    ) -> Vec<Proximity> {
+        self.parts.proximities(distances, &state.values, &rings.map(|ring| ring.frame()), margin)
+    }
+
+    /// Grooves of inner and outer race.
+    pub fn grooves(&self) -> [GrooveSurface; 2] {
+        [0, 1].map(|k| self.parts.grooves[k].torus)
+    }
+
+    /// Radius \[m\] of each ball.
+    pub fn ball_radii(&self) -> Vec<f64> {
+        self.parts.balls.iter().map(|[radius, ..]| *radius).collect()
+    }
+
+    /// The input data.
+    pub fn bearing(&self) -> &FreeBallBearing {
+        &self.bearing
     }
 
     /// Largest stable steps in a state.
@@ -151,7 +210,7 @@ impl FreeBalls {
     /// Rate of the momentum of balls and cage in a state, gravity included.
     pub fn momentum_rate(&self, state: &FreeBallState, rings: &[RingState; 2]) -> Momentum {
         let mut rates = vec![0.0; state.values.len()];
-        self.parts.rates(&state.values, &rings.map(|ring| ring.frame()), &mut rates);
+        self.parts.rates(&ClosedForms, &state.values, &rings.map(|ring| ring.frame()), &mut rates);
         self.parts.momentum_of(&state.values, &rates)
     }
 

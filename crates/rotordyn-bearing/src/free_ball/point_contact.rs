@@ -26,8 +26,6 @@ pub(super) struct PointContact {
 /// Force of a contact, power and stiffness.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PointForce {
-    /// Approach δ \[m\].
-    pub depth: f64,
     /// Force on the first body \[N\].
     pub force: V,
     /// Elastic energy \[J\].
@@ -60,7 +58,6 @@ impl PointContact {
         let friction = law.friction.friction * load
             / (slip.norm_squared() + law.friction.slip_speed * law.friction.slip_speed).sqrt();
         PointForce {
-            depth: *depth,
             force: load * normal - friction * slip,
             energy,
             power: friction * slip.norm_squared() + (load - elastic) * rate,

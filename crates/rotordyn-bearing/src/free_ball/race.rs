@@ -11,6 +11,7 @@ use super::ellipse::{EllipseRule, SlidingContact, TractionSum, traction_at_centr
 use super::friction::{CoulombSlip, FilmSlip, FrictionLaw, PreparedLaw, ViscosityTable};
 use super::input::{FreeBallBearing, SlipModel};
 use super::ring::{RingFrame, V};
+use super::surfaces::{Distances, GroovePlace, GrooveSurface};
 use crate::contact::{FilmFormula, Race};
 use crate::shoulder::shoulder_angle;
 use crate::{BallGeometry, Imperfections, Profile, Rotation, Surface};
@@ -18,14 +19,7 @@ use crate::{BallGeometry, Imperfections, Profile, Rotation, Surface};
 /// Groove of a race with its contact properties.
 #[derive(Clone, Debug)]
 pub(super) struct Groove {
-    /// +1 for the inner race, −1 for the outer.
-    side: f64,
-    /// R_g, z_g and r_g \[m\].
-    pub centre_radius: f64,
-    pub axial: f64,
-    pub radius: f64,
-    /// cos and sin of the shoulder's angle from the bottom of the groove.
-    shoulder: [f64; 2],
+    pub torus: GrooveSurface,
     /// K \[N/m^1.5\].
     pub stiffness: f64,
     /// χ \[s/m\].
@@ -116,13 +110,17 @@ impl Groove {
         };
         let imperfections = of_race(&bearing.ball.imperfections, race);
         Self {
-            side,
-            centre_radius: 0.5 * g.pitch_diameter + side * ((radius - ball_radius) * cos - 0.25 * clearance),
-            axial,
-            radius,
-            shoulder: {
-                let (sin, cos) = shoulder_angle(&bearing.ball, race).sin_cos();
-                [cos, sin]
+            torus: GrooveSurface {
+                race,
+                side,
+                centre_radius: 0.5 * g.pitch_diameter
+                    + side * ((radius - ball_radius) * cos - 0.25 * clearance),
+                axial,
+                radius,
+                shoulder: {
+                    let (sin, cos) = shoulder_angle(&bearing.ball, race).sin_cos();
+                    [cos, sin]
+                },
             },
             stiffness: contact.stiffness,
             damping: bearing.damping,
@@ -160,15 +158,21 @@ impl Groove {
 
     /// Forces of the race on a ball; `None` where they do not touch.
     #[inline]
-    pub fn react(&self, ring: &RingFrame, ball: &BallMotionState) -> Option<RaceForce> {
+    pub fn react<D: Distances>(
+        &self,
+        distances: &D,
+        ring: &RingFrame,
+        ball: &BallMotionState,
+    ) -> Option<RaceForce> {
         let from_ring = ball.position - ring.centre;
         let height = from_ring.dot(&ring.axis);
         let radial = from_ring - height * ring.axis;
         let rho = radial.norm();
         let outward = radial * (1.0 / rho);
-        let to_circle = [self.centre_radius - rho, self.axial - height];
+        let to_circle = [self.torus.centre_radius - rho, self.torus.axial - height];
         let along = ring.axis.cross(&outward);
-        let ([n_radial, n_axial], free_depth) = self.approach(to_circle, ball.radius);
+        let place = GroovePlace { ring, centre: ball.position, radius: ball.radius, outward, to_circle };
+        let ([n_radial, n_axial], free_depth) = distances.groove(&self.torus, &place);
         if free_depth <= -self.highest {
             return None;
         }
@@ -213,7 +217,7 @@ impl Groove {
         let moment = traction.moment[0] * along + traction.moment[1] * across + traction.moment[2] * n;
         Some(RaceForce {
             load,
-            angle: [self.side * n_radial, self.side * n_axial],
+            angle: [self.torus.side * n_radial, self.torus.side * n_axial],
             normal: load * pressed,
             friction: traction.force[0] * along + traction.force[1] * across,
             arm,
@@ -229,21 +233,6 @@ impl Groove {
             slopes: [1.5 * self.stiffness * root, damping, traction.slope],
             rolling_slope,
         })
-    }
-
-    /// Direction of the force on the ball, radial and axial, and approach without waviness, from the vector x.
-    #[inline(always)]
-    fn approach(&self, to_circle: [f64; 2], ball_radius: f64) -> ([f64; 2], f64) {
-        let [radial, axial] = to_circle;
-        let length = (radial * radial + axial * axial).sqrt();
-        let [cos, sin] = self.shoulder;
-        if self.side * radial >= cos * length {
-            let inverse = 1.0 / length;
-            return ([radial * inverse, axial * inverse], length - (self.radius - ball_radius));
-        }
-        let edge = [radial - self.side * self.radius * cos, axial - (self.radius * sin).copysign(axial)];
-        let distance = (edge[0] * edge[0] + edge[1] * edge[1]).sqrt();
-        (edge.map(|to_edge| -to_edge / distance), ball_radius - distance)
     }
 
     /// Moment of rolling resistance against the rolling part of the rotation, over that rotation \[N m s\].
@@ -284,7 +273,7 @@ impl Groove {
         // Ball 0 of a cage at that angle; its rate at unit speed is the derivative.
         let place = Rotation { cage_angle: angle, cage_speed: Some(1.0), ..Rotation::default() };
         let deviation = surface.at_rotation(&place).ball(0);
-        let contact = if self.side > 0.0 { 0 } else { 1 };
+        let contact = if self.torus.side > 0.0 { 0 } else { 1 };
         [deviation.height[contact], deviation.full_rate()[contact]]
     }
 
@@ -293,15 +282,15 @@ impl Groove {
         let from_ring = position - ring.centre;
         let height = from_ring.dot(&ring.axis);
         let rho = (from_ring - height * ring.axis).norm();
-        let race = if self.side > 0.0 { "inner" } else { "outer" };
-        let apart = (height - self.axial).abs();
+        let race = if self.torus.side > 0.0 { "inner" } else { "outer" };
+        let apart = (height - self.torus.axial).abs();
         if !(apart.is_finite() && rho.is_finite()) {
             return Some("its motion diverged".into());
         }
         if apart > ball_radius {
             return Some(format!("moved {apart:.3e} m axially out of the {race} groove"));
         }
-        let through = self.side * (self.centre_radius - rho) - self.radius;
+        let through = self.torus.side * (self.torus.centre_radius - rho) - self.torus.radius;
         (through > 0.0).then(|| format!("its centre passed through the {race} race"))
     }
 }

@@ -5,7 +5,7 @@ use super::forces::Parts;
 use super::race::RaceForce;
 use super::ring::{RingFrame, V};
 use super::state::cage_at;
-use crate::contact::Race;
+use super::surfaces::ClosedForms;
 use std::f64::consts::TAU;
 
 /// One ball in a state.
@@ -83,11 +83,11 @@ impl Parts {
             let along = outer.axis.cross(&outward);
             let mut pocket = 0.0;
             if let Some((contacts, frame)) = &cage {
-                contacts.pocket(frame, &ball, j, |contact| {
+                contacts.pocket(&ClosedForms, frame, &ball, j, |contact| {
                     pocket += contact.contact.force.dot(&along);
                 });
             }
-            let race = |k: usize| self.grooves[k].react(&rings[k], &ball);
+            let race = |k: usize| self.grooves[k].react(&ClosedForms, &rings[k], &ball);
             BallReport {
                 position: outward.dot(&second).atan2(outward.dot(&outer.across)),
                 orbital_speed: (ball.velocity - outer.velocity).dot(&along) / distance,
@@ -117,32 +117,5 @@ impl Parts {
             [x + cos, y + sin]
         });
         mean[1].atan2(mean[0])
-    }
-
-    /// The first contact of the cage with a ball or its land, or of two balls without cage, with its depth \[m\].
-    pub fn overlap(&self, values: &[f64], rings: &[RingFrame; 2]) -> Option<(String, f64)> {
-        let balls = self.balls.len();
-        let Some(contacts) = &self.cage else {
-            let pair = |j: usize| {
-                let [first, second] = [j, (j + 1) % balls].map(|ball| self.motion(values, ball));
-                let depth = first.radius + second.radius - (first.position - second.position).norm();
-                (depth > 0.0).then(|| (format!("ball {j} touches the next ball"), depth))
-            };
-            return (0..balls).filter(|_| balls > 1).find_map(pair);
-        };
-        let frame = CageFrame::new(cage_at(values, balls), &contacts.cage);
-        let mut found = None;
-        for j in 0..balls {
-            contacts.pocket(&frame, &self.motion(values, j), j, |contact| {
-                found.get_or_insert((format!("the cage touches ball {j}"), contact.contact.depth));
-            });
-        }
-        if let Some(land) = contacts.land() {
-            let (k, name) = if land.race == Race::Inner { (0, "inner") } else { (1, "outer") };
-            contacts.land_contacts(land, &frame, &rings[k], |contact, _| {
-                found.get_or_insert((format!("the cage touches the {name} ring"), contact.contact.depth));
-            });
-        }
-        found
     }
 }

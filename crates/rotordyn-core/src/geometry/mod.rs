@@ -3,6 +3,7 @@
 
 pub mod bearing_shapes;
 pub mod cage;
+pub mod contact_surfaces;
 pub mod mesh;
 #[cfg(feature = "shapes")]
 pub mod parry;

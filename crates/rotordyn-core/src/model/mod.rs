@@ -1,6 +1,7 @@
 //! The machine model: immutable, in SI units.
 
 mod external_file;
+pub mod free_ball_study;
 mod integrator;
 mod probe;
 pub mod speed_profile;

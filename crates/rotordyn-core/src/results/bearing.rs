@@ -1,5 +1,6 @@
 //! Results of a study of single ball bearings.
 
+use super::free_ball::FreeBallResult;
 use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
@@ -38,6 +39,8 @@ pub struct BearingResult {
     pub sweeps: Vec<BearingSweepResult>,
     /// EHL solutions of the most heavily loaded contacts, for a bearing with the EHL contact law.
     pub films: Vec<EhlFilm>,
+    /// The bearing with free balls and cage under the same force; `None` for other bearings.
+    pub free_balls: Option<FreeBallResult>,
     pub warnings: Vec<String>,
 }
 
@@ -85,6 +88,9 @@ impl BearingResult {
                 "N",
                 &mounted.rows,
             );
+        }
+        if let Some(free) = &self.free_balls {
+            out = out.group("free_balls", free.document());
         }
         out.and_if(self.bearing.estimated_geometry.as_ref(), |out, how| out.text("estimated_geometry", how))
     }

@@ -6,14 +6,17 @@ mod operating_point;
 
 use super::ball_states::{ball_states, friction_torque};
 use super::bearing_life::BearingRating;
+use super::free_ball::steady_run;
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::document::TO_RPM;
+use crate::model::free_ball_study::FreeBallStudy;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
+use rayon::prelude::*;
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::rating::LoadRating;
 use rotordyn_bearing::{BallBearing, Preload, PreloadState, kinematics};
@@ -24,11 +27,28 @@ const SWEEP_POINTS: usize = 41;
 const DEFAULT_NDM: f64 = 2.5e5;
 
 impl Machine {
-    /// Every requested ball bearing, under its load in the machine or the given load.
+    /// Every requested ball bearing, under its load in the machine or the given load; one with free balls also settled under
+    /// the force of its operating point, with aligned rings.
     ///
     /// # Errors
-    /// No equilibrium of the machine, or of a bearing at its operating point.
+    /// No equilibrium of the machine, or of a bearing at its operating point. A bearing with free balls that does not settle
+    /// has a warning.
     pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
+        let mut found = self.static_bearings(study)?;
+        found.par_iter_mut().for_each(|found| {
+            let site = self.model.bearings.iter().find(|site| site.name == found.name);
+            let Some(free) = site.and_then(|site| site.bearing.free_balls()) else { return };
+            let [x, y, z, ..] = found.point.state.load;
+            let settings = FreeBallStudy::new([x, y, z], found.point.state.condition.speed);
+            match steady_run(&found.name, free, &settings) {
+                Ok(run) => found.free_balls = Some(run),
+                Err(error) => found.warnings.push(error.to_string()),
+            }
+        });
+        Ok(found)
+    }
+
+    fn static_bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
         let bearings = self.model.bearings.iter();
         let balls =
             bearings.filter_map(|site| Some((site.name.clone(), site.bearing.static_balls()?.clone())));
@@ -42,7 +62,7 @@ impl Machine {
             return single_bearings(&balls, &study);
         }
         if let Some(machine) = self.decided(&inertia::speeds(&study, speed))? {
-            return machine.bearings(&study);
+            return machine.static_bearings(&study);
         }
         let cage = cage_treatment(&study);
         let found =
@@ -178,6 +198,7 @@ impl<'a> SingleBearingStudy<'a> {
             point,
             sweeps,
             films,
+            free_balls: None,
             warnings,
         })
     }

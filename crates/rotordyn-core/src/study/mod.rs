@@ -9,6 +9,7 @@ mod cage_phases;
 mod ehl_film;
 mod error;
 pub mod forecast;
+pub mod free_ball;
 mod order_tracking;
 mod record;
 mod responses;

@@ -13,6 +13,7 @@
 //! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
+//! | `bearing_<bearing>_cage_speed`, `..._spin_axes`, `..._cage_orbit`, `..._skidding` | bearing with free balls and cage |
 //! | `signal_<what>_<channel>` | signal analysis of a record: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
 //! | `stabilisation`, `auto_mac`, `frf_fit_...`, `mode_shapes` | experimental modal analysis of FRFs |
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
@@ -23,6 +24,7 @@ mod bearing;
 mod campbell;
 mod comparison;
 mod display_unit;
+mod free_ball;
 pub mod identification;
 mod machine;
 mod named;
@@ -44,7 +46,9 @@ use rayon::prelude::*;
 
 use crate::FigureError;
 use crate::{self as plot, Figure};
-use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
+use rotordyn_core::results::{
+    BearingResult, CampbellResult, ChannelPair, Results, SignalResult, SkiddingMap,
+};
 use rotordyn_core::study::Machine;
 use rotordyn_update::target::Target;
 
@@ -110,8 +114,19 @@ pub fn draw_envelope_comparison(
     write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), folder)
 }
 
+/// Draws the skidding map of a bearing with free balls; returns the SVG file.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_skidding(found: &SkiddingMap, note: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&[free_ball::skidding(found, note)], folder)
+}
+
 fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
-    found.iter().flat_map(|found| bearing::figures(found, title))
+    found.iter().flat_map(|found| {
+        let free = found.free_balls.iter().flat_map(|free| free_ball::figures(free, title));
+        bearing::figures(found, title).into_iter().chain(free)
+    })
 }
 
 /// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.

@@ -12,8 +12,8 @@ use rapier3d_f64::prelude::{
     ColliderBuilder, ColliderHandle, ColliderSet, RigidBody, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
 
-use super::BearingShapes;
-use super::parry::{ExactShape, vector};
+use crate::geometry::BearingShapes;
+use crate::geometry::parry::{ExactShape, vector};
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::{HertzPair, Traction};
 
