@@ -191,7 +191,7 @@ fn studies_of(
     job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);
-    let outcome = finish(job, &wanted, !args.no_figures, study.map_or("run", Study::name))?;
+    let outcome = finish(job, &wanted, args.into(), study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
     Ok(outcome)
 }
