@@ -9,7 +9,7 @@ mod steady;
 mod update;
 
 use common::assignment;
-pub use common::{ModelArgs, Output, StoredArgs, StudyArgs};
+pub use common::{ModelArgs, Output, OutputFiles, StoredArgs, StudyArgs};
 use keys::{help as key_help, help_with as key_help_with};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};

@@ -3,16 +3,18 @@
 use std::time::Instant;
 
 use miette::Severity;
+use rotordyn::document::Section;
 use rotordyn::figures;
 use rotordyn::io::{json, results_file};
 use rotordyn::model::LoadedBearings;
-use rotordyn::results::Results;
+use rotordyn::results::{BearingResult, Results};
 use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
 
 use super::args::BearingArgs;
 use super::failure::Failure;
 use super::machine::ModelSource;
+use super::outcome::write_csv;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
 use super::{
@@ -51,6 +53,10 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     let store = store::open(&folder, text, &origin, false, terminal)?;
     results_file::write_bearings(&store, &results)?;
     let mut files = vec![store.path().to_path_buf()];
+    if args.study.csv {
+        let sections: Vec<Section> = results.bearings.iter().map(BearingResult::section).collect();
+        files.extend(write_csv(&folder, &sections)?);
+    }
     if !args.study.no_figures {
         let spinner = terminal.spinner("figures");
         files.extend(figures::draw_bearings(&results.bearings, &loaded.title, &folder)?);
@@ -77,9 +83,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     Ok(document.into())
 }
 
-fn compute(
-    loaded: &LoadedBearings,
-) -> Result<Vec<rotordyn::results::BearingResult>, rotordyn::assembly::PhysicsError> {
+fn compute(loaded: &LoadedBearings) -> Result<Vec<BearingResult>, rotordyn::assembly::PhysicsError> {
     let study = loaded.studies.bearing.clone().unwrap_or_default();
     match &loaded.model {
         Some(model) => Machine::new(model.clone())?.bearings(&study),

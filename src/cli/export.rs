@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::args::ExportArgs;
 use super::failure::Failure;
 use super::machine::ModelSource;
+use super::outcome::write_csv;
 use super::terminal::Terminal;
 use super::{ehl_films, print_written_files, settings, store};
 
@@ -24,7 +25,9 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let machine = Machine::new(loaded.model)?;
     let mut files = export_geometry(&machine, &folder)?;
     let modal = machine.model.studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?;
-    let results = Results { modal: modal.unwrap_or_default(), ..Results::default() };
+    let with_frf = args.study.csv || args.formats.iter().any(|format| format.name == "uff");
+    let frf = machine.model.studies.frf.as_ref().filter(|_| with_frf).map(|s| machine.frf(s)).transpose()?;
+    let results = Results { modal: modal.unwrap_or_default(), frf, ..Results::default() };
     files.extend(export_modes(&results, &machine, &folder)?);
     if args.formats.iter().any(|format| format.name == "uff") {
         let mut write = |name: &str, content: &MeasuredData| {
@@ -33,9 +36,12 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
             measured::write(&path, content)
         };
         write("modes.uff", &machine_records::mode_shapes(&results.modal, &machine))?;
-        if let Some(study) = &machine.model.studies.frf {
-            write("frf.uff", &machine_records::frf_records(&machine.frf(study)?, &machine))?;
+        if let Some(frf) = &results.frf {
+            write("frf.uff", &machine_records::frf_records(frf, &machine))?;
         }
+    }
+    if args.study.csv {
+        files.extend(write_csv(&folder, &results.sections(&machine.assembly.dofs))?);
     }
     let stored = folder.join(store::FILE);
     if stored.exists() {

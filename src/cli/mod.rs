@@ -91,6 +91,15 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     let run_one = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
         studies_of(args, terminal, Some(study), settings)
     };
+    let without_tables = match command {
+        Command::Compare { study, .. } if study.csv => Some("compare"),
+        Command::Validate(args) if args.study.csv => Some("validate"),
+        Command::Update(args) if args.study.csv => Some("update"),
+        _ => None,
+    };
+    if let Some(name) = without_tables {
+        return Err(Failure::Input(format!("--csv: {name} writes no tables as CSV; use --json")));
+    }
     match command {
         Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
@@ -193,7 +202,7 @@ fn studies_of(
     job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
     job.perform(&wanted);
-    let outcome = finish(job, &wanted, !args.no_figures, study.map_or("run", Study::name))?;
+    let outcome = finish(job, &wanted, args.into(), study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
     Ok(outcome)
 }

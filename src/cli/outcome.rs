@@ -1,9 +1,12 @@
 //! The result of a command: what it prints and which files it wrote.
 
+use super::args::OutputFiles;
 use super::failure::Failure;
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
+use rotordyn::document::Section;
+use rotordyn::io::document_tables;
 use rotordyn::model::Loaded;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -24,12 +27,12 @@ impl From<Value> for Outcome {
 pub(super) fn finish(
     mut job: Job,
     studies: &[Study],
-    draw: bool,
+    written: OutputFiles,
     command: &'static str,
 ) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
     quality_warnings(&mut job, studies);
-    job.write(draw)?;
+    job.write(written)?;
     let terminal = job.terminal;
     for (name, how) in job.machine.model.estimated_geometries() {
         terminal.print(&format!("  internal geometry of bearing {name} {how}"));
@@ -120,12 +123,17 @@ pub(super) fn quality_warnings(job: &mut Job, studies: &[Study]) {
     job.results.warnings.extend(found);
 }
 
+/// Writes the tables of sections to `csv/` in the results folder; returns the files.
+pub(super) fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Failure> {
+    Ok(document_tables::write_csv(&folder.join("csv"), sections)?)
+}
+
 /// Prints the list of written files, wrapped to the line width.
 pub(super) fn print_written_files(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.heading(&format!("Written to {}", folder.display()));
     let mut line = String::from(" ");
     for file in files {
-        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let name = file.strip_prefix(folder).unwrap_or(file).display().to_string();
         if line.len() + name.len() > 98 {
             terminal.print(&line);
             line = String::from(" ");

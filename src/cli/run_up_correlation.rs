@@ -13,7 +13,7 @@ use rotordyn::study::{Machine, MeasuredRun};
 use rotordyn::update::UpdateError;
 use serde_json::{Value, json};
 
-use super::args::{ShaftArgs, StoredArgs, ValidateArgs};
+use super::args::{OutputFiles, ShaftArgs, StoredArgs, ValidateArgs};
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::signal::input::{File, InputProblems, cut_time_range};
@@ -137,7 +137,7 @@ pub fn compare(
     check_record_length(&found.run, &job.machine.model)?;
     job.perform(&[Study::RunUp]);
     // Partial results are written even if the run failed.
-    job.write(false)?;
+    job.write(OutputFiles { figures: false, csv: false })?;
     if let Some((_, failure)) = job.failures.pop() {
         if !matches!(failure, Failure::Interrupted) {
             terminal.print_diagnostic(

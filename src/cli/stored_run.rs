@@ -50,7 +50,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
         tables::spectrograms(terminal, &job.results.spectrograms);
     }
     job.seconds.push((study.name(), start.elapsed().as_secs_f64()));
-    let outcome = finish(job, &[], !args.no_figures, study.name())?;
+    let outcome = finish(job, &[], args.into(), study.name())?;
     if let Some(Attribute::Text(end)) = end.filter(|end| *end != Attribute::Text("complete".into())) {
         terminal.print_diagnostic("warning", &format!("the stored run is incomplete: {end}"));
     }

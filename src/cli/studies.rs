@@ -15,7 +15,9 @@ use rotordyn::results::{CageComparison, CagePhaseBand, History, Results, RunUpRe
 use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
+use super::args::OutputFiles;
 use super::failure::Failure;
+use super::outcome::write_csv;
 use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
 use super::{bearing_tables, cage_tables, interrupt, run_up_tables, tables};
@@ -449,11 +451,15 @@ impl<'a> Job<'a> {
     }
 
     /// Writes and draws the results so far, also after failures.
-    pub fn write(&mut self, draw: bool) -> Result<(), Failure> {
+    pub fn write(&mut self, written: OutputFiles) -> Result<(), Failure> {
         let start = Instant::now();
         results_file::write_study(&self.store, &self.results, &self.machine)?;
         self.files.push(self.store.path().to_path_buf());
-        if draw {
+        if written.csv {
+            let sections = self.results.sections(&self.machine.assembly.dofs);
+            self.files.extend(write_csv(&self.folder, &sections)?);
+        }
+        if written.figures {
             let spinner = self.terminal.spinner("figures");
             self.files.extend(figures::draw(&self.results, &self.machine, &self.folder)?);
             spinner.finish_and_clear();

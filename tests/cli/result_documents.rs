@@ -164,3 +164,35 @@ fn tables_have_no_negative_zero() {
         }
     }
 }
+
+/// The cells of a column of a CSV file as numbers.
+fn column(path: &std::path::Path, title: &str) -> Vec<f64> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let at = lines.next().unwrap().iter().position(|cell| *cell == title).unwrap();
+    lines.map(|cells| cells[at].parse().unwrap()).collect()
+}
+
+#[test]
+fn csv_tables_have_the_values_of_the_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |command: &str| {
+        let args = [command, "models/jeffcott.toml", "--no-figures", "--csv", "--out"];
+        json_of(rotordyn().args(args).arg(folder.path()))
+    };
+    let numbers = |list: &serde_json::Value, key: &str| -> Vec<f64> {
+        list.as_array().unwrap().iter().map(|row| row[key].as_f64().unwrap()).collect()
+    };
+    let csv = |name: &str| folder.path().join("csv").join(name);
+    let modal = run("modal");
+    let modes: Vec<f64> = modal["modal"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|at| numbers(&at["modes"], "frequency_hz"))
+        .collect();
+    assert!(!modes.is_empty());
+    assert_eq!(column(&csv("modal_modes.csv"), "frequency_hz [Hz]"), modes);
+    let speeds = &run("critical")["critical_speeds"]["speeds"];
+    assert_eq!(column(&csv("critical_speeds_speeds.csv"), "speed_rpm [rpm]"), numbers(speeds, "speed_rpm"));
+}

@@ -1,190 +1,345 @@
-//! Tables of a [`Document`] as text, for the terminal and CSV files.
+//! Tables of documents as text, for CSV files and the terminal.
+//!
+//! Names and values are those of JSON; the unit stands behind the name of a column, as in `frequency_hz [Hz]`:
+//!
+//! | in the document | table |
+//! |---|---|
+//! | single values of a section | `SECTION`, one row; of listed sections and of groups by name a row each |
+//! | table | `SECTION_TABLE`; a table within its rows repeats the columns of the outer row |
+//! | numbers over an axis in each row | `SECTION_TABLE_over_AXIS`, a row for each value of the axis |
+//! | arrays over an axis | `SECTION_over_AXIS`, a column each |
+//!
+//! A vector or matrix of up to six rows has a column for each component. Maps (arrays over two axes) and mode shapes are
+//! in the results file only.
+
+mod cells;
+mod columns;
 
 use crate::error::Error;
+use cells::{Within, all_values, array_cells, is_axis, title, values};
+pub use columns::TextTable;
+use columns::{Columns, Tables, joined};
 use rotordyn_core::document::{Array, Count, Data, Document, Field, Section, Table, Value};
 use rotordyn_units::names::file_name;
 use std::path::{Path, PathBuf};
 
-/// A table with its texts; numbers have all their digits.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextTable {
-    /// Names from the document down to the table, separated by `/`.
-    pub name: String,
-    /// Names of the columns with their units.
-    pub header: Vec<String>,
-    pub rows: Vec<Vec<String>>,
+/// All tables of the sections that have rows.
+pub fn tables(sections: &[Section]) -> Vec<TextTable> {
+    let mut out = Tables::default();
+    for section in sections {
+        let mut outer = Columns::one_row();
+        if section.listed {
+            // The texts at the beginning of a listed section say whose values these are.
+            let texts = section.content.fields.iter();
+            for field in texts.take_while(|field| matches!(field.value, Value::Text(_))) {
+                values(&mut outer, "", field, Within::Document);
+            }
+        }
+        document(&mut out, section.json, &outer, &section.content);
+    }
+    out.finished()
 }
 
-/// All tables of a document that have rows, each with its columns of one value a row.
-///
-/// A table within the rows of another starts with the number of the outer row, from 1.
-pub fn tables(name: &str, document: &Document) -> Vec<TextTable> {
-    let mut out = Vec::new();
-    collect(&mut out, name, document);
-    out
-}
-
-/// Writes every table of the sections as `<section>_<table>.csv`; returns the files.
+/// Writes every table of the sections as `NAME.csv`; returns the files.
 ///
 /// # Errors
 /// A file cannot be written, or two tables have the same file name.
 pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Error> {
+    std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))?;
     let mut files = Vec::new();
-    for section in sections {
-        for table in tables(section.hdf5.trim_start_matches('/'), &section.content) {
-            let path = folder.join(format!("{}.csv", file_name(&table.name.replace('/', "_"))));
-            if files.contains(&path) {
-                return Err(Error::of_file("write", &path)("two tables have this name"));
-            }
-            let lines: Vec<String> =
-                std::iter::once(&table.header).chain(&table.rows).map(|cells| line(cells)).collect();
-            std::fs::write(&path, lines.concat()).map_err(Error::of_file("write", &path))?;
-            files.push(path);
+    for table in tables(sections) {
+        let path = folder.join(format!("{}.csv", file_name(&table.name)));
+        if files.contains(&path) {
+            return Err(Error::of_file("write", &path)("two tables have this name"));
         }
+        std::fs::write(&path, table.csv()).map_err(Error::of_file("write", &path))?;
+        files.push(path);
     }
     Ok(files)
 }
 
-/// A line of CSV; texts with a separator, quote or line break are quoted (RFC 4180).
-fn line(cells: &[String]) -> String {
-    let quoted = |cell: &String| match cell.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.clone(),
-    };
-    cells.iter().map(quoted).collect::<Vec<_>>().join(",") + "\n"
-}
-
-fn join(name: &str, inner: &str) -> String {
-    if inner.is_empty() { name.into() } else { format!("{name}/{inner}") }
-}
-
-/// Name in HDF5, which is in SI; else that in JSON.
-fn name_of<'a>(field: &'a Field) -> &'a str {
-    field.names.hdf5.as_deref().or(field.names.json.as_deref()).unwrap_or_default()
-}
-
-fn collect(out: &mut Vec<TextTable>, name: &str, document: &Document) {
-    for field in &document.fields {
-        let name = join(name, name_of(field));
-        match &field.value {
-            Value::Group(members) => collect(out, &name, members),
-            // Lists of JSON alone repeat groups that have names in HDF5.
-            Value::Groups { groups, .. } if field.names.hdf5.is_some() => {
-                groups.iter().for_each(|(of, members)| collect(out, &join(&name, of), members));
-            }
-            Value::Table(table) => collect_table(out, &name, table),
-            _ => {}
-        }
+/// The single values of a document in one row, its tables and its curves; `outer`: what the row begins with.
+fn document(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
+    let mut row = outer.clone();
+    all_values(&mut row, "", found, Within::Document);
+    if row.len() > outer.len() {
+        out.add(name, row);
     }
+    members(out, name, outer, found);
 }
 
-fn collect_table(out: &mut Vec<TextTable>, name: &str, table: &Table) {
-    let (count, mut found) = match &table.rows {
-        Count::One => (1, Vec::new()),
-        Count::Many(count) => (*count, Vec::new()),
-        Count::Within(counts) => {
-            let outer =
-                counts.iter().enumerate().flat_map(|(k, n)| std::iter::repeat_n((k + 1).to_string(), *n));
-            (counts.iter().sum(), vec![("row".to_string(), outer.collect::<Vec<_>>())])
-        }
-    };
-    let own = found.len();
-    columns(&mut found, "", &table.columns);
-    if count > 0 && found.len() > own {
-        let rows = (0..count).map(|k| found.iter().map(|(_, cells)| cells[k].clone()).collect()).collect();
-        let header = found.into_iter().map(|(title, _)| title).collect();
-        out.push(TextTable { name: name.into(), header, rows });
-    }
-    for field in &table.columns.fields {
-        if let Value::Table(inner) = &field.value {
-            collect_table(out, &join(name, name_of(field)), inner);
-        }
-    }
-}
-
-/// Titles and cells of the columns of one value a row.
-fn columns(out: &mut Vec<(String, Vec<String>)>, prefix: &str, found: &Document) {
+fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
     for field in &found.fields {
-        let name = format!("{prefix}{}", name_of(field));
+        let name = joined(name, title(field));
         match &field.value {
-            Value::Array(array) if array.shape.len() == 1 && !name.is_empty() => column(out, &name, array),
-            Value::Group(members) => columns(out, &format!("{name} "), members),
+            Value::Group(inner) => members(out, &name, outer, inner),
+            // What only HDF5 has in tables and lists, JSON has in another form.
+            _ if field.names.json.is_none() => {}
+            Value::Groups { key, groups } => {
+                for (of, inner) in groups {
+                    let mut outer = outer.clone();
+                    if !key.is_empty() {
+                        outer.add(*key, vec![of.clone()]);
+                    }
+                    document(out, &name, &outer, inner);
+                }
+            }
+            // The single values of a record stand in the row of the document.
+            Value::Table(Table { rows: Count::One, columns, .. }) => {
+                rows_within(out, &name, outer, columns, found);
+            }
+            Value::Table(Table { rows: Count::Many(count), columns, .. }) => {
+                table(out, &name, &outer.repeated(&[*count]), columns, found);
+            }
+            Value::Array(array) if is_list(array) && !is_axis(found, field) => {
+                let mut list = outer.repeated(&[array.data.len()]);
+                array_cells(&mut list, title(field), &field.names, array);
+                out.add(&name, list);
+            }
             _ => {}
         }
     }
+    curves(out, name, outer, found);
 }
 
-fn column(out: &mut Vec<(String, Vec<String>)>, name: &str, array: &Array) {
-    let title = |name: &str| match array.unit.as_str() {
-        "" | "1" => name.to_string(),
-        unit => format!("{name} {unit}"),
-    };
-    let mut put = |name: &str, cells| out.push((title(name), cells));
-    // As short as possible without loss, with an exponent if that is shorter.
-    let text = |value: f64| format!("{value:?}");
-    match &array.data {
-        Data::Real(values) => put(name, values.iter().map(|value| text(*value)).collect()),
-        Data::Complex(values) => {
-            put(&format!("{name}_re"), values.iter().map(|value| text(value.re)).collect());
-            put(&format!("{name}_im"), values.iter().map(|value| text(value.im)).collect());
-        }
-        Data::Integers(values) => {
-            put(name, values.iter().map(|value| value.map_or_else(String::new, |v| v.to_string())).collect());
-        }
-        Data::Flags(values) => put(name, values.iter().map(bool::to_string).collect()),
-        Data::Texts(values) => {
-            put(name, values.iter().map(|text| text.clone().unwrap_or_default()).collect())
+/// A table and what stands within its rows; `around`: the document with the axes of its cells.
+fn table(out: &mut Tables, name: &str, outer: &Columns, columns: &Document, around: &Document) {
+    let mut rows = outer.clone();
+    all_values(&mut rows, "", columns, Within::Table);
+    if rows.len() > outer.len() {
+        out.add(name, rows.clone());
+    }
+    rows_within(out, name, &rows, columns, around);
+}
+
+/// Tables, lists and numbers over an axis within the rows of a table.
+fn rows_within(out: &mut Tables, name: &str, rows: &Columns, columns: &Document, around: &Document) {
+    let mut lists: Vec<(&[usize], Vec<(&str, &Document)>)> = Vec::new();
+    let mut series: Vec<(&Field, Vec<&Field>)> = Vec::new();
+    for field in columns.fields.iter().filter(|field| field.names.json.is_some()) {
+        match &field.value {
+            Value::Group(inner) => rows_within(out, &joined(name, title(field)), rows, inner, around),
+            Value::Table(Table { rows: Count::Within(counts), columns: inner, .. }) => {
+                let is_unnamed = |field: &Field| title(field).is_empty();
+                match inner.fields.iter().any(is_unnamed) {
+                    false => {
+                        table(out, &joined(name, title(field)), &rows.repeated(counts), inner, around);
+                    }
+                    // Lists of the same lengths belong together.
+                    true => match lists.iter_mut().find(|(other, _)| other == counts) {
+                        Some((_, together)) => together.push((title(field), inner)),
+                        None => lists.push((counts, vec![(title(field), inner)])),
+                    },
+                }
+            }
+            Value::Array(array) => {
+                let over = array.axes.iter().find(|(k, _)| *k == 1 && array.shape.len() == 2);
+                let Some(axis) = over.and_then(|(_, axis)| axis_field(around, axis)) else { continue };
+                match series.iter_mut().find(|(other, _)| *other == axis) {
+                    Some((_, together)) => together.push(field),
+                    None => series.push((axis, vec![field])),
+                }
+            }
+            _ => {}
         }
     }
+    for (counts, together) in lists {
+        let first = together[0].0;
+        let name = if together.len() > 1 { format!("{name}_over_{first}") } else { joined(name, first) };
+        let mut rows = rows.repeated(counts);
+        for (title, inner) in together {
+            all_values(&mut rows, title, inner, Within::Table);
+        }
+        out.add(&name, rows);
+    }
+    for (axis, together) in series {
+        let Value::Array(points) = &axis.value else { continue };
+        let count = points.data.len();
+        let mut all = rows.repeated(&vec![count; rows.rows()]);
+        let mut once = Columns::one_row();
+        array_cells(&mut once, title(axis), &axis.names, points);
+        all.append(once.cycled(rows.rows()));
+        for field in together {
+            if let Value::Array(array) = &field.value {
+                array_cells(&mut all, title(field), &field.names, array);
+            }
+        }
+        out.add(&format!("{name}_over_{}", title(axis)), all);
+    }
+}
+
+/// Arrays of one dimension over an axis of the document.
+fn curves(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
+    for axis in &found.fields {
+        let Value::Array(points) = &axis.value else { continue };
+        let over: Vec<(&Field, &Array)> = found
+            .fields
+            .iter()
+            .filter_map(|field| match &field.value {
+                Value::Array(array) if array.shape.len() == 1 => Some((field, array)),
+                _ => None,
+            })
+            .filter(|(_, array)| array.axes.iter().any(|(_, of)| axis_field(found, of) == Some(axis)))
+            .collect();
+        if over.is_empty() {
+            continue;
+        }
+        let mut columns = outer.repeated(&[points.data.len()]);
+        for (field, array) in std::iter::once((axis, points)).chain(over) {
+            array_cells(&mut columns, title(field), &field.names, array);
+        }
+        out.add(&format!("{name}_over_{}", title(axis)), columns);
+    }
+}
+
+/// The array over which others of the document are given.
+fn axis_field<'f, 'a>(found: &'f Document<'a>, axis: &str) -> Option<&'f Field<'a>> {
+    let is_axis = |field: &&Field| field.names.hdf5.as_deref() == Some(axis);
+    found.fields.iter().filter(|field| matches!(field.value, Value::Array(_))).find(is_axis)
+}
+
+/// Whether an array is a list of its own: texts or integers, or more numbers than a vector.
+fn is_list(array: &Array) -> bool {
+    let vector = matches!(array.data, Data::Real(_)) && cells::is_small(&array.shape);
+    array.shape.len() == 1 && array.axes.is_empty() && !vector
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rotordyn_core::document::Rows;
+    use rotordyn_core::document::{Rows, in_hdf5, in_json, named};
 
     struct Outer {
         speed: f64,
         inner: Vec<(String, f64)>,
+        curve: [f64; 2],
+        list: Vec<f64>,
     }
 
     fn outer() -> [Outer; 2] {
         let inner = |names: &[&str]| names.iter().map(|name| ((*name).to_string(), 0.1)).collect();
         [
-            Outer { speed: 1.0, inner: inner(&["a"]) },
-            Outer { speed: f64::NAN, inner: inner(&["b, \"c\"", "d"]) },
+            Outer { speed: 1.0, inner: inner(&["a"]), curve: [1.0, 2.0], list: vec![5.0] },
+            Outer {
+                speed: f64::NAN,
+                inner: inner(&["b, \"c\"", "d"]),
+                curve: [3.0, 4.0],
+                list: vec![6.0, 7.0],
+            },
         ]
     }
 
-    #[test]
-    fn tables_have_units_and_rows_within_rows() {
-        let found = outer();
-        let rows = Rows::of(&found)
-            .quantity("speed", "rad/s", |o| o.speed)
-            .numbers("vector", "m", &[2], |o| [o.speed; 2])
-            .nested("inner", |o| &o.inner, |rows| rows.text("name", |i| &i.0).number("level", "1", |i| i.1));
-        let document = Document::new().group("part", Document::new().table("outer", rows));
-        let found = tables("all", &document);
-        let text = |name: &str, header: &[&str], rows: &[&[&str]]| TextTable {
+    fn text(name: &str, header: &[&str], rows: &[&[&str]]) -> TextTable {
+        TextTable {
             name: name.into(),
             header: header.iter().map(|t| (*t).to_string()).collect(),
             rows: rows.iter().map(|row| row.iter().map(|t| (*t).to_string()).collect()).collect(),
-        };
+        }
+    }
+
+    #[test]
+    fn tables_repeat_the_outer_row_and_have_units() {
+        let found = outer();
+        let rows = Rows::of(&found)
+            .quantity("speed", "rad/s", |o| o.speed)
+            .numbers("force", "N", &[2], |o| o.curve)
+            .numbers("zeta", "1", &[2], |o| o.curve)
+            .cells_over(0, "frequency")
+            .series("level", "m", |o| &o.list)
+            .series("at", "s", |o| &o.list)
+            .nested("inner", |o| &o.inner, |rows| rows.text("name", |i| &i.0).number("level", "1", |i| i.1));
+        let content = Document::new()
+            .number("count", "1", 2.0)
+            .optional("missing", "m", None)
+            .number(in_hdf5("only_hdf5"), "m", 2.0)
+            .group("part", Document::new().flag("complete", true).numbers("vector", "m", &[0.5, 1e-7]))
+            .numbers(named("frequency_hz", "frequency"), "Hz", &[10.0, 20.0])
+            .array(in_hdf5("response"), Array::real(&[2], "m", &[0.5, 0.25]).over(0, "frequency"))
+            .array(in_hdf5("map"), Array::real(&[1, 2], "m", &[0.5, 0.25]).over(1, "frequency"))
+            .texts(in_json("nodes"), ["a", "b"])
+            .table("outer", rows);
+        let found = tables(&[Section::new("all", "all_in_hdf5", content)]);
+        let rpm = crate::document_tables::cells::number(rotordyn_core::document::TO_RPM);
+        let columns = ["speed_rpm [rpm]", "force_1 [N]", "force_2 [N]"];
+        let with = |more: &[&'static str]| -> Vec<&str> { columns.iter().chain(more).copied().collect() };
         let expected = [
-            text("all/part/outer", &["speed rad/s"], &[&["1.0"], &["NaN"]]),
             text(
-                "all/part/outer/inner",
-                &["row", "name", "level"],
-                &[&["1", "a", "0.1"], &["2", "b, \"c\"", "0.1"], &["2", "d", "0.1"]],
+                "all",
+                &["count", "part_complete", "part_vector_1 [m]", "part_vector_2 [m]"],
+                &[&["2.0", "true", "0.5", "1e-7"]],
+            ),
+            text("all_nodes", &["nodes"], &[&["a"], &["b"]]),
+            text("all_outer", &columns, &[&[&rpm, "1.0", "2.0"], &["", "3.0", "4.0"]]),
+            text(
+                "all_outer_inner",
+                &with(&["name", "level"]),
+                &[
+                    &[&rpm, "1.0", "2.0", "a", "0.1"],
+                    &["", "3.0", "4.0", "b, \"c\"", "0.1"],
+                    &["", "3.0", "4.0", "d", "0.1"],
+                ],
+            ),
+            text(
+                "all_outer_over_level",
+                &with(&["level [m]", "at [s]"]),
+                &[
+                    &[&rpm, "1.0", "2.0", "5.0", "5.0"],
+                    &["", "3.0", "4.0", "6.0", "6.0"],
+                    &["", "3.0", "4.0", "7.0", "7.0"],
+                ],
+            ),
+            text(
+                "all_outer_over_frequency_hz",
+                &with(&["frequency_hz [Hz]", "zeta"]),
+                &[
+                    &[&rpm, "1.0", "2.0", "10.0", "1.0"],
+                    &[&rpm, "1.0", "2.0", "20.0", "2.0"],
+                    &["", "3.0", "4.0", "10.0", "3.0"],
+                    &["", "3.0", "4.0", "20.0", "4.0"],
+                ],
+            ),
+            text(
+                "all_over_frequency_hz",
+                &["frequency_hz [Hz]", "response [m]"],
+                &[&["10.0", "0.5"], &["20.0", "0.25"]],
+            ),
+        ];
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found, expected);
+        }
+        assert_eq!(found.len(), expected.len());
+    }
+
+    #[test]
+    fn listed_sections_and_groups_by_name_share_tables() {
+        let section = |name: &str, value: Option<f64>| {
+            let inner = Document::new().optional("force", "N", value);
+            let groups = [("A".to_string(), inner.clone()), ("B".to_string(), inner)];
+            let content = Document::new()
+                .text(in_json("channel"), name)
+                .optional("rms", "m", value)
+                .groups("bearings", "name", groups);
+            Section::listed("channels", name, content)
+        };
+        let found = tables(&[section("x", None), section("y", Some(2.0))]);
+        let expected = [
+            text("channels", &["channel", "rms [m]"], &[&["y", "2.0"]]),
+            text(
+                "channels_bearings",
+                &["channel", "name", "force [N]"],
+                &[&["y", "A", "2.0"], &["y", "B", "2.0"]],
             ),
         ];
         assert_eq!(found, expected);
+    }
 
+    #[test]
+    fn csv_files_quote_texts() {
+        let content = Document::new().table("t", Rows::of(&["b, \"c\"", "d"]).text("name", |name| name));
         let folder = tempfile::tempdir().unwrap();
-        let files = write_csv(folder.path(), &[Section::new("all", "all", document)]).unwrap();
+        let files = write_csv(folder.path(), &[Section::new("all", "all", content)]).unwrap();
         let names: Vec<_> = files.iter().map(|f| f.file_name().unwrap().to_str().unwrap()).collect();
-        assert_eq!(names, ["all_part_outer.csv", "all_part_outer_inner.csv"]);
-        let content = std::fs::read_to_string(&files[1]).unwrap();
-        assert_eq!(content, "row,name,level\n1,a,0.1\n2,\"b, \"\"c\"\"\",0.1\n2,d,0.1\n");
+        assert_eq!(names, ["all_t.csv"]);
+        assert_eq!(std::fs::read_to_string(&files[0]).unwrap(), "name\n\"b, \"\"c\"\"\"\nd\n");
     }
 }

@@ -43,6 +43,29 @@ pub struct StudyArgs {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+    /// Also write the tables of the results as CSV files, to csv/ in the results folder
+    #[arg(long)]
+    pub csv: bool,
+}
+
+/// What is written beside the results file.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputFiles {
+    pub figures: bool,
+    /// The tables as CSV files.
+    pub csv: bool,
+}
+
+impl From<&StudyArgs> for OutputFiles {
+    fn from(args: &StudyArgs) -> Self {
+        Self { figures: !args.no_figures, csv: args.csv }
+    }
+}
+
+impl From<&StoredArgs> for OutputFiles {
+    fn from(args: &StoredArgs) -> Self {
+        Self { figures: !args.no_figures, csv: args.csv }
+    }
 }
 
 /// Stored run-up and analysis settings (`spectrogram`, `orders`).
@@ -71,6 +94,9 @@ pub struct StoredArgs {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+    /// Also write the tables of the results as CSV files, to csv/ in the results folder
+    #[arg(long)]
+    pub csv: bool,
 }
 
 /// Parse PATH=VALUE.

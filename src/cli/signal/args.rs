@@ -156,4 +156,7 @@ pub struct SignalArgs {
     /// Draw no figures
     #[arg(long, help_heading = "Figures and files")]
     pub no_figures: bool,
+    /// Also write the tables of the results as CSV files, to csv/ in the results folder
+    #[arg(long, help_heading = "Figures and files")]
+    pub csv: bool,
 }

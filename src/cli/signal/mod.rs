@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use rotordyn::document::Section;
 use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::signal_to_json;
@@ -24,6 +25,7 @@ use rotordyn::units::SPEED;
 use serde_json::json;
 
 use super::failure::Failure;
+use super::outcome::write_csv;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 use args::SignalArgs;
@@ -133,6 +135,10 @@ fn write(
     let meta = SignalMeta { file: &file.path.display().to_string(), command: &command.join(" ") };
     results_file::write_signal(&store, &meta, results, other.map(|(other, _)| other))?;
     let mut files = vec![store.path().to_path_buf()];
+    if args.csv {
+        let sections: Vec<Section> = results.iter().map(SignalResult::section).collect();
+        files.extend(write_csv(folder, &sections)?);
+    }
     if !args.no_figures {
         let spinner = terminal.spinner("figures");
         files.extend(figures::draw_signal(results, &file.stem, folder)?);

@@ -64,7 +64,8 @@ impl FrfResult {
             .text("excitation", |(e, _)| &excitations[*e])
             .text("response", |(_, r)| &responses[*r])
             .text("unit", |(e, r)| &self.units[*r][*e])
-            .complex_numbers("", "", &[count], |(e, r)| &self.frf.values[*r][*e]);
+            .complex_numbers("", "", &[count], |(e, r)| &self.frf.values[*r][*e])
+            .cells_over(0, "frequency");
         let shape = [responses.len(), excitations.len(), count];
         Document::new()
             .number(named("speed_rpm", "rpm"), "rpm", self.speed * TO_RPM)
