@@ -1,11 +1,11 @@
 //! Tables of a run-up with free balls beside cages that roll without slip.
 
-use rotordyn::results::CageComparison;
+use rotordyn::results::RollingCageComparison;
 
 use super::terminal::{Terminal, number};
 
 /// Speeds of the cages, levels of the order lines, and whether a rolling cage was good enough.
-pub fn comparison(terminal: &Terminal, found: &CageComparison) {
+pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
     let percent = |share: f64| number(100.0 * share, 3);
     let cages = found.cages.iter().map(|cage| {
         vec![

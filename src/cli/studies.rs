@@ -11,7 +11,7 @@ use rotordyn::io::hdf5::{ChannelStream, Store};
 use rotordyn::io::results_file;
 use rotordyn::model::study::{RunUpStudy, Studies};
 use rotordyn::model::{Drive, Model};
-use rotordyn::results::{CageComparison, CagePhaseBand, History, Results, RunUpResult};
+use rotordyn::results::{CagePhaseBand, History, Results, RollingCageComparison, RunUpResult};
 use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
@@ -423,7 +423,7 @@ impl<'a> Job<'a> {
         &self,
         settings: &RunUpStudy,
         history: &History,
-    ) -> Result<Option<CageComparison>, Failure> {
+    ) -> Result<Option<RollingCageComparison>, Failure> {
         let spinner = self.terminal.spinner("kinematic cages");
         let found = self.machine.compare_cages(settings, history, &mut || {
             if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

@@ -43,10 +43,11 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra:
         duration: DURATION,
     };
     let mut last = v.clone();
-    let report = run(system, system.initial_state(reduction.equilibrium.clone(), v), &settings, |sample| {
-        last.copy_from(&sample.state.x);
-        ControlFlow::Continue(())
-    });
+    let report =
+        run(system, system.initial_state(reduction.equilibrium.clone(), v).unwrap(), &settings, |sample| {
+            last.copy_from(&sample.state.x);
+            ControlFlow::Continue(())
+        });
     assert_eq!(report.end, End::Complete);
     last
 }

@@ -39,7 +39,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra:
         duration: DURATION,
     };
     let mut last = v.clone();
-    let start = reduction.system.initial_state(reduction.equilibrium.clone(), v);
+    let start = reduction.system.initial_state(reduction.equilibrium.clone(), v).unwrap();
     let report = run(&reduction.system, start, &settings, |sample| {
         last.copy_from(&sample.state.x);
         ControlFlow::Continue(())

@@ -45,7 +45,7 @@ fn motion(
 ) -> [Vec<f64>; 2] {
     let system = &reduction.system;
     let zero = &reduction.equilibrium * 0.0;
-    let mut state = system.initial_state(zero.clone(), zero);
+    let mut state = system.initial_state(zero.clone(), zero).unwrap();
     let mut stepper = Stepper::new(system, integrator, step);
     let (skip, count) = ((settle / step).round() as usize, (record / step).round() as usize);
     let mut out = [Vec::new(), Vec::new()];
@@ -316,7 +316,7 @@ fn largest_lyapunov_exponents() {
     ] {
         let reduction = ready(&machine(&format!("balls_{balls}"), &[]));
         let zero = &reduction.equilibrium * 0.0;
-        let start = reduction.system.initial_state(zero.clone(), zero);
+        let start = reduction.system.initial_state(zero.clone(), zero).unwrap();
         let steady = SteadyRunSettings {
             speed: SPEED,
             integrator: Integrator::Newmark,

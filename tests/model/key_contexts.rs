@@ -50,6 +50,13 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "bearing" if condition.contains("radial_ball") => {
             "station = \"A\"\ndesignation = \"6205\"\nstiffness_damping = \"1e-4 s\""
         }
+        "bearing" if condition.contains("free_ball") => {
+            "station = \"A\"\nmodel = \"free_ball\"\ndesignation = \"6205\""
+        }
+        "bearing" if condition.contains("friction_law = \"film\"") => {
+            "station = \"A\"\nmodel = \"free_ball\"\ndesignation = \"6205\""
+        }
+        "bearing.traction_curve" => "limit = 0.05\ndecay = \"50 s/m\"",
         "bearing" if condition.contains("power_law") => {
             "station = \"A\"\nmodel = \"ball\"\ndesignation = \"6205\"\nball_inertia = \"none\""
         }

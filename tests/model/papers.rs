@@ -22,7 +22,7 @@ fn balls(model: &Model) -> Vec<&BallBearing> {
         .iter()
         .filter_map(|site| match &site.bearing {
             Bearing::Ball(ball) => Some(ball),
-            Bearing::Linear(_) | Bearing::RadialBall(_) => None,
+            Bearing::Linear(_) | Bearing::RadialBall(_) | Bearing::FreeBall(_) => None,
         })
         .collect()
 }

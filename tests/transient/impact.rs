@@ -74,7 +74,8 @@ fn small_hit_gives_the_linear_frf() {
     let mut responses = [Vec::new(), Vec::new()];
     let settings =
         Settings { integrator: Integrator::Newmark, step: 2.5e-5, sample_rate: RATE, duration: DURATION };
-    let state = reduction.system.initial_state(reduction.equilibrium.clone(), &reduction.equilibrium * 0.0);
+    let state =
+        reduction.system.initial_state(reduction.equilibrium.clone(), &reduction.equilibrium * 0.0).unwrap();
     let balls_before = start.bearings.iter().flat_map(|b| &b.balls).filter(|b| b.load > 0.0).count();
     run(&reduction.system, state, &settings, |sample| {
         for k in 0..2 {

@@ -54,7 +54,7 @@ fn static_equilibrium_is_one_of_the_transient() {
     let reduction = machine.reduce(&study).unwrap();
     let system = &reduction.system;
     let v = &reduction.equilibrium * 0.0;
-    let state = system.initial_state(reduction.equilibrium.clone(), v);
+    let state = system.initial_state(reduction.equilibrium.clone(), v).unwrap();
     let structure = system.structure();
     // Accelerations of mass-normalised coordinates, relative to those of gravity, Σ = g √m.
     let gravity = system.static_load.amax();

@@ -169,7 +169,7 @@ fn lyapunov_exponent_of_a_periodic_motion_is_its_floquet_exponent() {
     let once = |x: &nalgebra::DVector<f64>, v: &nalgebra::DVector<f64>| {
         // The period is a whole number of steps, so that the map has a fixed time.
         let cages: Vec<f64> = settled.rotations.iter().map(|r| r.cage_angle).collect();
-        let mut state = reduction.system.state_at(settled.time, &cages, x.clone(), v.clone());
+        let mut state = reduction.system.state_at(settled.time, &cages, &[], [x.clone(), v.clone()]).unwrap();
         let mut stepper =
             rotordyn::transient::stepper::Stepper::new(&reduction.system, settings.integrator, 0.0);
         let period = TAU / (settings.speed * 0.4 * ball.geometry.balls as f64);

@@ -25,7 +25,7 @@ pub use bearing::{
     PickContact,
 };
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
-pub use cage_comparison::{CageComparison, CageLine, CageSpeed};
+pub use cage_comparison::{CageLine, CageSpeed, RollingCageComparison};
 pub use campbell::CampbellResult;
 pub use critical::CriticalResult;
 pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};

@@ -6,6 +6,8 @@ use std::collections::BTreeSet;
 
 use crate::ball_bearing::Random;
 use crate::bearing::rig_6205;
+use rotordyn_bearing::contact::Traction;
+use rotordyn_bearing::free_ball::{Drag, FreeBallBearing, FrictionLaw, SlipModel};
 use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
 use rotordyn_bearing::{
     Bearing, BearingElement, InternalCoordinates, LinearBearing, LinearBearingRow, RadialBallBearing,
@@ -27,7 +29,19 @@ fn samples() -> Vec<Bearing> {
         tensile_contact: false,
         gravity: [2.0, -9.0],
     };
-    vec![linear.into(), rig_6205().into(), radial.into()]
+    let slip = Traction { friction: 0.06, slip_speed: 0.02 };
+    let free = FreeBallBearing {
+        ball: rig_6205(),
+        friction: FrictionLaw::Coulomb(slip),
+        slip: SlipModel::default(),
+        damping: 1.0,
+        rolling_loss: 0.007,
+        cage: None,
+        ball_friction: slip,
+        drag: Drag::default(),
+        gravity: [0.0, -9.8, 0.0],
+    };
+    vec![linear.into(), rig_6205().into(), radial.into(), free.into()]
 }
 
 fn for_each_sample(mut visit: impl FnMut(&str, &dyn BearingElement)) {

@@ -13,7 +13,7 @@ const SMALLEST_SHARE: f64 = 0.05;
 
 /// The last third of a run's revolutions with free balls, and of the same run with cages that roll without slip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CageComparison {
+pub struct RollingCageComparison {
     /// Start and end \[s\], and revolutions of the shaft.
     pub stretch: [f64; 2],
     pub revolutions: f64,
@@ -71,7 +71,7 @@ impl CageLine {
     }
 }
 
-impl CageComparison {
+impl RollingCageComparison {
     /// Lines that are not small beside the largest of their channel.
     fn judged(&self) -> impl Iterator<Item = &CageLine> {
         self.lines.iter().filter(|line| {

@@ -1,7 +1,7 @@
 //! A run-up, and its reliability: error of its time step, dependence on the initial cage phase.
 
 use super::history::{History, HistoryChannel};
-use super::{CageComparison, OrderLine};
+use super::{OrderLine, RollingCageComparison};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named, quantity};
 use crate::transient::run::{End, Report};
 use rotordyn_signal::order::OrderCut;
@@ -26,7 +26,7 @@ pub struct RunUpResult {
     /// Estimated error of the order levels by the step.
     pub step_error: Option<StepError>,
     /// Free balls beside cages that roll without slip, if there are free balls.
-    pub cage_comparison: Option<CageComparison>,
+    pub cage_comparison: Option<RollingCageComparison>,
 }
 
 impl RunUpResult {

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use super::step_error::line_level;
 use super::{Machine, Recorder, StudyError};
 use crate::model::study::{Integrator, RunUpStudy};
-use crate::results::{CageComparison, CageLine, CageSpeed, History};
+use crate::results::{CageLine, CageSpeed, History, RollingCageComparison};
 use crate::transient::run::End;
 
 /// Share of the run's revolutions before the stretch that is compared.
@@ -26,7 +26,7 @@ impl Machine {
         study: &RunUpStudy,
         history: &History,
         progress: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Option<CageComparison>, StudyError> {
+    ) -> Result<Option<RollingCageComparison>, StudyError> {
         let rolling = |site: usize| self.model.bearings[site].bearing.with_rolling_cage();
         let free: Vec<usize> =
             (0..self.model.bearings.len()).filter(|site| rolling(*site).is_some()).collect();
@@ -88,7 +88,7 @@ impl Machine {
                 }));
             }
         }
-        Ok(Some(CageComparison {
+        Ok(Some(RollingCageComparison {
             stretch: [history.time[first], history.time[end]],
             revolutions,
             cages,
