@@ -45,13 +45,23 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
             number(line.free, 4),
             number(line.rolling, 4),
             number(line.driven, 4),
+            number(line.noise, 2),
             line.unit.clone(),
             percent(line.difference()),
             percent(line.difference_driven()),
         ]
     });
-    let header =
-        ["channel", "line", "free balls", "rolling", "driven", "unit", "to rolling %", "to driven %"];
+    let header = [
+        "channel",
+        "line",
+        "free balls",
+        "rolling",
+        "driven",
+        "noise",
+        "unit",
+        "to rolling %",
+        "to driven %",
+    ];
     let title =
         "Levels of the order lines (RMS): free balls, rolling cage, cage driven by the balls' mean angle";
     terminal.table(title, &header, &lines.collect::<Vec<_>>());

@@ -33,7 +33,7 @@ const CHANNELS: [BodyChannel; 10] = [
     BodyChannel { name: "ball_pitch_angle", unit: "rad", quantity: "angle", direction: "balls" },
     BodyChannel { name: "cage_x", unit: "m", quantity: "displacement", direction: "x" },
     BodyChannel { name: "cage_y", unit: "m", quantity: "displacement", direction: "y" },
-    BodyChannel { name: "pocket_force", unit: "N", quantity: "force", direction: "cage" },
+    BodyChannel { name: "pocket_force", unit: "N", quantity: "contact force", direction: "cage" },
     BodyChannel { name: "friction_torque", unit: "N m", quantity: "moment", direction: "shaft" },
     BodyChannel { name: "friction_power", unit: "W", quantity: "power", direction: "" },
 ];

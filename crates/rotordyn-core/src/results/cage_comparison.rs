@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 const SPEED_LIMIT: f64 = 1e-3;
 /// The same of the level of an order line.
 const LEVEL_LIMIT: f64 = 0.05;
-/// Lines below this share of their channel's largest are not judged.
+/// Lines below this share of their channel's largest are not judged, nor those below this multiple of the noise.
 const SMALLEST_SHARE: f64 = 0.05;
+const NOISE_FACTOR: f64 = 10.0;
 
 /// The last third of a run's revolutions with free balls, and of the same run with cages that roll without slip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,6 +51,8 @@ pub struct CageLine {
     pub free: f64,
     pub rolling: f64,
     pub driven: f64,
+    /// Level with free balls at orders a few lines beside it, where there is only the noise of collisions.
+    pub noise: f64,
 }
 
 impl CageSpeed {
@@ -72,11 +75,12 @@ impl CageLine {
 }
 
 impl RollingCageComparison {
-    /// Lines that are not small beside the largest of their channel.
+    /// Lines that are not small beside the largest of their channel and the noise.
     fn judged(&self) -> impl Iterator<Item = &CageLine> {
         self.lines.iter().filter(|line| {
             let largest = self.lines.iter().filter(|other| other.channel == line.channel);
             line.free > SMALLEST_SHARE * largest.map(|other| other.free).fold(0.0, f64::max)
+                && line.free > NOISE_FACTOR * line.noise
         })
     }
 
@@ -127,7 +131,8 @@ impl RollingCageComparison {
             .number("order", "1/revolution", |l| l.line.order)
             .number("rms_free_balls", "", |l| l.free)
             .number("rms_rolling_cage", "", |l| l.rolling)
-            .number("rms_driven_cage", "", |l| l.driven);
+            .number("rms_driven_cage", "", |l| l.driven)
+            .number("rms_noise", "", |l| l.noise);
         Document::new()
             .quantity("start", "s", self.stretch[0])
             .quantity("end", "s", self.stretch[1])

@@ -16,6 +16,8 @@ use crate::transient::run::End;
 const SKIPPED: f64 = 2.0 / 3.0;
 /// Fewest cycles of an order in the stretch.
 const FEWEST_CYCLES: f64 = 4.0;
+/// Spectral lines from an order line to the noise beside it, outside the main lobe of the window.
+const LINES_BESIDE: f64 = 3.0;
 
 impl Machine {
     /// Compares a finished run-up with free balls, `history`, with the same run-up with kinematic cages.
@@ -68,6 +70,7 @@ impl Machine {
         let cages: Vec<CageSpeed> =
             free.iter().map(|site| self.cage_speed(*site, history, rolling, stretch)).collect();
         let mut lines = Vec::new();
+        let beside = LINES_BESIDE / revolutions;
         for probe in 0..self.model.probes.len() {
             for order in self.checked_orders() {
                 let own = cages.iter().find(|cage| (cage.rolling_bpfo - order).abs() < 1e-6);
@@ -85,6 +88,8 @@ impl Machine {
                     free: level(history, order_of_run),
                     rolling: level(rolling, order),
                     driven: level(driven, order_of_run),
+                    noise: 0.5
+                        * (level(history, order_of_run - beside) + level(history, order_of_run + beside)),
                 }));
             }
         }

@@ -1,0 +1,125 @@
+//! Free balls and cage in a machine: energy balance, mean forces, friction on the rotation, comparison with kinematic cages.
+
+use crate::rig::variant;
+use rotordyn::model::study::{Integrator, RunUpStudy};
+use rotordyn::model::{Drive, Model, SpeedProfile};
+use rotordyn::results::History;
+use rotordyn::study::{Machine, Recorder};
+use rotordyn::transient::run::{End, Report};
+use std::ops::ControlFlow;
+
+/// The rig with free balls in bearing B, at once at a constant speed \[rad/s\].
+fn steady(speed: f64, duration: f64) -> Model {
+    let mut model = variant(Some("free_balls"), &[("bearing.B.slip", "\"centre\"")]);
+    model.profile = SpeedProfile::Constant { speed, duration };
+    model
+}
+
+fn run(machine: &Machine, study: &RunUpStudy) -> (History, Report) {
+    let reduction = machine.reduce(study).unwrap();
+    let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+    let report = machine.run_up(study, &reduction, |sample| {
+        recorder.record(sample);
+        ControlFlow::Continue(())
+    });
+    (recorder.history, report)
+}
+
+fn study(machine: &Machine) -> RunUpStudy {
+    machine.model.studies.run_up.clone().unwrap()
+}
+
+fn channel<'a>(history: &'a History, name: &str) -> &'a [f64] {
+    &history.channels.iter().find(|channel| channel.name == name).unwrap().values
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The energy of rotor, balls and cage changes by the work of loads and rotation less the losses; the mean force of the
+/// bearing is that of statics; the cage turns within its pocket clearance of rolling.
+#[test]
+fn energy_force_and_cage_speed_at_constant_speed() {
+    let machine = Machine::new(steady(125.7, 0.15)).unwrap();
+    let (history, report) = run(&machine, &study(&machine));
+    assert_eq!(report.end, End::Complete);
+    let energy = report.energy;
+    println!("residual {:.2e} of {:.3e} J, {} steps", energy.residual(), energy.exchanged(), report.steps);
+    assert!(energy.contact_loss > 1e-3, "balls slip and lose energy: {energy:?}");
+    assert!(energy.residual().abs() < 1e-4 * energy.exchanged(), "{energy:?}");
+
+    let at_rest =
+        machine.equilibrium(&rotordyn::model::study::EquilibriumStudy { speed: 0.0, cage_average: true });
+    let expected = at_rest.unwrap().bearings[1].force;
+    // Three turns of the shaft: unbalance cancels.
+    for (axis, expected) in ["x", "y"].into_iter().zip(expected) {
+        let found = mean(channel(&history, &format!("B_force_{axis}")));
+        println!("mean F_{axis} {found:.2} N, statics {expected:.2} N");
+        assert!((found / expected - 1.0).abs() < 0.01);
+    }
+    let speed = mean(channel(&history, "B_cage_speed")) / 125.7;
+    println!("FTF {speed:.4}");
+    assert!((speed / 0.396_93 - 1.0).abs() < 0.04, "{speed}");
+    assert!(channel(&history, "B_pocket_force").iter().any(|force| *force > 0.0));
+}
+
+/// Without drive the friction torque of the balls slows the shaft: J (Ω₁ − Ω₀) = −∫ M dt, J without the free balls.
+#[test]
+fn friction_of_free_balls_slows_a_coasting_shaft() {
+    let mut model = steady(60.0, 0.1);
+    let Drive::Prescribed { node: Some(node) } = model.drive else { panic!("the rig is driven") };
+    model.drive = Drive::Torque { node, table: vec![[0.0, 0.0]], drag: 0.0 };
+    model.bushings.retain(|bushing| bushing.damping[5][5] == 0.0);
+    model.unbalances.clear();
+    let machine = Machine::new(model).unwrap();
+    let (history, report) = run(&machine, &study(&machine));
+    assert_eq!(report.end, End::Complete);
+    let energy = report.energy;
+    println!("residual {:.2e} of {:.3e} J", energy.residual(), energy.exchanged());
+    assert!(energy.residual().abs() < 1e-3 * energy.exchanged(), "{energy:?}");
+    let torque = channel(&history, "B_friction_torque");
+    let impulse = 0.1 * mean(torque);
+    let slowed = machine.assembly.polar_inertia * (history.speed[0] - history.speed[history.speed.len() - 1]);
+    println!("friction {impulse:.4e} N m s, momentum lost {slowed:.4e} N m s");
+    assert!(impulse > 1e-5 && (slowed / impulse - 1.0).abs() < 0.05, "{slowed} {impulse}");
+}
+
+/// An implicit integrator is refused by name, by the reader and by the run itself.
+#[test]
+fn implicit_steps_are_refused() {
+    let machine = Machine::new(steady(100.0, 0.01)).unwrap();
+    assert_eq!(study(&machine).integrator, Integrator::RungeKutta4);
+    let (_, report) = run(&machine, &RunUpStudy { integrator: Integrator::Newmark, ..study(&machine) });
+    let End::Failed(error) = report.end else { panic!("{:?}", report.end) };
+    assert!(error.to_string().starts_with("bearing B at t = 0.000000 s"), "{error}");
+    assert!(error.to_string().contains("rk4"), "{error}");
+    let options = rotordyn::model::Options {
+        variant: Some("free_balls".into()),
+        set: vec![("study.run_up.integrator".into(), "\"newmark\"".into())],
+    };
+    let text = include_str!("../../models/overhung_rig.toml");
+    let problems = rotordyn::model::load("overhung_rig.toml", text, &options).err().unwrap();
+    assert!(format!("{problems:?}").contains("does not take balls and cage as free bodies"), "{problems:?}");
+}
+
+/// Order lines far above the noise of the collisions agree with a cage that rolls: 1x of the disc within 1 %.
+#[test]
+fn synchronous_response_is_that_of_a_kinematic_cage() {
+    let machine = Machine::new(steady(125.7, 0.7)).unwrap();
+    let (history, _) = run(&machine, &study(&machine));
+    let found = machine.compare_cages(&study(&machine), &history, &mut || ControlFlow::Continue(()));
+    let found = found.unwrap().expect("a machine with free balls");
+    println!("{:#?}\n{}", found.cages, found.verdict());
+    let once: Vec<_> = found.lines.iter().filter(|line| line.line.label == "1x").collect();
+    for name in ["disc_x", "disc_y"] {
+        let line = once.iter().find(|line| line.channel == name).unwrap();
+        println!("{name}: free {:.4e}, rolling {:.4e}, driven {:.4e}", line.free, line.rolling, line.driven);
+        assert!(line.difference().abs() < 0.01 && line.difference_driven().abs() < 0.01);
+    }
+    let stopped = machine.compare_cages(&study(&machine), &history, &mut || ControlFlow::Break(()));
+    assert!(stopped.unwrap().is_none());
+    let kinematic = Machine::new(variant(None, &[])).unwrap();
+    let none = kinematic.compare_cages(&study(&kinematic), &history, &mut || ControlFlow::Continue(()));
+    assert!(none.unwrap().is_none());
+}
