@@ -12,9 +12,9 @@ use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
 
 use super::args::BearingArgs;
+use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::machine::ModelSource;
-use super::outcome::write_csv;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
 use super::{

@@ -65,5 +65,5 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
     let title =
         "Levels of the order lines (RMS): free balls, rolling cage, cage driven by the balls' mean angle";
     terminal.table(title, &header, &lines.collect::<Vec<_>>());
-    terminal.print(&format!("  {}", found.verdict()));
+    terminal.print(&format!("  {}", found.conclusion()));
 }

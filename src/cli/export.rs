@@ -10,9 +10,9 @@ use rotordyn::study::Machine;
 use serde_json::{Value, json};
 
 use super::args::ExportArgs;
+use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::machine::ModelSource;
-use super::outcome::write_csv;
 use super::terminal::Terminal;
 use super::{ehl_films, print_written_files, settings, store};
 

@@ -8,6 +8,7 @@ mod cage_tables;
 mod catalogue;
 mod check;
 mod compare;
+mod csv_files;
 mod diagnostics;
 mod ehl_films;
 mod equilibrium_loads;

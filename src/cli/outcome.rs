@@ -5,8 +5,6 @@ use super::failure::Failure;
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
-use rotordyn::document::Section;
-use rotordyn::io::document_tables;
 use rotordyn::model::Loaded;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -121,11 +119,6 @@ pub(super) fn quality_warnings(job: &mut Job, studies: &[Study]) {
     found.extend(super::equilibrium_loads::warnings(&job.machine));
     found.extend(super::steady_tables::settling_warnings(&job.machine.model, &job.results));
     job.results.warnings.extend(found);
-}
-
-/// Writes the tables of sections to `csv/` in the results folder; returns the files.
-pub(super) fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Failure> {
-    Ok(document_tables::write_csv(&folder.join("csv"), sections)?)
 }
 
 /// Prints the list of written files, wrapped to the line width.

@@ -16,8 +16,8 @@ use rotordyn::study::{Checkpoints, Machine, Recorder};
 use rotordyn::transient::run::End;
 
 use super::args::OutputFiles;
+use super::csv_files::write_csv;
 use super::failure::Failure;
-use super::outcome::write_csv;
 use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
 use super::{bearing_tables, cage_tables, interrupt, run_up_tables, tables};

@@ -15,7 +15,7 @@ fn help_lists_tables_keys_and_one_key() {
     let bearing = help("bearing");
     for part in [
         "[bearing.NAME]",
-        "with model = \"ball\" or model = \"radial_ball\":",
+        "with model = \"ball\" or model = \"radial_ball\" or model = \"free_ball\":",
         "k_tilt ",
         "stiffness_damping",
     ] {

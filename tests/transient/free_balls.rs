@@ -110,7 +110,7 @@ fn synchronous_response_is_that_of_a_kinematic_cage() {
     let (history, _) = run(&machine, &study(&machine));
     let found = machine.compare_cages(&study(&machine), &history, &mut || ControlFlow::Continue(()));
     let found = found.unwrap().expect("a machine with free balls");
-    println!("{:#?}\n{}", found.cages, found.verdict());
+    println!("{:#?}\n{}", found.cages, found.conclusion());
     let once: Vec<_> = found.lines.iter().filter(|line| line.line.label == "1x").collect();
     for name in ["disc_x", "disc_y"] {
         let line = once.iter().find(|line| line.channel == name).unwrap();

@@ -112,9 +112,12 @@ fn table(out: &mut Tables, name: &str, outer: &Columns, columns: &Document, arou
     rows_within(out, name, &rows, columns, around);
 }
 
+/// Numbers of rows within each outer row, and the named columns of all lists with these numbers.
+type ListsWithin<'a, 'b> = (&'a [usize], Vec<(&'a str, &'a Document<'b>)>);
+
 /// Tables, lists and numbers over an axis within the rows of a table.
 fn rows_within(out: &mut Tables, name: &str, rows: &Columns, columns: &Document, around: &Document) {
-    let mut lists: Vec<(&[usize], Vec<(&str, &Document)>)> = Vec::new();
+    let mut lists: Vec<ListsWithin> = Vec::new();
     let mut series: Vec<(&Field, Vec<&Field>)> = Vec::new();
     for field in columns.fields.iter().filter(|field| field.names.json.is_some()) {
         match &field.value {

@@ -24,8 +24,8 @@ use rotordyn::results::SignalResult;
 use rotordyn::units::SPEED;
 use serde_json::json;
 
+use super::csv_files::write_csv;
 use super::failure::Failure;
-use super::outcome::write_csv;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 use args::SignalArgs;

@@ -85,7 +85,7 @@ impl RollingCageComparison {
     }
 
     /// Whether a cage that rolls without slip describes this run, in one sentence.
-    pub fn verdict(&self) -> String {
+    pub fn conclusion(&self) -> String {
         let slips = |cage: &&CageSpeed| {
             let shift = (cage.bpfo - cage.rolling_bpfo).abs();
             cage.slip().abs() > SPEED_LIMIT && shift * self.revolutions > 1.0
@@ -139,6 +139,6 @@ impl RollingCageComparison {
             .number("revolutions", "1", self.revolutions)
             .table(named("cages", "cages"), cages)
             .table(named("lines", "lines"), lines)
-            .text(in_json("verdict"), self.verdict())
+            .text(in_json("conclusion"), self.conclusion())
     }
 }

@@ -70,7 +70,7 @@ impl Machine {
         let cages: Vec<CageSpeed> =
             free.iter().map(|site| self.cage_speed(*site, history, rolling, stretch)).collect();
         let mut lines = Vec::new();
-        let beside = LINES_BESIDE / revolutions;
+        let offset = LINES_BESIDE / revolutions;
         for probe in 0..self.model.probes.len() {
             for order in self.checked_orders() {
                 let own = cages.iter().find(|cage| (cage.rolling_bpfo - order).abs() < 1e-6);
@@ -89,7 +89,7 @@ impl Machine {
                     rolling: level(rolling, order),
                     driven: level(driven, order_of_run),
                     noise: 0.5
-                        * (level(history, order_of_run - beside) + level(history, order_of_run + beside)),
+                        * (level(history, order_of_run - offset) + level(history, order_of_run + offset)),
                 }));
             }
         }
