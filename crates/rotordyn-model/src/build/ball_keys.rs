@@ -1,7 +1,7 @@
 //! Keys that all ball bearing models share.
 
 use super::catalogue::CatalogueEntry;
-use super::mounting::MOUNTING;
+use super::mounting::{MOUNTING, PAIR};
 use super::{catalogue, contact, imperfections, material};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
@@ -107,7 +107,7 @@ pub(super) fn common_properties(
         fit: Fit::default(),
         cage: cage(r),
         cage_angle: r.value(&BALL.cage_angle),
-        imperfections: imperfections::read(r, &geometry, r.has(&MOUNTING.arrangement)),
+        imperfections: imperfections::read(r, &geometry, r.has(&PAIR.arrangement)),
         cage_pocket_diameter: r.or(&BALL.cage_pocket_diameter, pocket),
         estimated_geometry: entry.filter(|e| e.estimated && !gives_geometry(r)).map(|e| e.origin.into()),
         geometry,
@@ -277,7 +277,7 @@ pub(super) fn geometry(r: &Reader, entry: Option<&CatalogueEntry>, default: Opti
 /// Thrust direction: required with a contact angle or a preload, except for a pair that carries thrust both
 /// ways.
 pub(super) fn thrust(r: &Reader, contact_angle: f64) -> f64 {
-    let arrangement = r.given_text(&MOUNTING.arrangement);
+    let arrangement = r.given_text(&PAIR.arrangement);
     let both_ways = matches!(arrangement, Some("back_to_back" | "face_to_face"));
     let thrust = r.choice(&AXIAL.thrust);
     if both_ways && thrust.is_some() {
@@ -288,7 +288,7 @@ pub(super) fn thrust(r: &Reader, contact_angle: f64) -> f64 {
         r.error(Kind::Conflict, &AXIAL.thrust, message);
     }
     // a misspelt arrangement was already reported; whether it needs a direction is unknown
-    let one_way = !r.has(&MOUNTING.arrangement) || arrangement == Some("tandem");
+    let one_way = !r.has(&PAIR.arrangement) || arrangement == Some("tandem");
     if one_way && (contact_angle > 0.0 || r.has(&MOUNTING.preload)) && !r.has(&AXIAL.thrust) {
         r.missing_or(
             &AXIAL.thrust,

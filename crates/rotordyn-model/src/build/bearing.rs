@@ -9,7 +9,7 @@ use super::free_cage::FreeCageKeys;
 use super::imperfections::{DefectLawKeys, ImperfectionKeys};
 use super::increasing::check_increasing;
 use super::lubricants::OilOfBearingKeys;
-use super::mounting::MountingKeys;
+use super::mounting::{MountingKeys, PairKeys};
 use super::places::Places;
 use super::radial_bearing::{self, RadialBallKeys};
 use super::springs::{
@@ -46,6 +46,7 @@ static BEARING_TABLE: Table = Table {
         Group { condition: BALL, keys: ContactStiffnessKeys::LIST },
         Group { condition: BALL, keys: OilOfBearingKeys::LIST },
         Group { condition: BALL, keys: MountingKeys::LIST },
+        Group { condition: BALL, keys: PairKeys::LIST },
         Group { condition: BALL, keys: ImperfectionKeys::LIST },
         Group { condition: BALL, keys: DefectsKeys::LIST },
         Group { condition: BALL, keys: DefectLawKeys::LIST },

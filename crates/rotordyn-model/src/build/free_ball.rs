@@ -6,7 +6,7 @@ use super::contact::{self, BALL_CONTACT};
 use super::free_cage;
 use super::imperfections;
 use super::lubricants;
-use super::mounting::{self, MOUNTING};
+use super::mounting::{self, PAIR};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
     Count, Declared, Flag, Quantity, SubTable, Words, count, flag, keys, not_negative, positive, quantity,
@@ -87,7 +87,7 @@ const INAPPLICABLE_KEYS: [(&dyn Declared, &str); 5] = [
     (&BALL_CONTACT.contact_damping, DAMPING_HINT),
     (&BALL_CONTACT.damping_ramp, DAMPING_HINT),
     (&BALL_CONTACT.film_damping, DAMPING_HINT),
-    (&MOUNTING.arrangement, "a bearing with free balls has one row: add a second bearing"),
+    (&PAIR.arrangement, "a bearing with free balls has one row: add a second bearing"),
 ];
 
 /// Reads a bearing of this model; gravity in \[m/s²\].

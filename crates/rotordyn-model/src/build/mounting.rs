@@ -17,6 +17,13 @@ keys! {
     /// Of `model = "ball"` only.
     pub(super) static MOUNTING: MountingKeys {
         preload: SubTable = sub_table(PreloadKeys::TABLE);
+        fit: SubTable = sub_table(FitKeys::TABLE);
+    }
+}
+
+keys! {
+    /// Of a matched pair of two rows.
+    pub(super) static PAIR: PairKeys {
         arrangement: Words<Arrangement> = words(&[
             ("back_to_back", Arrangement::BackToBack),
             ("face_to_face", Arrangement::FaceToFace),
@@ -24,7 +31,6 @@ keys! {
         ], "Duplex pair of angular contact bearings.").optional();
         row_spacing: Quantity = quantity(positive(LENGTH), "Distance of the two rows, of a pair in any arrangement.")
             .required("with arrangement").with("arrangement = \"back_to_back\"").example("\"16 mm\"");
-        fit: SubTable = sub_table(FitKeys::TABLE);
     }
 }
 
@@ -67,23 +73,23 @@ keys! {
 
 /// Duplex pair: `arrangement` with `row_spacing`.
 pub(super) fn duplex(r: &Reader, contact_angle: f64) -> Option<Duplex> {
-    let arrangement = r.choice(&MOUNTING.arrangement);
-    if !r.has(&MOUNTING.arrangement) {
-        if r.has(&MOUNTING.row_spacing) {
-            let message = format!("{} applies only with an arrangement", r.name(&MOUNTING.row_spacing));
-            let problem = Problem::new(Kind::Conflict, &r.span_of(&MOUNTING.row_spacing), message);
+    let arrangement = r.choice(&PAIR.arrangement);
+    if !r.has(&PAIR.arrangement) {
+        if r.has(&PAIR.row_spacing) {
+            let message = format!("{} applies only with an arrangement", r.name(&PAIR.row_spacing));
+            let problem = Problem::new(Kind::Conflict, &r.span_of(&PAIR.row_spacing), message);
             r.log.error(problem.hint("add arrangement = \"back_to_back\", or remove row_spacing"));
         }
         return None;
     }
     if contact_angle == 0.0 {
         let message = format!("{} has rows without contact angle", r.path);
-        let problem = Problem::new(Kind::Conflict, &r.span_of(&MOUNTING.arrangement), message);
+        let problem = Problem::new(Kind::Conflict, &r.span_of(&PAIR.arrangement), message);
         r.log.error(problem.expected("an angular contact bearing").hint(
             "give contact_angle or a designation such as \"7205B\"; a deep groove bearing has no thrust direction",
         ));
     }
-    let spacing = r.value(&MOUNTING.row_spacing);
+    let spacing = r.value(&PAIR.row_spacing);
     arrangement.map(|arrangement| Duplex { arrangement, spacing })
 }
 

@@ -5,7 +5,7 @@ use super::ball_keys::{self, AXIAL, BALL};
 use super::catalogue::CatalogueEntry;
 use super::contact::{BALL_CONTACT, CONTACT_STIFFNESS};
 use super::imperfections::{self, DEFECT_LAW};
-use super::mounting::MOUNTING;
+use super::mounting::{MOUNTING, PAIR};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{Declared, Flag, Quantity, SubTable, flag, keys, not_negative, quantity, sub_table};
 use crate::file::reader::Reader;
@@ -47,7 +47,7 @@ const INAPPLICABLE_KEYS: [(&dyn Declared, &str); 11] = [
         &MOUNTING.preload,
         "a planar bearing carries no axial load; a negative radial_clearance preloads it radially",
     ),
-    (&MOUNTING.arrangement, "add a second bearing at a neighbouring station"),
+    (&PAIR.arrangement, "add a second bearing at a neighbouring station"),
     (&BALL_INERTIA.ball_inertia, "ball inertia and centrifugal force are always included"),
     (&BALL_CONTACT.contact, "the contacts are dry, F = K d^1.5; give K as contact_stiffness"),
     (&BALL_CONTACT.contact_damping, DAMPING_HINT),
