@@ -12,7 +12,7 @@ use rotordyn::io::results_file;
 use rotordyn::model::study::{RunUpStudy, Studies};
 use rotordyn::model::{Drive, Model};
 use rotordyn::results::{CagePhaseBand, History, Results, RollingCageComparison, RunUpResult};
-use rotordyn::study::{Checkpoints, Machine, Recorder};
+use rotordyn::study::{Checkpoints, Machine, Recorder, StudyError};
 use rotordyn::transient::run::End;
 
 use super::args::OutputFiles;
@@ -373,10 +373,14 @@ impl<'a> Job<'a> {
         let step_error = machine.step_error(settings, &reduction, &orders, (&checkpoints, &history, &report));
         let check_seconds = start.elapsed().as_secs_f64();
         spinner.finish_and_clear();
-        let cage_comparison = match &failure {
-            None => self.cage_comparison(settings, &history)?,
-            Some(_) => None,
-        };
+        let cage_comparison =
+            if failure.is_none() { self.cage_comparison(settings, &history) } else { Ok(None) };
+        // A kinematic run that fails does not take the run with free balls with it.
+        let cage_comparison = cage_comparison.unwrap_or_else(|error| {
+            let warning = format!("no comparison with kinematic cages: {error}");
+            self.quality_warnings.push(warning);
+            None
+        });
         let found = RunUpResult {
             modes: reduction.modes,
             corrections: reduction.corrections,
@@ -423,13 +427,13 @@ impl<'a> Job<'a> {
         &self,
         settings: &RunUpStudy,
         history: &History,
-    ) -> Result<Option<RollingCageComparison>, Failure> {
+    ) -> Result<Option<RollingCageComparison>, StudyError> {
         let spinner = self.terminal.spinner("kinematic cages");
         let found = self.machine.compare_cages(settings, history, &mut || {
             if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         spinner.finish_and_clear();
-        Ok(found?)
+        found
     }
 
     /// Range of the order cuts over the initial cage phases.

@@ -10,10 +10,10 @@ use rotordyn::geometry::{BearingShapes, Race};
 use crate::bearing::rig_6205;
 
 /// Deterministic numbers in [−1, 1) (SplitMix64).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

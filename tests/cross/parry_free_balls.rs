@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use crate::free_balls::{ball_bearing, free, geometry_6205, plastic_cage, rings, touch};
+use crate::parry_distance::Random;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::{Ball, TriMesh};
@@ -18,21 +19,9 @@ use rotordyn::geometry::rapier::{BodyCollisions, overlaps};
 
 type V = nalgebra::Vector3<f64>;
 
-/// Deterministic numbers in [−1, 1) (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self, size: f64) -> V {
-        V::new(self.next(), self.next(), self.next()) * size
-    }
+/// Vector with coordinates in [−size, size).
+fn random_vector(random: &mut Random, size: f64) -> V {
+    V::new(random.next(), random.next(), random.next()) * size
 }
 
 /// A 6205 with balls of different size and a cage; without one full of balls, 66 um apart.
@@ -73,11 +62,12 @@ fn random_state(
     let bodies: Vec<BallBody> = (0..count)
         .map(|j| {
             let (sin, cos) = (turn + TAU * j as f64 / count as f64).sin_cos();
-            let position = V::new(radius * cos, radius * sin, axial * random.next()) + random.vector(size);
+            let position =
+                V::new(radius * cos, radius * sin, axial * random.next()) + random_vector(random, size);
             BallBody { position, ..BallBody::default() }
         })
         .collect();
-    let cage = CageBody::rotating(random.vector(size), V::zeros(), turn, 0.0, 1e-6);
+    let cage = CageBody::rotating(random_vector(random, size), V::zeros(), turn, 0.0, 1e-6);
     let mut state = FreeBallState::new(&bodies, balls.bearing().cage.as_ref().map(|_| &cage));
     let tilt = [1e-3 * random.next(), 1e-3 * random.next()];
     if let Some(cage) = state.values.get_mut(9 * count + 6..9 * count + 10) {
@@ -87,7 +77,7 @@ fn random_state(
         cage.iter_mut().for_each(|q| *q /= length);
     }
     let ring = |random: &mut Random| RingState {
-        position: random.vector(size).into(),
+        position: random_vector(random, size).into(),
         tilt: [1e-3 * random.next(), 1e-3 * random.next()],
         angle: random.next(),
         ..RingState::default()

@@ -22,7 +22,7 @@ const LINES_BESIDE: f64 = 3.0;
 impl Machine {
     /// Compares a finished run-up with free balls, `history`, with the same run-up with kinematic cages.
     ///
-    /// `None` for a machine without free balls, a run too short or one that was stopped by `progress`. Errors: a kinematic run that fails.
+    /// `None` for a machine without free balls, a shaft that reverses, a run too short or one that was stopped by `progress`. Errors: a kinematic run that fails.
     pub fn compare_cages(
         &self,
         study: &RunUpStudy,
@@ -52,7 +52,8 @@ impl Machine {
                 let name = &self.model.bearings[*site].name;
                 let angles = channel(history, &format!("{name}_ball_angle"));
                 let points = history.angle.iter().zip(angles).map(|(shaft, balls)| [*shaft, *balls]);
-                reduction.system.interfaces[*site].cage_angles = Some(increasing(points));
+                let Some(points) = over_shaft_angle(points.collect()) else { return Ok(None) };
+                reduction.system.interfaces[*site].cage_angles = Some(points);
             }
             let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
             let report = machine.run_up(study, &reduction, |sample| {
@@ -110,8 +111,8 @@ impl Machine {
         [first, end]: [usize; 2],
     ) -> CageSpeed {
         let site = &self.model.bearings[site];
-        let turned = free.angle[end] - free.angle[first];
         let of = |run: &History, name: &str| -> f64 {
+            let turned = run.angle[end] - run.angle[first];
             let values = channel(run, &format!("{}_{name}", site.name));
             values.get(end).zip(values.get(first)).map_or(f64::NAN, |(end, first)| (end - first) / turned)
         };
@@ -154,13 +155,25 @@ fn last_third(history: &History) -> Option<[usize; 2]> {
     (turned != 0.0 && first < last).then_some([first, last])
 }
 
-/// Points with increasing first values: those at which the shaft stands or turns back are left out.
-fn increasing(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    let mut out: Vec<[f64; 2]> = Vec::new();
-    for point in points {
-        if out.last().is_none_or(|last| point[0] > last[0]) {
-            out.push(point);
-        }
+/// Points by increasing shaft angle, without those at which the shaft stands; `None` for a shaft that reverses.
+fn over_shaft_angle(mut points: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
+    if points.last()?[0] < points.first()?[0] {
+        points.reverse();
     }
-    out
+    points.dedup_by(|after, before| after[0] == before[0]);
+    points.is_sorted_by(|before, after| before[0] < after[0]).then_some(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cage_angles_over_a_shaft_that_turns_either_way_but_not_both() {
+        let forward = vec![[0.0, 0.1], [0.0, 0.1], [1.0, 0.5], [3.0, 1.3]];
+        let backward = forward.iter().map(|[shaft, balls]| [-shaft, -balls]).collect();
+        assert_eq!(over_shaft_angle(forward), Some(vec![[0.0, 0.1], [1.0, 0.5], [3.0, 1.3]]));
+        assert_eq!(over_shaft_angle(backward), Some(vec![[-3.0, -1.3], [-1.0, -0.5], [0.0, -0.1]]));
+        assert_eq!(over_shaft_angle(vec![[0.0, 0.0], [1.0, 0.4], [0.5, 0.2]]), None);
+    }
 }
