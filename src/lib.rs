@@ -122,7 +122,9 @@
 //! Imports go down this table only.
 
 pub use rotordyn_bearing::{self as bearing, contact, material};
-pub use rotordyn_core::{analysis, assembly, conventions, document, element, geometry, study, transient};
+pub use rotordyn_core::{
+    analysis, assembly, conventions, document, element, geometry, study, transient, warning,
+};
 pub use rotordyn_identify as identify;
 pub use rotordyn_io::{self as io, error};
 pub use rotordyn_linalg as linalg;

@@ -6,7 +6,7 @@ use miette::Severity;
 use rotordyn::document::Section;
 use rotordyn::figures;
 use rotordyn::io::{json, results_file};
-use rotordyn::model::LoadedBearings;
+use rotordyn::model::{Diagnostic, LoadedBearings};
 use rotordyn::results::{BearingResult, Results};
 use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
@@ -47,7 +47,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
         }
     }
     let mut results = Results { bearings, ..Results::default() };
-    results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
+    results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
     results.warnings.extend(results.bearings.iter().flat_map(|b| b.warnings.clone()));
 
     let store = store::open(&folder, text, &origin, false, terminal)?;
@@ -73,9 +73,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
             diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour)
         );
     }
-    for warning in &results.warnings[loaded.warnings.len()..] {
-        terminal.print_diagnostic("warning", warning);
-    }
+    results.warnings[loaded.warnings.len()..].iter().for_each(|warning| terminal.warn(warning));
     let mut document = json::bearings_to_json(&results, &loaded.name, &loaded.title);
     document["command"] = json!("bearing");
     document["seconds"] = json!({ "bearing": seconds });

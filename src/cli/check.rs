@@ -4,8 +4,9 @@ use rayon::prelude::*;
 use rotordyn::assembly::rigid_body_modes;
 use rotordyn::io::json;
 use rotordyn::linalg::dot;
-use rotordyn::model::{Loaded, Model};
+use rotordyn::model::{Diagnostic, Loaded, Model};
 use rotordyn::study::Machine;
+use rotordyn::warning::Warning;
 use serde_json::{Value, json};
 
 use super::args::ModelArgs;
@@ -23,6 +24,8 @@ struct CheckedVariant {
     /// Total mass \[kg\].
     mass: f64,
     rigid_body_modes: Vec<String>,
+    /// Warnings beside those of the file.
+    warnings: Vec<Warning>,
 }
 
 pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
@@ -44,7 +47,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
             Ok(found) => checked.push(found),
             Err((name, failure)) => {
                 terminal.print("");
-                terminal.print_diagnostic("error", &format!("in variant `{name}`:"));
+                terminal.error(&format!("in variant `{name}`:"));
                 return Err(failure);
             }
         }
@@ -61,15 +64,8 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     if checked.len() > 1 {
         terminal.table("Variants, all valid", &["variant", "mass kg", "DOFs", "rigid-body modes"], &rows);
     }
-    for (c, motion) in checked.iter().flat_map(|c| c.rigid_body_modes.iter().map(move |motion| (c, motion))) {
-        terminal.print_diagnostic("warning", &format!("{}: unconstrained rigid-body mode: {motion}", c.name));
-    }
     for c in &checked {
-        let mut warnings = equilibrium_loads::warnings(&c.machine);
-        warnings.extend(c.machine.bearing_warnings(&[c.machine.model.profile.top_speed()])?);
-        for warning in warnings {
-            terminal.print_diagnostic("warning", &format!("{}: {warning}", c.name));
-        }
+        c.warnings.iter().for_each(|warning| terminal.warn(&warning.clone().prefixed(&c.name)));
         super::print_model_warnings(terminal, &c.loaded);
     }
     Ok(json!({
@@ -89,7 +85,10 @@ fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure>
     let along: Vec<f64> =
         (0..machine.assembly.dofs.full_len()).map(|i| f64::from(u8::from(i % 6 == 0))).collect();
     let mass = dot(&full.mul(&along), &along);
-    Ok(CheckedVariant { name: variant.to_string(), loaded, machine, mass, rigid_body_modes: free })
+    let speeds = Study::ALL.iter().flat_map(|study| study.speeds(&machine.model));
+    let speeds: Vec<f64> = speeds.chain([machine.model.profile.top_speed()]).collect();
+    let warnings = machine.support_warnings(&speeds);
+    Ok(CheckedVariant { name: variant.to_string(), loaded, machine, mass, rigid_body_modes: free, warnings })
 }
 
 fn summary(terminal: &Terminal, found: &CheckedVariant) {
@@ -197,6 +196,12 @@ fn components_at(model: &Model, node: usize) -> String {
     rotor.chain(discs).chain(bearings).chain(unbalances).collect::<Vec<_>>().join(", ")
 }
 
+/// Warnings of the file, then of the machine.
+fn all_warnings(found: &CheckedVariant) -> Vec<Warning> {
+    let of_file = found.loaded.warnings.iter().filter_map(Diagnostic::to_warning);
+    of_file.chain(found.warnings.iter().cloned()).collect()
+}
+
 fn to_json(found: &CheckedVariant) -> Value {
     let bearings: Vec<Value> = found
         .loaded
@@ -235,6 +240,6 @@ fn to_json(found: &CheckedVariant) -> Value {
         "belts": json::groups("name", &belts),
         "preloads": json::groups("bearing", &preloads),
         "forecast": forecast::to_json(&found.machine),
-        "warnings": found.loaded.warnings.iter().map(|w| w.message.clone()).collect::<Vec<_>>(),
+        "warnings": json::warnings(&all_warnings(found)),
     })
 }

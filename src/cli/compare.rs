@@ -51,7 +51,7 @@ pub fn run(
         let machine = Machine::new(loaded.model.clone())?;
         for study in [Study::Modal, Study::Campbell, Study::Frf] {
             for warning in machine.check_tables(study.name(), &study.speeds(&machine.model))? {
-                terminal.print_diagnostic("warning", &format!("{name}: {warning}"));
+                terminal.warn(&warning.prefixed(name));
             }
         }
         let studies = &machine.model.studies;

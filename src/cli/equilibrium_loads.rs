@@ -1,18 +1,10 @@
-//! Belt pull and bearing preload in the assembled machine beside the stated ones, with warnings.
+//! Belt pull and bearing preload in the assembled machine beside the stated ones.
 
 use rotordyn::analysis::belt_pull::BeltPull;
 use rotordyn::analysis::preload::MountedPreload;
 use rotordyn::bearing::Preload;
-use rotordyn::study::Machine;
 
 use super::terminal::{Terminal, number};
-
-/// Warnings of belts and preloads at standstill.
-pub fn warnings(machine: &Machine) -> Vec<String> {
-    let mut found = belt_warnings(machine.belt_pulls());
-    found.extend(preload_warnings(machine.mounted_preloads()));
-    found
-}
 
 /// Pull of the belts at equilibrium beside the stated one.
 pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
@@ -32,41 +24,6 @@ pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
         terminal.table("Belt pull on the shaft at equilibrium", &header, &rows);
     }
 }
-
-/// Share of the stated pull below which a warning is given.
-const LOW_PULL: f64 = 0.8;
-
-/// Warnings of belts that lose much of their pull, or go slack.
-fn belt_warnings(found: &[BeltPull]) -> Vec<String> {
-    let warning = |belt: &BeltPull| {
-        let share = belt.remaining_share().filter(|share| *share < LOW_PULL)?;
-        let size = |v: &[f64; 2]| number(v[0].hypot(v[1]), 4);
-        let advice = "if the stated pull is that of the machine at rest, set constant_pull = true";
-        Some(match share {
-            share if share <= 0.0 => format!(
-                "belt.{} is slack: the pulley yields by {} um along the pull of {} N, which then pushes with {} N; \
-                 a belt cannot push, and the results hold only for a taut one; {advice}",
-                belt.name,
-                number(1e6 * belt.displacement[0].hypot(belt.displacement[1]), 4),
-                size(&belt.stated),
-                size(&belt.remaining)
-            ),
-            share => format!(
-                "belt.{} keeps {:.0} % of its pull at equilibrium, {} of {} N, as shaft and supports yield by {} um; \
-                 {advice}",
-                belt.name,
-                100.0 * share,
-                size(&belt.remaining),
-                size(&belt.stated),
-                number(1e6 * belt.displacement[0].hypot(belt.displacement[1]), 4)
-            ),
-        })
-    };
-    found.iter().filter_map(warning).collect()
-}
-
-/// Share of the stated preload below which a warning is given.
-const LOW_PRELOAD: f64 = 0.8;
 
 /// Axial force of the preloaded bearings at equilibrium beside the stated one.
 pub fn preloads(terminal: &Terminal, found: &[MountedPreload]) {
@@ -102,30 +59,4 @@ pub fn stated(preload: &Preload) -> String {
             format!("mounted_force {} N at standstill{by}", newton(force))
         }
     }
-}
-
-/// Warnings of bearings that carry less axial force in the machine than their preload states.
-fn preload_warnings(found: &[MountedPreload]) -> Vec<String> {
-    let warning = |at: &MountedPreload| {
-        let share = at.share().filter(|share| *share < LOW_PRELOAD)?;
-        let force = at.stated.force()?;
-        let carried = number(share * force, 3);
-        let why = match at.stated {
-            Preload::Spring { .. } => {
-                "it is the spring's force with the ring at its nominal position, and the spring relaxes as the ring \
-                 moves to its contact: state a softer spring, or a larger force"
-            }
-            _ => {
-                "it is the force with centred rings, and the shaft moves axially until its bearings balance: state \
-                 it as mounted_force, or preload the opposite bearing too"
-            }
-        };
-        Some(format!(
-            "bearing.{} carries {carried} N axially in the machine at standstill, {:.0} % of its preload of {} N: {why}",
-            at.bearing,
-            100.0 * share,
-            number(force, 4)
-        ))
-    };
-    found.iter().filter_map(warning).collect()
 }

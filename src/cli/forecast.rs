@@ -6,6 +6,7 @@ use std::path::Path;
 use rotordyn::error::Error;
 use rotordyn::study::Machine;
 use rotordyn::study::forecast::{Forecast, Work, forecasts};
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
@@ -56,9 +57,9 @@ pub fn examine(
     if seconds > LONG
         && let Some((time, longest)) = times.iter().max_by(|a, b| a.0.total_cmp(&b.0))
     {
-        terminal.print_diagnostic(
-            "warning",
-            &format!(
+        terminal.warn_of(
+            Code::LongComputation,
+            format!(
                 "the computation takes about {}: study.{} needs {} {} of {} s each; change {}, or stop it with \
                  Ctrl-C",
                 duration(seconds),

@@ -2,6 +2,7 @@
 
 use clap::CommandFactory;
 use rotordyn::model::keys::{self, Found, KeyDescription, KindName};
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::args::Cli;
@@ -21,6 +22,13 @@ const COLLAPSED: usize = 4;
 /// Neither a declared path nor a command.
 pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     let path = path.unwrap_or_default().trim();
+    if path == "warnings" {
+        return Ok(all_codes(terminal));
+    }
+    if let Some(code) = Code::ALL.iter().find(|code| code.name() == path) {
+        print_code(*code, terminal);
+        return Ok(json!({ "command": "help", "path": path, "warning": code_to_json(*code) }));
+    }
     let found = match keys::find(path) {
         Ok(found) => found,
         Err(unknown) => {
@@ -43,6 +51,40 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
         "keys": found.keys.iter().map(to_json).collect::<Vec<_>>(),
         "members": found.members.iter().map(to_json).collect::<Vec<_>>(),
     }))
+}
+
+/// One code of a warning.
+fn print_code(code: Code, terminal: &Terminal) {
+    terminal.heading(&format!("warning {} ({})", code.name(), code.severity().name()));
+    terminal.print_wrapped(code.when());
+    terminal.print_wrapped(&format!("What to do: {}", code.advice()));
+}
+
+/// Every code in a table.
+fn all_codes(terminal: &Terminal) -> Value {
+    let rows: Vec<Vec<String>> = Code::ALL
+        .iter()
+        .map(|code| {
+            [code.name(), code.severity().name(), first_sentence(code.when())].map(String::from).into()
+        })
+        .collect();
+    terminal.table("Warnings; `rotordyn help CODE` explains one", &["code", "severity", "given when"], &rows);
+    let codes: Vec<Value> = Code::ALL.iter().map(|code| code_to_json(*code)).collect();
+    json!({ "command": "help", "path": "warnings", "warnings_explained": codes })
+}
+
+fn first_sentence(text: &str) -> &str {
+    let end = [". ", ": "].iter().filter_map(|mark| text.find(mark)).min().unwrap_or(text.len());
+    text[..end].trim_end_matches('.')
+}
+
+fn code_to_json(code: Code) -> Value {
+    json!({
+        "code": code.name(),
+        "severity": code.severity().name(),
+        "when": code.when(),
+        "advice": code.advice(),
+    })
 }
 
 /// Long help of a command.

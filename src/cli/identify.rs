@@ -15,6 +15,7 @@ use rotordyn::model::Quantity;
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
+use rotordyn::warning::Code;
 use serde_json::json;
 
 use super::args::{EstimatorName, IdentifyArgs};
@@ -46,7 +47,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let (all, frfs, found) = match outcome {
         Ok(found) => found,
         Err(failure) => {
-            warnings.iter().for_each(|warning| terminal.print_diagnostic("warning", warning));
+            warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
             return Err(failure);
         }
     };
@@ -58,12 +59,9 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let title = if all.title.is_empty() { name } else { all.title.clone() };
     let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
     print_written_files(terminal, &folder, &files);
-    for warning in &warnings {
-        terminal.print_diagnostic("warning", warning);
-    }
+    warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
     let mut document = identified_modes::to_json(&found);
     document["command"] = json!("identify");
-    document["warnings"] = json!(warnings);
     document["seconds"] = json!({ "identify": seconds });
     document["files"] = json!(files);
     Ok(document.into())

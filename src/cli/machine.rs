@@ -118,6 +118,7 @@ fn check_overlaps<'a>(
             n => format!(" (the deepest of {n} overlaps)"),
         };
         diagnostics.push(Diagnostic {
+            warning: None,
             kind: Kind::Geometry,
             source: 0,
             span: model::item_span(text, &["bearing", name]),

@@ -9,6 +9,7 @@ use rotordyn::model::Model;
 use rotordyn::units::{self, FREQUENCY, SPEED};
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::Target;
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::args::MeasuredArgs;
@@ -34,7 +35,7 @@ pub fn read(
         bar.finish_and_clear();
         let found = found?;
         for warning in found.iter().flat_map(|found| &found.warnings) {
-            terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
+            terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
         }
         out.push(found);
     }
@@ -130,15 +131,15 @@ const DOUBTFUL_MAC: f64 = 0.5;
 /// Warns about bearings outside their tables, and mode pairs with a large frequency difference or a low MAC.
 pub fn pair_warnings(terminal: &Terminal, target: &Target, state: &ModelState) -> Result<(), Failure> {
     for warning in check_tables(&state.linearised.model, "the measurement", [target.speed; 2])? {
-        terminal.print_diagnostic("warning", &warning);
+        terminal.warn(&warning);
     }
     for (k, measured) in target.modes.iter().enumerate() {
         let Some((mode, mac)) = state.paired_mode(k) else { continue };
         let off = mode.frequency_hz() / measured.frequency_hz - 1.0;
         if off.abs() > FREQUENCY_ERROR_LIMIT || mac < DOUBTFUL_MAC {
-            terminal.print_diagnostic(
-                "warning",
-                &format!(
+            terminal.warn_of(
+                Code::LowMac,
+                format!(
                     "mode pair {:.1} Hz measured, {:.1} Hz computed ({}): frequency error {:+.0} %, MAC {mac:.2}; check \
                      that it is the same mode, and the points and directions of the mapping",
                     measured.frequency_hz,

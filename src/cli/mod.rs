@@ -46,8 +46,9 @@ use outcome::{Outcome, finish, print_model_warnings, print_written_files, report
 use std::process::ExitCode;
 
 use clap::Parser;
-use rotordyn::model::Model;
+use rotordyn::model::{Diagnostic, Model};
 use rotordyn::study::Machine;
+use rotordyn::warning::Warning;
 use serde_json::json;
 
 use args::{Cli, Command, StudyArgs};
@@ -56,6 +57,9 @@ use machine::ModelSource;
 use settings::Settings;
 use studies::{Job, Study};
 use terminal::Terminal;
+
+/// Exit code of a run with warnings under `--strict`.
+const WARNINGS_EXIT_CODE: u8 = 5;
 
 /// Entry point of the program.
 pub fn run() -> ExitCode {
@@ -81,9 +85,11 @@ pub fn run() -> ExitCode {
     // Ctrl-C takes precedence, then the first failure.
     let code = |(_, failure): &(&str, Failure)| failure.exit_code();
     let interrupted = outcome.failures.iter().map(code).find(|code| *code == 130);
-    let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(0);
+    let warned = cli.output.strict && !terminal.warnings().is_empty();
+    let without_failure = if warned { WARNINGS_EXIT_CODE } else { 0 };
+    let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(without_failure);
     if cli.output.json {
-        print_json(outcome, code, terminal.warnings());
+        print_json(outcome, code, &terminal.warnings());
     }
     code.into()
 }
@@ -201,7 +207,7 @@ fn studies_of(
     let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
     let mut job = Job::new(terminal, machine, folder, store);
     job.parameter_models = family;
-    job.results.warnings = loaded.warnings.iter().map(|w| w.message.clone()).collect();
+    job.results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
     job.perform(&wanted);
     let outcome = finish(job, &wanted, args.into(), study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
@@ -209,7 +215,7 @@ fn studies_of(
 }
 
 /// Prints the JSON document with errors, version and exit code.
-fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
+fn print_json(outcome: Outcome, code: u8, warnings: &[Warning]) {
     let mut document = outcome.document;
     if let Some(object) = document.as_object_mut() {
         let with_study = |(study, failure): &(&str, Failure)| {
@@ -217,7 +223,7 @@ fn print_json(outcome: Outcome, code: u8, warnings: Vec<String>) {
             error["study"] = json!(study);
             error
         };
-        object.entry("warnings").or_insert_with(|| json!(warnings));
+        object.entry("warnings").or_insert_with(|| rotordyn::io::json::warnings(warnings));
         object.entry("schema").or_insert_with(|| json!(rotordyn::io::json::SCHEMA));
         object.insert("program".into(), "rotordyn".into());
         object.insert("version".into(), env!("CARGO_PKG_VERSION").into());

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
-use rotordyn::model::Loaded;
+use rotordyn::model::{Diagnostic, Loaded};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ impl From<Value> for Outcome {
     }
 }
 
-/// Writes the results and figures of a job, prints the file list and the quality warnings.
+/// Writes the results and figures of a job, prints the file list and the warnings.
 pub(super) fn finish(
     mut job: Job,
     studies: &[Study],
@@ -29,7 +29,7 @@ pub(super) fn finish(
     command: &'static str,
 ) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
-    quality_warnings(&mut job, studies);
+    collect_warnings(&mut job, studies);
     job.write(written)?;
     let terminal = job.terminal;
     for (name, how) in job.machine.model.estimated_geometries() {
@@ -42,9 +42,7 @@ pub(super) fn finish(
     if job.files.len() > 1 {
         terminal.print("  (figures are written as SVG and PNG)");
     }
-    for warning in &job.results.warnings[known..] {
-        terminal.print_diagnostic("warning", warning);
-    }
+    job.results.warnings[known..].iter().for_each(|warning| terminal.warn(warning));
     let mut document = rotordyn::io::json::to_json(&job.results, &job.machine);
     if let Some(object) = document.as_object_mut() {
         object.insert("command".into(), command.into());
@@ -60,64 +58,15 @@ pub(super) fn finish(
     Ok(Outcome { document, failures: job.failures })
 }
 
-/// Quality warnings: unstable modes, energy balance of the run-up, error of the reduced model.
-pub(super) fn quality_warnings(job: &mut Job, studies: &[Study]) {
-    let mut found = std::mem::take(&mut job.quality_warnings);
-    let speeds: Vec<f64> = studies.iter().flat_map(|study| study.speeds(&job.machine.model)).collect();
-    // Post-processing of a stored run computes nothing of the machine.
-    if !studies.is_empty() {
-        match job.machine.bearing_warnings(&speeds) {
-            Ok(warnings) => found.extend(warnings),
-            Err(error) => found.push(format!("the limits of the bearings are not checked: {error}")),
-        }
+/// Warnings of the studies and their results.
+pub(super) fn collect_warnings(job: &mut Job, studies: &[Study]) {
+    let mut speeds: Vec<f64> = studies.iter().flat_map(|study| study.speeds(&job.machine.model)).collect();
+    // A study without speeds of its own, such as a run under torque, is at least one at standstill.
+    if speeds.is_empty() && !studies.is_empty() {
+        speeds.push(0.0);
     }
-    let used: Vec<_> = job.results.ball_inertia.iter().flat_map(|(_, used)| used).collect();
-    for (k, bearing) in used.iter().enumerate() {
-        // Once per bearing, at the highest ratio.
-        let ratio = bearing.compared.ratio();
-        let others = used.iter().enumerate().filter(|(_, other)| other.bearing == bearing.bearing);
-        let largest = others.rev().max_by(|a, b| a.1.compared.ratio().total_cmp(&b.1.compared.ratio()));
-        if ratio > 0.0 && largest.is_some_and(|(at, _)| at == k) {
-            found.extend(bearing.warning());
-        }
-    }
-    for at in &job.results.modal {
-        for mode in at.modes.iter().filter(|mode| mode.zeta() < -1e-9) {
-            let speed = super::terminal::rpm(at.speed);
-            let zeta = 100.0 * mode.zeta();
-            found.push(format!("{} is unstable at {speed:.0} rpm: zeta = {zeta:.3} %", mode.label));
-        }
-    }
-    let campbell = job.results.campbell.as_ref();
-    let critical = job.results.critical.as_ref().map(|found| &found.crossings);
-    for list in campbell.map(|found| &found.crossings).into_iter().chain(critical) {
-        found.extend(list.uncertain.iter().map(|range| {
-            let [from, to] = [range.from, range.to].map(super::terminal::rpm);
-            format!(
-                "crossings of order {} between {from:.1} and {to:.1} rpm may be missing: the bearings change faster \
-                 with speed than the search can follow",
-                range.order
-            )
-        }));
-    }
-    if let Some(diagram) = campbell.map(|found| &found.diagram) {
-        found.extend(diagram.lost.iter().map(|lost| {
-            let [from, to] = lost.speeds.map(super::terminal::rpm);
-            let label = |branch: usize| diagram.branches[branch].label.as_str();
-            let continued = match lost.continued_by {
-                Some(next) => format!("a new branch starts as {}", label(next)),
-                None => "it ends there".into(),
-            };
-            format!(
-                "the branch {} cannot be followed from {from:.0} to {to:.0} rpm (no mode of similar shape): \
-                 {continued}",
-                label(lost.branch)
-            )
-        }));
-    }
-    found.extend(job.results.run_up.iter().flat_map(super::run_up_tables::quality_warnings));
-    found.extend(super::equilibrium_loads::warnings(&job.machine));
-    found.extend(super::steady_tables::settling_warnings(&job.machine.model, &job.results));
+    let mut found = std::mem::take(&mut job.warnings);
+    found.extend(job.machine.warnings(&job.results, &speeds));
     job.results.warnings.extend(found);
 }
 
@@ -144,7 +93,7 @@ pub(super) fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
         let text =
             super::diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
         eprint!("{text}");
-        loaded.warnings.iter().for_each(|warning| terminal.record_warning(&warning.message));
+        loaded.warnings.iter().filter_map(Diagnostic::to_warning).for_each(|w| terminal.record_warning(w));
     }
 }
 
@@ -160,5 +109,5 @@ pub(super) fn report(terminal: &Terminal, study: &str, failure: &Failure) {
         return;
     }
     let place = if study.is_empty() { String::new() } else { format!("{study}: ") };
-    terminal.print_diagnostic("error", &format!("{place}{}", failure.message()));
+    terminal.error(&format!("{place}{}", failure.message()));
 }

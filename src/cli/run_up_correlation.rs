@@ -9,8 +9,9 @@ use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{json, machine_records, results_file};
 use rotordyn::model::Model;
 use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
-use rotordyn::study::{Machine, MeasuredRun};
+use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
 use rotordyn::update::UpdateError;
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::args::{OutputFiles, ShaftArgs, StoredArgs, ValidateArgs};
@@ -20,7 +21,7 @@ use super::signal::input::{File, InputProblems, cut_time_range};
 use super::signal::shaft_source::ShaftSource;
 use super::studies::{Job, Study};
 use super::terminal::{Terminal, number, rpm};
-use super::{ehl_films, run_up_tables, settings, store};
+use super::{ehl_films, settings, store};
 
 /// Largest number of rows printed.
 const MAX_ROWS: usize = 40;
@@ -82,7 +83,7 @@ pub fn read(
     if let (Some(mapping), Some(of)) = (&mapping, &args.measured.mapping) {
         let place = |name: &str| machine_records::point_number(model, name);
         for warning in mapping.apply(&mut file.measured, &place, of)? {
-            terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
+            terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
         }
     }
     let of_file = |error: Error| match error {
@@ -93,7 +94,7 @@ pub fn read(
     };
     let (mut channels, warnings) = run_up::channels(&file.measured, model).map_err(of_file)?;
     for warning in warnings {
-        terminal.print_diagnostic("warning", &format!("{}: {warning}", path.display()));
+        terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
     }
     for (_, channel) in &mut channels {
         cut_time_range(channel, args.time.as_deref(), "--time", &mut findings);
@@ -126,9 +127,7 @@ pub fn compare(
     let own = folder.join(format!("{prefix}_computed"));
     let (mut job, campbell) = simulation_job(found, origin, own, terminal)?;
     if first > MAX_START_SPEED_RATIO * found.rpm[1] {
-        terminal.print_diagnostic(
-            "warning",
-            &format!(
+        terminal.warn_of(Code::MeasuredData, format!(
                 "the record starts at {first:.0} rpm, but the simulation starts at static equilibrium: its first \
                  seconds contain the start transient"
             ),
@@ -140,9 +139,7 @@ pub fn compare(
     job.write(OutputFiles { figures: false, csv: false })?;
     if let Some((_, failure)) = job.failures.pop() {
         if !matches!(failure, Failure::Interrupted) {
-            terminal.print_diagnostic(
-                "warning",
-                &format!(
+            terminal.warn_of(Code::MeasuredData, format!(
                     "the simulation was driven by the shaft angle of {}: jumps or jitter of that angle excite the shaft",
                     found.source
                 ),
@@ -170,8 +167,8 @@ pub fn compare(
         )?);
         spinner.finish_and_clear();
     }
-    for warning in run_up_tables::quality_warnings(computed) {
-        terminal.print_diagnostic("warning", &format!("the simulated run-up: {warning}"));
+    for warning in run_up_warnings(computed) {
+        terminal.warn(&warning.prefixed("the simulated run-up"));
     }
     let document = json!({
         "rpm": found.rpm,

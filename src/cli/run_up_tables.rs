@@ -51,35 +51,6 @@ pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
     }
 }
 
-/// Quality warnings of a run-up: energy balance, error by the step, error of the reduced model.
-pub fn quality_warnings(run: &RunUpResult) -> Vec<String> {
-    let mut found = Vec::new();
-    let energy = &run.report.energy;
-    let open = energy.residual().abs() / energy.exchanged().max(f64::MIN_POSITIVE);
-    if open > 1e-3 {
-        found.push(format!(
-            "the energy balance of the run-up has a residual of {:.2} %: reduce the time step",
-            100.0 * open
-        ));
-    }
-    if let Some(line) = run.step_error.as_ref().and_then(|e| e.worst()).filter(|l| l.error.abs() > 0.05) {
-        let step = run.report.step.unwrap_or_default();
-        found.push(format!(
-            "the time step of {:.4} us changes the level of {} of {} by about {:.0} %: about {:.3} us would give 1 %",
-            1e6 * step,
-            line.line.label,
-            line.channel,
-            100.0 * line.error.abs(),
-            1e6 * step * (0.01 / line.error.abs()).sqrt()
-        ));
-    }
-    if run.frequency_error > 0.01 {
-        let error = 100.0 * run.frequency_error;
-        found.push(format!("frequency error of the reduced model is {error:.1} %: raise the cutoff"));
-    }
-    found
-}
-
 /// Largest level of every order cut: in the run of the model, smallest and largest over the phases.
 pub fn cage_phases(terminal: &Terminal, found: &CagePhaseBand) {
     let mut rows = Vec::new();

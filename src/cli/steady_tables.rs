@@ -1,9 +1,8 @@
 //! Tables of Poincaré sections, Lyapunov exponents and bifurcation diagrams.
 
-use rotordyn::model::Model;
 use rotordyn::results::{
     BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
-    Results, SectionClock, SteadyMotion,
+    SectionClock, SteadyMotion,
 };
 use rotordyn::signal::lyapunov::LyapunovExponent;
 
@@ -113,53 +112,6 @@ pub fn bifurcation(terminal: &Terminal, found: &BifurcationResult) {
             found.seams, found.rerun_chunks
         ));
     }
-}
-
-/// Warnings of motions that have not settled.
-pub fn settling_warnings(model: &Model, results: &Results) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if let (Some(found), Some(study)) = (&results.poincare, &model.studies.poincare)
-        && !found.motion.motion.is_settled()
-    {
-        let periods = found.transient_periods + study.steady.periods;
-        let more = match found.motion.periods_to_settle(study.tolerance) {
-            Some(needed) => format!("; about {needed:.0} more periods are needed"),
-            None => String::new(),
-        };
-        warnings.push(format!(
-            "study.poincare: the motion at {:.1} rpm has not settled after {periods} periods{more}: raise \
-             transient_limit ({})",
-            rpm(found.speed),
-            study.steady.transient_limit
-        ));
-    }
-    if let (Some(found), Some(study)) = (&results.bifurcation, &model.studies.bifurcation) {
-        for sweep in &found.sweeps {
-            let unsettled: Vec<f64> =
-                sweep.points.iter().filter(|p| is_unsettled(p)).map(|p| p.value).collect();
-            if let [first, .., last] | [first @ last] = unsettled[..] {
-                let unit = &found.parameter.unit;
-                let at = match unsettled.len() {
-                    1 => format!("{} {unit}", number(first, 6)),
-                    _ => format!("from {} to {} {unit}", number(first, 6), number(last, 6)),
-                };
-                warnings.push(format!(
-                    "study.bifurcation: {} of {} motions of the sweep {} have not settled ({}): raise \
-                     transient_limit ({} periods)",
-                    unsettled.len(),
-                    sweep.points.len(),
-                    sweep.name,
-                    at.trim_end(),
-                    study.steady.transient_limit
-                ));
-            }
-        }
-    }
-    warnings
-}
-
-fn is_unsettled(point: &BifurcationPoint) -> bool {
-    point.motion.as_ref().is_ok_and(|m| !m.motion.motion.is_settled())
 }
 
 /// Range of successive values with the same kind of motion.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use rotordyn::io::hdf5::{Attribute, Store};
 use rotordyn::io::results_file;
 use rotordyn::study::Machine;
+use rotordyn::warning::Code;
 
 use super::args::StoredArgs;
 use super::failure::Failure;
@@ -52,7 +53,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
     job.seconds.push((study.name(), start.elapsed().as_secs_f64()));
     let outcome = finish(job, &[], args.into(), study.name())?;
     if let Some(Attribute::Text(end)) = end.filter(|end| *end != Attribute::Text("complete".into())) {
-        terminal.print_diagnostic("warning", &format!("the stored run is incomplete: {end}"));
+        terminal.warn_of(Code::IncompleteRun, format!("the stored run is incomplete: {end}"));
     }
     Ok(outcome)
 }

@@ -14,6 +14,7 @@ use rotordyn::model::{Drive, Model};
 use rotordyn::results::{CagePhaseBand, History, Results, RollingCageComparison, RunUpResult};
 use rotordyn::study::{Checkpoints, Machine, Recorder, StudyError};
 use rotordyn::transient::run::End;
+use rotordyn::warning::{Code, Warning};
 
 use super::args::OutputFiles;
 use super::csv_files::write_csv;
@@ -135,8 +136,8 @@ pub struct Job<'a> {
     pub cpu_seconds: Vec<(&'static str, f64)>,
     /// Files written, results.h5 included.
     pub files: Vec<PathBuf>,
-    /// Warnings of the studies, shown at the end.
-    pub quality_warnings: Vec<String>,
+    /// Warnings of the studies that their results do not show, printed at the end.
+    pub warnings: Vec<Warning>,
     /// Failed studies with their errors.
     pub failures: Vec<(&'static str, Failure)>,
 }
@@ -153,7 +154,7 @@ impl<'a> Job<'a> {
             seconds: Vec::new(),
             cpu_seconds: Vec::new(),
             files: Vec::new(),
-            quality_warnings: Vec::new(),
+            warnings: Vec::new(),
             failures: Vec::new(),
         }
     }
@@ -185,7 +186,7 @@ impl<'a> Job<'a> {
         if study == Study::Bifurcation {
             speeds = self.parameter_models.iter().flat_map(|model| study.speeds(model)).collect();
         }
-        self.quality_warnings.extend(self.machine.check_tables(study.name(), &speeds)?);
+        self.warnings.extend(self.machine.check_tables(study.name(), &speeds)?);
         self.ball_inertia(study, speeds);
         let (machine, terminal) = (&self.machine, self.terminal);
         let studies = &machine.model.studies;
@@ -228,12 +229,6 @@ impl<'a> Job<'a> {
                     let found = machine.frf(settings)?;
                     spinner.finish_and_clear();
                     tables::frf(terminal, &found);
-                    self.quality_warnings.extend(found.undamped.iter().map(|peak| {
-                        format!(
-                            "frf: {} at {:.4} Hz is undamped: the FRF is infinite there",
-                            peak.label, peak.at
-                        )
-                    }));
                     self.results.frf = Some(found);
                 }
             }
@@ -242,13 +237,6 @@ impl<'a> Job<'a> {
                     let found = machine.unbalance(settings)?;
                     spinner.finish_and_clear();
                     tables::unbalance(terminal, &found);
-                    self.quality_warnings.extend(found.undamped.iter().map(|peak| {
-                        format!(
-                            "unbalance: {} at {:.2} rpm is undamped: the response is infinite there",
-                            peak.label,
-                            rpm(peak.at)
-                        )
-                    }));
                     self.results.unbalance = Some(found);
                 }
             }
@@ -377,8 +365,8 @@ impl<'a> Job<'a> {
             if failure.is_none() { self.cage_comparison(settings, &history) } else { Ok(None) };
         // A kinematic run that fails does not take the run with free balls with it.
         let cage_comparison = cage_comparison.unwrap_or_else(|error| {
-            let warning = format!("no comparison with kinematic cages: {error}");
-            self.quality_warnings.push(warning);
+            let text = format!("no comparison with kinematic cages: {error}");
+            self.warnings.push(Warning::new(Code::FreeBalls, "study.run_up", text));
             None
         });
         let found = RunUpResult {
@@ -401,10 +389,10 @@ impl<'a> Job<'a> {
             (None, Drive::Torque { table, .. }) => {
                 let reached = speed_range(&found.history.speed);
                 let torque = reached.and_then(|reached| check_torque_table(table, reached));
-                self.quality_warnings.extend(torque);
+                self.warnings.extend(torque);
                 match machine.check_tables(Study::RunUp.name(), &found.history.speed) {
                     Ok(warnings) => {
-                        self.quality_warnings.extend(warnings);
+                        self.warnings.extend(warnings);
                         None
                     }
                     Err(error) => Some(error.into()),

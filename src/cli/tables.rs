@@ -84,23 +84,23 @@ pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
 
 pub fn modes(terminal: &Terminal, found: &[ModalResult], model: &Model) {
     for at in found {
-        let rows: Vec<Vec<String>> = at
-            .modes
-            .iter()
-            .enumerate()
-            .map(|(k, mode)| {
-                vec![
-                    (k + 1).to_string(),
-                    format!("{:.3}", mode.frequency_hz()),
-                    format!("{:.1}", rpm(mode.omega())),
-                    format!("{:.3}", 100.0 * mode.zeta()),
-                    format!("{:.4}", mode.log_dec()),
-                    mode.kind.name().to_string(),
-                    mode.label.clone(),
-                    energy_shares(mode, model),
-                ]
-            })
-            .collect();
+        let rigid = at.rigid_body_modes.iter().map(|motion| {
+            let cells = ["-", "0.000", "0.0", "-", "-", "rigid body", motion, ""];
+            cells.map(String::from).to_vec()
+        });
+        let elastic = at.modes.iter().enumerate().map(|(k, mode)| {
+            vec![
+                (k + 1).to_string(),
+                format!("{:.3}", mode.frequency_hz()),
+                format!("{:.1}", rpm(mode.omega())),
+                format!("{:.3}", 100.0 * mode.zeta()),
+                format!("{:.4}", mode.log_dec()),
+                mode.kind.name().to_string(),
+                mode.label.clone(),
+                energy_shares(mode, model),
+            ]
+        });
+        let rows: Vec<Vec<String>> = rigid.chain(elastic).collect();
         let header = ["no", "Hz", "rpm", "zeta %", "log dec", "kind", "label", "energy %"];
         terminal.table(&format!("Modes at {:.0} rpm", rpm(at.speed)), &header, &rows);
     }

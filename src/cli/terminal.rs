@@ -6,8 +6,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use rotordyn::warning::{Code, Warning};
 
 use super::args::Output;
+
+pub use rotordyn::document::number;
 
 /// Width of printed sentences [characters].
 const WIDTH: usize = 118;
@@ -21,7 +24,7 @@ pub struct Terminal {
     bold: bool,
     pub colour: bool,
     /// All warnings, for the JSON document.
-    warnings: Mutex<Vec<String>>,
+    warnings: Mutex<Vec<Warning>>,
     /// Notes printed so far.
     notes: Mutex<Vec<String>>,
 }
@@ -77,14 +80,26 @@ impl Terminal {
         self.print(table(header, rows).trim_end());
     }
 
-    /// Prints a warning or an error to standard error, also with `--quiet`.
-    pub fn print_diagnostic(&self, word: &str, text: &str) {
-        if word == "warning" {
-            self.record_warning(text);
-        }
-        let code = if word == "error" { 31 } else { 33 };
-        let word = if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() };
+    /// Prints an error to standard error, also with `--quiet`.
+    pub fn error(&self, text: &str) {
+        let word = self.coloured(31, "error");
         let _ = writeln!(stderr(), "{word}: {text}");
+    }
+
+    /// Prints a warning with its code to standard error, also with `--quiet`.
+    pub fn warn(&self, warning: &Warning) {
+        self.record_warning(warning.clone());
+        let word = self.coloured(33, &format!("warning[{}]", warning.code.name()));
+        let _ = writeln!(stderr(), "{word}: {warning}");
+    }
+
+    /// A warning about the whole of a measured file or an analysis.
+    pub fn warn_of(&self, code: Code, text: impl Into<String>) {
+        self.warn(&Warning::new(code, "", text));
+    }
+
+    fn coloured(&self, code: u8, word: &str) -> String {
+        if self.colour { format!("\x1b[1;{code}m{word}\x1b[0m") } else { word.to_string() }
     }
 
     /// Prints a note to standard error, once and not with `--quiet`.
@@ -97,16 +112,16 @@ impl Terminal {
     }
 
     /// Records a warning that is printed elsewhere.
-    pub fn record_warning(&self, text: &str) {
-        self.lock_warnings().push(text.to_string());
+    pub fn record_warning(&self, warning: Warning) {
+        self.lock_warnings().push(warning);
     }
 
-    fn lock_warnings(&self) -> MutexGuard<'_, Vec<String>> {
+    fn lock_warnings(&self) -> MutexGuard<'_, Vec<Warning>> {
         self.warnings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Warnings so far.
-    pub fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<Warning> {
         self.lock_warnings().clone()
     }
 
@@ -202,23 +217,6 @@ pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     out
 }
 
-/// Formats a number with about `digits` significant digits: fixed-point if short, otherwise with an exponent.
-pub fn number(value: f64, digits: usize) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    let exponent = value.abs().log10().floor();
-    if !exponent.is_finite() {
-        return value.to_string();
-    }
-    if (-3.0..6.0).contains(&exponent) {
-        let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.*e}", digits.saturating_sub(1))
-    }
-}
-
 /// rad/s as rpm.
 pub fn rpm(speed: f64) -> f64 {
     speed * 30.0 / std::f64::consts::PI
@@ -245,14 +243,5 @@ mod tests {
         for given in ["-0.001", "-", "-0-", "- 0.0", "-1e-300"] {
             assert!(table(&["", "x"], &row(given)).ends_with(&format!("  {given}\n")), "{given}");
         }
-    }
-
-    #[test]
-    fn number_significant_digits() {
-        assert_eq!(number(1234.5678, 5), "1234.6");
-        assert_eq!(number(0.012_345, 3), "0.0123");
-        assert_eq!(number(2.0e7, 3), "2.00e7");
-        assert_eq!(number(-0.5, 2), "-0.50");
-        assert_eq!(number(0.0, 2), "0");
     }
 }

@@ -12,6 +12,7 @@ use rotordyn::update::frf::{FrfFitting, rms_difference_db};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::{IdentifiabilityClass, Update, UpdateError, UpdateJob, update};
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::args::{FitResidual, UpdateArgs};
@@ -252,9 +253,9 @@ fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &U
             let c = correlation[i][j];
             if c.abs() > 0.95 {
                 let what = if c < 0.0 { "sum" } else { "ratio" };
-                terminal.print_diagnostic(
-                    "warning",
-                    &format!(
+                terminal.warn_of(
+                    Code::ModelUpdate,
+                    format!(
                         "{} and {} are strongly correlated ({c:.3}): the data determine only their {what}",
                         parameters[i].name, parameters[j].name
                     ),
@@ -263,18 +264,16 @@ fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &U
         }
         if found.outcomes[i].class == IdentifiabilityClass::AtBound {
             let name = &parameters[i].name;
-            terminal.print_diagnostic(
-                "warning",
-                &format!("{name} is at its bound: it may compensate another model error"),
+            terminal.warn_of(
+                Code::ModelUpdate,
+                format!("{name} is at its bound: it may compensate another model error"),
             );
         }
     }
     let identifiability = &found.identifiability;
     let misfit = identifiability.chi_squared / identifiability.degrees_of_freedom.max(1.0);
     if misfit > LACK_OF_FIT_LIMIT {
-        terminal.print_diagnostic(
-            "warning",
-            &format!(
+        terminal.warn_of(Code::ModelUpdate, format!(
                 "the updated model does not fit the data: chi^2 is {} times its degrees of freedom; before using the \
                  values check the mode pairs, the points, directions, signs and units of the mapping, and the model for \
                  other errors",
@@ -285,9 +284,7 @@ fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &U
     for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
         let prior_shift = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
         if prior_shift > PRIOR_SHIFT_LIMIT {
-            terminal.print_diagnostic(
-                "warning",
-                &format!(
+            terminal.warn_of(Code::ModelUpdate, format!(
                     "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
                      inconsistent",
                     parameter.name,
@@ -297,8 +294,8 @@ fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &U
         }
     }
     if !found.converged {
-        terminal.print_diagnostic(
-            "warning",
+        terminal.warn_of(
+            Code::ModelUpdate,
             "the update did not converge: increase --iterations, or reduce the number of free parameters",
         );
     }

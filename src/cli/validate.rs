@@ -12,6 +12,7 @@ use rotordyn::names::file_name;
 use rotordyn::update::pairing::{Candidate, pair_modes};
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::Target;
+use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
 use super::args::ValidateArgs;
@@ -155,8 +156,8 @@ fn force_level_shifts(found: &[(&Path, TestData)], states: &[ModelState], termin
     let first = &found[0].1.target;
     let same_sensors = found.iter().all(|(_, f)| f.target.sensors.len() == first.sensors.len());
     if !same_sensors {
-        terminal.print_diagnostic(
-            "warning",
+        terminal.warn_of(
+            Code::MeasuredData,
             "the files have different measurement points: no frequency shift is computed",
         );
         return Value::Null;

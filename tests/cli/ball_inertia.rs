@@ -46,7 +46,7 @@ fn bearing_says_which_inertia_and_why() {
     let massless = BEARING.replace("thrust", "ball_inertia = \"none\"\nthrust");
     let found = json_of(&mut run(&massless));
     let warnings = found["warnings"].as_array().unwrap();
-    let text = warnings.iter().filter_map(|w| w.as_str()).find(|w| w.contains("massless")).unwrap();
+    let text = warnings.iter().filter_map(|w| w["text"].as_str()).find(|w| w.contains("massless")).unwrap();
     assert!(text.contains("9000 rpm") && text.contains('%'), "{text}");
 }
 

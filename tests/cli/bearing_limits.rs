@@ -11,7 +11,7 @@ fn found(model: &str, command: &str, more: &[&str]) -> (Vec<String>, Value) {
     run.arg(command).arg(&path).args(more).args(["--no-figures", "--out"]).arg(folder.path().join("out"));
     let document = json_of(&mut run);
     let warnings = document["warnings"].as_array().unwrap().iter();
-    (warnings.map(|w| w.as_str().unwrap().to_string()).collect(), document)
+    (warnings.map(|w| w["text"].as_str().unwrap().to_string()).collect(), document)
 }
 
 fn alone(designation: &str, keys: &str) -> String {

@@ -110,7 +110,7 @@ fn identified(folder: &Path, files: &[&str], flags: &[&str]) -> serde_json::Valu
 }
 
 fn warnings(document: &serde_json::Value) -> Vec<String> {
-    document["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().into()).collect()
+    document["warnings"].as_array().unwrap().iter().map(|w| w["text"].as_str().unwrap().into()).collect()
 }
 
 /// Eight hits six seconds apart, the fourth a double hit, the sixth clipped.

@@ -83,7 +83,7 @@ fn studies_beyond_a_table_warn_or_fail() {
     for study in ["modal", "campbell", "critical", "unbalance", "run-up"] {
         let held = json_of(&mut run(study, "bearing.B.beyond_table=\"hold\""));
         let warnings: Vec<&str> =
-            held["warnings"].as_array().unwrap().iter().filter_map(|w| w.as_str()).collect();
+            held["warnings"].as_array().unwrap().iter().filter_map(|w| w["text"].as_str()).collect();
         let named = |w: &&str| w.contains("bearing B: its table covers 0 to 2500 rpm") && w.contains(study);
         assert_eq!(warnings.iter().filter(|w| named(w)).count(), 1, "{study}: {warnings:?}");
         let refused = run(study, "bearing.B.beyond_table=\"refuse\"").arg("--json").assert().code(3);

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use rotordyn::model::study::BearingStudy;
 use rotordyn::results::{Results, RunUpResult};
 use rotordyn::study::{Machine, Recorder};
+use rotordyn::warning::{Code, Warning};
 
 use crate::rig::variant;
 
@@ -58,7 +59,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
         }),
         cage_phases: None,
         ball_inertia: Vec::new(),
-        warnings: vec!["a warning".into()],
+        warnings: vec![Warning::new(Code::Film, "bearing.B", "a warning")],
         poincare: None,
         lyapunov: None,
         bifurcation: None,

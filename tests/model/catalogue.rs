@@ -263,7 +263,7 @@ fn every_bearing_has_an_equilibrium() {
     let found = single_bearings(&file.bearings, &study).unwrap();
     for (bearing, e) in found.iter().zip(catalogue::entries()) {
         let state = &bearing.point.state;
-        assert_eq!(bearing.warnings, Vec::<String>::new(), "{}", e.designation);
+        assert_eq!(bearing.warnings, [], "{}", e.designation);
         let tenth = 0.1 * computed(&e).dynamic;
         assert!((state.load[1] / -tenth - 1.0).abs() < 1e-9, "{}", e.designation);
         assert!(state.residual < 1e-9 * tenth, "{}: {}", e.designation, state.residual);

@@ -335,3 +335,34 @@ impl Data<'_> {
         self.len() == 0
     }
 }
+
+/// Formats a number with about `digits` significant digits: fixed-point if short, otherwise with an exponent.
+pub fn number(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let exponent = value.abs().log10().floor();
+    if !exponent.is_finite() {
+        return value.to_string();
+    }
+    if (-3.0..6.0).contains(&exponent) {
+        let decimals = (digits as f64 - 1.0 - exponent).max(0.0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.*e}", digits.saturating_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn number_significant_digits() {
+        assert_eq!(number(1234.5678, 5), "1234.6");
+        assert_eq!(number(0.012_345, 3), "0.0123");
+        assert_eq!(number(2.0e7, 3), "2.00e7");
+        assert_eq!(number(-0.5, 2), "-0.50");
+        assert_eq!(number(0.0, 2), "0");
+    }
+}

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
 //! | [`document`] | results as named quantities with units, for files and tables |
+//! | [`warning`] | restrictions of results as data with codes |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
 //! | [`model`] | the machine and its studies in SI units |
 //! | [`geometry`] | bearings and machine as solids: overlaps, multibody balls and cage, meshes, scenes |
@@ -29,3 +30,4 @@ pub mod transient;
 
 pub mod results;
 pub mod study;
+pub mod warning;

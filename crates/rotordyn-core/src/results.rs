@@ -51,7 +51,8 @@ use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::DofMap;
 pub use crate::document::Column;
-use crate::document::{Document, Section, in_json, named};
+use crate::document::{Document, Section, in_json};
+use crate::warning::Warning;
 
 /// Everything computed from one model; studies not requested are empty.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -73,7 +74,7 @@ pub struct Results {
     /// Ball inertia used in every study, by its name.
     pub ball_inertia: Vec<(String, Vec<InertiaUse>)>,
     /// Warnings for the user, once each.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl Results {
@@ -131,7 +132,7 @@ impl Results {
 }
 
 /// The warnings; none without any.
-pub fn warnings_section(warnings: &[String]) -> Option<Section<'_>> {
-    let content = || Document::new().texts(named("", "text"), warnings);
+pub fn warnings_section(warnings: &[Warning]) -> Option<Section<'_>> {
+    let content = || Document::new().with("", Warning::list(warnings));
     (!warnings.is_empty()).then(|| Section::new("warnings", "warnings", content()))
 }

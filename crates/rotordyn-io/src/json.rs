@@ -1,11 +1,11 @@
-//! Results as JSON, for other programs: the document "rotordyn-results-2".
+//! Results as JSON, for other programs: the document "rotordyn-results-3".
 //!
 //! Frequencies in Hz, speeds in rpm, all else in SI; non-finite numbers are null. Keys of results that were
 //! not computed are absent.
 //!
 //! | key | contents |
 //! |---|---|
-//! | `schema`, `program`, `version` | "rotordyn-results-2", "rotordyn", the program's version |
+//! | `schema`, `program`, `version` | "rotordyn-results-3", "rotordyn", the program's version |
 //! | `model`, `title` | name and title of the model |
 //! | `units` | the unit of every quantity below |
 //! | `estimated_geometry` | if the internal geometry of bearings is estimated: name of the bearing, how |
@@ -24,7 +24,7 @@
 //! | `bifurcation` | `parameter` (paths), `unit`, `clock`, `channels`, `chunk_boundaries`, `rerun_chunks`, `complete`, `sweeps` \[{name, points: \[{value, motion, transient_periods, frequency_hz, sections, extremes, exponent} or {value, failure}\]}\] |
 //! | `bearings` | per stand-alone ball bearing {name, load_source, estimated_geometry: if the internal geometry is estimated, how, ball_inertia, prescribed: 5, rating, preload: of the centred bearing, mounted_preload: as in `equilibrium`, nominal_orders, operating, films, warnings, sweeps: \[{variable, label, unit, values, points}\]}; a point: load: 5, displacement: 5, stiffness: 5×5, single values by the names of the HDF5 file with their units, balls \[{position, inner, outer}\] with loads, angles, ellipses, pressures, films, spinning, shoulder distances, and the motion of the ball (`controlling_race` 0 inner, 1 outer); all in SI, speeds in rad/s |
 //! | `ball_inertia` | per study and bearing {study, bearing, stated, used, speed_rpm, centrifugal_force_n, largest_contact_load_n, ratio, limit}: ball inertia used at the highest speed, and why; one entry in `bearings` |
-//! | `warnings` | messages |
+//! | `warnings` | list of {code, severity (caution, serious), item, text, advice} |
 //! | `seconds`, `wall_seconds`, `cpu_seconds` | per study: elapsed time (twice, `seconds` is the former name) and processor time of all threads |
 
 mod document;
@@ -32,13 +32,14 @@ mod document;
 pub use document::{document, groups};
 
 use document::add_sections;
-use rotordyn_core::document::Section;
+use rotordyn_core::document::{Document, Section};
 use rotordyn_core::results::{BearingResult, Results, SignalResult};
 use rotordyn_core::study::Machine;
+use rotordyn_core::warning::Warning;
 use serde_json::{Map, Value, json};
 
 /// Name and version of the document's schema.
-pub const SCHEMA: &str = "rotordyn-results-2";
+pub const SCHEMA: &str = "rotordyn-results-3";
 
 /// The results as one document.
 pub fn to_json(results: &Results, machine: &Machine) -> Value {
@@ -68,8 +69,13 @@ pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
     let sections: Vec<Section> = results.bearings.iter().map(BearingResult::section).collect();
     add_sections(&mut out, &sections);
     out.entry("bearings").or_insert_with(|| json!([]));
-    out.insert("warnings".into(), json!(results.warnings));
+    out.insert("warnings".into(), warnings(&results.warnings));
     Value::Object(out)
+}
+
+/// A list of warnings.
+pub fn warnings(found: &[Warning]) -> Value {
+    document::document(&Document::new().with("", Warning::list(found)))
 }
 
 fn header(name: &str, title: &str) -> Map<String, Value> {

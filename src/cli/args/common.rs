@@ -14,6 +14,9 @@ pub struct Output {
     /// Print no tables and no progress, only errors and warnings
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// End with exit code 5 if there is any warning; what was computed is written as without it
+    #[arg(long, global = true)]
+    pub strict: bool,
     /// Number of threads; results do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,

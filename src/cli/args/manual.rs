@@ -30,7 +30,10 @@ Exit codes:
   2    invalid input: arguments, model file, settings, measured data
   3    no solution: no equilibrium, no convergence, an unconstrained rigid-body mode; partial results are on disk
   4    file error: a file or folder cannot be read or written
+  5    with --strict: there are warnings; everything is computed and written
   101  internal error (a bug in rotordyn): please report it
   130  interrupted by Ctrl-C; partial results are on disk
+
+Warnings have a code: `rotordyn help CODE` explains one, `rotordyn help warnings` lists them.
 
 Environment: NO_COLOR disables colour; RAYON_NUM_THREADS is the default of --threads.";

@@ -22,6 +22,7 @@ use rotordyn::io::json::signal_to_json;
 use rotordyn::io::results_file::{self, SignalMeta};
 use rotordyn::results::SignalResult;
 use rotordyn::units::SPEED;
+use rotordyn::warning::Code;
 use serde_json::json;
 
 use super::csv_files::write_csv;
@@ -101,14 +102,13 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     warnings.retain(|note| args.rate.is_none() || !note.starts_with("no sampling rate"));
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
-    warnings.iter().for_each(|text| terminal.print_diagnostic("warning", text));
+    warnings.into_iter().for_each(|text| terminal.warn_of(Code::SignalAnalysis, text));
 
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");
     document["file"] = json!(file.path);
     document["seconds"] = json!({ "signal": seconds });
     document["files"] = json!(files);
-    document["warnings"] = json!(warnings);
     Ok(document.into())
 }
 

@@ -4,6 +4,7 @@ use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::Assembly;
 use crate::document::{Document, TO_RPM};
 use crate::model::Model;
+use crate::warning::{Code, Warning};
 use rotordyn_bearing::ball_inertia::INERTIA_LIMIT;
 use rotordyn_bearing::{BallBearing, BallInertia, BearingElement, DefectLaw, InertiaDecision};
 use serde::{Deserialize, Serialize};
@@ -78,7 +79,7 @@ impl InertiaUse {
     }
 
     /// Warning of massless balls whose inertia matters.
-    pub fn warning(&self) -> Option<String> {
+    pub fn warning(&self) -> Option<Warning> {
         let matters = self.compared.ratio() > INERTIA_LIMIT;
         if !matters || self.inertia.is_on() {
             return None;
@@ -87,7 +88,8 @@ impl InertiaUse {
             Some(excluded_by) => format!("{excluded_by} excludes ball inertia"),
             None => "ball_inertia = \"auto\" includes it".to_string(),
         };
-        Some(format!("bearing {}: its balls are massless, but {}; {why}", self.bearing, self.comparison()))
+        let text = format!("bearing {}: its balls are massless, but {}", self.bearing, self.comparison());
+        Some(Warning::new(Code::BallInertia, format!("bearing.{}", self.bearing), text).advise(why))
     }
 }
 

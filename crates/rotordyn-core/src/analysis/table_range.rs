@@ -2,6 +2,7 @@
 
 use crate::assembly::PhysicsError;
 use crate::model::Model;
+use crate::warning::{Code, Warning};
 use rotordyn_bearing::BeyondTable;
 use std::f64::consts::TAU;
 
@@ -15,7 +16,7 @@ pub const TABLE_MARGIN: f64 = 0.01;
 ///
 /// # Errors
 /// [`PhysicsError::BeyondTable`] for a bearing that refuses speeds beyond its table.
-pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<String>, PhysicsError> {
+pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<Warning>, PhysicsError> {
     let mut warnings = Vec::new();
     for site in &model.bearings {
         let Some(range) = site.bearing.speed_range() else { continue };
@@ -34,7 +35,9 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
         if range.beyond == BeyondTable::Refuse {
             return Err(found);
         }
-        warnings.push(format!("{found}; beyond it the values of its end hold"));
+        let item = format!("bearing.{}", site.name);
+        let text = format!("{found}; beyond it the values of its end hold");
+        warnings.push(Warning::new(Code::TableRange, item, text));
     }
     Ok(warnings)
 }
@@ -42,20 +45,21 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
 /// Warning of a motor whose torque table (speed \[rad/s\], torque \[N m\]) covers less than the speeds of a run.
 ///
 /// A table of one row is a constant torque.
-pub fn check_torque_table(table: &[[f64; 2]], speeds: [f64; 2]) -> Option<String> {
+pub fn check_torque_table(table: &[[f64; 2]], speeds: [f64; 2]) -> Option<Warning> {
     let [first, .., last] = table else { return None };
     let margin = TABLE_MARGIN * last[0].abs();
     let inside = speeds[0] >= first[0] - margin && speeds[1] <= last[0] + margin;
     let rpm = |speed: f64| speed * 60.0 / TAU;
     (!inside).then(|| {
-        format!(
+        let text = format!(
             "drive: its torque table covers {:.0} to {:.0} rpm, the run reaches {:.0} to {:.0} rpm; beyond it the \
              torque of its end holds",
             rpm(first[0]),
             rpm(last[0]),
             rpm(speeds[0]),
             rpm(speeds[1])
-        )
+        );
+        Warning::new(Code::TableRange, "drive", text)
     })
 }
 

@@ -6,6 +6,7 @@ use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
 use crate::document::{Array, Column, Document, MissingCell, Rows, Section, in_hdf5, in_json, named};
 use crate::model::study::SweepVariable;
+use crate::warning::Warning;
 use rotordyn_bearing::contact::Race;
 use rotordyn_bearing::contact::ehl::Solution;
 use rotordyn_bearing::rating::LoadRating;
@@ -41,7 +42,7 @@ pub struct BearingResult {
     pub films: Vec<EhlFilm>,
     /// The bearing with free balls and cage under the same force; `None` for other bearings.
     pub free_balls: Option<FreeBallResult>,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl BearingResult {
@@ -73,7 +74,7 @@ impl BearingResult {
             .record("operating", BearingPoint::columns(Rows::of([&self.point])))
             .list("sweeps", self.sweeps.iter().map(BearingSweepResult::document))
             .list("films", self.films.iter().map(|film| film.document()))
-            .texts(in_json("warnings"), &self.warnings);
+            .with(in_json("warnings"), Warning::list(&self.warnings));
         for sweep in &self.sweeps {
             out = out.group(in_hdf5(format!("sweep_{}", sweep.of.name())), sweep.document());
         }

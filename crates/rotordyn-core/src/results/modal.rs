@@ -11,6 +11,8 @@ pub struct ModalResult {
     /// Ω \[rad/s\].
     pub speed: f64,
     pub modes: Vec<Mode>,
+    /// Motions at 0 Hz that nothing constrains, in words; the modes do not contain them.
+    pub rigid_body_modes: Vec<String>,
 }
 
 impl ModalResult {
@@ -20,6 +22,7 @@ impl ModalResult {
         let rows = Rows::of(found)
             .over("rpm")
             .number(named("speed_rpm", "rpm"), "rpm", |at| at.speed * TO_RPM)
+            .lists("rigid_body_modes", |at| at.rigid_body_modes.clone())
             .lists("nodes", |_| dofs.node_names.clone())
             .nested(named("modes", ""), |at| &at.modes, |rows| modes(rows, nodes, shaft_nodes));
         Document::new().table("", rows)

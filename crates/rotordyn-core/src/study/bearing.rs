@@ -15,6 +15,7 @@ use crate::document::TO_RPM;
 use crate::model::free_ball_study::FreeBallStudy;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
+use crate::warning::{Code, Warning};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 use rayon::prelude::*;
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
@@ -42,7 +43,10 @@ impl Machine {
             let settings = FreeBallStudy::new([x, y, z], found.point.state.condition.speed);
             match steady_run(&found.name, free, &settings) {
                 Ok(run) => found.free_balls = Some(run),
-                Err(error) => found.warnings.push(error.to_string()),
+                Err(error) => {
+                    let item = format!("bearing.{}", found.name);
+                    found.warnings.push(Warning::new(Code::FreeBalls, item, error.to_string()));
+                }
             }
         });
         Ok(found)
@@ -209,7 +213,7 @@ impl<'a> SingleBearingStudy<'a> {
         of: SweepVariable,
         values: &[f64],
         point: &BearingPoint,
-        warnings: &mut Vec<String>,
+        warnings: &mut Vec<Warning>,
     ) -> Option<BearingSweepResult> {
         let base = point.state.condition;
         let load = base.load;
@@ -265,12 +269,13 @@ impl<'a> SingleBearingStudy<'a> {
         let conditions: Vec<Condition> = values.iter().map(|value| at(*value)).collect();
         let (found, failure) = self.solver.sweep(&conditions);
         if let Some(error) = failure {
-            warnings.push(format!(
+            let text = format!(
                 "the sweep of {label} of bearing {} ends at {} of {} points: {error}",
                 self.name,
                 found.len(),
                 values.len()
-            ));
+            );
+            warnings.push(Warning::new(Code::SweepIncomplete, format!("bearing.{}", self.name), text));
         }
         let values = values[..found.len()].to_vec();
         let points = found.into_iter().map(|state| self.point(state)).collect();

@@ -2,6 +2,7 @@
 
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::results::BearingLife;
+use crate::warning::{Code, Warning};
 use rotordyn_bearing::contact::{ContactLaw, Race};
 use rotordyn_bearing::life::{
     basic_life, combined_life, life_modification, reference_life, reference_viscosity, reliability_factor,
@@ -120,24 +121,25 @@ impl<'a> BearingRating<'a> {
     }
 
     /// Limits of the rating methods that a state exceeds.
-    pub fn warnings(&self, name: &str, life: &BearingLife) -> Vec<String> {
+    pub fn warnings(&self, name: &str, life: &BearingLife) -> Vec<Warning> {
         let angle = self.bearing.geometry.contact_angle.abs();
         let mut out = Vec::new();
+        let mut warn = |text: String| out.push(Warning::new(Code::Rating, format!("bearing.{name}"), text));
         if angle > LARGEST_RADIAL_ANGLE {
-            out.push(format!(
+            warn(format!(
                 "bearing {name}: contact angle {:.1} deg above the 45 deg of radial bearings in ISO 281 and ISO 76: \
                  no equivalent loads; C and C_0 are extrapolated",
                 angle.to_degrees()
             ));
         }
         if life.reference.is_nan() {
-            out.push(format!(
+            warn(format!(
                 "bearing {name}: no equilibrium with the massless balls and the moment arm of ISO/TS 16281 under this \
                  load, so no reference life"
             ));
         }
         if life.viscosity_ratio < 0.1 {
-            out.push(format!(
+            warn(format!(
                 "bearing {name}: viscosity ratio kappa {:.3} below 0.1, where ISO 281 gives no a_ISO",
                 life.viscosity_ratio
             ));

@@ -1,6 +1,7 @@
 //! Elastohydrodynamic (EHL) pressure and film thickness of the most heavily loaded contacts of a bearing.
 
 use crate::results::{BearingPoint, EhlFilm, PickContact};
+use crate::warning::{Code, Warning};
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::contact::ehl::similarity::{MIN_SOLVED_FILM, SimilarContact};
@@ -17,7 +18,7 @@ pub(super) fn ehl_films(
     name: &str,
     bearing: &BallBearing,
     point: &BearingPoint,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Vec<EhlFilm> {
     let ContactLaw::Ehl(law) = &bearing.contact else { return Vec::new() };
     let g = &bearing.geometry;
@@ -27,6 +28,7 @@ pub(super) fn ehl_films(
     let hertz = bearing.hertz();
     let races: [(&'static str, _, PickContact); 2] =
         [("inner", hertz.inner, |b| &b.inner), ("outer", hertz.outer, |b| &b.outer)];
+    let mut warn = |text| warnings.push(Warning::new(Code::LubricantFilm, format!("bearing.{name}"), text));
     let mut found = Vec::new();
     for (race, contact, pick) in races {
         let load = point.balls.iter().map(|b| pick(b).load).fold(0.0, f64::max);
@@ -37,7 +39,7 @@ pub(super) fn ehl_films(
         let problem = Problem { contact, lubricant: law.lubricant.clone(), speed, load, grid };
         let thickness = SimilarContact::new(&contact, &law.lubricant, speed, load).film;
         if thickness < MIN_SOLVED_FILM {
-            warnings.push(format!(
+            warn(format!(
                 "bearing {name}, {race} race: the film under {load:.4} N at {speed:.4} m/s is too thin for its pressure \
                  to be solved ({thickness:.4} of the contact's depth b²/R, solved from {MIN_SOLVED_FILM}): its thickness is \
                  extrapolated from higher speeds"
@@ -46,7 +48,7 @@ pub(super) fn ehl_films(
         }
         match ehl::extrapolate(&problem, None) {
             Ok(limit) => found.push(EhlFilm { race: race.into(), load, speed, solution: limit.solution() }),
-            Err(failure) => warnings.push(format!("bearing {name}, {race} race: {failure}")),
+            Err(failure) => warn(format!("bearing {name}, {race} race: {failure}")),
         }
     }
     found

@@ -19,6 +19,7 @@ mod settling;
 pub mod signal;
 mod steady_motion;
 mod step_error;
+mod warnings;
 
 pub use bearing::single_bearings;
 pub use bifurcation::bifurcation;
@@ -27,6 +28,7 @@ pub use record::Recorder;
 pub use run_up_correlation::MeasuredRun;
 pub use steady_motion::{Progress, RestartState};
 pub use step_error::Checkpoints;
+pub use warnings::run_up_warnings;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -43,6 +45,7 @@ use crate::model::{Drive, Model};
 use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, Sample, Settings, run};
+use crate::warning::Warning;
 use rotordyn_bearing::{BearingElement, SiteTangent};
 use rotordyn_linalg::{SparseMatrix, krylov};
 
@@ -159,11 +162,18 @@ impl Machine {
         LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
+    /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
+    fn free_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
+        let mut motions = rigid_body_modes::rigid_body_modes_of(&self.assembly, system)?;
+        rigid_body_modes::leave_out_spin(&self.model, &mut motions);
+        Ok(motions)
+    }
+
     /// Warnings of bearings whose tables cover less than these speeds \[rad/s\] of a study.
     ///
     /// # Errors
     /// A bearing that refuses speeds beyond its table.
-    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<String>, PhysicsError> {
+    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<Warning>, PhysicsError> {
         speed_range(speeds).map_or(Ok(Vec::new()), |range| check_tables(&self.model, study, range))
     }
 
@@ -177,8 +187,9 @@ impl Machine {
         }
         self.check_tables("modal", &study.speeds)?;
         let at = |&speed: &f64| {
-            let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, study.modes)?;
-            Ok(ModalResult { speed, modes })
+            let system = self.linear_system(speed)?;
+            let modes = modal::modes(&self.assembly, &system, study.modes)?;
+            Ok(ModalResult { speed, modes, rigid_body_modes: self.free_motions(&system)? })
         };
         study.speeds.iter().map(at).collect()
     }

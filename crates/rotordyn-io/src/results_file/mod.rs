@@ -19,7 +19,7 @@
 //! | `/time`, `/channels` | the run-up, streamed during the run |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance; `step_error`, `cage_phases` |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
-//! | `/warnings` | messages of all studies |
+//! | `/warnings` | code, severity, item, text and advice of the warnings of all studies |
 //!
 //! Every data set of numbers has an attribute `unit`. Missing values (a lost mode, fewer modes at a speed) are NaN, or
 //! an empty text. Writing a study again replaces its earlier results.

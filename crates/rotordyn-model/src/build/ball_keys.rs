@@ -298,6 +298,11 @@ pub(super) fn thrust(r: &Reader, contact_angle: f64) -> f64 {
     thrust.unwrap_or(1.0)
 }
 
+/// Whether the bore is stated, by itself or by a designation, not estimated.
+pub(super) fn states_bore(r: &Reader) -> bool {
+    r.has(&BALL.designation) || r.has(&BALL.bore)
+}
+
 /// Diametral (radial internal) clearance: as given, or the mean of the clearance class (default CN); an
 /// angular contact bearing has none by default.
 pub(super) fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {

@@ -7,6 +7,7 @@ use crate::file::key::{
 };
 use crate::file::reader::Reader;
 use rotordyn_bearing::{BallGeometry, Defect, DefectForm, Shape, Surface};
+use rotordyn_core::warning::Code;
 use rotordyn_units::{ANGLE, LENGTH};
 use std::f64::consts::{PI, TAU};
 
@@ -228,6 +229,8 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
         let message = format!("{} extends under {what}", d.name(&DEFECT.width));
         let spacing = format!("below {:.3} mm, one contact at a time", mm(room * radius));
         d.log.warn(
+            Code::DefectGeometry,
+            d.path.clone(),
             problem(Kind::Geometry, &DEFECT.width, message)
                 .expected(spacing)
                 .hint("the analysis continues; each contact follows its own path"),
@@ -240,6 +243,8 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
         let message = format!("{} is deeper than a ball can reach", d.name(&DEFECT.depth));
         let reach = format!("{:.4} um at most in an opening of this width", um(defect.max_depth(g)));
         d.log.warn(
+            Code::DefectGeometry,
+            d.path.clone(),
             problem(Kind::Geometry, &DEFECT.depth, message)
                 .expected(reach)
                 .hint("the analysis continues: the ball rests on the edges and does not touch the bottom"),

@@ -8,6 +8,7 @@ use crate::file::key::{
 };
 use crate::file::reader::Reader;
 use crate::{ExternalColumn, ExternalFile, SpeedProfile};
+use rotordyn_core::warning::Code;
 use rotordyn_signal::tacho::PulseTrain;
 use rotordyn_units::TIME;
 
@@ -201,7 +202,11 @@ fn from_pulses(
             train.dropped,
             train.missing
         );
-        r.log.warn(Problem::new(Kind::OutOfRange, &r.span_of(key), message));
+        r.log.warn(
+            Code::MeasuredSpeed,
+            r.name(key),
+            Problem::new(Kind::OutOfRange, &r.span_of(key), message),
+        );
     }
     if smoothing >= 2 {
         match train.smoothed(smoothing) {

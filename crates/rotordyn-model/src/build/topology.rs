@@ -6,6 +6,7 @@ use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{Key, NamedTables};
 use crate::file::reader::Reader;
 use rotordyn_core::element::{Anchor, Connection};
+use rotordyn_core::warning::Code;
 
 /// Report bodies without connection to the shaft or to ground, and warn of an unsupported (free-free) shaft.
 pub(super) fn check(top: &Reader, model: &Model) {
@@ -52,7 +53,11 @@ pub(super) fn check(top: &Reader, model: &Model) {
             &span,
             "the shaft has no support: it is free-free, with rigid body modes",
         );
-        top.log.warn(problem.hint("add a bearing, joint or bushing if this is not intended"));
+        top.log.warn(
+            Code::FreeMotion,
+            "shaft",
+            problem.hint("add a bearing, joint or bushing if this is not intended"),
+        );
     }
     check_tilt_support(top, model);
 }

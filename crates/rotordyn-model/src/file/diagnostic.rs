@@ -1,5 +1,6 @@
 //! Diagnostics (errors and warnings) of a model file: plain data with spans into its text.
 
+use rotordyn_core::warning::{Code, Warning};
 use rotordyn_units::names::nearest;
 use std::cell::RefCell;
 use std::ops::Range;
@@ -43,6 +44,8 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     pub kind: Kind,
+    /// Code and item of a warning; `None` for an error or hint.
+    pub warning: Option<(Code, String)>,
     /// Index of the source that the span refers to.
     pub source: usize,
     /// Byte range in the source's text.
@@ -52,6 +55,16 @@ pub struct Diagnostic {
     pub expected: Option<String>,
     /// How to fix it.
     pub hint: Option<String>,
+}
+
+impl Diagnostic {
+    /// The warning as data, without its place in the file; `None` for an error or hint.
+    pub fn to_warning(&self) -> Option<Warning> {
+        let (code, item) = self.warning.clone()?;
+        let expected = self.expected.as_ref().map_or(String::new(), |expected| format!(": {expected}"));
+        let text = format!("{}{expected}", self.message);
+        Some(Warning::new(code, item, text).advise(self.hint.clone().unwrap_or_default()))
+    }
 }
 
 /// All errors of a model file.
@@ -70,6 +83,7 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     kind: Kind,
+    warning: Option<(Code, String)>,
     span: Range<usize>,
     message: String,
     expected: Option<String>,
@@ -78,7 +92,7 @@ pub(crate) struct Problem {
 
 impl Problem {
     pub fn new(kind: Kind, span: &Range<usize>, message: impl Into<String>) -> Self {
-        Self { kind, span: span.clone(), message: message.into(), expected: None, hint: None }
+        Self { kind, warning: None, span: span.clone(), message: message.into(), expected: None, hint: None }
     }
 
     pub fn expected(mut self, text: impl Into<String>) -> Self {
@@ -147,6 +161,7 @@ impl Sources {
             let local = |at: usize| at.saturating_sub(start).min(length);
             Diagnostic {
                 kind: p.kind,
+                warning: p.warning,
                 source,
                 span: local(p.span.start)..local(p.span.end),
                 message: p.message,
@@ -181,8 +196,9 @@ impl Log {
         self.errors.borrow_mut().retain(|p| !is_it(p));
     }
 
-    pub fn warn(&self, problem: Problem) {
-        self.warnings.borrow_mut().push(problem);
+    /// Add a warning about an item of the file, such as `bearing.B`.
+    pub fn warn(&self, code: Code, item: impl Into<String>, problem: Problem) {
+        self.warnings.borrow_mut().push(Problem { warning: Some((code, item.into())), ..problem });
     }
 
     /// Add a hint, once per message.

@@ -1,11 +1,13 @@
 //! Warnings of ball bearings that exceed a limit of their model or operation, in every study.
 
+use super::super::warnings::standstill_and_top;
 use super::{Machine, SingleBearingStudy, TO_RPM};
 use crate::analysis::bearing_stiffness::Condition;
-use crate::analysis::equilibrium::{CageTreatment, equilibrium};
+use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::model::study::BearingStudy;
 use crate::results::BearingPoint;
+use crate::warning::{Code, Warning};
 use rotordyn_bearing::limits::{BearingLoad, ExceededLimit};
 use std::mem::discriminant;
 
@@ -15,32 +17,40 @@ impl Machine {
     ///
     /// # Errors
     /// No equilibrium.
-    pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<String>, PhysicsError> {
+    pub fn bearing_warnings(&self, speeds: &[f64]) -> Result<Vec<Warning>, PhysicsError> {
         if let Some(machine) = self.decided(speeds)? {
             return machine.bearing_warnings(speeds);
         }
-        let top = speeds.iter().copied().fold(0.0, |top: f64, speed| top.max(speed.abs()));
         let mut found: Vec<(&str, f64, ExceededLimit)> = Vec::new();
-        for speed in if top > 0.0 { vec![top, 0.0] } else { vec![0.0] } {
-            for (name, limit) in self.exceeded_limits(speed)? {
+        let mut unloaded: Vec<Warning> = Vec::new();
+        for speed in standstill_and_top(speeds) {
+            let start = &self.standstill_equilibrium.q;
+            let state =
+                equilibrium(&self.model, &self.assembly, speed, CageTreatment::FixedAngle, Some(start))?;
+            for warning in self.unloaded_bearings(&state) {
+                if !unloaded.iter().any(|known| known.item == warning.item) {
+                    unloaded.push(warning);
+                }
+            }
+            for (name, limit) in self.exceeded_limits(&state)? {
                 let kind = discriminant(&limit);
                 if !found.iter().any(|(other, _, known)| *other == name && discriminant(known) == kind) {
                     found.push((name, speed, limit));
                 }
             }
         }
-        Ok(found.into_iter().map(|(name, speed, limit)| message(name, speed, &limit)).collect())
+        unloaded.extend(found.into_iter().map(|(name, speed, limit)| message(name, speed, &limit)));
+        Ok(unloaded)
     }
 
-    fn exceeded_limits(&self, speed: f64) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {
+    fn exceeded_limits(&self, state: &Equilibrium) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {
+        let speed = state.speed;
         let bearings = self.model.bearings.iter().enumerate();
         let balls = bearings.filter_map(|(k, site)| Some((k, &*site.name, site.bearing.static_balls()?)));
         let balls: Vec<_> = balls.collect();
         if balls.is_empty() {
             return Ok(Vec::new());
         }
-        let start = &self.standstill_equilibrium.q;
-        let state = equilibrium(&self.model, &self.assembly, speed, CageTreatment::FixedAngle, Some(start))?;
         let study =
             BearingStudy { speed: Some(speed), ..self.model.studies.bearing.clone().unwrap_or_default() };
         let mut found = Vec::new();
@@ -55,7 +65,9 @@ impl Machine {
             };
             let single = SingleBearingStudy::new(name, ball, &study);
             let point = single.point(single.solver.solve(&condition, None)?);
-            found.extend(single.exceeded_limits(&point).into_iter().map(|limit| (name, limit)));
+            // One without load is named with those of other models.
+            let limits = single.exceeded_limits(&point).into_iter();
+            found.extend(limits.filter(|limit| *limit != ExceededLimit::Unloaded).map(|limit| (name, limit)));
         }
         Ok(found)
     }
@@ -80,25 +92,41 @@ impl SingleBearingStudy<'_> {
     }
 
     /// Warnings at the operating point.
-    pub(super) fn warnings(&self, point: &BearingPoint) -> Vec<String> {
+    pub(super) fn warnings(&self, point: &BearingPoint) -> Vec<Warning> {
         let speed = point.state.condition.speed;
         let mut found = self.rating.warnings(self.name, &point.life);
         found.extend(self.exceeded_limits(point).iter().map(|limit| message(self.name, speed, limit)));
         let imperfections = &self.bearing.imperfections;
         if self.study.cage_average && !imperfections.is_empty() {
-            found.push(format!(
+            let text = format!(
                 "bearing {} ({}) is averaged over the cage angle as if it had no defects; ball loads are those at the cage angle of the model",
                 self.name,
                 imperfections.condition()
-            ));
+            );
+            found.push(Warning::new(Code::DefectsAveraged, format!("bearing.{}", self.name), text));
         }
         found
     }
 }
 
-fn message(name: &str, speed: f64, limit: &ExceededLimit) -> String {
-    match speed {
+fn message(name: &str, speed: f64, limit: &ExceededLimit) -> Warning {
+    let text = match speed {
         0.0 => format!("bearing {name} at standstill: {limit}"),
         _ => format!("bearing {name} at {:.0} rpm: {limit}", speed * TO_RPM),
+    };
+    Warning::new(code(limit), format!("bearing.{name}"), text)
+}
+
+fn code(limit: &ExceededLimit) -> Code {
+    match limit {
+        ExceededLimit::Unloaded => Code::BearingUnloaded,
+        ExceededLimit::FittedLaw { .. } => Code::FittedLaw,
+        ExceededLimit::StaticLoad { .. } => Code::StaticLoad,
+        ExceededLimit::Shoulder { .. } => Code::Shoulder,
+        ExceededLimit::Film { .. } => Code::Film,
+        ExceededLimit::LostContactAngle { .. } => Code::ContactAngleLost,
+        ExceededLimit::OpenSide { .. } => Code::OpenSide,
+        ExceededLimit::MinimumLoad { .. } => Code::MinimumLoad,
+        ExceededLimit::GyroscopicSliding { .. } => Code::GyroscopicSliding,
     }
 }

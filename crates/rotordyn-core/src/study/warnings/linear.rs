@@ -1,0 +1,98 @@
+//! Linear responses used beyond their sense.
+
+use crate::analysis::equilibrium::BearingState;
+use crate::document::{TO_RPM, number};
+use crate::results::{Results, UnbalanceResult};
+use crate::study::Machine;
+use crate::warning::{Code, Warning};
+use rotordyn_linalg::Complex64;
+
+/// A bearing in the linear unbalance response at the speed where its contacts come nearest to opening.
+struct Opening {
+    speed: f64,
+    /// Amplitude of the relative radial displacement \[m\] and of the force of the linear bearing \[N\].
+    displacement: f64,
+    force: f64,
+    /// The larger of amplitude over compression, and amplitude of the force over the static one.
+    excess: f64,
+}
+
+impl Machine {
+    pub(super) fn linear_warnings(&self, results: &Results) -> Vec<Warning> {
+        let mut found = Vec::new();
+        let undamped = |item: &str, text: String| Warning::new(Code::UndampedPeak, item, text);
+        for peak in results.frf.iter().flat_map(|frf| &frf.undamped) {
+            let text =
+                format!("frf: {} at {:.4} Hz is undamped: the FRF is infinite there", peak.label, peak.at);
+            found.push(undamped("study.frf", text));
+        }
+        for peak in results.unbalance.iter().flat_map(|unbalance| &unbalance.undamped) {
+            let (label, rpm) = (&peak.label, peak.at * TO_RPM);
+            let text =
+                format!("unbalance: {label} at {rpm:.2} rpm is undamped: the response is infinite there");
+            found.push(undamped("study.unbalance", text));
+        }
+        found.extend(results.unbalance.iter().flat_map(|response| self.opened_contacts(response)));
+        found
+    }
+
+    /// Ball bearings whose contacts would open under the linear unbalance response.
+    ///
+    /// The contacts open where the displacement exceeds the compression of the most loaded ball; in a bearing with
+    /// unloaded balls the force follows its tangent only up to about the static load.
+    fn opened_contacts(&self, result: &UnbalanceResult) -> Vec<Warning> {
+        let bearings =
+            self.model.bearings.iter().zip(&self.assembly.sites).zip(&self.standstill_equilibrium.bearings);
+        let mut found = Vec::new();
+        for ((site, place), state) in bearings {
+            let Some(compression) = largest_compression(state) else { continue };
+            let all_loaded = state.balls.iter().all(|contact| contact.load > 0.0);
+            let static_force = state.force[0].hypot(state.force[1]);
+            let openings =
+                result.response.speeds.iter().zip(&result.response.amplitudes).map(|(speed, q)| {
+                    let d = [0, 1].map(|axis| place.rows[axis].dot_complex(q));
+                    let displacement = semi_major_axis(d);
+                    let k = &state.tangent.stiffness;
+                    let force = semi_major_axis([0, 1].map(|i| d[0] * k[i][0] + d[1] * k[i][1]));
+                    let by_force = if all_loaded { 0.0 } else { force / static_force };
+                    let excess = (displacement / compression).max(by_force);
+                    Opening { speed: *speed, displacement, force, excess }
+                });
+            let Some(worst) = openings.max_by(|a, b| a.excess.total_cmp(&b.excess)) else { continue };
+            if worst.excess <= 1.0 || !worst.excess.is_finite() {
+                continue;
+            }
+            let clearance = site.bearing.ball().map_or(0.0, |ball| ball.geometry.radial_clearance);
+            let beside = if clearance > 0.0 {
+                format!(", radial clearance {} um", number(1e6 * clearance, 3))
+            } else {
+                String::new()
+            };
+            let text = format!(
+                "unbalance: at {:.0} rpm the linear response moves bearing {} by {} um and loads it with {} N (static \
+                 compression of its balls {} um, load {} N{beside}): its contacts open, and its stiffness is another",
+                worst.speed * TO_RPM,
+                site.name,
+                number(1e6 * worst.displacement, 3),
+                number(worst.force, 3),
+                number(1e6 * compression, 3),
+                number(static_force, 3)
+            );
+            let advice = "near this speed trust a run-up, which has the bearing's own forces";
+            found
+                .push(Warning::new(Code::LinearRange, format!("bearing.{}", site.name), text).advise(advice));
+        }
+        found
+    }
+}
+
+/// Compression of the most loaded ball \[m\]; `None` for a bearing without contacts or without load.
+fn largest_compression(state: &BearingState) -> Option<f64> {
+    let largest = state.balls.iter().map(|contact| contact.deflection).fold(0.0, f64::max);
+    (largest > 0.0).then_some(largest)
+}
+
+/// Semi-major axis of the ellipse Re((x, y) e^{jΩt}).
+fn semi_major_axis([x, y]: [Complex64; 2]) -> f64 {
+    (0.5 * (x.norm_sqr() + y.norm_sqr() + (x * x + y * y).norm())).sqrt()
+}

@@ -1,0 +1,38 @@
+//! Warnings of a machine and its results: one pass over model, equilibrium and studies.
+
+mod linear;
+mod modes;
+mod run;
+mod supports;
+
+pub use run::run_up as run_up_warnings;
+pub(super) use supports::standstill_and_top;
+
+use super::Machine;
+use crate::results::Results;
+use crate::warning::{Code, Warning};
+
+impl Machine {
+    /// What restricts the results of studies at these speeds \[rad/s\], in the order of a reader's interest: the machine at
+    /// rest and at speed, its modes, its responses, its runs.
+    ///
+    /// Without speeds only what the results themselves show: post-processing of a stored run computes nothing of the
+    /// machine.
+    pub fn warnings(&self, results: &Results, speeds: &[f64]) -> Vec<Warning> {
+        let mut found = Vec::new();
+        if !speeds.is_empty() {
+            found.extend(self.support_warnings(speeds));
+        }
+        found.extend(supports::ball_inertia(results));
+        found.extend(modes::warnings(results));
+        found.extend(self.mesh_warnings(results));
+        found.extend(self.unstable_mode_warnings(results).unwrap_or_else(|error| {
+            let text = format!("the stability of the modes is not checked: {error}");
+            vec![Warning::new(Code::NotChecked, "", text)]
+        }));
+        found.extend(self.linear_warnings(results));
+        found.extend(results.run_up.iter().flat_map(run::run_up));
+        found.extend(run::settling(&self.model, results));
+        found
+    }
+}

@@ -1,0 +1,174 @@
+//! Modes: unstable, lost or uncertain.
+
+use crate::analysis::table_range::speed_range;
+use crate::analysis::{Mode, ModeKind, modal};
+use crate::assembly::PhysicsError;
+use crate::document::TO_RPM;
+use crate::results::{CriticalResult, Results};
+use crate::study::Machine;
+use crate::warning::{Code, Warning};
+use rotordyn_linalg::Complex64;
+
+/// Damping ratio below which a mode is unstable, not undamped to round-off.
+const UNSTABLE: f64 = -1e-9;
+
+/// Elements of the shaft in half a wave of a bending mode, below which its frequency is wrong by more than about 1 %.
+const ELEMENTS_PER_HALF_WAVE: usize = 2;
+/// Modes looked at for stability in studies that do not show them.
+const MODES: usize = 12;
+
+impl Machine {
+    /// Unstable modes in the studies of steady responses and critical speeds, whose results do not show them.
+    pub(super) fn unstable_mode_warnings(&self, results: &Results) -> Result<Vec<Warning>, PhysicsError> {
+        let mut found = Vec::new();
+        let studies = &self.model.studies;
+        if results.frf.is_some()
+            && let Some(study) = &studies.frf
+        {
+            found.extend(self.unstable_at("study.frf", "frequency responses do not exist", [study.speed])?);
+        }
+        if results.unbalance.is_some()
+            && let Some([low, high]) = studies.unbalance.as_ref().and_then(|study| speed_range(&study.speeds))
+        {
+            let speeds = [low, 0.5 * (low + high), high];
+            found.extend(self.unstable_at(
+                "study.unbalance",
+                "the steady response does not exist",
+                speeds,
+            )?);
+        }
+        if let Some(critical) = &results.critical {
+            let speeds = [0.5 * critical.max_speed, critical.max_speed];
+            found.extend(self.unstable_at(
+                "study.critical",
+                "critical speeds above it are not reached",
+                speeds,
+            )?);
+        }
+        Ok(found)
+    }
+
+    /// The least stable mode at the first of the speeds at which there is an unstable one.
+    fn unstable_at(
+        &self,
+        item: &str,
+        consequence: &str,
+        speeds: impl IntoIterator<Item = f64>,
+    ) -> Result<Option<Warning>, PhysicsError> {
+        for speed in speeds {
+            let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
+            let least = modes.iter().min_by(|a, b| a.zeta().total_cmp(&b.zeta()));
+            if let Some(mode) = least.filter(|mode| mode.zeta() < UNSTABLE) {
+                let (rpm, zeta) = (speed * TO_RPM, 100.0 * mode.zeta());
+                let text =
+                    format!("{} is unstable at {rpm:.0} rpm (zeta = {zeta:.3} %): {consequence}", mode.label);
+                return Ok(Some(Warning::new(Code::UnstableMode, item, text)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The lowest bending mode that is too short for the mesh, in the modes of a study.
+    fn mesh_limit<'m>(&self, item: &str, modes: impl Iterator<Item = &'m Mode>) -> Option<Warning> {
+        if self.model.rigid_rotor.is_some() {
+            return None;
+        }
+        let nodes = self.model.node_z.len();
+        let (mode, elements) = modes
+            .filter(|mode| !matches!(mode.kind, ModeKind::Body | ModeKind::Axial | ModeKind::Torsional))
+            .filter_map(|mode| Some((mode, shortest_half_wave(&mode.full_shape[..6 * nodes])?)))
+            .filter(|(_, elements)| *elements < ELEMENTS_PER_HALF_WAVE)
+            .min_by(|a, b| a.0.natural_omega().total_cmp(&b.0.natural_omega()))?;
+        let text = format!(
+            "{} at {:.1} Hz has half a wave in {elements} element{} of the shaft: its frequency is too high by more than \
+             about 1 %, and higher modes by more",
+            mode.label,
+            mode.frequency_hz(),
+            if elements == 1 { "" } else { "s" }
+        );
+        Some(Warning::new(Code::MeshLimit, item, text))
+    }
+
+    pub(super) fn mesh_warnings(&self, results: &Results) -> Vec<Warning> {
+        let modal = results.modal.first().and_then(|at| self.mesh_limit("study.modal", at.modes.iter()));
+        let at_rest = results.campbell.iter().flat_map(|found| &found.diagram.branches);
+        let first = at_rest.filter_map(|branch| branch.modes.first()?.as_ref());
+        modal.or_else(|| self.mesh_limit("study.campbell", first)).into_iter().collect()
+    }
+}
+
+/// Number of elements between two successive sign changes of a shaft's deflection, the smallest; `None` with fewer than
+/// two sign changes. `shape`: complex displacements, six per node.
+fn shortest_half_wave(shape: &[Complex64]) -> Option<usize> {
+    /// Deflection below which a node counts as one of zero deflection, as a share of the largest.
+    const SMALL: f64 = 0.02;
+    let size = |axis: usize| shape.iter().skip(axis).step_by(6).map(|u| u.re.abs()).fold(0.0, f64::max);
+    let axis = if size(1) > size(0) { 1 } else { 0 };
+    let largest = size(axis);
+    let deflections = shape.iter().skip(axis).step_by(6).map(|u| u.re);
+    let mut changes = Vec::new();
+    let mut last: Option<f64> = None;
+    for (node, deflection) in deflections.enumerate() {
+        if deflection.abs() <= SMALL * largest {
+            continue;
+        }
+        if last.is_some_and(|last| last * deflection < 0.0) {
+            changes.push(node);
+        }
+        last = Some(deflection);
+    }
+    changes.windows(2).map(|pair| pair[1] - pair[0]).min()
+}
+
+pub(super) fn warnings(results: &Results) -> Vec<Warning> {
+    let mut found = Vec::new();
+    if let Some(diagram) = results.campbell.as_ref().map(|found| &found.diagram) {
+        let unstable = diagram.branches.iter().filter_map(|branch| {
+            let mut at = diagram.speeds.iter().zip(&branch.modes);
+            let first = at.find(|(_, mode)| mode.as_ref().is_some_and(|mode| mode.zeta() < UNSTABLE))?;
+            Some((&branch.label, *first.0))
+        });
+        found.extend(unstable.map(|(label, speed)| {
+            let text = format!("{label} is unstable from {:.0} rpm on", speed * TO_RPM);
+            Warning::new(Code::UnstableMode, "study.campbell", text)
+        }));
+    }
+    for at in &results.modal {
+        for mode in at.modes.iter().filter(|mode| mode.zeta() < UNSTABLE) {
+            let (speed, zeta) = (at.speed * TO_RPM, 100.0 * mode.zeta());
+            let text = format!("{} is unstable at {speed:.0} rpm: zeta = {zeta:.3} %", mode.label);
+            found.push(Warning::new(Code::UnstableMode, "study.modal", text));
+        }
+    }
+    let of_campbell = results.campbell.as_ref().map(|found| ("study.campbell", &found.crossings));
+    let of_critical =
+        results.critical.as_ref().map(|CriticalResult { crossings, .. }| ("study.critical", crossings));
+    for (item, list) in of_campbell.into_iter().chain(of_critical) {
+        found.extend(list.uncertain.iter().map(|range| {
+            let text = format!(
+                "crossings of order {} between {:.1} and {:.1} rpm may be missing: the bearings change faster with speed \
+                 than the search can follow",
+                range.order,
+                range.from * TO_RPM,
+                range.to * TO_RPM
+            );
+            Warning::new(Code::CrossingUncertain, item, text)
+        }));
+    }
+    if let Some(diagram) = results.campbell.as_ref().map(|found| &found.diagram) {
+        found.extend(diagram.lost.iter().map(|lost| {
+            let [from, to] = lost.speeds.map(|speed| speed * TO_RPM);
+            let label = |branch: usize| diagram.branches[branch].label.as_str();
+            let continued = match lost.continued_by {
+                Some(next) => format!("a new branch starts as {}", label(next)),
+                None => "it ends there".into(),
+            };
+            let text = format!(
+                "the branch {} cannot be followed from {from:.0} to {to:.0} rpm (no mode of similar shape): {continued}",
+                label(lost.branch)
+            );
+            Warning::new(Code::BranchLost, "study.campbell", text)
+        }));
+    }
+    found
+}
