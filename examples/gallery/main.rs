@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new("out/gallery");
     std::fs::create_dir_all(folder)?;
     for (name, figure) in figures() {
-        write(&figure, &folder.join(name))?;
+        write(&figure, &[], &folder.join(name))?;
         println!("{}", folder.join(name).display());
     }
     Ok(())

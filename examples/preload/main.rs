@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         columns: 3,
         mark: None,
     };
-    plot::write(&Figure::Grid(grid), &folder.join("preload_peak_to_peak"))?;
+    plot::write(&Figure::Grid(grid), &[], &folder.join("preload_peak_to_peak"))?;
     println!("{}", folder.join("preload_peak_to_peak.png").display());
     Ok(())
 }

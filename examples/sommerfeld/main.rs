@@ -102,7 +102,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         columns: 2,
         mark: None,
     };
-    plot::write(&Figure::Grid(grid), &folder.join("sommerfeld"))?;
+    plot::write(&Figure::Grid(grid), &[], &folder.join("sommerfeld"))?;
     println!("{}", folder.join("sommerfeld.png").display());
     Ok(())
 }

@@ -144,7 +144,7 @@ fn quiet_prints_nothing_and_json_only_json() {
     let document: Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!(document["command"], "modal");
     assert_eq!(document["exit_code"], 0);
-    assert_eq!(document["schema"], "rotordyn-results-2");
+    assert_eq!(document["schema"], "rotordyn-results-3");
     assert_eq!(document["errors"], serde_json::json!([]));
     let modes = document["modal"][0]["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 10);

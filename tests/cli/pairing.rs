@@ -165,7 +165,7 @@ fn undamped_peaks_are_called_infinite() {
         let document = json_of(&mut undamped(study));
         let warnings = document["warnings"].as_array().unwrap();
         let named = |w: &&serde_json::Value| {
-            w.as_str().is_some_and(|w| w.contains("is undamped") && w.contains("1st bending"))
+            w["text"].as_str().is_some_and(|w| w.contains("is undamped") && w.contains("1st bending"))
         };
         assert_eq!(warnings.iter().filter(named).count(), 1, "{study}: {warnings:?}");
         assert_eq!(document[key]["undamped"].as_array().unwrap().len(), warnings.len());

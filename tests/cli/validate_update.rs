@@ -138,7 +138,7 @@ fn insufficient_fits_give_warnings() {
     command.args(["5 .. 300 Hz", "--measured"]).arg(truth()).arg("--out").arg(folder.path());
     let document = json_of(&mut command);
     assert!(!document["warnings"].to_string().contains("explain"), "{}", document["warnings"]);
-    assert_eq!(document["schema"], "rotordyn-results-2");
+    assert_eq!(document["schema"], "rotordyn-results-3");
 }
 
 /// Sensors offset from a housing's centre are assigned to the same places of the model.

@@ -122,7 +122,7 @@ fn json_contains_finite_numbers_and_units() {
     ];
     expected.sort_unstable();
     assert_eq!(keys, expected);
-    assert_eq!(document["schema"], "rotordyn-results-2");
+    assert_eq!(document["schema"], "rotordyn-results-3");
     assert_eq!(document["modal"][1]["speed_rpm"].as_f64().map(|rpm| (rpm - 1200.0).abs() < 1e-9), Some(true));
     let mut all = Vec::new();
     numbers(&document, "", &mut all);

@@ -113,6 +113,7 @@ pub fn load_with(
     let model = build::build_model(&root, files, &log);
     if log.error_count() == 0 {
         parameter_range::check(&root, files, &model, &log);
+        build::plausibility::check_unused(&root, &text, &log);
     }
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
     Ok(Loaded { model, warnings, hints, sources, text })

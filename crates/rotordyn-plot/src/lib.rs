@@ -17,6 +17,7 @@ pub mod axes;
 mod color_map;
 mod decimate;
 mod font;
+mod footnote;
 mod heat;
 pub mod labels;
 mod leaders;
@@ -57,6 +58,7 @@ mod symbols;
 mod waterfall;
 mod wireframe;
 
+use rotordyn_core::warning::Warning;
 use std::path::Path;
 
 use resvg::{tiny_skia, usvg};
@@ -127,6 +129,10 @@ pub enum Figure {
 impl Figure {
     /// The figure as an SVG document.
     pub fn svg(&self) -> String {
+        self.page().finish()
+    }
+
+    fn page(&self) -> svg::Svg {
         match self {
             Figure::Campbell(data) => campbell::draw(data),
             Figure::Spectrogram(data) => spectrogram::draw(data),
@@ -153,16 +159,17 @@ impl Figure {
             Figure::Stabilisation(data) => stabilisation::draw(data),
             Figure::Wireframe(data) => wireframe::draw(data),
         }
-        .finish()
     }
 }
 
-/// Writes a figure as `stem.svg` and `stem.png`.
+/// Writes a figure with the warnings of its results below it as `stem.svg` and `stem.png`.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write(figure: &Figure, stem: &Path) -> Result<(), FigureError> {
-    let svg = figure.svg();
+pub fn write(figure: &Figure, warnings: &[Warning], stem: &Path) -> Result<(), FigureError> {
+    let mut page = figure.page();
+    footnote::add(&mut page, warnings);
+    let svg = page.finish();
     let name = |extension: &str| {
         // Not `with_extension`: a stem such as "mode_27.1_hz" contains a dot.
         let mut name = stem.as_os_str().to_owned();

@@ -22,7 +22,7 @@ mod measured_speed;
 mod mounting;
 mod orders;
 mod places;
-mod plausibility;
+pub(crate) mod plausibility;
 mod radial_bearing;
 mod rotor;
 mod run_keys;
@@ -158,7 +158,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
-        plausibility::check(&top, root, &model);
+        plausibility::check(&top, &model);
         let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
         mounting::check_mounted_preloads(&sites, bearings, true, log);
     }

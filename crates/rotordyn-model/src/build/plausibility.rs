@@ -1,8 +1,8 @@
 //! Input that is valid but rarely meant: values off by a power of ten, parts in each other's place, items without use.
 
 use super::ball_keys::states_bore;
-use super::{MATERIAL, TOP, bearing, inertia, loading, lubricants, shaft};
-use crate::file::diagnostic::{Kind, Problem};
+use super::{FILE, MATERIAL, TOP, bearing, inertia, loading, lubricants, shaft};
+use crate::file::diagnostic::{Kind, Log, Problem};
 use crate::file::key::{Key, NamedTables};
 use crate::file::reader::Reader;
 use crate::file::tree::{Table, Value};
@@ -36,8 +36,8 @@ const SPEED_FACTORS: [f64; 2] = [1.0e6, 2.5e6];
 /// Balance quality grade e ω \[m/s\]: G 100 of ISO 21940-11.
 const BALANCE_QUALITY: f64 = 0.1;
 
-/// Warns of implausible input; `root` is the whole file with its variants.
-pub(super) fn check(top: &Reader, root: &Table, model: &Model) {
+/// Warns of implausible input.
+pub(super) fn check(top: &Reader, model: &Model) {
     materials(top, model);
     sections(top, model);
     seats(top, model);
@@ -45,9 +45,6 @@ pub(super) fn check(top: &Reader, root: &Table, model: &Model) {
     single_bearing(top, model);
     bearing_speeds(top, model);
     balance_quality(top, model);
-    unused(top, root, &TOP.material, model.materials.len());
-    let oils = top.items(&lubricants::TOP.lubricant).len();
-    unused(top, root, &lubricants::TOP.lubricant, oils);
 }
 
 fn item_span(top: &Reader, collection: &Key<NamedTables>, name: &str) -> Range<usize> {
@@ -268,19 +265,26 @@ fn balance_quality(top: &Reader, model: &Model) {
     }
 }
 
-/// Items that no text of the file names, of several: a single one is used without its name.
-fn unused(top: &Reader, root: &Table, collection: &Key<NamedTables>, count: usize) {
-    if count < 2 {
-        return;
-    }
+/// Warns of materials and lubricants that nothing names, of several: a single one is used without its name.
+///
+/// `root`: the file with its overrides; `text`: the file as written, with all its variants.
+pub(crate) fn check_unused(root: &Table, text: &str, log: &Log) {
+    let top = Reader::root(root, &FILE, log);
     let mut named = Vec::new();
     texts(root, &mut named);
-    for (name, r) in top.items(collection) {
-        if !named.contains(&name) {
-            let item = format!("{}.{name}", collection.about.name);
-            let problem = Problem::new(Kind::UnknownName, &r.span, format!("{item} is used by nothing"))
-                .hint("remove it, or name it where it is meant");
-            top.log.warn(Code::UnusedItem, item, problem);
+    let written = |name: &str| text.contains(&format!("\"{name}\"")) || text.contains(&format!("'{name}'"));
+    for collection in [&TOP.material, &lubricants::TOP.lubricant] {
+        let items = top.items(collection);
+        if items.len() < 2 {
+            continue;
+        }
+        for (name, r) in items {
+            if !named.contains(&name) && !written(name) {
+                let item = format!("{}.{name}", collection.about.name);
+                let problem = Problem::new(Kind::UnknownName, &r.span, format!("{item} is used by nothing"))
+                    .hint("remove it, or name it where it is meant");
+                log.warn(Code::UnusedItem, item, problem);
+            }
         }
     }
 }

@@ -33,7 +33,7 @@ pub fn draw(
     }
     figures.extend(fits(found, frfs, title));
     figures.extend(shapes(found, geometry, title));
-    write_all(&figures, folder)
+    write_all(&figures, &[], folder)
 }
 
 fn stabilisation(found: &ModalIdentification, title: &str) -> Named {

@@ -50,6 +50,7 @@ use rotordyn_core::results::{
     BearingResult, CampbellResult, ChannelPair, Results, SignalResult, SkiddingMap,
 };
 use rotordyn_core::study::Machine;
+use rotordyn_core::warning::Warning;
 use rotordyn_update::target::Target;
 
 /// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
@@ -57,7 +58,7 @@ use rotordyn_update::target::Target;
 /// # Errors
 /// A file cannot be written.
 pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&all(results, machine), folder)
+    write_all(&all(results, machine), &results.warnings, folder)
 }
 
 /// All figures of the available results with their file names (without extension).
@@ -92,7 +93,8 @@ pub fn draw_bearings(
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&bearings(found, title).collect::<Vec<_>>(), folder)
+    let warnings: Vec<Warning> = found.iter().flat_map(|found| found.warnings.clone()).collect();
+    write_all(&bearings(found, title).collect::<Vec<_>>(), &warnings, folder)
 }
 
 /// Draws all figures of analysed records; `title` is the name of their file. Returns the SVG files.
@@ -100,7 +102,7 @@ pub fn draw_bearings(
 /// # Errors
 /// A file cannot be written.
 pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), folder)
+    write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), &[], folder)
 }
 
 /// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.
@@ -111,7 +113,7 @@ pub fn draw_envelope_comparison(
     of: [(&SignalResult, &str); 2],
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), folder)
+    write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), &[], folder)
 }
 
 /// Draws the skidding map of a bearing with free balls; returns the SVG file.
@@ -119,7 +121,7 @@ pub fn draw_envelope_comparison(
 /// # Errors
 /// A file cannot be written.
 pub fn draw_skidding(found: &SkiddingMap, note: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&[free_ball::skidding(found, note)], folder)
+    write_all(&[free_ball::skidding(found, note)], &[], folder)
 }
 
 fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
@@ -134,7 +136,7 @@ fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named>
 /// # Errors
 /// A file cannot be written.
 pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&comparison::figures(variants), folder)
+    write_all(&comparison::figures(variants), &[], folder)
 }
 
 /// Draws the comparison of a measurement with stages of a model; file names start with `prefix`. Returns the
@@ -149,7 +151,7 @@ pub fn draw_validation(
     stages: &[Stage],
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&validation::figures(prefix, title, target, stages), folder)
+    write_all(&validation::figures(prefix, title, target, stages), &[], folder)
 }
 
 /// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.
@@ -163,15 +165,15 @@ pub fn draw_run_up_correlation(
     machine: &Machine,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&run_up_correlation::figures(prefix, pairs, campbell, machine), folder)
+    write_all(&run_up_correlation::figures(prefix, pairs, campbell, machine), &[], folder)
 }
 
-fn write_all(figures: &[Named], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+fn write_all(figures: &[Named], warnings: &[Warning], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
     std::fs::create_dir_all(folder).map_err(FigureError::of_file("create folder", folder))?;
     let stems: Vec<String> = figures.iter().map(|(name, _)| rotordyn_units::names::file_name(name)).collect();
     figures
         .par_iter()
         .zip(&stems)
-        .try_for_each(|((_, figure), stem)| plot::write(figure, &folder.join(stem)))?;
+        .try_for_each(|((_, figure), stem)| plot::write(figure, warnings, &folder.join(stem)))?;
     Ok(stems.iter().map(|stem| folder.join(format!("{stem}.svg"))).collect())
 }

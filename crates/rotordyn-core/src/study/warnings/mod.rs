@@ -32,6 +32,7 @@ impl Machine {
         }));
         found.extend(self.linear_warnings(results));
         found.extend(results.run_up.iter().flat_map(run::run_up));
+        found.extend(run::sample_rate(&self.model, results));
         found.extend(run::settling(&self.model, results));
         found
     }

@@ -102,22 +102,29 @@ impl Machine {
 fn shortest_half_wave(shape: &[Complex64]) -> Option<usize> {
     /// Deflection below which a node counts as one of zero deflection, as a share of the largest.
     const SMALL: f64 = 0.02;
+    /// Half waves lower than this share of the largest deflection do not count.
+    const HIGH: f64 = 0.2;
     let size = |axis: usize| shape.iter().skip(axis).step_by(6).map(|u| u.re.abs()).fold(0.0, f64::max);
     let axis = if size(1) > size(0) { 1 } else { 0 };
     let largest = size(axis);
-    let deflections = shape.iter().skip(axis).step_by(6).map(|u| u.re);
-    let mut changes = Vec::new();
-    let mut last: Option<f64> = None;
-    for (node, deflection) in deflections.enumerate() {
-        if deflection.abs() <= SMALL * largest {
-            continue;
+    // Number of nodes between two sign changes, and the largest deflection there.
+    let mut waves: Vec<(usize, f64)> = vec![(0, 0.0)];
+    let mut last = 0.0;
+    for deflection in shape.iter().skip(axis).step_by(6).map(|u| u.re) {
+        if deflection.abs() > SMALL * largest {
+            if last * deflection < 0.0 {
+                waves.push((0, 0.0));
+            }
+            last = deflection;
         }
-        if last.is_some_and(|last| last * deflection < 0.0) {
-            changes.push(node);
+        if let Some((nodes, height)) = waves.last_mut() {
+            *nodes += 1;
+            *height = deflection.abs().max(*height);
         }
-        last = Some(deflection);
     }
-    changes.windows(2).map(|pair| pair[1] - pair[0]).min()
+    // Those at the ends of the shaft are not complete.
+    let inner = waves.get(1..waves.len().saturating_sub(1)).unwrap_or_default();
+    inner.iter().filter(|(_, height)| *height > HIGH * largest).map(|(nodes, _)| *nodes).min()
 }
 
 pub(super) fn warnings(results: &Results) -> Vec<Warning> {
@@ -156,6 +163,16 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
         }));
     }
     if let Some(diagram) = results.campbell.as_ref().map(|found| &found.diagram) {
+        found.extend(diagram.branches.iter().filter_map(|branch| {
+            let mut turning = diagram.speeds.iter().zip(&branch.modes).filter(|(speed, _)| **speed != 0.0);
+            let first = turning.next()?.1.as_ref()?;
+            let last = branch.modes.last()?.as_ref()?;
+            (family(first.kind) != family(last.kind)).then(|| {
+                let text =
+                    format!("the branch {} is called {} at the end of the diagram", branch.label, last.label);
+                Warning::new(Code::BranchLabel, "study.campbell", text)
+            })
+        }));
         found.extend(diagram.lost.iter().map(|lost| {
             let [from, to] = lost.speeds.map(|speed| speed * TO_RPM);
             let label = |branch: usize| diagram.branches[branch].label.as_str();
@@ -171,4 +188,14 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
         }));
     }
     found
+}
+
+/// Kinds between which a branch does not change without another mode near it.
+fn family(kind: ModeKind) -> u8 {
+    match kind {
+        ModeKind::Forward | ModeKind::Backward | ModeKind::Mixed | ModeKind::PlaneX | ModeKind::PlaneY => 0,
+        ModeKind::Torsional => 1,
+        ModeKind::Axial => 2,
+        ModeKind::Body => 3,
+    }
 }

@@ -4,6 +4,7 @@ use crate::document::{TO_RPM, number};
 use crate::model::Model;
 use crate::results::{BifurcationPoint, Results, RunUpResult};
 use crate::warning::{Code, Warning};
+use std::f64::consts::TAU;
 
 /// Residual of the energy balance over the energy exchanged, above which the step is too long.
 const OPEN_BALANCE: f64 = 1e-3;
@@ -42,6 +43,25 @@ pub fn run_up(run: &RunUpResult) -> Vec<Warning> {
         warn(Code::Reduction, text, "raise the cutoff".into());
     }
     found
+}
+
+/// Order cuts that lie above half the sampling rate at the highest speed of the run.
+pub(super) fn sample_rate(model: &Model, results: &Results) -> Option<Warning> {
+    let run = results.run_up.as_ref()?;
+    let top = run.history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+    let rate = model.studies.run_up.as_ref()?.sample_rate;
+    let cuts = results.orders.iter().flat_map(|found| &found.cuts).map(|cut| &cut.0);
+    let highest = cuts.max_by(|a, b| a.order.total_cmp(&b.order))?;
+    let frequency = highest.order * top / TAU;
+    (frequency > 0.5 * rate).then(|| {
+        let text = format!(
+            "the order line {} reaches {frequency:.0} Hz at {:.0} rpm, above half the sampling rate of {rate:.0} Hz: its cut \
+             ends where the record does not contain it",
+            highest.label,
+            top * TO_RPM
+        );
+        Warning::new(Code::SampleRate, "study.orders", text)
+    })
 }
 
 /// Motions that have not settled.

@@ -1,0 +1,82 @@
+//! Plausible machines, and the models of the project.
+
+use crate::machines;
+use crate::{codes, warnings_of};
+use rotordyn::model::{self, Diagnostic, Options};
+use rotordyn::study::Machine;
+use std::collections::BTreeSet;
+
+#[test]
+fn fifteen_plausible_machines_have_no_warning() {
+    let mut failures = Vec::new();
+    for machine in machines::all() {
+        for warning in warnings_of(&machine.text()) {
+            failures.push(format!("{} [{}]: {warning}", machine.name, warning.code.name()));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Warnings of the models in input and supports, each deserved: the name of the model or of one variant, the code, why.
+const DESERVED: &[(&str, &str, &str)] = &[
+    (
+        "atef_2022/clearance",
+        "bearing-unloaded",
+        "the paper's clearance of 20 um leaves bearing B without load",
+    ),
+    (
+        "atef_2022/clearance_straddling",
+        "bearing-unloaded",
+        "as clearance, with a ball on either side of the load",
+    ),
+    ("atef_2022/no_clearance", "minimum-load", "0.9 N on bearing B, the paper's light resonator"),
+    ("overhung_rig", "belt-pull", "the stated pull is that of the stopped belt, as in the paper"),
+];
+
+#[test]
+fn models_have_only_the_warnings_they_deserve() {
+    let mut failures = Vec::new();
+    for entry in std::fs::read_dir("models").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let (text, stem) =
+            (std::fs::read_to_string(&path).unwrap(), path.file_stem().unwrap().to_str().unwrap());
+        let Ok(base) = model::load(stem, &text, &Options::default()) else { continue };
+        let mut warned: BTreeSet<(String, String)> = BTreeSet::new();
+        let found = base.warnings.iter().filter_map(Diagnostic::to_warning);
+        let machine = Machine::new(base.model.clone()).unwrap();
+        let found = found.chain(machine.support_warnings(&[machine.model.profile.top_speed()]));
+        warned.extend(found.map(|w| (w.code.name().to_string(), w.to_string())));
+        for (code, text) in warned {
+            if !DESERVED.iter().any(|(of, known, _)| *of == stem && *known == code) {
+                failures.push(format!("{stem} [{code}]: {text}"));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// A machine that stands upright whose upper bearing has clearance and nothing to carry.
+#[test]
+fn a_vertical_rotor_on_clearance_is_told_that_its_bearings_carry_nothing() {
+    let mut machine = machines::all().into_iter().find(|m| m.name == "vertical_small").unwrap();
+    // The tighter bearing locates the shaft axially; the other one hangs in its clearance.
+    let bearing =
+        |class: &str| format!("model = \"ball\"\ndesignation = \"6306\"\nclearance = \"{class}\"\n");
+    machine.bearings[0].2 = bearing("C2");
+    machine.bearings[1].2 = bearing("C4");
+    let found = warnings_of(&machine.text());
+    assert!(codes(&found).contains("bearing-unloaded"), "{found:?}");
+    // Without gravity neither carries, and the whole rotor is free.
+    machine.gravity = "0 m/s^2";
+    let found = warnings_of(&machine.text());
+    let unloaded = found.iter().filter(|w| w.code.name() == "bearing-unloaded").count();
+    let motions: Vec<&str> =
+        found.iter().filter(|w| w.code.name().starts_with("free-")).map(|w| w.text.as_str()).collect();
+    assert_eq!(unloaded, 2, "{found:?}");
+    for motion in ["axial motion", "lateral motion of the shaft (u_x)", "lateral motion of the shaft (u_y)"] {
+        assert!(motions.iter().any(|text| text.contains(motion)), "{motion}: {motions:?}");
+    }
+}

@@ -1,0 +1,143 @@
+//! A spoiled copy of a plausible machine has the warning of its fault, and no other.
+
+use crate::machines::{self, Description};
+use crate::{codes, warnings_of};
+
+fn machine(name: &str) -> Description {
+    machines::all().into_iter().find(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))
+}
+
+/// Replaces a part of the text, which must be there.
+fn replaced(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from} is not in\n{text}");
+    text.replacen(from, to, 1)
+}
+
+fn only(text: &str, code: &str) {
+    let found = warnings_of(text);
+    assert_eq!(codes(&found).into_iter().collect::<Vec<_>>(), [code], "{found:#?}\n{text}");
+}
+
+#[test]
+fn a_modulus_or_density_off_by_a_power_of_ten() {
+    let text = machine("two_discs_soft").text();
+    for (from, to) in
+        [("210 GPa", "21 GPa"), ("210 GPa", "2100 GPa"), ("7850 kg", "78500 kg"), ("7850 kg", "785 kg")]
+    {
+        only(&replaced(&text, from, to), "material-range");
+    }
+    // Other materials of engineering.
+    for [young, density] in [
+        ["70 GPa", "2700"],
+        ["115 GPa", "4430"],
+        ["45 GPa", "1740"],
+        ["120 GPa", "7200"],
+        ["135 GPa", "1600"],
+    ] {
+        let text = replaced(&replaced(&text, "210 GPa", young), "7850", density);
+        assert!(warnings_of(&text).is_empty(), "{young} {density}");
+    }
+}
+
+#[test]
+fn a_section_in_metres_among_millimetres() {
+    let text = machine("motor_small").text();
+    let found = warnings_of(&replaced(&text, "outer_diameter = \"35 mm\"", "outer_diameter = \"1 m\""));
+    assert!(codes(&found).contains("section-step"), "{found:?}");
+}
+
+#[test]
+fn a_bearing_of_another_bore_than_its_seat() {
+    let text = machine("motor_large").text();
+    only(&replaced(&text, "\"6312\"", "\"6310\""), "bore-mismatch");
+}
+
+#[test]
+fn discs_in_one_place() {
+    let mut two = machine("two_discs_soft");
+    two.discs[1].1 = two.discs[0].1 + 12.0;
+    only(&two.text(), "overlapping-discs");
+}
+
+#[test]
+fn a_disc_through_a_bearing() {
+    let mut fan = machine("fan_small");
+    fan.discs[0].1 = fan.bearings[0].1 - 10.0;
+    let found = warnings_of(&fan.text());
+    assert!(codes(&found).contains("disc-collision"), "{found:?}");
+}
+
+#[test]
+fn a_single_bearing() {
+    let mut motor = machine("motor_small");
+    motor.bearings.truncate(1);
+    let found = warnings_of(&motor.text());
+    assert!(codes(&found).contains("single-bearing"), "{found:?}");
+}
+
+#[test]
+fn a_speed_beyond_the_bearing() {
+    let mut motor = machine("gear_shaft");
+    motor.rpm = 20000.0;
+    motor.unbalance = 1.0;
+    let found = warnings_of(&motor.text());
+    assert!(codes(&found).contains("bearing-speed"), "{found:?}");
+}
+
+#[test]
+fn an_unbalance_in_the_wrong_unit() {
+    let text = machine("two_discs_soft").text();
+    only(&replaced(&text, "\"40 g mm\"", "\"40 kg mm\""), "balance-quality");
+}
+
+#[test]
+fn unused_materials() {
+    let text = machine("two_discs_soft").text();
+    let brass = "[material.brass]\nyoung = \"105 GPa\"\npoisson = 0.34\ndensity = \"8400 kg/m^3\"\n[shaft]";
+    only(&replaced(&text, "[shaft]", brass), "unused-item");
+}
+
+#[test]
+fn an_axially_free_shaft() {
+    let text = machine("two_discs_soft").text();
+    only(&replaced(&text, "k_zz = \"1e7 N/m\"\n", ""), "free-axial-motion");
+}
+
+#[test]
+fn cross_coupling_beyond_the_damping() {
+    let text = machine("two_discs_soft").text();
+    let unstable = replaced(&text, "k_xx = ", "k_xy = \"5e6 N/m\"\nk_yx = \"-5e6 N/m\"\nk_xx = ");
+    only(&unstable, "unstable-mode");
+    // Also where only responses are computed.
+    let without_modal = &unstable[..unstable.find("[study.modal]").unwrap()];
+    for study in [
+        "[study.unbalance]\nspeeds = { from = \"100 rpm\", to = \"3000 rpm\", step = \"100 rpm\" }\n",
+        "[study.frf]\nfrequencies = { from = \"5 Hz\", to = \"100 Hz\", step = \"1 Hz\" }\nspeed = \"3000 rpm\"\n\
+         [study.frf.excitation.x]\nat = \"disc.one\"\ndirection = \"x\"\n",
+    ] {
+        let probe = "[probe.x]\nat = \"disc.one\"\ndirection = \"x\"\n";
+        only(&format!("{without_modal}{probe}{study}"), "unstable-mode");
+    }
+}
+
+#[test]
+fn a_linear_response_that_opens_the_contacts() {
+    let mut motor = machine("rig_short");
+    let study = "[probe.x]\nat = \"disc.disc\"\ndirection = \"x\"\n[study.unbalance]\n\
+                 speeds = { from = \"100 rpm\", to = \"1200 rpm\", step = \"50 rpm\" }\n";
+    motor.more = study.into();
+    let small = warnings_of(&motor.text());
+    motor.unbalance *= 400.0;
+    let large = warnings_of(&motor.text());
+    assert!(!codes(&small).contains("linear-range"), "{small:?}");
+    assert!(codes(&large).contains("linear-range"), "{large:?}");
+}
+
+#[test]
+fn a_mesh_too_coarse_for_the_modes() {
+    let mut rotor = machine("two_discs_soft");
+    rotor.discs.clear();
+    let fine = rotor.text().replace("modes = 6", "modes = 14");
+    assert!(warnings_of(&fine).is_empty());
+    only(&fine.replace("element_length = \"15 mm\"", "element_length = \"250 mm\""), "mesh-limit");
+}
