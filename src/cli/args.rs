@@ -2,6 +2,7 @@
 
 mod bearing;
 mod common;
+mod init;
 pub mod keys;
 mod manual;
 mod measured;
@@ -18,6 +19,7 @@ use rotordyn::io::run_export::{self, RunFormat};
 
 use super::signal::args::SignalArgs;
 pub use bearing::BearingArgs;
+pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
 pub use steady::{BifurcationArgs, PoincareArgs, SteadyArgs};
@@ -63,6 +65,18 @@ fn run_format() -> impl TypedValueParser<Value = RunFormat> {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a commented starter machine: motor, fan, pump, spindle, vertical or test-rig
+    ///
+    /// A complete model file of a plausible machine with all studies, to be changed into yours. An existing file is
+    /// kept unless --force is given.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn init
+  rotordyn init motor
+  rotordyn init spindle -o my_spindle.toml
+  rotordyn init pump -o - | less")]
+    Init(InitArgs),
+
     /// Run all studies of the model file
     ///
     /// Writes results.h5 and all figures to out/NAME/, and prints tables of modes, critical speeds, bearing

@@ -23,7 +23,7 @@ use super::{
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
-    let mut loaded = origin.load_bearings(&settings::bearing(args)?.set)?;
+    let mut loaded = origin.load_bearings(&settings::bearing(args)?)?;
     let folder = origin.results_folder(args.study.out.as_ref(), &loaded.name);
     match &mut loaded.model {
         Some(model) => ehl_films::prepare_machine_films(model, &folder, terminal)?,

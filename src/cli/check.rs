@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, number, rpm};
-use super::{equilibrium_loads, forecast};
+use super::{defaults, equilibrium_loads, forecast};
 
 /// Check result of one variant.
 struct CheckedVariant {
@@ -52,6 +52,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
             }
         }
     }
+    defaults::table(terminal, &checked[0].loaded.defaults);
     let rows: Vec<Vec<String>> = checked
         .iter()
         .map(|c| {
@@ -129,7 +130,7 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     ));
     let (top, duration) = (rpm(model.profile.top_speed()), model.profile.duration());
     if top > 0.0 {
-        terminal.print(&format!("  speed profile of {duration} s up to {} rpm", number(top, 5)));
+        terminal.print(&format!("  speed profile of {} s up to {} rpm", number(duration, 4), number(top, 5)));
     }
     let requested: Vec<&str> =
         Study::ALL.iter().filter(|s| s.is_requested(&model.studies)).map(|s| s.name()).collect();
@@ -241,5 +242,6 @@ fn to_json(found: &CheckedVariant) -> Value {
         "preloads": json::groups("bearing", &preloads),
         "forecast": forecast::to_json(&found.machine),
         "warnings": json::warnings(&all_warnings(found)),
+        "defaults": defaults::to_json(&found.loaded.defaults),
     })
 }

@@ -45,7 +45,7 @@ pub fn run(
     for name in &names {
         let origin = origin.with_variant(name);
         let base = origin.load(&[])?;
-        let mut loaded = origin.load(&settings::modal(&base.model, speed, modes).set)?;
+        let mut loaded = origin.load_with(&settings::modal(&base.model, speed, modes))?;
         let folder = origin.results_folder(None, &loaded.model.name);
         ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
         let machine = Machine::new(loaded.model.clone())?;

@@ -55,7 +55,14 @@ impl Report for Problem<'_> {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.diagnostic.hint.as_ref().map(|hint| Box::new(hint) as Box<dyn fmt::Display>)
+        // without a snippet there is no label for what is expected
+        let expected = self.diagnostic.expected.as_ref().filter(|_| self.source_code().is_none());
+        let help: Vec<String> = expected
+            .map(|expected| format!("expected {expected}"))
+            .into_iter()
+            .chain(self.diagnostic.hint.clone())
+            .collect();
+        (!help.is_empty()).then(|| Box::new(help.join("; ")) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

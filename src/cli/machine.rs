@@ -13,6 +13,8 @@ use rotordyn::model::{
 
 use super::args::ModelArgs;
 use super::failure::Failure;
+use super::setting_sources;
+use super::settings::Settings;
 
 /// Allowed overlap of ball and race as a fraction of the ball diameter: negative clearance overlaps by some
 /// micrometres, a wrong groove radius or clearance by far more.
@@ -41,12 +43,19 @@ impl ModelSource {
         Ok(Self { name: args.model.display().to_string(), text, options, folder, files: None })
     }
 
-    /// Validated model, with settings of the command applied after those of the user.
+    /// Validated model, with settings applied after those of the user.
     pub fn load(&self, settings: &[(String, String)]) -> Result<Loaded, Failure> {
-        let mut options = self.options.clone();
-        options.set.extend_from_slice(settings);
+        self.load_with(&Settings { set: settings.to_vec(), ..Settings::default() })
+    }
+
+    /// Validated model, with settings of the command applied after those of the user.
+    pub fn load_with(&self, settings: &Settings) -> Result<Loaded, Failure> {
+        let options = self.options_with(settings);
         let files = self.side_files(&options);
-        let loaded = model::load_with(&self.name, &self.text, &options, &files)?;
+        let mut loaded = model::load_with(&self.name, &self.text, &options, &files)
+            .map_err(|errors| self.located(errors, settings))?;
+        let found = loaded.warnings.iter_mut().chain(&mut loaded.hints);
+        setting_sources::as_written(&mut loaded.sources, found, self.options.set.len(), &settings.flags);
         let balls =
             loaded.model.bearings.iter().filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?)));
         check_overlaps(balls, &loaded.text, &loaded.sources)?;
@@ -54,14 +63,29 @@ impl ModelSource {
     }
 
     /// Validated ball bearings of a machine or of a file with bearings only, with settings applied.
-    pub fn load_bearings(&self, settings: &[(String, String)]) -> Result<LoadedBearings, Failure> {
-        let mut options = self.options.clone();
-        options.set.extend_from_slice(settings);
+    pub fn load_bearings(&self, settings: &Settings) -> Result<LoadedBearings, Failure> {
+        let options = self.options_with(settings);
         let files = self.side_files(&options);
-        let loaded = model::load_bearings_with(&self.name, &self.text, &options, &files)?;
+        let mut loaded = model::load_bearings_with(&self.name, &self.text, &options, &files)
+            .map_err(|errors| self.located(errors, settings))?;
+        let found = loaded.warnings.iter_mut().chain(&mut loaded.hints);
+        setting_sources::as_written(&mut loaded.sources, found, self.options.set.len(), &settings.flags);
         let balls = loaded.bearings.iter().map(|(name, ball)| (name.as_str(), ball));
         check_overlaps(balls, &loaded.text, &loaded.sources)?;
         Ok(loaded)
+    }
+
+    fn options_with(&self, settings: &Settings) -> Options {
+        let mut options = self.options.clone();
+        options.set.extend_from_slice(&settings.set);
+        options
+    }
+
+    /// Errors located on the command line as it was written.
+    fn located(&self, mut errors: ModelErrors, settings: &Settings) -> ModelErrors {
+        let found = errors.diagnostics.iter_mut();
+        setting_sources::as_written(&mut errors.sources, found, self.options.set.len(), &settings.flags);
+        errors
     }
 
     /// Files referenced by the model with these options.

@@ -9,6 +9,7 @@ mod catalogue;
 mod check;
 mod compare;
 mod csv_files;
+mod defaults;
 mod diagnostics;
 mod ehl_films;
 mod equilibrium_loads;
@@ -20,6 +21,7 @@ mod free_parameters;
 mod help;
 mod identify;
 mod identify_tables;
+mod init;
 mod interrupt;
 mod machine;
 mod measured;
@@ -28,6 +30,7 @@ mod outcome;
 mod renamed;
 mod run_up_correlation;
 mod run_up_tables;
+mod setting_sources;
 mod settings;
 mod signal;
 mod steady;
@@ -109,6 +112,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     }
     match command {
         Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
+        Command::Init(args) => init::run(args, terminal).map(Outcome::from),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
         Command::Static { study, speed, fixed_cage_angle } => run_one(study, Study::Static, &|model| {
             settings::equilibrium(model, speed.as_ref(), *fixed_cage_angle)
@@ -178,7 +182,7 @@ fn studies_of(
     let mut loaded = origin.load(&[])?;
     let settings = settings(&loaded.model);
     if !settings.set.is_empty() {
-        loaded = origin.load(&settings.set)?;
+        loaded = origin.load_with(&settings)?;
     }
     if let Some(note) = &settings.note {
         terminal.print(note);
@@ -196,6 +200,7 @@ fn studies_of(
         let message = format!("{} contains no study; add [study.modal] or another", origin.name);
         return Err(Failure::Input(message));
     }
+    defaults::print_decisive(terminal, &loaded.defaults, &loaded.model, &wanted);
     let folder = origin.results_folder(args.out.as_ref(), &loaded.model.name);
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let family = match wanted.contains(&Study::Bifurcation) {

@@ -40,7 +40,7 @@ pub fn run(
     };
     let origin = ModelSource::read(&study.model)?;
     let base = origin.load(&[])?;
-    let mut loaded = origin.load(&settings(&base.model).set)?;
+    let mut loaded = origin.load_with(&settings(&base.model))?;
     let folder = origin.results_folder(study.out.as_ref(), &loaded.model.name);
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let machine = Machine::new(loaded.model)?;

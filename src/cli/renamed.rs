@@ -101,7 +101,11 @@ pub fn print_hints(hints: &[Diagnostic], sources: &[Source], terminal: &Terminal
     for hint in hints {
         let place = sources.get(hint.source).map_or(String::new(), |source| {
             let line = source.text.bytes().take(hint.span.start).filter(|byte| *byte == b'\n').count() + 1;
-            if hint.source == 0 { format!("{}:{line}: ", source.name) } else { format!("{}: ", source.name) }
+            match source.text.split(' ').next() {
+                _ if hint.source == 0 => format!("{}:{line}: ", source.name),
+                Some(flag) if !flag.is_empty() => format!("{flag}: "),
+                _ => String::new(),
+            }
         });
         terminal.note(&format!("{place}{}", hint.message));
     }

@@ -5,7 +5,7 @@
 //! run keeps its settings as text beside the text of its model.
 
 use rotordyn::model::study::SweepVariable;
-use rotordyn::model::{Model, keys};
+use rotordyn::model::{Drive, Model, SpeedProfile, Station, keys};
 
 use super::args::keys::{default, default_words};
 use super::args::{BearingArgs, StoredArgs};
@@ -15,6 +15,8 @@ use super::failure::Failure;
 #[derive(Clone, Debug, Default)]
 pub struct Settings {
     pub set: Vec<(String, String)>,
+    /// Paths that a flag sets, with the flag and its value as written.
+    pub flags: Vec<(String, String)>,
     /// Defaults used because the file has no section of the study.
     pub note: Option<String>,
 }
@@ -30,10 +32,23 @@ impl SettingsBuilder {
         Self { name, settings: Settings::default() }
     }
 
-    /// Adds the value of a flag, if given.
+    /// Adds the value of the flag that is named like its key, if given.
     pub fn set_flag(&mut self, key: &str, value: Option<String>) {
+        let written = value.as_ref().map(|value| format!("--{} {value}", key.replace('_', "-")));
+        self.set_as_written(key, value, written);
+    }
+
+    /// Adds a value that a flag of another name gives: the flag, its value as written, and what that means.
+    pub fn set_from(&mut self, flag: &str, given: Option<&String>, key: &str, value: fn(&str) -> String) {
+        let written = given.map(|given| format!("{flag} {}", toml_string(given)));
+        self.set_as_written(key, given.map(|given| value(given)), written);
+    }
+
+    /// Adds a value and the text of the command line that gives it.
+    pub fn set_as_written(&mut self, key: &str, value: Option<String>, written: Option<String>) {
         let path = format!("study.{}.{key}", self.name);
         debug_assert!(keys::find(&path).is_ok(), "{path} is not declared");
+        self.settings.flags.extend(written.map(|written| (path.clone(), written)));
         self.settings.set.extend(value.map(|value| (path, value)));
     }
 
@@ -55,15 +70,16 @@ impl SettingsBuilder {
 
 pub fn equilibrium(model: &Model, speed: Option<&String>, fixed_cage: bool) -> Settings {
     let mut draft = SettingsBuilder::new("static");
-    draft.set_flag("speed", speed.map(toml_string));
-    draft.set_flag("cage_average", fixed_cage.then(|| "false".into()));
+    draft.set_flag("speed", speed.map(|text| toml_string(text)));
+    let given = fixed_cage.then(|| "--fixed-cage-angle".to_string());
+    draft.set_as_written("cage_average", given.as_ref().map(|_| "false".into()), given);
     let missing = model.studies.equilibrium.is_none();
     draft.defaults(missing, "averaged over the cage angle", &[("cage_average", "true".into())])
 }
 
 pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Settings {
     let mut draft = SettingsBuilder::new("modal");
-    draft.set_flag("speeds", speed.map(toml_string));
+    draft.set_from("--speed", speed, "speeds", toml_string);
     draft.set_flag("modes", modes.map(|n| n.to_string()));
     let modes = default("study.modal.modes");
     let (speeds, words) = match top_speed(model) {
@@ -75,7 +91,7 @@ pub fn modal(model: &Model, speed: Option<&String>, modes: Option<usize>) -> Set
 
 pub fn campbell(model: &Model, max_speed: Option<&String>, modes: Option<usize>) -> Settings {
     let mut draft = SettingsBuilder::new("campbell");
-    draft.set_flag("speeds", max_speed.map(|top| sweep("0 rpm", top, 25)));
+    draft.set_from("--max-speed", max_speed, "speeds", |top| sweep("0 rpm", top, 25));
     draft.set_flag("modes", modes.map(|n| n.to_string()));
     let top = rpm_or(top_speed(model), 3000.0);
     let words = format!("25 speeds up to {top}, {} modes", default("study.campbell.modes"));
@@ -84,7 +100,7 @@ pub fn campbell(model: &Model, max_speed: Option<&String>, modes: Option<usize>)
 
 pub fn critical(model: &Model, max_speed: Option<&String>, orders: &[String]) -> Settings {
     let mut draft = SettingsBuilder::new("critical");
-    draft.set_flag("max_speed", max_speed.map(toml_string));
+    draft.set_flag("max_speed", max_speed.map(|text| toml_string(text)));
     draft.set_flag("orders", toml_array(orders));
     let top = rpm_or(top_speed(model).map(|top| 3.0 * top), 6000.0);
     let words = format!("up to {top}");
@@ -99,28 +115,48 @@ pub fn frf(
 ) -> Settings {
     let sweep = |top: &str| format!("{{ from = \"1 Hz\", to = {}, step = \"0.25 Hz\" }}", toml_string(top));
     let mut draft = SettingsBuilder::new("frf");
-    draft.set_flag("speed", speed.map(toml_string));
-    draft.set_flag("frequencies", max_frequency.map(|top| sweep(top)));
-    draft.set_flag("quantity", quantity.map(toml_string));
+    draft.set_flag("speed", speed.map(|text| toml_string(text)));
+    draft.set_from("--max-frequency", max_frequency, "frequencies", sweep);
+    draft.set_flag("quantity", quantity.map(|text| toml_string(text)));
     let place = match (model.discs.first(), &model.rigid_rotor, model.stations.first()) {
         (Some(disc), ..) => format!("disc.{}", disc.name),
         (None, Some(_), _) => "rotor".to_string(),
         (None, None, Some(station)) => format!("station.{}", station.name),
         (None, None, None) => "ground".to_string(),
     };
-    let force = |axis: &str| format!("{{ at = {}, direction = \"{axis}\" }}", toml_string(&place));
     let words = format!("unit forces along x and y at {place}, 1 to 500 Hz");
-    let values =
-        [("frequencies", sweep("500 Hz")), ("excitation.x", force("x")), ("excitation.y", force("y"))];
-    draft.defaults(model.studies.frf.is_none(), &words, &values)
+    draft.defaults(model.studies.frf.is_none(), &words, &[("frequencies", sweep("500 Hz"))])
 }
 
 pub fn unbalance(model: &Model, max_speed: Option<&String>) -> Settings {
     let mut draft = SettingsBuilder::new("unbalance");
-    draft.set_flag("speeds", max_speed.map(|top| sweep("1 rpm", top, 200)));
+    draft.set_from("--max-speed", max_speed, "speeds", |top| sweep("1 rpm", top, 200));
     let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
     let words = format!("200 speeds up to {top}");
-    draft.defaults(model.studies.unbalance.is_none(), &words, &[("speeds", sweep("1 rpm", &top, 200))])
+    let missing = model.studies.unbalance.is_none();
+    let mut settings = draft.defaults(missing, &words, &[("speeds", sweep("1 rpm", &top, 200))]);
+    if missing && let Some((unbalance, words)) = default_unbalance(model) {
+        settings.set.push(("unbalance".into(), unbalance));
+        settings.note = settings.note.map(|note| format!("{note}; {words}"));
+    }
+    settings
+}
+
+/// Unbalance of a file that has none: of grade G 6.3 at the heaviest disc, else in the middle of the shaft.
+fn default_unbalance(model: &Model) -> Option<(String, String)> {
+    if !model.unbalances.is_empty() {
+        return None;
+    }
+    let heaviest = model.discs.iter().max_by(|a, b| a.mass.total_cmp(&b.mass));
+    let node = heaviest.map_or(model.node_z.len() / 2, |disc| disc.node);
+    let distance = |station: &Station| station.node.abs_diff(node);
+    let station = &model.stations.iter().min_by_key(|station| distance(station))?.name;
+    let speed = rpm_or(top_speed(model), 3000.0);
+    let words = format!("no [unbalance.X]: grade G6.3 at {speed} at station {station}");
+    let keys = [("station", station.as_str()), ("grade", "G6.3"), ("speed", speed.as_str())];
+    let table: Vec<String> =
+        keys.iter().map(|(key, text)| format!("{key} = {}", toml_string(text))).collect();
+    Some((format!("{{ residual = {{ {} }} }}", table.join(", ")), words))
 }
 
 pub fn run_up(
@@ -131,14 +167,28 @@ pub fn run_up(
     cage_phases: Option<usize>,
 ) -> Settings {
     let mut draft = SettingsBuilder::new("run_up");
-    draft.set_flag("step", step.map(toml_string));
-    draft.set_flag("integrator", integrator.map(toml_string));
-    draft.set_flag("sample_rate", sample_rate.map(toml_string));
+    draft.set_flag("step", step.map(|text| toml_string(text)));
+    draft.set_flag("integrator", integrator.map(|text| toml_string(text)));
+    draft.set_flag("sample_rate", sample_rate.map(|text| toml_string(text)));
     draft.set_flag("cage_phases", cage_phases.map(|n| n.to_string()));
     let [integrator, step, rate] =
         ["integrator", "step", "sample_rate"].map(|key| default_words(&format!("study.run_up.{key}")));
     let words = format!("{integrator}, time step {step}, sampling rate {rate}");
-    draft.defaults(model.studies.run_up.is_none(), &words, &[("step", default("study.run_up.step"))])
+    let missing = model.studies.run_up.is_none();
+    let mut settings = draft.defaults(missing, &words, &[("step", default("study.run_up.step"))]);
+    if missing && stands_still(model) {
+        let ramp = "{ profile = \"ramp\", to = \"3000 rpm\", ramp = \"5 s\" }";
+        settings.set.push(("speed".into(), ramp.into()));
+        settings.note = settings.note.map(|note| format!("{note}; no [speed]: ramp to 3000 rpm in 5 s"));
+    }
+    settings
+}
+
+/// Whether nothing moves the machine in a run-up: no [speed] and no load over time.
+fn stands_still(model: &Model) -> bool {
+    let standstill = SpeedProfile::Constant { speed: 0.0, duration: 1.0 };
+    let prescribed = matches!(model.drive, Drive::Prescribed { .. });
+    prescribed && model.profile == standstill && model.loads.iter().all(|load| load.history.is_empty())
 }
 
 /// Number of points of a sweep given by a flag.
@@ -150,12 +200,12 @@ const DEFAULT_SWEEP_POINTS: usize = 41;
 /// `--sweep` that is neither a name nor a name with a range.
 pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
     let mut draft = SettingsBuilder::new("bearing");
-    draft.set_flag("bearings", toml_array(&args.bearing));
-    draft.set_flag("load", args.load.as_ref().map(toml_string));
-    draft.set_flag("moment", args.moment.as_ref().map(toml_string));
-    draft.set_flag("speed", args.speed.as_ref().map(toml_string));
+    draft.set_as_written("bearings", toml_array(&args.bearing), written("--bearing", &args.bearing));
+    draft.set_flag("load", args.load.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("moment", args.moment.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("speed", args.speed.as_ref().map(|text| toml_string(text)));
     draft.set_flag("constrain", toml_array(&args.constrain));
-    draft.set_flag("along", args.along.as_ref().map(toml_string));
+    draft.set_flag("along", args.along.as_ref().map(|text| toml_string(text)));
     draft.set_flag("cage_average", args.cage_average.then(|| "true".into()));
     let mut plain = Vec::new();
     for text in &args.sweep {
@@ -171,7 +221,8 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
             );
             return Err(Failure::Input(message));
         };
-        draft.set_flag(key, Some(sweep(from.trim(), to.trim(), DEFAULT_SWEEP_POINTS)));
+        let values = sweep(from.trim(), to.trim(), DEFAULT_SWEEP_POINTS);
+        draft.set_as_written(key, Some(values), Some(format!("--sweep {text}")));
     }
     draft.set_flag("sweep", toml_array(&plain));
     Ok(draft.settings)
@@ -180,10 +231,10 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
 pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
     let mut draft = SettingsBuilder::new("spectrogram");
     draft.set_flag("channels", toml_array(&args.channels));
-    draft.set_flag("window", args.window.as_ref().map(toml_string));
-    draft.set_flag("length", args.length.as_ref().map(toml_string));
+    draft.set_flag("window", args.window.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("length", args.length.as_ref().map(|text| toml_string(text)));
     draft.set_flag("overlap", args.overlap.clone());
-    draft.set_flag("max_frequency", args.max_frequency.as_ref().map(toml_string));
+    draft.set_flag("max_frequency", args.max_frequency.as_ref().map(|text| toml_string(text)));
     draft.set_flag("orders", toml_array(&args.orders));
     let [window, length] = ["window", "length"].map(|key| default_words(&format!("study.spectrogram.{key}")));
     let words = format!("{window} window of {length}");
@@ -195,11 +246,11 @@ pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
 pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
     let mut draft = SettingsBuilder::new("orders");
     draft.set_flag("channels", toml_array(&args.channels));
-    draft.set_flag("window", args.window.as_ref().map(toml_string));
+    draft.set_flag("window", args.window.as_ref().map(|text| toml_string(text)));
     draft.set_flag("resolution", args.resolution.clone());
     draft.set_flag("overlap", args.overlap.clone());
     draft.set_flag("max_order", args.max_order.clone());
-    draft.set_flag("cuts", toml_array(&args.orders));
+    draft.set_as_written("cuts", toml_array(&args.orders), written("--orders", &args.orders));
     let [resolution, top] =
         ["resolution", "max_order"].map(|key| default_words(&format!("study.orders.{key}")));
     let words = format!("order resolution {resolution} up to order {top}");
@@ -227,12 +278,17 @@ fn rpm_or(speed: Option<f64>, other: f64) -> String {
 }
 
 /// A quoted TOML string.
-pub fn toml_string(text: impl AsRef<str>) -> String {
-    toml::Value::String(text.as_ref().into()).to_string()
+pub fn toml_string(text: &str) -> String {
+    toml::Value::String(text.into()).to_string()
 }
 
 fn sweep(from: &str, to: &str, count: usize) -> String {
     format!("{{ from = {}, to = {}, count = {count} }}", toml_string(from), toml_string(to))
+}
+
+/// A flag with several values as written on the command line.
+pub fn written(flag: &str, items: &[String]) -> Option<String> {
+    (!items.is_empty()).then(|| format!("{flag} {}", items.join(",")))
 }
 
 /// A TOML array: numbers unquoted, everything else as strings; `None` if empty.
@@ -273,7 +329,7 @@ mod tests {
             spectrogram(&model, &stored),
             orders(&model, &stored),
         ];
-        for Settings { set, note } in settings {
+        for Settings { set, note, .. } in settings {
             assert!(!set.is_empty() && note.is_some());
             for (path, _) in &set {
                 assert!(keys::find(path).is_ok() || path.starts_with("study.frf.excitation."), "{path}");

@@ -31,7 +31,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
         Study::Orders => settings::orders(&base.model, args),
         _ => settings::spectrogram(&base.model, args),
     };
-    let mut loaded = origin.load(&settings.set)?;
+    let mut loaded = origin.load_with(&settings)?;
     if let Some(note) = &settings.note {
         terminal.print(note);
     }

@@ -31,10 +31,11 @@ pub struct Terminal {
 
 impl Terminal {
     pub fn new(output: &Output) -> Self {
-        let colour_allowed = std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
+        let colour_allowed = !dumb && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
         Self {
             tables: !output.quiet && !output.json,
-            progress: !output.quiet && stderr().is_terminal(),
+            progress: !output.quiet && !dumb && stderr().is_terminal(),
             notes_shown: !output.quiet,
             bold: colour_allowed && stdout().is_terminal(),
             colour: colour_allowed && stderr().is_terminal(),
@@ -128,7 +129,7 @@ impl Terminal {
     /// Spinner for work of unknown length.
     pub fn spinner(&self, what: &str) -> ProgressBar {
         let bar = self.bar(None);
-        bar.set_style(style("{spinner} {msg} {elapsed}"));
+        bar.set_style(style(SPINNER));
         bar.set_message(what.to_string());
         if self.progress {
             bar.enable_steady_tick(Duration::from_millis(100));
@@ -139,27 +140,21 @@ impl Terminal {
     /// Progress bar over simulated time in ms; its message is set by the caller.
     pub fn time_bar(&self, duration: f64) -> ProgressBar {
         let bar = self.bar(Some((1e3 * duration).round() as u64));
-        let seconds = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-            let total = state.len().unwrap_or(0) as f64 / 1e3;
-            let _ = write!(out, "{:.2} of {total:.2} s", state.pos() as f64 / 1e3);
-        };
-        bar.set_style(
-            style("run-up {wide_bar} {simulated}, {msg}, {eta} left").with_key("simulated", seconds),
-        );
+        bar.set_style(time_style());
         bar
     }
 
     /// Progress bar over a number of equal work items; length and message are set by the caller.
     pub fn count_bar(&self) -> ProgressBar {
         let bar = self.bar(Some(0));
-        bar.set_style(style("{msg} {wide_bar} {pos} of {len}, {eta} left"));
+        bar.set_style(style(COUNT));
         bar
     }
 
     /// Progress bar over a completed fraction.
     pub fn fraction_bar(&self) -> ProgressBar {
         let bar = self.bar(Some(0));
-        bar.set_style(style("{msg} {wide_bar} {percent} %, {eta} left"));
+        bar.set_style(style(FRACTION));
         bar
     }
 
@@ -167,6 +162,20 @@ impl Terminal {
         let target = if self.progress { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         ProgressBar::with_draw_target(length, target)
     }
+}
+
+/// Progress lines; they fit 40 columns, for which long messages are cut.
+const SPINNER: &str = "{spinner} {elapsed} {wide_msg}";
+const COUNT: &str = "{bar:8} {pos} of {len}, {eta} {wide_msg}";
+const FRACTION: &str = "{bar:8} {percent} %, {eta} {wide_msg}";
+const TIME: &str = "{wide_bar} {simulated}, {msg}, {eta}";
+
+fn time_style() -> ProgressStyle {
+    let seconds = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+        let total = state.len().unwrap_or(0) as f64 / 1e3;
+        let _ = write!(out, "{:.2} of {total:.2} s", state.pos() as f64 / 1e3);
+    };
+    style(TIME).with_key("simulated", seconds)
 }
 
 fn style(template: &str) -> ProgressStyle {
@@ -242,6 +251,65 @@ mod tests {
         }
         for given in ["-0.001", "-", "-0-", "- 0.0", "-1e-300"] {
             assert!(table(&["", "x"], &row(given)).ends_with(&format!("  {given}\n")), "{given}");
+        }
+    }
+
+    /// A terminal of 40 columns that keeps what is drawn.
+    #[derive(Clone, Debug, Default)]
+    struct Narrow(std::sync::Arc<Mutex<String>>);
+
+    impl indicatif::TermLike for Narrow {
+        fn width(&self) -> u16 {
+            40
+        }
+        fn move_cursor_up(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> std::io::Result<()> {
+            self.write_str(&format!("{text}\n"))
+        }
+        fn write_str(&self, text: &str) -> std::io::Result<()> {
+            self.0.lock().unwrap().push_str(text);
+            Ok(())
+        }
+        fn clear_line(&self) -> std::io::Result<()> {
+            self.write_str("\n")
+        }
+        fn flush(&self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn progress_fits_40_columns() {
+        let film = "EHL film of bearing drive_end, outer race";
+        for (style, message, length, shown) in [
+            (style(SPINNER), "reading /data/measured/run_up.mat, 3 channels", 1, "reading"),
+            (style(COUNT), film, 1000, "10 of 1000"),
+            (style(FRACTION), "bifurcation diagram", 1000, "1 %"),
+            (time_style(), "12000 rpm", 130_000, "0.01 of 130.00 s, 12000 rpm"),
+        ] {
+            let screen = Narrow::default();
+            let target = ProgressDrawTarget::term_like(Box::new(screen.clone()));
+            let bar = ProgressBar::with_draw_target(Some(length), target);
+            bar.set_style(style);
+            bar.set_message(message);
+            bar.set_position(10);
+            bar.tick();
+            bar.abandon();
+            let drawn = screen.0.lock().unwrap().clone();
+            let last = drawn.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default().to_string();
+            assert!(last.contains(shown), "{drawn:?}");
+            assert!(drawn.lines().all(|line| line.trim_end().chars().count() <= 40), "{drawn:?}");
         }
     }
 }

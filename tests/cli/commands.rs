@@ -5,7 +5,8 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 22] = [
+    "init",
     "run",
     "check",
     "static",

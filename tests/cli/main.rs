@@ -11,6 +11,7 @@ mod help;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;
+mod init;
 mod pairing;
 mod preloads;
 mod renamed;

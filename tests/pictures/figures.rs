@@ -25,7 +25,7 @@ fn svg_parses_and_png_is_twice_its_size() {
     let folder = tempfile::tempdir().unwrap();
     for (k, figure) in sample_figures().iter().enumerate() {
         let stem = folder.path().join(format!("figure_{k}.5_hz"));
-        write(figure, &stem).unwrap();
+        write(figure, &[], &stem).unwrap();
         let path = |extension| folder.path().join(format!("figure_{k}.5_hz.{extension}"));
         let svg = std::fs::read_to_string(path("svg")).unwrap();
         let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).unwrap();
@@ -53,7 +53,7 @@ fn text_is_drawn_with_the_embedded_font() {
 #[test]
 fn unwritable_path_is_an_environment_error() {
     let figure = Figure::Lines(Lines::default());
-    let error = write(&figure, std::path::Path::new("/nonexistent/folder/figure")).unwrap_err();
+    let error = write(&figure, &[], std::path::Path::new("/nonexistent/folder/figure")).unwrap_err();
     assert!(error.to_string().contains("figure.svg"), "{error}");
 }
 

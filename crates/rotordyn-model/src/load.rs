@@ -7,7 +7,7 @@ use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::renamed;
 use super::file::tree::{Table, Value};
-use super::file::{Diagnostic, Kind, ModelErrors, Source};
+use super::file::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};
 use super::study::Studies;
 use super::{ExternalFile, Model};
 use rotordyn_bearing::{BallBearing, Bearing};
@@ -29,6 +29,8 @@ pub struct Loaded {
     pub warnings: Vec<Diagnostic>,
     /// Former spellings of renamed keys and keywords; the file is valid and means the same.
     pub hints: Vec<Diagnostic>,
+    /// Values that the file does not give.
+    pub defaults: Vec<DefaultValue>,
     /// Texts that the spans of warnings and hints refer to: the file, then every `--set`.
     pub sources: Vec<Source>,
     /// Text of the model file.
@@ -115,8 +117,9 @@ pub fn load_with(
         parameter_range::check(&root, files, &model, &log);
         build::plausibility::check_unused(&root, &text, &log);
     }
+    let defaults = log.defaults();
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
-    Ok(Loaded { model, warnings, hints, sources, text })
+    Ok(Loaded { model, warnings, hints, defaults, sources, text })
 }
 
 /// The ball bearings of a machine file or of a bearing-only file.
@@ -256,6 +259,7 @@ impl Document {
                 return Err(model_errors(sources, log));
             }
         };
+        log.set_file_end(text.len());
         renamed::translate(&mut root, &log);
         apply_variant(&mut root, options.variant.as_deref(), &log);
         for (path, value) in &options.set {

@@ -124,6 +124,7 @@ const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("um", 1.0, 1e6, 0, [1, 0, 0, 0, 0]), ("µm", 1.0, 1e6, 0, [1, 0, 0, 0, 0]),
     ("μm", 1.0, 1e6, 0, [1, 0, 0, 0, 0]),
     ("nm", 1.0, 1e9, 0, [1, 0, 0, 0, 0]), ("in", 254.0, 1e4, 0, [1, 0, 0, 0, 0]),
+    ("inch", 254.0, 1e4, 0, [1, 0, 0, 0, 0]), ("micron", 1.0, 1e6, 0, [1, 0, 0, 0, 0]),
     ("ft", 3048.0, 1e4, 0, [1, 0, 0, 0, 0]),
     ("mil", 254.0, 1e7, 0, [1, 0, 0, 0, 0]),
     ("kg", 1.0, 1.0, 0, [0, 1, 0, 0, 0]), ("g", 1.0, 1e3, 0, [0, 1, 0, 0, 0]),
@@ -139,7 +140,7 @@ const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("deg", 1.0, 360.0, 1, [0, 0, 0, 1, 0]), ("°", 1.0, 360.0, 1, [0, 0, 0, 1, 0]),
     ("rev", 1.0, 1.0, 1, [0, 0, 0, 1, 0]),
     ("rpm", 1.0, 60.0, 1, [0, 0, -1, 1, 0]), ("Hz", 1.0, 1.0, 1, [0, 0, -1, 1, 0]),
-    ("kHz", 1e3, 1.0, 1, [0, 0, -1, 1, 0]),
+    ("kHz", 1e3, 1.0, 1, [0, 0, -1, 1, 0]), ("krpm", 1e3, 60.0, 1, [0, 0, -1, 1, 0]),
     ("N", 1.0, 1.0, 0, [1, 1, -2, 0, 0]), ("mN", 1.0, 1e3, 0, [1, 1, -2, 0, 0]),
     ("kN", 1e3, 1.0, 0, [1, 1, -2, 0, 0]),
     ("MN", 1e6, 1.0, 0, [1, 1, -2, 0, 0]), ("lbf", 4.4482216152605, 1.0, 0, [1, 1, -2, 0, 0]),
@@ -148,6 +149,8 @@ const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("mPa", 1.0, 1e3, 0, [-1, 1, -2, 0, 0]), ("P", 1.0, 10.0, 0, [-1, 1, -1, 0, 0]),
     ("cP", 1.0, 1e3, 0, [-1, 1, -1, 0, 0]), ("K", 1.0, 1.0, 0, [0, 0, 0, 0, 1]),
     ("psi", 4.4482216152605e8, 64516.0, 0, [-1, 1, -2, 0, 0]),
+    ("ksi", 4.4482216152605e11, 64516.0, 0, [-1, 1, -2, 0, 0]),
+    ("bar", 1e5, 1.0, 0, [-1, 1, -2, 0, 0]), ("kgf", 9.80665, 1.0, 0, [1, 1, -2, 0, 0]),
 ];
 
 /// Names of the only unit with an offset.
@@ -164,6 +167,25 @@ pub fn unit_names() -> impl Iterator<Item = &'static str> {
 pub fn unit_by_name(name: &str) -> Option<(f64, f64, [i32; 5])> {
     let unit = UNITS.iter().find(|unit| unit.0 == name)?;
     Some((unit.1 * TAU.powi(unit.3), unit.2, unit.4))
+}
+
+/// The unit that a bare number most likely lacks, by the usual size of such quantities in rotating machines: 3000 is a
+/// speed in rpm, 25 a length in mm, 207 a modulus in GPa. `name` is what the quantity is called.
+pub fn likely_unit(dimension: Dimension, value: f64, name: &str) -> &'static str {
+    let size = value.abs();
+    let micrometres = ["clearance", "interference", "growth", "roughness", "ramp"];
+    match dimension {
+        LENGTH if micrometres.iter().any(|part| name.contains(part)) && size >= 0.1 => "um",
+        LENGTH if size >= 0.5 => "mm",
+        SPEED if size >= 10.0 => "rpm",
+        ANGLE if size > TAU => "deg",
+        PRESSURE if (10.0..1e3).contains(&size) => "GPa",
+        PRESSURE if (1e3..1e6).contains(&size) => "MPa",
+        TEMPERATURE if size < 200.0 => "degC",
+        UNBALANCE if size >= 1.0 => "g mm",
+        TIME if size >= 50.0 => "us",
+        other => other.unit,
+    }
 }
 
 /// Product of units: value · numerator / divisor · (2π)^turns is in SI.
@@ -380,87 +402,4 @@ fn dimension_name(powers: [i32; 5]) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn divisors_give_the_nearest_double() {
-        assert_eq!(parse("60 um", LENGTH), Ok(60e-6));
-        assert_eq!(parse("0.5 in", LENGTH), Ok(0.0127));
-        assert_eq!(parse("2 um", LENGTH), Ok(2e-6));
-        assert_eq!(parse("0.56 kg mm", UNBALANCE), Ok(0.56 / 1e3));
-        assert_eq!(parse("207 GPa", PRESSURE), Ok(207e9));
-        assert_eq!(parse("5 g mm", UNBALANCE), Ok(5e-6));
-    }
-
-    #[test]
-    fn compound_units() {
-        assert_eq!(parse("1e5 N m/rad", TILT_STIFFNESS), Ok(1e5));
-        assert_eq!(parse("1e5 N*m", TILT_STIFFNESS), Ok(1e5));
-        assert_eq!(parse("9.80665 m/s²", ACCELERATION), Ok(9.80665));
-        assert_eq!(parse("7850 kg/m^3", DENSITY), Ok(7850.0));
-        assert_eq!(parse("3 N s/mm", DAMPING), Ok(3000.0));
-        assert_eq!(parse("5 1/s", RATE), Ok(5.0));
-        assert_eq!(parse("5 s^-1", RATE), Ok(5.0));
-        assert_eq!(parse("5mm", LENGTH), Ok(5e-3));
-        assert_eq!(parse("2 kN/mm", STIFFNESS), Ok(2e6));
-        assert!((parse("1 lbf s^2*in", INERTIA).unwrap() - 0.112_984_829).abs() < 1e-9);
-        assert!((parse("1 psi", PRESSURE).unwrap() - 6_894.757_293).abs() < 1e-6);
-        assert!((parse("1 N m/deg", TILT_STIFFNESS).unwrap() - 57.295_779_513_082_32).abs() < 1e-12);
-    }
-
-    #[test]
-    fn speeds_angles_and_frequencies() {
-        assert_eq!(parse("50 Hz", FREQUENCY), Ok(50.0));
-        assert_eq!(parse("50 Hz", SPEED), Ok(50.0 * TAU));
-        assert_eq!(parse("100 rad/s", SPEED), Ok(100.0));
-        assert_eq!(parse("60 rpm", SPEED), Ok(TAU));
-        assert_eq!(parse("1200 rpm", FREQUENCY), Ok(20.0));
-        assert_eq!(parse("90 deg", ANGLE), Ok(TAU / 4.0));
-        assert!(matches!(parse("100 1/s", SPEED), Err(UnitError::WrongDimension { .. })));
-        assert!(matches!(parse("5 rpm", RATE), Err(UnitError::WrongDimension { .. })));
-    }
-
-    #[test]
-    fn temperatures_and_oils() {
-        assert_eq!(parse("40 degC", TEMPERATURE), Ok(313.15));
-        assert_eq!(parse("-10 °C", TEMPERATURE), Ok(263.15));
-        assert_eq!(parse("300 K", TEMPERATURE), Ok(300.0));
-        assert_eq!(parse("30 K", TEMPERATURE_DIFFERENCE), Ok(30.0));
-        assert_eq!(parse("12e-6 1/K", EXPANSION), Ok(12e-6));
-        assert_eq!(parse("12 um/m/K", EXPANSION), Ok(12e-6));
-        assert_eq!(parse("0.04 Pa s", VISCOSITY), Ok(0.04));
-        assert_eq!(parse("40 mPa s", VISCOSITY), Ok(0.04));
-        assert_eq!(parse("40 cP", VISCOSITY), Ok(0.04));
-        assert_eq!(parse("2.3e-8 1/Pa", PRESSURE_VISCOSITY), Ok(2.3e-8));
-        assert_eq!(parse("23 1/GPa", PRESSURE_VISCOSITY), Ok(2.3e-8));
-        let shifted = Err(UnitError::ScaleOfTemperature("degC".into()));
-        assert_eq!(parse("30 degC", TEMPERATURE_DIFFERENCE), shifted);
-        assert_eq!(parse("12e-6 1/degC", EXPANSION), shifted);
-    }
-
-    #[test]
-    fn lists_share_a_unit() {
-        assert_eq!(parse_list("0, 600 1200 rpm", FREQUENCY), Ok(vec![0.0, 10.0, 20.0]));
-        assert_eq!(parse_list("-0.2 -.15 0.3 m", LENGTH), Ok(vec![-0.2, -0.15, 0.3]));
-        assert_eq!(parse_list("0.5", NUMBER), Ok(vec![0.5]));
-        assert_eq!(parse("50 %", NUMBER), Ok(0.5));
-    }
-
-    #[test]
-    fn errors_name_the_cause() {
-        assert_eq!(parse("60", LENGTH), Err(UnitError::NoUnit("60".into())));
-        assert_eq!(parse("60 umm", LENGTH), Err(UnitError::UnknownUnit("umm".into())));
-        assert_eq!(parse("abc", LENGTH), Err(UnitError::NoNumber("abc".into())));
-        assert_eq!(parse("nan m", LENGTH), Err(UnitError::NotFinite("nan m".into())));
-        assert_eq!(parse("-inf m", LENGTH), Err(UnitError::NotFinite("-inf m".into())));
-        assert_eq!(parse("1e999 m", LENGTH), Err(UnitError::NotFinite("1e999".into())));
-        assert_eq!(parse("1 m/", LENGTH), Err(UnitError::UnknownUnit("m/".into())));
-        assert_eq!(parse("1 m^x", LENGTH), Err(UnitError::BadPower("m^x".into())));
-        assert_eq!(parse("", LENGTH), Err(UnitError::NoNumber(String::new())));
-        let wrong = parse("5 kg", LENGTH);
-        let expected =
-            UnitError::WrongDimension { unit: "kg".into(), found: "mass".into(), expected: "length" };
-        assert_eq!(wrong, Err(expected));
-    }
-}
+mod tests;

@@ -9,6 +9,7 @@ the spectrograms and order spectra of those run-ups.";
 
 pub const AFTER_HELP: &str = "\
 Examples:
+  rotordyn init motor                                          writes motor.toml, a machine to start from
   rotordyn run models/overhung_rig.toml                        all studies of the file
   rotordyn check my_machine.toml                               validate and summarise the model
   rotordyn modal my_machine.toml --speed \"0, 3000 rpm\"         natural frequencies at two speeds
@@ -36,4 +37,4 @@ Exit codes:
 
 Warnings have a code: `rotordyn help CODE` explains one, `rotordyn help warnings` lists them.
 
-Environment: NO_COLOR disables colour; RAYON_NUM_THREADS is the default of --threads.";
+Environment: NO_COLOR or TERM=dumb disables colour; RAYON_NUM_THREADS is the default of --threads.";

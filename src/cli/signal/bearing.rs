@@ -10,6 +10,7 @@ use super::super::args::ModelArgs;
 use super::super::catalogue::geometry as catalogue_geometry;
 use super::super::failure::Failure;
 use super::super::machine::ModelSource;
+use super::super::settings::Settings;
 use super::super::store::stored_origin;
 use super::args::SignalArgs;
 use super::input::{File, InputProblems};
@@ -33,7 +34,7 @@ pub fn find(
         None => None,
     };
     let of_model = match &origin {
-        Some(origin) => origin.load_bearings(&[])?.bearings,
+        Some(origin) => origin.load_bearings(&Settings::default())?.bearings,
         None => Vec::new(),
     };
     if let Some((_, ball)) = of_model.iter().find(|(known, _)| known == name) {

@@ -94,6 +94,9 @@ pub(super) fn common_properties(
     };
     let steel = catalogue::bearing_steel();
     let pocket = geometry.default_cage_pocket();
+    if !r.has(&BALL.cage_pocket_diameter) {
+        r.taken_by_default(&BALL.cage_pocket_diameter, format!("\"{:.3} mm\"", 1e3 * pocket));
+    }
     BallBearing {
         ball_material: part(&BALL.ball_material).unwrap_or_else(|| steel.clone()),
         ring_material: part(&BALL.ring_material).unwrap_or(steel),
@@ -120,11 +123,11 @@ pub(super) fn designation(r: &Reader) -> Option<CatalogueEntry> {
     if found.is_none() {
         let message = format!("unknown bearing designation `{name}`");
         let problem = Problem::new(Kind::UnknownName, &r.span_of(&BALL.designation), message);
-        r.log.error(
-            problem
-                .expected("a bearing of assets/bearings.csv, or its geometry")
-                .hint(format!("nearest in the catalogue: {}", catalogue::nearest(name, 6).join(", "))),
-        );
+        let problem = problem.expected("a ball bearing of `rotordyn catalogue`, or its geometry");
+        r.log.error(problem.hint(match catalogue::is_roller_bearing(name) {
+            true => "a roller bearing: use model = \"linear\" with its stiffness k_xx, k_yy ...".into(),
+            false => format!("nearest in the catalogue: {}", catalogue::nearest(name, 6).join(", ")),
+        }));
     }
     found
 }
@@ -311,8 +314,11 @@ pub(super) fn clearance(r: &Reader, bore: f64, contact_angle: f64) -> f64 {
             return r.get(&BALL.radial_clearance).unwrap_or(0.0);
         }
         Some(_) => r.choice(&BALL.clearance),
-        None if contact_angle > 0.0 => return 0.0,
-        None => Some(BALL.clearance.default_word()),
+        None if contact_angle > 0.0 => {
+            r.taken_by_default(&BALL.radial_clearance, "\"0 um\"");
+            return 0.0;
+        }
+        None => Some(r.word(&BALL.clearance)),
     };
     let Some(class) = class else { return 0.0 };
     match catalogue::clearance(class, bore) {

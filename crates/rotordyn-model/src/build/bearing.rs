@@ -167,6 +167,10 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
             .map_or((String::new(), String::new()), |(last, others)| (last.clone(), others.join(", ")));
         r.missing_as(&BEARING.model, &format!("{others} or {last}"));
     }
+    if unknown_kind(r) {
+        r.entries();
+        return LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into();
+    }
     r.choice(&BEARING.model).map_or_else(
         || {
             r.entries();
@@ -174,6 +178,40 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
         },
         |read| read(r, context),
     )
+}
+
+/// Kinds of bearings that are no value of the key `model`.
+const OTHER_KINDS: [&str; 12] = [
+    "roller",
+    "cylindrical",
+    "tapered",
+    "needle",
+    "spherical",
+    "journal",
+    "sleeve",
+    "plain",
+    "hydrodynamic",
+    "tilting",
+    "magnetic",
+    "foil",
+];
+
+/// Log an error if the model is a kind of bearing that there is no model of, with what to use instead.
+fn unknown_kind(r: &Reader) -> bool {
+    let Some(word) = r.given_text(&BEARING.model) else { return false };
+    let plain = word.to_lowercase();
+    let known = MODELS.iter().any(|(name, _)| *name == word);
+    if known || !OTHER_KINDS.iter().any(|kind| plain.contains(kind)) {
+        return false;
+    }
+    let message = format!("{} cannot be `{word}`: there is no such model", r.name(&BEARING.model));
+    let names = MODELS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let problem = Problem::new(Kind::UnknownName, &r.span_of(&BEARING.model), message);
+    r.log.error(problem.expected(format!("one of {names}")).hint(
+        "model = \"linear\" takes the stiffness and damping of any bearing, over speed if they depend on it: \
+         k_xx, k_yy, k_xy, c_xx ... (`rotordyn help bearing`)",
+    ));
+    true
 }
 
 fn linear(r: &Reader) -> LinearBearing {

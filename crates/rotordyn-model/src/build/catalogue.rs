@@ -161,6 +161,21 @@ pub fn nearest(designation: &str, count: usize) -> Vec<&'static str> {
     meant.into_iter().chain(sorted().filter(|name| Some(*name) != meant)).take(count).collect()
 }
 
+/// Whether a designation is one of a cylindrical, needle, tapered or spherical roller bearing: NU 206, HK 2012, 30206,
+/// 22210.
+pub fn is_roller_bearing(designation: &str) -> bool {
+    let plain: String = designation.split_whitespace().collect::<String>().to_uppercase();
+    let (letters, digits) = plain.split_at(plain.find(|c: char| c.is_ascii_digit()).unwrap_or(plain.len()));
+    let count = digits.chars().take_while(char::is_ascii_digit).count();
+    match letters {
+        "" => count == 5 && plain.starts_with(['2', '3']),
+        _ => {
+            ["N", "NA", "NJ", "NN", "NU", "NUP", "RNA", "RNU", "HK", "BK", "K"].contains(&letters)
+                && count >= 3
+        }
+    }
+}
+
 /// What the suffix of a designation says of the contact angle; none for a deep groove bearing.
 pub fn angle_note(entry: &CatalogueEntry) -> Option<String> {
     let suffix = entry.designation.trim_start_matches(|c: char| c.is_ascii_digit());

@@ -21,7 +21,7 @@ keys! {
     pub(super) static TOP: TopKeys {
         unbalance: NamedTables = named_tables(UnbalanceKeys::TABLE);
         load: NamedTables = named_tables(&LOAD_TABLE);
-        probe: NamedTables = named_tables(&PROBE_TABLE);
+        probe: NamedTables = named_tables(&PROBE_TABLE).computed("x and y of every disc and bearing");
         damping: SubTable = sub_table(DampingKeys::TABLE);
         drive: SubTable = sub_table(DriveKeys::TABLE);
         speed: SubTable = sub_table(&SPEED_TABLE);

@@ -9,6 +9,7 @@ mod bifurcation_parameter;
 pub mod catalogue;
 mod connections;
 mod contact;
+mod default_points;
 mod defects;
 mod free_ball;
 mod free_cage;
@@ -152,6 +153,11 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         probes,
         studies: Studies::default(),
     };
+    if model.probes.is_empty() {
+        model.probes = default_points::probes(&model);
+        let named = model.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>();
+        top.taken_by_default(&loading::TOP.probe, named.join(", "));
+    }
     model.studies = study::read(&top, &model, &places);
     if log.error_count() == 0 {
         topology::check(&top, &model);

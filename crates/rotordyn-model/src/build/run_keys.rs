@@ -89,8 +89,12 @@ fn chosen_integrator(r: &Reader, default: Integrator) -> Integrator {
     let rho = r.get(&keys.rho_infinity);
     let [relative, absolute] = [&keys.relative_tolerance, &keys.absolute_tolerance].map(|key| r.get(key));
     let foreign = |key: &Key<Quantity>, owner: &str| {
-        if r.has(key) {
-            r.error(Kind::Conflict, key, format!("{} belongs to integrator = \"{owner}\"", r.name(key)));
+        let message = format!("{} belongs to integrator = \"{owner}\"", r.name(key));
+        if r.is_setting(&keys.integrator) && r.has(key) && !r.is_setting(key) {
+            let message = format!("{message} and is ignored with the integrator of the command line");
+            r.log.hint(Problem::new(Kind::Ineffective, &r.span_of(key), message));
+        } else if r.has(key) {
+            r.error(Kind::Conflict, key, message);
         }
     };
     let Some(method) = r.choice(&keys.integrator) else {

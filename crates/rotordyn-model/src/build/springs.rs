@@ -172,8 +172,11 @@ impl Components {
                 let key = self.component(i, j);
                 if i == j {
                     let short = self.diagonal(i);
-                    r.one_of(&[short, key]);
-                    put(short, &[(i, i)]);
+                    // a setting of the command line is the only one of both that holds
+                    if r.one_of(&[short, key]).is_some_and(|given| given.is(short)) {
+                        put(short, &[(i, i)]);
+                        continue;
+                    }
                 }
                 put(key, &[(i, j)]);
             }

@@ -1,6 +1,7 @@
 //! Studies requested by a file, with their defaults.
 
 use super::bearing_study::{self, BearingStudyKeys};
+use super::default_points;
 use super::increasing::check_increasing;
 use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
@@ -102,7 +103,8 @@ keys! {
             ("mobility", MotionQuantity::Velocity),
             ("accelerance", MotionQuantity::Acceleration),
         ], "Response per force.").default("receptance");
-        excitation: NamedTables = named_tables(&EXCITATION_TABLE).required("");
+        excitation: NamedTables = named_tables(&EXCITATION_TABLE)
+            .computed("x and y at the first disc, else rotor, else station");
         speed: Quantity = quantity(not_negative(SPEED), "Shaft speed.").default("0 rpm");
         refine: Flag = flag("Add frequencies around the natural frequencies.").default("true");
     }
@@ -323,10 +325,11 @@ fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
         excitation.finish();
         Excitation { name: name.into(), at, direction }
     };
-    let excitations: Vec<Excitation> = r.items(&FRF.excitation).into_iter().map(read).collect();
-    if excitations.is_empty() && r.has_no_errors() {
-        let problem = Problem::new(Kind::MissingKey, &r.span, "study.frf has no excitation");
-        r.log.error(problem.hint("add [study.frf.excitation.NAME] with at and direction"));
+    let mut excitations: Vec<Excitation> = r.items(&FRF.excitation).into_iter().map(read).collect();
+    if excitations.is_empty() {
+        excitations = default_points::excitations(model);
+        let named = excitations.iter().map(|excitation| excitation.name.as_str()).collect::<Vec<_>>();
+        r.taken_by_default(&FRF.excitation, named.join(", "));
     }
     let speed = r.value(&FRF.speed);
     let refine = r.flag(&FRF.refine);
@@ -351,6 +354,9 @@ fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
     if !top.has(&loading::TOP.speed) {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
+    }
+    if !r.has(&RUN_UP.cutoff) {
+        r.taken_by_default(&RUN_UP.cutoff, "all modes");
     }
     RunUpStudy {
         integrator: integrator(r, default_integrator(model), model),

@@ -2,7 +2,7 @@
 
 use rotordyn_core::warning::{Code, Warning};
 use rotordyn_units::names::nearest;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
 /// A text that was read: the model file, or one `--set` argument.
@@ -38,6 +38,17 @@ pub enum Kind {
     BadPath,
     /// Former spelling of a renamed key or keyword: only a hint.
     FormerName,
+    /// A key that a setting of the command line makes ineffective: only a hint.
+    Ineffective,
+}
+
+/// A value that the file does not give.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DefaultValue {
+    /// Path of the key that sets it: "bearing.A.contact_damping".
+    pub path: String,
+    /// Value as it would be written in the file, or in words.
+    pub value: String,
 }
 
 /// One problem with its location.
@@ -113,9 +124,16 @@ impl Problem {
         }
     }
 
+    /// Suggest the nearest known name, if any is close, and list all.
+    pub fn suggest_all<'n>(self, word: &str, known: &[&'n str]) -> Self {
+        let near = nearest(word, known.iter().copied());
+        let meant = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        self.hint(format!("{meant}known here: {}", known.join(", ")))
+    }
+
     /// Append to a hint that lists names.
     pub fn after_list(mut self, text: &str) -> Self {
-        if let Some(hint) = self.hint.as_mut().filter(|hint| hint.starts_with("known here")) {
+        if let Some(hint) = self.hint.as_mut().filter(|hint| hint.contains("known here")) {
             hint.push_str(text);
         }
         self
@@ -183,6 +201,9 @@ pub(crate) struct Log {
     errors: RefCell<Vec<Problem>>,
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
+    defaults: RefCell<Vec<DefaultValue>>,
+    /// Where the spans of the file end and those of settings of the command line start.
+    file_end: Cell<usize>,
 }
 
 impl Log {
@@ -207,6 +228,34 @@ impl Log {
         if hints.iter().all(|known| known.message != problem.message) {
             hints.push(problem);
         }
+    }
+
+    /// Record a value that the file does not give, once per path.
+    pub fn taken_by_default(&self, path: String, value: String) {
+        let mut defaults = self.defaults.borrow_mut();
+        if defaults.iter().all(|known| known.path != path) {
+            defaults.push(DefaultValue { path, value });
+        }
+    }
+
+    /// Values that the file does not give, in the order in which they were read.
+    pub fn defaults(&self) -> Vec<DefaultValue> {
+        self.defaults.borrow().clone()
+    }
+
+    /// Set the end of the file: spans beyond it are those of settings.
+    pub fn set_file_end(&self, end: usize) {
+        self.file_end.set(end);
+    }
+
+    /// End of the file.
+    pub fn file_end(&self) -> usize {
+        self.file_end.get()
+    }
+
+    /// Whether a span lies in a setting of the command line.
+    pub fn is_setting(&self, span: &Range<usize>) -> bool {
+        span.start > self.file_end.get()
     }
 
     /// Number of errors so far; a check that needs valid values compares it with the number before.

@@ -13,4 +13,4 @@ pub(crate) mod reader;
 pub(crate) mod renamed;
 pub(crate) mod tree;
 
-pub use diagnostic::{Diagnostic, Kind, ModelErrors, Source};
+pub use diagnostic::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};

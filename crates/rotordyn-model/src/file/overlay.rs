@@ -231,7 +231,7 @@ fn set_in_table(
     if table.get(part.name).is_none() {
         // a misspelt item name must not create a new item
         let item = depth == 1 && !last && COLLECTIONS.contains(&parts[0].name);
-        if depth == 0 && COLLECTIONS.contains(&part.name) || item {
+        if depth == 0 && !last && COLLECTIONS.contains(&part.name) || item {
             let what = parts[..=depth].iter().map(|p| p.name).collect::<Vec<_>>().join(".");
             return Err(bad_path(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
         }

@@ -49,6 +49,7 @@ impl<'a> Reader<'a> {
 
     /// The given value, or the key's default; a key without default must be given.
     pub fn value(&self, key: &Key<Quantity>) -> f64 {
+        self.note_default(key);
         let default = default_value(key);
         if default.is_none() && !self.has(key) {
             self.missing(key);
@@ -62,6 +63,7 @@ impl<'a> Reader<'a> {
     }
 
     fn list_of(&self, key: &dyn Declared, each: Quantity) -> Option<Vec<f64>> {
+        self.note_default(key);
         match (self.entry(key), key.about().absent) {
             (Some(entry), _) => self.quantities(key.name(), &entry.node, each),
             (None, Absent::Default(text)) => Some(declared_list(text, each.dimension)),
@@ -157,7 +159,7 @@ impl<'a> Reader<'a> {
         } else {
             Problem::new(Kind::MissingUnit, &node.span, format!("{name} has no unit"))
                 .expected(expected_quantity(dimension))
-                .hint(format!("if {} is meant, write \"{value} {}\"", dimension.unit, dimension.unit))
+                .hint(unit_hint(key, &value.to_string(), value, dimension))
         };
         self.log.error(problem);
         None
@@ -168,8 +170,10 @@ impl<'a> Reader<'a> {
         let expected = expected_quantity(dimension);
         let problem = |kind, message: String| Problem::new(kind, &node.span, message).expected(&expected);
         match error {
-            UnitError::NoUnit(text) => problem(Kind::MissingUnit, format!("{name} has no unit"))
-                .hint(format!("if {} is meant, write \"{text} {}\"", dimension.unit, dimension.unit)),
+            UnitError::NoUnit(text) => problem(Kind::MissingUnit, format!("{name} has no unit")).hint({
+                let last = text.rsplit([',', ' ']).find_map(|word| word.parse().ok()).unwrap_or_default();
+                unit_hint(key, text, last, dimension)
+            }),
             UnitError::WrongDimension { unit, found, expected: dimension } => {
                 let p = problem(
                     Kind::WrongDimension,
@@ -303,6 +307,12 @@ pub(crate) fn range_words(quantity: Quantity) -> String {
         Range::Within(least, greatest) => ends("", least, greatest),
         Range::Below(least, limit) => ends("below ", least, limit),
     }
+}
+
+/// What to write for a number without its unit.
+fn unit_hint(key: &str, text: &str, value: f64, dimension: Dimension) -> String {
+    let unit = units::likely_unit(dimension, value, key);
+    format!("if {unit} is meant, write \"{text} {unit}\"")
 }
 
 fn quoted_example(dimension: Dimension) -> String {

@@ -123,6 +123,25 @@ impl<'a> Reader<'a> {
         self.log.error(Problem::new(kind, &self.span_of(key), message));
     }
 
+    /// Whether a key is given by a setting of the command line.
+    pub fn is_setting(&self, key: &dyn Declared) -> bool {
+        self.entry(key).is_some_and(|entry| self.log.is_setting(&entry.key_span))
+    }
+
+    /// Record the value of a key that the file does not give, in words.
+    pub fn taken_by_default(&self, key: &dyn Declared, value: impl Into<String>) {
+        self.log.taken_by_default(self.name(key), value.into());
+    }
+
+    /// Record the declared default of a key, if the file does not give it.
+    pub(super) fn note_default(&self, key: &dyn Declared) {
+        if !self.has(key)
+            && let Some(value) = key.default_text()
+        {
+            self.taken_by_default(key, value);
+        }
+    }
+
     /// Log that a key is missing, with its example.
     pub fn missing(&self, key: &dyn Declared) {
         self.missing_or(key, "");
@@ -148,9 +167,13 @@ impl<'a> Reader<'a> {
         self.log.error(Problem::new(Kind::WrongType, &node.span, message).expected(expected));
     }
 
-    /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given.
+    /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given. A key of
+    /// the command line takes the place of those of the file.
     pub fn one_of<'k>(&self, keys: &[&'k dyn Declared]) -> Option<&'k dyn Declared> {
-        let given: Vec<&'k dyn Declared> = keys.iter().copied().filter(|k| self.has(*k)).collect();
+        let mut given: Vec<&'k dyn Declared> = keys.iter().copied().filter(|k| self.has(*k)).collect();
+        if given.iter().any(|key| self.is_setting(*key)) {
+            given.retain(|key| self.is_setting(*key));
+        }
         if let [first, second, ..] = given[..] {
             let message = format!("{} and `{}` are mutually exclusive", self.name(first), second.name());
             let problem = Problem::new(Kind::Conflict, &self.span_of(second), message);
@@ -164,6 +187,7 @@ impl<'a> Reader<'a> {
 
     /// The text of a key, or its default.
     pub fn text(&self, key: &Key<Text>) -> Option<&'a str> {
+        self.note_default(key);
         let default = match key.about.absent {
             Absent::Default(text) => Some(text),
             _ => None,
@@ -174,8 +198,14 @@ impl<'a> Reader<'a> {
     fn text_of(&self, key: &dyn Declared, entry: &'a Entry) -> Option<&'a str> {
         match &entry.node.value {
             Value::Text(text) => Some(text),
-            _ => {
-                self.wrong_type(key.name(), &entry.node, "a string in quotes");
+            value => {
+                let message = format!("{} is {}", self.name(key), value.type_name());
+                let problem = Problem::new(Kind::WrongType, &entry.node.span, message);
+                let problem = problem.expected("a string in quotes");
+                self.log.error(match value {
+                    Value::Integer(number) => problem.hint(format!("write \"{number}\"")),
+                    _ => problem,
+                });
                 None
             }
         }
@@ -208,6 +238,7 @@ impl<'a> Reader<'a> {
 
     /// True or false as given, else the default.
     pub fn flag(&self, key: &Key<Flag>) -> bool {
+        self.note_default(key);
         self.flag_or(key, matches!(key.about.absent, Absent::Default("true")))
     }
 
@@ -225,6 +256,7 @@ impl<'a> Reader<'a> {
 
     /// A whole number as given, else the default; the least number as placeholder.
     pub fn count(&self, key: &Key<Count>) -> usize {
+        self.note_default(key);
         let default = match key.about.absent {
             Absent::Default(text) => text.parse().ok(),
             Absent::DefaultCount(value) => Some(value),
@@ -277,6 +309,7 @@ impl<'a> Reader<'a> {
 
     /// What the given word or the default stands for.
     pub fn word<T: Copy + Sync + std::fmt::Debug>(&self, key: &Key<Words<T>>) -> T {
+        self.note_default(key);
         self.choice(key).unwrap_or_else(|| key.default_word())
     }
 
@@ -355,6 +388,17 @@ impl<'a> Reader<'a> {
         &self.table.entries
     }
 
+    /// Names of all declared keys, each once.
+    fn declared_names(&self) -> Vec<&'static str> {
+        let mut names: Vec<&str> = Vec::new();
+        for key in self.declared.keys() {
+            if !names.contains(&key.name()) {
+                names.push(key.name());
+            }
+        }
+        names
+    }
+
     /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
     pub fn finish(self) {
         let requested = self.requested_keys.borrow();
@@ -367,7 +411,13 @@ impl<'a> Reader<'a> {
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
             let command = format!("rotordyn help {}", self.declared_path);
             let all_keys = format!("; `{}` explains them", command.trim_end());
-            self.log.error(problem.suggest(&entry.key, known.iter().copied()).after_list(&all_keys));
+            let problem = match entry.node.value {
+                Value::Table(_) | Value::List(_) if self.path.is_empty() => {
+                    problem.suggest_all(&entry.key, &self.declared_names())
+                }
+                _ => problem.suggest(&entry.key, known.iter().copied()),
+            };
+            self.log.error(problem.after_list(&all_keys));
         }
     }
 }

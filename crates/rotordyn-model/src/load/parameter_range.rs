@@ -15,7 +15,7 @@ pub(super) fn check(root: &Table, files: &[ExternalFile], model: &Model, log: &L
     let Some(last) = parameter.values.len().checked_sub(1) else { return };
     let mut ends = Vec::new();
     for k in [0, last] {
-        match model_at(root, files, parameter, k) {
+        match model_at(root, files, parameter, k, log.file_end()) {
             Ok(model) => ends.push(model),
             Err(why) => {
                 let (key, kind) =
@@ -60,8 +60,12 @@ fn model_at(
     files: &[ExternalFile],
     parameter: &Parameter,
     k: usize,
+    file_end: usize,
 ) -> Result<Model, InvalidParameter> {
     let (mut varied, log, mut sources) = (root.clone(), Log::default(), Sources::default());
+    // the spans of the settings lie beyond those of the file
+    sources.push("", " ".repeat(file_end));
+    log.set_file_end(file_end);
     for (path, value) in parameter.settings(k) {
         apply_set(&mut varied, &path, &value, &mut sources, &log);
     }
