@@ -174,6 +174,9 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
         draft.set_flag(key, Some(sweep(from.trim(), to.trim(), DEFAULT_SWEEP_POINTS)));
     }
     draft.set_flag("sweep", toml_array(&plain));
+    draft.set_flag("skidding", args.skidding.then(|| "true".into()));
+    draft.set_flag("skidding_loads", args.skidding_loads.as_ref().map(toml_string));
+    draft.set_flag("skidding_speeds", args.skidding_speeds.as_ref().map(toml_string));
     Ok(draft.settings)
 }
 
