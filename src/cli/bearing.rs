@@ -3,17 +3,21 @@
 use std::time::Instant;
 
 use miette::Severity;
+use rotordyn::bearing::free_ball::FreeBallBearing;
 use rotordyn::document::Section;
 use rotordyn::figures;
 use rotordyn::io::{json, results_file};
+use rotordyn::model::study::BearingStudy;
 use rotordyn::model::{Diagnostic, LoadedBearings};
 use rotordyn::results::{BearingResult, Results};
+use rotordyn::study::free_ball::add_free_balls;
 use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
 
 use super::args::BearingArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::interrupt::continue_unless_interrupted;
 use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
@@ -35,17 +39,9 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     }
     let text = ModelText { model: &loaded.text, title: &loaded.title, estimated: String::new() };
     let start = Instant::now();
-    let spinner = terminal.spinner("bearing");
-    let bearings_or_error = compute(&loaded);
-    spinner.finish_and_clear();
-    let bearings = bearings_or_error?;
+    let (bearings, complete) = compute(&loaded, terminal)?;
     let seconds = start.elapsed().as_secs_f64();
-    for bearing in &bearings {
-        bearing_tables::bearing(terminal, bearing);
-        if let Some(free) = &bearing.free_balls {
-            free_ball_tables::print(terminal, free);
-        }
-    }
+    print(terminal, &bearings);
     let mut results = Results { bearings, ..Results::default() };
     results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
     results.warnings.extend(results.bearings.iter().flat_map(|b| b.warnings.clone()));
@@ -78,13 +74,71 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     document["command"] = json!("bearing");
     document["seconds"] = json!({ "bearing": seconds });
     document["files"] = json!(files);
-    Ok(document.into())
+    let mut outcome = Outcome::from(document);
+    if !complete {
+        outcome.failures.push(("bearing", Failure::Interrupted));
+    }
+    Ok(outcome)
 }
 
-fn compute(loaded: &LoadedBearings) -> Result<Vec<BearingResult>, rotordyn::assembly::PhysicsError> {
+/// All results, and whether none is missing because of Ctrl-C.
+fn compute(loaded: &LoadedBearings, terminal: &Terminal) -> Result<(Vec<BearingResult>, bool), Failure> {
     let study = loaded.studies.bearing.clone().unwrap_or_default();
-    match &loaded.model {
-        Some(model) => Machine::new(model.clone())?.bearings(&study),
-        None => single_bearings(&loaded.bearings, &study),
+    let is_analysed =
+        |name: &String| study.bearings.is_empty() || study.bearings.iter().any(|other| other == name);
+    if study.skidding.is_some() && !loaded.free_balls.iter().any(|(name, _)| is_analysed(name)) {
+        let names: Vec<&str> = loaded
+            .bearings
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .filter(|n| is_analysed(&(*n).into()))
+            .collect();
+        return Err(Failure::Input(format!(
+            "a skidding map needs free balls: give bearing {} model = \"free_ball\", beside its keys of geometry",
+            names.join(", ")
+        )));
+    }
+    let spinner = terminal.spinner("bearing");
+    let found = match &loaded.model {
+        Some(model) => Machine::new(model.clone()).and_then(|machine| {
+            let found = machine.static_bearings(&study)?;
+            Ok((found, machine.free_balls()))
+        }),
+        None => single_bearings(&loaded.bearings, &study).map(|found| (found, loaded.free_balls.clone())),
+    };
+    spinner.finish_and_clear();
+    let (mut found, free) = found?;
+    let complete = run_free_balls(&mut found, &free, &study, terminal);
+    Ok((found, complete))
+}
+
+/// Runs the free balls of the analysed bearings with a progress bar; returns whether all is done before Ctrl-C.
+pub fn run_free_balls(
+    found: &mut [BearingResult],
+    free: &[(String, FreeBallBearing)],
+    study: &BearingStudy,
+    terminal: &Terminal,
+) -> bool {
+    let bar = terminal.count_bar();
+    bar.set_message("free balls");
+    let complete = add_free_balls(found, free, study, &|done, all| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+        continue_unless_interrupted()
+    });
+    bar.finish_and_clear();
+    complete
+}
+
+/// Tables of the analysed bearings.
+pub fn print(terminal: &Terminal, found: &[BearingResult]) {
+    for bearing in found {
+        bearing_tables::bearing(terminal, bearing);
+        if let Some(free) = &bearing.free_balls {
+            free_ball_tables::print(terminal, free);
+        }
+        if let Some(map) = &bearing.skidding {
+            free_ball_tables::skidding(terminal, map);
+        }
     }
 }

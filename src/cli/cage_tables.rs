@@ -45,10 +45,12 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
             number(line.free, 4),
             number(line.rolling, 4),
             number(line.driven, 4),
+            number(line.spaced, 4),
             number(line.noise, 2),
             line.unit.clone(),
             percent(line.difference()),
             percent(line.difference_driven()),
+            percent(line.difference_spaced()),
         ]
     });
     let header = [
@@ -56,14 +58,16 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
         "line",
         "free balls",
         "rolling",
-        "driven",
+        "mean angle",
+        "every ball",
         "noise",
         "unit",
         "to rolling %",
-        "to driven %",
+        "to mean angle %",
+        "to every ball %",
     ];
-    let title =
-        "Levels of the order lines (RMS): free balls, rolling cage, cage driven by the balls' mean angle";
+    let title = "Levels of the order lines (RMS): free balls; kinematic ones in a rolling cage, at the balls' mean angle, \
+                 each at its own angle";
     terminal.table(title, &header, &lines.collect::<Vec<_>>());
     terminal.print(&format!("  {}", found.conclusion()));
 }

@@ -1,7 +1,7 @@
-//! Tables of a bearing with free balls: cage speed, comparison with the kinematic cage, heat.
+//! Tables of a bearing with free balls: cage speed, comparison with the kinematic cage, heat, skidding map.
 
 use super::terminal::{Terminal, number, rpm, table};
-use rotordyn::results::{FreeBallResult, LOSS_NAMES};
+use rotordyn::results::{FreeBallResult, LOSS_NAMES, SkiddingMap};
 
 pub fn print(terminal: &Terminal, found: &FreeBallResult) {
     let c = &found.comparison;
@@ -69,4 +69,20 @@ pub fn print(terminal: &Terminal, found: &FreeBallResult) {
         "spin axis [deg]",
     ];
     terminal.print(table(&header, &rows).trim_end());
+}
+
+/// Slip of the cage, a row for each load and a column for each speed.
+pub fn skidding(terminal: &Terminal, map: &SkiddingMap) {
+    let title = format!("Cage slip of bearing {} in %, over load and speed", map.name);
+    let speeds: Vec<String> = map.speeds.iter().map(|speed| format!("{:.0} rpm", rpm(*speed))).collect();
+    let header: Vec<&str> = std::iter::once("load [N]").chain(speeds.iter().map(String::as_str)).collect();
+    let slip = |load: usize, speed: usize| match map.slip_at(load, speed) {
+        slip if slip.is_finite() => number(100.0 * slip, 3),
+        _ => String::new(),
+    };
+    let row = |(k, load): (usize, &f64)| {
+        std::iter::once(number(*load, 4)).chain((0..speeds.len()).map(|j| slip(k, j))).collect()
+    };
+    let rows: Vec<Vec<String>> = map.loads.iter().enumerate().map(row).collect();
+    terminal.table(&title, &header, &rows);
 }

@@ -1,5 +1,6 @@
 //! Ctrl-C: the first requests a clean stop, the second exits at once.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
@@ -18,4 +19,9 @@ pub fn install_handler() {
 /// Whether Ctrl-C was pressed.
 pub fn requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
+}
+
+/// Stops a study after Ctrl-C.
+pub fn continue_unless_interrupted() -> ControlFlow<()> {
+    if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -225,6 +225,9 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
         draft.set_as_written(key, Some(values), Some(format!("--sweep {text}")));
     }
     draft.set_flag("sweep", toml_array(&plain));
+    draft.set_flag("skidding", args.skidding.then(|| "true".into()));
+    draft.set_flag("skidding_loads", args.skidding_loads.as_ref().map(toml_string));
+    draft.set_flag("skidding_speeds", args.skidding_speeds.as_ref().map(toml_string));
     Ok(draft.settings)
 }
 

@@ -9,6 +9,7 @@ use rotordyn::model::{Loaded, Model};
 use rotordyn::study::bifurcation;
 
 use super::failure::Failure;
+use super::interrupt::continue_unless_interrupted;
 use super::machine::ModelSource;
 use super::studies::Job;
 use super::terminal::Terminal;
@@ -96,8 +97,4 @@ fn run_bar(terminal: &Terminal, what: &str) -> ProgressBar {
 fn update_bar(bar: &ProgressBar, share: f64) -> ControlFlow<()> {
     bar.set_position((BAR_LENGTH * share) as u64);
     continue_unless_interrupted()
-}
-
-fn continue_unless_interrupted() -> ControlFlow<()> {
-    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -21,7 +21,7 @@ use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
-use super::{bearing_tables, cage_tables, interrupt, run_up_tables, tables};
+use super::{bearing, cage_tables, interrupt, run_up_tables, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -270,11 +270,16 @@ impl<'a> Job<'a> {
             }
             Study::Bearing => {
                 if let Some(settings) = &studies.bearing {
-                    let found = machine.bearings(settings)?;
+                    let mut found = machine.static_bearings(settings)?;
                     spinner.finish_and_clear();
-                    found.iter().for_each(|found| bearing_tables::bearing(terminal, found));
+                    let complete =
+                        bearing::run_free_balls(&mut found, &machine.free_balls(), settings, terminal);
+                    bearing::print(terminal, &found);
                     self.results.warnings.extend(found.iter().flat_map(|b| b.warnings.clone()));
                     self.results.bearings = found;
+                    if !complete {
+                        return Err(Failure::Interrupted);
+                    }
                 }
             }
         }

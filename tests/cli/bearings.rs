@@ -167,6 +167,44 @@ fn invalid_flags_are_reported() {
     rotordyn().args(["bearing", "models/jeffcott.toml"]).assert().code(2);
 }
 
+/// A bearing-only file with free balls runs them under the given load, and maps their slip in every output; a file without
+/// free balls is told what to change.
+#[test]
+fn skidding_map_of_a_bearing_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("light.toml");
+    let text = "[model]\nname = \"light\"\n[bearing.front]\nmodel = \"free_ball\"\ndesignation = \"6205\"\n\
+                slip = \"centre\"\nfriction = 0.03\ndrag = { cage_moment = \"2e-5 N m s/rad\" }\n";
+    std::fs::write(&model, text).unwrap();
+    let flags = ["--load", "0, 0, 200 N", "--speed", "6000 rpm", "--sweep", "load", "--skidding"];
+    let grid = ["--skidding-loads", "50, 200 N", "--skidding-speeds", "3000, 6000 rpm"];
+    let mut command = rotordyn();
+    command.arg("bearing").arg(&model).args(flags).args(grid).args(["--csv", "--out"]).arg(folder.path());
+    let found = json_of(&mut command)["bearings"][0].clone();
+    assert!(found["free_balls"]["slip"].is_number(), "{found}");
+    let map = &found["skidding_map"];
+    assert_eq!(numbers(&map["load_n"]), [50.0, 200.0]);
+    assert_eq!((map["complete"].as_bool(), map["failures"].as_array().map(Vec::len)), (Some(true), Some(0)));
+    let slip: Vec<f64> = map["slip"].as_array().unwrap().iter().flat_map(numbers).collect();
+    println!("slip {slip:?}");
+    assert!(slip.len() == 4 && slip.iter().all(|slip| slip.abs() < 0.02), "{slip:?}");
+    assert_eq!(map["points"].as_array().map(Vec::len), Some(4));
+    let store = rotordyn::io::hdf5::Store::open(folder.path().join("results.h5")).unwrap();
+    assert_eq!(store.read("/bearings/front/skidding_map/slip").unwrap().data, slip);
+    for extension in ["svg", "png"] {
+        assert!(folder.path().join(format!("bearing_front_skidding.{extension}")).exists());
+    }
+    let tables = std::fs::read_dir(folder.path().join("csv")).unwrap();
+    assert!(tables.flatten().any(|file| file.file_name().to_string_lossy().contains("skidding")));
+
+    let text = std::fs::read_to_string(&model).unwrap();
+    let (kinematic, _) = text.split_once("slip").unwrap();
+    std::fs::write(&model, kinematic.replace("free_ball", "ball")).unwrap();
+    let assert = rotordyn().arg("bearing").arg(&model).arg("--skidding").assert().code(2);
+    let text = String::from_utf8_lossy(&assert.get_output().stderr).to_string();
+    assert!(text.contains("bearing front model = \"free_ball\""), "{text}");
+}
+
 /// `run` computes `[study.bearing]` of a machine with the other studies.
 #[test]
 fn run_computes_the_bearing_study() {

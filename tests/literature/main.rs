@@ -29,6 +29,7 @@ mod iso16281;
 mod iso_281_life;
 mod iso_281_ratings;
 mod iso_vg_oils;
+mod nasa_tn_d_7870;
 mod nelson_mcvaugh_1976;
 mod ross_critical;
 mod ross_elements;

@@ -116,6 +116,8 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "study.frf.frequencies" => "from = \"1 Hz\"\nto = \"400 Hz\"\ncount = 5",
         "study.bearing.loads" => "from = \"0 N\"\nto = \"400 N\"\ncount = 5",
         "study.bearing.displacements" => "from = \"0 um\"\nto = \"20 um\"\ncount = 5",
+        "study.bearing.skidding_loads" => "from = \"10 N\"\nto = \"400 N\"\ncount = 5",
+        "study.bearing.skidding_speeds" => "from = \"1000 rpm\"\nto = \"9000 rpm\"\ncount = 5",
         "study.bearing.cage_angles" => "from = \"0 deg\"\nto = \"20 deg\"\ncount = 5",
         path if path.ends_with(".speeds") => "from = \"0 rpm\"\nto = \"1200 rpm\"\ncount = 5",
         _ => "",

@@ -3,9 +3,10 @@
 //! A bearing with free bodies has states z with ż = g(z, r, ṙ, t), integrated in time with the machine by explicit steps.
 //! Its rows r are the six relative displacements, then the six displacements of a housing that moves.
 
+use std::borrow::Cow;
 use std::fmt::Debug;
 
-use crate::free_ball::FreeBallError;
+use crate::free_ball::{FreeBallError, FreeBallState, FreeBalls, RingState};
 use crate::internal::Motion;
 use crate::reaction::{Reaction, Rotation};
 
@@ -13,7 +14,7 @@ use crate::reaction::{Reaction, Rotation};
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyChannel {
     /// Name after that of the bearing: "cage_speed".
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     pub unit: &'static str,
     pub quantity: &'static str,
     /// Body or direction in words: "cage".
@@ -58,6 +59,9 @@ pub trait FreeBodies: Debug {
         time: f64,
     ) -> Result<(), FreeBallError>;
 
+    /// Balls, cage and rings in a state, for shapes and pictures; `None` for a bearing that could not be prepared.
+    fn placed(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> Option<PlacedBalls<'_>>;
+
     /// Kinetic energy of the bodies \[J\].
     fn kinetic_energy(&self, states: &[f64]) -> f64;
 
@@ -77,6 +81,15 @@ pub trait FreeBodies: Debug {
 
     /// Their values, written to `out` in order.
     fn read(&self, rows: Motion, rotation: &Rotation, states: &[f64], out: &mut [f64]);
+}
+
+/// Free balls and cage at a state of a machine.
+#[derive(Clone, Debug)]
+pub struct PlacedBalls<'a> {
+    pub balls: &'a FreeBalls,
+    pub state: FreeBallState,
+    /// Inner and outer ring.
+    pub rings: [RingState; 2],
 }
 
 /// Work on free bodies that does not go through the rows, since the start \[J\].

@@ -34,11 +34,11 @@ pub mod rating;
 
 pub use ball::{
     Arrangement, BallBearing, BallElement, BallInertia, BallLoad, Cage, Duplex, Fit, FitMaterials,
-    InertiaDecision, Preload, PreloadState, Service,
+    InertiaDecision, Preload, PreloadState, Service, SpacedBalls,
 };
 pub use bearing::Bearing;
 pub use bearing_contact::BearingContact;
-pub use bodies::FreeBodies;
+pub use bodies::{FreeBodies, PlacedBalls};
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,

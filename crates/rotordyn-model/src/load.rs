@@ -10,6 +10,7 @@ use super::file::tree::{Table, Value};
 use super::file::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};
 use super::study::Studies;
 use super::{ExternalFile, Model};
+use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::{BallBearing, Bearing};
 use std::ops::Range;
 
@@ -130,6 +131,8 @@ pub struct LoadedBearings {
     pub title: String,
     /// Ball bearings with their names, in file order; never empty.
     pub bearings: Vec<(String, BallBearing)>,
+    /// Those of them whose balls and cage are free bodies.
+    pub free_balls: Vec<(String, FreeBallBearing)>,
     pub studies: Studies,
     /// The machine; `None` for a bearing-only file.
     pub model: Option<Model>,
@@ -196,6 +199,8 @@ pub fn load_bearings_with(
     let other = sites.iter().map(|(_, bearing)| bearing).find(|bearing| bearing.cage().is_some());
     let ball = |(name, bearing): &(String, Bearing)| Some((name.clone(), bearing.static_balls()?.clone()));
     let bearings: Vec<_> = sites.iter().filter_map(ball).collect();
+    let free = |(name, bearing): &(String, Bearing)| Some((name.clone(), bearing.free_balls()?.clone()));
+    let free_balls = sites.iter().filter_map(free).collect();
     if bearings.is_empty() && log.error_count() == 0 {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no ball bearing");
         log.error(match other {
@@ -207,7 +212,7 @@ pub fn load_bearings_with(
         });
     }
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
-    Ok(LoadedBearings { name, title, bearings, studies, model, warnings, hints, sources, text })
+    Ok(LoadedBearings { name, title, bearings, free_balls, studies, model, warnings, hints, sources, text })
 }
 
 /// Parsed file with its overrides applied, not yet validated.

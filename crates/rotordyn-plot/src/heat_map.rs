@@ -2,6 +2,7 @@
 //! rectangle.
 
 use super::axes::{Axes, Frame};
+use super::contour;
 use super::heat::{self, COLOR_BAR_WIDTH, Heat, color_bar};
 use super::labels::page_heading;
 use super::scale::{Range, Scale, extremes, nice_step};
@@ -43,6 +44,8 @@ pub struct HeatMap {
     pub marked: Option<MarkedRegion>,
     /// Draw the line x = y.
     pub diagonal: bool,
+    /// Contour lines with their labels, over increasing x and y.
+    pub contours: Vec<(f64, String)>,
 }
 
 pub fn draw(data: &HeatMap) -> Svg {
@@ -62,6 +65,7 @@ pub fn draw(data: &HeatMap) -> Svg {
         None => round_bounds(&data.value),
     };
     heat.draw(&mut svg, &axes, bounds);
+    contour::draw(&mut svg, &axes, &heat, &data.contours);
     if data.diagonal {
         let (x, y) = (axes.x.range, axes.y.range);
         let (lo, hi) = (x.lo.min(y.lo), x.hi.max(y.hi));

@@ -15,6 +15,7 @@ pub mod figures;
 mod arcs;
 pub mod axes;
 mod color_map;
+mod contour;
 mod decimate;
 mod font;
 mod footnote;

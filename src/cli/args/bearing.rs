@@ -25,7 +25,9 @@ Examples:
   rotordyn bearing models/overhung_rig.toml --bearing A --load \"0, -500, 100 N\" --speed \"3000 rpm\"
   rotordyn bearing my_bearing.toml --sweep load=\"0 N .. 2 kN\" --along y --cage-average
   rotordyn bearing my_bearing.toml --sweep displacement=\"0 um .. 30 um\" --along z --constrain x,y,theta_x,theta_y
-  rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"";
+  rotordyn bearing my_bearing.toml --sweep speed=\"0 rpm .. 20000 rpm\"
+  rotordyn bearing models/overhung_rig.toml --variant free_balls --bearing B --load \"0, -50, 0 N\" --speed \"6000 rpm\" \
+--skidding --skidding-loads \"10, 20, 50 N\" --skidding-speeds \"2000, 4000, 6000 rpm\"";
 
 /// Bearings, operating point and sweeps.
 #[derive(Args, Clone, Debug)]
@@ -50,4 +52,11 @@ pub struct BearingArgs {
     pub along: Option<String>,
     #[arg(long, alias = "averaged", help = key_help("study.bearing.cage_average"))]
     pub cage_average: bool,
+    /// Cage slip of bearings with free balls over load and speed: a map with --skidding-loads and --skidding-speeds
+    #[arg(long)]
+    pub skidding: bool,
+    #[arg(long, value_name = "FORCES", requires = "skidding", help = key_help("study.bearing.skidding_loads"))]
+    pub skidding_loads: Option<String>,
+    #[arg(long, value_name = "SPEEDS", requires = "skidding", help = key_help("study.bearing.skidding_speeds"))]
+    pub skidding_speeds: Option<String>,
 }

@@ -11,6 +11,7 @@
 //! | `preload_mechanism`, `preload`; `ring_equilibrium`, `spring_preload` | preload: rigid, or by a spring |
 //! | `duplex` | two rows |
 //! | `element` | the bearing; `change`, `cage_equilibrium`: its statics with ball inertia |
+//! | `spaced` | a row whose balls are each at a given angle |
 //! | `load`; `model` | load of one ball; implementation of `BearingModel` and `BearingElement` |
 
 mod cage;
@@ -36,6 +37,7 @@ mod preload_mechanism;
 mod ring_equilibrium;
 mod ring_motion;
 mod row;
+mod spaced;
 mod spring_preload;
 mod sum;
 
@@ -46,3 +48,4 @@ pub use input::{Arrangement, BallBearing, CONTAMINATION, Cage, Duplex, Preload, 
 pub use load::BallLoad;
 pub use lubrication::Lubrication;
 pub use preload::PreloadState;
+pub use spaced::SpacedBalls;

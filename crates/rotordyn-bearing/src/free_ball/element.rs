@@ -1,42 +1,57 @@
 //! Free balls as a bearing of a machine: quasi-static in statics and linear studies, free bodies in runs.
 
-use std::f64::consts::TAU;
+use std::borrow::Cow;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use super::forces::LOSSES;
 use super::ring::{RingFrame, RingState, V};
 use super::state::{FreeBallState, cage_at, normalise_orientation};
 use super::surfaces::ClosedForms;
-use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep};
+use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep, StepShares};
 use crate::ball::{BallElement, PreloadState};
-use crate::bodies::{BodyChannel, FreeBodies};
+use crate::bodies::{BodyChannel, FreeBodies, PlacedBalls};
 use crate::internal::Motion;
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
 use crate::{BallBearing, Bearing, BearingContact, Reaction, Rotation};
 
-/// Share of the stability limit by contact stiffness that a step takes: contacts then vibrate with 11 steps to a period
-/// and lose 2e-4 of their amplitude a step to the integration.
-const CONTACT_SHARE: f64 = 0.2;
-/// Share of the limit by friction, whose fastest motion only has to decay; loads may grow by 40 % before
-/// the share is found anew.
-const FRICTION_SHARE: f64 = 0.7;
 /// Speed of the shaft \[rad/s\] below which no cage slip is given.
 const SLOWEST: f64 = 0.1;
 /// Numbers behind those of the bodies: work given and energy lost.
 const WORK: usize = 2;
 
 const CHANNELS: [BodyChannel; 10] = [
-    BodyChannel { name: "ball_angle", unit: "rad", quantity: "angle", direction: "balls" },
-    BodyChannel { name: "cage_speed", unit: "rad/s", quantity: "speed", direction: "cage" },
-    BodyChannel { name: "cage_slip", unit: "", quantity: "ratio", direction: "cage" },
-    BodyChannel { name: "ball_speed", unit: "rad/s", quantity: "speed", direction: "balls" },
-    BodyChannel { name: "ball_pitch_angle", unit: "rad", quantity: "angle", direction: "balls" },
-    BodyChannel { name: "cage_x", unit: "m", quantity: "displacement", direction: "x" },
-    BodyChannel { name: "cage_y", unit: "m", quantity: "displacement", direction: "y" },
-    BodyChannel { name: "pocket_force", unit: "N", quantity: "contact force", direction: "cage" },
-    BodyChannel { name: "friction_torque", unit: "N m", quantity: "moment", direction: "shaft" },
-    BodyChannel { name: "friction_power", unit: "W", quantity: "power", direction: "" },
+    BodyChannel { name: Cow::Borrowed("ball_angle"), unit: "rad", quantity: "angle", direction: "balls" },
+    BodyChannel { name: Cow::Borrowed("cage_speed"), unit: "rad/s", quantity: "speed", direction: "cage" },
+    BodyChannel { name: Cow::Borrowed("cage_slip"), unit: "", quantity: "ratio", direction: "cage" },
+    BodyChannel { name: Cow::Borrowed("ball_speed"), unit: "rad/s", quantity: "speed", direction: "balls" },
+    BodyChannel {
+        name: Cow::Borrowed("ball_pitch_angle"),
+        unit: "rad",
+        quantity: "angle",
+        direction: "balls",
+    },
+    BodyChannel { name: Cow::Borrowed("cage_x"), unit: "m", quantity: "displacement", direction: "x" },
+    BodyChannel { name: Cow::Borrowed("cage_y"), unit: "m", quantity: "displacement", direction: "y" },
+    BodyChannel {
+        name: Cow::Borrowed("pocket_force"),
+        unit: "N",
+        quantity: "contact force",
+        direction: "cage",
+    },
+    BodyChannel {
+        name: Cow::Borrowed("friction_torque"),
+        unit: "N m",
+        quantity: "moment",
+        direction: "shaft",
+    },
+    BodyChannel { name: Cow::Borrowed("friction_power"), unit: "W", quantity: "power", direction: "" },
 ];
+
+/// Name of the channel with the angle of a ball beyond even spacing about the balls' mean angle; balls count from 1.
+pub fn ball_offset_name(ball: usize) -> String {
+    format!("ball_{}_offset", ball + 1)
+}
 
 impl BearingModel for FreeBallBearing {
     fn keyword(&self) -> &'static str {
@@ -107,12 +122,23 @@ impl BearingModel for FreeBallBearing {
 pub struct FreeBallElement {
     quasi_static: BallElement,
     bodies: Result<FreeBalls, FreeBallError>,
+    channels: Vec<BodyChannel>,
 }
 
 impl FreeBallElement {
     /// Prepares a bearing; its clearance is that at standstill.
     pub fn new(bearing: &FreeBallBearing) -> Self {
-        Self { quasi_static: BallElement::new(&bearing.ball), bodies: FreeBalls::new(bearing.clone(), 0.0) }
+        let offset = |j: usize| BodyChannel {
+            name: ball_offset_name(j).into(),
+            unit: "rad",
+            quantity: "angle",
+            direction: "balls",
+        };
+        Self {
+            quasi_static: BallElement::new(&bearing.ball),
+            bodies: FreeBalls::new(bearing.clone(), 0.0),
+            channels: CHANNELS.into_iter().chain((0..bearing.ball.geometry.balls).map(offset)).collect(),
+        }
     }
 }
 
@@ -251,8 +277,8 @@ impl FreeBodies for FreeBallElement {
         let Some((balls, values)) = self.parts(states) else { return f64::INFINITY };
         let frames = rings(rows, rotation).map(|ring| ring.frame());
         let mut rates = vec![0.0; values.len()];
-        let stable = StableStep::of(&balls.parts.rates(&ClosedForms, values, &frames, &mut rates));
-        (CONTACT_SHARE * stable.contact).min(FRICTION_SHARE * stable.friction)
+        StableStep::of(&balls.parts.rates(&ClosedForms, values, &frames, &mut rates))
+            .within(StepShares::IN_MACHINE)
     }
 
     fn normalise(&self, states: &mut [f64]) {
@@ -275,6 +301,12 @@ impl FreeBodies for FreeBallElement {
         balls.parts.check_bodies(&state, &frames)
     }
 
+    fn placed(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> Option<PlacedBalls<'_>> {
+        let (balls, values) = self.parts(states)?;
+        let state = FreeBallState { time: 0.0, values: values.to_vec(), balls: balls.parts.balls.len() };
+        Some(PlacedBalls { balls, state, rings: rings(rows, rotation) })
+    }
+
     fn kinetic_energy(&self, states: &[f64]) -> f64 {
         self.parts(states).map_or(0.0, |(balls, values)| {
             let energy = balls.parts.energy(values);
@@ -287,7 +319,7 @@ impl FreeBodies for FreeBallElement {
     }
 
     fn channels(&self) -> &[BodyChannel] {
-        &CHANNELS
+        &self.channels
     }
 
     fn read(&self, rows: Motion, rotation: &Rotation, states: &[f64], out: &mut [f64]) {
@@ -317,8 +349,9 @@ impl FreeBodies for FreeBallElement {
         let rolling = self.quasi_static.cage_ratio(mean_cos) * shaft_speed;
         let slip = if shaft_speed.abs() > SLOWEST { 1.0 - cage_speed / rolling } else { 0.0 };
         let pocket = reports.iter().map(|ball| ball.pocket.abs()).fold(0.0, f64::max);
+        let ball_angle = balls.parts.ball_angle(values);
         let values = [
-            near(balls.parts.ball_angle(values), rotation.cage_angle),
+            near(ball_angle, rotation.cage_angle),
             cage_speed,
             slip,
             ball_speed,
@@ -329,6 +362,12 @@ impl FreeBodies for FreeBallElement {
             -sums.rings[0].moment.dot(&inner.axis),
             sums.losses[..LOSSES.len()].iter().sum(),
         ];
-        out.copy_from_slice(&values);
+        let (first, offsets) = out.split_at_mut(CHANNELS.len());
+        first.copy_from_slice(&values);
+        let spacing = TAU / reports.len() as f64;
+        for (j, (offset, ball)) in offsets.iter_mut().zip(&reports).enumerate() {
+            let apart = ball.position - ball_angle - j as f64 * spacing;
+            *offset = (apart + PI).rem_euclid(TAU) - PI;
+        }
     }
 }

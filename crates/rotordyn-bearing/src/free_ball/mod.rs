@@ -29,8 +29,8 @@ mod ring;
 mod state;
 mod surfaces;
 
-pub use advance::{Interval, StableStep};
-pub use element::FreeBallElement;
+pub use advance::{Interval, StableStep, StepShares};
+pub use element::{FreeBallElement, ball_offset_name};
 pub use energy::{Momentum, StoredEnergy};
 pub use error::{FreeBallError, StepLimit};
 pub use forces::{ForceSums, LOSSES, Loss};

@@ -18,4 +18,5 @@ mod linear_bearing;
 mod models;
 mod preload;
 mod radial_ball;
+mod spaced_balls;
 mod spring_preload;

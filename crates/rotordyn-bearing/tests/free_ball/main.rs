@@ -2,6 +2,7 @@
 
 mod angular_contact;
 mod balance;
+mod bearing_218;
 mod bearings;
 mod cage_speed;
 mod diagnostics;

@@ -170,6 +170,15 @@ pub struct BearingStudy {
     /// The sweeps; if none is given those of load, of speed if it has an effect, and of cage angle, over
     /// default ranges.
     pub sweeps: Vec<BearingSweep>,
+    /// Skidding map of bearings with free balls, if wanted.
+    pub skidding: Option<SkiddingRange>,
+}
+
+/// Loads \[N\] and speeds \[rad/s\] of a skidding map; empty: shares of those of the operating point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SkiddingRange {
+    pub loads: Vec<f64>,
+    pub speeds: Vec<f64>,
 }
 
 /// Default composite roughness \[m\]: ground races of normal precision; that of the balls is negligible.
@@ -187,6 +196,7 @@ impl Default for BearingStudy {
             roughness: ROUGHNESS,
             sweep_direction: SweepDirection::default(),
             sweeps: Vec::new(),
+            skidding: None,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Results of a study of single ball bearings.
 
-use super::free_ball::FreeBallResult;
+use super::free_ball::{FreeBallResult, SkiddingMap};
 use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::bearing_stiffness::BearingEquilibrium;
 use crate::analysis::preload::MountedPreload;
@@ -42,6 +42,8 @@ pub struct BearingResult {
     pub films: Vec<EhlFilm>,
     /// The bearing with free balls and cage under the same force; `None` for other bearings.
     pub free_balls: Option<FreeBallResult>,
+    /// Its cage slip over load and speed, if asked for.
+    pub skidding: Option<SkiddingMap>,
     pub warnings: Vec<Warning>,
 }
 
@@ -92,6 +94,9 @@ impl BearingResult {
         }
         if let Some(free) = &self.free_balls {
             out = out.group("free_balls", free.document());
+        }
+        if let Some(map) = &self.skidding {
+            out = out.group("skidding_map", map.document());
         }
         out.and_if(self.bearing.estimated_geometry.as_ref(), |out, how| out.text("estimated_geometry", how))
     }

@@ -47,10 +47,12 @@ pub struct CageLine {
     pub channel: String,
     pub unit: String,
     pub line: OrderLine,
-    /// RMS level with free balls, with a cage that rolls, and with one that turns with the balls' mean angle of the run.
+    /// RMS level with free balls, with a cage that rolls, with one that turns with the balls' mean angle of the run, and with
+    /// every kinematic ball at the angle of its free one.
     pub free: f64,
     pub rolling: f64,
     pub driven: f64,
+    pub spaced: f64,
     /// Level with free balls at orders a few lines beside it, where there is only the noise of collisions.
     pub noise: f64,
 }
@@ -71,6 +73,11 @@ impl CageLine {
     /// Relative difference from the level of a cage that turns with the balls.
     pub fn difference_driven(&self) -> f64 {
         self.free / self.driven - 1.0
+    }
+
+    /// Relative difference from the level with every kinematic ball at the angle of its free one.
+    pub fn difference_spaced(&self) -> f64 {
+        self.free / self.spaced - 1.0
     }
 }
 
@@ -101,11 +108,13 @@ impl RollingCageComparison {
         let differs = self.judged().filter(|line| line.difference().abs() > LEVEL_LIMIT);
         match differs.max_by(|a, b| a.difference().abs().total_cmp(&b.difference().abs())) {
             Some(line) => format!(
-                "cage speeds as by rolling, but levels differ: {} of {} by {:.0} %, {:.0} % with the cage at the balls' angle",
+                "cage speeds as by rolling, but levels differ: {} of {} by {:.0} %, {:.0} % with the cage at the balls' mean \
+                 angle, {:.0} % with every ball at its own",
                 line.line.label,
                 line.channel,
                 100.0 * line.difference(),
-                100.0 * line.difference_driven()
+                100.0 * line.difference_driven(),
+                100.0 * line.difference_spaced()
             ),
             None => "a cage that rolls without slip is good enough for this run".into(),
         }
@@ -132,6 +141,7 @@ impl RollingCageComparison {
             .number("rms_free_balls", "", |l| l.free)
             .number("rms_rolling_cage", "", |l| l.rolling)
             .number("rms_driven_cage", "", |l| l.driven)
+            .number("rms_driven_balls", "", |l| l.spaced)
             .number("rms_noise", "", |l| l.noise);
         Document::new()
             .quantity("start", "s", self.stretch[0])

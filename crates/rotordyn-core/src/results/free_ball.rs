@@ -1,6 +1,6 @@
 //! Results of the study of one bearing with free balls.
 
-use crate::document::{Array, Document, in_json, named};
+use crate::document::{Array, Document, Rows, in_json, named};
 use rotordyn_bearing::CharacteristicOrders;
 use rotordyn_bearing::free_ball::LOSSES;
 use serde::{Deserialize, Serialize};
@@ -176,6 +176,8 @@ pub struct SkiddingMap {
     pub heat: Vec<f64>,
     /// Why runs failed.
     pub failures: Vec<String>,
+    /// Whether no point is missing because the study was stopped.
+    pub complete: bool,
 }
 
 impl SkiddingMap {
@@ -184,16 +186,36 @@ impl SkiddingMap {
         self.slip[load * self.speeds.len() + speed]
     }
 
+    /// How many points failed, with the first cause; `None` if none did.
+    pub fn failure_summary(&self) -> Option<String> {
+        let first = self.failures.first()?;
+        let (failed, all) = (self.failures.len(), self.slip.len());
+        Some(format!("{failed} of {all} points of the skidding map of bearing {} failed: {first}", self.name))
+    }
+
     /// What is written to files.
     pub fn document(&self) -> Document<'_> {
         let shape = [self.loads.len(), self.speeds.len()];
         let map = |unit, data| Array::real(&shape, unit, data).over(0, "load").over(1, "speed");
+        let points: Vec<[f64; 4]> = (0..self.slip.len())
+            .map(|k| {
+                let (load, speed) = (self.loads[k / self.speeds.len()], self.speeds[k % self.speeds.len()]);
+                [load, speed, self.slip[k], self.heat[k]]
+            })
+            .collect();
+        let points = Rows::of(&points)
+            .number("load_n", "N", |point| point[0])
+            .number("speed_rad_s", "rad/s", |point| point[1])
+            .number("slip", "1", |point| point[2])
+            .number("heat_w", "W", |point| point[3]);
         Document::new()
             .text(in_json("name"), &self.name)
             .numbers(named("load_n", "load"), "N", &self.loads)
             .numbers(named("speed_rad_s", "speed"), "rad/s", &self.speeds)
             .array("slip", map("1", &self.slip))
             .array(named("heat_w", "heat"), map("W", &self.heat))
+            .table(in_json("points"), points)
             .texts("failures", &self.failures)
+            .flag("complete", self.complete)
     }
 }

@@ -6,21 +6,21 @@ mod operating_point;
 
 use super::ball_states::{ball_states, friction_torque};
 use super::bearing_life::BearingRating;
-use super::free_ball::steady_run;
+use super::free_ball::add_free_balls;
 use super::{Machine, ehl_film};
 use crate::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::document::TO_RPM;
-use crate::model::free_ball_study::FreeBallStudy;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
 use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
 use crate::warning::{Code, Warning};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
-use rayon::prelude::*;
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
+use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::rating::LoadRating;
 use rotordyn_bearing::{BallBearing, Preload, PreloadState, kinematics};
+use std::ops::ControlFlow;
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
@@ -36,23 +36,21 @@ impl Machine {
     /// has a warning.
     pub fn bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
         let mut found = self.static_bearings(study)?;
-        found.par_iter_mut().for_each(|found| {
-            let site = self.model.bearings.iter().find(|site| site.name == found.name);
-            let Some(free) = site.and_then(|site| site.bearing.free_balls()) else { return };
-            let [x, y, z, ..] = found.point.state.load;
-            let settings = FreeBallStudy::new([x, y, z], found.point.state.condition.speed);
-            match steady_run(&found.name, free, &settings) {
-                Ok(run) => found.free_balls = Some(run),
-                Err(error) => {
-                    let item = format!("bearing.{}", found.name);
-                    found.warnings.push(Warning::new(Code::FreeBalls, item, error.to_string()));
-                }
-            }
-        });
+        add_free_balls(&mut found, &self.free_balls(), study, &|_, _| ControlFlow::Continue(()));
         Ok(found)
     }
 
-    fn static_bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
+    /// Bearings with free balls by name.
+    pub fn free_balls(&self) -> Vec<(String, FreeBallBearing)> {
+        let sites = self.model.bearings.iter();
+        sites.filter_map(|site| Some((site.name.clone(), site.bearing.free_balls()?.clone()))).collect()
+    }
+
+    /// [`bearings`](Self::bearings) without the runs of free balls.
+    ///
+    /// # Errors
+    /// As of [`bearings`](Self::bearings).
+    pub fn static_bearings(&self, study: &BearingStudy) -> Result<Vec<BearingResult>, PhysicsError> {
         let bearings = self.model.bearings.iter();
         let balls =
             bearings.filter_map(|site| Some((site.name.clone(), site.bearing.static_balls()?.clone())));
@@ -203,6 +201,7 @@ impl<'a> SingleBearingStudy<'a> {
             sweeps,
             films,
             free_balls: None,
+            skidding: None,
             warnings,
         })
     }

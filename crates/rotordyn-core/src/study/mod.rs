@@ -296,6 +296,10 @@ impl Machine {
             Ok(state) => state,
             Err(error) => return Report::not_started(error),
         };
+        #[cfg(feature = "shapes")]
+        if let Err(error) = reduction.system.check_placement(&state, free_ball::overlap_at_start) {
+            return Report::not_started(error);
+        }
         let settings = Settings {
             integrator: study.integrator,
             step: study.step,

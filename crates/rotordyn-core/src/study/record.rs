@@ -17,7 +17,8 @@ pub struct Recorder {
 
 impl Recorder {
     /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
-    /// angle, with free balls their motion, slip, forces and losses; the terms of the energy balance, with the work of a torque drive.
+    /// angle, with free balls their motion, slip, forces and losses; the terms of the energy balance, with the work of a torque
+    /// drive; with free balls every probe as mean over the sampling interval, into which collisions do not alias.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
         let mut channels: Vec<HistoryChannel> =
             model.probes.iter().map(|p| probe_channel(model, p)).collect();
@@ -43,6 +44,12 @@ impl Recorder {
         let drive = system.drive.is_some();
         for name in ENERGIES.into_iter().chain(drive.then_some("drive")) {
             channels.push(plain(format!("energy_{name}"), "J", "energy", "machine", ""));
+        }
+        if system.has_bodies() {
+            channels.extend(model.probes.iter().map(|probe| {
+                let channel = probe_channel(model, probe);
+                HistoryChannel { name: interval_mean_name(&channel.name), ..channel }
+            }));
         }
         Self {
             row: Vec::with_capacity(channels.len()),
@@ -78,6 +85,7 @@ impl Recorder {
         if self.drive {
             self.row.push(e.drive);
         }
+        self.row.extend_from_slice(sample.means);
         self.history.time.push(state.time);
         self.history.angle.push(state.spin.angle);
         self.history.speed.push(state.spin.speed);
@@ -86,6 +94,11 @@ impl Recorder {
         }
         &self.row
     }
+}
+
+/// Name of the channel with a probe's means over the sampling interval.
+pub(super) fn interval_mean_name(probe: &str) -> String {
+    format!("{probe}_interval_mean")
 }
 
 const ENERGIES: [&str; 8] =

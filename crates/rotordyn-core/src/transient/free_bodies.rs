@@ -5,7 +5,7 @@ use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 use nalgebra::{DMatrix, SymmetricEigen};
-use rotordyn_bearing::FreeBodies;
+use rotordyn_bearing::{FreeBodies, PlacedBalls};
 
 /// Step times highest circular frequency of the structure, at most: RK4 is stable to 2.8 and loses 2 % of the amplitude
 /// a step at 1.5.
@@ -44,6 +44,23 @@ impl System {
         }
         state.bodies = all;
         Ok(())
+    }
+
+    /// # Errors
+    /// Parts of a bearing with free balls that `overlap` finds in a state, in its words.
+    pub fn check_placement(
+        &self,
+        state: &State,
+        overlap: impl Fn(&PlacedBalls) -> Option<String>,
+    ) -> Result<(), PhysicsError> {
+        self.bodies_at(state).try_for_each(|(interface, bodies, motion)| {
+            let own = &state.bodies[interface.body_range()];
+            let placed = bodies.placed(motion.rows(), &motion.rotation, own);
+            match placed.as_ref().and_then(&overlap) {
+                Some(found) => Err(failed(interface, state, &found)),
+                None => Ok(()),
+            }
+        })
     }
 
     /// Step \[s\] that resolves the bodies at a state, and the structure on its bearings; infinite without bodies.

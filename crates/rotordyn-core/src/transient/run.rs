@@ -28,6 +28,8 @@ pub struct Sample<'a> {
     pub state: &'a State,
     /// Values of the system's channels, in order.
     pub channels: &'a [f64],
+    /// Their means over the interval since the sample before, with free bodies; else empty.
+    pub means: &'a [f64],
     pub energy: &'a Energy,
 }
 
@@ -95,6 +97,7 @@ pub fn run(
     let (calls, step) = if stepper.is_adaptive() { (1, interval) } else { (substeps, step) };
     let mut balance = EnergyBalance::new(system, &state);
     let mut channels = vec![0.0; system.channels.len()];
+    let mut means = IntervalMeans::new(system, &state);
     let mut report = Report {
         step: used,
         samples: 0,
@@ -111,10 +114,12 @@ pub fn run(
     }
     for index in 0..=samples {
         if index > 0 {
+            means.restart();
             let advanced = (0..calls).try_for_each(|k| {
                 let end = start + ((index - 1) * calls + k + 1) as f64 * step;
-                stepper.advance(system, &mut state, step, end, &mut |state, _| {
+                stepper.advance(system, &mut state, step, end, &mut |state, taken| {
                     finish_step(system, state, &mut balance);
+                    means.add(system, state, taken / interval);
                     Ok(())
                 })
             });
@@ -126,7 +131,8 @@ pub fn run(
         balance.update_stored_energy(system, &state);
         system.read_channels(&state, &mut channels);
         report.samples = index + 1;
-        let sample = Sample { system, index, state: &state, channels: &channels, energy: &balance.energy };
+        let (channels, means) = (&channels, &means.sums);
+        let sample = Sample { system, index, state: &state, channels, means, energy: &balance.energy };
         if observe(&sample).is_break() {
             report.end = End::Stopped;
             break;
@@ -137,6 +143,41 @@ pub fn run(
     report.step = report.step.map(|step| step.min(stepper.shortest_step()));
     report.energy = balance.energy;
     report
+}
+
+/// Means of the channels over a sampling interval, by the trapezoidal rule over the steps.
+///
+/// Collisions of free bodies vibrate at tens of kHz, which samples alone would fold into the band of the record.
+struct IntervalMeans {
+    sums: Vec<f64>,
+    before: Vec<f64>,
+    now: Vec<f64>,
+}
+
+impl IntervalMeans {
+    /// At the start, where they are the values; nothing without free bodies.
+    fn new(system: &System, state: &State) -> Self {
+        let size = if system.has_bodies() { system.channels.len() } else { 0 };
+        let mut now = vec![0.0; size];
+        system.read_channels(state, &mut now);
+        Self { sums: now.clone(), before: now.clone(), now }
+    }
+
+    fn restart(&mut self) {
+        self.sums.fill(0.0);
+    }
+
+    /// Adds a step that took a share of the interval.
+    fn add(&mut self, system: &System, state: &State, share: f64) {
+        if self.sums.is_empty() {
+            return;
+        }
+        std::mem::swap(&mut self.before, &mut self.now);
+        system.read_channels(state, &mut self.now);
+        for ((sum, before), now) in self.sums.iter_mut().zip(&self.before).zip(&self.now) {
+            *sum += 0.5 * share * (before + now);
+        }
+    }
 }
 
 fn finish_step(system: &System, state: &mut State, balance: &mut EnergyBalance) {

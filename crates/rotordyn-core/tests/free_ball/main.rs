@@ -10,6 +10,7 @@ use rotordyn_bearing::free_ball::{Drag, FreeBallBearing, Guidance, Land, Pocket,
 use rotordyn_core::model::free_ball_study::{FreeBallStudy, SkiddingMapStudy};
 use rotordyn_core::results::SkiddingMap;
 use rotordyn_core::study::free_ball::{FreeBallStudyError, skidding_map, steady_run};
+use std::ops::ControlFlow;
 
 /// A 6205 with a cage on the land of the outer ring, without friction there, that the lubricant holds back by a drag \[N m s/rad\].
 fn bearing(drag: f64, slip: SlipModel) -> FreeBallBearing {
@@ -65,7 +66,7 @@ fn map() -> SkiddingMap {
         loads: vec![10.0, 100.0, 1000.0],
         speeds: vec![rpm(6000.0), rpm(20000.0)],
     };
-    skidding_map("6205", &bearing(1e-4, SlipModel::Centre), &study).unwrap()
+    skidding_map("6205", &bearing(1e-4, SlipModel::Centre), &study, &|_| ControlFlow::Continue(())).unwrap()
 }
 
 /// Slip falls with load and grows with speed; a loaded bearing does not skid, a light one at high speed does.
@@ -86,6 +87,24 @@ fn cage_skids_at_light_load_and_high_speed() {
     }
     assert!(found.slip_at(2, 0).abs() < 2e-3 && found.slip_at(2, 1).abs() < 2e-3);
     assert!(found.slip_at(0, 1) > 0.1, "{}", found.slip_at(0, 1));
+}
+
+/// A map that is stopped after its first point keeps that point and says that it is not complete.
+#[test]
+fn stopped_map_keeps_the_points_done() {
+    let study = SkiddingMapStudy {
+        point: FreeBallStudy { drift: 2e-3, ..settings([0.0, 0.0, 1.0], 1.0) },
+        loads: vec![1000.0],
+        speeds: vec![rpm(6000.0), rpm(7000.0), rpm(8000.0)],
+    };
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let after_one = |done: usize| if done < 1 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+    let found = one_thread
+        .install(|| skidding_map("6205", &bearing(1e-4, SlipModel::Centre), &study, &after_one))
+        .unwrap();
+    assert!(!found.complete && found.failures.is_empty());
+    assert_eq!(found.slip.iter().filter(|slip| slip.is_finite()).count(), 1, "{:?}", found.slip);
+    assert!(map().complete);
 }
 
 #[test]
@@ -109,6 +128,18 @@ fn kinematic_cage_is_refused_for_a_skidding_bearing() {
         (c.shift_hz / (c.kinematic.bpfo * rpm(20000.0) / std::f64::consts::TAU) + found.slip).abs() < 1e-12
     );
     assert!((c.bpfo / c.ftf - 9.0).abs() < 1e-12);
+}
+
+/// Parts that share space at the start are named with their overlap: balls 125 um deep in both races.
+#[test]
+fn overlap_at_the_start_is_refused_by_name() {
+    let mut pressed = bearing(2e-5, SlipModel::Centre);
+    pressed.ball.geometry.radial_clearance = -0.5e-3;
+    let error = steady_run("6205", &pressed, &settings([0.0, -100.0, 0.0], 6000.0)).unwrap_err();
+    println!("{error}");
+    let text = error.to_string();
+    assert!(matches!(error, FreeBallStudyError::Overlap { .. }), "{text}");
+    assert!(text.starts_with("bearing 6205: ball ") && text.ends_with("mm at the start"), "{text}");
 }
 
 #[test]

@@ -7,7 +7,9 @@ use crate::file::key::{
     quantities, quantity, spaced, texts, words,
 };
 use crate::file::reader::Reader;
-use crate::study::{BearingStudy, BearingSweep, DOF_NAMES, ROUGHNESS, SweepDirection, SweepVariable};
+use crate::study::{
+    BearingStudy, BearingSweep, DOF_NAMES, ROUGHNESS, SkiddingRange, SweepDirection, SweepVariable,
+};
 use rotordyn_units::{ANGLE, FORCE, LENGTH, MOMENT, SPEED};
 
 /// Load without the key.
@@ -50,6 +52,13 @@ keys! {
             .example("\"0, 3000 rpm\"");
         cage_angles: Spaced = spaced(any(ANGLE), "Sweep over the cage angle, increasing.").optional()
             .example("\"0, 10, 20 deg\"");
+        skidding: Flag = flag("Cage slip of bearings with free balls over load and speed.").default("false");
+        skidding_loads: Spaced = spaced(positive(FORCE), "Loads of the skidding map, increasing, along that of the operating point.")
+            .computed("5, 10, 20, 50 and 100 % of that of the operating point").example("\"20, 50, 100 N\"")
+            .with("skidding = true");
+        skidding_speeds: Spaced = spaced(positive(SPEED), "Speeds of the skidding map, increasing.")
+            .computed("20, 40, 60, 80 and 100 % of that of the operating point").example("\"2000, 6000 rpm\"")
+            .with("skidding = true");
     }
 }
 
@@ -115,7 +124,22 @@ pub(super) fn read(r: &Reader, bearings: &[String]) -> BearingStudy {
             }
         }
     }
+    study.skidding = skidding(r);
     study
+}
+
+/// The skidding map, if asked for.
+fn skidding(r: &Reader) -> Option<SkiddingRange> {
+    let wanted = r.flag(&STUDY.skidding);
+    let [loads, speeds] = [&STUDY.skidding_loads, &STUDY.skidding_speeds].map(|key| {
+        if r.has(key) && !wanted {
+            r.error(Kind::Conflict, key, format!("{} belongs to skidding = true", r.name(key)));
+        }
+        let values = r.spaced_of(key, key.value.0).unwrap_or_default();
+        check_increasing(r, key, &values);
+        values
+    });
+    wanted.then_some(SkiddingRange { loads, speeds })
 }
 
 fn fixed_length<const N: usize>(

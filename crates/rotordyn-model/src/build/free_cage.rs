@@ -7,9 +7,9 @@ use crate::file::key::{
 };
 use crate::file::quantities::declared_default;
 use crate::file::reader::Reader;
-use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::{Race, Traction};
 use rotordyn_bearing::free_ball::{FreeCage, Guidance, Land, Pocket, PointContactLaw, pocket_stiffness};
+use rotordyn_bearing::{BallBearing, BallGeometry};
 use rotordyn_core::element::Material;
 use rotordyn_units::{INERTIA, INVERSE_SPEED, LENGTH, MASS, NUMBER, STIFFNESS, VELOCITY};
 
@@ -74,6 +74,9 @@ keys! {
     }
 }
 
+/// Shoulder of a ring above the bottom of its groove, over the ball diameter.
+const SHOULDER: f64 = 0.2;
+
 /// The cage of a bearing; `None` for a full complement of balls.
 pub(super) fn read(
     r: &Reader,
@@ -129,9 +132,7 @@ pub(super) fn read(
         }
     }
     let guidance = race.map_or(Guidance::Balls, |race| {
-        let away = if race == Race::Inner { 0.2 } else { -0.2 };
-        let shoulder = g.groove_bottom_diameter(race) + 2.0 * away * g.ball_diameter;
-        let radius = 0.5 * get(&keys.guidance_diameter).unwrap_or(shoulder);
+        let radius = get(&keys.guidance_diameter).map_or_else(|| shoulder_radius(g, race), |d| 0.5 * d);
         Guidance::Land(Land {
             race,
             radius,
@@ -156,7 +157,28 @@ pub(super) fn read(
         guidance,
     };
     if let Some(table) = given {
+        if table.has(&keys.thickness) && table.has_no_errors() {
+            let [inside, outside] = radii;
+            let into_inner = shoulder_radius(g, Race::Inner) - inside;
+            let into_outer = outside - shoulder_radius(g, Race::Outer);
+            for (depth, ring) in
+                [(into_inner, "inner"), (into_outer, "outer")].into_iter().filter(|(d, _)| *d > 0.0)
+            {
+                let message = format!(
+                    "{} puts the cage {:.4} mm into the shoulder of the {ring} ring",
+                    table.name(&keys.thickness),
+                    1e3 * depth
+                );
+                table.error(Kind::OutOfRange, &keys.thickness, message);
+            }
+        }
         table.finish();
     }
     Some(out)
+}
+
+/// Radius of a ring's shoulder \[m\].
+fn shoulder_radius(g: &BallGeometry, race: Race) -> f64 {
+    let away = if race == Race::Inner { SHOULDER } else { -SHOULDER };
+    0.5 * g.groove_bottom_diameter(race) + away * g.ball_diameter
 }

@@ -50,11 +50,14 @@ pub fn figures(found: &FreeBallResult, title: &str) -> Vec<Named> {
     out
 }
 
-/// Cage slip over load and speed.
-pub fn skidding(found: &SkiddingMap, note: &str) -> Named {
+/// Slip at which the skidding map has contour lines \[%\].
+const SLIP_LEVELS: [f64; 11] = [0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0];
+
+/// Cage slip over load and speed; `title` is that of the model file.
+pub fn skidding(found: &SkiddingMap, title: &str) -> Named {
     let map = HeatMap {
         title: format!("Cage slip of bearing {} over load and speed", found.name),
-        note: note.into(),
+        note: format!("1 less the cage speed over that of rolling without slip ({title})"),
         x_name: "load".into(),
         x_unit: "N".into(),
         y_name: "speed".into(),
@@ -64,6 +67,7 @@ pub fn skidding(found: &SkiddingMap, note: &str) -> Named {
         value: found.slip.iter().map(|slip| 100.0 * slip).collect(),
         quantity: "slip".into(),
         unit: "%".into(),
+        contours: SLIP_LEVELS.map(|level| (level, format!("{level} %"))).to_vec(),
         ..HeatMap::default()
     };
     (format!("bearing_{}_skidding", found.name), Figure::HeatMap(map))

@@ -46,9 +46,7 @@ use rayon::prelude::*;
 
 use crate::FigureError;
 use crate::{self as plot, Figure};
-use rotordyn_core::results::{
-    BearingResult, CampbellResult, ChannelPair, Results, SignalResult, SkiddingMap,
-};
+use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
 use rotordyn_core::study::Machine;
 use rotordyn_core::warning::Warning;
 use rotordyn_update::target::Target;
@@ -116,18 +114,11 @@ pub fn draw_envelope_comparison(
     write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), &[], folder)
 }
 
-/// Draws the skidding map of a bearing with free balls; returns the SVG file.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn draw_skidding(found: &SkiddingMap, note: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&[free_ball::skidding(found, note)], &[], folder)
-}
-
 fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
     found.iter().flat_map(|found| {
         let free = found.free_balls.iter().flat_map(|free| free_ball::figures(free, title));
-        bearing::figures(found, title).into_iter().chain(free)
+        let skidding = found.skidding.iter().map(|map| free_ball::skidding(map, title));
+        bearing::figures(found, title).into_iter().chain(free).chain(skidding)
     })
 }
 

@@ -20,6 +20,10 @@ pub enum FreeBallStudyError {
          of it remains"
     )]
     NotBalanced { bearing: String, speed_rpm: f64, load: f64, residual: f64 },
+    #[error("bearing {bearing}: {what}")]
+    Overlap { bearing: String, what: String },
+    #[error("the run of bearing {bearing} with free balls was stopped")]
+    Stopped { bearing: String },
     #[error("bearing {bearing} with free balls needs {what}")]
     Setting { bearing: String, what: &'static str },
 }

@@ -6,25 +6,27 @@
 //! quarter before by less than a given share.
 
 use super::error::FreeBallStudyError;
+#[cfg(feature = "shapes")]
+use super::start::overlap_at_start;
 use super::tally::{CageAngle, Tally};
 use crate::analysis::bearing_stiffness::{BearingSolver, Condition};
 use crate::analysis::equilibrium::CageTreatment;
 use crate::document::TO_RPM;
 use crate::model::free_ball_study::FreeBallStudy;
 use crate::results::{CageComparison, FreeBallResult};
+#[cfg(feature = "shapes")]
+use rotordyn_bearing::PlacedBalls;
 use rotordyn_bearing::free_ball::{
-    FreeBallBearing, FreeBallError, FreeBallState, FreeBalls, Interval, RingState,
+    FreeBallBearing, FreeBallError, FreeBallState, FreeBalls, Interval, RingState, StepShares,
 };
 use rotordyn_bearing::{BallInertia, CharacteristicOrders};
 use rotordyn_linalg::small_dense::solve_in_place;
 use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 /// Samples in a turn of the kinematic cage: a ball passes in several of them, the cage turns by less than half a turn
 /// between two.
 const SAMPLES_PER_TURN: usize = 96;
-/// Shares of the stable steps of contacts and friction at the start: loads rise from there; contacts vibrate, with an error
-/// that falls as the fourth power of the step, friction decays.
-const STEP_SHARES: [f64; 2] = [0.4, 0.8];
 /// Least number of turns until the cage speed counts as settled.
 const LEAST_TURNS: usize = 8;
 /// Remaining force over the load.
@@ -40,6 +42,7 @@ const BPFO_SHARE: f64 = 1e-3;
 struct SteadyRun<'a> {
     name: &'a str,
     study: &'a FreeBallStudy,
+    go_on: &'a dyn Fn() -> ControlFlow<()>,
     balls: FreeBalls,
     /// Stiffness of the ring's displacement \[N/m\].
     stiffness: [[f64; 3]; 3],
@@ -62,7 +65,20 @@ pub fn steady_run(
     bearing: &FreeBallBearing,
     study: &FreeBallStudy,
 ) -> Result<FreeBallResult, FreeBallStudyError> {
-    let mut run = SteadyRun::start(name, bearing, study)?;
+    stoppable_run(name, bearing, study, &|| ControlFlow::Continue(()))
+}
+
+/// [`steady_run`] that asks after every turn of the kinematic cage whether to go on.
+///
+/// # Errors
+/// As of [`steady_run`]; stopped.
+pub(super) fn stoppable_run(
+    name: &str,
+    bearing: &FreeBallBearing,
+    study: &FreeBallStudy,
+    go_on: &dyn Fn() -> ControlFlow<()>,
+) -> Result<FreeBallResult, FreeBallStudyError> {
+    let mut run = SteadyRun::start(name, bearing, study, go_on)?;
     run.settle()?;
     let settling_time = run.state.time;
     let tally = run.record()?;
@@ -74,6 +90,7 @@ impl<'a> SteadyRun<'a> {
         name: &'a str,
         bearing: &FreeBallBearing,
         study: &'a FreeBallStudy,
+        go_on: &'a dyn Fn() -> ControlFlow<()>,
     ) -> Result<Self, FreeBallStudyError> {
         let wrong = |what| Err(FreeBallStudyError::Setting { bearing: name.into(), what });
         if !(study.speed.abs() > 0.0 && study.speed.is_finite()) {
@@ -107,11 +124,15 @@ impl<'a> SteadyRun<'a> {
         let failed = |cause| failure(name, study, cause);
         let balls = FreeBalls::new(bearing.clone(), study.speed).map_err(failed)?;
         let state = balls.initial_state(&rings).map_err(failed)?;
-        let stable = balls.stable_step(&state, &rings);
-        let step = (STEP_SHARES[0] * stable.contact).min(STEP_SHARES[1] * stable.friction);
+        #[cfg(feature = "shapes")]
+        if let Some(what) = overlap_at_start(&PlacedBalls { balls: &balls, state: state.clone(), rings }) {
+            return Err(FreeBallStudyError::Overlap { bearing: name.into(), what });
+        }
+        let step = balls.stable_step(&state, &rings).within(StepShares::BETWEEN_GIVEN_RINGS);
         Ok(Self {
             name,
             study,
+            go_on,
             stiffness: std::array::from_fn(|a| std::array::from_fn(|b| found.stiffness[a][b])),
             kinematic,
             turn,
@@ -208,7 +229,10 @@ impl<'a> SteadyRun<'a> {
         }
         self.displacement = std::array::from_fn(|k| from[k] + correction[k]);
         self.turns.push([self.state.time, angle / TAU * self.study.speed.signum()]);
-        Ok(force)
+        match (self.go_on)() {
+            ControlFlow::Continue(()) => Ok(force),
+            ControlFlow::Break(()) => Err(FreeBallStudyError::Stopped { bearing: self.name.into() }),
+        }
     }
 
     /// Displacement \[m\] by which the ring's force approaches its load.
