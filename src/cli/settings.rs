@@ -128,9 +128,11 @@ pub fn run_up(
     step: Option<&String>,
     integrator: Option<&String>,
     sample_rate: Option<&String>,
+    motion_rate: Option<&String>,
     cage_phases: Option<usize>,
 ) -> Settings {
     let mut draft = SettingsBuilder::new("run_up");
+    draft.set_flag("motion_rate", motion_rate.map(toml_string));
     draft.set_flag("step", step.map(toml_string));
     draft.set_flag("integrator", integrator.map(toml_string));
     draft.set_flag("sample_rate", sample_rate.map(toml_string));
