@@ -56,6 +56,16 @@ pub struct ExportArgs {
     /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub number: u32,
+    /// How many times slower motion.glb shows a recorded motion [default: the shaft turns once a second at most]
+    #[arg(long, value_name = "FACTOR", value_parser = slow_motion)]
+    pub slow_motion: Option<f64>,
+}
+
+fn slow_motion(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(factor) if factor > 0.0 && factor.is_finite() => Ok(factor),
+        _ => Err("give a number greater than zero, such as 50".into()),
+    }
 }
 
 fn run_format() -> impl TypedValueParser<Value = RunFormat> {
@@ -244,6 +254,8 @@ Examples:
         integrator: Option<String>,
         #[arg(long, value_name = "FREQUENCY", help = key_help("study.run_up.sample_rate"))]
         sample_rate: Option<String>,
+        #[arg(long, value_name = "FREQUENCY", help = key_help("study.run_up.motion_rate"))]
+        motion_rate: Option<String>,
         #[arg(long, value_name = "N", help = key_help("study.run_up.cage_phases"))]
         cage_phases: Option<usize>,
     },
@@ -410,7 +422,8 @@ Examples:
     ///
     /// Writes to the results folder: machine.glb and one glb for every ball bearing (any 3D viewer); mode
     /// shapes as VTK for ParaView, with discs, bodies and bearings as surfaces; mode shapes and, with [study.frf], FRFs as universal files for modal
-    /// analysis programs; and the channels of a run-up stored in the folder in each of the formats.
+    /// analysis programs; and the channels of a run-up stored in the folder in each of the formats. A run-up with
+    /// motion_rate gives motion.glb, an animation, and motion.pvd for ParaView, with balls and cages as they moved.
     #[command(after_long_help = "\
 Names: channels.mat has X001_B_ax_time, fs is the sampling rate in Hz, X001RPM is the mean speed. A WAV file contains \
 one channel as 32-bit floats in SI units.

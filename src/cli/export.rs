@@ -1,6 +1,6 @@
 //! `export`: geometry as glTF, mode shapes as VTK, time histories, modes and FRFs for measurement programs.
 
-use rotordyn::io::export_3d::{export_geometry, export_modes};
+use rotordyn::io::export_3d::{export_geometry, export_modes, export_motion};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::run_export::Options;
 use rotordyn::io::{machine_records, measured, results_file};
@@ -8,6 +8,7 @@ use rotordyn::results::Results;
 use rotordyn::signal::record::MeasuredData;
 use rotordyn::study::Machine;
 use serde_json::{Value, json};
+use std::f64::consts::TAU;
 
 use super::args::ExportArgs;
 use super::csv_files::write_csv;
@@ -52,6 +53,12 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
             let options = Options { folder: &folder, number: args.number };
             for format in &args.formats {
                 files.extend(format.write(&run, &options)?);
+            }
+            if let Some(motion) = results_file::read_motion(&file)? {
+                // One turn a second at the highest speed of the frames.
+                let fastest = history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+                let slow_motion = args.slow_motion.unwrap_or((fastest / TAU).max(1.0));
+                files.extend(export_motion(&motion, &machine.model, slow_motion, &folder)?);
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rotordyn::error::Error;
 use rotordyn::study::Machine;
-use rotordyn::study::forecast::{Forecast, Work, forecasts};
+use rotordyn::study::forecast::{Forecast, Work};
 use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
@@ -28,7 +28,7 @@ pub fn examine(
     terminal: &Terminal,
 ) -> Result<(), Failure> {
     let is_wanted = |found: &Forecast| wanted.iter().any(|study| study.name() == found.study);
-    let mut all = forecasts(&machine.model, machine.assembly.dofs.len());
+    let mut all = machine.forecasts();
     all.retain(is_wanted);
     let total: f64 = all.iter().map(|found| found.bytes).sum();
     if let Some(free) = free_space(folder)
@@ -76,7 +76,8 @@ pub fn examine(
 
 /// Table of the forecasts of all requested studies.
 pub fn table(machine: &Machine, terminal: &Terminal) {
-    let rows: Vec<Vec<String>> = forecasts(&machine.model, machine.assembly.dofs.len())
+    let rows: Vec<Vec<String>> = machine
+        .forecasts()
         .iter()
         .map(|found| {
             vec![
@@ -93,7 +94,7 @@ pub fn table(machine: &Machine, terminal: &Terminal) {
 
 /// The same as JSON.
 pub fn to_json(machine: &Machine) -> Value {
-    let all = forecasts(&machine.model, machine.assembly.dofs.len());
+    let all = machine.forecasts();
     let one = |found: &Forecast| {
         json!({
             "study": found.study, "work": unit(found.work), "count": found.count, "bytes": found.bytes,

@@ -138,10 +138,11 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Unbalance { study, max_speed } => {
             run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
         }
-        Command::RunUp { study, step, integrator, sample_rate, cage_phases } => {
+        Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases } => {
             run_one(study, Study::RunUp, &|model| {
-                let [step, integrator, rate] = [step, integrator, sample_rate].map(Option::as_ref);
-                settings::run_up(model, step, integrator, rate, *cage_phases)
+                let [step, integrator, rate, motion] =
+                    [step, integrator, sample_rate, motion_rate].map(Option::as_ref);
+                settings::run_up(model, step, integrator, rate, motion, *cage_phases)
             })
         }
         Command::Poincare(args) => {

@@ -221,7 +221,7 @@ fn simulation_job<'a>(
     let no_flags = StoredArgs::default();
     let top = format!("{} rpm", found.rpm[1]);
     let drafts = [
-        settings::run_up(&model, None, None, None, None),
+        settings::run_up(&model, None, None, None, None, None),
         settings::spectrogram(&model, &no_flags),
         settings::orders(&model, &no_flags),
         settings::campbell(&model, Some(&top), None),

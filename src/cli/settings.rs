@@ -164,9 +164,11 @@ pub fn run_up(
     step: Option<&String>,
     integrator: Option<&String>,
     sample_rate: Option<&String>,
+    motion_rate: Option<&String>,
     cage_phases: Option<usize>,
 ) -> Settings {
     let mut draft = SettingsBuilder::new("run_up");
+    draft.set_flag("motion_rate", motion_rate.map(|text| toml_string(text)));
     draft.set_flag("step", step.map(|text| toml_string(text)));
     draft.set_flag("integrator", integrator.map(|text| toml_string(text)));
     draft.set_flag("sample_rate", sample_rate.map(|text| toml_string(text)));
@@ -226,8 +228,8 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
     }
     draft.set_flag("sweep", toml_array(&plain));
     draft.set_flag("skidding", args.skidding.then(|| "true".into()));
-    draft.set_flag("skidding_loads", args.skidding_loads.as_ref().map(toml_string));
-    draft.set_flag("skidding_speeds", args.skidding_speeds.as_ref().map(toml_string));
+    draft.set_flag("skidding_loads", args.skidding_loads.as_deref().map(toml_string));
+    draft.set_flag("skidding_speeds", args.skidding_speeds.as_deref().map(toml_string));
     Ok(draft.settings)
 }
 

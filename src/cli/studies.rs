@@ -12,7 +12,7 @@ use rotordyn::io::results_file;
 use rotordyn::model::study::{RunUpStudy, Studies};
 use rotordyn::model::{Drive, Model};
 use rotordyn::results::{CagePhaseBand, History, Results, RollingCageComparison, RunUpResult};
-use rotordyn::study::{Checkpoints, Machine, Recorder, StudyError};
+use rotordyn::study::{Checkpoints, Machine, MotionRecorder, Recorder, StudyError};
 use rotordyn::transient::run::End;
 use rotordyn::warning::{Code, Warning};
 
@@ -327,6 +327,9 @@ impl<'a> Job<'a> {
         let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
         results_file::remove_run(&self.store)?;
         let channels = results_file::channels_of(&recorder.history);
+        let mut motion = settings
+            .motion
+            .map(|motion| MotionRecorder::new(machine, &reduction, motion, settings.sample_rate));
         let mut stream = ChannelStream::create(&self.store, "", &channels, settings.sample_rate, 0.0)?;
         let bar = self.terminal.time_bar(profile.duration());
         let mut checkpoints = Checkpoints::new(settings, profile.duration());
@@ -336,6 +339,9 @@ impl<'a> Job<'a> {
             let (time, spin) = (sample.state.time, &sample.state.spin);
             last = (time, rpm(spin.speed));
             checkpoints.observe(sample);
+            if let Some(motion) = &mut motion {
+                motion.observe(sample);
+            }
             disk = stream.push(time, spin.angle, spin.speed, recorder.record(sample));
             if sample.index % 64 == 0 {
                 bar.set_position((1e3 * time) as u64);
@@ -359,6 +365,9 @@ impl<'a> Job<'a> {
             Some(why) => format!("stopped: {} at t = {:.4} s, {:.1} rpm", why.message(), last.0, last.1),
         };
         stream.finish(&state)?;
+        if let Some(recorder) = motion.filter(|recorder| !recorder.motion.time.is_empty()) {
+            results_file::write_motion(&self.store, &recorder.motion)?;
+        }
         let history = recorder.history;
         let spinner = self.terminal.spinner("step error");
         let orders = machine.checked_orders();

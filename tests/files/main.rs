@@ -11,6 +11,7 @@ mod mapping;
 #[path = "../common/measured_data.rs"]
 mod measured_data;
 mod measured_files;
+mod motion;
 mod report;
 mod results_file;
 #[path = "../common/rig.rs"]

@@ -1,7 +1,9 @@
 //! Free balls and cage in a machine: energy balance, mean forces, friction on the rotation, comparison with kinematic cages.
 
 use crate::rig::variant;
-use rotordyn::model::study::{Integrator, RunUpStudy};
+use rotordyn::model::study::{
+    Integrator, LyapunovStudy, Plane, PoincareStudy, RunUpStudy, SectionTrigger, SteadyRunSettings,
+};
 use rotordyn::model::{Drive, Model, SpeedProfile};
 use rotordyn::results::History;
 use rotordyn::study::{Machine, Recorder};
@@ -84,6 +86,56 @@ fn friction_of_free_balls_slows_a_coasting_shaft() {
     let slowed = machine.assembly.polar_inertia * (history.speed[0] - history.speed[history.speed.len() - 1]);
     println!("friction {impulse:.4e} N m s, momentum lost {slowed:.4e} N m s");
     assert!(impulse > 1e-5 && (slowed / impulse - 1.0).abs() < 0.05, "{slowed} {impulse}");
+}
+
+/// Poincaré sections once per revolution of the free cage, whose frequency is that of its speed in a run; a Lyapunov
+/// exponent is refused with a hint.
+#[test]
+fn sections_follow_the_free_cage() {
+    let machine = Machine::new(steady(125.7, 0.3)).unwrap();
+    let (history, _) = run(&machine, &study(&machine));
+    let plane = ["disc_x", "disc_y"]
+        .map(|name| machine.model.probes.iter().find(|probe| probe.name == name).unwrap().clone());
+    let [x, y] = plane;
+    let periods = 4;
+    let steady = SteadyRunSettings {
+        speed: 125.7,
+        integrator: Integrator::RungeKutta4,
+        step: 25e-6,
+        cutoff: 1500.0,
+        trigger: SectionTrigger::Cage { bearing: 1 },
+        phase: 0.0,
+        transient_periods: 1,
+        periods,
+        transient_limit: 0,
+    };
+    let section = PoincareStudy {
+        steady: steady.clone(),
+        planes: vec![Plane { name: "disc".into(), x, y }],
+        tolerance: 1e-3,
+        longest_period: 2,
+    };
+    let found = machine.poincare(&section, &mut |_| ControlFlow::Continue(())).unwrap().unwrap();
+    let cage = mean(channel(&history, "B_cage_speed")) / std::f64::consts::TAU;
+    let frequency = found.clock.frequency;
+    println!("{frequency:.4} Hz, cage {cage:.4} Hz");
+    assert_eq!(found.planes[0].section[0].len(), periods);
+    // Over different times; the free cage varies by some 1 % within its pockets.
+    assert!((frequency / cage - 1.0).abs() < 0.02, "{frequency} {cage}");
+    let lyapunov = LyapunovStudy { steady, perturbation: 1e-9 };
+    let error = machine.lyapunov(&lyapunov, &mut |_| ControlFlow::Continue(())).unwrap_err().to_string();
+    assert!(error.contains("bearing B") && error.contains("model = \"ball\""), "{error}");
+}
+
+/// The forecast counts the steps that the free balls divide: those of a run to 30 %, whose loads change.
+#[test]
+fn forecast_counts_divided_steps() {
+    let machine = Machine::new(steady(125.7, 0.02)).unwrap();
+    let (_, report) = run(&machine, &study(&machine));
+    let forecasts = machine.forecasts();
+    let found = forecasts.iter().find(|forecast| forecast.study == "run-up").unwrap();
+    println!("forecast {} steps, taken {}", found.count, report.steps);
+    assert!((found.count / report.steps as f64 - 1.0).abs() < 0.3);
 }
 
 /// An implicit integrator is refused by name, by the reader and by the run itself.

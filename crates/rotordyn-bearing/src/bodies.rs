@@ -21,6 +21,17 @@ pub struct BodyChannel {
     pub direction: &'static str,
 }
 
+/// Place and motion of one free body in the axes of the bearing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyPose {
+    /// Centre \[m\].
+    pub position: [f64; 3],
+    /// Orientation as unit quaternion, scalar first; `None` where the state has none, as of a ball.
+    pub orientation: Option<[f64; 4]>,
+    /// Angular velocity \[rad/s\].
+    pub rotation: [f64; 3],
+}
+
 /// Balls and cage of a bearing as free bodies.
 pub trait FreeBodies: Debug {
     /// Number of states; the last two are the work \[J\] of [`BodyWork`].
@@ -75,6 +86,12 @@ pub trait FreeBodies: Debug {
 
     /// Angle of the cage, or mean angle of the balls less their spacing without one, within a turn of 0 \[rad\].
     fn cage_angle(&self, states: &[f64]) -> f64;
+
+    /// Place and motion of every body, the balls before the cage.
+    fn poses(&self, states: &[f64]) -> Vec<BodyPose>;
+
+    /// Forces on every ball \[N\]: normal loads of inner and outer race, and that of its pocket along the orbit.
+    fn ball_forces(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> Vec<[f64; 3]>;
 
     /// Quantities that runs record.
     fn channels(&self) -> &[BodyChannel];

@@ -38,7 +38,7 @@ pub use ball::{
 };
 pub use bearing::Bearing;
 pub use bearing_contact::BearingContact;
-pub use bodies::{FreeBodies, PlacedBalls};
+pub use bodies::{BodyPose, FreeBodies, PlacedBalls};
 pub use geometry::{BallGeometry, CharacteristicOrders};
 pub use imperfection::{
     BallSpin, BallWave, Defect, DefectForm, DefectLaw, Deviation, Imperfections, OffSize, Profile,

@@ -5,10 +5,13 @@ use std::path::{Path, PathBuf};
 use super::gltf;
 use super::vtk::{Field, Grid, Values, machine_fields, part_field, write_pvd, write_vtu};
 use super::vtk_machine::rounded;
+use super::vtk_motion;
 use crate::error::Error;
 use rotordyn_core::analysis::Mode;
+use rotordyn_core::geometry::animated_scene::AnimatedScene;
 use rotordyn_core::geometry::scene_graph::Scene;
-use rotordyn_core::results::Results;
+use rotordyn_core::model::Model;
+use rotordyn_core::results::{Motion, Results};
 use rotordyn_core::study::Machine;
 use rotordyn_units::names::file_name;
 
@@ -68,6 +71,39 @@ pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Resu
         files.push(file);
     }
     Ok(files)
+}
+
+/// Largest turn of a part from frame to frame that viewers show in the right direction \[rad\].
+const LARGEST_TURN: f64 = 0.9 * std::f64::consts::PI;
+
+/// Writes the recorded motion of a machine: `motion.glb`, `slow_motion` times slower than the run, and `motion.pvd` with
+/// a .vtu for every frame; returns both.
+///
+/// # Errors
+/// Frames so far apart that a part makes half a turn between two, with the rate that would do; a file that cannot be written.
+pub fn export_motion(
+    motion: &Motion,
+    model: &Model,
+    slow_motion: f64,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let glb = folder.join("motion.glb");
+    let turn = motion.largest_turn();
+    if let [first, second, ..] = motion.time[..]
+        && turn > LARGEST_TURN
+    {
+        let enough = turn / (second - first) / LARGEST_TURN;
+        return Err(Error::of_file("write", &glb)(format!(
+            "a part turns by {:.0} deg from frame to frame: record the run with a study.run_up.motion_rate of at least \
+             {:.0} Hz",
+            turn.to_degrees(),
+            (enough / 10.0).ceil() * 10.0
+        )));
+    }
+    let animated = AnimatedScene::of_motion(model, motion);
+    gltf::write_animated(&glb, &animated, slow_motion)?;
+    Ok(vec![glb, vtk_motion::export_motion(motion, &animated, model, folder)?])
 }
 
 fn mode_fields(grid: &Grid, mode: &Mode, size: f64) -> Vec<Field> {

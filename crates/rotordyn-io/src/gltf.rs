@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::error::Error;
+use rotordyn_core::geometry::animated_scene::AnimatedScene;
 use rotordyn_core::geometry::scene_graph::{Material, Node, Scene};
 
 const FLOAT: u32 = 5126;
@@ -14,6 +15,47 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// The scene as the bytes of a .glb file (coordinates in single precision, as glTF demands).
 pub fn to_glb(scene: &Scene) -> Vec<u8> {
+    glb(scene, |_| None)
+}
+
+/// An animated scene as the bytes of a .glb file; a second of the motion takes `slow_motion` seconds, the first frame is
+/// at 0.
+///
+/// Viewers turn parts the shorter way from frame to frame, which must be less than half a turn.
+pub fn to_animated_glb(animated: &AnimatedScene, slow_motion: f64) -> Vec<u8> {
+    glb(&animated.scene, |buffer| {
+        let start = animated.time.first()?;
+        let times: Vec<f64> = animated.time.iter().map(|t| (t - start) * slow_motion).collect();
+        let input = buffer.values(&times, "SCALAR", true);
+        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+        for track in &animated.tracks {
+            let moves = [
+                ("translation", "VEC3", track.translation.as_flattened()),
+                ("rotation", "VEC4", track.rotation.as_flattened()),
+            ];
+            for (path, kind, values) in moves {
+                let output = buffer.values(values, kind, false);
+                channels.push(json!({
+                    "sampler": samplers.len(), "target": { "node": track.node, "path": path },
+                }));
+                samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+            }
+        }
+        let name = format!("motion, {slow_motion} times slower");
+        Some(json!([{ "name": name, "samplers": samplers, "channels": channels }]))
+    })
+}
+
+/// Writes an animated scene as .glb.
+///
+/// # Errors
+/// [`Error::Environment`] when the file cannot be written.
+pub fn write_animated(path: &Path, animated: &AnimatedScene, slow_motion: f64) -> Result<(), Error> {
+    std::fs::write(path, to_animated_glb(animated, slow_motion)).map_err(Error::of_file("write", path))
+}
+
+/// The bytes of a .glb file; `animations` appends what they need to the buffer.
+fn glb(scene: &Scene, animations: impl FnOnce(&mut Buffer) -> Option<Value>) -> Vec<u8> {
     let mut buffer = Buffer::default();
     let meshes: Vec<Value> = scene
         .meshes
@@ -38,6 +80,9 @@ pub fn to_glb(scene: &Scene) -> Vec<u8> {
         "scenes": [{ "name": scene.name, "nodes": roots }],
         "nodes": scene.nodes.iter().map(node).collect::<Vec<_>>(),
     });
+    if let Some(animations) = animations(&mut buffer) {
+        document["animations"] = animations;
+    }
     // glTF allows no empty arrays.
     if !meshes.is_empty() {
         document["meshes"] = meshes.into();
@@ -126,7 +171,29 @@ impl Buffer {
             accessor["min"] = json!(low);
             accessor["max"] = json!(high);
         }
-        self.view(start, ARRAY_BUFFER, accessor)
+        self.view(start, Some(ARRAY_BUFFER), accessor)
+    }
+
+    /// Appends numbers of animations; returns their accessor. Times must state their bounds.
+    fn values(&mut self, values: &[f64], kind: &str, bounds: bool) -> usize {
+        let start = self.bytes.len();
+        let (mut low, mut high) = (f32::INFINITY, f32::NEG_INFINITY);
+        for x in values.iter().map(|x| *x as f32) {
+            (low, high) = (low.min(x), high.max(x));
+            self.bytes.extend(x.to_le_bytes());
+        }
+        let components = match kind {
+            "VEC4" => 4,
+            "VEC3" => 3,
+            _ => 1,
+        };
+        let count = values.len() / components;
+        let mut accessor = json!({ "componentType": FLOAT, "count": count, "type": kind });
+        if bounds {
+            accessor["min"] = json!([low]);
+            accessor["max"] = json!([high]);
+        }
+        self.view(start, None, accessor)
     }
 
     fn indices(&mut self, triangles: &[[u32; 3]]) -> usize {
@@ -135,14 +202,17 @@ impl Buffer {
         let accessor = json!({
             "componentType": UNSIGNED_INT, "count": 3 * triangles.len(), "type": "SCALAR",
         });
-        self.view(start, ELEMENT_ARRAY_BUFFER, accessor)
+        self.view(start, Some(ELEMENT_ARRAY_BUFFER), accessor)
     }
 
-    fn view(&mut self, start: usize, target: u32, mut accessor: Value) -> usize {
+    /// A view from `start` to the end; only vertices and indices have a target.
+    fn view(&mut self, start: usize, target: Option<u32>, mut accessor: Value) -> usize {
         accessor["bufferView"] = self.views.len().into();
-        self.views.push(json!({
-            "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start, "target": target,
-        }));
+        let mut view = json!({ "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.views.push(view);
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }

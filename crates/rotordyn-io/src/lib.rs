@@ -26,4 +26,5 @@ pub mod saved_results;
 pub mod uff;
 pub mod vtk;
 mod vtk_machine;
+mod vtk_motion;
 pub mod wav;

@@ -37,6 +37,7 @@ pub enum Part {
     Body = 2,
     Ring = 3,
     Ball = 4,
+    Cage = 5,
 }
 
 /// A field on the points.
@@ -102,6 +103,102 @@ pub fn part_field(grid: &Grid) -> Field {
     Field { name: "part".into(), values: Values::Scalars((0..grid.points.len()).map(part).collect()) }
 }
 
+/// Cells of a grid: lines, triangles, then a vertex for every point without either.
+struct Cells {
+    corners: Vec<usize>,
+    /// Number of corners up to the end of each cell.
+    ends: Vec<usize>,
+    /// VTK's number of the kind of each cell.
+    kinds: Vec<usize>,
+}
+
+impl Cells {
+    /// Errors: a message that names a corner that does not exist.
+    fn of(grid: &Grid) -> Result<Self, String> {
+        let count = grid.points.len();
+        let mut joined = vec![false; count];
+        for &k in grid.lines.iter().flatten() {
+            *joined.get_mut(k).ok_or(format!("a line ends at point {k} of {count}"))? = true;
+        }
+        for &k in grid.triangles.iter().flatten() {
+            *joined.get_mut(k).ok_or(format!("a triangle has its corner at point {k} of {count}"))? = true;
+        }
+        let single: Vec<usize> = (0..count).filter(|&k| !joined[k]).collect();
+        const VERTEX: usize = 1;
+        const LINE: usize = 3;
+        const TRIANGLE: usize = 5;
+        let kinds =
+            [(LINE, 2, grid.lines.len()), (TRIANGLE, 3, grid.triangles.len()), (VERTEX, 1, single.len())];
+        let corners = grid.lines.iter().flatten().chain(grid.triangles.iter().flatten()).chain(&single);
+        let sizes = kinds.iter().flat_map(|&(_, size, number)| std::iter::repeat_n(size, number));
+        let ends = sizes.scan(0, |end, size| {
+            *end += size;
+            Some(*end)
+        });
+        Ok(Self {
+            corners: corners.copied().collect(),
+            ends: ends.collect(),
+            kinds: kinds.iter().flat_map(|&(kind, _, number)| std::iter::repeat_n(kind, number)).collect(),
+        })
+    }
+}
+
+/// The bytes of a .vtu file with binary data: points in double precision, fields in single precision.
+///
+/// # Errors
+/// As [`to_vtu`].
+pub fn to_binary_vtu(grid: &Grid, fields: &[Field]) -> Result<Vec<u8>, String> {
+    let count = grid.points.len();
+    let Cells { corners, ends, kinds } = Cells::of(grid)?;
+    let mut data = Vec::new();
+    // A declaration of an array and its data, each behind its number of bytes.
+    let mut block = |kind: &str, name: &str, components: usize, bytes: Vec<u8>| {
+        let offset = data.len();
+        data.extend((bytes.len() as u64).to_le_bytes());
+        data.extend(bytes);
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" format=\"appended\" \
+             offset=\"{offset}\"/>\n",
+            escaped(name)
+        )
+    };
+    let mut out = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+         header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{}\">\n\
+         <PointData>\n",
+        kinds.len()
+    );
+    let singles =
+        |numbers: &[f64]| numbers.iter().flat_map(|x| (*x as f32).to_le_bytes()).collect::<Vec<u8>>();
+    for Field { name, values } in fields {
+        let (components, numbers) = match values {
+            Values::Scalars(values) => (1, &values[..]),
+            Values::Vectors(values) => (3, values.as_flattened()),
+        };
+        if numbers.len() != components * count {
+            return Err(format!("field {name} does not have one value for each of {count} points"));
+        }
+        if numbers.iter().any(|x| !x.is_finite()) {
+            return Err(format!("{name} contains a number that is not finite"));
+        }
+        out.push_str(&block("Float32", name, components, singles(numbers)));
+    }
+    let points: Vec<u8> = grid.points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let integers =
+        |values: &[usize]| values.iter().flat_map(|k| (*k as i64).to_le_bytes()).collect::<Vec<u8>>();
+    out.push_str("</PointData>\n<Points>\n");
+    out.push_str(&block("Float64", "points", 3, points));
+    out.push_str("</Points>\n<Cells>\n");
+    out.push_str(&block("Int64", "connectivity", 1, integers(&corners)));
+    out.push_str(&block("Int64", "offsets", 1, integers(&ends)));
+    out.push_str(&block("UInt8", "types", 1, kinds.iter().map(|kind| *kind as u8).collect()));
+    out.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+    let mut bytes = out.into_bytes();
+    bytes.extend(data);
+    bytes.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    Ok(bytes)
+}
+
 /// The text of a .vtu file.
 ///
 /// # Errors
@@ -109,20 +206,8 @@ pub fn part_field(grid: &Grid) -> Field {
 /// readers take for the end of the file.
 pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
     let count = grid.points.len();
-    let mut joined = vec![false; count];
-    for &k in grid.lines.iter().flatten() {
-        *joined.get_mut(k).ok_or(format!("a line ends at point {k} of {count}"))? = true;
-    }
-    for &k in grid.triangles.iter().flatten() {
-        *joined.get_mut(k).ok_or(format!("a triangle has its corner at point {k} of {count}"))? = true;
-    }
-    let single: Vec<usize> = (0..count).filter(|&k| !joined[k]).collect();
-    // VTK's numbers of the kinds of cells.
-    const VERTEX: usize = 1;
-    const LINE: usize = 3;
-    const TRIANGLE: usize = 5;
-    let kinds = [(LINE, 2, grid.lines.len()), (TRIANGLE, 3, grid.triangles.len()), (VERTEX, 1, single.len())];
-    let cells: usize = kinds.iter().map(|k| k.2).sum();
+    let Cells { corners, ends, kinds } = Cells::of(grid)?;
+    let cells = kinds.len();
     let mut out = format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
          <UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">\n<PointData>\n"
@@ -141,16 +226,9 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
     let coordinates: Vec<f64> = grid.points.iter().flatten().copied().collect();
     array(&mut out, "points", 3, &coordinates)?;
     out.push_str("</Points>\n<Cells>\n");
-    let corners = grid.lines.iter().flatten().chain(grid.triangles.iter().flatten()).chain(&single);
-    integers(&mut out, "connectivity", "Int64", corners.copied());
-    let sizes = kinds.iter().flat_map(|&(_, size, number)| std::iter::repeat_n(size, number));
-    let ends = sizes.scan(0, |end, size| {
-        *end += size;
-        Some(*end)
-    });
-    integers(&mut out, "offsets", "Int64", ends);
-    let types = kinds.iter().flat_map(|&(kind, _, number)| std::iter::repeat_n(kind, number));
-    integers(&mut out, "types", "UInt8", types);
+    integers(&mut out, "connectivity", "Int64", corners.into_iter());
+    integers(&mut out, "offsets", "Int64", ends.into_iter());
+    integers(&mut out, "types", "UInt8", kinds.into_iter());
     out.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     Ok(out)
 }

@@ -17,6 +17,11 @@ impl Grid {
     ///
     /// Inner rings move with the shaft, outer rings with their housing, balls with the mean of both.
     pub fn of_machine(model: &Model) -> Self {
+        Self::of_machine_with(model, true)
+    }
+
+    /// The machine with the balls of its bearings, or without them, so that those in motion can be added.
+    pub(super) fn of_machine_with(model: &Model, balls: bool) -> Self {
         let mut grid = Self::default();
         let nodes = model.node_z.len();
         for (node, &z) in model.node_z.iter().enumerate() {
@@ -26,7 +31,7 @@ impl Grid {
         for (k, body) in model.bodies.iter().enumerate() {
             grid.add(body.position, fixed(nodes + k, [0.0; 3]), Part::Body);
         }
-        for site in &model.bearings {
+        for site in model.bearings.iter().filter(|_| balls) {
             for (centre, arm) in ball_centres(model, site) {
                 grid.add(centre, between_rings(site, arm), Part::Ball);
             }
@@ -45,7 +50,7 @@ impl Grid {
             });
         }
         for site in &model.bearings {
-            grid.add_bearing(model, site);
+            grid.add_bearing(model, site, balls);
         }
         grid
     }
@@ -88,8 +93,8 @@ impl Grid {
         }
     }
 
-    /// Rings and balls of a ball bearing.
-    fn add_bearing(&mut self, model: &Model, site: &BearingSite) {
+    /// Rings of a ball bearing, and its balls.
+    fn add_bearing(&mut self, model: &Model, site: &BearingSite, balls: bool) {
         let Some(ball) = site.bearing.ball() else { return };
         let z = model.node_z[site.node];
         for (offset, shapes) in scene::row_shapes(ball) {
@@ -102,6 +107,9 @@ impl Grid {
                 (add(centre, arm(p)), on_housing(&site.housing, arm(p), 1.0).into_iter().collect())
             });
         }
+        if !balls {
+            return;
+        }
         let sphere = Mesh::ball(ball.geometry.ball_diameter, BALL_SECTORS);
         for (centre, arm) in ball_centres(model, site) {
             // A ball is displaced as a whole.
@@ -109,7 +117,12 @@ impl Grid {
         }
     }
 
-    fn add_mesh(&mut self, mesh: &Mesh, part: Part, place: impl Fn([f64; 3]) -> ([f64; 3], Vec<Carrier>)) {
+    pub(super) fn add_mesh(
+        &mut self,
+        mesh: &Mesh,
+        part: Part,
+        place: impl Fn([f64; 3]) -> ([f64; 3], Vec<Carrier>),
+    ) {
         // Poles of a mesh of revolution have corners without a triangle.
         let mut index = vec![None; mesh.positions.len()];
         for corners in &mesh.triangles {
@@ -126,7 +139,7 @@ impl Grid {
         }
     }
 
-    fn add(&mut self, at: [f64; 3], carriers: Vec<Carrier>, part: Part) {
+    pub(super) fn add(&mut self, at: [f64; 3], carriers: Vec<Carrier>, part: Part) {
         self.points.push(at);
         self.carriers.push(carriers);
         self.parts.push(part);

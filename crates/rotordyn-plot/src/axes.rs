@@ -116,6 +116,24 @@ impl Axes {
         svg.text([place, f.center()[1]], &label, Text::new(size, INK).middle().upright());
     }
 
+    /// Second scale of the y axis at the right edge: ticks and label of `map`(y), increasing or decreasing in y.
+    pub fn second_y(&self, svg: &mut Svg, quantity: &str, unit: &str, map: impl Fn(f64) -> f64) {
+        let f = self.frame;
+        let ends = [map(self.y.range.lo), map(self.y.range.hi)];
+        let across = if ends[0] <= ends[1] { f.up() } else { [f.y, f.bottom()] };
+        let spacing = (0.25 * f.h).clamp(24.0, 48.0);
+        let scale = Scale::linear(Range::new(ends[0], ends[1]), across, spacing);
+        for Tick { value, label } in &scale.ticks {
+            let y = scale.px(*value);
+            svg.line([f.right(), y], [f.right() + 4.0, y], FRAME);
+            svg.text([f.right() + 7.0, y + 0.36 * TICK], label, Text::new(TICK, INK));
+        }
+        let ticks = scale.ticks.iter().map(|t| font::width(&t.label, TICK)).fold(0.0, f64::max);
+        let label = font::fit(&scale.label(quantity, unit), LABEL, (f.h + GAP).max(100.0));
+        let place = f.right() + ticks + 24.0;
+        svg.text([place, f.center()[1]], &label, Text::new(LABEL, INK).middle().upright());
+    }
+
     /// Frame and x axis; the y axis is labelled at the adjacent panel.
     pub fn bare_border(&self, svg: &mut Svg, x_label: &str) {
         let f = self.frame;

@@ -59,3 +59,19 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
     shorten(&text, count)
 }
+
+/// Text broken between words into lines of a width \[px\]; what `most` lines do not hold is cut with an ellipsis.
+pub fn wrapped(text: &str, size: f64, room: f64, most: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let full = lines.len() >= most;
+        match lines.last_mut() {
+            Some(line) if full || width(&format!("{line} {word}"), size) <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines.iter().map(|line| fit(line, size, room)).collect()
+}

@@ -165,6 +165,8 @@ impl Entry {
 }
 
 const LEGEND_ROW_HEIGHT: f64 = 18.0;
+/// Largest number of lines of a note.
+const NOTE_LINES: usize = 4;
 
 /// Writes a legend in rows starting at the page height `y`; returns the height below it.
 pub fn legend(svg: &mut Svg, entries: &[Entry], x: f64, y: f64, room: f64) -> f64 {
@@ -200,9 +202,9 @@ pub fn page_heading(width: f64, x: f64, title: &str, note: &str, entries: &[Entr
         svg.text([x, y + 0.9 * TITLE], &font::fit(title, TITLE, width - x - 8.0), Text::new(TITLE, INK));
         y += 1.5 * TITLE;
     }
-    if !note.is_empty() {
-        svg.text([x, y + 0.9 * TICK], &font::fit(note, TICK, width - x - 8.0), Text::new(TICK, MUTED));
-        y += 1.5 * TICK;
+    for line in font::wrapped(note, TICK, width - x - 8.0, NOTE_LINES) {
+        svg.text([x, y + 0.9 * TICK], &line, Text::new(TICK, MUTED));
+        y += 1.4 * TICK;
     }
     y = legend(&mut svg, entries, x, y + 1.0, width - x - RIGHT);
     (svg, y + 8.0)

@@ -77,7 +77,7 @@ pub use film_map::FilmMap;
 pub use frf::{Frf, FrfCurve};
 pub use grid::{Grid, GridPanel};
 pub use heat_map::{HeatMap, MarkedRegion};
-pub use history::{Channel, History};
+pub use history::{Channel, History, SecondScale};
 pub use lines::{Curve, Lines};
 pub use machine_layout::{
     LayoutBearing, LayoutBelt, LayoutBlock, LayoutRow, LayoutSection, LayoutSpring, LayoutSupport,

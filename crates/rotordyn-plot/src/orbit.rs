@@ -36,6 +36,8 @@ pub struct Orbits {
     pub orbits: Vec<Orbit>,
 }
 
+/// Points on the page from which an orbit is drawn thin.
+const LONG: usize = 500;
 const RAW: Style = Style::stroke(PALE, 0.9);
 const FILTERED: Style = Style::stroke(BLUE, 1.8);
 const CLEARANCE: Style = Style::stroke(RED, 1.1).dashed(Dash::Long);
@@ -93,12 +95,18 @@ fn panel(svg: &mut Svg, orbit: &Orbit, frame: Frame) {
     }
     let page = |x: &[f64], y: &[f64]| decimate::decimate_curve(x.iter().zip(y).map(|(&x, &y)| axes.at(x, y)));
     let filtered = page(&fx, &fy);
-    axes.clipped(svg, &page(&x, &y), if filtered.is_empty() { FILTERED } else { RAW });
+    let raw = page(&x, &y);
+    let style = match filtered.is_empty() {
+        true if raw.len() > LONG => FILTERED.thick(0.8),
+        true => FILTERED,
+        false => RAW,
+    };
+    axes.clipped(svg, &raw, style);
     axes.clipped(svg, &filtered, FILTERED);
     if filtered.len() > 3 {
         direction(svg, &filtered, BLUE)
     } else {
-        direction(svg, &page(&x, &y), INK)
+        direction(svg, &raw, INK)
     }
     for (&kx, &ky) in orbit.keyphasor.iter().take(400).filter_map(|&k| x.get(k).zip(y.get(k))) {
         let at = axes.at(kx, ky);

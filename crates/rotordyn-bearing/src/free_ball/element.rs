@@ -4,13 +4,15 @@ use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use super::cage::CageFrame;
 use super::forces::LOSSES;
+use super::report::BallReport;
 use super::ring::{RingFrame, RingState, V};
-use super::state::{FreeBallState, cage_at, normalise_orientation};
+use super::state::{FreeBallState, ball_at, cage_at, normalise_orientation};
 use super::surfaces::ClosedForms;
 use super::{FreeBallBearing, FreeBallError, FreeBalls, StableStep, StepShares};
 use crate::ball::{BallElement, PreloadState};
-use crate::bodies::{BodyChannel, FreeBodies, PlacedBalls};
+use crate::bodies::{BodyChannel, BodyPose, FreeBodies, PlacedBalls};
 use crate::internal::Motion;
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
 use crate::{BallBearing, Bearing, BearingContact, Reaction, Rotation};
@@ -316,6 +318,31 @@ impl FreeBodies for FreeBallElement {
 
     fn cage_angle(&self, states: &[f64]) -> f64 {
         self.parts(states).map_or(0.0, |(balls, values)| balls.parts.cage_angle(values))
+    }
+
+    fn poses(&self, states: &[f64]) -> Vec<BodyPose> {
+        let Some((balls, values)) = self.parts(states) else { return Vec::new() };
+        let count = balls.parts.balls.len();
+        let ball = |j: usize| {
+            let ball = ball_at(values, j);
+            BodyPose { position: ball.position.into(), orientation: None, rotation: ball.rotation.into() }
+        };
+        let cage = balls.parts.cage.as_ref().map(|contacts| {
+            let frame = CageFrame::new(cage_at(values, count), &contacts.cage);
+            BodyPose {
+                position: frame.body.position.into(),
+                orientation: Some(frame.body.orientation),
+                rotation: frame.rotation.into(),
+            }
+        });
+        (0..count).map(ball).chain(cage).collect()
+    }
+
+    fn ball_forces(&self, rows: Motion, rotation: &Rotation, states: &[f64]) -> Vec<[f64; 3]> {
+        let Some((balls, values)) = self.parts(states) else { return Vec::new() };
+        let reports = balls.parts.report(values, &rings(rows, rotation).map(|ring| ring.frame()));
+        let load = |ball: &BallReport, race: usize| ball.races[race].map_or(0.0, |race| race.load);
+        reports.iter().map(|ball| [load(ball, 0), load(ball, 1), ball.pocket]).collect()
     }
 
     fn channels(&self) -> &[BodyChannel] {

@@ -120,6 +120,26 @@ impl Mesh {
         Self::revolved(&pieces, sectors)
     }
 
+    /// The triangles whose centre is in a part of space, and the others.
+    pub fn split(&self, is_inside: impl Fn([f64; 3]) -> bool) -> [Self; 2] {
+        let mut parts = [Self::default(), Self::default()];
+        let mut index = [vec![None; self.positions.len()], vec![None; self.positions.len()]];
+        for corners in &self.triangles {
+            let at = |i: usize| corners.iter().map(|&k| self.positions[k as usize][i]).sum::<f64>() / 3.0;
+            let side = usize::from(!is_inside([at(0), at(1), at(2)]));
+            let (part, index) = (&mut parts[side], &mut index[side]);
+            let triangle = corners.map(|k| {
+                let k = k as usize;
+                *index[k].get_or_insert_with(|| {
+                    part.vertex(self.positions[k], self.normals[k]);
+                    part.positions.len() as u32 - 1
+                })
+            });
+            part.triangles.push(triangle);
+        }
+        parts
+    }
+
     /// Box of given edge lengths about the origin.
     pub fn cuboid(edges: [f64; 3]) -> Self {
         let mut mesh = Self::default();

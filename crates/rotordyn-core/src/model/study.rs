@@ -113,6 +113,25 @@ pub struct RunUpStudy {
     pub from_equilibrium: bool,
     /// Number of initial cage phases over which the order cuts are computed; 0 for that of the model alone.
     pub cage_phases: usize,
+    /// Motion of all parts, for animations; `None`: not recorded.
+    pub motion: Option<MotionSettings>,
+}
+
+/// Frames of the recorded motion of all parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionSettings {
+    /// Frames per second of the run \[Hz\]; the nearest whole part of the sampling rate is taken.
+    pub rate: f64,
+    /// First and last time \[s\].
+    pub from: f64,
+    pub to: f64,
+}
+
+impl MotionSettings {
+    /// Sampling intervals from frame to frame.
+    pub fn stride(&self, sample_rate: f64) -> usize {
+        (sample_rate / self.rate).round().max(1.0) as usize
+    }
 }
 
 /// Spectrogram of a run-up over rpm.

@@ -9,7 +9,8 @@ use crate::model::study::{
     BifurcationStudy, CampbellStudy, Continuation, FrfStudy, Integrator, ModalStudy, RunUpStudy,
     SectionTrigger, SpectrogramStudy, SteadyRunSettings, Studies, Sweep, UnbalanceStudy,
 };
-use crate::model::{Model, Probe, Quantity};
+use crate::model::{BearingSite, Model, Probe, Quantity};
+use crate::results::Motion;
 use crate::transient::reduction::Reduction;
 use crate::transient::run::{Settings, run};
 use crate::transient::system::State;
@@ -54,8 +55,8 @@ pub struct Forecast {
     pub keys: &'static str,
 }
 
-/// Forecasts of the requested studies of a model with `dofs` degrees of freedom.
-pub fn forecasts(model: &Model, dofs: usize) -> Vec<Forecast> {
+/// Forecasts of the requested studies of a model with `dofs` degrees of freedom, with undivided steps.
+fn forecasts(model: &Model, dofs: usize) -> Vec<Forecast> {
     let s = &model.studies;
     let mut found = Vec::new();
     let mut add = |study, work, count: f64, bytes: f64, keys| {
@@ -82,14 +83,10 @@ pub fn forecasts(model: &Model, dofs: usize) -> Vec<Forecast> {
     }
     if let Some(study) = &s.run_up {
         let (samples, steps) = run_up_work(study, model.profile.duration());
-        let channels = COMMON_CHANNELS + model.probes.len() + BEARING_CHANNELS * model.bearings.len();
-        add(
-            "run-up",
-            Work::Steps,
-            steps,
-            REAL * samples * channels as f64,
-            "step, sample_rate or the profile",
-        );
+        let free: usize = model.bearings.iter().map(free_channels).sum();
+        let channels = COMMON_CHANNELS + model.probes.len() + BEARING_CHANNELS * model.bearings.len() + free;
+        let bytes = REAL * samples * channels as f64 + motion_bytes(study, model);
+        add("run-up", Work::Steps, steps, bytes, "step, sample_rate, motion_rate or the profile");
         if let Some(spectrogram) = &s.spectrogram {
             let (frames, bytes) = spectrogram_work(spectrogram, study, model);
             add("spectrogram", Work::Frames, frames, bytes, "length or overlap");
@@ -135,14 +132,38 @@ fn steady_forecasts(model: &Model, add: &mut impl FnMut(&'static str, Work, f64,
     }
 }
 
+/// Channels of the free bodies of a bearing.
+fn free_channels(site: &BearingSite) -> usize {
+    site.bearing.element().bodies().map_or(0, |bodies| bodies.channels().len())
+}
+
+/// Bytes of the frames of a run-up whose motion is recorded.
+fn motion_bytes(study: &RunUpStudy, model: &Model) -> f64 {
+    let Some(motion) = study.motion else { return 0.0 };
+    let duration = (model.profile.duration().min(motion.to) - motion.from).max(0.0);
+    let stride = motion.stride(study.sample_rate) as f64;
+    let frames = (duration * study.sample_rate / stride).floor() + 1.0;
+    let bodies = |site: &BearingSite| {
+        let free = site.bearing.free_balls()?;
+        Some(free.ball.geometry.balls + usize::from(free.cage.is_some()))
+    };
+    frames * Motion::frame_bytes(model.node_count(), model.bearings.iter().filter_map(bodies).sum())
+}
+
 /// Samples and steps of a run-up; with error control the steps are at least the samples.
 fn run_up_work(study: &RunUpStudy, duration: f64) -> (f64, f64) {
     let samples = (duration * study.sample_rate).floor() + 1.0;
-    let substeps = match study.integrator {
+    (samples, samples * equal_steps(study).1)
+}
+
+/// Step \[s\] of a run-up and number of steps in a sampling interval.
+fn equal_steps(study: &RunUpStudy) -> (f64, f64) {
+    let interval = 1.0 / study.sample_rate;
+    let number = match study.integrator {
         Integrator::DormandPrince { .. } => 1.0,
-        _ => (1.0 / (study.sample_rate * study.step) * (1.0 - 1e-12)).ceil().max(1.0),
+        _ => (interval / study.step * (1.0 - 1e-12)).ceil().max(1.0),
     };
-    (samples, samples * substeps)
+    (interval / number, number)
 }
 
 fn spectrogram_work(study: &SpectrogramStudy, run: &RunUpStudy, model: &Model) -> (f64, f64) {
@@ -192,6 +213,42 @@ fn bifurcation_runs(study: &BifurcationStudy) -> f64 {
 }
 
 impl Machine {
+    /// Forecasts of the requested studies; free balls divide the steps of runs as their contacts need at the start.
+    pub fn forecasts(&self) -> Vec<Forecast> {
+        let mut found = forecasts(&self.model, self.assembly.dofs.len());
+        let has_bodies = |site: &BearingSite| site.bearing.element().bodies().is_some();
+        if !self.model.bearings.iter().any(has_bodies) {
+            return found;
+        }
+        for forecast in &mut found {
+            // A machine without equilibrium fails in the study itself, with its reason.
+            if let Some(Ok(parts)) = self.step_parts(forecast.study) {
+                forecast.count *= parts;
+            }
+        }
+        found
+    }
+
+    /// Parts into which free balls divide a step at the start of a study's runs; `None` if it has none.
+    fn step_parts(&self, study: &str) -> Option<Result<f64, StudyError>> {
+        let studies = &self.model.studies;
+        let parts = |(reduction, state): (Reduction, State), step: f64| {
+            let system = &reduction.system;
+            (step / system.structure_step(&state).min(system.body_step(&state))).ceil().max(1.0)
+        };
+        let of_steady =
+            |steady: &SteadyRunSettings| Ok(parts(self.steady_initial_state(steady, None)?, steady.step));
+        match study {
+            "run-up" => studies.run_up.as_ref().map(|study| {
+                let (step, _) = equal_steps(study);
+                Ok(parts(self.run_up_start(study)?, step))
+            }),
+            "poincare" => studies.poincare.as_ref().map(|study| of_steady(&study.steady)),
+            "bifurcation" => studies.bifurcation.as_ref().map(|study| of_steady(&study.steady)),
+            _ => None,
+        }
+    }
+
     /// Estimated computing time of a study on one core \[s\], from a short measurement of one step or solution;
     /// `None` for little work, which is not worth a measurement, or a measurement that fails.
     pub fn estimated_seconds(&self, forecast: &Forecast) -> Option<f64> {
@@ -215,12 +272,17 @@ impl Machine {
     }
 
     fn run_up_step_time(&self, study: &RunUpStudy) -> Result<f64, StudyError> {
+        let (reduction, state) = self.run_up_start(study)?;
+        let step = study.step.min(1.0 / study.sample_rate);
+        Ok(step_time(&reduction, state, study.integrator, step))
+    }
+
+    fn run_up_start(&self, study: &RunUpStudy) -> Result<(Reduction, State), StudyError> {
         let reduction = self.reduce(study)?;
         let x = &reduction.equilibrium * if study.from_equilibrium { 1.0 } else { 0.0 };
         let v = &reduction.equilibrium * 0.0;
         let state = reduction.system.initial_state(x, v)?;
-        let step = study.step.min(1.0 / study.sample_rate);
-        Ok(step_time(&reduction, state, study.integrator, step))
+        Ok((reduction, state))
     }
 
     fn steady_step_time(&self, steady: &SteadyRunSettings) -> Result<f64, StudyError> {
@@ -267,8 +329,5 @@ fn step_time(reduction: &Reduction, state: State, integrator: Integrator, step: 
             ControlFlow::Continue(())
         }
     });
-    // Free balls divide the steps that are counted here.
-    let steps =
-        if reduction.system.has_bodies() { (report.samples as u64).saturating_sub(1) } else { report.steps };
-    start.elapsed().as_secs_f64() / steps.max(1) as f64
+    start.elapsed().as_secs_f64() / report.steps.max(1) as f64
 }

@@ -5,7 +5,7 @@ use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
 use nalgebra::{DMatrix, SymmetricEigen};
-use rotordyn_bearing::{FreeBodies, PlacedBalls};
+use rotordyn_bearing::{BodyPose, FreeBodies, PlacedBalls};
 
 /// Step times highest circular frequency of the structure, at most: RK4 is stable to 2.8 and loses 2 % of the amplitude
 /// a step at 1.5.
@@ -119,6 +119,20 @@ impl System {
         bodies.read(motion.rows(), &motion.rotation, own, &mut out[first..]);
     }
 
+    /// Places and motions of an interface's bodies; none without bodies.
+    pub fn body_poses(&self, interface: usize, state: &State) -> Vec<BodyPose> {
+        let place = &self.interfaces[interface];
+        place.element.bodies().map_or(Vec::new(), |bodies| bodies.poses(&state.bodies[place.body_range()]))
+    }
+
+    /// Forces on the balls of an interface \[N\], as [`FreeBodies::ball_forces`]; none without bodies.
+    pub fn ball_forces(&self, interface: usize, state: &State) -> Vec<[f64; 3]> {
+        let place = &self.interfaces[interface];
+        let Some(bodies) = place.element.bodies() else { return Vec::new() };
+        let motion = place.ring_motion(&state.d, &state.d_rate, &state.rotations[interface]);
+        bodies.ball_forces(motion.rows(), &motion.rotation, &state.bodies[place.body_range()])
+    }
+
     /// Kinetic energy of all free bodies \[J\].
     pub fn body_energy(&self, state: &State) -> f64 {
         let energies = self
@@ -152,7 +166,8 @@ impl System {
     /// A bearing with free bodies, for `what` cannot be had with these.
     pub(super) fn refuse_bodies(&self, what: &str, state: &State) -> Result<(), PhysicsError> {
         self.bodies_at(state).next().map_or(Ok(()), |(interface, ..)| {
-            Err(failed(interface, state, &format!("{what} is not computed with free balls")))
+            let why = format!("{what} is not computed with free balls; it is with model = \"ball\"");
+            Err(failed(interface, state, &why))
         })
     }
 }

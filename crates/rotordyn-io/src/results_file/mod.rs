@@ -17,6 +17,7 @@
 //! | `/ball_inertia/<study>/<bearing>` | attributes: stated and used ball inertia; speed, centrifugal_force, largest_contact_load, ratio, limit: why |
 //! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value`; `film_<race>` |
 //! | `/time`, `/channels` | the run-up, streamed during the run |
+//! | `/motion` | frames of the run for animations: `displacement` \[frame, node, DOF\]; per bearing with free balls `position`, `orientation` (quaternion, scalar first), `angular_velocity`, `ball_forces` (inner, outer, pocket) \[body, frame, component\], the balls before the cage |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance; `step_error`, `cage_phases` |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
 //! | `/warnings` | code, severity, item, text and advice of the warnings of all studies |
@@ -26,6 +27,7 @@
 
 mod external_files;
 mod group_writer;
+mod motion;
 mod run_up_correlation;
 mod section;
 mod signal;
@@ -33,6 +35,7 @@ pub mod validation;
 
 pub use external_files::{read_external_files, write_external_files};
 use group_writer::GroupWriter;
+pub use motion::{read_motion, write_motion};
 pub use run_up_correlation::write_run_up_correlation;
 pub use section::write_section;
 pub use signal::{SignalMeta, write_signal};
@@ -139,7 +142,7 @@ pub fn channels_of(history: &History) -> Vec<Channel> {
 /// # Errors
 /// The file cannot be written.
 pub fn remove_run(store: &Store) -> Result<(), Error> {
-    ["/channels", "/time", "/run_up", "/spectra"].iter().try_for_each(|group| store.remove(group))
+    ["/channels", "/time", "/run_up", "/spectra", "/motion"].iter().try_for_each(|group| store.remove(group))
 }
 
 /// Reads the stored run, complete or not, its channels in the order they were recorded.

@@ -18,7 +18,7 @@ use crate::file::key::{
 use crate::file::reader::Reader;
 use crate::study::{
     BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy,
-    OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+    MotionSettings, OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
 };
 use crate::{Drive, Model, Probe, Quantity as MotionQuantity};
 use rotordyn_bearing::Bearing;
@@ -157,6 +157,12 @@ keys! {
             .default("true");
         cage_phases: Count = count([0, 360], "Runs with this many cage phases, for the range of the order cuts.")
             .default("0").example("8");
+        motion_rate: Quantity = quantity(positive(FREQUENCY),
+            "Frames per second of the run of the motion of all parts, for animations.")
+            .computed("not recorded; with motion_from or motion_to that of the samples").example("\"2 kHz\"");
+        motion_from: Quantity = quantity(not_negative(TIME), "Time of the first frame.").default("0 s");
+        motion_to: Quantity = quantity(positive(TIME), "Time of the last frame.").computed("the end of the run")
+            .example("\"0.2 s\"");
     }
 }
 
@@ -365,7 +371,28 @@ fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
         cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),
         from_equilibrium: r.flag(&RUN_UP.from_equilibrium),
         cage_phases: cage_phases(top, r, model),
+        motion: motion(r),
     }
+}
+
+/// Frames of the recorded motion: not faster than the samples, within a time that has some.
+fn motion(r: &Reader) -> Option<MotionSettings> {
+    let [rate, from, to] = [&RUN_UP.motion_rate, &RUN_UP.motion_from, &RUN_UP.motion_to];
+    if ![rate, from, to].into_iter().any(|key| r.has(key)) {
+        return None;
+    }
+    let sample_rate = r.value(&RUN_UP.sample_rate);
+    let settings =
+        MotionSettings { rate: r.or(rate, sample_rate), from: r.value(from), to: r.or(to, f64::INFINITY) };
+    if settings.rate > sample_rate {
+        let message = format!("{} is above the sampling rate", r.name(rate));
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(rate), message);
+        r.log.error(problem.hint("raise study.run_up.sample_rate"));
+    }
+    if settings.to < settings.from {
+        r.error(Kind::OutOfRange, to, format!("{} is before {}", r.name(to), r.name(from)));
+    }
+    Some(settings)
 }
 
 /// Number of cage phases: of a machine with a ball bearing and a prescribed speed, whose order cuts are requested.

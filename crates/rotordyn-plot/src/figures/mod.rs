@@ -8,6 +8,7 @@
 //! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
 //! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
+//! | `run_up_bearing_<bearing>_cage`, `..._cage_orbit` | run-up with free balls: cage speed, slip, pocket force, friction torque; orbit of the cage |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
 //! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts with their range over the cage phases |
 //! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
@@ -30,6 +31,7 @@ mod machine;
 mod named;
 mod response;
 mod run;
+mod run_free_ball;
 mod run_up_correlation;
 mod signal;
 mod signal_orders;
@@ -70,6 +72,7 @@ pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
     figures
         .extend(results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine)));
     figures.extend(results.run_up.iter().flat_map(|found| run::histories(&found.history, machine)));
+    figures.extend(results.run_up.iter().flat_map(|found| run_free_ball::figures(&found.history, machine)));
     let campbell = results.campbell.as_ref();
     figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
     figures.extend(

@@ -27,21 +27,20 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
             unit: shown.name.into(),
             time: history.time.clone(),
             value: c.values.iter().map(|v| v * shown.factor).collect(),
+            ..Channel::default()
         }
     };
-    let speed = Channel {
-        label: "shaft speed".into(),
-        quantity: "speed".into(),
-        unit: "rpm".into(),
-        time: history.time.clone(),
-        value: history.speed.iter().map(|s| s * TO_RPM).collect(),
-    };
+    let speed = shaft_speed(history);
     let note = &machine.model.title;
     let figure = |name: String, title: String, channels: Vec<Channel>| {
-        (name, Figure::History(History { title, note: note.clone(), channels }))
+        (name, Figure::History(History { title, note: note.clone(), channels, ..History::default() }))
     };
     let mut figures = Vec::new();
     for c in &history.channels {
+        // The centre of a cage is drawn as an orbit.
+        if machine.model.bearings.iter().any(|site| site.name == c.station) && c.unit == "m" {
+            continue;
+        }
         if ["displacement", "velocity", "acceleration"].contains(&c.quantity.as_str()) {
             let label = format!("{}: {} along {}", c.name, c.station, c.direction);
             let title = format!("Run-up, {}", c.name);
@@ -65,6 +64,18 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
         figures.push(figure("run_up_energy".into(), "Run-up, energy balance".into(), energies));
     }
     figures
+}
+
+/// Shaft speed of a run over time.
+pub(super) fn shaft_speed(history: &results::History) -> Channel {
+    Channel {
+        label: "shaft speed".into(),
+        quantity: "speed".into(),
+        unit: "rpm".into(),
+        time: history.time.clone(),
+        value: history.speed.iter().map(|s| s * TO_RPM).collect(),
+        ..Channel::default()
+    }
 }
 
 /// Spectra of one run over speed.

@@ -100,14 +100,17 @@ fn record(r: &SignalResult, note: &str) -> History {
         unit: d.name.into(),
         time: (0..r.samples.len()).map(|n| r.start + n as f64 / r.sample_rate).collect(),
         value: scaled(&r.samples, d.factor),
+        ..Channel::default()
     };
     let [time, value] = r.speed.clone();
     let (label, quantity, unit) = ("shaft speed".into(), "speed".into(), "rpm".into());
-    let speed = (!time.is_empty()).then_some(Channel { label, quantity, unit, time, value });
+    let speed =
+        (!time.is_empty()).then_some(Channel { label, quantity, unit, time, value, ..Channel::default() });
     History {
         title: format!("Time record {}", r.channel),
         note: note.into(),
         channels: speed.into_iter().chain([channel]).collect(),
+        ..History::default()
     }
 }
 

@@ -255,6 +255,7 @@ fn jerk(r: &SignalResult, found: &JerkResult, note: &str) -> History {
         unit,
         time: time.clone(),
         value: values[range.clone()].iter().map(|v| v * d.factor).collect(),
+        ..Channel::default()
     };
     let per_second =
         if d.name.is_empty() { "1/s".into() } else { format!("{}/s", d.name).replace("m/s²/s", "m/s³") };
@@ -265,6 +266,7 @@ fn jerk(r: &SignalResult, found: &JerkResult, note: &str) -> History {
             channel("record", quantity_name(r).into(), d.name.into(), &r.samples),
             channel("jerk", "jerk".into(), per_second, &found.jerk),
         ],
+        ..History::default()
     }
 }
 

@@ -1,0 +1,211 @@
+//! Figures of a run-up with free balls: cage speed, slip, pocket force and friction torque over time; orbits of the cage.
+
+use super::run::shaft_speed;
+use super::{Named, TO_RPM};
+use crate::{Channel, Figure, History, Orbit, Orbits, SecondScale};
+use rotordyn_bearing::free_ball::{FreeBallBearing, Guidance};
+use rotordyn_core::model::BearingSite;
+use rotordyn_core::results;
+use rotordyn_core::study::Machine;
+use std::f64::consts::TAU;
+
+/// Share of the highest shaft speed below which slip is not drawn: the speed of the balls scatters there as elsewhere.
+const LEAST_SPEED: f64 = 0.05;
+/// Revolutions of the cage in an orbit, and their number over the run.
+const ORBIT_TURNS: f64 = 4.0;
+const ORBITS: usize = 4;
+
+/// Figures of every bearing with free balls.
+pub fn figures(history: &results::History, machine: &Machine) -> Vec<Named> {
+    let sites = machine.model.bearings.iter();
+    let found = sites.filter_map(|site| {
+        let bearing = site.bearing.free_balls()?;
+        let recorded = Recorded { history, site, title: &machine.model.title };
+        Some([recorded.cage_motion(bearing), recorded.cage_orbits(bearing)])
+    });
+    found.flatten().flatten().collect()
+}
+
+/// A bearing with free balls in a run.
+struct Recorded<'a> {
+    history: &'a results::History,
+    site: &'a BearingSite,
+    /// Title of the model.
+    title: &'a str,
+}
+
+impl Recorded<'_> {
+    fn channel(&self, name: &str) -> Option<&[f64]> {
+        let name = format!("{}_{name}", self.site.name);
+        let found = self.history.channels.iter().find(|channel| channel.name == name)?;
+        Some(&found.values)
+    }
+
+    fn name(&self, what: &str) -> String {
+        format!("run_up_bearing_{}_{what}", self.site.name)
+    }
+
+    /// Speed, slip, pocket force and friction torque over time.
+    fn cage_motion(&self, bearing: &FreeBallBearing) -> Option<Named> {
+        let history = self.history;
+        let body = if bearing.cage.is_some() { "cage" } else { "balls" };
+        let speed = self.channel("cage_speed")?;
+        let slip = self.channel("cage_slip")?;
+        let top = history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+        // Slip is recorded as 1 − ω/ω_rolling.
+        let rolling: Vec<f64> = speed
+            .iter()
+            .zip(slip)
+            .zip(&history.speed)
+            .map(
+                |((speed, slip), shaft)| {
+                    if shaft.abs() > LEAST_SPEED * top { speed / (1.0 - slip) } else { f64::NAN }
+                },
+            )
+            .collect();
+        let drawn: Vec<f64> = speed
+            .iter()
+            .zip(&rolling)
+            .map(|(v, rolling)| if rolling.is_nan() { f64::NAN } else { *v })
+            .collect();
+        let [mean_speed, mean_rolling] = [&drawn, &rolling].map(|v| mean_over_turn(v, &history.angle));
+        let over_rolling = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a / b).collect::<Vec<_>>();
+        let over_time = |label: &str, quantity: &str, unit: &str, value: Vec<f64>| Channel {
+            label: label.into(),
+            quantity: quantity.into(),
+            unit: unit.into(),
+            time: history.time.clone(),
+            mean: mean_over_turn(&value, &history.angle),
+            value,
+            ..Channel::default()
+        };
+        let scaled = |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
+        let ratio = Channel {
+            mean: over_rolling(&mean_speed, &mean_rolling),
+            second: Some(SecondScale {
+                quantity: "slip".into(),
+                unit: "%".into(),
+                offset: 100.0,
+                factor: -100.0,
+            }),
+            ..over_time(
+                &format!("{body}: speed over rolling"),
+                "speed ratio",
+                "",
+                over_rolling(speed, &rolling),
+            )
+        };
+        let mut channels = vec![
+            shaft_speed(history),
+            Channel {
+                reference: scaled(&rolling, TO_RPM),
+                ..over_time(&format!("{body}: speed"), "speed", "rpm", scaled(speed, TO_RPM))
+            },
+            ratio,
+        ];
+        if let Some(force) = self.channel("pocket_force").filter(|_| bearing.cage.is_some()) {
+            let label = "largest force of a pocket on its ball";
+            channels.push(Channel { from_zero: true, ..over_time(label, "force", "N", force.to_vec()) });
+        }
+        if let Some(torque) = self.channel("friction_torque") {
+            channels.push(over_time("friction torque on the shaft", "torque", "N mm", scaled(torque, 1e3)));
+        }
+        let figure = History {
+            title: format!("Run-up, {body} of bearing {}", self.site.name),
+            note: self.title.into(),
+            legend: ["samples", "mean over a revolution of the shaft", "rolling without slip"]
+                .map(String::from),
+            channels,
+        };
+        Some((self.name("cage"), Figure::History(figure)))
+    }
+
+    /// Orbits of the cage in its clearance at instants of the run.
+    fn cage_orbits(&self, bearing: &FreeBallBearing) -> Option<Named> {
+        let cage = bearing.cage.as_ref()?;
+        let [x, y, speed] = ["cage_x", "cage_y", "cage_speed"].map(|name| self.channel(name));
+        let (x, y, speed) = (x?, y?, speed?);
+        let (clearance, how) = match &cage.guidance {
+            Guidance::Land(land) => (land.clearance, "on its land"),
+            Guidance::Balls => (
+                0.5 * (cage.pocket_diameter - bearing.ball.geometry.ball_diameter),
+                "of its pockets about the balls",
+            ),
+        };
+        let samples = x.len();
+        let orbit = |number: usize| {
+            let last = (samples * number / ORBITS).min(samples.checked_sub(1)?);
+            let turned = ORBIT_TURNS * TAU * self.history.sample_rate;
+            let length = (turned / speed[last].abs()).ceil() as usize;
+            let first = last.saturating_sub(length.clamp(1, (samples / ORBITS).max(1)));
+            let [from, to] = [first, last].map(|k| self.history.time[k]);
+            let rpm = self.history.speed[last] * TO_RPM;
+            Some(Orbit {
+                title: format!("{from:.3} to {to:.3} s, shaft at {rpm:.0} rpm"),
+                x: x[first..=last].to_vec(),
+                y: y[first..=last].to_vec(),
+                clearance: Some(clearance),
+                ..Orbit::default()
+            })
+        };
+        let figure = Orbits {
+            title: format!("Run-up, centre of the cage of bearing {} against the outer ring", self.site.name),
+            note: format!("{}; circle: radial clearance of the cage {how}", self.title),
+            orbits: (1..=ORBITS).filter_map(orbit).collect(),
+        };
+        Some((self.name("cage_orbit"), Figure::Orbits(figure)))
+    }
+}
+
+/// Mean over the revolution of the shaft around every sample, by its angle; missing values do not count, at standstill
+/// there is none.
+fn mean_over_turn(values: &[f64], angle: &[f64]) -> Vec<f64> {
+    // Integral over the angle, and the angle that has a value.
+    let mut sums = vec![[0.0; 2]];
+    for (k, value) in values.iter().enumerate() {
+        let [sum, turned] = sums[k];
+        let step = if k > 0 && value.is_finite() { (angle[k] - angle[k - 1]).abs() } else { 0.0 };
+        sums.push(if step > 0.0 { [sum + step * value, turned + step] } else { [sum, turned] });
+    }
+    // Round-off of angles that are equally spaced.
+    let half = 0.5 * TAU * (1.0 + 1e-12);
+    let (mut first, mut last) = (0, 0);
+    let mean = |(k, value): (usize, &f64)| {
+        while (angle[k] - angle[first]).abs() > half {
+            first += 1;
+        }
+        while last + 1 < values.len() && (angle[last + 1] - angle[k]).abs() <= half {
+            last += 1;
+        }
+        // The angle up to the first sample belongs to the revolution before.
+        let ([before, passed], [sum, turned]) = (sums[first + 1], sums[last + 1]);
+        if value.is_finite() && turned > passed { (sum - before) / (turned - passed) } else { f64::NAN }
+    };
+    values.iter().enumerate().map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mean_over_turn;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// Four samples to a revolution: means of the four samples that end the quarters from −180° to 180°, fewer at the
+    /// ends, none of a missing value.
+    #[test]
+    fn mean_over_a_revolution() {
+        let angle: Vec<f64> = (0..8).map(|k| f64::from(k) * FRAC_PI_2).collect();
+        let values = [f64::NAN, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        let found = mean_over_turn(&values, &angle);
+        assert!(found[0].is_nan());
+        assert_eq!(found[1..], [2.0, 2.5, 3.5, 4.5, 5.5, 6.0, 6.5]);
+    }
+
+    /// Samples at standstill have no share of a revolution.
+    #[test]
+    fn standstill_does_not_count() {
+        let angle = [0.0, 0.0, 0.0, FRAC_PI_2, 2.0 * FRAC_PI_2];
+        let found = mean_over_turn(&[9.0, 9.0, 9.0, 1.0, 3.0], &angle);
+        assert_eq!(found, [2.0; 5]);
+        assert!(mean_over_turn(&[9.0, 9.0], &[0.0, 0.0]).iter().all(|mean| mean.is_nan()));
+    }
+}
