@@ -8,8 +8,7 @@ use super::vtk_machine::rounded;
 use crate::error::Error;
 use rotordyn_core::analysis::Mode;
 use rotordyn_core::geometry::scene_graph::Scene;
-use rotordyn_core::results::Results;
-use rotordyn_core::study::Machine;
+use rotordyn_core::study::{Machine, Results};
 use rotordyn_units::names::file_name;
 
 /// Ratio of the largest displacement of an exported mode shape to the length of the shaft.
