@@ -11,6 +11,8 @@ mod mapping;
 #[path = "../common/measured_data.rs"]
 mod measured_data;
 mod measured_files;
+mod own_exporter;
+mod own_study;
 mod report;
 mod results_file;
 #[path = "../common/rig.rs"]
