@@ -138,5 +138,6 @@ pub use rotordyn_update as update;
 /// Results of the studies, saved and loaded without loss by [`save`](results::save) and [`load`](results::load).
 pub mod results {
     pub use rotordyn_core::results::*;
+    pub use rotordyn_core::study::Results;
     pub use rotordyn_io::saved_results::{load, save};
 }

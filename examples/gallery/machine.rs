@@ -276,10 +276,12 @@ pub fn history() -> Figure {
         unit: unit.to_string(),
         time: time.to_vec(),
         value,
+        ..Channel::default()
     };
     Figure::History(History {
         title: "Run-up of the overhung rig".to_string(),
         note: "1 s at rest, 10 s ramp to 1200 rpm, 2 s at constant speed; 10⁶ samples".to_string(),
+        legend: Default::default(),
         channels: vec![
             channel("speed", "speed", "rpm", &time, speed),
             channel("bearing B vertical", "acceleration", "m/s²", &time, value),

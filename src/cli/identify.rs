@@ -10,7 +10,7 @@ use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
-use rotordyn::io::{identified_modes, machine_records, measured};
+use rotordyn::io::{identified_modes, json, machine_records, measured, results_file};
 use rotordyn::model::Quantity;
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
@@ -19,6 +19,7 @@ use rotordyn::warning::Code;
 use serde_json::json;
 
 use super::args::{EstimatorName, IdentifyArgs};
+use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::identify_tables::tables;
 use super::machine::ModelSource;
@@ -60,7 +61,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
     print_written_files(terminal, &folder, &files);
     warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
-    let mut document = identified_modes::to_json(&found);
+    let mut document = json::document(&identified_modes::section(&found).content);
     document["command"] = json!("identify");
     document["seconds"] = json!({ "identify": seconds });
     document["files"] = json!(files);
@@ -145,10 +146,15 @@ fn write(
     store.set_attribute("/meta", "program", "rotordyn")?;
     store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
     store.set_attribute("/meta", "title", title)?;
-    identified_modes::write_hdf5(&store, found)?;
+    let section = identified_modes::section(found);
+    results_file::write_section(&store, "", &section)?;
+    store.flush()?;
     let shapes = folder.join("modes.uff");
     measured::write(&shapes, &identified_modes::mode_shapes(found, &all.geometry))?;
     let mut files = vec![path, shapes];
+    if args.csv {
+        files.extend(write_csv(folder, &[section])?);
+    }
     if !args.no_figures {
         let spinner = terminal.spinner("figures");
         files.extend(figures::identification::draw(found, frfs, &all.geometry, title, folder)?);

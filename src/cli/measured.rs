@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use rotordyn::analysis::table_range::check_tables;
 use rotordyn::io::measured::test_data::{self, ReadSettings, TestData};
-use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
 use rotordyn::units::{self, FREQUENCY, SPEED};
+use rotordyn::update::correlation::Correlation;
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::Target;
 use rotordyn::warning::Code;
-use serde_json::{Value, json};
 
 use super::args::MeasuredArgs;
 use super::failure::Failure;
@@ -159,52 +158,10 @@ pub fn band(target: &Target) -> [f64; 2] {
     [0.8 * all().fold(f64::INFINITY, f64::min), 1.1 * all().fold(0.0, f64::max)]
 }
 
-/// JSON of mode pairs, unpaired modes and MAC matrix.
-pub fn to_json(target: &Target, state: &ModelState) -> Value {
-    let pairs: Vec<Value> = target
-        .modes
-        .iter()
-        .enumerate()
-        .map(|(k, m)| {
-            let partner = state.paired_mode(k);
-            json!({
-                "measured_hz": m.frequency_hz,
-                "measured_zeta": m.damping_ratio,
-                "measured_hz_error": m.frequency_error,
-                "computed_hz": partner.map(|p| p.0.frequency_hz()),
-                "computed_zeta": partner.map(|p| p.0.zeta()),
-                "error": partner.map(|p| p.0.frequency_hz() / m.frequency_hz - 1.0),
-                "mac": partner.map(|p| p.1),
-                "label": partner.map(|p| p.0.label.clone()),
-            })
-        })
-        .collect();
-    let unpaired = state.pairing.unpaired_computed.iter().map(|&k| &state.modes[k]);
-    json!({
-        "rpm": rpm(target.speed),
-        "modes": pairs,
-        "unpaired_computed": unpaired
-            .map(|m| json!({ "label": m.label, "computed_hz": m.frequency_hz() }))
-            .collect::<Vec<_>>(),
-        "mac": state.pairing.mac,
-    })
-}
-
 /// Table of the frequency response assurance criterion (FRAC) of every response and reference.
-pub fn frac_table(
-    terminal: &Terminal,
-    target: &Target,
-    state: &ModelState,
-    computed: &[Vec<Vec<Complex64>>],
-) -> Vec<Vec<f64>> {
-    let Some(measured) = &target.frfs else { return Vec::new() };
-    let model = &state.linearised.model;
-    let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
-        true => rotordyn::identify::mac::frac(&measured.values[r][e], &computed[r][e]),
-        false => f64::NAN,
-    };
-    let (rows, columns) = (measured.responses.len(), measured.references.len());
-    let values: Vec<Vec<f64>> = (0..rows).map(|r| (0..columns).map(|e| value(r, e)).collect()).collect();
+pub fn frac_table(terminal: &Terminal, found: &Correlation) {
+    let (Some(measured), Some(values)) = (&found.target.frfs, found.frac()) else { return };
+    let model = &found.state.linearised.model;
     let mut header = vec!["response".to_string()];
     header.extend(measured.references.iter().map(|s| s.name(model)));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
@@ -218,5 +175,4 @@ pub fn frac_table(
         })
         .collect();
     terminal.table("FRAC by response and reference (force)", &header, &rows);
-    values
 }

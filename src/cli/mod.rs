@@ -27,6 +27,7 @@ mod machine;
 mod measured;
 mod noisy_frf;
 mod outcome;
+mod printed;
 mod renamed;
 mod run_up_correlation;
 mod run_up_tables;
@@ -101,15 +102,6 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     let run_one = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
         studies_of(args, terminal, Some(study), settings)
     };
-    let without_tables = match command {
-        Command::Compare { study, .. } if study.csv => Some("compare"),
-        Command::Validate(args) if args.study.csv => Some("validate"),
-        Command::Update(args) if args.study.csv => Some("update"),
-        _ => None,
-    };
-    if let Some(name) = without_tables {
-        return Err(Failure::Input(format!("--csv: {name} writes no tables as CSV; use --json")));
-    }
     match command {
         Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
         Command::Init(args) => init::run(args, terminal).map(Outcome::from),

@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::document::{Document, Section, in_json};
 use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::{mapping, run_up};
-use rotordyn::io::{json, machine_records, results_file};
+use rotordyn::io::{machine_records, results_file};
 use rotordyn::model::Model;
 use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
 use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
-use serde_json::{Value, json};
 
 use super::args::{OutputFiles, ShaftArgs, StoredArgs, ValidateArgs};
 use super::failure::Failure;
@@ -114,7 +114,22 @@ pub fn read(
     Ok(Ok(MeasuredRunUp { run: MeasuredRun::new(channels, &motion, model)?, source, rpm }))
 }
 
-/// Simulates the run-up, compares it with the record and writes the results; returns the JSON and the files.
+/// A measured run-up beside its simulation.
+pub struct ComparedRunUp {
+    source: String,
+    /// Lowest and highest speed \[rpm\].
+    rpm: [f64; 2],
+    /// Duration \[s\].
+    seconds: f64,
+    /// Time steps \[s\] of the simulation.
+    step: Option<f64>,
+    requested_step: f64,
+    step_error: Option<StepError>,
+    pairs: Vec<ChannelPair>,
+}
+
+/// Simulates the run-up, compares it with the record and writes the results; returns the comparison, if the simulation
+/// has a result, and the files.
 pub fn compare(
     found: &MeasuredRunUp,
     origin: &ModelSource,
@@ -122,7 +137,7 @@ pub fn compare(
     folder: &Path,
     draw: bool,
     terminal: &Terminal,
-) -> Result<(Value, Vec<PathBuf>), Failure> {
+) -> Result<(Option<ComparedRunUp>, Vec<PathBuf>), Failure> {
     let first = rpm(found.run.history.speed[0]);
     let own = folder.join(format!("{prefix}_computed"));
     let (mut job, campbell) = simulation_job(found, origin, own, terminal)?;
@@ -147,20 +162,31 @@ pub fn compare(
         }
         return Err(failure);
     }
-    let Some(computed) = &job.results.run_up else { return Ok((Value::Null, job.files)) };
+    let Some(computed) = &job.results.run_up else { return Ok((None, job.files)) };
     let pairs = job.machine.correlate_run_up(&found.run.history, &computed.history)?;
     tables(terminal, &pairs, &format!("{prefix}.h5"));
+    let compared = ComparedRunUp {
+        source: found.source.clone(),
+        rpm: found.rpm,
+        seconds: found.run.profile.duration(),
+        step: computed.report.step,
+        requested_step: computed.requested_step,
+        step_error: computed.step_error.clone(),
+        pairs,
+    };
+    let pairs = &compared.pairs;
     let mut files = std::mem::take(&mut job.files);
     let path = folder.join(format!("{prefix}.h5"));
     let file = Store::create(&path)?;
-    results_file::write_run_up_correlation(&file, &pairs, &found.run.history, &computed.history)?;
+    results_file::write_run_up_correlation(&file, pairs, &found.run.history, &computed.history)?;
+    results_file::write_document(&file, "/comparison", &compared.document())?;
     file.flush()?;
     files.push(path);
     if draw {
         let spinner = terminal.spinner("figures");
         files.extend(figures::draw_run_up_correlation(
             prefix,
-            &pairs,
+            pairs,
             campbell.as_ref(),
             &job.machine,
             folder,
@@ -170,16 +196,7 @@ pub fn compare(
     for warning in run_up_warnings(computed) {
         terminal.warn(&warning.prefixed("the simulated run-up"));
     }
-    let document = json!({
-        "rpm": found.rpm,
-        "speed_source": found.source,
-        "seconds": found.run.profile.duration(),
-        "step_s": computed.report.step,
-        "requested_step_s": computed.requested_step,
-        "step_error": json::document(&StepError::document(computed.step_error.as_ref()))["step_error"],
-        "channels": pairs.iter().map(to_json).collect::<Vec<_>>(),
-    });
-    Ok((document, files))
+    Ok((Some(compared), files))
 }
 
 /// Checks before the simulation that the record is long enough for the spectrogram and the order resolution.
@@ -293,25 +310,22 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
     );
 }
 
-fn to_json(pair: &ChannelPair) -> Value {
-    let cut = |cut: &CutPair| {
-        let [m, c] = cut.peaks;
-        json!({
-            "order": cut.line.order,
-            "label": cut.line.label,
-            "measured_rpm": m.rpm,
-            "computed_rpm": c.rpm,
-            "measured_rms": m.rms,
-            "computed_rms": c.rms,
-            "at_end": m.at_end || c.at_end,
-            "correlation": cut.correlation,
-        })
-    };
-    json!({
-        "channel": pair.channel,
-        "unit": pair.unit,
-        "measured_rms": pair.rms[0],
-        "computed_rms": pair.rms[1],
-        "orders": pair.cuts.iter().map(cut).collect::<Vec<_>>(),
-    })
+/// What is written of a comparison; `None`: the simulation has no result.
+pub fn section<'a>(path: &str, found: Option<&'a ComparedRunUp>) -> Section<'a> {
+    let content = Document::new().text(in_json("file"), path);
+    Section::listed("run_ups", "comparison", content.and_if(found, |out, found| out.and(found.document())))
+}
+
+impl ComparedRunUp {
+    /// What is written to files.
+    fn document(&self) -> Document<'_> {
+        Document::new()
+            .text("speed_source", &self.source)
+            .numbers("rpm", "rpm", &self.rpm)
+            .number("seconds", "s", self.seconds)
+            .optional("step_s", "s", self.step)
+            .number("requested_step_s", "s", self.requested_step)
+            .and(StepError::document(self.step_error.as_ref()))
+            .table("channels", ChannelPair::columns(&self.pairs))
+    }
 }

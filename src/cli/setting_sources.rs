@@ -58,6 +58,7 @@ mod tests {
         ];
         let at = |source: usize, span: std::ops::Range<usize>| Diagnostic {
             kind: Kind::MissingUnit,
+            warning: None,
             source,
             span,
             message: String::new(),

@@ -330,7 +330,7 @@ mod tests {
             critical(&model, None, &[]),
             frf(&model, None, None, None),
             unbalance(&model, None),
-            run_up(&model, None, None, None, None),
+            run_up(&model, None, None, None, None, None),
             spectrogram(&model, &stored),
             orders(&model, &stored),
         ];

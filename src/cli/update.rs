@@ -2,20 +2,22 @@
 
 use std::path::PathBuf;
 
+use rotordyn::document::Section;
 use rotordyn::figures::{self, Stage};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::test_data;
-use rotordyn::io::{model_file_edit, results_file};
-use rotordyn::linalg::Complex64;
+use rotordyn::io::{json, model_file_edit, results_file};
 use rotordyn::model::{self, Model, Options};
+use rotordyn::update::correlation::Correlation;
 use rotordyn::update::frf::{FrfFitting, rms_difference_db};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::{IdentifiabilityClass, Update, UpdateError, UpdateJob, update};
 use rotordyn::warning::Code;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::args::{FitResidual, UpdateArgs};
+use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::measured::{self, band, folder};
@@ -81,17 +83,15 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     measured::mode_table(terminal, "Modes before", &read.target, &found.before);
     measured::mode_table(terminal, "Modes after", &read.target, &found.after);
     measured::pair_warnings(terminal, &read.target, &found.after)?;
-    let frfs = |state: &rotordyn::update::state::ModelState| {
-        read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose()
-    };
-    let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
-    let frf_difference_db = |computed: &Option<Frfs>| -> Option<f64> {
-        let (measured, fitted) = (read.target.frfs.as_ref()?, fitting.frf.as_ref()?);
-        Some(rms_difference_db(measured, computed.as_ref()?, fitted))
+    let before = Correlation::new(&read.target, &found.before)?;
+    let after = Correlation::new(&read.target, &found.after)?;
+    let frf_difference_db = |stage: &Correlation| -> Option<f64> {
+        let (measured, computed) = stage.measured_and_computed()?;
+        Some(rms_difference_db(measured, computed, fitting.frf.as_ref()?))
     };
     let frf_difference_db = frf_difference_db(&before).zip(frf_difference_db(&after));
-    if let (Some((before, now)), Some(after)) = (frf_difference_db, &after) {
-        measured::frac_table(terminal, &read.target, &found.after, after);
+    if let Some((before, now)) = frf_difference_db {
+        measured::frac_table(terminal, &after);
         terminal.print(&format!(
             "\nFRF difference {} dB after the update, {} dB before (RMS over the fitted frequency lines)",
             number(now, 2),
@@ -112,15 +112,15 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
     let path = folder.join("update.h5");
     let store = Store::create(&path)?;
-    results_file::validation::write(&store, "/before", &read.target, &found.before, before.as_deref())?;
-    results_file::validation::write(&store, "/after", &read.target, &found.after, after.as_deref())?;
-    results_file::validation::write_parameters(&store, &parameters, &found)?;
+    let difference = frf_difference_db.map(<[f64; 2]>::from);
+    let content = found.document(&parameters, [&before, &after], difference);
+    results_file::write_document(&store, "", &content)?;
     store.flush()?;
     files.push(path);
     if !args.study.no_figures {
         let stages = [
-            Stage { name: "before", state: &found.before, frfs: before.as_deref() },
-            Stage { name: "after", state: &found.after, frfs: after.as_deref() },
+            Stage { name: "before", state: &found.before, frfs: before.frfs.as_deref() },
+            Stage { name: "after", state: &found.after, frfs: after.frfs.as_deref() },
         ];
         files.extend(figures::draw_validation(
             "update",
@@ -130,31 +130,19 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
             &folder,
         )?);
     }
+    let section = Section::new("update", "update", content);
+    if args.study.csv {
+        files.extend(write_csv(&folder, std::slice::from_ref(&section))?);
+    }
     print_written_files(terminal, &folder, &files);
-    let mut document = json!({
-        "command": "update",
-        "model": loaded.model.name,
-        "measured": args.measured.measured,
-        "source": read.source,
-        "parameters": parameters_json(&parameters, &found),
-        "singular_values": identifiability.singular_values,
-        "singular_vectors": identifiability.directions,
-        "correlation": identifiability.correlation,
-        "chi_squared": identifiability.chi_squared,
-        "degrees_of_freedom": identifiability.degrees_of_freedom,
-        "converged": found.converged,
-        "iterations": found.iterations.len() - 1,
-        "frf_db_before": frf_difference_db.map(|a| a.0),
-        "frf_db_after": frf_difference_db.map(|a| a.1),
-        "before": measured::to_json(&read.target, &found.before),
-        "after": measured::to_json(&read.target, &found.after),
-    });
+    let mut document = json::document(&section.content);
+    document["command"] = json!("update");
+    document["model"] = json!(loaded.model.name);
+    document["measured"] = json!(args.measured.measured);
+    document["source"] = json!(read.source);
     document["files"] = json!(files);
     Ok(document.into())
 }
-
-/// `[response][reference][line]`.
-type Frfs = Vec<Vec<Vec<Complex64>>>;
 
 fn fitting(args: &UpdateArgs, band: [f64; 2]) -> Fitting {
     let is_fitted = |word: FitResidual| args.fit.contains(&word);
@@ -329,21 +317,4 @@ fn write_model(
         .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))?;
     std::fs::write(&path, new).map_err(|e| Failure::environment("write the model file", &path, e))?;
     Ok(path)
-}
-
-fn parameters_json(parameters: &[FreeParameter], found: &Update) -> Value {
-    let one = |(p, o): (&FreeParameter, &rotordyn::update::Outcome)| {
-        json!({
-            "name": p.name,
-            "paths": p.numbers.iter().map(|place| &place.path).collect::<Vec<_>>(),
-            "unit": p.unit(),
-            "start": p.value(0.0),
-            "value": p.value(o.x),
-            "fitted": p.value(o.fitted),
-            "standard_error": (o.error * p.derivative(o.fitted)).abs(),
-            "prior_variance_fraction": o.prior_share,
-            "identifiability": o.class.label(),
-        })
-    };
-    parameters.iter().zip(&found.outcomes).map(one).collect()
 }

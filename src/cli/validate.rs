@@ -2,20 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::document::{Document, Section, in_json};
 use rotordyn::error::Error;
 use rotordyn::figures::{self, Stage};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::test_data::TestData;
-use rotordyn::io::results_file;
+use rotordyn::io::{json, results_file};
 use rotordyn::model::Loaded;
 use rotordyn::names::file_name;
-use rotordyn::update::pairing::{Candidate, pair_modes};
+use rotordyn::update::correlation::Correlation;
+use rotordyn::update::force_levels::{ForceLevelShifts, ShiftedMode};
 use rotordyn::update::state::ModelState;
-use rotordyn::update::target::Target;
 use rotordyn::warning::Code;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::args::ValidateArgs;
+use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::measured::{self, folder, stem};
@@ -53,34 +55,33 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
         run_ups.extend(run_up.ok().map(|run_up| (path.as_path(), run_up)));
     }
     std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
-    let mut document = json!({ "command": "validate", "model": loaded.model.name });
+    let mut document = Map::new();
     let mut files = Vec::new();
     if !structures.is_empty() {
-        let (structure_documents, shifts, written) =
-            compare_structures(args, &structures, &loaded, &folder, terminal)?;
-        document["measured"] = structure_documents;
-        document["force_level_shifts"] = shifts;
-        files = written;
+        files = compare_structures(args, &structures, &loaded, &folder, &mut document, terminal)?;
     }
-    let mut run_up_documents = Vec::new();
+    let mut compared = Vec::new();
     for (path, run_up) in &run_ups {
         let prefix = match run_ups.len() {
             1 => "run_up".to_string(),
             _ => file_name(&format!("run_up_{}", stem(path))),
         };
         let draw = !args.study.no_figures;
-        let (mut one, written) =
-            run_up_correlation::compare(run_up, &origin, &prefix, &folder, draw, terminal)?;
-        one["file"] = json!(path);
-        run_up_documents.push(one);
+        let (one, written) = run_up_correlation::compare(run_up, &origin, &prefix, &folder, draw, terminal)?;
+        compared.push((path.display().to_string(), one));
         files.extend(written);
     }
-    if !run_up_documents.is_empty() {
-        document["run_ups"] = json!(run_up_documents);
+    let sections: Vec<Section> =
+        compared.iter().map(|(path, one)| run_up_correlation::section(path, one.as_ref())).collect();
+    json::add_sections(&mut document, &sections);
+    if args.study.csv {
+        files.extend(write_csv(&folder, &sections)?);
     }
     print_written_files(terminal, &folder, &files);
-    document["files"] = json!(files);
-    Ok(document.into())
+    document.insert("command".into(), json!("validate"));
+    document.insert("model".into(), json!(loaded.model.name));
+    document.insert("files".into(), json!(files));
+    Ok(Value::Object(document).into())
 }
 
 /// Error for a file without modes, FRFs or a usable run-up.
@@ -92,78 +93,82 @@ fn no_measurement_error(path: &Path, why: &str) -> Error {
     }
 }
 
-/// Compares modes and FRFs of every file with the model; returns the JSON, the shifts with force level and
-/// the files.
+/// Compares modes and FRFs of every file with the model, adds them to the JSON document; returns the files.
 fn compare_structures(
     args: &ValidateArgs,
     found: &[(&Path, TestData)],
     loaded: &Loaded,
     folder: &Path,
+    document: &mut Map<String, Value>,
     terminal: &Terminal,
-) -> Result<(Value, Value, Vec<PathBuf>), Failure> {
-    let mut documents = Vec::new();
-    let mut states: Vec<ModelState> = Vec::new();
-    let mut figures_to_draw = Vec::new();
-    for (path, read) in found {
-        let state = ModelState::new(loaded.model.clone(), &read.target, None)?;
+) -> Result<Vec<PathBuf>, Failure> {
+    let states: Vec<ModelState> = found
+        .iter()
+        .map(|(_, read)| ModelState::new(loaded.model.clone(), &read.target, None))
+        .collect::<Result<_, _>>()?;
+    let mut sections = Vec::new();
+    let mut drawn = Vec::new();
+    for ((path, read), state) in found.iter().zip(&states) {
         terminal.print(&format!("{}: {}", path.display(), read.source));
-        measured::mode_table(terminal, "Measured and computed modes", &read.target, &state);
-        measured::pair_warnings(terminal, &read.target, &state)?;
-        let frfs = read.target.frfs.as_ref().map(|m| state.frfs(m)).transpose()?;
-        let frac = frfs.as_ref().map(|c| measured::frac_table(terminal, &read.target, &state, c));
-        let mut document = measured::to_json(&read.target, &state);
-        document["file"] = json!(path);
-        document["source"] = json!(read.source);
-        document["frac"] = json!(frac);
-        document["force"] = json!(read.peak_force);
-        documents.push(document);
+        measured::mode_table(terminal, "Measured and computed modes", &read.target, state);
+        measured::pair_warnings(terminal, &read.target, state)?;
+        let correlation = Correlation::new(&read.target, state)?;
+        measured::frac_table(terminal, &correlation);
         let prefix = match found.len() {
             1 => "validation".to_string(),
             _ => format!("validation_{}", stem(path)),
         };
-        figures_to_draw.push((prefix, frfs));
-        states.push(state);
+        let content = Document::new()
+            .text(in_json("file"), path.display().to_string())
+            .text("source", &read.source)
+            .optional("force", "N", read.peak_force)
+            .and(correlation.document());
+        sections.push(Section::listed("measured", file_name(&prefix), content));
+        drawn.push((prefix, correlation));
     }
-    let shifts = if found.len() > 1 { force_level_shifts(found, &states, terminal) } else { Value::Null };
-    let store_path = folder.join("validation.h5");
-    let store = Store::create(&store_path)?;
-    for ((prefix, frfs), ((_, read), state)) in figures_to_draw.iter().zip(found.iter().zip(&states)) {
-        let group = format!("/{}", file_name(prefix));
-        results_file::validation::write(&store, &group, &read.target, state, frfs.as_deref())?;
+    let shifts = force_level_shifts(found, &states[0], terminal);
+    match &shifts {
+        Some(shifts) => sections.push(shifts.section()),
+        None => _ = document.insert("force_level_shifts".into(), Value::Null),
     }
+    let path = folder.join("validation.h5");
+    let store = Store::create(&path)?;
+    sections.iter().try_for_each(|section| results_file::write_section(&store, "", section))?;
     store.flush()?;
-    let mut files = vec![store_path];
+    let mut files = vec![path];
+    json::add_sections(document, &sections);
+    if args.study.csv {
+        files.extend(write_csv(folder, &sections)?);
+    }
     if !args.study.no_figures {
-        for ((prefix, frfs), ((_, read), state)) in figures_to_draw.iter().zip(found.iter().zip(&states)) {
-            let stage = Stage { name: "computed", state, frfs: frfs.as_deref() };
+        for (prefix, correlation) in &drawn {
+            let stage =
+                Stage { name: "computed", state: correlation.state, frfs: correlation.frfs.as_deref() };
             let title = &loaded.model.title;
-            files.extend(figures::draw_validation(prefix, title, &read.target, &[stage], folder)?);
+            files.extend(figures::draw_validation(prefix, title, correlation.target, &[stage], folder)?);
         }
     }
-    Ok((json!(documents), shifts, files))
+    Ok(files)
 }
 
 /// Frequency shift of every mode relative to the first file: with impact tests at different force levels it
 /// shows the nonlinearity of clearances and contacts.
-fn force_level_shifts(found: &[(&Path, TestData)], states: &[ModelState], terminal: &Terminal) -> Value {
-    fn candidates(target: &Target) -> Vec<Candidate<'_>> {
-        target
-            .modes
-            .iter()
-            .map(|m| Candidate { frequency_hz: m.frequency_hz, shape: m.shape.as_slice() })
-            .collect()
+fn force_level_shifts(
+    found: &[(&Path, TestData)],
+    first: &ModelState,
+    terminal: &Terminal,
+) -> Option<ForceLevelShifts> {
+    if found.len() < 2 {
+        return None;
     }
-    let first = &found[0].1.target;
-    let same_sensors = found.iter().all(|(_, f)| f.target.sensors.len() == first.sensors.len());
-    if !same_sensors {
+    let measured: Vec<_> = found.iter().map(|(_, read)| (&read.target, read.peak_force)).collect();
+    let Some(shifts) = ForceLevelShifts::new(&measured, first) else {
         terminal.warn_of(
             Code::MeasuredData,
             "the files have different measurement points: no frequency shift is computed",
         );
-        return Value::Null;
-    }
-    let pairings: Vec<_> =
-        found[1..].iter().map(|(_, f)| pair_modes(&candidates(first), &candidates(&f.target))).collect();
+        return None;
+    };
     let name = |k: usize| match found[k].1.peak_force {
         Some(force) => format!("{} N", number(force, 3)),
         None => stem(found[k].0),
@@ -172,42 +177,24 @@ fn force_level_shifts(found: &[(&Path, TestData)], states: &[ModelState], termin
     for k in 1..found.len() {
         header.extend([format!("{} Hz", name(k)), "shift %".into(), "zeta %".into(), "MAC".into()]);
     }
-    let mut rows = Vec::new();
-    let mut documents = Vec::new();
-    for (m, mode) in first.modes.iter().enumerate() {
-        let label = states[0].paired_mode(m).map_or("-".to_string(), |p| p.0.label.clone());
-        let mut row = vec![label.clone(), format!("{:.3}", mode.frequency_hz)];
-        let mut shifts = Vec::new();
-        for (k, pairing) in pairings.iter().enumerate() {
-            // Largest relative frequency shift of the same mode; beyond it the pair is rejected.
-            const MAX_FREQUENCY_SHIFT: f64 = 0.2;
-            let near = |c: usize| {
-                (found[k + 1].1.target.modes[c].frequency_hz / mode.frequency_hz - 1.0).abs()
-                    < MAX_FREQUENCY_SHIFT
-            };
-            match pairing.pairs.iter().find(|p| p.measured == m && near(p.computed)) {
-                Some(pair) => {
-                    let other = &found[k + 1].1.target.modes[pair.computed];
-                    let shift = other.frequency_hz / mode.frequency_hz - 1.0;
-                    let zeta = other.damping_ratio.map_or("-".into(), |z| format!("{:.3}", 100.0 * z));
-                    row.extend([
-                        format!("{:.3}", other.frequency_hz),
-                        format!("{:+.3}", 100.0 * shift),
-                        zeta,
-                        format!("{:.3}", pair.mac),
-                    ]);
-                    shifts.push(json!({ "hz": other.frequency_hz, "shift": shift, "mac": pair.mac }));
-                }
-                None => {
-                    row.extend(["-".to_string(), "-".into(), "-".into(), "-".into()]);
-                    shifts.push(Value::Null);
-                }
-            }
+    let row = |mode: &ShiftedMode| {
+        let label = mode.label.clone().unwrap_or_else(|| "-".into());
+        let mut row = vec![label, format!("{:.3}", mode.frequency_hz)];
+        for shift in &mode.shifts {
+            row.extend(match shift {
+                Some(shift) => [
+                    format!("{:.3}", shift.frequency_hz),
+                    format!("{:+.3}", 100.0 * shift.shift),
+                    shift.damping_ratio.map_or("-".into(), |z| format!("{:.3}", 100.0 * z)),
+                    format!("{:.3}", shift.mac),
+                ],
+                None => ["-"; 4].map(String::from),
+            });
         }
-        rows.push(row);
-        documents.push(json!({ "label": label, "hz": mode.frequency_hz, "shifts": shifts }));
-    }
+        row
+    };
+    let rows: Vec<Vec<String>> = shifts.modes.iter().map(row).collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     terminal.table("Frequency shift of the measured modes relative to the first file", &header, &rows);
-    json!({ "forces": found.iter().map(|(_, f)| f.peak_force).collect::<Vec<_>>(), "modes": documents })
+    Some(shifts)
 }

@@ -202,6 +202,7 @@ fn unstable_forward_whirl_due_to_internal_damping() {
         cutoff: 100.0,
         from_equilibrium: true,
         cage_phases: 0,
+        motion: None,
     };
     let reduction = machine.reduce(&study).unwrap();
 

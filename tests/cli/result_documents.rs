@@ -166,7 +166,7 @@ fn tables_have_no_negative_zero() {
 }
 
 /// The cells of a column of a CSV file as numbers.
-fn column(path: &std::path::Path, title: &str) -> Vec<f64> {
+pub fn column(path: &std::path::Path, title: &str) -> Vec<f64> {
     let text = std::fs::read_to_string(path).unwrap();
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let at = lines.next().unwrap().iter().position(|cell| *cell == title).unwrap();
@@ -195,4 +195,14 @@ fn csv_tables_have_the_values_of_the_document() {
     assert_eq!(column(&csv("modal_modes.csv"), "frequency_hz [Hz]"), modes);
     let speeds = &run("critical")["critical_speeds"]["speeds"];
     assert_eq!(column(&csv("critical_speeds_speeds.csv"), "speed_rpm [rpm]"), numbers(speeds, "speed_rpm"));
+    let variants = ["--variants", "base,stiff_pedestals", "--no-figures", "--csv", "--modes", "4", "--out"];
+    let mut command = rotordyn();
+    let found = json_of(
+        command.args(["compare", "models/two_disc_pedestals.toml"]).args(variants).arg(folder.path()),
+    );
+    let rows = found["speeds"][0]["modes"].as_array().unwrap().iter();
+    let frequencies: Vec<f64> =
+        rows.flat_map(|row| row["frequency_hz"].as_array().unwrap()).map(|f| f.as_f64().unwrap()).collect();
+    assert!(frequencies.len() >= 8 && frequencies.len() % 2 == 0);
+    assert_eq!(column(&csv("comparison_speeds_modes_over_variants.csv"), "frequency_hz [Hz]"), frequencies);
 }

@@ -7,6 +7,7 @@ use rotordyn::io::measured;
 use rotordyn::signal::record::{MeasuredData, Record, Values};
 use serde_json::Value;
 
+use crate::result_documents::column;
 use crate::{json_of, output_of, rotordyn};
 
 const MODEL: &str = "models/jeffcott.toml";
@@ -83,7 +84,7 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn run_up_of_the_unchanged_model_agrees() {
     let out = AS_MODELLED.0.path().join("same");
-    let document = json_of(&mut validate(&AS_MODELLED.1, &out, &[]));
+    let document = json_of(&mut validate(&AS_MODELLED.1, &out, &["--csv"]));
     let run = &document["run_ups"][0];
     assert!(number(&run["rpm"][1]) > 2950.0 && number(&run["rpm"][1]) < 3010.0, "{run}");
     // The simulation has the run-up's step and estimate of its error.
@@ -97,6 +98,12 @@ fn run_up_of_the_unchanged_model_agrees() {
         println!("{} {level:.4} dB", channel["channel"]);
         assert!(level.abs() < 0.1, "{channel}");
     }
+    // The level of an order has its own column beside that of the channel.
+    let orders = run["channels"].as_array().unwrap().iter().flat_map(|c| c["orders"].as_array().unwrap());
+    let levels: Vec<f64> = orders.map(|order| number(&order["measured_rms"])).collect();
+    let table = out.join("csv/run_ups_channels_orders.csv");
+    assert!(!levels.is_empty());
+    assert_eq!(column(&table, "orders_measured_rms"), levels);
     // The tacho's first revolution is unknown and the model starts from rest after it: otherwise the same run.
     for channel in 0..2 {
         let once = order(&document, channel, "1x");

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use crate::result_documents::column;
 use crate::{json_of, output_of, rotordyn, struck_rig};
 
 const RIG: &str = "models/overhung_rig.toml";
@@ -41,11 +42,13 @@ fn validate_pairs_all_modes() {
     }
     let text = output_of(
         rotordyn()
-            .args(["validate", RIG, "--no-figures", "--measured"])
+            .args(["validate", RIG, "--no-figures", "--csv", "--measured"])
             .arg(truth())
             .arg("--out")
             .arg(folder.path()),
     );
+    let measured: Vec<f64> = modes.iter().map(|m| m["measured_hz"].as_f64().unwrap()).collect();
+    assert_eq!(column(&folder.path().join("csv/measured_modes.csv"), "measured_hz [Hz]"), measured);
     for part in ["12 modes of the file", "measured Hz", "MAC", "1st torsional"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
@@ -91,6 +94,7 @@ fn update_changes_only_the_updated_values_in_the_file() {
                 "housing.*.k_x,housing.*.k_y",
                 "--band",
                 "5 .. 300 Hz",
+                "--csv",
                 "--measured",
             ])
             .arg(truth())
@@ -101,6 +105,9 @@ fn update_changes_only_the_updated_values_in_the_file() {
         let parameter = &document["parameters"][k];
         assert_eq!(parameter["identifiability"], "identifiable", "{parameter}");
         assert!((parameter["value"].as_f64().unwrap() / value - 1.0).abs() < 1e-3, "{parameter}");
+        let table = folder.path().join("csv/update_parameters.csv");
+        let written = column(&table, "value [in the parameter's unit]");
+        assert_eq!(written[k], parameter["value"].as_f64().unwrap());
     }
     let old = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(RIG)).unwrap();
     let new = std::fs::read_to_string(folder.path().join("overhung_rig_updated.toml")).unwrap();

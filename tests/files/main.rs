@@ -12,6 +12,8 @@ mod mapping;
 mod measured_data;
 mod measured_files;
 mod motion;
+mod own_exporter;
+mod own_study;
 mod report;
 mod results_file;
 #[path = "../common/rig.rs"]

@@ -243,7 +243,7 @@ fn load_errors_name_file_and_place() {
     // A file cut off.
     save(&path, &RIG.1.modal).unwrap();
     let bytes = std::fs::read(&path).unwrap();
-    std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() / 3]).unwrap();
     let message = load::<Vec<rotordyn::results::ModalResult>>(&path).unwrap_err().to_string();
     assert!(message.contains("run.results") && message.contains("].modes["), "{message}");
 }

@@ -78,7 +78,7 @@ fn a_single_bearing() {
 #[test]
 fn a_speed_beyond_the_bearing() {
     let mut motor = machine("gear_shaft");
-    motor.rpm = 20000.0;
+    motor.rpm = 30000.0;
     motor.unbalance = 1.0;
     let found = warnings_of(&motor.text());
     assert!(codes(&found).contains("bearing-speed"), "{found:?}");

@@ -12,6 +12,9 @@
 //! | table | list of objects, one a row | a data set for each column, first dimension the row |
 //! | table within a table | list in each row | data sets of \[row, inner row\], padded with NaN |
 //!
+//! A document also says what is shown of it without further code: tables with a heading in the terminal, arrays marked as
+//! drawn in a line figure over their axis.
+//!
 //! Names are those of both formats; [`in_json`], [`in_hdf5`] and [`named`] state exceptions, [`quantity`] the rule of the
 //! JSON names. A name in HDF5 may contain `/`; an empty one puts the members into the surrounding group.
 
@@ -75,6 +78,8 @@ pub struct Array<'a> {
     /// Dimensions and the names of their axes, data sets in HDF5.
     pub axes: Vec<(usize, String)>,
     pub missing: MissingCell,
+    /// Whether a line figure shows it over its axis.
+    pub drawn: bool,
 }
 
 /// Data of an array.
@@ -98,6 +103,8 @@ pub enum MissingCell {
     Null,
     /// The key is omitted.
     Omitted,
+    /// The whole row is null.
+    Row,
 }
 
 /// Rows of the same columns.
@@ -108,6 +115,8 @@ pub struct Table<'a> {
     pub columns: Document<'a>,
     /// Name of the column (HDF5) that is the axis of the others.
     pub axis: Option<String>,
+    /// Heading in the terminal, which prints only tables with a heading.
+    pub heading: Option<String>,
 }
 
 /// Number of rows of a table.
@@ -288,7 +297,7 @@ impl<'a> Document<'a> {
 impl<'a> Array<'a> {
     pub fn new(shape: &[usize], unit: &str, data: Data<'a>) -> Self {
         let missing = MissingCell::default();
-        Self { shape: shape.into(), data, unit: unit.into(), axes: Vec::new(), missing }
+        Self { shape: shape.into(), data, unit: unit.into(), axes: Vec::new(), missing, drawn: false }
     }
 
     /// Real numbers.
@@ -311,6 +320,12 @@ impl<'a> Array<'a> {
     pub fn indices(indices: &[usize]) -> Self {
         let data = indices.iter().map(|&k| i64::try_from(k).ok()).collect();
         Self::new(&[indices.len()], "1", Data::Integers(data))
+    }
+
+    /// Has a line figure of it, of one dimension, over its axis.
+    pub fn drawn(mut self) -> Self {
+        self.drawn = true;
+        self
     }
 
     /// Names the axis of a dimension.

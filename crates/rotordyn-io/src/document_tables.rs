@@ -5,7 +5,7 @@
 //! | in the document | table |
 //! |---|---|
 //! | single values of a section | `SECTION`, one row; of listed sections and of groups by name a row each |
-//! | table | `SECTION_TABLE`; a table within its rows repeats the columns of the outer row |
+//! | table | `SECTION_TABLE`; a table within its rows repeats the columns of the outer row, and puts its name before those of its own that are named alike |
 //! | numbers over an axis in each row | `SECTION_TABLE_over_AXIS`, a row for each value of the axis |
 //! | arrays over an axis | `SECTION_over_AXIS`, a column each |
 //!
@@ -65,14 +65,17 @@ fn document(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
     if row.len() > outer.len() {
         out.add(name, row);
     }
-    members(out, name, outer, found);
+    members(out, name, outer, found, true);
 }
 
-fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
+/// Tables, lists and curves of a document; `in_json`: whether JSON has it.
+fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document, in_json: bool) {
     for field in &found.fields {
         let name = joined(name, title(field));
         match &field.value {
-            Value::Group(inner) => members(out, &name, outer, inner),
+            Value::Group(inner) => {
+                members(out, &name, outer, inner, in_json && field.names.json.is_some());
+            }
             // What only HDF5 has in tables and lists, JSON has in another form.
             _ if field.names.json.is_none() => {}
             Value::Groups { key, groups } => {
@@ -89,9 +92,9 @@ fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
                 rows_within(out, &name, outer, columns, found);
             }
             Value::Table(Table { rows: Count::Many(count), columns, .. }) => {
-                table(out, &name, &outer.repeated(&[*count]), columns, found);
+                table(out, &name, title(field), &outer.repeated(&[*count]), columns, found);
             }
-            Value::Array(array) if is_list(array) && !is_axis(found, field) => {
+            Value::Array(array) if in_json && is_list(array) && !is_axis(found, field) => {
                 let mut list = outer.repeated(&[array.data.len()]);
                 array_cells(&mut list, title(field), &field.names, array);
                 out.add(&name, list);
@@ -102,10 +105,13 @@ fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
     curves(out, name, outer, found);
 }
 
-/// A table and what stands within its rows; `around`: the document with the axes of its cells.
-fn table(out: &mut Tables, name: &str, outer: &Columns, columns: &Document, around: &Document) {
+/// A table and what stands within its rows; `own`: its name in the document, `around`: the document with the axes of its
+/// cells.
+fn table(out: &mut Tables, name: &str, own: &str, outer: &Columns, columns: &Document, around: &Document) {
+    let mut values = Columns::of_rows(outer.rows());
+    all_values(&mut values, "", columns, Within::Table);
     let mut rows = outer.clone();
-    all_values(&mut rows, "", columns, Within::Table);
+    rows.append_named(values, own);
     if rows.len() > outer.len() {
         out.add(name, rows.clone());
     }
@@ -126,7 +132,8 @@ fn rows_within(out: &mut Tables, name: &str, rows: &Columns, columns: &Document,
                 let is_unnamed = |field: &Field| title(field).is_empty();
                 match inner.fields.iter().any(is_unnamed) {
                     false => {
-                        table(out, &joined(name, title(field)), &rows.repeated(counts), inner, around);
+                        let own = title(field);
+                        table(out, &joined(name, own), own, &rows.repeated(counts), inner, around);
                     }
                     // Lists of the same lengths belong together.
                     true => match lists.iter_mut().find(|(other, _)| other == counts) {
@@ -201,10 +208,14 @@ fn axis_field<'f, 'a>(found: &'f Document<'a>, axis: &str) -> Option<&'f Field<'
     found.fields.iter().filter(|field| matches!(field.value, Value::Array(_))).find(is_axis)
 }
 
-/// Whether an array is a list of its own: texts or integers, or more numbers than a vector.
+/// Whether an array is a list of its own: texts, or more numbers than a vector; integers are indices of another array.
 fn is_list(array: &Array) -> bool {
-    let vector = matches!(array.data, Data::Real(_)) && cells::is_small(&array.shape);
-    array.shape.len() == 1 && array.axes.is_empty() && !vector
+    let alone = match array.data {
+        Data::Real(_) => !cells::is_small(&array.shape),
+        Data::Integers(_) => false,
+        _ => true,
+    };
+    array.shape.len() == 1 && array.axes.is_empty() && alone
 }
 
 #[cfg(test)]
@@ -311,6 +322,32 @@ mod tests {
             assert_eq!(found, expected);
         }
         assert_eq!(found.len(), expected.len());
+    }
+
+    /// The channel's level and that of its orders are columns of their own; what only HDF5 has, and indices, are no lists.
+    #[test]
+    fn columns_named_alike_are_kept() {
+        let rows = Rows::of(&[(1.0, [(2.0, 3.0), (4.0, 5.0)])]).number("rms", "m", |r| r.0).nested(
+            "orders",
+            |r| &r.1,
+            |inner| inner.number("rms", "m", |o| o.0).number("order", "1", |o| o.1),
+        );
+        let only_hdf5 =
+            Document::new().texts("labels", ["a"]).table("rows", Rows::of(&[1.0]).number("x", "m", |x| *x));
+        let content = Document::new()
+            .table("channels", rows)
+            .array(in_json("requested"), Array::indices(&[0, 1]))
+            .group(in_hdf5("detail"), only_hdf5);
+        let expected = [
+            text("all_channels", &["rms [m]"], &[&["1.0"]]),
+            text(
+                "all_channels_orders",
+                &["rms [m]", "orders_rms [m]", "order"],
+                &[&["1.0", "2.0", "3.0"], &["1.0", "4.0", "5.0"]],
+            ),
+            text("all_detail_rows", &["x [m]"], &[&["1.0"]]),
+        ];
+        assert_eq!(tables(&[Section::new("all", "all", content)]), expected);
     }
 
     #[test]

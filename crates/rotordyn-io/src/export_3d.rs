@@ -11,8 +11,8 @@ use rotordyn_core::analysis::Mode;
 use rotordyn_core::geometry::animated_scene::AnimatedScene;
 use rotordyn_core::geometry::scene_graph::Scene;
 use rotordyn_core::model::Model;
-use rotordyn_core::results::{Motion, Results};
-use rotordyn_core::study::Machine;
+use rotordyn_core::results::Motion;
+use rotordyn_core::study::{Machine, Results};
 use rotordyn_units::names::file_name;
 
 /// Ratio of the largest displacement of an exported mode shape to the length of the shaft.

@@ -1,87 +1,72 @@
-//! Identified modes (experimental modal analysis) as JSON, HDF5 and shapes for other programs.
+//! Identified modes (experimental modal analysis): what is written to files, and shapes for other programs.
 
-use serde_json::{Value, json};
-
-use super::hdf5::{Attribute, Store};
-use crate::error::Error;
+use rotordyn_core::document::{Array, Document, Rows, Section, in_hdf5, in_json, named};
 use rotordyn_identify::{ModalIdentification, Mode};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
-/// The modes with their standard errors, the fit errors, and messages on dropped poles.
-pub fn to_json(found: &ModalIdentification) -> Value {
-    let names = |dofs: &[Dof]| dofs.iter().map(Dof::to_string).collect::<Vec<_>>();
-    let complex = |values: &[Complex64]| values.iter().map(|v| json!([v.re, v.im])).collect::<Vec<_>>();
-    let mode = |m: &Mode| {
-        json!({
-            "frequency_hz": m.frequency_hz(),
-            "frequency_error_hz": m.frequency_error,
-            "damping_ratio": m.damping_ratio(),
-            "damping_ratio_error": m.damping_error,
-            "pole": [m.pole.re, m.pole.im],
-            "shape": complex(&m.shape),
-            "participation": complex(&m.participation),
-            "phase_collinearity": m.collinearity,
-            "whirl": m.whirl,
-            "significance": m.significance,
-        })
-    };
-    json!({
-        "modes": found.modes.iter().map(mode).collect::<Vec<_>>(),
-        "responses": names(&found.responses),
-        "references": names(&found.references),
-        "band_hz": [found.frequencies.first(), found.frequencies.last()],
-        "lines": found.frequencies.len(),
-        "fit_error": found.total_error,
-        "fit_errors": found.errors,
-        "auto_mac": found.auto_mac(),
-        "dropped": found.dropped,
-    })
+/// The modes with their standard errors, the fit errors, messages on dropped poles, FRFs measured and synthesised, and
+/// the stabilisation diagram.
+pub fn section(found: &ModalIdentification) -> Section<'_> {
+    Section::new("identified", "identified", document(found))
 }
 
-/// `/identified`: poles, mode shapes, modal participation, phase collinearity (MPC), FRFs measured and
-/// synthesised, stabilisation diagram.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_hdf5(store: &Store, found: &ModalIdentification) -> Result<(), Error> {
-    let (n, responses, references) = (found.modes.len(), found.responses.len(), found.references.len());
-    let own = |name: &str| format!("/identified/{name}");
-    let unit = |unit: &str| vec![("unit", Attribute::from(unit))];
-    let column = |name: &str, at: &str, of: &dyn Fn(&Mode) -> f64| {
-        let values: Vec<f64> = found.modes.iter().map(of).collect();
-        store.write(&own(name), &[n], &values, &unit(at))
-    };
-    column("frequency", "Hz", &|m| m.frequency_hz())?;
-    column("frequency_error", "Hz", &|m| m.frequency_error)?;
-    column("damping_ratio", "1", &|m| m.damping_ratio())?;
-    column("damping_ratio_error", "1", &|m| m.damping_error)?;
-    column("phase_collinearity", "1", &|m| m.collinearity)?;
-    column("whirl", "1", &|m| m.whirl.unwrap_or(f64::NAN))?;
-    let poles: Vec<Complex64> = found.modes.iter().map(|m| m.pole).collect();
-    store.write_complex(&own("pole"), &[n], &poles, &unit("1/s"))?;
-    let all = |of: &dyn Fn(&Mode) -> Vec<Complex64>| found.modes.iter().flat_map(of).collect::<Vec<_>>();
-    store.write_complex(&own("shape"), &[n, responses], &all(&|m| m.shape.clone()), &[])?;
-    let participation = all(&|m| m.participation.clone());
-    store.write_complex(&own("participation"), &[n, references], &participation, &[])?;
+fn document(found: &ModalIdentification) -> Document<'_> {
     let names = |dofs: &[Dof]| dofs.iter().map(Dof::to_string).collect::<Vec<_>>();
-    store.write_texts(&own("responses"), &names(&found.responses), &[])?;
-    store.write_texts(&own("references"), &names(&found.references), &[])?;
-    let lines = found.frequencies.len();
-    store.write(&own("frequencies"), &[lines], &found.frequencies, &unit("Hz"))?;
-    for (name, frfs) in [("measured", &found.measured), ("synthesised", &found.synthesised)] {
-        let values: Vec<Complex64> = frfs.iter().flatten().flatten().copied().collect();
-        store.write_complex(&own(name), &[responses, references, lines], &values, &[])?;
-    }
-    let errors: Vec<f64> = found.errors.iter().flatten().copied().collect();
-    store.write(&own("fit_error"), &[responses, references], &errors, &unit("1"))?;
+    let (responses, references, modes) = (found.responses.len(), found.references.len(), found.modes.len());
+    let band = [found.frequencies.first(), found.frequencies.last()];
+    let band: Vec<f64> = band.iter().map(|end| end.copied().unwrap_or(f64::NAN)).collect();
+    let frfs = |values: &[Vec<Vec<Complex64>>]| {
+        let flat: Vec<Complex64> = values.iter().flatten().flatten().copied().collect();
+        let shape = [responses, references, found.frequencies.len()];
+        Array::complex(&shape, "as measured, SI", flat).over(2, "frequencies")
+    };
+    Document::new()
+        .table(named("modes", ""), mode_rows(found))
+        .texts("responses", names(&found.responses))
+        .texts("references", names(&found.references))
+        .numbers(in_json("band_hz"), "Hz", band)
+        .integer(in_json("lines"), found.frequencies.len())
+        .number(named("fit_error", "total_fit_error"), "1", found.total_error)
+        .array(
+            named("fit_errors", "fit_error"),
+            Array::real(&[responses, references], "1", found.errors.concat()),
+        )
+        .array("auto_mac", Array::real(&[modes, modes], "1", found.auto_mac().concat()))
+        .texts("dropped", &found.dropped)
+        .numbers(in_hdf5("frequencies"), "Hz", &found.frequencies)
+        .array(in_hdf5("measured"), frfs(&found.measured))
+        .array(in_hdf5("synthesised"), frfs(&found.synthesised))
+        .group(in_hdf5("stabilisation"), diagram(found))
+}
+
+fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {
+    // JSON has complex numbers as pairs.
+    let pairs = |values: &[Complex64]| values.iter().flat_map(|v| [v.re, v.im]).collect::<Vec<f64>>();
+    let (responses, references) = (found.responses.len(), found.references.len());
+    Rows::of(&found.modes)
+        .number(named("frequency_hz", "frequency"), "Hz", Mode::frequency_hz)
+        .number(named("frequency_error_hz", "frequency_error"), "Hz", |m| m.frequency_error)
+        .number("damping_ratio", "1", Mode::damping_ratio)
+        .number("damping_ratio_error", "1", |m| m.damping_error)
+        .numbers(in_json("pole"), "1/s", &[2], move |m| pairs(&[m.pole]))
+        .numbers(in_json("shape"), "", &[responses, 2], move |m| pairs(&m.shape))
+        .numbers(in_json("participation"), "", &[references, 2], move |m| pairs(&m.participation))
+        .complex(in_hdf5("pole"), "1/s", |m| m.pole)
+        .complex_numbers(in_hdf5("shape"), "", &[responses], |m| &m.shape)
+        .complex_numbers(in_hdf5("participation"), "", &[references], |m| &m.participation)
+        .number("phase_collinearity", "1", |m| m.collinearity)
+        .optional("whirl", "1", |m| m.whirl)
+        .number("significance", "1", |m| m.significance)
+}
+
+fn diagram(found: &ModalIdentification) -> Document<'_> {
     let poles: Vec<Complex64> = found.diagram.iter().map(|p| p.value).collect();
-    store.write_complex(&own("stabilisation/pole"), &[poles.len()], &poles, &unit("1/s"))?;
     let orders: Vec<f64> = found.diagram.iter().map(|p| p.order as f64).collect();
-    store.write(&own("stabilisation/order"), &[orders.len()], &orders, &[])?;
-    let stability: Vec<&str> = found.diagram.iter().map(|p| p.stability.label()).collect();
-    store.write_texts(&own("stabilisation/stability"), &stability, &[])?;
-    store.flush()
+    Document::new()
+        .array("pole", Array::complex(&[poles.len()], "1/s", poles))
+        .numbers("order", "1", orders)
+        .texts("stability", found.diagram.iter().map(|p| p.stability.label()))
 }
 
 /// Complex mode shapes at the points of the side (responses or references) with more DOFs, for universal

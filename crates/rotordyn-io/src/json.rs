@@ -29,12 +29,11 @@
 
 mod document;
 
-pub use document::{document, groups};
+pub use document::{add_sections, document, groups};
 
-use document::add_sections;
 use rotordyn_core::document::{Document, Section};
-use rotordyn_core::results::{BearingResult, Results, SignalResult};
-use rotordyn_core::study::Machine;
+use rotordyn_core::results::{BearingResult, SignalResult};
+use rotordyn_core::study::{Machine, Results};
 use rotordyn_core::warning::Warning;
 use serde_json::{Map, Value, json};
 

@@ -10,7 +10,6 @@ pub mod film_table_cache;
 pub mod gltf;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-#[cfg(feature = "hdf5")]
 pub mod identified_modes;
 pub mod inflate;
 pub mod json;

@@ -1,6 +1,6 @@
 //! Results saved by programs that use the library, and loaded again without any loss.
 //!
-//! Any result, [`Results`](rotordyn_core::results::Results) as well as that of one study. The file holds two MessagePack
+//! Any result, [`Results`](rotordyn_core::study::Results) as well as that of one study. The file holds two MessagePack
 //! values: a header and the result, structures as maps by field names. NaN and infinite values keep their bits. Results
 //! for other programs are in JSON and HDF5.
 

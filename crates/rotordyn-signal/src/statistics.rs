@@ -5,7 +5,7 @@ use super::error::check_record;
 use serde::{Deserialize, Serialize};
 
 /// Statistics of a record of N samples with mean μ and central moments m_k = Σ(x−μ)ᵏ / N.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     pub mean: f64,
     /// √m₂, with divisor N.

@@ -6,13 +6,18 @@
 //! | [`pairing`] | MAC, optimal assignment of measured to computed modes |
 //! | `repeated` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
 //! | [`state`] | the model's modes at the measured points, paired |
+//! | [`correlation`] | measured and computed modes and FRFs side by side: MAC, FRAC |
+//! | [`force_levels`] | shift of measured natural frequencies with the force level |
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
 //! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
 //! | [`frf`] | residuals of FRFs: selected lines and their weights |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 
+pub mod correlation;
+mod document;
 mod error;
+pub mod force_levels;
 pub mod frf;
 pub mod identifiability;
 pub mod least_squares;

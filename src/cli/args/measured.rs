@@ -89,4 +89,7 @@ pub struct IdentifyArgs {
     /// Draw no figures
     #[arg(long)]
     pub no_figures: bool,
+    /// Also write the tables of the results as CSV files, to csv/ in the results folder
+    #[arg(long)]
+    pub csv: bool,
 }

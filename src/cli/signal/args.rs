@@ -5,18 +5,25 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::super::args::ShaftArgs;
+use rotordyn::study::signal::Analysis;
 
 /// Shown with the long help.
 pub const EXAMPLES: &str = "\
-Analyses: spectrum, psd, spectrogram, envelope, kurtogram, cepstrum, jerk, orders, synchronous-average,
-cyclic-coherence.
-
 Examples:
   rotordyn signal 105.mat --rate \"12 kHz\" --bearing 6205-2RS
   rotordyn signal out/cwru_6205 --bearing DE --time \"0.2 s ..\" --compare-with 105.mat --compare-rate \"12 kHz\"
   rotordyn signal run_up.csv --channel A_ax --tacho tacho --bearing 6206
   rotordyn signal pump.wav --track 1=\"20 Hz .. 60 Hz\" --bearing-orders BPFO=3.585,BPFI=5.415
   rotordyn signal out/dents --bearing A --analyses jerk --quadrature-channel A_ay";
+
+fn analyses_help() -> String {
+    let known: Vec<&str> = Analysis::ALL.iter().map(|(_, keyword)| *keyword).collect();
+    format!(
+        "Analyses, separated by commas: {}; or \"all\" [default: spectrum, psd, envelope, kurtogram, cepstrum; with the \
+         shaft angle also orders and synchronous-average, and spectrogram if the speed varies]",
+        known.join(", ")
+    )
+}
 
 /// Arguments of `signal`.
 #[derive(Args, Clone, Debug)]
@@ -35,9 +42,7 @@ pub struct SignalArgs {
     /// Time range, such as "0.5 s .. 4 s" or "0.5 s .." [default: all]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub time: Option<String>,
-    /// Analyses, separated by commas, or "all" [default: spectrum, psd, envelope, kurtogram, cepstrum; with
-    /// the shaft angle also orders and synchronous-average, and spectrogram if the speed varies]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help = analyses_help())]
     pub analyses: Vec<String>,
 
     /// Shaft speed, such as "1797 rpm" [default: as stated in the file]

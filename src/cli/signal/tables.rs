@@ -2,12 +2,13 @@
 
 use super::line_tables::{MAX_LINES, band, level};
 use rotordyn::io::measured::run_up::is_rotation_signal;
-use rotordyn::results::{CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
+use rotordyn::results::{JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
 use rotordyn::signal::ridge::find_peaks;
 use rotordyn::signal::spectrum::Spectrum;
 
+use super::super::printed;
 use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
@@ -118,9 +119,7 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
     if let Some(jerk) = &result.jerk {
         jerk_jumps(terminal, result, jerk);
     }
-    if let Some(found) = &result.cyclic {
-        cyclic(terminal, result, found);
-    }
+    printed::tables(terminal, &result.document());
     if let Some(envelope) = &result.envelope {
         line_tables::lines(terminal, result, envelope);
     }
@@ -214,31 +213,4 @@ fn defects(terminal: &Terminal, race: &RaceResult) {
             "  angles are modulo one ball spacing; --quadrature-channel gives the channel at 90 deg that resolves them",
         );
     }
-}
-
-fn cyclic(terminal: &Terminal, result: &SignalResult, found: &CyclicResult) {
-    let rows: Vec<Vec<String>> = found
-        .lines
-        .iter()
-        .map(|l| {
-            vec![
-                match l.harmonic {
-                    1 => l.part.line_name().to_string(),
-                    n => format!("{n}x {}", l.part.line_name()),
-                },
-                number(l.expected, 6),
-                number(l.rate, 6),
-                format!("{:.4}", l.coherence),
-                format!("{:.4}", l.background),
-                format!("{:.1}", l.deviations),
-            ]
-        })
-        .collect();
-    let title = format!(
-        "Cyclic spectral coherence of {} over {} s, mean over all carrier frequencies",
-        result.channel,
-        number(found.duration, 3)
-    );
-    let header = ["line", "expected Hz", "measured Hz", "coherence", "background", "sigmas above it"];
-    terminal.table(&title, &header, &rows);
 }

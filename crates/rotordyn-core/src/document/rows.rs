@@ -11,6 +11,7 @@ pub struct Rows<'a, 'r, T> {
     rows: Vec<&'r T>,
     columns: Document<'a>,
     axis: Option<String>,
+    heading: Option<String>,
 }
 
 impl<'a> Document<'a> {
@@ -26,7 +27,7 @@ impl<'a> Document<'a> {
 
 impl<'a, 'r, T> Rows<'a, 'r, T> {
     pub fn of(rows: impl IntoIterator<Item = &'r T>) -> Self {
-        Self { rows: rows.into_iter().collect(), columns: Document::new(), axis: None }
+        Self { rows: rows.into_iter().collect(), columns: Document::new(), axis: None, heading: None }
     }
 
     /// Names the column (in HDF5) over which the others are given.
@@ -35,9 +36,16 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
         self
     }
 
+    /// Prints the table in the terminal under this heading.
+    pub fn heading(mut self, heading: impl Into<String>) -> Self {
+        self.heading = Some(heading.into());
+        self
+    }
+
     /// The finished table.
     pub fn table(self) -> Table<'a> {
-        Table { rows: Count::Many(self.rows.len()), columns: self.columns, axis: self.axis }
+        let rows = Count::Many(self.rows.len());
+        Table { rows, columns: self.columns, axis: self.axis, heading: self.heading }
     }
 
     fn column(mut self, names: impl Into<Names>, cell: &[usize], unit: &str, data: Data<'a>) -> Self {
@@ -73,6 +81,14 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
     pub fn missing(mut self, form: MissingCell) -> Self {
         if let Some(array) = self.last() {
             array.missing = form;
+        }
+        self
+    }
+
+    /// Has a line figure of the last column over the table's axis.
+    pub fn drawn(mut self) -> Self {
+        if let Some(array) = self.last() {
+            array.drawn = true;
         }
         self
     }
@@ -194,7 +210,7 @@ impl<'a, 'r, T> Rows<'a, 'r, T> {
     }
 
     fn within(mut self, json: &str, counts: Vec<usize>, columns: Document<'a>) -> Self {
-        let value = Value::Table(Table { rows: Count::Within(counts), columns, axis: None });
+        let value = Value::Table(Table { rows: Count::Within(counts), columns, axis: None, heading: None });
         self.columns.fields.push(Field { names: in_json(json), value });
         self
     }

@@ -1,6 +1,7 @@
 //! Correlation of a measured and a computed run, channel by channel; arrays are \[measured, computed\].
 
 use super::{OrderLine, OrderResult, SpectrogramResult};
+use crate::document::Rows;
 use serde::{Deserialize, Serialize};
 
 /// One channel, measured and computed.
@@ -34,6 +35,31 @@ pub struct CutPeak {
     pub rms: f64,
     /// At the lowest or highest speed of the run: the true maximum may lie outside.
     pub at_end: bool,
+}
+
+impl ChannelPair {
+    /// What is written of the channels beside the runs and their spectra.
+    pub fn columns<'a>(rows: &[Self]) -> Rows<'a, '_, Self> {
+        Rows::of(rows)
+            .text("channel", |p| &p.channel)
+            .text("unit", |p| &p.unit)
+            .number("measured_rms", "", |p| p.rms[0])
+            .number("computed_rms", "", |p| p.rms[1])
+            .nested(
+                "orders",
+                |p| &p.cuts,
+                |cuts| {
+                    cuts.number("order", "1/revolution", |c| c.line.order)
+                        .text("label", |c| &c.line.label)
+                        .number("measured_rpm", "rpm", |c| c.peaks[0].rpm)
+                        .number("computed_rpm", "rpm", |c| c.peaks[1].rpm)
+                        .number("measured_rms", "", |c| c.peaks[0].rms)
+                        .number("computed_rms", "", |c| c.peaks[1].rms)
+                        .flag("at_end", |c| c.peaks.iter().any(|peak| peak.at_end))
+                        .number("correlation", "1", |c| c.correlation)
+                },
+            )
+    }
 }
 
 /// Level of a computed value relative to a measured one \[dB\].

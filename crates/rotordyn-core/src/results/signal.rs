@@ -27,7 +27,7 @@ use rotordyn_signal::stft::Spectrogram;
 use std::f64::consts::TAU;
 
 /// Results of one channel; analyses not requested are empty.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SignalResult {
     pub channel: String,
     /// SI unit; empty if unknown.
@@ -154,7 +154,9 @@ impl SignalResult {
             .and_if(self.average.as_ref(), |out, found| {
                 out.group("synchronous_average", found.document(unit))
             })
-            .and_if(self.cyclic.as_ref(), |out, found| out.group("cyclic_coherence", found.document()))
+            .and_if(self.cyclic.as_ref(), |out, found| {
+                out.group("cyclic_coherence", found.document(&self.channel))
+            })
             .texts(in_json("warnings"), &self.warnings)
     }
 }

@@ -1,4 +1,4 @@
-//! The studies: each computes results from a model, one method of [`Machine`] each.
+//! The studies: each computes results from a model, one method of [`Machine`] each; and the results of all of them.
 
 mod ball_states;
 mod bearing;
@@ -10,6 +10,7 @@ mod ehl_film;
 mod error;
 pub mod forecast;
 pub mod free_ball;
+mod machine;
 mod motion;
 mod order_tracking;
 mod record;
@@ -20,333 +21,106 @@ mod settling;
 pub mod signal;
 mod steady_motion;
 mod step_error;
+mod variant_comparison;
 mod warnings;
 
 pub use bearing::single_bearings;
 pub use bifurcation::bifurcation;
 pub use error::StudyError;
+pub use machine::Machine;
 pub use motion::MotionRecorder;
 pub use record::Recorder;
 pub use run_up_correlation::MeasuredRun;
 pub use steady_motion::{Progress, RestartState};
 pub use step_error::Checkpoints;
+pub use variant_comparison::{Variant, compare_variants};
 pub use warnings::run_up_warnings;
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-
-use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
-use crate::analysis::belt_pull::BeltPull;
-use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
-use crate::analysis::preload::{MountedPreload, with_mounted_preload};
-use crate::analysis::table_range::{check_tables, speed_range};
-use crate::analysis::{campbell, critical_speed, modal, stability};
-use crate::assembly::{Assembly, LinearSystem, PhysicsError, rigid_body_modes};
-use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalStudy, RunUpStudy};
-use crate::model::{Drive, Model};
-use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
-use crate::transient::reduction::{Reduction, reduce};
-use crate::transient::run::{Report, Sample, Settings, run};
+use crate::analysis::ball_inertia::InertiaUse;
+use crate::analysis::equilibrium::Equilibrium;
+use crate::assembly::DofMap;
+use crate::document::{Document, Section, in_json};
+use crate::results::{
+    BearingResult, BifurcationResult, CagePhaseBand, CampbellResult, CriticalResult, FrfResult,
+    LyapunovResult, ModalResult, OrderResult, PoincareResult, RunUpResult, SpectrogramResult,
+    UnbalanceResult, warnings_section,
+};
 use crate::warning::Warning;
-use rotordyn_bearing::{BearingElement, SiteTangent};
-use rotordyn_linalg::{SparseMatrix, krylov};
+use serde::{Deserialize, Serialize};
 
-/// An assembled model with the static equilibrium about which linear studies are linearised.
-pub struct Machine {
-    pub model: Model,
-    pub assembly: Assembly,
-    /// Equilibrium with cage-averaged bearings at standstill.
-    standstill_equilibrium: Equilibrium,
-    bearings: Vec<Arc<dyn BearingElement>>,
+/// Everything computed from one model; studies not requested are empty.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Results {
+    pub equilibrium: Option<Equilibrium>,
+    pub modal: Vec<ModalResult>,
+    pub campbell: Option<CampbellResult>,
+    pub critical: Option<CriticalResult>,
+    pub frf: Option<FrfResult>,
+    pub unbalance: Option<UnbalanceResult>,
+    pub run_up: Option<RunUpResult>,
+    pub spectrograms: Vec<SpectrogramResult>,
+    pub orders: Vec<OrderResult>,
+    pub cage_phases: Option<CagePhaseBand>,
+    pub poincare: Option<PoincareResult>,
+    pub lyapunov: Option<LyapunovResult>,
+    pub bifurcation: Option<BifurcationResult>,
+    pub bearings: Vec<BearingResult>,
+    /// Ball inertia used in every study, by its name.
+    pub ball_inertia: Vec<(String, Vec<InertiaUse>)>,
+    /// Warnings for the user, once each.
+    pub warnings: Vec<Warning>,
 }
 
-impl Machine {
-    /// Assembles a model and finds its equilibrium.
-    ///
-    /// # Errors
-    /// A mass matrix that is not definite, or no equilibrium.
-    pub fn new(model: Model) -> Result<Self, PhysicsError> {
-        let mut assembly = Assembly::new(&model)?;
-        let named = |error| name_rigid_body_mode(error, &model, &assembly);
-        let model = with_mounted_preload(&model, &assembly).map_err(named)?.unwrap_or(model);
-        let base = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None)
-            .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
-        assembly.set_standstill(&base.tangents())?;
-        let bearings = model.bearings.iter().map(|site| site.bearing.element()).collect();
-        Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
-    }
-
-    /// Ball inertia of every ball bearing in a study of these speeds \[rad/s\], decided at the highest.
-    pub fn ball_inertia(&self, speeds: &[f64]) -> Vec<InertiaUse> {
-        let top = speeds.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
-        ball_inertia(&self.model, &self.assembly, top, Some(&self.standstill_equilibrium.q))
-    }
-
-    /// The machine with its automatic ball inertia decided at the highest of a study's speeds \[rad/s\]; `None` if it
-    /// is decided.
-    fn decided(&self, speeds: &[f64]) -> Result<Option<Self>, PhysicsError> {
-        if !is_undecided(&self.model) {
-            return Ok(None);
+impl Results {
+    /// What is written to files: a section for every study that has a result.
+    pub fn sections<'a>(&'a self, dofs: &DofMap) -> Vec<Section<'a>> {
+        // Every field is named, so that none is forgotten.
+        let Self {
+            equilibrium,
+            modal,
+            campbell,
+            critical,
+            frf,
+            unbalance,
+            run_up,
+            spectrograms,
+            orders,
+            cage_phases,
+            poincare,
+            lyapunov,
+            bifurcation,
+            bearings,
+            ball_inertia,
+            warnings,
+        } = self;
+        let one = |json, hdf5, document: Option<Document<'a>>| Some(Section::new(json, hdf5, document?));
+        let mut out: Vec<Section> = [
+            one("equilibrium", "equilibrium", equilibrium.as_ref().map(|found| found.document(dofs))),
+            one("modal", "modes", (!modal.is_empty()).then(|| ModalResult::document(modal, dofs))),
+            one("campbell", "campbell", campbell.as_ref().map(CampbellResult::document)),
+            one("critical_speeds", "critical_speeds", critical.as_ref().map(|found| found.document(dofs))),
+            one("frf", "frf", frf.as_ref().map(FrfResult::document)),
+            one("unbalance", "unbalance", unbalance.as_ref().map(UnbalanceResult::document)),
+            one("run_up", "run_up", run_up.as_ref().map(RunUpResult::document)),
+            one("cage_phases", "run_up/cage_phases", cage_phases.as_ref().map(CagePhaseBand::document)),
+            one("poincare", "poincare", poincare.as_ref().map(PoincareResult::document)),
+            one("lyapunov", "lyapunov", lyapunov.as_ref().map(LyapunovResult::document)),
+            one("bifurcation", "bifurcation", bifurcation.as_ref().map(BifurcationResult::document)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        out.extend(spectrograms.iter().map(SpectrogramResult::section));
+        out.extend(orders.iter().map(OrderResult::section));
+        out.extend(bearings.iter().map(BearingResult::section));
+        for (study, used) in ball_inertia {
+            out.extend(used.iter().map(|used| {
+                let content = Document::new().text(in_json("study"), study);
+                let content = content.text(in_json("bearing"), &used.bearing).and(used.document());
+                Section::listed("ball_inertia", format!("ball_inertia/{study}/{}", used.bearing), content)
+            }));
         }
-        Self::new(with_decisions(&self.model, &self.ball_inertia(speeds))).map(Some)
-    }
-
-    /// Highest speed of a run \[rad/s\]: of the speed profile, or of the torque table's last row.
-    pub fn top_speed_of_run(&self) -> f64 {
-        let top = self.model.profile.top_speed();
-        match &self.model.drive {
-            Drive::Torque { table, .. } => table.iter().fold(top, |top, row| top.max(row[0].abs())),
-            _ => top,
-        }
-    }
-
-    /// Static equilibrium with the settings of the study.
-    ///
-    /// # Errors
-    /// No equilibrium.
-    pub fn equilibrium(&self, study: &EquilibriumStudy) -> Result<Equilibrium, PhysicsError> {
-        if let Some(machine) = self.decided(&[study.speed])? {
-            return machine.equilibrium(study);
-        }
-        self.check_tables("static", &[study.speed])?;
-        let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
-        equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
-    }
-
-    /// Pulls of the belts in the equilibrium at standstill, about which linear studies are linearised.
-    pub fn belt_pulls(&self) -> &[BeltPull] {
-        &self.standstill_equilibrium.belts
-    }
-
-    /// Axial forces of the preloaded bearings in the equilibrium at standstill.
-    pub fn mounted_preloads(&self) -> &[MountedPreload] {
-        &self.standstill_equilibrium.preloads
-    }
-
-    /// Tangent stiffness and damping of the bearings at a speed: with `follow` (speed-dependent bearings)
-    /// about the equilibrium at that speed, including film and ball inertia; else ball bearings as at
-    /// standstill and linear bearings by their tables.
-    ///
-    /// Without speed dependence the equilibrium at standstill is used for all speeds.
-    ///
-    /// # Errors
-    /// No equilibrium at that speed.
-    pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, PhysicsError> {
-        if speed_dependent && let Some(machine) = self.decided(&[speed])? {
-            return machine.tangents(speed, speed_dependent);
-        }
-        if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
-            let found = equilibrium(
-                &self.model,
-                &self.assembly,
-                speed,
-                CageTreatment::Averaged,
-                Some(&self.standstill_equilibrium.q),
-            )?;
-            return Ok(found.tangents());
-        }
-        let at_standstill = self.bearings.iter().zip(self.standstill_equilibrium.tangents());
-        Ok(at_standstill.map(|(element, tangent)| element.tangent_at(speed, tangent)).collect())
-    }
-
-    /// Whether the tangents of nonlinear bearings depend on speed: directly, or because a speed-dependent linear
-    /// bearing redistributes the load.
-    fn bearings_depend_on_speed(&self) -> bool {
-        self.bearings.iter().any(|element| !element.is_linear())
-            && self.model.bearings.iter().any(|site| site.bearing.depends_on_speed())
-    }
-
-    /// The equations of motion linearised about the equilibrium at a speed.
-    ///
-    /// # Errors
-    /// As [`LinearSystem::new`].
-    pub fn linear_system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
-        LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
-    }
-
-    /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
-    fn free_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
-        let mut motions = rigid_body_modes::rigid_body_modes_of(&self.assembly, system)?;
-        rigid_body_modes::leave_out_spin(&self.model, &mut motions);
-        Ok(motions)
-    }
-
-    /// Warnings of bearings whose tables cover less than these speeds \[rad/s\] of a study.
-    ///
-    /// # Errors
-    /// A bearing that refuses speeds beyond its table.
-    pub fn check_tables(&self, study: &str, speeds: &[f64]) -> Result<Vec<Warning>, PhysicsError> {
-        speed_range(speeds).map_or(Ok(Vec::new()), |range| check_tables(&self.model, study, range))
-    }
-
-    /// Damped modes at every requested speed.
-    ///
-    /// # Errors
-    /// An eigenvalue computation that fails.
-    pub fn modal(&self, study: &ModalStudy) -> Result<Vec<ModalResult>, PhysicsError> {
-        if let Some(machine) = self.decided(&study.speeds)? {
-            return machine.modal(study);
-        }
-        self.check_tables("modal", &study.speeds)?;
-        let at = |&speed: &f64| {
-            let system = self.linear_system(speed)?;
-            let modes = modal::modes(&self.assembly, &system, study.modes)?;
-            Ok(ModalResult { speed, modes, rigid_body_modes: self.free_motions(&system)? })
-        };
-        study.speeds.iter().map(at).collect()
-    }
-
-    /// Campbell diagram, the crossings of its order lines, and stability thresholds.
-    ///
-    /// # Errors
-    /// As [`campbell::campbell`].
-    pub fn campbell(&self, study: &CampbellStudy) -> Result<CampbellResult, PhysicsError> {
-        if let Some(machine) = self.decided(&study.speeds)? {
-            return machine.campbell(study);
-        }
-        self.check_tables("campbell", &study.speeds)?;
-        let tangents = |speed| self.tangents(speed, study.speed_dependent_bearings);
-        let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
-        let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
-        let thresholds = stability::thresholds(&self.assembly, &diagram, &tangents)?;
-        Ok(CampbellResult { diagram, orders: self.order_lines(&study.orders), crossings, thresholds })
-    }
-
-    /// All critical speeds up to a speed.
-    ///
-    /// # Errors
-    /// As [`critical_speed::critical_speeds`].
-    pub fn critical(&self, study: &CriticalStudy) -> Result<CriticalResult, PhysicsError> {
-        if let Some(machine) = self.decided(&[study.max_speed])? {
-            return machine.critical(study);
-        }
-        self.check_tables("critical", &[0.0, study.max_speed])?;
-        let tangents = |speed| self.tangents(speed, true);
-        let (assembly, max_speed) = (&self.assembly, study.max_speed);
-        let crossings =
-            critical_speed::critical_speeds(assembly, [0.0, max_speed], &study.orders, &tangents)?;
-        Ok(CriticalResult { max_speed, crossings })
-    }
-
-    /// The reduced model of a run-up, about the equilibrium at the cage angles of the model.
-    ///
-    /// # Errors
-    /// No equilibrium, or no modes.
-    pub fn reduce(&self, study: &RunUpStudy) -> Result<Reduction, PhysicsError> {
-        if let Some(machine) = self.decided(&[self.top_speed_of_run()])? {
-            return machine.reduce(study);
-        }
-        if matches!(self.model.drive, Drive::Prescribed { .. }) {
-            self.check_tables("run-up", &self.model.profile.speed_range())?;
-        }
-        let start = equilibrium(
-            &self.model,
-            &self.assembly,
-            self.model.profile.curve().at(0.0).speed,
-            CageTreatment::FixedAngle,
-            Some(&self.standstill_equilibrium.q),
-        )?;
-        reduce(&self.model, &self.assembly, &start, study.cutoff)
-    }
-
-    /// Largest relative eigenvalue difference of reduced and full model up to half the cutoff, at a speed.
-    ///
-    /// # Errors
-    /// An eigenvalue computation that fails.
-    pub fn reduction_error(
-        &self,
-        reduction: &Reduction,
-        cutoff: f64,
-        speed: f64,
-    ) -> Result<f64, PhysicsError> {
-        if let Some(machine) = self.decided(&[speed])? {
-            return machine.reduction_error(reduction, cutoff, speed);
-        }
-        const MODES: usize = 24;
-        let full = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
-        let basis = &reduction.basis;
-        let system = self.linear_system(speed)?;
-        let project =
-            |m: &SparseMatrix| SparseMatrix::from_dense(&(basis.transpose() * m.to_dense() * basis));
-        let (m, c, k) = (project(&system.mass), project(&system.full_damping()), project(&system.stiffness));
-        let count = MODES.min(basis.ncols());
-        let reduced = krylov::lowest_eigenpairs(&m, &c, &k, count, modal::SHIFT)
-            .map_err(|e| PhysicsError::Eigen { speed_rpm: 0.0, reason: e.to_string() })?;
-        let limit = std::f64::consts::PI * cutoff;
-        Ok(full
-            .iter()
-            .filter(|mode| mode.omega() < limit)
-            .map(|mode| {
-                let nearest =
-                    reduced.iter().map(|r| (r.value - mode.eigenvalue).norm()).fold(f64::INFINITY, f64::min);
-                nearest / mode.natural_omega()
-            })
-            .fold(0.0, f64::max))
-    }
-
-    /// Runs the reduced model through the speed profile; `observe` is called with every sample.
-    pub fn run_up(
-        &self,
-        study: &RunUpStudy,
-        reduction: &Reduction,
-        observe: impl FnMut(&Sample) -> ControlFlow<()>,
-    ) -> Report {
-        let start = if study.from_equilibrium { 1.0 } else { 0.0 };
-        let x = &reduction.equilibrium * start;
-        let v = &reduction.equilibrium * 0.0;
-        let state = match reduction.system.initial_state(x, v) {
-            Ok(state) => state,
-            Err(error) => return Report::not_started(error),
-        };
-        #[cfg(feature = "shapes")]
-        if let Err(error) = reduction.system.check_placement(&state, free_ball::overlap_at_start) {
-            return Report::not_started(error);
-        }
-        let settings = Settings {
-            integrator: study.integrator,
-            step: study.step,
-            sample_rate: study.sample_rate,
-            duration: self.model.profile.duration(),
-        };
-        run(&reduction.system, state, &settings, observe)
-    }
-
-    /// Order lines with labels: "2x", or for multiples of a bearing's characteristic orders "BPFO", "2 BPFI".
-    pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
-        let mut characteristic_orders: Vec<(String, f64)> = Vec::new();
-        for site in &self.model.bearings {
-            if let Some(c) = site.bearing.characteristic_orders() {
-                let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
-                characteristic_orders.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
-            }
-        }
-        orders
-            .iter()
-            .map(|&order| {
-                let multiple = |base: f64| {
-                    let n = (order / base).round();
-                    (n >= 1.0 && (order / base - n).abs() < 1e-6 * n).then_some(n)
-                };
-                // Integer orders are always shaft orders.
-                let bearing = characteristic_orders.iter().find_map(|(name, base)| {
-                    let n = multiple(*base).filter(|n| *n <= 5.0 && multiple(1.0).is_none())?;
-                    Some(if n == 1.0 { name.clone() } else { format!("{n} {name}") })
-                });
-                OrderLine {
-                    label: bearing.clone().unwrap_or_else(|| format!("{order}x")),
-                    order,
-                    bearing: bearing.is_some(),
-                }
-            })
-            .collect()
-    }
-}
-
-/// Replaces a failed equilibrium by the rigid-body mode that causes it, if there is one.
-fn name_rigid_body_mode(error: PhysicsError, model: &Model, assembly: &Assembly) -> PhysicsError {
-    let free = rigid_body_modes::rigid_body_modes_of_machine(model, assembly).unwrap_or_default();
-    match free.into_iter().next() {
-        Some(motion) => PhysicsError::Singular { motion },
-        None => error,
+        out.extend(warnings_section(warnings));
+        out
     }
 }

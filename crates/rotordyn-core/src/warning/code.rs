@@ -63,7 +63,7 @@ codes! {
         "The rotor is held radially at one place only; tilting is resisted by that bearing alone.",
         "add the second bearing, or confirm that the bearing resists tilting";
     BearingSpeed, "bearing-speed", Caution,
-        "The speed factor n d_m of a ball bearing lies above what its kind is built for: 1.0e6 mm rpm for deep groove, \
+        "The speed factor n d_m of a ball bearing lies above what its kind is built for: 1.5e6 mm rpm for deep groove, \
          2.5e6 for angular contact bearings.",
         "check the speed, or choose a smaller or a spindle bearing";
     BalanceQuality, "balance-quality", Caution,

@@ -53,12 +53,9 @@ pub(super) fn all_values(out: &mut Columns, prefix: &str, members: &Document, wi
 
 /// Whether other arrays of the document are given over this one.
 pub(super) fn is_axis(found: &Document, field: &Field) -> bool {
-    let named = |array: &Array| array.axes.iter().any(|(_, axis)| field.names.hdf5.as_deref() == Some(axis));
     found.fields.iter().any(|other| match &other.value {
-        Value::Array(array) => named(array),
-        Value::Table(table) => {
-            table.columns.fields.iter().any(|column| matches!(&column.value, Value::Array(a) if named(a)))
-        }
+        Value::Array(array) => array.axes.iter().any(|(_, axis)| field.names.hdf5.as_deref() == Some(axis)),
+        Value::Table(table) => is_axis(&table.columns, field),
         _ => false,
     })
 }

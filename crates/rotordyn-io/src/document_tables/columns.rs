@@ -32,7 +32,12 @@ pub(super) fn joined(name: &str, inner: &str) -> String {
 impl Columns {
     /// One row without columns.
     pub(super) fn one_row() -> Self {
-        Self { columns: Vec::new(), rows: 1 }
+        Self::of_rows(1)
+    }
+
+    /// Rows without columns.
+    pub(super) fn of_rows(rows: usize) -> Self {
+        Self { columns: Vec::new(), rows }
     }
 
     pub(super) fn rows(&self) -> usize {
@@ -54,6 +59,14 @@ impl Columns {
 
     pub(super) fn append(&mut self, other: Self) {
         other.columns.into_iter().for_each(|(title, cells)| self.add(title, cells));
+    }
+
+    /// Adds columns; `name` stands before a title that is there.
+    pub(super) fn append_named(&mut self, other: Self, name: &str) {
+        for (title, cells) in other.columns {
+            let is_taken = self.columns.iter().any(|(own, _)| *own == title);
+            self.add(if is_taken { joined(name, &title) } else { title }, cells);
+        }
     }
 
     /// Every row as often as `counts` says.

@@ -83,8 +83,12 @@ fn row(columns: &Document, k: usize) -> Json {
         match value {
             Value::Array(array) => {
                 let cell: usize = array.shape[1..].iter().product();
+                let range = k * cell..(k + 1) * cell;
+                if array.missing == MissingCell::Row && is_missing(&array.data, range.clone()) {
+                    return Json::Null;
+                }
                 let factor = names.json_factor(&array.unit);
-                insert_cell(&mut out, name, array, &array.shape[1..], k * cell..(k + 1) * cell, factor);
+                insert_cell(&mut out, name, array, &array.shape[1..], range, factor);
             }
             Value::Group(members) => {
                 out.insert(name.clone(), row(members, k));
@@ -100,6 +104,11 @@ fn row(columns: &Document, k: usize) -> Json {
     unwrapped(out)
 }
 
+/// Whether a cell has no number.
+fn is_missing(data: &Data, range: Range<usize>) -> bool {
+    matches!(data, Data::Real(values) if values[range].iter().all(|v| v.is_nan()))
+}
+
 /// Values of one cell; complex ones as `re` and `im`, in the surrounding object if the name is empty.
 fn insert_cell(
     out: &mut Map<String, Json>,
@@ -110,17 +119,14 @@ fn insert_cell(
     factor: Option<f64>,
 ) {
     let value = match &array.data {
-        Data::Real(values) => {
-            let cell = &values[range.clone()];
-            match (cell.iter().all(|v| v.is_nan()), array.missing) {
-                (true, MissingCell::Omitted) => return,
-                (true, MissingCell::Null) => Json::Null,
-                _ => nested(shape, range, &|k| match factor {
-                    Some(factor) => json!(values[k] * factor),
-                    None => json!(values[k]),
-                }),
-            }
-        }
+        Data::Real(values) => match (is_missing(&array.data, range.clone()), array.missing) {
+            (true, MissingCell::Omitted) => return,
+            (true, MissingCell::Null) => Json::Null,
+            _ => nested(shape, range, &|k| match factor {
+                Some(factor) => json!(values[k] * factor),
+                None => json!(values[k]),
+            }),
+        },
         Data::Complex(values) => {
             let re = nested(shape, range.clone(), &|k| json!(values[k].re));
             let im = nested(shape, range, &|k| json!(values[k].im));
@@ -143,4 +149,23 @@ fn nested(shape: &[usize], range: Range<usize>, value: &dyn Fn(usize) -> Json) -
     let Some((count, inner)) = shape.split_first() else { return value(range.start) };
     let size: usize = inner.iter().product();
     (0..*count).map(|k| nested(inner, range.start + k * size..range.start + (k + 1) * size, value)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rotordyn_core::document::Rows;
+
+    #[test]
+    fn missing_cells_and_rows() {
+        let rows = |form| {
+            let level = |row: &Option<f64>| *row;
+            let table = Rows::of(&[Some(1.0), None]).optional("level", "m", level).missing(form);
+            document(&Document::new().table("", table.integer("count", |_| 2)))
+        };
+        let of = |second: Json| json!([{ "level": 1.0, "count": 2 }, second]);
+        assert_eq!(rows(MissingCell::Numbers), of(json!({ "level": null, "count": 2 })));
+        assert_eq!(rows(MissingCell::Omitted), of(json!({ "count": 2 })));
+        assert_eq!(rows(MissingCell::Row), of(Json::Null));
+    }
 }

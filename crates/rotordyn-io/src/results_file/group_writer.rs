@@ -2,7 +2,6 @@
 
 use super::super::hdf5::{Attribute, Store};
 use crate::error::Error;
-use rotordyn_linalg::Complex64;
 
 /// Writer of one group.
 pub(super) struct GroupWriter<'a> {
@@ -40,16 +39,6 @@ impl<'a> GroupWriter<'a> {
         self.store.write(&self.path(name), shape, data, &[("unit", unit.into())])
     }
 
-    pub(super) fn write_complex(
-        &self,
-        name: &str,
-        shape: &[usize],
-        data: &[Complex64],
-        unit: &str,
-    ) -> Result<(), Error> {
-        self.store.write_complex(&self.path(name), shape, data, &[("unit", unit.into())])
-    }
-
     pub(super) fn write_texts<T: AsRef<str>>(
         &self,
         name: &str,
@@ -57,11 +46,5 @@ impl<'a> GroupWriter<'a> {
         texts: &[T],
     ) -> Result<(), Error> {
         self.store.write_text_array(&self.path(name), shape, texts, &[])
-    }
-
-    /// Attaches the array `scale` as dimension scale to a dimension of the array `name`.
-    pub(super) fn attach_scale(&self, name: &str, dimension: usize, scale: &str) -> Result<(), Error> {
-        let label = scale.rsplit('/').next().unwrap_or(scale);
-        self.store.attach_scale(&self.path(name), dimension, &self.path(scale), label)
     }
 }

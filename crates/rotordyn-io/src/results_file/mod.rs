@@ -31,19 +31,18 @@ mod motion;
 mod run_up_correlation;
 mod section;
 mod signal;
-pub mod validation;
 
 pub use external_files::{read_external_files, write_external_files};
 use group_writer::GroupWriter;
 pub use motion::{read_motion, write_motion};
 pub use run_up_correlation::write_run_up_correlation;
-pub use section::write_section;
+pub use section::{write_document, write_section};
 pub use signal::{SignalMeta, write_signal};
 
 use super::hdf5::{Attribute, Channel, Store, read_recording};
 use crate::error::Error;
-use rotordyn_core::results::{BearingResult, History, HistoryChannel, Results, warnings_section};
-use rotordyn_core::study::Machine;
+use rotordyn_core::results::{BearingResult, History, HistoryChannel, warnings_section};
+use rotordyn_core::study::{Machine, Results};
 
 /// Version of the names of groups, data sets and attributes, in `/meta`.
 pub const SCHEMA: i64 = 2;

@@ -12,8 +12,16 @@ use rotordyn_linalg::Complex64;
 pub fn write_section(store: &Store, root: &str, section: &Section) -> Result<(), Error> {
     let at = format!("{root}{}", section.hdf5);
     store.remove(&at)?;
+    write_document(store, &at, &section.content)
+}
+
+/// Writes the members of a document to a group ("" for the root); their names must not exist yet.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_document(store: &Store, group: &str, found: &Document) -> Result<(), Error> {
     let mut writer = Writer { store, scales: Vec::new() };
-    writer.document(&at, &section.content)?;
+    writer.document(group, found)?;
     // An axis can stand behind the arrays over it.
     for Scale { array, dimension, axis } in &writer.scales {
         let label = axis.rsplit('/').next().unwrap_or(axis);

@@ -16,8 +16,11 @@ use std::path::PathBuf;
 pub struct RunFormat {
     /// Its name on the command line.
     pub name: &'static str,
-    write: fn(&MeasuredData, &Options) -> Result<Vec<PathBuf>, Error>,
+    write: Writer,
 }
+
+/// Writes the channels of a run; returns the files.
+pub type Writer = fn(&MeasuredData, &Options) -> Result<Vec<PathBuf>, Error>;
 
 /// Every format.
 pub const FORMATS: [RunFormat; 5] = [
@@ -32,6 +35,11 @@ pub const FORMATS: [RunFormat; 5] = [
 ];
 
 impl RunFormat {
+    /// A format of one's own.
+    pub const fn new(name: &'static str, write: Writer) -> Self {
+        Self { name, write }
+    }
+
     /// The format of a name.
     pub fn named(name: &str) -> Option<Self> {
         FORMATS.into_iter().find(|format| format.name == name)

@@ -32,7 +32,7 @@ const BORE_DIFFERENCE: f64 = 0.1;
 /// Overlap of two parts along the shaft, as a share of the narrower one.
 const OVERLAP: f64 = 0.1;
 /// Speed factor n d_m of deep groove and of angular contact bearings \[mm rpm\].
-const SPEED_FACTORS: [f64; 2] = [1.0e6, 2.5e6];
+const SPEED_FACTORS: [f64; 2] = [1.5e6, 2.5e6];
 /// Balance quality grade e ω \[m/s\]: G 100 of ISO 21940-11.
 const BALANCE_QUALITY: f64 = 0.1;
 

@@ -5,7 +5,8 @@ use super::response::frf_curve;
 use super::{Named, TO_RPM, campbell};
 use crate::{Curve, Figure, Frf, Lines};
 use rotordyn_core::analysis::Mode;
-use rotordyn_core::results::{FrfResult, Results};
+use rotordyn_core::results::FrfResult;
+use rotordyn_core::study::Results;
 
 pub fn figures(variants: &[(String, &Results)]) -> Vec<Named> {
     let mut figures = frfs(variants);

@@ -19,12 +19,14 @@
 //! | `stabilisation`, `auto_mac`, `frf_fit_...`, `mode_shapes` | experimental modal analysis of FRFs |
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
 //! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
+//! | `<section>_<quantity>` | quantities that the results' documents mark as drawn, over their axis |
 //! | `comparison_frf_...`, `comparison_campbell` | model variants on common axes |
 
 mod bearing;
 mod campbell;
 mod comparison;
 mod display_unit;
+mod drawn;
 mod free_ball;
 pub mod identification;
 mod machine;
@@ -48,8 +50,9 @@ use rayon::prelude::*;
 
 use crate::FigureError;
 use crate::{self as plot, Figure};
-use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, Results, SignalResult};
-use rotordyn_core::study::Machine;
+use rotordyn_core::document::Section;
+use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, SignalResult};
+use rotordyn_core::study::{Machine, Results};
 use rotordyn_core::warning::Warning;
 use rotordyn_update::target::Target;
 
@@ -82,7 +85,16 @@ pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
     figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
     figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));
     figures.extend(bearings(&results.bearings, &machine.model.title));
+    figures.extend(drawn::figures(&results.sections(&machine.assembly.dofs), &machine.model.title));
     figures
+}
+
+/// Draws the quantities that documents mark as drawn; `note` stands below the titles. Returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_marked(sections: &[Section], note: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&drawn::figures(sections, note), &[], folder)
 }
 
 /// Draws all figures of ball bearing analyses; returns the SVG files.
@@ -103,7 +115,10 @@ pub fn draw_bearings(
 /// # Errors
 /// A file cannot be written.
 pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&found.iter().flat_map(|r| signal::figures(r, title)).collect::<Vec<_>>(), &[], folder)
+    let mut figures: Vec<Named> = found.iter().flat_map(|r| signal::figures(r, title)).collect();
+    let sections: Vec<Section> = found.iter().map(SignalResult::section).collect();
+    figures.extend(drawn::figures(&sections, title));
+    write_all(&figures, &[], folder)
 }
 
 /// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.

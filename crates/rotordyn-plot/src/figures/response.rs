@@ -5,10 +5,8 @@ use super::{Named, TO_RPM};
 use crate::{Bode, BodeCurve, Critical, Figure, Frf, FrfCurve, Orbit, Orbits, Polar, PolarCurve};
 use rotordyn_core::analysis::mode_kind::ModeKind;
 use rotordyn_core::analysis::unbalance::Orbit as Ellipse;
-use rotordyn_core::results::{
-    DiscOrbit, FrfResult, Results, UnbalanceChannel, UnbalanceResult, is_rotation, unit_of,
-};
-use rotordyn_core::study::Machine;
+use rotordyn_core::results::{DiscOrbit, FrfResult, UnbalanceChannel, UnbalanceResult, is_rotation, unit_of};
+use rotordyn_core::study::{Machine, Results};
 use rotordyn_linalg::Complex64;
 
 /// Points of a drawn orbit.

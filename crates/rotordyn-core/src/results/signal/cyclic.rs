@@ -34,14 +34,16 @@ pub struct CyclicLine {
 }
 
 impl CyclicResult {
-    pub(super) fn document(&self) -> Document<'_> {
+    pub(super) fn document(&self, channel: &str) -> Document<'_> {
         let c = &self.coherence;
         let (rates, carriers) = (c.cyclic_frequencies.len(), c.frequencies.len());
+        let heading = format!("Cyclic spectral coherence of {channel}, mean over all carrier frequencies");
         let lines = Rows::of(&self.lines)
+            .heading(heading)
             .text("line", |l| l.part.line_name())
             .integer("harmonic", |l| l.harmonic)
-            .number("expected_hz", "Hz", |l| l.expected)
-            .number("peak_hz", "Hz", |l| l.rate)
+            .quantity("expected", "Hz", |l| l.expected)
+            .quantity("peak", "Hz", |l| l.rate)
             .number("coherence", "1", |l| l.coherence)
             .number("background", "1", |l| l.background)
             .number("z_score", "1", |l| l.deviations);

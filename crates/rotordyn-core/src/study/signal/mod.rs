@@ -2,27 +2,22 @@
 
 mod cyclic;
 mod jerk;
-mod settings;
+mod orders;
 mod shaft;
 
-pub use settings::{Analysis, AnalysisSelection, Race, SignalSettings};
 pub use shaft::ShaftMotion;
 
 use crate::results::{
-    BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, ShaftAverage, ShaftOrders, SignalResult,
-    SpectrogramWithSpeed,
+    BearingWithOrders, EnvelopeResult, KurtogramResult, SignalResult, SpectrogramWithSpeed,
 };
-use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
+use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn_signal::cepstrum::real_cepstrum;
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
 use rotordyn_signal::filter_bank::max_depth;
 use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
-use rotordyn_signal::order::{OrderSettings, OrderTracker};
-use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, power_spectral_density};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::stft::{Stft, StftSettings};
-use rotordyn_signal::synchronous::synchronous_average;
 use rotordyn_signal::{SignalError, WindowKind};
 
 /// Deepest level of a kurtogram: 128 bands.
@@ -31,6 +26,99 @@ const MAX_LEVEL: usize = 7;
 const DEFAULT_MAX_ORDER: f64 = 20.0;
 /// Speed below which the shaft counts as stationary \[rev/s\].
 const MIN_SPEED: f64 = 0.1;
+
+/// One kind of analysis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Analysis {
+    Spectrum,
+    Density,
+    Spectrogram,
+    Envelope,
+    Kurtogram,
+    Cepstrum,
+    Jerk,
+    Orders,
+    Average,
+    Cyclic,
+}
+
+impl Analysis {
+    /// Every analysis with its keyword.
+    pub const ALL: [(Analysis, &'static str); 10] = [
+        (Analysis::Spectrum, "spectrum"),
+        (Analysis::Density, "psd"),
+        (Analysis::Spectrogram, "spectrogram"),
+        (Analysis::Envelope, "envelope"),
+        (Analysis::Kurtogram, "kurtogram"),
+        (Analysis::Cepstrum, "cepstrum"),
+        (Analysis::Jerk, "jerk"),
+        (Analysis::Orders, "orders"),
+        (Analysis::Average, "synchronous-average"),
+        (Analysis::Cyclic, "cyclic-coherence"),
+    ];
+
+    /// Its keyword, such as "kurtogram".
+    pub fn keyword(self) -> &'static str {
+        Self::ALL[self as usize].1
+    }
+}
+
+/// Race whose defects are located from the jerk.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Race {
+    #[default]
+    Outer,
+    Inner,
+}
+
+/// Selection of analyses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum AnalysisSelection {
+    /// Those suited to the record (default); impossible ones are omitted with a warning.
+    #[default]
+    Suitable,
+    /// All that are possible with the record.
+    All,
+    /// Exactly these; an impossible one is an error.
+    Only(Vec<Analysis>),
+}
+
+/// Analyses and their settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalSettings {
+    pub analyses: AnalysisSelection,
+    /// Rule for the demodulation band of the envelope; `None`: the band with the strongest bearing lines,
+    /// without bearing that of the highest kurtosis.
+    pub band: Option<BandRule>,
+    /// Frequency resolution of the PSD \[Hz\]; `None` averages about fifteen segments.
+    pub resolution: Option<f64>,
+    /// Highest frequency of the spectrogram \[Hz\].
+    pub max_frequency: Option<f64>,
+    /// Resolution and highest order of order tracking; `None`: 2.2 BPFI, at least 20.
+    pub order_resolution: f64,
+    pub max_order: Option<f64>,
+    pub lines: LineSettings,
+    pub race: Race,
+    /// Time \[s\] on the channel's time axis at which a ball is at angle 0 of the race and that angle lies
+    /// along x.
+    pub datum: f64,
+}
+
+impl Default for SignalSettings {
+    fn default() -> Self {
+        SignalSettings {
+            analyses: AnalysisSelection::Suitable,
+            band: None,
+            resolution: None,
+            max_frequency: None,
+            order_resolution: 0.05,
+            max_order: None,
+            lines: LineSettings::default(),
+            race: Race::Outer,
+            datum: 0.0,
+        }
+    }
+}
 
 /// One channel of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,17 +160,7 @@ pub fn analyse(
         speed: shaft.map_or_else(Default::default, |s| s.speeds(channel.sample_rate, channel.start)),
         bearing: bearing.cloned(),
         statistics: statistics(job.x)?,
-        spectrum: None,
-        density: None,
-        spectrogram: None,
-        envelope: None,
-        kurtogram: None,
-        cepstrum: None,
-        jerk: None,
-        orders: None,
-        average: None,
-        cyclic: None,
-        warnings: Vec::new(),
+        ..SignalResult::default()
     };
     for analysis in job.selected_analyses() {
         let Err(error) = job.perform(analysis, &mut out) else { continue };
@@ -275,65 +353,6 @@ impl<'a> Job<'a> {
             kurtogram: fast_kurtogram(self.x, self.rate, depth)?,
             spectral: spectral_kurtosis(self.x, self.rate, &welch)?,
         })
-    }
-
-    /// Highest order: as given, else by bearing and sampling rate.
-    fn max_order(&self) -> f64 {
-        let wanted = self.bearing.map_or(DEFAULT_MAX_ORDER, |b| (2.2 * b.orders.bpfi).max(DEFAULT_MAX_ORDER));
-        let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
-        self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
-    }
-
-    fn orders(&self) -> Result<ShaftOrders, SignalError> {
-        let theta = self.angle("order tracking")?;
-        let resolution = self.settings.order_resolution;
-        let settings =
-            OrderSettings { min_speed: MIN_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
-        let mut tracker = OrderTracker::new(theta, self.rate, settings)?;
-        let records = tracker.resample(&[self.x])?;
-        let map = tracker.spectrogram(&records[0]);
-        let average = map.average(0.0, f64::INFINITY)?;
-        let highest = map.orders.last().copied().unwrap_or(0.0);
-        let lines = self.order_lines().into_iter().filter(|line| line.order < highest);
-        let cuts: Result<_, SignalError> = lines
-            .map(|line| {
-                let cut = map.cut(line.order, resolution)?;
-                Ok((line, cut))
-            })
-            .collect();
-        Ok(ShaftOrders { cuts: cuts?, average, map })
-    }
-
-    /// 1x, 2x and the bearing's characteristic orders.
-    fn order_lines(&self) -> Vec<OrderLine> {
-        let shaft = |n: f64| OrderLine { label: format!("{n}x"), order: n, bearing: false };
-        let mut lines = vec![shaft(1.0), shaft(2.0)];
-        if let Some(bearing) = self.bearing {
-            lines.extend(BearingPart::ALL.map(|part| OrderLine {
-                label: part.line_name().into(),
-                order: part.defect_frequency(&characteristic_rates(bearing, 1.0)),
-                bearing: true,
-            }));
-        }
-        lines
-    }
-
-    fn average(&self) -> Result<ShaftAverage, SignalError> {
-        let theta = self.angle("an average over the shaft's turns")?;
-        let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(360.0, 4096.0) as usize;
-        let resampler = AngleResampler::new(theta, self.rate, per_turn, MIN_SPEED)?;
-        let parts = resampler.parts();
-        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
-        let mut records = resampler.resample(&[self.x])?;
-        let record = records.swap_remove(longest).swap_remove(0);
-        // Revolutions begin at angle 0.
-        let skipped = (-parts[longest].first).rem_euclid(per_turn as i64) as usize;
-        let record = &record[skipped.min(record.len())..];
-        let average = synchronous_average(record, per_turn)?;
-        let rest = average.residual(record)?;
-        let spread = |x: &[f64]| statistics(x).map(|s| s.standard_deviation);
-        let rms = [spread(record)?, spread(&average.mean)?, spread(&rest)?];
-        Ok(ShaftAverage { average, rms })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::analysis::equilibrium::BearingState;
 use crate::document::{TO_RPM, number};
-use crate::results::{Results, UnbalanceResult};
-use crate::study::Machine;
+use crate::results::UnbalanceResult;
+use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
 

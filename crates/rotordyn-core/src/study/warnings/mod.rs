@@ -9,7 +9,7 @@ pub use run::run_up as run_up_warnings;
 pub(super) use supports::standstill_and_top;
 
 use super::Machine;
-use crate::results::Results;
+use crate::study::Results;
 use crate::warning::{Code, Warning};
 
 impl Machine {

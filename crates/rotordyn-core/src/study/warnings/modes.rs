@@ -4,8 +4,8 @@ use crate::analysis::table_range::speed_range;
 use crate::analysis::{Mode, ModeKind, modal};
 use crate::assembly::PhysicsError;
 use crate::document::TO_RPM;
-use crate::results::{CriticalResult, Results};
-use crate::study::Machine;
+use crate::results::CriticalResult;
+use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
 

@@ -2,7 +2,8 @@
 
 use crate::document::{TO_RPM, number};
 use crate::model::Model;
-use crate::results::{BifurcationPoint, Results, RunUpResult};
+use crate::results::{BifurcationPoint, RunUpResult};
+use crate::study::Results;
 use crate::warning::{Code, Warning};
 use std::f64::consts::TAU;
 

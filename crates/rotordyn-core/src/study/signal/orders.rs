@@ -1,0 +1,71 @@
+//! Order tracking and time-synchronous average.
+
+use super::{DEFAULT_MAX_ORDER, Job, MIN_SPEED, characteristic_rates};
+use crate::results::{OrderLine, ShaftAverage, ShaftOrders};
+use rotordyn_signal::SignalError;
+use rotordyn_signal::bearing_lines::BearingPart;
+use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
+use rotordyn_signal::statistics::statistics;
+use rotordyn_signal::synchronous::synchronous_average;
+
+impl Job<'_> {
+    /// Highest order: as given, else by bearing and sampling rate.
+    pub(super) fn max_order(&self) -> f64 {
+        let wanted = self.bearing.map_or(DEFAULT_MAX_ORDER, |b| (2.2 * b.orders.bpfi).max(DEFAULT_MAX_ORDER));
+        let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
+        self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
+    }
+
+    pub(super) fn orders(&self) -> Result<ShaftOrders, SignalError> {
+        let theta = self.angle("order tracking")?;
+        let resolution = self.settings.order_resolution;
+        let settings =
+            OrderSettings { min_speed: MIN_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
+        let mut tracker = OrderTracker::new(theta, self.rate, settings)?;
+        let records = tracker.resample(&[self.x])?;
+        let map = tracker.spectrogram(&records[0]);
+        let average = map.average(0.0, f64::INFINITY)?;
+        let highest = map.orders.last().copied().unwrap_or(0.0);
+        let lines = self.order_lines().into_iter().filter(|line| line.order < highest);
+        let cuts: Result<_, SignalError> = lines
+            .map(|line| {
+                let cut = map.cut(line.order, resolution)?;
+                Ok((line, cut))
+            })
+            .collect();
+        Ok(ShaftOrders { cuts: cuts?, average, map })
+    }
+
+    /// 1x, 2x and the bearing's characteristic orders.
+    fn order_lines(&self) -> Vec<OrderLine> {
+        let shaft = |n: f64| OrderLine { label: format!("{n}x"), order: n, bearing: false };
+        let mut lines = vec![shaft(1.0), shaft(2.0)];
+        if let Some(bearing) = self.bearing {
+            lines.extend(BearingPart::ALL.map(|part| OrderLine {
+                label: part.line_name().into(),
+                order: part.defect_frequency(&characteristic_rates(bearing, 1.0)),
+                bearing: true,
+            }));
+        }
+        lines
+    }
+
+    pub(super) fn average(&self) -> Result<ShaftAverage, SignalError> {
+        let theta = self.angle("an average over the shaft's turns")?;
+        let per_turn = (SAMPLES_PER_ORDER * self.max_order()).ceil().clamp(360.0, 4096.0) as usize;
+        let resampler = AngleResampler::new(theta, self.rate, per_turn, MIN_SPEED)?;
+        let parts = resampler.parts();
+        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).unwrap_or(0);
+        let mut records = resampler.resample(&[self.x])?;
+        let record = records.swap_remove(longest).swap_remove(0);
+        // Revolutions begin at angle 0.
+        let skipped = (-parts[longest].first).rem_euclid(per_turn as i64) as usize;
+        let record = &record[skipped.min(record.len())..];
+        let average = synchronous_average(record, per_turn)?;
+        let rest = average.residual(record)?;
+        let spread = |x: &[f64]| statistics(x).map(|s| s.standard_deviation);
+        let rms = [spread(record)?, spread(&average.mean)?, spread(&rest)?];
+        Ok(ShaftAverage { average, rms })
+    }
+}

@@ -1,0 +1,129 @@
+//! Correlation of a model with a measurement: pairs of modes, MAC and FRAC.
+
+use super::UpdateFailure;
+use super::state::ModelState;
+use super::target::{Target, TargetFrfs, TargetMode};
+use rotordyn_core::analysis::modal::Mode;
+use rotordyn_core::document::{Array, Document, Rows, TO_RPM, Value, in_hdf5, in_json, named};
+use rotordyn_identify::mac::frac;
+use rotordyn_linalg::Complex64;
+
+/// A measurement beside the modes of a model and its FRFs at the measured points.
+pub struct Correlation<'a> {
+    pub target: &'a Target,
+    pub state: &'a ModelState,
+    /// `[response][reference][line]`, if FRFs are measured.
+    pub frfs: Option<Vec<Vec<Vec<Complex64>>>>,
+}
+
+impl<'a> Correlation<'a> {
+    /// Computes the FRFs at the measured points.
+    ///
+    /// # Errors
+    /// A singular dynamic stiffness.
+    pub fn new(target: &'a Target, state: &'a ModelState) -> Result<Self, UpdateFailure> {
+        let frfs = target.frfs.as_ref().map(|measured| state.frfs(measured)).transpose()?;
+        Ok(Self { target, state, frfs })
+    }
+
+    /// Measured FRFs with the computed ones, `[response][reference][line]`.
+    pub fn measured_and_computed(&self) -> Option<(&'a TargetFrfs, &[Vec<Vec<Complex64>>])> {
+        self.target.frfs.as_ref().zip(self.frfs.as_deref())
+    }
+
+    /// Frequency response assurance criterion `[response][reference]`; NaN for a measured FRF of zero.
+    pub fn frac(&self) -> Option<Vec<Vec<f64>>> {
+        let (measured, computed) = self.measured_and_computed()?;
+        let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
+            true => frac(&measured.values[r][e], &computed[r][e]),
+            false => f64::NAN,
+        };
+        let references = 0..measured.references.len();
+        let row = |r| references.clone().map(|e| value(r, e)).collect();
+        Some((0..measured.responses.len()).map(row).collect())
+    }
+
+    /// What is written to files.
+    pub fn document(&self) -> Document<'a> {
+        let (target, state) = (self.target, self.state);
+        let sensors = target.sensors.iter().map(|s| s.name(&state.linearised.model));
+        let pairs: Vec<Pair> =
+            target.modes.iter().enumerate().map(|(k, mode)| (mode, state.paired_mode(k))).collect();
+        let unpaired: Vec<&Mode> = state.pairing.unpaired_computed.iter().map(|&k| &state.modes[k]).collect();
+        let unpaired =
+            Rows::of(unpaired).text("label", |m| &m.label).number("computed_hz", "Hz", |m| m.frequency_hz());
+        let mac = &state.pairing.mac;
+        Document::new()
+            // Factors as in the earlier files: the last digit of the two can differ.
+            .number(in_json("rpm"), "rpm", target.speed * 30.0 / std::f64::consts::PI)
+            .number(in_hdf5("rpm"), "rpm", target.speed * TO_RPM)
+            .texts(in_hdf5("sensors"), sensors)
+            .table(in_json("modes"), pair_rows(&pairs))
+            .table(in_json("unpaired_computed"), unpaired)
+            .group(in_hdf5("measured"), measured_modes(target, state))
+            .group(in_hdf5("computed"), computed_modes(target, state))
+            .array("mac", Array::real(&[mac.len(), state.modes.len()], "1", mac.concat()))
+            .and(self.frf_document())
+    }
+
+    fn frf_document(&self) -> Document<'a> {
+        let (Some((measured, computed)), Some(frac)) = (self.measured_and_computed(), self.frac()) else {
+            return Document::new().with(in_json("frac"), Value::Missing);
+        };
+        let model = &self.state.linearised.model;
+        let shape = [measured.responses.len(), measured.references.len(), measured.frequencies.len()];
+        let frfs = |values: &[Vec<Vec<Complex64>>]| {
+            let flat: Vec<Complex64> = values.iter().flatten().flatten().copied().collect();
+            Array::complex(&shape, "as measured, SI", flat).over(2, "frequency")
+        };
+        let group = Document::new()
+            .numbers("frequency", "Hz", &measured.frequencies)
+            .array("measured", frfs(&measured.values))
+            .array("computed", frfs(computed))
+            .texts("responses", measured.responses.iter().map(|s| s.name(model)))
+            .texts("references", measured.references.iter().map(|s| s.name(model)));
+        Document::new()
+            .group(in_hdf5("frf"), group)
+            .array(named("frac", "frf/frac"), Array::real(&shape[..2], "1", frac.concat()))
+    }
+}
+
+/// A measured mode, and the computed one paired with it with their MAC.
+type Pair<'a> = (&'a TargetMode, Option<(&'a Mode, f64)>);
+
+fn pair_rows<'a, 'r>(pairs: &'r [Pair<'r>]) -> Rows<'a, 'r, Pair<'r>> {
+    Rows::of(pairs)
+        .number("measured_hz", "Hz", |(m, _)| m.frequency_hz)
+        .optional("measured_zeta", "1", |(m, _)| m.damping_ratio)
+        .number("measured_hz_error", "Hz", |(m, _)| m.frequency_error)
+        .optional("computed_hz", "Hz", |(_, pair)| pair.map(|(mode, _)| mode.frequency_hz()))
+        .optional("computed_zeta", "1", |(_, pair)| pair.map(|(mode, _)| mode.zeta()))
+        .optional("error", "1", |(m, pair)| pair.map(|(mode, _)| mode.frequency_hz() / m.frequency_hz - 1.0))
+        .optional("mac", "1", |(_, pair)| pair.map(|(_, mac)| mac))
+        .optional_text("label", |(_, pair)| pair.map(|(mode, _)| &mode.label))
+}
+
+fn measured_modes<'a>(target: &'a Target, state: &ModelState) -> Document<'a> {
+    let modes = &target.modes;
+    let shapes: Vec<Complex64> = modes.iter().flat_map(|m| m.shape.iter().copied()).collect();
+    let partner =
+        |k| state.pairing.pairs.iter().find(|p| p.measured == k).map_or(-1.0, |p| p.computed as f64);
+    let column = |of: &dyn Fn(usize) -> f64| (0..modes.len()).map(of).collect::<Vec<f64>>();
+    Document::new()
+        .numbers("frequency", "Hz", column(&|k| modes[k].frequency_hz))
+        .numbers("frequency_error", "Hz", column(&|k| modes[k].frequency_error))
+        .numbers("zeta", "1", column(&|k| modes[k].damping_ratio.unwrap_or(f64::NAN)))
+        .array("shapes", Array::complex(&[modes.len(), target.sensors.len()], "1", shapes))
+        // Index of the computed mode, -1 without one.
+        .numbers("paired_mode", "1", column(&partner))
+}
+
+fn computed_modes<'a>(target: &Target, state: &'a ModelState) -> Document<'a> {
+    let modes = &state.modes;
+    let shape = [modes.len(), target.sensors.len()];
+    Document::new()
+        .numbers("frequency", "Hz", modes.iter().map(Mode::frequency_hz).collect::<Vec<_>>())
+        .numbers("zeta", "1", modes.iter().map(Mode::zeta).collect::<Vec<_>>())
+        .array("shapes", Array::complex(&shape, "m/sqrt(kg) m", state.shapes.concat()))
+        .texts("label", modes.iter().map(|m| &m.label))
+}
