@@ -22,7 +22,8 @@ use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
 use super::{
-    Outcome, bearing_tables, diagnostics, ehl_films, free_ball_tables, print_written_files, renamed, settings,
+    Outcome, bearing_motion, bearing_tables, diagnostics, ehl_films, free_ball_tables, print_written_files,
+    renamed, settings,
 };
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
@@ -57,6 +58,15 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
         let spinner = terminal.spinner("figures");
         files.extend(figures::draw_bearings(&results.bearings, &loaded.title, &folder)?);
         spinner.finish_and_clear();
+    }
+    if let Some(turns) = args.motion {
+        files.extend(bearing_motion::export(
+            &results.bearings,
+            loaded.model.as_ref(),
+            turns,
+            &folder,
+            terminal,
+        )?);
     }
     print_written_files(terminal, &folder, &files);
     if files.len() > 1 {

@@ -3,6 +3,7 @@
 mod args;
 mod ball_motion_tables;
 mod bearing;
+mod bearing_motion;
 mod bearing_tables;
 mod cage_tables;
 mod catalogue;

@@ -2,14 +2,14 @@
 
 use crate::rig;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use rotordyn::geometry::animated_scene::AnimatedScene;
+use rotordyn::io::animated_scene::AnimatedScene;
 use rotordyn::io::export_3d::export_motion;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::{gltf, results_file};
-use rotordyn::model::SpeedProfile;
-use rotordyn::model::study::{MotionSettings, RunUpStudy};
+use rotordyn::model::study::{BearingStudy, MotionSettings, RunUpStudy};
+use rotordyn::model::{Options, SpeedProfile, load};
 use rotordyn::results::{History, Motion};
-use rotordyn::study::{Machine, MotionRecorder, Recorder};
+use rotordyn::study::{Machine, MotionRecorder, Recorder, bearing_motion};
 use rotordyn::transient::run::End;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -92,8 +92,8 @@ fn frames_agree_with_the_channels_of_the_run() {
     }
 }
 
-/// Balls that roll without slip spin backwards at (D_pw/D_w − D_w/D_pw)/2 of the shaft's speed in the orbiting frame; their
-/// orientation turns so about z, to the scatter of speed by collisions.
+/// Balls turn about z by the integral of their angular velocity, which is that of rolling, (D_pw/D_w − D_w/D_pw)/2 of the
+/// shaft's speed backwards less the orbit, but for those that slip without load.
 #[test]
 fn orientation_of_balls_is_that_of_rolling() {
     let (machine, _, motion) = &*RUN;
@@ -106,12 +106,15 @@ fn orientation_of_balls_is_that_of_rolling() {
         let [w, x, y, z] = ball.orientation[10];
         assert!((w * w + x * x + y * y + z * z - 1.0).abs() < 1e-12);
         let turned = rest(2.0 * z.atan2(w) - speed * duration);
-        let mean = ball.rotation.iter().map(|rotation| rotation[2]).sum::<f64>() / 11.0;
+        // Trapezoidal sum over the frames, between which the speed varies with every collision.
+        let sum: f64 = ball.rotation.windows(2).map(|pair| 0.5 * (pair[0][2] + pair[1][2]) * 1e-3).sum();
         println!(
-            "turned {turned:.4} rad beside {:.4}; mean speed {mean:.2}, rolling {speed:.2}",
+            "turned {:.4} rad, sum {sum:.4}, rolling {:.4}",
+            turned + speed * duration,
             speed * duration
         );
-        assert!(turned.abs() < 0.03 * (speed * duration).abs());
+        assert!((turned + speed * duration - sum).abs() < 0.02);
+        assert!(turned.abs() < 0.1 * (speed * duration).abs());
     }
 }
 
@@ -248,4 +251,45 @@ fn rolling_cages_turn_and_coarse_frames_are_refused() {
         "{error}"
     );
     assert!(gltf::to_animated_glb(&animated, 1.0).starts_with(b"glTF"));
+}
+
+/// The settled motion of one bearing has the cage speed of its study, its ring in the displacement that balances the load, and
+/// exports as the motion of a machine does.
+#[test]
+fn a_single_bearing_moves_as_in_its_study() {
+    let options = Options { variant: Some("preloaded".into()), ..Options::default() };
+    let text = include_str!("../../models/free_balls.toml");
+    let machine = Machine::new(load("free_balls.toml", text, &options).unwrap().model).unwrap();
+    let study = BearingStudy {
+        bearings: vec!["A".into()],
+        force: Some([0.0, -100.0, 0.0]),
+        speed: Some(1256.6),
+        ..BearingStudy::default()
+    };
+    let found = machine.bearings(&study).unwrap().remove(0);
+    let found = found.free_balls.expect("a bearing that settles");
+    let (alone, motion) = bearing_motion(&machine.model, &found, 1).unwrap().unwrap();
+    let bearing = motion.bearing("A").unwrap();
+    assert_eq!((motion.time.len(), bearing.balls, bearing.bodies.len()), (97, 8, 9));
+    let cage = &bearing.bodies[8];
+    let speed = cage.rotation.iter().map(|rotation| rotation[2]).sum::<f64>() / 97.0;
+    println!("cage {speed:.3} rad/s, in the study {:.3}", found.cage_speed);
+    assert!((speed / found.cage_speed - 1.0).abs() < 5e-3);
+    let turned = bearing.cage_angle[96] - bearing.cage_angle[0];
+    assert!(rest(turned - found.cage_ratio * TAU).abs() < 0.05, "{turned}");
+    assert_eq!(motion.displacement[50][..3], found.displacement);
+    let pitch = 0.5 * machine.model.bearings[0].bearing.ball().unwrap().geometry.pitch_diameter;
+    for [x, y, _] in bearing.bodies[..8].iter().flat_map(|ball| &ball.position) {
+        assert!((x.hypot(*y) - pitch).abs() < 20e-6);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let files = export_motion(&motion, &alone, 200.0, folder.path()).unwrap();
+    let (document, _) = glb(&files[0]);
+    // Inner and outer ring, cage and balls, each with translation and rotation.
+    assert_eq!(document["animations"][0]["channels"].as_array().unwrap().len(), 2 * 11);
+    assert!(folder.path().join("motion/motion_00096.vtu").exists());
+
+    let rig = &RUN.0;
+    let rolling = rotordyn::results::FreeBallResult { name: "A".into(), ..found };
+    assert!(bearing_motion(&rig.model, &rolling, 1).unwrap().is_none(), "a bearing without free balls");
 }

@@ -57,6 +57,19 @@ fn unwritable_path_is_an_environment_error() {
     assert!(error.to_string().contains("figure.svg"), "{error}");
 }
 
+/// A long note is broken between words into lines, not cut at the right edge.
+#[test]
+fn notes_are_wrapped() {
+    let note = "12000 rpm, load 0, -3.9, 0 N: slip 13.703 %, BPFO 2.63358 of 3.05224 kinematic (Light spindle with free \
+                balls and cage in one bearing)";
+    let svg = Figure::Orbits(Orbits { note: note.into(), ..Orbits::default() }).svg();
+    let texts = svg.split("</text>").filter_map(|part| part.rsplit('>').next());
+    let grey: Vec<&str> = texts.filter(|text| note.contains(text.trim()) && text.contains(' ')).collect();
+    assert!(grey.len() > 1, "{grey:?}");
+    assert_eq!(grey.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" "), note);
+    assert!(!svg.contains('…'));
+}
+
 #[test]
 fn decimation_of_a_million_samples_keeps_the_peak() {
     let time: Vec<f64> = (0..1_000_000).map(|k| f64::from(k) * 1e-5).collect();

@@ -282,10 +282,20 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                     quantity: name.clone(),
                     unit: name.clone(),
                     time: x.clone(),
-                    value: y.clone()
+                    value: y.clone(),
+                    mean: y.iter().rev().copied().collect(),
+                    reference: x.clone(),
+                    second: Some(SecondScale {
+                        quantity: name.clone(),
+                        unit: name.clone(),
+                        offset: 100.0,
+                        factor: first(0),
+                    }),
+                    from_zero: true,
                 };
                 3
             ],
+            legend: std::array::from_fn(|_| name.clone()),
             ..Default::default()
         }),
         lines(&x, &y, &name, false),

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::animated_scene::AnimatedScene;
 use crate::error::Error;
-use rotordyn_core::geometry::animated_scene::AnimatedScene;
 use rotordyn_core::geometry::scene_graph::{Material, Node, Scene};
 
 const FLOAT: u32 = 5126;

@@ -2,6 +2,7 @@
 
 pub mod error;
 
+pub mod animated_scene;
 pub mod csv;
 pub mod document_tables;
 pub mod export_3d;

@@ -1,9 +1,9 @@
 //! The recorded motion of a machine for ParaView: one .vtu per frame, and the .pvd of all.
 
+use crate::animated_scene::{AnimatedScene, Track};
 use crate::error::Error;
 use crate::vtk::{Field, Grid, Part, Values, machine_fields, part_field, to_binary_vtu, write_pvd};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use rotordyn_core::geometry::animated_scene::{AnimatedScene, Track};
 use rotordyn_core::geometry::mesh::Mesh;
 use rotordyn_core::geometry::scene;
 use rotordyn_core::model::Model;

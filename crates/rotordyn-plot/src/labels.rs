@@ -204,7 +204,7 @@ pub fn page_heading(width: f64, x: f64, title: &str, note: &str, entries: &[Entr
     }
     for line in font::wrapped(note, TICK, width - x - 8.0, NOTE_LINES) {
         svg.text([x, y + 0.9 * TICK], &line, Text::new(TICK, MUTED));
-        y += 1.4 * TICK;
+        y += 1.5 * TICK;
     }
     y = legend(&mut svg, entries, x, y + 1.0, width - x - RIGHT);
     (svg, y + 8.0)

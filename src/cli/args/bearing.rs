@@ -59,4 +59,8 @@ pub struct BearingArgs {
     pub skidding_loads: Option<String>,
     #[arg(long, value_name = "SPEEDS", requires = "skidding", help = key_help("study.bearing.skidding_speeds"))]
     pub skidding_speeds: Option<String>,
+    /// Also export the settled motion of free balls and cage over this many turns of the cage, as motion.glb and
+    /// motion.pvd in the folder motion_BEARING
+    #[arg(long, value_name = "TURNS", value_parser = clap::value_parser!(u64).range(1..=100))]
+    pub motion: Option<u64>,
 }

@@ -1,7 +1,6 @@
 //! Bearing and machine geometry as solids: meshes and scenes; with the feature `shapes` exact distances and overlaps
 //! (parry) and balls and cage as bodies (rapier).
 
-pub mod animated_scene;
 pub mod bearing_shapes;
 pub mod cage;
 pub mod contact_surfaces;

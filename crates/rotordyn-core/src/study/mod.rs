@@ -3,6 +3,7 @@
 mod ball_states;
 mod bearing;
 mod bearing_life;
+mod bearing_motion;
 mod bifurcation;
 mod cage_comparison;
 mod cage_phases;
@@ -25,6 +26,7 @@ mod variant_comparison;
 mod warnings;
 
 pub use bearing::single_bearings;
+pub use bearing_motion::bearing_motion;
 pub use bifurcation::bifurcation;
 pub use error::StudyError;
 pub use machine::Machine;

@@ -110,7 +110,11 @@ impl<'a> MotionRecorder<'a> {
 }
 
 /// Orientation after a step of the mean of two angular velocities: q₁ = exp(½ h (ω₀ + ω₁)/2) q₀, second order in h.
-fn turned(from: &UnitQuaternion<f64>, [start, end]: [[f64; 3]; 2], step: f64) -> UnitQuaternion<f64> {
+pub(super) fn turned(
+    from: &UnitQuaternion<f64>,
+    [start, end]: [[f64; 3]; 2],
+    step: f64,
+) -> UnitQuaternion<f64> {
     let angle = Vector3::from_fn(|k, _| 0.5 * step * (start[k] + end[k]));
     UnitQuaternion::from_scaled_axis(angle) * from
 }

@@ -160,7 +160,8 @@ keys! {
         motion_rate: Quantity = quantity(positive(FREQUENCY),
             "Frames per second of the run of the motion of all parts, for animations.")
             .computed("not recorded; with motion_from or motion_to that of the samples").example("\"2 kHz\"");
-        motion_from: Quantity = quantity(not_negative(TIME), "Time of the first frame.").default("0 s");
+        motion_from: Quantity = quantity(not_negative(TIME), "Time of the first frame.").computed("the start of the run")
+            .example("\"0.1 s\"");
         motion_to: Quantity = quantity(positive(TIME), "Time of the last frame.").computed("the end of the run")
             .example("\"0.2 s\"");
     }
@@ -383,7 +384,7 @@ fn motion(r: &Reader) -> Option<MotionSettings> {
     }
     let sample_rate = r.value(&RUN_UP.sample_rate);
     let settings =
-        MotionSettings { rate: r.or(rate, sample_rate), from: r.value(from), to: r.or(to, f64::INFINITY) };
+        MotionSettings { rate: r.or(rate, sample_rate), from: r.or(from, 0.0), to: r.or(to, f64::INFINITY) };
     if settings.rate > sample_rate {
         let message = format!("{} is above the sampling rate", r.name(rate));
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(rate), message);

@@ -157,8 +157,8 @@ impl Recorded<'_> {
     }
 }
 
-/// Mean over the revolution of the shaft around every sample, by its angle; missing values do not count, at standstill
-/// there is none.
+/// Mean over the revolution of the shaft around every sample, by its angle; missing values do not count, in the first half
+/// revolution there is none.
 fn mean_over_turn(values: &[f64], angle: &[f64]) -> Vec<f64> {
     // Integral over the angle, and the angle that has a value.
     let mut sums = vec![[0.0; 2]];
@@ -169,6 +169,7 @@ fn mean_over_turn(values: &[f64], angle: &[f64]) -> Vec<f64> {
     }
     // Round-off of angles that are equally spaced.
     let half = 0.5 * TAU * (1.0 + 1e-12);
+    let turning = |k: usize| (angle[k] - angle[0]).abs() >= 0.5 * TAU * (1.0 - 1e-12);
     let (mut first, mut last) = (0, 0);
     let mean = |(k, value): (usize, &f64)| {
         while (angle[k] - angle[first]).abs() > half {
@@ -179,7 +180,11 @@ fn mean_over_turn(values: &[f64], angle: &[f64]) -> Vec<f64> {
         }
         // The angle up to the first sample belongs to the revolution before.
         let ([before, passed], [sum, turned]) = (sums[first + 1], sums[last + 1]);
-        if value.is_finite() && turned > passed { (sum - before) / (turned - passed) } else { f64::NAN }
+        if value.is_finite() && turning(k) && turned > passed {
+            (sum - before) / (turned - passed)
+        } else {
+            f64::NAN
+        }
     };
     values.iter().enumerate().map(mean).collect()
 }
@@ -196,8 +201,8 @@ mod tests {
         let angle: Vec<f64> = (0..8).map(|k| f64::from(k) * FRAC_PI_2).collect();
         let values = [f64::NAN, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         let found = mean_over_turn(&values, &angle);
-        assert!(found[0].is_nan());
-        assert_eq!(found[1..], [2.0, 2.5, 3.5, 4.5, 5.5, 6.0, 6.5]);
+        assert!(found[..2].iter().all(|mean| mean.is_nan()));
+        assert_eq!(found[2..], [2.5, 3.5, 4.5, 5.5, 6.0, 6.5]);
     }
 
     /// Samples at standstill have no share of a revolution.
@@ -205,7 +210,8 @@ mod tests {
     fn standstill_does_not_count() {
         let angle = [0.0, 0.0, 0.0, FRAC_PI_2, 2.0 * FRAC_PI_2];
         let found = mean_over_turn(&[9.0, 9.0, 9.0, 1.0, 3.0], &angle);
-        assert_eq!(found, [2.0; 5]);
+        assert!(found[..4].iter().all(|mean| mean.is_nan()));
+        assert_eq!(found[4], 2.0);
         assert!(mean_over_turn(&[9.0, 9.0], &[0.0, 0.0]).iter().all(|mean| mean.is_nan()));
     }
 }

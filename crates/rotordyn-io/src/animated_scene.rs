@@ -1,13 +1,15 @@
 //! The scene of a machine in motion: nodes with their places over time.
 
-use super::scene_graph::{Material, MaterialMesh, Node, Scene};
-use crate::model::{BearingSite, Model};
-use crate::results::{BearingMotion, BodyMotion, Motion};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use rotordyn_core::geometry::scene_graph::{Material, MaterialMesh, Node, Scene};
+use rotordyn_core::model::{BearingSite, Model};
+use rotordyn_core::results::{BearingMotion, BodyMotion, Motion};
 
 /// Marks that show rotation.
 const MARK: Material =
-    Material { name: "mark", colour: [0.02, 0.05, 0.12, 1.0], metallic: 0.3, roughness: 0.5 };
+    Material { name: "mark", colour: [0.55, 0.04, 0.03, 1.0], metallic: 0.0, roughness: 0.6 };
+/// Metallic share of balls: a mirror would show its surroundings instead of the marks.
+const BALL_METALLIC: f64 = 0.2;
 /// Half the angle of the mark of rings, cage and shaft \[rad\].
 const MARK_HALF_ANGLE: f64 = 0.09;
 /// Opacity of outer rings, behind which balls and cage are seen.
@@ -38,8 +40,12 @@ impl AnimatedScene {
     /// rolls. Rigid bodies around the shaft, such as housings, are left out.
     pub fn of_motion(model: &Model, motion: &Motion) -> Self {
         let mut scene = Scene::of_machine(&Model { bodies: Vec::new(), ..model.clone() });
-        for mesh in scene.meshes.iter_mut().filter(|mesh| mesh.material.name == "outer ring") {
-            mesh.material.colour[3] = OUTER_OPACITY;
+        for MaterialMesh { material, .. } in &mut scene.meshes {
+            match material.name {
+                "outer ring" => material.colour[3] = OUTER_OPACITY,
+                "ball" => material.metallic = BALL_METALLIC,
+                _ => {}
+            }
         }
         add_marks(&mut scene);
         let mut out = Self { scene, time: motion.time.clone(), tracks: Vec::new() };
