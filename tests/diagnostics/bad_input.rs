@@ -95,6 +95,12 @@ cases! {
     missing_key: changed("mass = \"1.5 kg\"\n", "");
     missing_unit: changed("element_length = \"20 mm\"", "element_length = 0.02");
     missing_unit_in_text: changed("element_length = \"20 mm\"", "element_length = \"20\"");
+    bare_speed: changed("speeds = \"0, 1200 rpm\"", "speeds = 3000");
+    bare_diameter: changed("outer_diameter = \"25 mm\"", "outer_diameter = 25");
+    bare_modulus: changed("young = \"207 GPa\"", "young = \"207\"");
+    bare_designation: changed("designation = \"6205\"", "designation = 6205");
+    roller_bearing: changed("model = \"ball\"", "model = \"cylindrical_roller\"");
+    roller_designation: changed("designation = \"6205\"", "designation = \"NU 205\"");
     unknown_unit: changed("element_length = \"20 mm\"", "element_length = \"20 mmm\"");
     wrong_dimension: changed("k_y = \"1.5e7 N/m\"", "k_y = \"1.5e7 N\"");
     frequency_for_speed: changed("speeds = \"0, 1200 rpm\"", "speeds = [\"0 rpm\", \"20 1/s\"]");

@@ -4,6 +4,7 @@ mod bearing_file;
 mod bearing_keys;
 mod catalogue;
 mod declared_keys;
+mod defaults;
 mod files;
 mod imperfections;
 mod key_contexts;

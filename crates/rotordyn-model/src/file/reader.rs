@@ -130,7 +130,9 @@ impl<'a> Reader<'a> {
 
     /// Record the value of a key that the file does not give, in words.
     pub fn taken_by_default(&self, key: &dyn Declared, value: impl Into<String>) {
-        self.log.taken_by_default(self.name(key), value.into());
+        // as in the path of a setting, an item of a list by its number
+        let path = self.name(key).replace('[', ".").replace(']', "");
+        self.log.taken_by_default(path, value.into());
     }
 
     /// Record the declared default of a key, if the file does not give it.

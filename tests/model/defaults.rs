@@ -1,0 +1,124 @@
+//! Values that a file does not give: recorded, and default probes and excitations; and what a setting of the command
+//! line replaces.
+
+use rotordyn::model::study::Integrator;
+use rotordyn::model::{self, Kind, Loaded, Options, Quantity};
+
+const HEAD: &str = r#"
+[model]
+name = "machine"
+[material.steel]
+young = "207 GPa"
+poisson = 0.3
+density = "7850 kg/m^3"
+[shaft]
+element_length = "50 mm"
+section = [{ length = "400 mm", outer_diameter = "25 mm" }]
+[station]
+A = "50 mm"
+fan = "200 mm"
+B = "350 mm"
+[disc.A]
+station = "fan"
+mass = "5 kg"
+polar_inertia = "0.02 kg m^2"
+diametral_inertia = "0.01 kg m^2"
+[bearing.A]
+station = "A"
+model = "ball"
+designation = "6205"
+clearance = "C3"
+[bearing.B]
+station = "B"
+model = "ball"
+designation = "6205"
+contact_damping = "200 N s/m"
+"#;
+
+fn load(text: &str, set: &[(&str, &str)]) -> Loaded {
+    let set = set.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+    let loaded = model::load("machine.toml", format!("{HEAD}{text}"), &Options { set, ..Options::default() });
+    loaded.unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// The disc and the bearing A have one name: the probes of the bearing are told apart.
+#[test]
+fn probes_and_excitations_of_a_file_without_any() {
+    let loaded = load("[study.frf]\nfrequencies = \"1, 2 Hz\"\n", &[]);
+    let model = &loaded.model;
+    let names: Vec<&str> = model.probes.iter().map(|probe| probe.name.as_str()).collect();
+    assert_eq!(names, ["A_x", "A_y", "bearing_A_x", "bearing_A_y", "B_x", "B_y"]);
+    let nodes: Vec<Option<usize>> = model.probes.iter().map(|probe| probe.at.node).collect();
+    let [disc, a, b] = [model.discs[0].node, model.bearings[0].node, model.bearings[1].node].map(Some);
+    assert_eq!(nodes, [disc, disc, a, a, b, b]);
+    assert_eq!(model.probes[0].direction, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(model.probes[1].direction, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+    let frf = model.studies.frf.as_ref().unwrap();
+    assert_eq!(frf.responses, model.probes);
+    let excitations: Vec<_> = frf.excitations.iter().map(|e| (e.name.as_str(), e.at.node)).collect();
+    assert_eq!(excitations, [("x", disc), ("y", disc)]);
+}
+
+/// A probe of the file is the only one.
+#[test]
+fn given_probes_have_no_others_beside_them() {
+    let text = "[probe.fan]\nat = \"station.fan\"\ndirection = \"x\"\nquantity = \"velocity\"\n";
+    let probes = load(text, &[]).model.probes;
+    assert_eq!((probes.len(), probes[0].quantity), (1, Quantity::Velocity));
+}
+
+#[test]
+fn defaults_are_recorded_with_their_keys() {
+    let loaded =
+        load("[speed]\nprofile = \"constant\"\nspeed = \"9 rpm\"\nduration = \"1 s\"\n[study.run_up]\n", &[]);
+    let value = |path: &str| {
+        let found = loaded.defaults.iter().filter(|default| default.path == path);
+        let values: Vec<&str> = found.map(|default| default.value.as_str()).collect();
+        assert!(values.len() <= 1, "{path}: {values:?}");
+        values.first().copied()
+    };
+    assert_eq!(value("bearing.A.contact_damping"), Some("\"300 N s/m\""));
+    assert_eq!(value("bearing.B.contact_damping"), None);
+    assert_eq!(value("bearing.A.clearance"), None);
+    assert_eq!(value("bearing.B.clearance"), Some("\"CN\""));
+    assert_eq!(value("study.run_up.step"), Some("\"100 us\""));
+    assert_eq!(value("study.run_up.cutoff"), Some("all modes"));
+    assert_eq!(value("model.gravity"), Some("\"9.80665 m/s^2\""));
+    assert_eq!(value("bearing.A.designation"), None);
+}
+
+/// Stated values give the same model as the defaults, and are then no defaults.
+#[test]
+fn a_recorded_default_can_be_set() {
+    let loaded = load("", &[]);
+    // probes are no value, the cage pocket is computed and rounded to 1 um, the lubrication needs a lubricant
+    let others = ["probe", "cage_pocket_diameter", "lubrication"];
+    let fixed = |path: &str| !others.iter().any(|other| path.ends_with(other));
+    for default in loaded.defaults.iter().filter(|default| fixed(&default.path)) {
+        let with = load("", &[(&default.path, &default.value)]);
+        assert!(with.model == loaded.model, "{default:?}");
+        assert!(with.defaults.iter().all(|other| other.path != default.path), "{default:?}");
+    }
+}
+
+/// The file has a clearance class, the command line a clearance.
+#[test]
+fn a_setting_replaces_the_key_that_excludes_it() {
+    let clearance =
+        |loaded: &Loaded| loaded.model.bearings[0].bearing.ball().unwrap().geometry.radial_clearance;
+    assert!((clearance(&load("", &[])) - 20.5e-6).abs() < 1e-12);
+    assert_eq!(clearance(&load("", &[("bearing.A.radial_clearance", "7 um")])), 7e-6);
+}
+
+#[test]
+fn settings_of_another_integrator_are_ignored_with_a_note() {
+    let text = "[speed]\nprofile = \"constant\"\nspeed = \"9 rpm\"\nduration = \"1 s\"\n[study.run_up]\nrho_infinity = 0.7\n";
+    let loaded = load(text, &[("study.run_up.integrator", "newmark")]);
+    assert_eq!(loaded.model.studies.run_up.unwrap().integrator, Integrator::Newmark);
+    let [hint] = &loaded.hints[..] else { panic!("{:?}", loaded.hints) };
+    assert_eq!((hint.kind, hint.source), (Kind::Ineffective, 0));
+    assert!(hint.message.contains("study.run_up.rho_infinity"), "{}", hint.message);
+    // in one file it stays an error
+    let both = format!("{HEAD}{text}integrator = \"newmark\"\n");
+    assert!(model::load("machine.toml", both, &Options::default()).is_err());
+}
