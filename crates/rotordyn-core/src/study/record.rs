@@ -48,7 +48,9 @@ impl Recorder {
         if system.has_bodies() {
             channels.extend(model.probes.iter().map(|probe| {
                 let channel = probe_channel(model, probe);
-                HistoryChannel { name: interval_mean_name(&channel.name), ..channel }
+                // Another quantity than that of the probe, so that figures and analyses do not show it twice.
+                let quantity = format!("mean {}", channel.quantity);
+                HistoryChannel { name: interval_mean_name(&channel.name), quantity, ..channel }
             }));
         }
         Self {
