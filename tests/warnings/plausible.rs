@@ -30,6 +30,7 @@ const DESERVED: &[(&str, &str, &str)] = &[
         "as clearance, with a ball on either side of the load",
     ),
     ("atef_2022/no_clearance", "minimum-load", "0.9 N on bearing B, the paper's light resonator"),
+    ("free_balls", "minimum-load", "a light spindle whose cage skids is the subject of the model"),
     ("overhung_rig", "belt-pull", "the stated pull is that of the stopped belt, as in the paper"),
 ];
 
