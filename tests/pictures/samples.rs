@@ -163,11 +163,11 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             value: x.iter().flat_map(|a| y.iter().map(move |b| a - b)).collect(),
             quantity: labelled("kurtosis"),
             y_ticks: vec![(value(0), name.clone())],
-            marked: Some(MarkedRegion {
+            marked: Some(Box::new(MarkedRegion {
                 x: [first(0), first(1)],
                 y: [value(1), value(0)],
                 label: name.clone(),
-            }),
+            })),
             ..Default::default()
         }),
         Figure::Polar(Polar {

@@ -41,7 +41,7 @@ pub struct HeatMap {
     pub y_range: Option<[f64; 2]>,
     /// Named ticks of y instead of numbers.
     pub y_ticks: Vec<(f64, String)>,
-    pub marked: Option<MarkedRegion>,
+    pub marked: Option<Box<MarkedRegion>>,
     /// Draw the line x = y.
     pub diagonal: bool,
     /// Contour lines with their labels, over increasing x and y.

@@ -94,7 +94,7 @@ fn summary(diagnostics: &[Diagnostic]) -> String {
 #[derive(Clone, Debug)]
 pub(crate) struct Problem {
     kind: Kind,
-    warning: Option<(Code, String)>,
+    warning: Option<Box<(Code, String)>>,
     span: Range<usize>,
     message: String,
     expected: Option<String>,
@@ -125,7 +125,7 @@ impl Problem {
     }
 
     /// Suggest the nearest known name, if any is close, and list all.
-    pub fn suggest_all<'n>(self, word: &str, known: &[&'n str]) -> Self {
+    pub fn suggest_all(self, word: &str, known: &[&str]) -> Self {
         let near = nearest(word, known.iter().copied());
         let meant = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
         self.hint(format!("{meant}known here: {}", known.join(", ")))
@@ -179,7 +179,7 @@ impl Sources {
             let local = |at: usize| at.saturating_sub(start).min(length);
             Diagnostic {
                 kind: p.kind,
-                warning: p.warning,
+                warning: p.warning.map(|warning| *warning),
                 source,
                 span: local(p.span.start)..local(p.span.end),
                 message: p.message,
@@ -219,7 +219,7 @@ impl Log {
 
     /// Add a warning about an item of the file, such as `bearing.B`.
     pub fn warn(&self, code: Code, item: impl Into<String>, problem: Problem) {
-        self.warnings.borrow_mut().push(Problem { warning: Some((code, item.into())), ..problem });
+        self.warnings.borrow_mut().push(Problem { warning: Some(Box::new((code, item.into()))), ..problem });
     }
 
     /// Add a hint, once per message.

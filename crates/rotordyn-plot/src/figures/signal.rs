@@ -300,11 +300,11 @@ fn band_map(kurtogram: &Kurtogram, note: &str) -> HeatMap {
         x_range: Some([0.0, kurtogram.max_frequency]),
         y_range: Some([-0.5, rows as f64 - 0.5]),
         y_ticks: ticks.collect(),
-        marked: Some(MarkedRegion {
+        marked: Some(Box::new(MarkedRegion {
             x: [best.low, best.high],
             y: [row - 0.5, row + 0.5],
             label: format!("best: {:.0} to {:.0} Hz, {:.2}", best.low, best.high, best.value),
-        }),
+        })),
         ..HeatMap::default()
     }
 }
