@@ -286,7 +286,6 @@ pub fn history() -> Figure {
             channel("speed", "speed", "rpm", &time, speed),
             channel("bearing B vertical", "acceleration", "m/s²", &time, value),
         ],
-        ..History::default()
     })
 }
 

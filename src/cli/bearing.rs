@@ -3,27 +3,22 @@
 use std::time::Instant;
 
 use miette::Severity;
-use rotordyn::bearing::free_ball::FreeBallBearing;
 use rotordyn::document::Section;
 use rotordyn::figures;
 use rotordyn::io::{json, results_file};
-use rotordyn::model::study::BearingStudy;
 use rotordyn::model::{Diagnostic, LoadedBearings};
 use rotordyn::results::{BearingResult, Results};
-use rotordyn::study::free_ball::add_free_balls;
 use rotordyn::study::{Machine, single_bearings};
 use serde_json::json;
 
 use super::args::BearingArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
-use super::interrupt::continue_unless_interrupted;
 use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
 use super::{
-    Outcome, bearing_motion, bearing_tables, diagnostics, ehl_films, free_ball_tables, print_written_files,
-    renamed, settings,
+    Outcome, bearing_motion, diagnostics, ehl_films, free_ball_runs, print_written_files, renamed, settings,
 };
 
 pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
@@ -42,7 +37,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     let start = Instant::now();
     let (bearings, complete) = compute(&loaded, terminal)?;
     let seconds = start.elapsed().as_secs_f64();
-    print(terminal, &bearings);
+    free_ball_runs::print(terminal, &bearings);
     let mut results = Results { bearings, ..Results::default() };
     results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
     results.warnings.extend(results.bearings.iter().flat_map(|b| b.warnings.clone()));
@@ -118,37 +113,6 @@ fn compute(loaded: &LoadedBearings, terminal: &Terminal) -> Result<(Vec<BearingR
     };
     spinner.finish_and_clear();
     let (mut found, free) = found?;
-    let complete = run_free_balls(&mut found, &free, &study, terminal);
+    let complete = free_ball_runs::run(&mut found, &free, &study, terminal);
     Ok((found, complete))
-}
-
-/// Runs the free balls of the analysed bearings with a progress bar; returns whether all is done before Ctrl-C.
-pub fn run_free_balls(
-    found: &mut [BearingResult],
-    free: &[(String, FreeBallBearing)],
-    study: &BearingStudy,
-    terminal: &Terminal,
-) -> bool {
-    let bar = terminal.count_bar();
-    bar.set_message("free balls");
-    let complete = add_free_balls(found, free, study, &|done, all| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-        continue_unless_interrupted()
-    });
-    bar.finish_and_clear();
-    complete
-}
-
-/// Tables of the analysed bearings.
-pub fn print(terminal: &Terminal, found: &[BearingResult]) {
-    for bearing in found {
-        bearing_tables::bearing(terminal, bearing);
-        if let Some(free) = &bearing.free_balls {
-            free_ball_tables::print(terminal, free);
-        }
-        if let Some(map) = &bearing.skidding {
-            free_ball_tables::skidding(terminal, map);
-        }
-    }
 }

@@ -17,6 +17,7 @@ mod equilibrium_loads;
 mod export;
 mod failure;
 mod forecast;
+mod free_ball_runs;
 mod free_ball_tables;
 mod free_parameters;
 mod help;

@@ -21,7 +21,7 @@ use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::system::cpu_seconds;
 use super::terminal::{Terminal, rpm};
-use super::{bearing, cage_tables, interrupt, run_up_tables, tables};
+use super::{cage_tables, free_ball_runs, interrupt, run_up_tables, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -272,9 +272,8 @@ impl<'a> Job<'a> {
                 if let Some(settings) = &studies.bearing {
                     let mut found = machine.static_bearings(settings)?;
                     spinner.finish_and_clear();
-                    let complete =
-                        bearing::run_free_balls(&mut found, &machine.free_balls(), settings, terminal);
-                    bearing::print(terminal, &found);
+                    let complete = free_ball_runs::run(&mut found, &machine.free_balls(), settings, terminal);
+                    free_ball_runs::print(terminal, &found);
                     self.results.warnings.extend(found.iter().flat_map(|b| b.warnings.clone()));
                     self.results.bearings = found;
                     if !complete {

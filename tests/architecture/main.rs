@@ -13,6 +13,7 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
         "rotordyn-core",
         &[
             &["conventions", "document"],
+            &["warning"],
             &["element"],
             &["model"],
             &["geometry"],

@@ -116,7 +116,7 @@ pub fn load_with(
     let model = build::build_model(&root, files, &log);
     if log.error_count() == 0 {
         parameter_range::check(&root, files, &model, &log);
-        build::plausibility::check_unused(&root, &text, &log);
+        build::check_unused(&root, &text, &log);
     }
     let defaults = log.defaults();
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;

@@ -118,7 +118,7 @@ impl Machine {
                 let free_level = |order: f64| {
                     line_level(&history.angle[first..=end], &means[first..=end], order) * x / x.sin()
                 };
-                let beside = [-offset, offset].map(|offset| free_level(order_of_run + offset));
+                let noise = [-offset, offset].map(|offset| free_level(order_of_run + offset));
                 lines.extend(self.order_lines(&[order]).into_iter().map(|line| CageLine {
                     channel: history.channels[probe].name.clone(),
                     unit: history.channels[probe].unit.clone(),
@@ -127,7 +127,7 @@ impl Machine {
                     rolling: level(rolling, order),
                     driven: level(driven, order_of_run),
                     spaced: level(spaced, order_of_run),
-                    noise: 0.5 * (beside[0] + beside[1]),
+                    noise: 0.5 * (noise[0] + noise[1]),
                 }));
             }
         }

@@ -133,7 +133,7 @@ impl Machine {
     }
 
     /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
-    pub(super) fn free_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
+    pub(super) fn unconstrained_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
         let mut motions = rigid_body_modes::rigid_body_modes_of(&self.assembly, system)?;
         rigid_body_modes::leave_out_spin(&self.model, &mut motions);
         Ok(motions)
@@ -159,7 +159,7 @@ impl Machine {
         let at = |&speed: &f64| {
             let system = self.linear_system(speed)?;
             let modes = modal::modes(&self.assembly, &system, study.modes)?;
-            Ok(ModalResult { speed, modes, rigid_body_modes: self.free_motions(&system)? })
+            Ok(ModalResult { speed, modes, rigid_body_modes: self.unconstrained_motions(&system)? })
         };
         study.speeds.iter().map(at).collect()
     }

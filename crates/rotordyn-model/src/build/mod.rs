@@ -23,7 +23,7 @@ mod measured_speed;
 mod mounting;
 mod orders;
 mod places;
-pub(crate) mod plausibility;
+mod plausibility;
 mod radial_bearing;
 mod rotor;
 mod run_keys;
@@ -164,12 +164,18 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
-        plausibility::check(&top, &model);
+        plausibility::check(&top, &model, (&TOP.material, &MATERIAL.young));
         let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
         mounting::check_mounted_preloads(&sites, bearings, true, log);
     }
     top.finish();
     model
+}
+
+/// Warn of materials and lubricants that nothing uses; `text` is the file as written, with its variants.
+pub(crate) fn check_unused(root: &Table, text: &str, log: &Log) {
+    let top = Reader::root(root, &FILE, log);
+    plausibility::check_unused(&top, root, text, &[&TOP.material, &lubricants::TOP.lubricant]);
 }
 
 /// Build a bearing-only file: its name and title, bearings and studies.

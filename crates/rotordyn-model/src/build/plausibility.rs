@@ -1,9 +1,9 @@
 //! Input that is valid but rarely meant: values off by a power of ten, parts in each other's place, items without use.
 
 use super::ball_keys::states_bore;
-use super::{FILE, MATERIAL, TOP, bearing, inertia, loading, lubricants, shaft};
-use crate::file::diagnostic::{Kind, Log, Problem};
-use crate::file::key::{Key, NamedTables};
+use super::{bearing, inertia, loading, shaft};
+use crate::file::diagnostic::{Kind, Problem};
+use crate::file::key::{Key, NamedTables, Quantity};
 use crate::file::reader::Reader;
 use crate::file::tree::{Table, Value};
 use crate::{BearingSite, Model};
@@ -37,8 +37,10 @@ const SPEED_FACTORS: [f64; 2] = [1.5e6, 2.5e6];
 const BALANCE_QUALITY: f64 = 0.1;
 
 /// Warns of implausible input.
-pub(super) fn check(top: &Reader, model: &Model) {
-    materials(top, model);
+///
+/// `materials`: the table of materials and its key of Young's modulus.
+pub(super) fn check(top: &Reader, model: &Model, materials: (&Key<NamedTables>, &Key<Quantity>)) {
+    check_materials(top, model, materials);
     sections(top, model);
     seats(top, model);
     discs(top, model);
@@ -52,13 +54,13 @@ fn item_span(top: &Reader, collection: &Key<NamedTables>, name: &str) -> Range<u
 }
 
 /// E, ρ and √(E/ρ) of every material with mass.
-fn materials(top: &Reader, model: &Model) {
-    let items = top.items(&TOP.material);
+fn check_materials(top: &Reader, model: &Model, (table, young): (&Key<NamedTables>, &Key<Quantity>)) {
+    let items = top.items(table);
     for material in &model.materials {
         let Some((_, r)) = items.iter().find(|(name, _)| *name == material.name) else { continue };
         let Some((what, expected)) = implausible_material(material) else { continue };
         let message = format!("material.{}: {what}", material.name);
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of(&MATERIAL.young), message).expected(expected);
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(young), message).expected(expected);
         let hint = "check the units of young and density; a massless shaft has density = \"0 kg/m^3\"";
         top.log.warn(Code::MaterialRange, format!("material.{}", material.name), problem.hint(hint));
     }
@@ -265,15 +267,14 @@ fn balance_quality(top: &Reader, model: &Model) {
     }
 }
 
-/// Warns of materials and lubricants that nothing names, of several: a single one is used without its name.
+/// Warns of items that nothing names, of several: a single one is used without its name.
 ///
 /// `root`: the file with its overrides; `text`: the file as written, with all its variants.
-pub(crate) fn check_unused(root: &Table, text: &str, log: &Log) {
-    let top = Reader::root(root, &FILE, log);
+pub(super) fn check_unused(top: &Reader, root: &Table, text: &str, collections: &[&Key<NamedTables>]) {
     let mut named = Vec::new();
     texts(root, &mut named);
     let written = |name: &str| text.contains(&format!("\"{name}\"")) || text.contains(&format!("'{name}'"));
-    for collection in [&TOP.material, &lubricants::TOP.lubricant] {
+    for collection in collections {
         let items = top.items(collection);
         if items.len() < 2 {
             continue;
@@ -283,7 +284,7 @@ pub(crate) fn check_unused(root: &Table, text: &str, log: &Log) {
                 let item = format!("{}.{name}", collection.about.name);
                 let problem = Problem::new(Kind::UnknownName, &r.span, format!("{item} is used by nothing"))
                     .hint("remove it, or name it where it is meant");
-                log.warn(Code::UnusedItem, item, problem);
+                top.log.warn(Code::UnusedItem, item, problem);
             }
         }
     }

@@ -35,8 +35,8 @@ pub fn add_free_balls(
     let all = found.len() + maps.iter().flatten().map(points).sum::<usize>();
 
     let settled = found.par_iter_mut().map(|(found, free)| {
-        let go_on = || progress(0, all);
-        match stoppable_run(&found.name, free, &operating(found), &go_on) {
+        let progress_or_stop = || progress(0, all);
+        match stoppable_run(&found.name, free, &operating(found), &progress_or_stop) {
             Ok(run) => found.free_balls = Some(run),
             Err(FreeBallStudyError::Stopped { .. }) => return false,
             Err(error) => found.warnings.push(warning(&found.name, error.to_string())),

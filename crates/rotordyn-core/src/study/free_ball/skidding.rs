@@ -47,12 +47,12 @@ pub fn skidding_map(
         study.loads.iter().flat_map(|load| study.speeds.iter().map(|speed| [*load, *speed])).collect();
     let done = AtomicUsize::new(0);
     let run = |[load, speed]: &[f64; 2]| {
-        let go_on = || progress(done.load(Ordering::Relaxed));
-        if go_on().is_break() {
+        let progress_or_stop = || progress(done.load(Ordering::Relaxed));
+        if progress_or_stop().is_break() {
             return Err(FreeBallStudyError::Stopped { bearing: name.into() });
         }
         let point = FreeBallStudy { force: force.map(|f| f * load / size), speed: *speed, ..study.point };
-        let found = stoppable_run(name, bearing, &point, &go_on);
+        let found = stoppable_run(name, bearing, &point, &progress_or_stop);
         done.fetch_add(1, Ordering::Relaxed);
         found
     };

@@ -42,7 +42,7 @@ const BPFO_SHARE: f64 = 1e-3;
 struct SteadyRun<'a> {
     name: &'a str,
     study: &'a FreeBallStudy,
-    go_on: &'a dyn Fn() -> ControlFlow<()>,
+    progress_or_stop: &'a dyn Fn() -> ControlFlow<()>,
     balls: FreeBalls,
     /// Stiffness of the ring's displacement \[N/m\].
     stiffness: [[f64; 3]; 3],
@@ -76,9 +76,9 @@ pub(super) fn stoppable_run(
     name: &str,
     bearing: &FreeBallBearing,
     study: &FreeBallStudy,
-    go_on: &dyn Fn() -> ControlFlow<()>,
+    progress_or_stop: &dyn Fn() -> ControlFlow<()>,
 ) -> Result<FreeBallResult, FreeBallStudyError> {
-    let mut run = SteadyRun::start(name, bearing, study, go_on)?;
+    let mut run = SteadyRun::start(name, bearing, study, progress_or_stop)?;
     run.settle()?;
     let settling_time = run.state.time;
     let tally = run.record()?;
@@ -90,7 +90,7 @@ impl<'a> SteadyRun<'a> {
         name: &'a str,
         bearing: &FreeBallBearing,
         study: &'a FreeBallStudy,
-        go_on: &'a dyn Fn() -> ControlFlow<()>,
+        progress_or_stop: &'a dyn Fn() -> ControlFlow<()>,
     ) -> Result<Self, FreeBallStudyError> {
         let wrong = |what| Err(FreeBallStudyError::Setting { bearing: name.into(), what });
         if !(study.speed.abs() > 0.0 && study.speed.is_finite()) {
@@ -132,7 +132,7 @@ impl<'a> SteadyRun<'a> {
         Ok(Self {
             name,
             study,
-            go_on,
+            progress_or_stop,
             stiffness: std::array::from_fn(|a| std::array::from_fn(|b| found.stiffness[a][b])),
             kinematic,
             turn,
@@ -229,7 +229,7 @@ impl<'a> SteadyRun<'a> {
         }
         self.displacement = std::array::from_fn(|k| from[k] + correction[k]);
         self.turns.push([self.state.time, angle / TAU * self.study.speed.signum()]);
-        match (self.go_on)() {
+        match (self.progress_or_stop)() {
             ControlFlow::Continue(()) => Ok(force),
             ControlFlow::Break(()) => Err(FreeBallStudyError::Stopped { bearing: self.name.into() }),
         }

@@ -63,14 +63,14 @@ impl Machine {
                 continue;
             }
             let clearance = site.bearing.ball().map_or(0.0, |ball| ball.geometry.radial_clearance);
-            let beside = if clearance > 0.0 {
+            let clearance = if clearance > 0.0 {
                 format!(", radial clearance {} um", number(1e6 * clearance, 3))
             } else {
                 String::new()
             };
             let text = format!(
                 "unbalance: at {:.0} rpm the linear response moves bearing {} by {} um and loads it with {} N (static \
-                 compression of its balls {} um, load {} N{beside}): its contacts open, and its stiffness is another",
+                 compression of its balls {} um, load {} N{clearance}): its contacts open, and its stiffness is another",
                 worst.speed * TO_RPM,
                 site.name,
                 number(1e6 * worst.displacement, 3),

@@ -46,7 +46,7 @@ impl Machine {
         let mut known: Vec<String> = Vec::new();
         let mut found = Vec::new();
         for speed in standstill_and_top(speeds) {
-            for motion in self.free_motions(&self.linear_system(speed)?)? {
+            for motion in self.unconstrained_motions(&self.linear_system(speed)?)? {
                 if known.contains(&motion) {
                     continue;
                 }
