@@ -217,6 +217,6 @@ fn csv_tables_have_the_values_of_the_document() {
     let rows = found["speeds"].as_array().unwrap().iter().flat_map(|at| at["modes"].as_array().unwrap());
     let frequencies = rows.flat_map(|row| row["frequency_hz"].as_array().unwrap());
     let frequencies: Vec<f64> = frequencies.map(|frequency| frequency.as_f64().unwrap()).collect();
-    assert!(frequencies.len() >= 8 && frequencies.len() % 2 == 0);
+    assert!(frequencies.len() >= 8 && frequencies.len().is_multiple_of(2));
     assert_eq!(column(&csv("comparison_speeds_modes_over_variants.csv"), "frequency_hz [Hz]"), frequencies);
 }
