@@ -99,6 +99,10 @@ cases! {
     bare_diameter: changed("outer_diameter = \"25 mm\"", "outer_diameter = 25");
     bare_modulus: changed("young = \"207 GPa\"", "young = \"207\"");
     bare_designation: changed("designation = \"6205\"", "designation = 6205");
+    synonym: changed("young = \"207 GPa\"", "E = \"207 GPa\"");
+    type_of_bearing: changed("model = \"ball\"", "type = \"ball\"");
+    preload_as_a_force: changed("clearance = \"C3\"", "clearance = \"C3\"\nthrust = \"+z\"\npreload = \"150 N\"");
+    unit_after_every_number: changed("speeds = \"0, 1200 rpm\"", "speeds = \"0 rpm, 1200 rpm\"");
     roller_bearing: changed("model = \"ball\"", "model = \"cylindrical_roller\"");
     roller_designation: changed("designation = \"6205\"", "designation = \"NU 205\"");
     unknown_unit: changed("element_length = \"20 mm\"", "element_length = \"20 mmm\"");

@@ -173,7 +173,12 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
     }
     r.choice(&BEARING.model).map_or_else(
         || {
-            r.entries();
+            // what the other keys mean depends on the model, but not what they say of it
+            for entry in r.entries().iter().filter(|entry| ["type", "kind"].contains(&entry.key.as_str())) {
+                let message = format!("unknown key {}.{}", r.path, entry.key);
+                let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
+                r.log.error(problem.hint("did you mean `model`?"));
+            }
             LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into()
         },
         |read| read(r, context),

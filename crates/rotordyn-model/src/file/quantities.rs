@@ -187,6 +187,10 @@ impl<'a> Reader<'a> {
                     p
                 }
             }
+            UnitError::UnknownUnit(unit) if unit.ends_with(',') => {
+                problem(Kind::BadQuantity, format!("{name}: a unit between the numbers"))
+                    .hint("write the unit once, behind the last number, such as \"100, 0 N\"")
+            }
             UnitError::UnknownUnit(unit) => {
                 problem(Kind::BadQuantity, format!("{name}: unknown unit `{unit}`"))
                     .suggest(unit, units::unit_names())

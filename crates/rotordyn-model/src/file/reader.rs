@@ -30,6 +30,28 @@ pub(crate) struct Reader<'a> {
     requested_keys: RefCell<Vec<String>>,
 }
 
+/// Other names of tables and keys, with those of the file.
+const SYNONYMS: [(&str, &str); 18] = [
+    ("E", "young"),
+    ("G", "shear"),
+    ("nu", "poisson"),
+    ("rho", "density"),
+    ("diameter", "outer_diameter"),
+    ("type", "model"),
+    ("kind", "model"),
+    ("mass", "disc"),
+    ("impeller", "disc"),
+    ("spring", "bushing"),
+    ("damper", "bushing"),
+    ("pedestal", "housing"),
+    ("support", "housing"),
+    ("force", "load"),
+    ("wave_spring", "bearing"),
+    ("preload", "bearing"),
+    ("simulation", "study"),
+    ("analysis", "study"),
+];
+
 static EMPTY_TABLE: Table = Table { entries: Vec::new() };
 
 impl<'a> Reader<'a> {
@@ -328,8 +350,19 @@ impl<'a> Reader<'a> {
             Value::Table(table) => {
                 Some(Reader::new(table, declared, self.paths(key), entry.key_span.clone(), self.log))
             }
-            _ => {
-                self.wrong_type(key.name(), &entry.node, &format!("a table [{}]", self.name(key)));
+            value => {
+                let message = format!("{} is {}", self.name(key), value.type_name());
+                let problem = Problem::new(Kind::WrongType, &entry.node.span, message);
+                let names: Vec<&str> = declared.keys().map(|key| key.name()).collect();
+                let problem = problem.expected(format!("a table [{}]", self.name(key)));
+                self.log.error(match (value, names.first()) {
+                    (Value::Text(text), Some(first)) => problem.hint(format!(
+                        "write {} = {{ {first} = \"{text}\" }}; its keys are {}",
+                        key.name(),
+                        names.join(", ")
+                    )),
+                    _ => problem,
+                });
                 None
             }
         }
@@ -413,7 +446,11 @@ impl<'a> Reader<'a> {
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
             let command = format!("rotordyn help {}", self.declared_path);
             let all_keys = format!("; `{}` explains them", command.trim_end());
+            let synonym = SYNONYMS.iter().find(|(other, key)| *other == entry.key && known.contains(key));
             let problem = match entry.node.value {
+                _ if synonym.is_some() => {
+                    problem.hint(synonym.map_or(String::new(), |(_, key)| format!("did you mean `{key}`?")))
+                }
                 Value::Table(_) | Value::List(_) if self.path.is_empty() => {
                     problem.suggest_all(&entry.key, &self.declared_names())
                 }
