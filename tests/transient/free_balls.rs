@@ -121,8 +121,8 @@ fn sections_follow_the_free_cage() {
     let frequency = found.clock.frequency / balls as f64;
     println!("{frequency:.4} Hz, cage {cage:.4} Hz");
     assert_eq!(found.planes[0].section[0].len(), periods);
-    // Over times that differ a little; the free cage varies by some 1 % within its pockets.
-    assert!((frequency / cage - 1.0).abs() < 0.02, "{frequency} {cage}");
+    // Over times that differ a little; a cage that rolls is slower by 1 %.
+    assert!((frequency / cage - 1.0).abs() < 5e-3, "{frequency} {cage}");
     let lyapunov = LyapunovStudy { steady, perturbation: 1e-9 };
     let error = machine.lyapunov(&lyapunov, &mut |_| ControlFlow::Continue(())).unwrap_err().to_string();
     assert!(error.contains("bearing B") && error.contains("model = \"ball\""), "{error}");
