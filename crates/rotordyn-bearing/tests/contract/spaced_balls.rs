@@ -22,7 +22,7 @@ fn rotation() -> Rotation {
 #[test]
 fn evenly_spaced_balls_are_those_in_a_cage() {
     let mut preloaded = angular();
-    preloaded.preload = Preload::Force(250.0);
+    preloaded.preload = Preload::DryForce(250.0);
     let mut off_size = rig_6205();
     off_size.imperfections.off_size = vec![OffSize { row: None, ball: 7, diameter_difference: 4e-6 }];
     for bearing in [rig_6205(), preloaded, off_size] {
