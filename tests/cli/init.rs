@@ -156,7 +156,7 @@ fn a_file_without_probes_and_unbalance_does_every_study() {
     let run_up =
         run(&["run-up", "--set", "speed={ profile = \"ramp\", to = \"600 rpm\", ramp = \"0.2 s\" }"]);
     assert!(run_up["run_up"].is_object());
-    let short = ["--transient-periods", "2", "--periods", "4", "--speed", "3000 rpm"];
+    let short = ["--transient-periods", "2", "--periods", "8", "--speed", "3000 rpm"];
     for command in ["poincare", "lyapunov"] {
         let args: Vec<&str> = std::iter::once(command).chain(short).collect();
         assert_eq!(run(&args)["exit_code"], 0, "{command}");

@@ -51,14 +51,8 @@ const SPIN: &str = "rotation of the shaft about z (θ_z)";
 
 fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec<String>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
-    let mut names: Vec<String> = Vec::new();
-    for shape in zero_frequency_shapes(&assembly.mass, stiffness).map_err(failed)? {
-        let name = describe(assembly, &shape);
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    Ok(names)
+    let shapes = zero_frequency_shapes(&assembly.mass, stiffness).map_err(failed)?;
+    Ok(describe(assembly, &shapes))
 }
 
 /// Shapes of the modes below [`RIGID_BODY_MAX_FREQUENCY`], by subspace iteration with (K + M)⁻¹ M, whose eigenvalues are
@@ -125,28 +119,44 @@ fn orthonormalise(mass: &SparseMatrix, basis: &mut Vec<Vec<f64>>) {
     *basis = done.into_iter().map(|(x, _)| x).collect();
 }
 
-/// Describes a rigid-body mode by the body and direction with most of its kinetic energy.
-fn describe(assembly: &Assembly, shape: &[f64]) -> String {
+/// Names as many motions as there are shapes: body and direction by their kinetic energy in all shapes together, which no
+/// combination of modes of the same frequency changes.
+fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
+    /// Share of the energy in a direction from which on the shaft takes part, and its bodies with it.
+    const SHAFT_MOVES: f64 = 1e-3;
     let dofs = &assembly.dofs;
-    let full = dofs.expand(shape);
-    let momentum = assembly.full_mass.mul(&full);
     // Shaft as one body, then every other body, six directions each.
     let bodies = dofs.node_names.len() - dofs.shaft_nodes;
     let mut energy = vec![[0.0; 6]; 1 + bodies];
-    for (i, (q, p)) in full.iter().zip(&momentum).enumerate() {
-        let node = i / 6;
-        let owner = if node < dofs.shaft_nodes { 0 } else { node - dofs.shaft_nodes + 1 };
-        energy[owner][i % 6] += q * p;
+    for shape in shapes {
+        let full = dofs.expand(shape);
+        let momentum = assembly.full_mass.mul(&full);
+        for (i, (q, p)) in full.iter().zip(&momentum).enumerate() {
+            let node = i / 6;
+            let owner = if node < dofs.shaft_nodes { 0 } else { node - dofs.shaft_nodes + 1 };
+            energy[owner][i % 6] += q * p;
+        }
     }
-    let (owner, dof) = (0..energy.len())
-        .flat_map(|b| (0..6).map(move |d| (b, d)))
-        .max_by(|a, b| energy[a.0][a.1].total_cmp(&energy[b.0][b.1]))
-        .unwrap_or((0, 0));
-    match (owner, dof) {
+    let mut motions: Vec<(f64, usize, usize)> = Vec::new();
+    for direction in 0..6 {
+        let total: f64 = energy.iter().map(|of| of[direction]).sum();
+        if energy[0][direction] > SHAFT_MOVES * total {
+            motions.push((total, 0, direction));
+        } else {
+            motions
+                .extend(energy.iter().enumerate().skip(1).map(|(body, of)| (of[direction], body, direction)));
+        }
+    }
+    motions.sort_by(|a, b| b.0.total_cmp(&a.0));
+    motions.truncate(shapes.len());
+    let name = |&(_, owner, direction): &(f64, usize, usize)| match (owner, direction) {
         (0, 2) => AXIAL.into(),
         (0, 5) => SPIN.into(),
-        (0, 0 | 1) => format!("lateral motion of the shaft ({})", DOF_NAMES[dof]),
-        (0, _) => format!("tilting of the shaft ({})", DOF_NAMES[dof]),
-        (b, d) => format!("body `{}` ({})", dofs.node_names[dofs.shaft_nodes + b - 1], DOF_NAMES[d]),
-    }
+        (0, 0 | 1) => format!("lateral motion of the shaft ({})", DOF_NAMES[direction]),
+        (0, _) => format!("tilting of the shaft ({})", DOF_NAMES[direction]),
+        (body, _) => {
+            format!("body `{}` ({})", dofs.node_names[dofs.shaft_nodes + body - 1], DOF_NAMES[direction])
+        }
+    };
+    motions.iter().map(name).collect()
 }
