@@ -142,3 +142,38 @@ fn a_mesh_too_coarse_for_the_modes() {
     assert!(warnings_of(&fine).is_empty());
     only(&fine.replace("element_length = \"15 mm\"", "element_length = \"250 mm\""), "mesh-limit");
 }
+
+#[test]
+fn bearings_without_preload_under_a_light_rotor() {
+    let mut motor = machine("motor_small");
+    motor.rpm = 6000.0;
+    motor.unbalance = 5.0;
+    motor.bearings[1].2 = motor.bearings[0].2.clone();
+    only(&motor.text(), "minimum-load");
+}
+
+#[test]
+fn a_preload_that_the_shaft_gives_way_to() {
+    let mut motor = machine("motor_small");
+    motor.bearings[1].2 = motor.bearings[0].2.clone() + "thrust = \"+z\"\npreload = { force = \"180 N\" }\n";
+    only(&motor.text(), "preload");
+}
+
+#[test]
+fn a_load_beyond_the_static_rating() {
+    let mut motor = machine("motor_small");
+    motor.gravity = "8000 m/s^2";
+    let found = warnings_of(&motor.text());
+    assert!(codes(&found).contains("static-load"), "{found:?}");
+}
+
+#[test]
+fn a_response_without_damping() {
+    let mut rotor = machine("two_discs_soft");
+    rotor.more = "[probe.x]\nat = \"disc.one\"\ndirection = \"x\"\n[study.unbalance]\n\
+                  speeds = { from = \"100 rpm\", to = \"3000 rpm\", step = \"100 rpm\" }\n"
+        .into();
+    assert!(warnings_of(&rotor.text()).is_empty());
+    let undamped = rotor.text().replace("\"2000 N s/m\"", "\"0 N s/m\"");
+    only(&undamped, "undamped-peak");
+}

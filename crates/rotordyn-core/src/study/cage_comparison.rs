@@ -18,7 +18,7 @@
 //! sampling interval). Little: traction, 0.3 to 0.5 % of the excitation by passing balls; centrifugal force, 0.2 %; contact damping
 //! of 4 s/m instead of 1 s/m, 1 %. What remains, 1 to 5 % over several runs, comes with loads of balls that enter the load zone,
 //! which are 0.1 to 0.2 N below the quasi-static ones over the first 40°. Housing B itself shakes with the collisions: BPFO is only
-//! 5 to 15 times above their noise there, and 12 to 15 % off.
+//! 12 to 16 times above their noise there, and 12 to 15 % off.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
