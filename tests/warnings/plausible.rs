@@ -59,6 +59,19 @@ fn models_have_only_the_warnings_they_deserve() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
+/// Thrust on a preloaded pair unloads one row of it, as it should; the pair keeps its preload.
+#[test]
+fn thrust_on_a_preloaded_pair_is_no_loss_of_preload() {
+    let mut spindle = machines::all().into_iter().find(|m| m.name == "spindle_large").unwrap();
+    spindle.more = "[load.cut]\nat = \"disc.chuck\"\nforce = \"0, 0, 600 N\"\n".into();
+    let found = warnings_of(&spindle.text());
+    assert!(!codes(&found).contains("preload"), "{found:?}");
+    let model = model::load("spindle.toml", spindle.text(), &Options::default()).unwrap().model;
+    let machine = Machine::new(model).unwrap();
+    let least = machine.mounted_preloads().iter().filter_map(|preload| preload.share()).fold(1.0, f64::min);
+    assert!(least < 0.8, "{least}: the thrust unloads no row");
+}
+
 /// A machine that stands upright whose upper bearing has clearance and nothing to carry.
 #[test]
 fn a_vertical_rotor_on_clearance_is_told_that_its_bearings_carry_nothing() {

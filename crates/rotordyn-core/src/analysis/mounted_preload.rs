@@ -25,6 +25,14 @@ impl MountedPreload {
         self.stated.force().filter(|force| *force > 0.0).map(|force| least / force)
     }
 
+    /// Mean axial force of the rows as a share of the stated one; `None` for a stated interference.
+    ///
+    /// A thrust on a pair unloads one row by about what it adds to the other; a shaft that yields unloads the mean.
+    pub fn mean_share(&self) -> Option<f64> {
+        let mean = self.rows.iter().sum::<f64>() / self.rows.len() as f64;
+        self.stated.force().filter(|force| *force > 0.0).map(|force| mean / force)
+    }
+
     /// What is written to files, without the bearing's name.
     pub fn document(&self) -> Document<'_> {
         let (kind, interference, stiffness) = match self.stated {

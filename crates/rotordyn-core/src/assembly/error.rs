@@ -33,8 +33,8 @@ pub enum PhysicsError {
     )]
     NoBearingEquilibrium { bearing: String, load: [f64; 5], speed_rpm: f64, residual: f64, iterations: usize },
     #[error(
-        "bearing {bearing}: its table covers {:.0} to {:.0} rpm, {study} needs {:.0} to {:.0} rpm",
-        table_rpm[0], table_rpm[1], study_rpm[0], study_rpm[1]
+        "bearing {bearing}: its table covers {:.0} to {:.0} rpm, {study} needs {} rpm",
+        table_rpm[0], table_rpm[1], range(study_rpm)
     )]
     BeyondTable { bearing: String, study: String, table_rpm: [f64; 2], study_rpm: [f64; 2] },
     #[error(
@@ -49,4 +49,10 @@ pub enum PhysicsError {
     NoDerivative { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
+}
+
+/// A range of speeds in words; one speed if both are the same.
+fn range(rpm: &[f64; 2]) -> String {
+    let [low, high] = rpm.map(|speed| format!("{speed:.0}"));
+    if low == high { low } else { format!("{low} to {high}") }
 }

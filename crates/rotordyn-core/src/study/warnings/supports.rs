@@ -156,7 +156,7 @@ fn belt(belt: &BeltPull) -> Option<Warning> {
 
 /// A bearing that carries less axial force in the machine than its preload states.
 fn preload(at: &MountedPreload) -> Option<Warning> {
-    let share = at.share().filter(|share| *share < LOW_PRELOAD)?;
+    let share = at.mean_share().filter(|share| *share < LOW_PRELOAD)?;
     let force = at.stated.force()?;
     let (why, advice) = match at.stated {
         Preload::Spring { .. } => (
