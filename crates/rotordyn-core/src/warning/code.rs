@@ -167,7 +167,8 @@ codes! {
         "The shape of a mode changes along its branch so that it has another name at the end.",
         "look at the shape at the speed of interest, not at the label alone";
     LowMac, "low-mac", Caution,
-        "A measured and a computed mode are paired although their shapes agree poorly (MAC below 0.5).",
+        "A measured and a computed mode are paired although their shapes agree poorly (MAC below 0.5) or their frequencies \
+         differ by more than 20 %.",
         "measure at more points, or restrict the pairs";
     // Runs
     EnergyBalance, "energy-balance", Serious,
@@ -201,11 +202,8 @@ codes! {
     MeasuredData, "measured-data", Caution,
         "A measured file is not complete or not consistent: channels are left out, or a unit or rate is assumed.",
         "state what is missing in a mapping";
-    ImpactTest, "impact-test", Caution,
-        "Hits of an impact test are left out, truncated or too few.",
-        "repeat the hits named, or choose another block length or window";
     Identification, "identification", Caution,
-        "Identified poles or shapes rest on FRFs that are noisy, few or poorly fitted.",
+        "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
         "see the text of the warning";
     ModelUpdate, "model-update", Caution,
         "An update has correlated, bounded or poorly determined parameters, or does not explain the measurement.",
