@@ -100,6 +100,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
+//! | [`series`] | numbers in memory or read from where they are stored |
 //! | [`document`] | results as named quantities with units, for files and tables |
 //! | [`units`], [`material`], [`names`] | quantities as text; material data; similar names, file names |
 //! | [`linalg`] | sparse and banded matrices, eigenvalue problems |
@@ -123,7 +124,7 @@
 
 pub use rotordyn_bearing::{self as bearing, contact, material};
 pub use rotordyn_core::{
-    analysis, assembly, conventions, document, element, geometry, study, transient, warning,
+    analysis, assembly, conventions, document, element, geometry, series, study, transient, warning,
 };
 pub use rotordyn_identify as identify;
 pub use rotordyn_io::{self as io, error};

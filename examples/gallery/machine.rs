@@ -270,12 +270,12 @@ pub fn history() -> Figure {
             0.02 * n * n / 10.0 * re.hypot(im) * (TAU * ramp(*t).powi(2)).sin() + 0.02 * noise.next()
         })
         .collect();
-    let channel = |label: &str, quantity: &str, unit: &str, time: &[f64], value| Channel {
+    let channel = |label: &str, quantity: &str, unit: &str, time: &[f64], value: Vec<f64>| Channel {
         label: label.to_string(),
         quantity: quantity.to_string(),
         unit: unit.to_string(),
-        time: time.to_vec(),
-        value,
+        time: time.to_vec().into(),
+        value: value.into(),
         ..Channel::default()
     };
     Figure::History(History {

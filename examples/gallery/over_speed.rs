@@ -129,7 +129,7 @@ pub fn spectrogram() -> Figure {
     Figure::Spectrogram(Spectrogram {
         title: "Overhung rig: run-up, bearing B vertical".to_string(),
         note: "STFT, Hann window 1.0 s, overlap 90 %; lines: linear Campbell diagram".to_string(),
-        panels: vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: decibels(&values) }],
+        panels: vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: decibels(&values).into() }],
         quantity: "acceleration level".to_string(),
         unit: "dB re 1 m/s²".to_string(),
         span_db: 70.0,
@@ -181,7 +181,7 @@ pub fn order_map() -> Figure {
         note: "order resolution 0.05".to_string(),
         rpm,
         order,
-        level_db,
+        level_db: level_db.into(),
         quantity: "acceleration level".to_string(),
         unit: "dB re 1 m/s²".to_string(),
         span_db: 60.0,

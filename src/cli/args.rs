@@ -10,7 +10,7 @@ mod steady;
 mod update;
 
 use common::assignment;
-pub use common::{ModelArgs, Output, OutputFiles, StoredArgs, StudyArgs};
+pub use common::{CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, StoredArgs, StudyArgs};
 use keys::{help as key_help, help_with as key_help_with};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -90,14 +90,20 @@ Examples:
     /// Run all studies of the model file
     ///
     /// Writes results.h5 and all figures to out/NAME/, and prints tables of modes, critical speeds, bearing
-    /// loads, orders and the energy balance of the run-up. An existing results.h5 is overwritten. A failed
+    /// loads, orders and the energy balance of the run-up. An existing results.h5 is replaced at the
+    /// end; if the run is stopped, complete results stay as results_previous.h5. A failed
     /// study is reported at the end (exit code 3); the other studies still run.
     #[command(after_long_help = "\
 Examples:
   rotordyn run models/overhung_rig.toml
   rotordyn run models/overhung_rig.toml --variant wavy --out /data/wavy
   rotordyn run models/jeffcott.toml --json --quiet > jeffcott.json")]
-    Run(StudyArgs),
+    Run {
+        #[command(flatten)]
+        study: StudyArgs,
+        #[command(flatten)]
+        checkpoints: CheckpointArgs,
+    },
 
     /// Validate a model file with all its variants and summarise the machine
     ///
@@ -236,7 +242,7 @@ Examples:
     /// Time integration of the machine through [speed]: linear parts reduced to their modes below the cutoff
     /// frequency plus static correction modes, every ball a nonlinear contact. Samples are streamed to
     /// results.h5; after Ctrl-C the samples so far remain readable. Default without [study.run_up]:
-    /// generalised-alpha, steps of 100 us, sampling at 2 kHz, all modes. [study.spectrogram] and
+    /// generalised-alpha, steps by speed and bearings, sampling at 2 kHz, all modes. [study.spectrogram] and
     /// [study.orders] of the file are run too. The step used divides the sampling interval; its error in the
     /// order levels is estimated by repeating the stretch of the largest response with twice the step.
     #[command(after_long_help = "\
@@ -258,6 +264,8 @@ Examples:
         motion_rate: Option<String>,
         #[arg(long, value_name = "N", help = key_help("study.run_up.cage_phases"))]
         cage_phases: Option<usize>,
+        #[command(flatten)]
+        checkpoints: CheckpointArgs,
     },
 
     /// Spectrograms over rpm of a stored run-up: waterfall and Campbell map from the signal

@@ -4,8 +4,9 @@ use std::time::Instant;
 
 use miette::Severity;
 use rotordyn::document::Section;
-use rotordyn::figures;
-use rotordyn::io::{json, results_file};
+use rotordyn::figures::{self, FigureFolder};
+use rotordyn::io::hdf5::COMPLETE;
+use rotordyn::io::{document_tables, json, results_file};
 use rotordyn::model::{Diagnostic, LoadedBearings};
 use rotordyn::results::{BearingResult, Results};
 use rotordyn::study::{Machine, single_bearings};
@@ -14,6 +15,7 @@ use serde_json::json;
 use super::args::BearingArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::store::{self, ModelText};
 use super::terminal::Terminal;
@@ -25,6 +27,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     let origin = ModelSource::read(&args.study.model)?;
     let mut loaded = origin.load_bearings(&settings::bearing(args)?)?;
     let folder = origin.results_folder(args.study.out.as_ref(), &loaded.name);
+    let _lock = FolderLock::take(&folder, terminal)?;
     match &mut loaded.model {
         Some(model) => ehl_films::prepare_machine_films(model, &folder, terminal)?,
         None => {
@@ -33,7 +36,12 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
             }
         }
     }
-    let text = ModelText { model: &loaded.text, title: &loaded.title, estimated: String::new() };
+    let text = ModelText {
+        model: &loaded.text,
+        title: &loaded.title,
+        estimated: String::new(),
+        measured_speed: None,
+    };
     let start = Instant::now();
     let (bearings, complete) = compute(&loaded, terminal)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -42,16 +50,33 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
     results.warnings.extend(results.bearings.iter().flat_map(|b| b.warnings.clone()));
 
-    let store = store::open(&folder, text, &origin, false, terminal)?;
-    results_file::write_bearings(&store, &results)?;
-    let mut files = vec![store.path().to_path_buf()];
+    let mut output = store::open(&folder, text, &origin, false, terminal)?;
+    let drawn = match args.study.no_figures {
+        true => Vec::new(),
+        false => figures::of_bearings(&results.bearings, &loaded.title),
+    };
+    let sections: Vec<Section> = results.bearings.iter().map(BearingResult::section).collect();
+    let mut listed = figures::file_names(&drawn);
     if args.study.csv {
-        let sections: Vec<Section> = results.bearings.iter().map(BearingResult::section).collect();
+        let tables = document_tables::tables(&sections);
+        listed.extend(document_tables::csv_names(&tables).iter().map(|name| format!("csv/{name}")));
+    }
+    let state =
+        if complete { COMPLETE.to_string() } else { format!("stopped: {}", Failure::Interrupted.message()) };
+    let file = output
+        .writer
+        .finish(&state, &listed, &[], |store| results_file::write_bearings(store, &results))
+        .map_err(|error| Failure::from(error).with_consequence("not stored: bearing"))?;
+    output.earlier.move_aside(&folder, &listed, terminal)?;
+    let mut files = vec![file];
+    if args.study.csv {
         files.extend(write_csv(&folder, &sections)?);
     }
     if !args.study.no_figures {
         let spinner = terminal.spinner("figures");
-        files.extend(figures::draw_bearings(&results.bearings, &loaded.title, &folder)?);
+        let identity = output.writer.identity();
+        let place = FigureFolder::new(&folder).with_identity(&identity);
+        files.extend(figures::write_all(&drawn, place)?);
         spinner.finish_and_clear();
     }
     if let Some(turns) = args.motion {
@@ -69,10 +94,8 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
     }
     renamed::print_hints(&loaded.hints, &loaded.sources, terminal);
     if !loaded.warnings.is_empty() {
-        eprint!(
-            "{}",
-            diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour)
-        );
+        let text = diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
+        terminal.diagnostics(&text);
     }
     results.warnings[loaded.warnings.len()..].iter().for_each(|warning| terminal.warn(warning));
     let mut document = json::bearings_to_json(&results, &loaded.name, &loaded.title);

@@ -7,7 +7,7 @@ use rotordyn::io::export_3d::export_motion;
 use rotordyn::model::Model;
 use rotordyn::results::BearingResult;
 use rotordyn::study::bearing_motion;
-use rotordyn::units::names::file_name;
+use rotordyn::units::names::file_names;
 
 use super::failure::Failure;
 use super::terminal::Terminal;
@@ -22,14 +22,15 @@ pub fn export(
 ) -> Result<Vec<PathBuf>, Failure> {
     let spinner = terminal.spinner("motion");
     let mut files = Vec::new();
-    let settled = found.iter().filter_map(|found| found.free_balls.as_ref());
-    for (settled, model) in settled.zip(std::iter::repeat(model).flatten()) {
+    let settled: Vec<_> = found.iter().filter_map(|found| found.free_balls.as_ref()).collect();
+    let folders = file_names(settled.iter().map(|settled| settled.name.as_str()));
+    for ((settled, name), model) in settled.iter().zip(folders).zip(std::iter::repeat(model).flatten()) {
         let motion = bearing_motion(model, settled, turns as usize);
         let motion = motion.map_err(|error| Failure::Input(error.to_string()))?;
         let Some((bearing, motion)) = motion else { continue };
         // A turn of the shaft a second.
         let slow_motion = (settled.speed.abs() / TAU).max(1.0);
-        let folder = folder.join(file_name(&format!("motion_{}", settled.name)));
+        let folder = folder.join(format!("motion_{name}"));
         files.extend(export_motion(&motion, &bearing, slow_motion, &folder)?);
     }
     spinner.finish_and_clear();

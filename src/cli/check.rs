@@ -1,5 +1,7 @@
 //! `check`: validates a model with all its variants and prints a summary.
 
+use std::path::PathBuf;
+
 use rayon::prelude::*;
 use rotordyn::assembly::rigid_body_modes;
 use rotordyn::io::json;
@@ -26,6 +28,8 @@ struct CheckedVariant {
     rigid_body_modes: Vec<String>,
     /// Warnings beside those of the file.
     warnings: Vec<Warning>,
+    /// Files that the model reads, with their sizes in bytes.
+    side_files: Vec<(PathBuf, u64)>,
 }
 
 pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
@@ -65,6 +69,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
     if checked.len() > 1 {
         terminal.table("Variants, all valid", &["variant", "mass kg", "DOFs", "rigid-body modes"], &rows);
     }
+    side_file_table(terminal, &checked);
     for c in &checked {
         c.warnings.iter().for_each(|warning| terminal.warn(&warning.clone().prefixed(&c.name)));
         super::print_model_warnings(terminal, &c.loaded);
@@ -78,7 +83,9 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
 }
 
 fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure> {
-    let loaded = origin.with_variant(variant).load(&[])?;
+    let origin = origin.with_variant(variant);
+    let loaded = origin.load(&[])?;
+    let side_files = origin.side_file_sizes()?;
     let machine = Machine::new(loaded.model.clone())?;
     let free = rigid_body_modes::rigid_body_modes_of_machine(&machine.model, &machine.assembly)?;
     let full = &machine.assembly.full_mass;
@@ -89,7 +96,25 @@ fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure>
     let speeds = Study::ALL.iter().flat_map(|study| study.speeds(&machine.model));
     let speeds: Vec<f64> = speeds.chain([machine.model.profile.top_speed()]).collect();
     let warnings = machine.support_warnings(&speeds);
-    Ok(CheckedVariant { name: variant.to_string(), loaded, machine, mass, rigid_body_modes: free, warnings })
+    let name = variant.to_string();
+    Ok(CheckedVariant { name, loaded, machine, mass, rigid_body_modes: free, warnings, side_files })
+}
+
+/// The files that the variants read beside the model file.
+fn side_file_table(terminal: &Terminal, checked: &[CheckedVariant]) {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for CheckedVariant { name, side_files, .. } in checked {
+        for (path, bytes) in side_files {
+            let path = path.display().to_string();
+            match rows.iter_mut().find(|row| row[0] == path) {
+                Some(row) => row[2] += &format!(", {name}"),
+                None => rows.push(vec![path, bytes.to_string(), name.clone()]),
+            }
+        }
+    }
+    if !rows.is_empty() {
+        terminal.table("Files that the model reads", &["file", "bytes", "variants"], &rows);
+    }
 }
 
 fn summary(terminal: &Terminal, found: &CheckedVariant) {
@@ -227,6 +252,8 @@ fn to_json(found: &CheckedVariant) -> Value {
             }
         })
         .collect();
+    let side_files = found.side_files.iter().map(|(path, bytes)| json!({ "path": path, "bytes": bytes }));
+    let side_files: Vec<Value> = side_files.collect();
     let belts: Vec<_> = found.machine.belt_pulls().iter().map(|b| (b.name.clone(), b.document())).collect();
     let preloads = found.machine.mounted_preloads().iter();
     let preloads: Vec<_> = preloads.map(|p| (p.bearing.clone(), p.document())).collect();
@@ -237,6 +264,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "dofs": found.machine.assembly.dofs.len(),
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
+        "side_files": side_files,
         "bearings": bearings,
         "belts": json::groups("name", &belts),
         "preloads": json::groups("bearing", &preloads),

@@ -9,6 +9,7 @@ use serde_json::json;
 use super::args::StudyArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, rpm};
@@ -38,9 +39,7 @@ pub fn run(
         names => names.to_vec(),
     };
     if names.len() < 2 {
-        return Err(Failure::Input(
-            "compare needs at least two variants, such as --variants base,NAME".into(),
-        ));
+        return Err(Failure::Input(too_few(&origin)));
     }
     let mut variants = Vec::new();
     for name in &names {
@@ -50,11 +49,6 @@ pub fn run(
         let folder = origin.results_folder(None, &loaded.model.name);
         ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
         let machine = Machine::new(loaded.model.clone())?;
-        for study in [Study::Modal, Study::Campbell, Study::Frf] {
-            for warning in machine.check_tables(study.name(), &study.speeds(&machine.model))? {
-                terminal.warn(&warning.prefixed(name));
-            }
-        }
         let studies = &machine.model.studies;
         let results = Results {
             modal: studies.modal.as_ref().map(|s| machine.modal(s)).transpose()?.unwrap_or_default(),
@@ -62,6 +56,11 @@ pub fn run(
             frf: studies.frf.as_ref().map(|s| machine.frf(s)).transpose()?,
             ..Results::default()
         };
+        let compared = [Study::Modal, Study::Campbell, Study::Frf];
+        let speeds: Vec<f64> = compared.iter().flat_map(|study| study.speeds(&machine.model)).collect();
+        for warning in machine.warnings(&results, &speeds) {
+            terminal.warn(&warning.prefixed(name));
+        }
         print_model_warnings(terminal, &loaded);
         variants.push(Variant { name: name.clone(), machine, results });
     }
@@ -74,6 +73,8 @@ pub fn run(
     let model_name = &variants[0].machine.model.name;
     let folder = args.out.clone().unwrap_or_else(|| format!("out/{model_name}_comparison").into());
     let section = found.section();
+    let writes = args.csv || !args.no_figures;
+    let _lock = writes.then(|| FolderLock::take(&folder, terminal)).transpose()?;
     let mut files = Vec::new();
     if args.csv {
         files.extend(write_csv(&folder, std::slice::from_ref(&section))?);
@@ -90,6 +91,24 @@ pub fn run(
     document["model"] = json!(model_name);
     document["files"] = json!(files);
     Ok(document.into())
+}
+
+/// What to do with a single variant.
+fn too_few(origin: &ModelSource) -> String {
+    let known = origin.variants();
+    let file = &origin.name;
+    if known.is_empty() {
+        return format!(
+            "{file} has no variants to compare; add one with the values that differ, for example\n\n[variant.loose]\n\
+             bearing.A.clearance = \"C4\"\n\nor compute another value of the file: rotordyn modal {file} --set \
+             bearing.A.clearance=C4"
+        );
+    }
+    format!(
+        "compare needs two variants or more, such as --variants base,{}; the file has: {}",
+        known[0],
+        known.join(", ")
+    )
 }
 
 /// Prints the frequencies at one speed.

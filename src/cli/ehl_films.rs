@@ -5,6 +5,7 @@ use std::path::Path;
 use rotordyn::bearing::BallBearing;
 use rotordyn::io::film_table_cache;
 use rotordyn::model::Model;
+use rotordyn::names::file_name;
 
 use super::failure::Failure;
 use super::terminal::Terminal;
@@ -33,7 +34,7 @@ pub fn prepare_bearing_films(
         bar.set_length(total as u64);
         bar.set_position(done as u64);
     };
-    let unconverged_csv = folder.join(format!("film_{name}_not_converged.csv"));
+    let unconverged_csv = folder.join(format!("film_{}_not_converged.csv", file_name(name)));
     let done = film_table_cache::load_or_compute(
         name,
         bearing,

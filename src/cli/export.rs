@@ -1,7 +1,7 @@
 //! `export`: geometry as glTF, mode shapes as VTK, time histories, modes and FRFs for measurement programs.
 
 use rotordyn::io::export_3d::{export_geometry, export_modes, export_motion};
-use rotordyn::io::hdf5::Store;
+use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::run_export::Options;
 use rotordyn::io::{machine_records, measured, results_file};
 use rotordyn::results::Results;
@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 use super::args::ExportArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
+use super::limits::limits;
 use super::machine::ModelSource;
 use super::terminal::Terminal;
 use super::{ehl_films, print_written_files, settings, store};
@@ -22,6 +24,7 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let base = origin.load(&[])?;
     let mut loaded = origin.load(&settings::modal(&base.model, None, None).set)?;
     let folder = origin.results_folder(args.study.out.as_ref(), &loaded.model.name);
+    let _lock = FolderLock::take(&folder, terminal)?;
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let machine = Machine::new(loaded.model)?;
     let mut files = export_geometry(&machine, &folder)?;
@@ -44,19 +47,20 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     if args.study.csv {
         files.extend(write_csv(&folder, &results.sections(&machine.assembly.dofs))?);
     }
-    let stored = folder.join(store::FILE);
+    let stored = store::find(&folder, terminal);
     if stored.exists() {
-        let file = Store::open(&stored)?;
-        if file.contains("/time/t") {
-            let history = results_file::read_history(&file)?;
-            let run = machine_records::run_records(&history, &machine.model);
+        let file = open_reader(&stored, limits())?;
+        if file.contains("/time/t")? {
+            store::warn_if_incomplete(&*file, terminal)?;
+            let history = results_file::read_history(&stored, limits())?;
+            let run = machine_records::run_records(&history, &machine.model)?;
             let options = Options { folder: &folder, number: args.number };
             for format in &args.formats {
                 files.extend(format.write(&run, &options)?);
             }
-            if let Some(motion) = results_file::read_motion(&file)? {
+            if let Some(motion) = results_file::read_motion(&*file)? {
                 // One turn a second at the highest speed of the frames.
-                let fastest = history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+                let fastest = history.speed.fold(0.0, |top: f64, speed| top.max(speed.abs()))?;
                 let slow_motion = args.slow_motion.unwrap_or((fastest / TAU).max(1.0));
                 files.extend(export_motion(&motion, &machine.model, slow_motion, &folder)?);
             }

@@ -4,11 +4,14 @@ use rotordyn::assembly::PhysicsError;
 use rotordyn::error::Error;
 use rotordyn::model::ModelErrors;
 use rotordyn::plot::FigureError;
+use rotordyn::series::SeriesError;
 use rotordyn::signal::SignalError;
 use rotordyn::signal::record::RecordError;
 use rotordyn::study::StudyError;
 use rotordyn::update::UpdateFailure;
 use serde_json::{Value, json};
+
+use super::interrupt;
 
 /// Reason for which a command failed.
 #[derive(Debug)]
@@ -19,7 +22,7 @@ pub enum Failure {
     Input(String),
     /// Error of the library: no solution, invalid data or a file operation.
     Library(Error),
-    /// Ctrl-C.
+    /// Ctrl-C, SIGTERM or SIGHUP.
     Interrupted,
 }
 
@@ -43,6 +46,12 @@ impl From<SignalError> for Failure {
 
 impl From<RecordError> for Failure {
     fn from(error: RecordError) -> Self {
+        Self::Library(error.into())
+    }
+}
+
+impl From<SeriesError> for Failure {
+    fn from(error: SeriesError) -> Self {
         Self::Library(error.into())
     }
 }
@@ -77,7 +86,27 @@ impl Failure {
         Self::Library(Error::of_file(operation, path)(source))
     }
 
-    /// 2 input, 3 physics, 4 environment, 130 Ctrl-C.
+    /// Tables or a JSON document that standard output did not take.
+    pub fn lost_output(source: std::io::Error) -> Self {
+        let lost = format!("{source}; what is printed there is incomplete, files are not affected");
+        Self::environment("write to", std::path::Path::new("standard output"), std::io::Error::other(lost))
+    }
+
+    /// The same failure with what it means for the results.
+    pub fn with_consequence(self, consequence: &str) -> Self {
+        match self {
+            Self::Library(Error::Environment { operation, path, source }) => {
+                Self::Library(Error::Environment {
+                    operation,
+                    path,
+                    source: format!("{source}; {consequence}").into(),
+                })
+            }
+            other => other,
+        }
+    }
+
+    /// 2 input, 3 physics, 4 environment, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Model(_) | Self::Input(_) => 2,
@@ -90,7 +119,7 @@ impl Failure {
             ) => 2,
             Self::Library(Error::Physics(_)) => 3,
             Self::Library(Error::Environment { .. }) => 4,
-            Self::Interrupted => 130,
+            Self::Interrupted => interrupt::exit_code(),
         }
     }
 
@@ -109,7 +138,7 @@ impl Failure {
             Self::Model(errors) => errors.to_string(),
             Self::Input(message) => message.clone(),
             Self::Library(error) => error.to_string(),
-            Self::Interrupted => "ended by Ctrl-C".into(),
+            Self::Interrupted => format!("ended by {}", interrupt::cause()),
         }
     }
 

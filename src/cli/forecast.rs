@@ -17,16 +17,17 @@ use super::terminal::{Terminal, number};
 /// Computing time from which a warning is given \[s\].
 const LONG: f64 = 3600.0;
 
-/// Refuses results beyond the free disk space and warns of more than an hour.
+/// Refuses matrices beyond the memory and results beyond the free disk space, and warns of more than an hour.
 ///
 /// # Errors
-/// Results larger than the free space of the folder's file system, before anything is written.
+/// A machine with too many degrees of freedom for a study. Results larger than the free space of the folder's file system, before anything is written.
 pub fn examine(
     machine: &Machine,
     wanted: &[Study],
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<(), Failure> {
+    wanted.iter().try_for_each(|study| machine.check_memory(study.name()))?;
     let is_wanted = |found: &Forecast| wanted.iter().any(|study| study.name() == found.study);
     let mut all = machine.forecasts();
     all.retain(is_wanted);
@@ -76,8 +77,8 @@ pub fn examine(
 
 /// Table of the forecasts of all requested studies.
 pub fn table(machine: &Machine, terminal: &Terminal) {
-    let rows: Vec<Vec<String>> = machine
-        .forecasts()
+    let all = machine.forecasts();
+    let rows: Vec<Vec<String>> = all
         .iter()
         .map(|found| {
             vec![
@@ -90,15 +91,24 @@ pub fn table(machine: &Machine, terminal: &Terminal) {
     if !rows.is_empty() {
         terminal.table("Forecast of the studies", &["study", "work", "size of the results"], &rows);
     }
+    for found in &all {
+        if let Err(error) = machine.check_memory(found.study) {
+            terminal.print(&format!("  {} would be refused: {error}", found.study));
+        }
+    }
 }
 
 /// The same as JSON.
 pub fn to_json(machine: &Machine) -> Value {
     let all = machine.forecasts();
     let one = |found: &Forecast| {
-        json!({
+        let mut out = json!({
             "study": found.study, "work": unit(found.work), "count": found.count, "bytes": found.bytes,
-        })
+        });
+        if let Err(error) = machine.check_memory(found.study) {
+            out["refused"] = json!(error.to_string());
+        }
+        out
     };
     all.iter().map(one).collect()
 }

@@ -2,6 +2,7 @@
 
 use clap::CommandFactory;
 use rotordyn::model::keys::{self, Found, KeyDescription, KindName};
+use rotordyn::names;
 use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
@@ -32,8 +33,13 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     let found = match keys::find(path) {
         Ok(found) => found,
         Err(unknown) => {
-            let help = command_help(path)
-                .ok_or_else(|| Failure::Input(format!("{unknown} (`rotordyn help` lists the tables)")))?;
+            let help = command_help(path).ok_or_else(|| {
+                let lists =
+                    "`rotordyn help` lists the tables, `rotordyn help warnings` the codes of warnings";
+                let meant =
+                    nearest_code(path).map(|code| format!("; did you mean the warning {}?", code.name()));
+                Failure::Input(format!("{unknown}{} ({lists})", meant.unwrap_or_default()))
+            })?;
             terminal.print(&help);
             return Ok(json!({ "command": "help", "path": path, "text": help }));
         }
@@ -51,6 +57,17 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
         "keys": found.keys.iter().map(to_json).collect::<Vec<_>>(),
         "members": found.members.iter().map(to_json).collect::<Vec<_>>(),
     }))
+}
+
+/// The code of a warning that a word is part of or resembles.
+fn nearest_code(word: &str) -> Option<Code> {
+    let word = word.to_lowercase().replace(['_', ' '], "-");
+    let part =
+        Code::ALL.iter().find(|code| word.len() > 2 && code.name().split('-').any(|part| part == word));
+    part.copied().or_else(|| {
+        let near = names::nearest(&word, Code::ALL.iter().map(|code| code.name()))?;
+        Code::ALL.iter().copied().find(|code| code.name() == near)
+    })
 }
 
 /// One code of a warning.
@@ -279,7 +296,8 @@ mod tests {
             flag.get_help().unwrap().to_string()
         };
         assert_eq!(help("modal", "modes"), "Number of modes [default: 12]");
-        assert!(help("run-up", "step").ends_with(", such as \"100 us\" [default: 100 us]"));
+        assert!(help("run-up", "sample-rate").ends_with(" [default: 2 kHz]"));
+        assert!(help("run-up", "step").contains(", such as \"100 us\" [default: 100 us, less at high speed"));
         assert!(help("run-up", "integrator").contains("newmark, rk4, dormand-prince"));
         assert!(help("bearing", "along").ends_with("[default: load]"));
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
-use rotordyn::io::hdf5::Store;
+use rotordyn::io::hdf5::{Store, open_reader};
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
 use rotordyn::io::{identified_modes, json, machine_records, measured, results_file};
@@ -21,7 +21,9 @@ use serde_json::json;
 use super::args::{EstimatorName, IdentifyArgs};
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::identify_tables::tables;
+use super::limits::limits;
 use super::machine::ModelSource;
 use super::measured::range;
 use super::store::FILE;
@@ -42,9 +44,10 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     };
     let start = Instant::now();
     let spinner = terminal.spinner("identify");
-    let mut warnings = Vec::new();
-    let outcome = identify_modes(args, &test, &settings, &mut warnings);
+    let (mut warnings, mut left_out) = (Vec::new(), Vec::new());
+    let outcome = identify_modes(args, &test, &settings, &mut warnings, &mut left_out);
     spinner.finish_and_clear();
+    left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
     let (all, frfs, found) = match outcome {
         Ok(found) => found,
         Err(failure) => {
@@ -58,6 +61,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let name = super::measured::stem(&args.files[0]);
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{name}")));
     let title = if all.title.is_empty() { name } else { all.title.clone() };
+    let _lock = FolderLock::take(&folder, terminal)?;
     let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
     print_written_files(terminal, &folder, &files);
     warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
@@ -74,8 +78,9 @@ fn identify_modes(
     test: &ImpactTest,
     settings: &Settings,
     warnings: &mut Vec<String>,
+    left_out: &mut Vec<String>,
 ) -> Result<(MeasuredData, FrfMatrix, ModalIdentification), Failure> {
-    let (all, from_hits) = read_frfs(args, test, warnings)?;
+    let (all, from_hits) = read_frfs(args, test, warnings, left_out)?;
     // With several files the channel names already contain the file name.
     let with_context = |error: Error| match &args.files[..] {
         [only] => with_file_name(only, error),
@@ -142,13 +147,13 @@ fn write(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
     let path = folder.join(FILE);
-    let store = Store::create(&path)?;
+    let store = Store::replace(&path)?;
     store.set_attribute("/meta", "program", "rotordyn")?;
     store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
     store.set_attribute("/meta", "title", title)?;
     let section = identified_modes::section(found);
     results_file::write_section(&store, "", &section)?;
-    store.flush()?;
+    store.commit()?;
     let shapes = folder.join("modes.uff");
     measured::write(&shapes, &identified_modes::mode_shapes(found, &all.geometry))?;
     let mut files = vec![path, shapes];
@@ -206,6 +211,7 @@ fn read_frfs(
     args: &IdentifyArgs,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
+    left_out: &mut Vec<String>,
 ) -> Result<(MeasuredData, bool), Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
@@ -242,8 +248,9 @@ fn read_frfs(
                 simulated = true;
                 run
             }
-            None => measured::read(path)?,
+            None => measured::read_within(path, limits())?,
         };
+        left_out.extend(file.left_out_text().map(|text| format!("{}: {text}", path.display())));
         let notes = std::mem::take(&mut file.notes);
         rate.into_iter().for_each(|rate| file.set_missing_rate(rate));
         if let (Some(mapping), Some(of)) = (&mapping, &args.mapping) {
@@ -301,7 +308,7 @@ fn simulated_test_frfs(path: &Path, test: &ImpactTest) -> Result<Option<Measured
         return Ok(None);
     }
     let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
-    Ok(impact_run::impact_frfs_windowed(&Store::open(path)?, windows)?)
+    Ok(impact_run::impact_frfs_windowed(&*open_reader(path, limits())?, windows)?)
 }
 
 /// Whether two files contain the same channels, all at known points.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::io::whole_file;
 use serde_json::{Value, json};
 
 use super::args::{InitArgs, STARTERS};
@@ -32,7 +33,8 @@ pub fn run(args: &InitArgs, terminal: &Terminal) -> Result<Value, Failure> {
         let message = format!("{} exists; --force overwrites it, -o FILE writes another", path.display());
         return Err(Failure::Input(message));
     }
-    std::fs::write(path, kind.text).map_err(|error| Failure::environment("write", path, error))?;
+    whole_file::write(path, kind.text.as_bytes())
+        .map_err(|error| Failure::environment("write", path, error))?;
     terminal.print(&format!("{} written: {}", path.display(), kind.meaning));
     let next: Vec<String> =
         ["check", "run"].iter().map(|command| format!("rotordyn {command} {}", path.display())).collect();

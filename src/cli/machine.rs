@@ -4,15 +4,17 @@
 use std::path::{Path, PathBuf};
 
 use rotordyn::bearing::BallBearing;
+use rotordyn::error::Error;
 use rotordyn::geometry::BearingShapes;
 use rotordyn::geometry::parry::Part;
-use rotordyn::io::external_file;
+use rotordyn::io::{budget, external_file};
 use rotordyn::model::{
     self, Diagnostic, ExternalFile, Kind, Loaded, LoadedBearings, ModelErrors, Options, Source,
 };
 
 use super::args::ModelArgs;
 use super::failure::Failure;
+use super::limits::limits;
 use super::setting_sources;
 use super::settings::Settings;
 
@@ -35,8 +37,12 @@ pub struct ModelSource {
 
 impl ModelSource {
     pub fn read(args: &ModelArgs) -> Result<Self, Failure> {
-        let text = std::fs::read(&args.model)
-            .map_err(|error| Failure::environment("read the model file", &args.model, error))?;
+        let (text, _) = budget::read_file(&args.model, limits()).map_err(|error| match error {
+            Error::Environment { path, source, .. } => {
+                Error::Environment { operation: "read the model file", path, source }
+            }
+            other => other,
+        })?;
         let variant = args.variant.clone().filter(|name| name != "base");
         let options = Options { variant, set: args.set.clone() };
         let folder = args.model.parent().map(PathBuf::from).unwrap_or_default();
@@ -75,7 +81,8 @@ impl ModelSource {
         Ok(loaded)
     }
 
-    fn options_with(&self, settings: &Settings) -> Options {
+    /// Options of the user, with settings of the command after them.
+    pub fn options_with(&self, settings: &Settings) -> Options {
         let mut options = self.options.clone();
         options.set.extend_from_slice(&settings.set);
         options
@@ -91,9 +98,23 @@ impl ModelSource {
     /// Files referenced by the model with these options.
     pub fn side_files(&self, options: &Options) -> Vec<ExternalFile> {
         let read = || model::external_files(&self.text, options);
-        let named =
-            || read().iter().map(|path| external_file::read_external_file(&self.folder, path)).collect();
+        let named = || {
+            read()
+                .iter()
+                .map(|path| external_file::read_external_file(&self.folder, path, limits()))
+                .collect()
+        };
         self.files.clone().unwrap_or_else(named)
+    }
+
+    /// Paths and sizes \[bytes\] of the files that the model refers to with its options.
+    pub fn side_file_sizes(&self) -> Result<Vec<(PathBuf, u64)>, Failure> {
+        let named = model::external_files(&self.text, &self.options).into_iter();
+        let size = |path: PathBuf| match std::fs::metadata(&path) {
+            Ok(found) => Ok((path, found.len())),
+            Err(error) => Err(Failure::environment("read", &path, error)),
+        };
+        named.map(|path| size(self.folder.join(path))).collect()
     }
 
     /// The same file with another variant; `base` means no variant.

@@ -13,6 +13,7 @@ use rotordyn::warning::Code;
 
 use super::args::MeasuredArgs;
 use super::failure::Failure;
+use super::limits::limits;
 use super::terminal::{Terminal, number, rpm};
 
 /// Reads the measured files and maps them to the model; `None` for a file without modes and FRFs.
@@ -26,13 +27,16 @@ pub fn read(
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
         None => None,
     };
-    let reading = ReadSettings { mapping: args.mapping.as_deref(), band, speed };
+    let reading = ReadSettings { mapping: args.mapping.as_deref(), band, speed, limits: Some(limits()) };
     let mut out = Vec::new();
     for path in &args.measured {
         let bar = terminal.spinner(&format!("reading {}", path.display()));
         let found = test_data::read(path, &reading, model);
         bar.finish_and_clear();
         let found = found?;
+        for left_out in found.iter().filter_map(|found| found.left_out.as_ref()) {
+            terminal.warn_of(Code::LeftOut, format!("{}: {left_out}", path.display()));
+        }
         for warning in found.iter().flat_map(|found| &found.warnings) {
             terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
         }

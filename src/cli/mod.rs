@@ -8,6 +8,7 @@ mod bearing_tables;
 mod cage_tables;
 mod catalogue;
 mod check;
+mod checkpoint;
 mod compare;
 mod csv_files;
 mod defaults;
@@ -16,21 +17,29 @@ mod ehl_films;
 mod equilibrium_loads;
 mod export;
 mod failure;
+mod folder_lock;
 mod forecast;
 mod free_ball_runs;
 mod free_ball_tables;
 mod free_parameters;
+mod hdf5_reader;
 mod help;
 mod identify;
 mod identify_tables;
 mod init;
 mod interrupt;
+mod job_files;
+mod limits;
 mod machine;
 mod measured;
 mod noisy_frf;
 mod outcome;
+mod previous_files;
 mod printed;
 mod renamed;
+mod resumed_run;
+mod run_identity;
+mod run_up;
 mod run_up_correlation;
 mod run_up_tables;
 mod setting_sources;
@@ -49,63 +58,91 @@ mod update;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
 use rotordyn::model::{Diagnostic, Model};
 use rotordyn::study::Machine;
-use rotordyn::warning::Warning;
 use serde_json::json;
 
-use args::{Cli, Command, StudyArgs};
+use args::{CheckpointArgs, Cli, Command, StudyArgs};
+use checkpoint::CheckpointWriter;
 use failure::Failure;
+use folder_lock::FolderLock;
 use machine::ModelSource;
+use run_identity::RunIdentity;
 use settings::Settings;
 use studies::{Job, Study};
 use terminal::Terminal;
 
+/// Exit code of a file error.
+const FILE_ERROR_EXIT_CODE: u8 = 4;
 /// Exit code of a run with warnings under `--strict`.
 const WARNINGS_EXIT_CODE: u8 = 5;
 
 /// Entry point of the program.
 pub fn run() -> ExitCode {
+    if let Some(code) = hdf5_reader::run(std::env::args_os()) {
+        return code;
+    }
     std::panic::set_hook(Box::new(|bug| {
-        eprintln!(
+        // Not `eprintln`, which panics if standard error cannot be written.
+        let _ = writeln!(
+            std::io::stderr(),
             "internal error in rotordyn {}: {bug}\nPlease report this bug, with the model file and the command.",
             env!("CARGO_PKG_VERSION")
         );
     }));
     let mut cli = Cli::parse();
+    limits::set(cli.output.read_limit);
     let terminal = Terminal::new(&cli.output);
     if let Some(threads) = cli.output.threads {
         // Fails only if the global pool already exists; nothing has created it yet.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    interrupt::install_handler();
+    interrupt::install_handlers();
     let outcome = renamed::resolve(&mut cli.command, &terminal)
         .and_then(|()| perform(&cli.command, &terminal))
         .unwrap_or_else(|failure| Outcome { document: json!({}), failures: vec![("", failure)] });
     for (study, failure) in &outcome.failures {
         report(&terminal, study, failure);
     }
-    // Ctrl-C takes precedence, then the first failure.
+    // A signal takes precedence, then the first failure.
     let code = |(_, failure): &(&str, Failure)| failure.exit_code();
-    let interrupted = outcome.failures.iter().map(code).find(|code| *code == 130);
+    let signals = outcome.failures.iter().filter(|(_, failure)| matches!(failure, Failure::Interrupted));
+    let interrupted = signals.map(code).next();
     let warned = cli.output.strict && !terminal.warnings().is_empty();
     let without_failure = if warned { WARNINGS_EXIT_CODE } else { 0 };
     let code = interrupted.or(outcome.failures.first().map(code)).unwrap_or(without_failure);
     if cli.output.json {
-        print_json(outcome, code, &terminal.warnings());
+        print_json(outcome, code, &terminal);
+    }
+    let Some(error) = terminal.lost_output() else { return leave(code) };
+    let failure = Failure::lost_output(error);
+    report(&terminal, "", &failure);
+    leave(if code == 0 { failure.exit_code() } else { code })
+}
+
+/// Ends the program. After a failed write HDF5 would try it again when it is unloaded, and can crash there.
+fn leave(code: u8) -> ExitCode {
+    if code == FILE_ERROR_EXIT_CODE {
+        interrupt::end_at_once(code);
     }
     code.into()
 }
 
 fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
     let run_one = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
-        studies_of(args, terminal, Some(study), settings)
+        studies_of(args, None, terminal, Some(study), settings)
+    };
+    let resumable = |args, checkpoints, study: Study, settings: &dyn Fn(&Model) -> Settings| {
+        studies_of(args, Some(checkpoints), terminal, Some(study), settings)
     };
     match command {
-        Command::Run(args) => studies_of(args, terminal, None, &|_| Settings::default()),
+        Command::Run { study, checkpoints } => {
+            studies_of(study, Some(checkpoints), terminal, None, &|_| Settings::default())
+        }
         Command::Init(args) => init::run(args, terminal).map(Outcome::from),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
         Command::Static { study, speed, fixed_cage_angle } => run_one(study, Study::Static, &|model| {
@@ -132,22 +169,28 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Unbalance { study, max_speed } => {
             run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
         }
-        Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases } => {
-            run_one(study, Study::RunUp, &|model| {
+        Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases, checkpoints } => {
+            resumable(study, checkpoints, Study::RunUp, &|model| {
                 let [step, integrator, rate, motion] =
                     [step, integrator, sample_rate, motion_rate].map(Option::as_ref);
                 settings::run_up(model, step, integrator, rate, motion, *cage_phases)
             })
         }
         Command::Poincare(args) => {
-            run_one(&args.steady.study, Study::Poincare, &|model| steady_settings::poincare(model, args))
+            let steady = &args.steady;
+            resumable(&steady.study, &steady.checkpoints, Study::Poincare, &|model| {
+                steady_settings::poincare(model, args)
+            })
         }
-        Command::Lyapunov(args) => {
-            run_one(&args.study, Study::Lyapunov, &|model| steady_settings::lyapunov(model, args))
-        }
-        Command::Bifurcation(args) => run_one(&args.steady.study, Study::Bifurcation, &|model| {
-            steady_settings::bifurcation(model, args)
+        Command::Lyapunov(args) => resumable(&args.study, &args.checkpoints, Study::Lyapunov, &|model| {
+            steady_settings::lyapunov(model, args)
         }),
+        Command::Bifurcation(args) => {
+            let steady = &args.steady;
+            resumable(&steady.study, &steady.checkpoints, Study::Bifurcation, &|model| {
+                steady_settings::bifurcation(model, args)
+            })
+        }
         Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
@@ -169,6 +212,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
 /// Runs one study, or all studies of the file.
 fn studies_of(
     args: &StudyArgs,
+    checkpoints: Option<&CheckpointArgs>,
     terminal: &Terminal,
     study: Option<Study>,
     settings: &dyn Fn(&Model) -> Settings,
@@ -197,6 +241,7 @@ fn studies_of(
     }
     defaults::print_decisive(terminal, &loaded.defaults, &loaded.model, &wanted);
     let folder = origin.results_folder(args.out.as_ref(), &loaded.model.name);
+    let _lock = FolderLock::take(&folder, terminal)?;
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let family = match wanted.contains(&Study::Bifurcation) {
         true => steady::parameter_models(&origin, &settings.set, &loaded, &folder, terminal)?,
@@ -204,10 +249,22 @@ fn studies_of(
     };
     let machine = Machine::new(loaded.model.clone())?;
     forecast::examine(&machine, &wanted, &folder, terminal)?;
-    let store = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
-    let mut job = Job::new(terminal, machine, folder, store);
+    let checkpoints = match checkpoints {
+        None => None,
+        Some(wanted) => {
+            let options = origin.options_with(&settings);
+            let (name, files) = (study.map_or("run", Study::name), origin.side_files(&options));
+            let identity = RunIdentity::new(name, &origin.text, &options, &files);
+            Some(CheckpointWriter::open(&folder, wanted, &identity, terminal)?)
+        }
+    };
+    let output = store::open(&folder, (&loaded).into(), &origin, study.is_none(), terminal)?;
+    let mut job = Job::new(terminal, machine, folder, output);
     job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
+    if let Some((writer, resumed)) = checkpoints {
+        job.resume(writer, resumed);
+    }
     job.perform(&wanted);
     let outcome = finish(job, &wanted, args.into(), study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
@@ -215,7 +272,7 @@ fn studies_of(
 }
 
 /// Prints the JSON document with errors, version and exit code.
-fn print_json(outcome: Outcome, code: u8, warnings: &[Warning]) {
+fn print_json(outcome: Outcome, code: u8, terminal: &Terminal) {
     let mut document = outcome.document;
     if let Some(object) = document.as_object_mut() {
         let with_study = |(study, failure): &(&str, Failure)| {
@@ -223,15 +280,23 @@ fn print_json(outcome: Outcome, code: u8, warnings: &[Warning]) {
             error["study"] = json!(study);
             error
         };
-        object.entry("warnings").or_insert_with(|| rotordyn::io::json::warnings(warnings));
+        // Results have the warnings of their studies; those of the command, such as a long computation, come after them.
+        let printed = rotordyn::io::json::warnings(&terminal.warnings());
+        match (object.get_mut("warnings").and_then(|known| known.as_array_mut()), printed.as_array()) {
+            (Some(known), Some(printed)) => {
+                let missing: Vec<_> =
+                    printed.iter().filter(|warning| !known.contains(warning)).cloned().collect();
+                known.extend(missing);
+            }
+            _ => {
+                object.insert("warnings".into(), printed);
+            }
+        }
         object.entry("schema").or_insert_with(|| json!(rotordyn::io::json::SCHEMA));
         object.insert("program".into(), "rotordyn".into());
         object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
         object.insert("exit_code".into(), code.into());
         object.insert("errors".into(), outcome.failures.iter().map(with_study).collect());
     }
-    let mut out = std::io::stdout();
-    // A closed pipe (EPIPE) is ignored.
-    let _ = serde_json::to_writer(&mut out, &document);
-    let _ = std::io::Write::write_all(&mut out, b"\n");
+    terminal.print_document(&format!("{document}\n"));
 }

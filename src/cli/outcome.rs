@@ -1,6 +1,7 @@
 //! The result of a command: what it prints and which files it wrote.
 
 use super::args::OutputFiles;
+use super::checkpoint::CheckpointWriter;
 use super::failure::Failure;
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
@@ -30,7 +31,13 @@ pub(super) fn finish(
 ) -> Result<Outcome, Failure> {
     let known = job.results.warnings.len();
     collect_warnings(&mut job, studies);
-    job.write(written)?;
+    match job.write(written) {
+        Err(failure) => job.failures.push(("", failure)),
+        Ok(()) if job.failures.iter().any(|(_, failure)| matches!(failure, Failure::Interrupted)) => {
+            job.checkpoints.iter().for_each(|checkpoints| checkpoints.say_how_to_go_on(job.terminal));
+        }
+        Ok(()) => job.checkpoints.iter().for_each(CheckpointWriter::remove),
+    }
     let terminal = job.terminal;
     for (name, how) in job.machine.model.estimated_geometries() {
         terminal.print(&format!("  internal geometry of bearing {name} {how}"));
@@ -38,7 +45,9 @@ pub(super) fn finish(
     let rows: Vec<Vec<String>> =
         job.seconds.iter().map(|(name, s)| vec![(*name).to_string(), format!("{s:.3}")]).collect();
     terminal.table("Computing time (elapsed)", &["", "s"], &rows);
-    print_written_files(terminal, &job.folder, &job.files);
+    if !job.files.is_empty() {
+        print_written_files(terminal, &job.folder, &job.files);
+    }
     if job.files.len() > 1 {
         terminal.print("  (figures are written as SVG and PNG)");
     }
@@ -54,6 +63,10 @@ pub(super) fn finish(
             job.cpu_seconds.iter().map(|(name, s)| ((*name).to_string(), json!(s))).collect();
         object.insert("cpu_seconds".into(), cpu.into());
         object.insert("files".into(), json!(job.files));
+        if let Some(checkpoints) = &job.checkpoints {
+            object.insert("checkpoints".into(), checkpoints.to_json());
+        }
+        object.insert("identity".into(), job.output.writer.identity().into());
     }
     Ok(Outcome { document, failures: job.failures })
 }
@@ -67,7 +80,11 @@ pub(super) fn collect_warnings(job: &mut Job, studies: &[Study]) {
     }
     let mut found = std::mem::take(&mut job.warnings);
     found.extend(job.machine.warnings(&job.results, &speeds));
-    job.results.warnings.extend(found);
+    for warning in found {
+        if !job.results.warnings.contains(&warning) {
+            job.results.warnings.push(warning);
+        }
+    }
 }
 
 /// Prints the list of written files, wrapped to the line width.
@@ -92,7 +109,7 @@ pub(super) fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
     if !loaded.warnings.is_empty() {
         let text =
             super::diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
-        eprint!("{text}");
+        terminal.diagnostics(&text);
         loaded.warnings.iter().filter_map(Diagnostic::to_warning).for_each(|w| terminal.record_warning(w));
     }
 }
@@ -105,7 +122,7 @@ pub(super) fn report(terminal: &Terminal, study: &str, failure: &Failure) {
             Severity::Error,
             terminal.colour,
         );
-        eprint!("{text}");
+        terminal.diagnostics(&text);
         return;
     }
     let place = if study.is_empty() { String::new() } else { format!("{study}: ") };

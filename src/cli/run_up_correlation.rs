@@ -16,12 +16,14 @@ use rotordyn::warning::Code;
 
 use super::args::{OutputFiles, ShaftArgs, StoredArgs, ValidateArgs};
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::signal::input::{File, InputProblems, cut_time_range};
 use super::signal::shaft_source::ShaftSource;
+use super::store::{self, ModelText};
 use super::studies::{Job, Study};
 use super::terminal::{Terminal, number, rpm};
-use super::{ehl_films, settings, store};
+use super::{ehl_films, settings};
 
 /// Largest number of rows printed.
 const MAX_ROWS: usize = 40;
@@ -55,6 +57,9 @@ pub fn read(
     mapping.iter().for_each(|mapping| mapping.set_missing_units(&mut file.measured));
     if !file.time_records().any(|r| !run_up::is_rotation_signal(r)) {
         return Ok(Err("it contains no time record".into()));
+    }
+    if let Some(left_out) = file.measured.left_out_text() {
+        terminal.warn_of(Code::LeftOut, format!("{}: {left_out}", path.display()));
     }
     if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
         return Ok(Err(format!(
@@ -138,8 +143,9 @@ pub fn compare(
     draw: bool,
     terminal: &Terminal,
 ) -> Result<(Option<ComparedRunUp>, Vec<PathBuf>), Failure> {
-    let first = rpm(found.run.history.speed[0]);
+    let first = rpm(found.run.history.speed.at(0)?.unwrap_or(0.0));
     let own = folder.join(format!("{prefix}_computed"));
+    let _lock = FolderLock::take(&own, terminal)?;
     let (mut job, campbell) = simulation_job(found, origin, own, terminal)?;
     if first > MAX_START_SPEED_RATIO * found.rpm[1] {
         terminal.warn_of(Code::MeasuredData, format!(
@@ -177,10 +183,10 @@ pub fn compare(
     let pairs = &compared.pairs;
     let mut files = std::mem::take(&mut job.files);
     let path = folder.join(format!("{prefix}.h5"));
-    let file = Store::create(&path)?;
+    let file = Store::replace(&path)?;
     results_file::write_run_up_correlation(&file, pairs, &found.run.history, &computed.history)?;
     results_file::write_document(&file, "/comparison", &compared.document())?;
-    file.flush()?;
+    file.commit()?;
     files.push(path);
     if draw {
         let spinner = terminal.spinner("figures");
@@ -202,7 +208,7 @@ pub fn compare(
 /// Checks before the simulation that the record is long enough for the spectrogram and the order resolution.
 fn check_record_length(run: &MeasuredRun, model: &Model) -> Result<(), Failure> {
     let seconds = run.profile.duration();
-    let turns = run.history.angle.last().copied().unwrap_or(0.0) / std::f64::consts::TAU;
+    let turns = run.history.angle.ends()?.map_or(0.0, |[_, end]| end) / std::f64::consts::TAU;
     let (spectra, orders) = (&model.studies.spectrogram, &model.studies.orders);
     let mut problems = Vec::new();
     if let Some(study) = spectra.as_ref().filter(|study| study.length > seconds) {
@@ -249,9 +255,9 @@ fn simulation_job<'a>(
     let machine = Machine::new(found.run.driven_model(&loaded.model))?;
     let studies = &machine.model.studies;
     let campbell = studies.campbell.as_ref().map(|study| machine.campbell(study)).transpose()?;
-    let results = store::open(&folder, (&loaded).into(), origin, true, terminal)?;
-    results_file::note_measured_speed(&results, &found.source)?;
-    Ok((Job::new(terminal, machine, folder, results), campbell))
+    let text = ModelText { measured_speed: Some(found.source.clone()), ..(&loaded).into() };
+    let output = store::open(&folder, text, origin, true, terminal)?;
+    Ok((Job::new(terminal, machine, folder, output), campbell))
 }
 
 fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {

@@ -173,11 +173,12 @@ pub fn run_up(
     draft.set_flag("integrator", integrator.map(|text| toml_string(text)));
     draft.set_flag("sample_rate", sample_rate.map(|text| toml_string(text)));
     draft.set_flag("cage_phases", cage_phases.map(|n| n.to_string()));
-    let [integrator, step, rate] =
-        ["integrator", "step", "sample_rate"].map(|key| default_words(&format!("study.run_up.{key}")));
-    let words = format!("{integrator}, time step {step}, sampling rate {rate}");
+    let [integrator, rate] =
+        ["integrator", "sample_rate"].map(|key| default_words(&format!("study.run_up.{key}")));
+    let words = format!("{integrator}, time step by speed and bearings, sampling rate {rate}");
     let missing = model.studies.run_up.is_none();
-    let mut settings = draft.defaults(missing, &words, &[("step", default("study.run_up.step"))]);
+    let mut settings =
+        draft.defaults(missing, &words, &[("sample_rate", default("study.run_up.sample_rate"))]);
     if missing && stands_still(model) {
         let ramp = "{ profile = \"ramp\", to = \"3000 rpm\", ramp = \"5 s\" }";
         settings.set.push(("speed".into(), ramp.into()));
@@ -267,7 +268,8 @@ pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
 /// Adds the run-up section that the analyses need, missing in the file if the run-up used defaults.
 fn with_run_up(model: &Model, mut settings: Settings) -> Settings {
     if model.studies.run_up.is_none() {
-        settings.set.insert(0, ("study.run_up.step".into(), default("study.run_up.step")));
+        let key = "study.run_up.sample_rate";
+        settings.set.insert(0, (key.into(), default(key)));
     }
     settings
 }

@@ -2,12 +2,14 @@
 //! results.
 
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rotordyn::model::{Loaded, Model};
-use rotordyn::study::bifurcation;
+use rotordyn::study::{BifurcationProgress, FinishedValues, bifurcation_from};
 
+use super::checkpoint::Running;
 use super::failure::Failure;
 use super::interrupt::continue_unless_interrupted;
 use super::machine::ModelSource;
@@ -46,35 +48,75 @@ impl Job<'_> {
     pub fn poincare(&mut self) -> Result<(), Failure> {
         let Some(study) = &self.machine.model.studies.poincare else { return Ok(()) };
         let bar = run_bar(self.terminal, "Poincaré section");
-        let found = self.machine.poincare(study, &mut |share| update_bar(&bar, share));
+        let snapshot = match self.running.take_if(|running| matches!(running, Running::Poincare(_))) {
+            Some(Running::Poincare(snapshot)) => Some(*snapshot),
+            _ => None,
+        };
+        let (checkpoints, terminal) = (&mut self.checkpoints, self.terminal);
+        let found = self.machine.poincare_from(study, snapshot, &mut |now| {
+            let flow = update_bar(&bar, now.share);
+            if let Some(writer) = checkpoints.as_mut().filter(|writer| writer.is_wanted(flow.is_break())) {
+                writer.write(Some(&Running::Poincare(Box::new(now.snapshot()))), terminal);
+            }
+            flow
+        });
         bar.finish_and_clear();
         let found = found?.ok_or(Failure::Interrupted)?;
         steady_tables::poincare(self.terminal, &found);
+        let partial = found.partial.is_some();
         self.results.poincare = Some(found);
-        Ok(())
+        if partial { Err(Failure::Interrupted) } else { Ok(()) }
     }
 
     pub fn lyapunov(&mut self) -> Result<(), Failure> {
         let Some(study) = &self.machine.model.studies.lyapunov else { return Ok(()) };
         let bar = run_bar(self.terminal, "Lyapunov exponent");
-        let found = self.machine.lyapunov(study, &mut |share| update_bar(&bar, share));
+        let snapshot = match self.running.take_if(|running| matches!(running, Running::Lyapunov(_))) {
+            Some(Running::Lyapunov(snapshot)) => Some(*snapshot),
+            _ => None,
+        };
+        let (checkpoints, terminal) = (&mut self.checkpoints, self.terminal);
+        let found = self.machine.lyapunov_from(study, snapshot, &mut |now| {
+            let flow = update_bar(&bar, now.share);
+            if let Some(writer) = checkpoints.as_mut().filter(|writer| writer.is_wanted(flow.is_break())) {
+                writer.write(Some(&Running::Lyapunov(Box::new(now.snapshot()))), terminal);
+            }
+            flow
+        });
         bar.finish_and_clear();
         let found = found?.ok_or(Failure::Interrupted)?;
         steady_tables::lyapunov(self.terminal, &found);
+        let partial = found.partial.is_some();
         self.results.lyapunov = Some(found);
-        Ok(())
+        if partial { Err(Failure::Interrupted) } else { Ok(()) }
     }
 
     /// Computes all values in parallel; results before Ctrl-C are kept.
     pub fn bifurcation(&mut self) -> Result<(), Failure> {
         let bar = self.terminal.count_bar();
         bar.set_message("bifurcation diagram");
-        let progress = |done: usize, planned: usize| {
-            bar.set_length(planned as u64);
-            bar.set_position(done as u64);
-            continue_unless_interrupted()
+        let finished = match self.running.take_if(|running| matches!(running, Running::Bifurcation(_))) {
+            Some(Running::Bifurcation(finished)) => finished,
+            _ => FinishedValues::default(),
         };
-        let found = bifurcation(&self.parameter_models, &progress);
+        let (checkpoints, terminal) = (Mutex::new(&mut self.checkpoints), self.terminal);
+        let progress = |now: &BifurcationProgress| {
+            bar.set_length(now.planned as u64);
+            bar.set_position(now.done as u64);
+            let flow = continue_unless_interrupted();
+            // Another thread that writes one does it for all.
+            let locked = match flow {
+                ControlFlow::Continue(()) => checkpoints.try_lock().ok(),
+                ControlFlow::Break(()) => Some(checkpoints.lock().unwrap_or_else(PoisonError::into_inner)),
+            };
+            if let Some(mut locked) = locked
+                && let Some(writer) = locked.as_mut().filter(|writer| writer.is_wanted(flow.is_break()))
+            {
+                writer.write(Some(&Running::Bifurcation(now.snapshot())), terminal);
+            }
+            flow
+        };
+        let found = bifurcation_from(&self.parameter_models, finished, &progress);
         bar.finish_and_clear();
         let found = match found {
             Err(_) if interrupt::requested() => return Err(Failure::Interrupted),

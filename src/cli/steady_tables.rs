@@ -2,7 +2,7 @@
 
 use rotordyn::results::{
     BifurcationPoint, BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult,
-    SectionClock, SteadyMotion,
+    RecordedPeriods, SectionClock, SteadyMotion,
 };
 use rotordyn::signal::lyapunov::LyapunovExponent;
 
@@ -19,9 +19,10 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
     let chaos = if m.zero_one_k.is_nan() { "-".into() } else { format!("{:.3}", m.zero_one_k) };
     terminal.table(
         &format!(
-            "Motion at {:.1} rpm, {points} section points, one per {}",
+            "Motion at {:.1} rpm, {points} section points, one per {}{}",
             rpm(found.speed),
-            describe_clock(&found.clock)
+            describe_clock(&found.clock),
+            stopped_after(found.partial)
         ),
         &["motion", "recurrence", "K of 0-1 test", "clusters", "transient periods"],
         &[vec![
@@ -61,10 +62,11 @@ pub fn lyapunov(terminal: &Terminal, found: &LyapunovResult) {
     let last = e.times.last().copied().unwrap_or(0.0);
     terminal.table(
         &format!(
-            "Largest Lyapunov exponent at {:.1} rpm over {} periods ({last:.3} s), one per {}",
+            "Largest Lyapunov exponent at {:.1} rpm over {} periods ({last:.3} s), one per {}{}",
             rpm(found.speed),
             e.times.len(),
-            describe_clock(&found.clock)
+            describe_clock(&found.clock),
+            stopped_after(found.partial)
         ),
         &["1/s", "standard error", "per period", "motion"],
         &[vec![
@@ -161,6 +163,11 @@ impl MotionRange {
             exponent,
         ]
     }
+}
+
+/// How much there is of a record that was stopped; else nothing.
+fn stopped_after(partial: Option<RecordedPeriods>) -> String {
+    partial.map_or_else(String::new, |partial| format!("; stopped after {}", partial.words()))
 }
 
 /// "shaft revolution at 0 deg (20 Hz)".

@@ -1,17 +1,21 @@
-//! Results file of a folder: created, or extended if it belongs to the same model.
+//! Results file of a folder: new, or extended if it belongs to the same model.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use rotordyn::io::hdf5::{Attribute, Store};
-use rotordyn::io::results_file::{self, Meta};
+use rotordyn::io::hdf5::{Attribute, COMPLETE, Reader, open_reader};
+use rotordyn::io::results_file::{
+    self, PREVIOUS, Provenance, ResultsWriter, UNFINISHED_PREVIOUS, newest_results,
+};
 use rotordyn::model::{Loaded, Options};
+use rotordyn::warning::Code;
 
 use super::failure::Failure;
+use super::limits::limits;
 use super::machine::ModelSource;
+use super::previous_files::{self, EarlierFiles};
 use super::terminal::Terminal;
 
-/// Name of the results file.
-pub const FILE: &str = "results.h5";
+pub use rotordyn::io::results_file::{FINISHED as FILE, UNFINISHED};
 
 /// Model text and title stored in a results file.
 #[derive(Clone)]
@@ -21,6 +25,8 @@ pub struct ModelText<'a> {
     pub title: &'a str,
     /// Bearings with estimated internal geometry, "name: how" a line.
     pub estimated: String,
+    /// Source of a measured speed that drives the model.
+    pub measured_speed: Option<String>,
 }
 
 /// One line "name: how" for every bearing with estimated internal geometry.
@@ -31,56 +37,123 @@ pub fn estimated_lines<'b>(bearings: impl Iterator<Item = (&'b str, &'b str)>) -
 impl<'a> From<&'a Loaded> for ModelText<'a> {
     fn from(loaded: &'a Loaded) -> Self {
         let estimated = estimated_lines(loaded.model.estimated_geometries());
-        Self { model: &loaded.text, title: &loaded.model.title, estimated }
+        Self { model: &loaded.text, title: &loaded.model.title, estimated, measured_speed: None }
     }
 }
 
-/// Opens the results file of a folder; one of a different model version or with an earlier schema is renamed to
-/// results_previous.h5.
+/// Results of a command on their way to a folder, and the files of earlier results that they replace.
+#[derive(Debug)]
+pub struct Output {
+    pub writer: ResultsWriter,
+    pub earlier: EarlierFiles,
+}
+
+/// The results file of a folder: extended if it belongs to the same model and schema, otherwise replaced when the
+/// command ends; one of another version of the model is then kept as results_previous.h5.
 pub fn open(
     folder: &Path,
     text: ModelText,
     origin: &ModelSource,
     overwrite: bool,
     terminal: &Terminal,
-) -> Result<Store, Failure> {
+) -> Result<Output, Failure> {
     let path = folder.join(FILE);
-    if path.exists() && !overwrite {
-        let stored = Store::append(&path)?;
-        let same = stored_origin(&stored)
-            .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
-        let current = results_file::schema(&stored).is_ok_and(|schema| schema == results_file::SCHEMA);
-        if same && current {
-            return Ok(stored);
-        }
-        let reason = match same {
-            true => "has another schema",
-            false => "belongs to another version of the model",
-        };
-        drop(stored);
-        let previous = folder.join("results_previous.h5");
-        std::fs::rename(&path, &previous).map_err(|e| Failure::environment("rename", &path, e))?;
-        terminal.print(&format!("{} {reason}: renamed to {}", path.display(), previous.display()));
-    }
-    let store = Store::create(&path)?;
-    let set = &origin.options.set;
-    let settings: Vec<String> = set.iter().map(|(path, value)| format!("{path} = {value}")).collect();
-    let meta = Meta {
-        model: text.model,
-        title: text.title,
-        variant: origin.options.variant.as_deref().unwrap_or_default(),
-        settings: &settings,
+    let provenance = Provenance {
+        title: text.title.into(),
+        estimated_geometry: text.estimated,
+        measured_speed: text.measured_speed,
+        ..provenance(origin)
     };
-    results_file::write_meta(&store, &meta)?;
-    if !text.estimated.is_empty() {
-        store.set_attribute("/meta", "estimated_geometry", text.estimated.as_str())?;
+    if !path.exists() {
+        note_unfinished(folder, terminal);
+        let writer = ResultsWriter::create(&path, provenance, false);
+        return Ok(Output { writer, earlier: EarlierFiles::default() });
     }
-    results_file::write_external_files(&store, &origin.side_files(&origin.options))?;
-    Ok(store)
+    if overwrite {
+        note_unfinished(folder, terminal);
+        // A damaged file is replaced as well; it lists no files.
+        let earlier = previous_files::of(&path).unwrap_or_default();
+        return Ok(Output { writer: ResultsWriter::create(&path, provenance, false), earlier });
+    }
+    // Whatever the file is, reading it comes first, in a process of its own.
+    let stored = open_reader(&path, limits())?;
+    let same = stored_origin(&*stored)
+        .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
+    let identity = results_file::stored_identity(&*stored)?;
+    let current = results_file::schema(&*stored).is_ok_and(|schema| schema == results_file::SCHEMA);
+    let reason = match (same, current, identity) {
+        (false, ..) => "belongs to another version of the model",
+        (true, false, _) => "has another schema",
+        (true, true, Some(stored)) if stored != provenance.identity() => {
+            "belongs to other side files or another version of the program"
+        }
+        (true, true, _) => {
+            drop(stored);
+            let writer = ResultsWriter::extend(&path, provenance);
+            return Ok(Output { writer, earlier: EarlierFiles::default() });
+        }
+    };
+    drop(stored);
+    let previous = folder.join(PREVIOUS);
+    terminal.print(&format!("{} {reason}: renamed to {}", path.display(), previous.display()));
+    let earlier = previous_files::of(&path)?;
+    Ok(Output { writer: ResultsWriter::create(&path, provenance, true), earlier })
+}
+
+/// The results of a stored run, to which others are added.
+pub fn extend(path: &Path, origin: &ModelSource) -> Result<Output, Failure> {
+    let writer = ResultsWriter::extend(path, provenance(origin));
+    Ok(Output { writer, earlier: EarlierFiles::default() })
+}
+
+/// What the results of a model follow from.
+fn provenance(origin: &ModelSource) -> Provenance {
+    let set = origin.options.set.iter();
+    Provenance {
+        model: String::from_utf8_lossy(&origin.text).into_owned(),
+        variant: origin.options.variant.clone().unwrap_or_default(),
+        settings: set.map(|(path, value)| format!("{path} = {value}")).collect(),
+        files: origin.side_files(&origin.options),
+        ..Provenance::default()
+    }
+}
+
+/// Says what happens to the results that a killed command left.
+fn note_unfinished(folder: &Path, terminal: &Terminal) {
+    let unfinished = folder.join(UNFINISHED);
+    if unfinished.exists() {
+        terminal.note(&format!(
+            "{} is of a command that did not end; it is kept as {UNFINISHED_PREVIOUS} when this one saves its first results",
+            unfinished.display()
+        ));
+    }
+}
+
+/// The results file of a folder, or the file itself; says so if it is unfinished.
+pub fn find(path: &Path, terminal: &Terminal) -> PathBuf {
+    if !path.is_dir() {
+        return path.into();
+    }
+    let found = newest_results(path);
+    if found.ends_with(UNFINISHED) {
+        let finished = if path.join(FILE).exists() { ", which is older" } else { ", which does not exist" };
+        terminal.note(&format!("reading {} instead of {FILE}{finished}", found.display()));
+    }
+    found
+}
+
+/// Warns if the results of a file did not come to their end.
+pub fn warn_if_incomplete(store: &dyn Reader, terminal: &Terminal) -> Result<(), Failure> {
+    let state = results_file::results_state(store)?;
+    if state != COMPLETE {
+        let text = format!("the stored run is incomplete: {state} ({})", store.path().display());
+        terminal.warn_of(Code::IncompleteRun, text);
+    }
+    Ok(())
 }
 
 /// Model text, variant and settings stored in a results file.
-pub fn stored_origin(store: &Store) -> Result<ModelSource, Failure> {
+pub fn stored_origin(store: &dyn Reader) -> Result<ModelSource, Failure> {
     let text = |name: &str| match store.attribute("/meta", name) {
         Ok(Some(Attribute::Text(text))) => Ok(text),
         _ => Err(Failure::Input(format!("{} contains no rotordyn run", store.path().display()))),

@@ -1,27 +1,22 @@
 //! Runs the studies of a machine one after another: computes, prints tables, collects the results.
 
-use std::ops::ControlFlow;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use rotordyn::analysis::table_range::{check_torque_table, speed_range};
-use rotordyn::error::Error;
-use rotordyn::figures;
-use rotordyn::io::hdf5::{ChannelStream, Store};
-use rotordyn::io::results_file;
-use rotordyn::model::study::{RunUpStudy, Studies};
+use rotordyn::io::spill::Spill;
+use rotordyn::model::study::Studies;
 use rotordyn::model::{Drive, Model};
-use rotordyn::results::{CagePhaseBand, History, Results, RollingCageComparison, RunUpResult};
-use rotordyn::study::{Checkpoints, Machine, MotionRecorder, Recorder, StudyError};
-use rotordyn::transient::run::End;
-use rotordyn::warning::{Code, Warning};
+use rotordyn::results::{Motion, Results};
+use rotordyn::study::Machine;
+use rotordyn::warning::Warning;
 
-use super::args::OutputFiles;
-use super::csv_files::write_csv;
+use super::checkpoint::{CheckpointWriter, Running};
 use super::failure::Failure;
+use super::store::Output;
 use super::system::cpu_seconds;
-use super::terminal::{Terminal, rpm};
-use super::{cage_tables, free_ball_runs, interrupt, run_up_tables, tables};
+use super::terminal::Terminal;
+use super::{free_ball_runs, interrupt, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,7 +123,11 @@ pub struct Job<'a> {
     /// Models of a bifurcation diagram, one per parameter value.
     pub parameter_models: Vec<Model>,
     pub folder: PathBuf,
-    pub store: Store,
+    pub output: Output,
+    /// Studies finished but not yet saved.
+    pub unsaved: Vec<&'static str>,
+    /// Where the level maps of spectrograms and order tracking are kept.
+    pub spill: Spill,
     pub results: Results,
     /// Elapsed (wall-clock) time of every study \[s\].
     pub seconds: Vec<(&'static str, f64)>,
@@ -140,22 +139,35 @@ pub struct Job<'a> {
     pub warnings: Vec<Warning>,
     /// Failed studies with their errors.
     pub failures: Vec<(&'static str, Failure)>,
+    /// Checkpoints, of commands that write them.
+    pub checkpoints: Option<CheckpointWriter>,
+    /// The study that a resumed run goes on with.
+    pub running: Option<Running>,
+    /// Studies that have ended, with those of a resumed run; frames of the run-up.
+    pub done: BTreeSet<String>,
+    pub motion: Option<Motion>,
 }
 
 impl<'a> Job<'a> {
-    pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, store: Store) -> Self {
+    pub fn new(terminal: &'a Terminal, machine: Machine, folder: PathBuf, output: Output) -> Self {
         Self {
             terminal,
             machine,
+            spill: Spill::new(&folder),
             parameter_models: Vec::new(),
             folder,
-            store,
+            output,
+            unsaved: Vec::new(),
             results: Results::default(),
             seconds: Vec::new(),
             cpu_seconds: Vec::new(),
             files: Vec::new(),
             warnings: Vec::new(),
             failures: Vec::new(),
+            checkpoints: None,
+            running: None,
+            done: BTreeSet::new(),
+            motion: None,
         }
     }
 
@@ -166,17 +178,48 @@ impl<'a> Job<'a> {
             if analyses_run && self.failures.iter().any(|(name, _)| *name == Study::RunUp.name()) {
                 continue;
             }
+            match self.restore(study) {
+                Ok(false) => {}
+                Ok(true) => {
+                    self.unsaved.push(study.name());
+                    continue;
+                }
+                Err(failure) => {
+                    self.failures.push((study.name(), failure));
+                    break;
+                }
+            }
+            if !self.unsaved.is_empty()
+                && let Err(failure) = self.save()
+            {
+                self.failures.push((study.name(), failure));
+                break;
+            }
             let (start, cpu) = (Instant::now(), cpu_seconds());
             let done = if interrupt::requested() { Err(Failure::Interrupted) } else { self.run_study(study) };
             self.seconds.push((study.name(), start.elapsed().as_secs_f64()));
             let used = cpu_seconds().zip(cpu).map(|(now, before)| (study.name(), now - before));
             self.cpu_seconds.extend(used);
+            self.unsaved.push(study.name());
+            // One that a signal cut short may not say so.
+            if done.is_ok() && !interrupt::requested() {
+                self.keep_finished(study);
+            }
             if let Err(failure) = done {
-                let interrupted = matches!(failure, Failure::Interrupted);
+                let ended = matches!(failure, Failure::Interrupted);
                 self.failures.push((study.name(), failure));
-                if interrupted {
+                if ended {
+                    let (ahead, terminal) = (self.running.as_ref(), self.terminal);
+                    self.checkpoints.iter_mut().for_each(|writer| writer.stop(ahead, terminal));
                     break;
                 }
+            }
+            // The last one is saved with the figures' names at the end.
+            if Some(&study) != wanted.last()
+                && let Err(failure) = self.save()
+            {
+                self.failures.push((study.name(), failure));
+                break;
             }
         }
     }
@@ -186,7 +229,11 @@ impl<'a> Job<'a> {
         if study == Study::Bifurcation {
             speeds = self.parameter_models.iter().flat_map(|model| study.speeds(model)).collect();
         }
-        self.warnings.extend(self.machine.check_tables(study.name(), &speeds)?);
+        let tables = self.machine.check_tables(study.name(), &speeds)?;
+        // The other studies show their speeds in their results.
+        if study == Study::Bifurcation {
+            self.warnings.extend(tables);
+        }
         self.ball_inertia(study, speeds);
         let (machine, terminal) = (&self.machine, self.terminal);
         let studies = &machine.model.studies;
@@ -246,15 +293,17 @@ impl<'a> Job<'a> {
             }
             Study::Spectrogram => {
                 if let (Some(settings), Some(run)) = (&studies.spectrogram, &self.results.run_up) {
-                    let found = machine.spectrograms(settings, &run.history)?;
+                    let found =
+                        machine.spectrograms_kept(settings, &run.history, &mut |map| self.spill.keep(map))?;
                     spinner.finish_and_clear();
-                    tables::spectrograms(terminal, &found);
+                    tables::spectrograms(terminal, &found)?;
                     self.results.spectrograms = found;
                 }
             }
             Study::Orders => {
                 if let (Some(settings), Some(run)) = (&studies.orders, &self.results.run_up) {
-                    let found = machine.orders(settings, &run.history)?;
+                    let found =
+                        machine.orders_kept(settings, &run.history, &mut |map| self.spill.keep(map))?;
                     spinner.finish_and_clear();
                     tables::orders(terminal, &found);
                     self.results.orders = found;
@@ -303,7 +352,7 @@ impl<'a> Job<'a> {
     }
 
     /// Compares the ball inertia of a run under torque with the speed it reached.
-    fn note_reached_speed(&mut self, speeds: &[f64]) {
+    pub(super) fn note_reached_speed(&mut self, speeds: &[f64]) {
         let reached = self.machine.ball_inertia(speeds);
         let Some((_, used)) = self.results.ball_inertia.iter_mut().find(|(s, _)| *s == Study::RunUp.name())
         else {
@@ -314,162 +363,5 @@ impl<'a> Job<'a> {
                 used.compared = reached.compared;
             }
         }
-    }
-
-    /// Transient run-up, streamed to the file sample by sample.
-    fn run_up(&mut self) -> Result<(), Failure> {
-        let machine = &self.machine;
-        let Some(settings) = &machine.model.studies.run_up else { return Ok(()) };
-        let profile = &machine.model.profile;
-        let reduction = machine.reduce(settings)?;
-        let frequency_error = machine.reduction_error(&reduction, settings.cutoff, profile.top_speed())?;
-        let mut recorder = Recorder::new(&machine.model, &reduction.system, settings.sample_rate);
-        results_file::remove_run(&self.store)?;
-        let channels = results_file::channels_of(&recorder.history);
-        let mut motion = settings
-            .motion
-            .map(|motion| MotionRecorder::new(machine, &reduction, motion, settings.sample_rate));
-        let mut stream = ChannelStream::create(&self.store, "", &channels, settings.sample_rate, 0.0)?;
-        let bar = self.terminal.time_bar(profile.duration());
-        let mut checkpoints = Checkpoints::new(settings, profile.duration());
-        let mut disk: Result<(), Error> = Ok(());
-        let mut last = (0.0, 0.0);
-        let report = machine.run_up(settings, &reduction, |sample| {
-            let (time, spin) = (sample.state.time, &sample.state.spin);
-            last = (time, rpm(spin.speed));
-            checkpoints.observe(sample);
-            if let Some(motion) = &mut motion {
-                motion.observe(sample);
-            }
-            disk = stream.push(time, spin.angle, spin.speed, recorder.record(sample));
-            if sample.index % 64 == 0 {
-                bar.set_position((1e3 * time) as u64);
-                bar.set_message(format!("{:.0} rpm", last.1));
-            }
-            if disk.is_err() || interrupt::requested() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        bar.finish_and_clear();
-        let failure = match (disk, &report.end) {
-            (Err(error), _) => Some(error.into()),
-            (Ok(()), End::Complete) => None,
-            (Ok(()), End::Stopped) => Some(Failure::Interrupted),
-            (Ok(()), End::Failed(error)) => Some(Failure::Library(error.clone().into())),
-        };
-        let state = match &failure {
-            None => "complete".to_string(),
-            Some(why) => format!("stopped: {} at t = {:.4} s, {:.1} rpm", why.message(), last.0, last.1),
-        };
-        stream.finish(&state)?;
-        if let Some(recorder) = motion.filter(|recorder| !recorder.motion.time.is_empty()) {
-            results_file::write_motion(&self.store, &recorder.motion)?;
-        }
-        let history = recorder.history;
-        let spinner = self.terminal.spinner("step error");
-        let orders = machine.checked_orders();
-        let start = Instant::now();
-        let step_error = machine.step_error(settings, &reduction, &orders, (&checkpoints, &history, &report));
-        let check_seconds = start.elapsed().as_secs_f64();
-        spinner.finish_and_clear();
-        let cage_comparison =
-            if failure.is_none() { self.cage_comparison(settings, &history) } else { Ok(None) };
-        // A kinematic run that fails does not take the run with free balls with it.
-        let cage_comparison = cage_comparison.unwrap_or_else(|error| {
-            let text = format!("no comparison with kinematic cages: {error}");
-            self.warnings.push(Warning::new(Code::FreeBalls, "study.run_up", text));
-            None
-        });
-        let found = RunUpResult {
-            modes: reduction.modes,
-            corrections: reduction.corrections,
-            static_error: reduction.static_error,
-            frequency_error,
-            history,
-            report,
-            requested_step: settings.step,
-            cage_angles: machine.cage_angles(),
-            step_error,
-            cage_comparison,
-        };
-        tables::run_up(self.terminal, &found, check_seconds);
-        if let Some(comparison) = &found.cage_comparison {
-            cage_tables::comparison(self.terminal, comparison);
-        }
-        let failure = match (failure, &machine.model.drive) {
-            (None, Drive::Torque { table, .. }) => {
-                let reached = speed_range(&found.history.speed);
-                let torque = reached.and_then(|reached| check_torque_table(table, reached));
-                self.warnings.extend(torque);
-                match machine.check_tables(Study::RunUp.name(), &found.history.speed) {
-                    Ok(warnings) => {
-                        self.warnings.extend(warnings);
-                        None
-                    }
-                    Err(error) => Some(error.into()),
-                }
-            }
-            (failure, _) => failure,
-        };
-        if failure.is_none() && settings.cage_phases > 1 {
-            self.results.cage_phases = self.cage_phases(settings, &found)?;
-        }
-        if matches!(machine.model.drive, Drive::Torque { .. }) {
-            self.note_reached_speed(&found.history.speed);
-        }
-        self.results.run_up = Some(found);
-        failure.map_or(Ok(()), Err)
-    }
-
-    /// Run-up with kinematic cages beside one with free balls.
-    fn cage_comparison(
-        &self,
-        settings: &RunUpStudy,
-        history: &History,
-    ) -> Result<Option<RollingCageComparison>, StudyError> {
-        let spinner = self.terminal.spinner("kinematic cages");
-        let found = self.machine.compare_cages(settings, history, &mut || {
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        spinner.finish_and_clear();
-        found
-    }
-
-    /// Range of the order cuts over the initial cage phases.
-    fn cage_phases(
-        &self,
-        settings: &RunUpStudy,
-        found: &RunUpResult,
-    ) -> Result<Option<CagePhaseBand>, Failure> {
-        let Some(orders) = &self.machine.model.studies.orders else { return Ok(None) };
-        let spinner = self.terminal.spinner("cage phases");
-        let base = self.machine.orders(orders, &found.history)?;
-        let progress =
-            || if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let band = self.machine.cage_phase_band(settings, orders, &base, &progress)?;
-        spinner.finish_and_clear();
-        let band = band.ok_or(Failure::Interrupted)?;
-        run_up_tables::cage_phases(self.terminal, &band);
-        Ok(Some(band))
-    }
-
-    /// Writes and draws the results so far, also after failures.
-    pub fn write(&mut self, written: OutputFiles) -> Result<(), Failure> {
-        let start = Instant::now();
-        results_file::write_study(&self.store, &self.results, &self.machine)?;
-        self.files.push(self.store.path().to_path_buf());
-        if written.csv {
-            let sections = self.results.sections(&self.machine.assembly.dofs);
-            self.files.extend(write_csv(&self.folder, &sections)?);
-        }
-        if written.figures {
-            let spinner = self.terminal.spinner("figures");
-            self.files.extend(figures::draw(&self.results, &self.machine, &self.folder)?);
-            spinner.finish_and_clear();
-        }
-        self.seconds.push(("files and figures", start.elapsed().as_secs_f64()));
-        Ok(())
     }
 }

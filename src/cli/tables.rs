@@ -10,6 +10,7 @@ use rotordyn::results::{
     CampbellResult, CriticalResult, FrfResult, ModalResult, OrderResult, RunUpResult, SpectrogramResult,
     UnbalanceResult, UndampedPeak, unit_of,
 };
+use rotordyn::series::SeriesError;
 
 use super::equilibrium_loads;
 use super::terminal::{Terminal, number, rpm};
@@ -326,17 +327,16 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
 }
 
 pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
-    let (report, history) = (&found.report, &found.history);
+    let (report, history, summary) = (&found.report, &found.history, &found.summary);
     terminal.heading("Run-up");
-    let (end, speed) = (history.time.last().unwrap_or(&0.0), history.speed.last().unwrap_or(&0.0));
     let newton = match report.iterations {
         0 => String::new(),
         n => format!(", {:.2} Newton iterations per step", n as f64 / report.steps.max(1) as f64),
     };
     terminal.print(&format!(
         "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or rejected steps, {} samples",
-        end,
-        rpm(*speed),
+        summary.end_time,
+        rpm(summary.end_speed),
         report.steps,
         report.halvings,
         report.samples
@@ -368,12 +368,10 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     let rows: Vec<Vec<String>> = history
         .channels
         .iter()
-        .filter(|c| ["displacement", "velocity", "acceleration", "force"].contains(&c.quantity.as_str()))
-        .map(|c| {
-            let n = c.values.len().max(1) as f64;
-            let mean = c.values.iter().sum::<f64>() / n;
-            let rms = (c.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n).sqrt();
-            let peak = c.values.iter().fold(0.0, |m: f64, v| m.max((v - mean).abs()));
+        .zip(&summary.channels)
+        .filter(|(c, _)| ["displacement", "velocity", "acceleration", "force"].contains(&c.quantity.as_str()))
+        .map(|(c, levels)| {
+            let [mean, rms, peak] = [levels.mean, levels.rms_about_mean, levels.peak_about_mean];
             vec![c.name.clone(), number(mean, 4), number(rms, 4), number(peak, 4), c.unit.clone()]
         })
         .collect();
@@ -381,27 +379,25 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     terminal.table("Channels of the run-up (RMS and peak about the mean)", &header, &rows);
 }
 
-pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) {
-    let rows: Vec<Vec<String>> = found
-        .iter()
-        .filter_map(|s| {
-            let bins = s.spectrogram.frequencies.len();
-            let amplitude = &s.spectrogram.amplitude;
-            // skip the DC component: main lobe of the window around 0 Hz
-            let least = 3.min(bins.saturating_sub(1));
-            let at = (0..amplitude.len())
-                .filter(|k| k % bins >= least)
-                .max_by(|a, b| amplitude[*a].total_cmp(&amplitude[*b]))?;
-            Some(vec![
-                s.channel.clone(),
-                number(amplitude[at], 4),
-                s.unit.clone(),
-                number(s.spectrogram.frequencies[at % bins], 5),
-                format!("{:.1}", rpm(s.speed[at / bins])),
-            ])
-        })
-        .collect();
+pub fn spectrograms(terminal: &Terminal, found: &[SpectrogramResult]) -> Result<(), SeriesError> {
+    let mut rows = Vec::new();
+    for s in found {
+        let bins = s.spectrogram.frequencies.len();
+        let amplitude = s.spectrogram.amplitude.all()?;
+        // skip the DC component: main lobe of the window around 0 Hz
+        let least = 3.min(bins.saturating_sub(1));
+        let without_mean = (0..amplitude.len()).filter(|k| k % bins >= least);
+        let Some(at) = without_mean.max_by(|a, b| amplitude[*a].total_cmp(&amplitude[*b])) else { continue };
+        rows.push(vec![
+            s.channel.clone(),
+            number(amplitude[at], 4),
+            s.unit.clone(),
+            number(s.spectrogram.frequencies[at % bins], 5),
+            format!("{:.1}", rpm(s.speed[at / bins])),
+        ]);
+    }
     terminal.table("Spectrograms: peak amplitudes", &["channel", "amplitude", "unit", "Hz", "at rpm"], &rows);
+    Ok(())
 }
 
 pub fn orders(terminal: &Terminal, found: &[OrderResult]) {

@@ -1,7 +1,7 @@
 //! Terminal output: tables on standard output, progress, warnings and errors on standard error.
 
 use std::fmt::Write as _;
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{self, IsTerminal, Write, stderr, stdout};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -27,6 +27,8 @@ pub struct Terminal {
     warnings: Mutex<Vec<Warning>>,
     /// Notes printed so far.
     notes: Mutex<Vec<String>>,
+    /// Why standard output could not be written, other than by a closed pipe.
+    lost: Mutex<Option<io::Error>>,
 }
 
 impl Terminal {
@@ -41,15 +43,40 @@ impl Terminal {
             colour: colour_allowed && stderr().is_terminal(),
             warnings: Mutex::default(),
             notes: Mutex::default(),
+            lost: Mutex::default(),
         }
     }
 
     /// Prints one or more lines to standard output.
     pub fn print(&self, text: &str) {
         if self.tables {
-            // A closed pipe (EPIPE) must not stop the computation.
-            let _ = writeln!(stdout(), "{text}");
+            self.note_loss(writeln!(stdout(), "{text}"));
         }
+    }
+
+    /// Prints text that is not a table, such as JSON, also with `--quiet`.
+    pub fn print_document(&self, text: &str) {
+        self.note_loss(stdout().write_all(text.as_bytes()));
+    }
+
+    /// Prints rendered diagnostics to standard error, also with `--quiet`.
+    pub fn diagnostics(&self, text: &str) {
+        let _ = write!(stderr(), "{text}");
+    }
+
+    /// The first failure of standard output; a closed pipe (EPIPE) is none, its reader has seen enough.
+    fn note_loss(&self, written: io::Result<()>) {
+        if let Err(error) = written
+            && error.kind() != io::ErrorKind::BrokenPipe
+        {
+            self.lost.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        }
+    }
+
+    /// Why standard output could not be written completely, if so.
+    pub fn lost_output(&self) -> Option<io::Error> {
+        self.note_loss(stdout().flush());
+        self.lost.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
     /// Prints a sentence with two spaces before each of its lines, broken at words.

@@ -6,7 +6,7 @@ use rotordyn::document::Section;
 use rotordyn::figures::{self, Stage};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::test_data;
-use rotordyn::io::{json, model_file_edit, results_file};
+use rotordyn::io::{json, model_file_edit, results_file, whole_file};
 use rotordyn::model::{self, Model, Options};
 use rotordyn::update::correlation::Correlation;
 use rotordyn::update::frf::{FrfFitting, rms_difference_db};
@@ -19,6 +19,7 @@ use serde_json::json;
 use super::args::{FitResidual, UpdateArgs};
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::measured::{self, band, folder};
 use super::terminal::{Terminal, number};
@@ -34,6 +35,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         None => loaded.model.name.clone(),
     };
     let folder = folder(args.study.out.as_ref(), &name, "updated");
+    let _lock = FolderLock::take(&folder, terminal)?;
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     if args.measured.measured.len() > 1 {
         return Err(Failure::Input(
@@ -108,14 +110,13 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     ));
     quality_warnings(terminal, &parameters, &found);
 
-    std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
     let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
     let path = folder.join("update.h5");
-    let store = Store::create(&path)?;
+    let store = Store::replace(&path)?;
     let difference = frf_difference_db.map(<[f64; 2]>::from);
     let content = found.document(&parameters, [&before, &after], difference);
     results_file::write_document(&store, "", &content)?;
-    store.flush()?;
+    store.commit()?;
     files.push(path);
     if !args.study.no_figures {
         let stages = [
@@ -315,6 +316,7 @@ fn write_model(
     let text = String::from_utf8_lossy(&origin.text);
     let new = model_file_edit::rewrite(&text, origin.options.variant.as_deref(), &changes)
         .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))?;
-    std::fs::write(&path, new).map_err(|e| Failure::environment("write the model file", &path, e))?;
+    whole_file::write(&path, new.as_bytes())
+        .map_err(|e| Failure::environment("write the model file", &path, e))?;
     Ok(path)
 }

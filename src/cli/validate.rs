@@ -19,6 +19,7 @@ use serde_json::{Map, Value, json};
 use super::args::ValidateArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::measured::{self, folder, stem};
 use super::terminal::{Terminal, number};
@@ -33,6 +34,7 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
         None => loaded.model.name.clone(),
     };
     let folder = folder(args.study.out.as_ref(), &name, "validation");
+    let _lock = FolderLock::take(&folder, terminal)?;
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let paths = &args.measured.measured;
     let mut structures = Vec::new();
@@ -54,7 +56,6 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
         structures.extend(target.map(|target| (path.as_path(), target)));
         run_ups.extend(run_up.ok().map(|run_up| (path.as_path(), run_up)));
     }
-    std::fs::create_dir_all(&folder).map_err(|e| Failure::environment("create folder", &folder, e))?;
     let mut document = Map::new();
     let mut files = Vec::new();
     if !structures.is_empty() {
@@ -132,9 +133,9 @@ fn compare_structures(
         None => _ = document.insert("force_level_shifts".into(), Value::Null),
     }
     let path = folder.join("validation.h5");
-    let store = Store::create(&path)?;
+    let store = Store::replace(&path)?;
     sections.iter().try_for_each(|section| results_file::write_section(&store, "", section))?;
-    store.flush()?;
+    store.commit()?;
     let mut files = vec![path];
     json::add_sections(document, &sections);
     if args.study.csv {

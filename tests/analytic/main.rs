@@ -10,6 +10,7 @@ mod cage;
 mod effective_mass;
 mod fits;
 mod jones_thrust;
+mod large_shaft;
 mod precession;
 mod responses;
 mod rigid_rotor;

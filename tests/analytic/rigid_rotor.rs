@@ -193,7 +193,7 @@ speeds = "500 rad/s"
     });
     assert_eq!(report.end, End::Complete);
     let history = recorder.history;
-    let x = &history.channels.iter().find(|c| c.name == "x").unwrap().values;
+    let x = history.channel("x").unwrap().values.in_memory().unwrap();
     let late = &x[x.len() * 3 / 4..];
     // 20 revolutions: the RMS is independent of the start phase.
     let rms = (late.iter().map(|v| v * v).sum::<f64>() / late.len() as f64).sqrt();

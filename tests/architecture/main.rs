@@ -12,7 +12,8 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "rotordyn-core",
         &[
-            &["conventions", "document"],
+            &["conventions", "series"],
+            &["document"],
             &["warning"],
             &["element"],
             &["model"],
@@ -28,18 +29,20 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
 ];
 
 /// Foreign crates and the files that may use them.
-const OWNERS: [(&[&str], &[&str]); 11] = [
+const OWNERS: [(&[&str], &[&str]); 13] = [
     (&["faer"], &["rotordyn-linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["rotordyn-core/geometry/rapier"]),
     (&["parry3d", "parry3d_f64"], &["rotordyn-core/geometry/parry"]),
     (&["hdf5"], &["rotordyn-io/hdf5"]),
     (&["flate2"], &["rotordyn-io/inflate"]),
-    (&["rmp_serde", "serde_path_to_error"], &["rotordyn-io/saved_results"]),
+    (&["rmp_serde"], &["rotordyn-io/saved_results", "rotordyn-io/hdf5"]),
+    (&["serde_path_to_error"], &["rotordyn-io/saved_results"]),
     (&["zip"], &["rotordyn-io/npy"]),
     (&["hound"], &["rotordyn-io/wav"]),
     (&["resvg", "usvg", "tiny_skia", "png"], &["rotordyn-plot/"]),
     (&["rustix"], &["cli/system"]),
-    (&["clap", "miette", "indicatif", "ctrlc"], &["main.rs", "cli/"]),
+    (&["clap", "miette", "indicatif", "signal_hook", "humantime", "similar"], &["main.rs", "cli/"]),
+    (&["siphasher"], &["rotordyn-io/run_identity"]),
 ];
 
 /// Crates that access files; all others compute.
@@ -199,6 +202,22 @@ fn computing_modules_do_not_access_files() {
         "modules that access files: {:?}",
         wrong.iter().map(|s| &s.path).collect::<Vec<_>>()
     );
+}
+
+/// Files are replaced as a whole (`whole_file`, `Store::replace`), and what is printed is checked (`terminal`).
+#[test]
+fn files_and_prints_go_through_one_place() {
+    const IN_PLACE: [&str; 5] =
+        ["fs::write(", "File::create(", "Store::create(", "Store::append(", "println!("];
+    // The stores of library users; the temporary copy of a file inside the program.
+    const ALLOWED: [&str; 2] = ["rotordyn-io/hdf5.rs", "rotordyn-io/hdf5/scale.rs"];
+    let mut wrong = Vec::new();
+    for Source { path, code, .. } in sources().into_iter().filter(|s| !ALLOWED.contains(&s.path.as_str())) {
+        let program = code.split("#[cfg(test)]").next().unwrap_or("");
+        let found = IN_PLACE.iter().filter(|call| program.contains(**call));
+        wrong.extend(found.map(|call| format!("{path} uses {call}...)")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn invalid_arguments() {
 fn missing_files() {
     assert_contains(&failure(&["check", "models/nowhere.toml"], 4), &["read the model file", "nowhere.toml"]);
     assert_contains(&failure(&["orders", "models"], 4), &["results.h5"]);
-    assert_contains(&failure(&["spectrogram", RIG], 4), &["overhung_rig.toml"]);
+    assert_contains(&failure(&["spectrogram", RIG], 2), &["overhung_rig.toml"]);
     // The path of the results folder is an existing file.
     let out = ["modal", RIG, "--no-figures", "--out", "Cargo.toml"];
     assert_contains(&failure(&out, 4), &["Cargo.toml"]);

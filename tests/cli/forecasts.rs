@@ -190,7 +190,7 @@ fn long_runs_are_announced() {
     assert!(!String::from_utf8(plausible.stderr).unwrap().contains("takes about"));
     for (command, flags) in [("run-up", ["--step", "1e-12 s"]), ("lyapunov", ["--step", "1e-9 s"])] {
         let mut child = Command::new(assert_cmd::cargo::cargo_bin("rotordyn"))
-            .args([command, "machine.toml", "--no-figures"])
+            .args([command, "machine.toml", "--no-figures", "--out", command])
             .args(flags)
             .current_dir(case.folder.path())
             .stdout(Stdio::null())

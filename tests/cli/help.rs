@@ -27,7 +27,7 @@ fn help_lists_tables_keys_and_one_key() {
         assert!(key.contains(part), "{part} is not in\n{key}");
     }
     let step = help("study.run_up.step");
-    assert!(step.contains("without it: \"100 us\""), "{step}");
+    assert!(step.contains("without it: 100 us, less at high speed"), "{step}");
     for path in ["", "bearing", "bearing.preload", "study.run_up", "housing", "speed", "study.bifurcation"] {
         let text = if path.is_empty() { file.clone() } else { help(path) };
         assert!(text.lines().all(|line| line.chars().count() <= 118), "{text}");
@@ -44,6 +44,11 @@ fn help_of_a_command_a_former_name_and_an_unknown_path() {
     assert_eq!(unknown.status.code(), Some(2));
     let message = String::from_utf8(unknown.stderr).unwrap();
     assert!(message.contains("did you mean bearing.preload?"), "{message}");
+    for (word, code) in [("fittd-law", "fitted-law"), ("unloaded", "bearing-unloaded")] {
+        let unknown = rotordyn().args(["help", word]).output().unwrap();
+        let message = String::from_utf8(unknown.stderr).unwrap();
+        assert!(message.contains(&format!("did you mean the warning {code}?")), "{message}");
+    }
 }
 
 #[test]

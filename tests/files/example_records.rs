@@ -129,6 +129,7 @@ pub fn everything() -> MeasuredData {
         geometry: geometry(),
         shapes: shapes(),
         notes: Vec::new(),
+        left_out: Vec::new(),
     }
 }
 

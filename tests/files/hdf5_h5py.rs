@@ -1,9 +1,11 @@
 //! HDF5 files read by h5py, with the types that a Python user expects.
 
 use nalgebra::Complex;
-use rotordyn::io::hdf5::{Channel, ChannelStream, Store};
+use rotordyn::io::hdf5::{Channel, RunFormat, Store};
 use std::path::Path;
 use std::process::Command;
+
+use crate::hdf5_stream::{begin, end};
 
 /// One object of every kind; `read_results.py` expects these values.
 pub fn write_example(path: &Path) {
@@ -32,12 +34,14 @@ pub fn write_example(path: &Path) {
         station: "B".into(),
         direction: "y".into(),
     };
-    let mut stream = ChannelStream::create(&store, "", &[channel], 1000.0, 0.25).unwrap();
+    let running = path.with_extension("running");
+    let format = RunFormat { channels: &[channel], sample_rate: 1000.0, start: 0.25 };
+    let mut stream = begin(&running, "", &format, 5000);
     for k in 0..5000 {
         let t = 0.25 + k as f64 / 1000.0;
         stream.push(t, 2.0 * t, 2.0, &[k as f64]).unwrap();
     }
-    stream.finish("complete").unwrap();
+    end(stream, &running, "", "complete", &store);
 }
 
 /// Whether this Python has h5py; if not, the test is skipped, or fails with `CI` set.

@@ -5,6 +5,7 @@ mod arrays;
 mod example_records;
 mod formats;
 mod hdf5_h5py;
+mod hdf5_reader;
 mod hdf5_round_trip;
 mod hdf5_stream;
 mod mapping;

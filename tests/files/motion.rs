@@ -42,9 +42,9 @@ static RUN: LazyLock<(Machine, History, Motion)> = LazyLock::new(|| {
 
 /// Values of a channel at the samples of the frames.
 fn at_frames(history: &History, motion: &Motion, name: &str) -> Vec<f64> {
-    let channel = history.channels.iter().find(|channel| channel.name == name).unwrap();
+    let values = history.channel(name).unwrap().values.in_memory().unwrap();
     let sample = |time: &f64| (time * history.sample_rate).round() as usize;
-    motion.time.iter().map(|time| channel.values[sample(time)]).collect()
+    motion.time.iter().map(|time| values[sample(time)]).collect()
 }
 
 /// An angle less whole turns, near 0.

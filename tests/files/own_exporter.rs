@@ -28,16 +28,16 @@ fn write(run: &MeasuredData, options: &Options) -> Result<Vec<PathBuf>, Error> {
 fn exporter_of_ones_own_writes_a_run() {
     let (machine, results) = &*RIG;
     let history = &results.run_up.as_ref().unwrap().history;
-    let run = run_records(history, &machine.model);
+    let run = run_records(history, &machine.model).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let files = SUMMARY.write(&run, &Options { folder: folder.path(), number: 1 }).unwrap();
     assert_eq!(files, [folder.path().join("channels.txt")]);
     let text = std::fs::read_to_string(&files[0]).unwrap();
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split('\t').collect()).collect();
     assert!(rows.len() >= history.channels.len(), "{text}");
-    let channel = history.channels.iter().find(|channel| channel.name == "B_ax").unwrap();
+    let values = history.channel("B_ax").unwrap().values.in_memory().unwrap();
     let row = rows.iter().find(|row| row[0] == "B_ax").unwrap();
-    let square = channel.values.iter().map(|v| v * v).sum::<f64>() / channel.values.len() as f64;
+    let square = values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64;
     assert_eq!((row[1], row[2].parse()), ("m/s^2", Ok(square.sqrt())));
     let missing = folder.path().join("missing");
     let error = SUMMARY.write(&run, &Options { folder: &missing, number: 1 }).unwrap_err();

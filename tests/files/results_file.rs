@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::process::Command;
 
-use rotordyn::io::hdf5::{Attribute, ChannelStream, Store};
+use rotordyn::io::budget::Limits;
+use rotordyn::io::hdf5::{Attribute, RunFormat, Store};
 use rotordyn::io::json::to_json;
 use rotordyn::io::results_file::{
     Meta, SCHEMA, channels_of, read_history, remove_run, schema, write_meta, write_study,
 };
 
+use crate::hdf5_stream::{begin, end};
 use crate::rig_results::RIG;
 
 /// Streams the run and writes every study, as the program does.
@@ -20,13 +22,15 @@ fn write_all(path: &Path) {
     write_meta(&store, &meta).unwrap();
     remove_run(&store).unwrap();
     let history = &results.run_up.as_ref().unwrap().history;
-    let mut stream =
-        ChannelStream::create(&store, "", &channels_of(history), history.sample_rate, 0.0).unwrap();
+    let (running, channels) = (path.with_extension("running"), channels_of(history));
+    let format = RunFormat { channels: &channels, sample_rate: history.sample_rate, start: 0.0 };
+    let mut stream = begin(&running, "", &format, history.time.len());
     for k in 0..history.time.len() {
-        let row: Vec<f64> = history.channels.iter().map(|c| c.values[k]).collect();
-        stream.push(history.time[k], history.angle[k], history.speed[k], &row).unwrap();
+        let row: Vec<f64> = history.channels.iter().map(|c| c.values.at(k).unwrap().unwrap()).collect();
+        let at = [&history.time, &history.angle, &history.speed].map(|of| of.at(k).unwrap().unwrap());
+        stream.push(at[0], at[1], at[2], &row).unwrap();
     }
-    stream.finish("complete").unwrap();
+    end(stream, &running, "", "complete", &store);
     write_study(&store, results, machine).unwrap();
 }
 
@@ -55,7 +59,7 @@ fn stored_run_round_trip_and_study_replacement() {
     // Again, as a second call of the program on the same folder.
     write_all(&path);
     let history = &results.run_up.as_ref().unwrap().history;
-    assert_eq!(&read_history(&Store::open(&path).unwrap()).unwrap(), history);
+    assert_eq!(&read_history(&path, &Limits::default()).unwrap(), history);
     let groups = Store::open(&path).unwrap().members("/").unwrap();
     let expected = [
         "bearings",
@@ -90,8 +94,10 @@ fn stored_run_round_trip_and_study_replacement() {
 #[test]
 fn file_without_run_error_message() {
     let folder = tempfile::tempdir().unwrap();
-    let store = Store::create(folder.path().join("results.h5")).unwrap();
+    let path = folder.path().join("results.h5");
+    let store = Store::create(&path).unwrap();
     assert_eq!(schema(&store).unwrap(), 1, "files without the attribute");
-    let message = read_history(&store).unwrap_err().to_string();
-    assert!(message.contains("results.h5") && message.contains("/channels"), "{message}");
+    drop(store);
+    let message = read_history(&path, &Limits::default()).unwrap_err().to_string();
+    assert!(message.contains("results.h5") && message.contains("/time/t"), "{message}");
 }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
 use rotordyn::model::study::BearingStudy;
-use rotordyn::results::{Results, RunUpResult};
+use rotordyn::results::{Results, RunSummary, RunUpResult};
 use rotordyn::study::{Machine, Recorder};
 use rotordyn::warning::{Code, Warning};
 
@@ -50,6 +50,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             corrections: reduction.corrections,
             static_error: reduction.static_error,
             frequency_error: 0.0,
+            summary: RunSummary::of(&history).unwrap(),
             history,
             report,
             requested_step: 25e-6,

@@ -87,8 +87,10 @@ fn every_result() -> (&'static Machine, Results) {
         groups: 2,
         shaft_angle: vec![0.0, 0.1, 0.2],
         planes: vec![plane("disc", Some(whirl)), plane("phase", None)],
+        partial: None,
     });
-    results.lyapunov = Some(LyapunovResult { speed: 125.0, clock: clock(), exponent: exponent() });
+    results.lyapunov =
+        Some(LyapunovResult { speed: 125.0, clock: clock(), exponent: exponent(), partial: None });
     let motion = SteadyMotion {
         sections: vec![vec![1.0, 2.0], vec![3.0, 4.0]],
         extremes: vec![[0.0, 2.5], [2.0, 4.5]],
@@ -196,18 +198,18 @@ fn saved_results_of_other_models_are_loaded_bit_for_bit() {
 fn saved_signal_analyses_are_loaded_bit_for_bit() {
     let (machine, results) = &*RIG;
     let history = &results.run_up.as_ref().unwrap().history;
-    let samples = &history.channels.iter().find(|c| c.name == "B_ax").unwrap().values;
+    let samples = history.channel("B_ax").unwrap().values.in_memory().unwrap();
     let channel = SignalChannel {
         name: "B_ax".into(),
         unit: "m/s^2".into(),
         sample_rate: history.sample_rate,
         start: 0.0,
-        samples: samples.clone(),
+        samples: samples.to_vec(),
         orthogonal: None,
     };
     let mut shaft = ShaftMotion::constant(10.0, "the run".into());
     shaft.summary.steady = false;
-    shaft.angle = history.angle.clone();
+    shaft.angle = history.angle.all().unwrap().into_owned();
     let g = &machine.model.bearings.iter().find_map(|site| site.bearing.ball()).unwrap().geometry;
     let bearing = BearingWithOrders {
         name: "B".into(),

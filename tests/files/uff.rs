@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use rotordyn::error::Error;
+use rotordyn::io::budget::Limits;
 use rotordyn::io::uff::{self, GeometrySets, Options};
 use rotordyn::signal::Complex;
 use rotordyn::signal::record::{Analysis, AxisQuantity, Kind, MeasuredData, Points, Values};
@@ -20,7 +21,7 @@ fn read_bytes(bytes: &[u8]) -> Result<MeasuredData, Error> {
     let folder = tempfile::tempdir().unwrap();
     let path: PathBuf = folder.path().join("file.uff");
     std::fs::write(&path, bytes).unwrap();
-    uff::read(&path)
+    uff::read(&path, &Limits::default()).map(|(measured, _)| measured)
 }
 
 fn read(bytes: &[u8]) -> MeasuredData {

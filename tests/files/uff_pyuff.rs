@@ -6,6 +6,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use rotordyn::io::budget::Limits;
 use rotordyn::io::uff::{self, GeometrySets, Options};
 use rotordyn::signal::record::{AxisQuantity, Kind, MeasuredData, Points, Values};
 use serde_json::Value;
@@ -86,7 +87,7 @@ fn pyuff_reads_written_files() {
 #[test]
 fn pyuff_files_are_read() {
     for name in ["pyuff_ascii.uff", "pyuff_binary.uff"] {
-        let file = uff::read(&folder().join(name)).unwrap();
+        let file = uff::read(&folder().join(name), &Limits::default()).unwrap().0;
         let all = everything();
         let wanted = ["rim/disc_y", "lines", "phasors", "A_fy"];
         assert_eq!(file.records.len(), wanted.len(), "{name}");

@@ -91,8 +91,8 @@ fn defaults_are_recorded_with_their_keys() {
 #[test]
 fn a_recorded_default_can_be_set() {
     let loaded = load("", &[]);
-    // probes are no value, the cage pocket is computed and rounded to 1 um, the lubrication needs a lubricant
-    let others = ["probe", "cage_pocket_diameter", "lubrication"];
+    // probes are no value, the cage pocket is computed and rounded to 1 um
+    let others = ["probe", "cage_pocket_diameter"];
     let fixed = |path: &str| !others.iter().any(|other| path.ends_with(other));
     for default in loaded.defaults.iter().filter(|default| fixed(&default.path)) {
         let with = load("", &[(&default.path, &default.value)]);
@@ -121,4 +121,72 @@ fn settings_of_another_integrator_are_ignored_with_a_note() {
     // in one file it stays an error
     let both = format!("{HEAD}{text}integrator = \"newmark\"\n");
     assert!(model::load("machine.toml", both, &Options::default()).is_err());
+}
+
+/// The step of a run-up divides the period of the highest order line at top speed by 90, between a slow and a fast machine.
+#[test]
+fn the_default_step_follows_the_fastest_line() {
+    let step = |rpm: f64, more: &str| {
+        let speed = format!("[speed]\nprofile = \"constant\"\nspeed = \"{rpm} rpm\"\nduration = \"1 s\"\n");
+        let loaded = load(&format!("{speed}[study.run_up]\n{more}"), &[]);
+        let written = loaded.defaults.iter().find(|default| default.path == "study.run_up.step");
+        let written = written.map(|default| default.value.clone());
+        (loaded.model.studies.run_up.unwrap().step, written)
+    };
+    // BPFO of a 6205: 3.572; 1e6/(90 · 3.572 · n/60) = 124, 20.7, 6.2 us.
+    for (rpm, us, text) in [(1500.0, 100.0, "100 us"), (9000.0, 20.0, "20 us"), (30000.0, 6.2, "6.2 us")] {
+        assert_eq!(step(rpm, ""), (us / 1e6, Some(format!("\"{text}\""))));
+    }
+    // An order cut above it: 1e6/(90 · 12 · 150).
+    assert_eq!(step(9000.0, "[study.orders]\ncuts = [1, 12]\n").0, 6.1 / 1e6);
+    assert_eq!(step(9000.0, "step = \"50 us\"\n"), (50.0 / 1e6, None));
+}
+
+/// The bearing A of the file has a clearance class.
+#[test]
+fn a_key_of_a_variant_takes_the_place_of_one_that_excludes_it() {
+    let variants = "[variant.given]\nbearing.A.radial_clearance = \"7 um\"\n[variant.class]\nbased_on = \"given\"\n\
+                    bearing.A.clearance = \"C4\"\n";
+    let clearance = |variant: Option<&str>, set: &[(&str, &str)]| {
+        let set = set.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let options = Options { variant: variant.map(String::from), set };
+        let loaded = model::load("machine.toml", format!("{HEAD}{variants}"), &options);
+        let loaded = loaded.unwrap_or_else(|errors| panic!("{variant:?}: {errors}"));
+        1e6 * loaded.model.bearings[0].bearing.ball().unwrap().geometry.radial_clearance
+    };
+    let of_class = |class: &str| clearance(None, &[("bearing.A.clearance", class)]);
+    assert!((clearance(Some("given"), &[]) - 7.0).abs() < 1e-9);
+    // The last variant of a chain, then the command line.
+    assert_eq!(clearance(Some("class"), &[]), of_class("C4"));
+    assert!((clearance(Some("class"), &[("bearing.A.radial_clearance", "9 um")]) - 9.0).abs() < 1e-9);
+    // Two of one variant exclude each other as in the file.
+    let both = format!(
+        "{HEAD}[variant.both]\nbearing.B.radial_clearance = \"7 um\"\nbearing.B.clearance = \"C4\"\n"
+    );
+    let options = Options { variant: Some("both".into()), ..Options::default() };
+    let errors = model::load("machine.toml", both, &options).unwrap_err();
+    assert!(errors.to_string().contains("mutually exclusive"), "{errors}");
+}
+
+/// Of a name that several bearings have, every meaning is given.
+#[test]
+fn an_ambiguous_order_lists_the_bearings() {
+    let text = HEAD.replacen(
+        "[bearing.B]\nstation = \"B\"\nmodel = \"ball\"\ndesignation = \"6205\"",
+        "[bearing.B]\nstation = \"B\"\nmodel = \"ball\"\ndesignation = \"6305\"",
+        1,
+    );
+    let study = "[study.campbell]\nspeeds = \"0, 3000 rpm\"\norders = [\"BPFO\"]\n";
+    let errors = model::load("machine.toml", format!("{text}{study}"), &Options::default()).unwrap_err();
+    let message = errors.to_string();
+    assert!(message.contains("write one of them: \"A.BPFO\" is 3.572, \"B.BPFO\" is "), "{message}");
+}
+
+#[test]
+fn lubrication_is_a_default_only_with_a_lubricant() {
+    let path = "bearing.A.lubrication";
+    assert!(load("", &[]).defaults.iter().all(|default| default.path != path));
+    let oil = "[lubricant.oil]\ngrade = \"ISO VG 22\"\ntemperature = \"50 degC\"\n";
+    let oiled = load(oil, &[("bearing.A.lubricant", "oil")]);
+    assert!(oiled.defaults.iter().any(|default| default.path == path));
 }

@@ -9,7 +9,7 @@ fn assert_renders(x: &[f64], y: &[f64], name: &str, what: &str) {
     for figure in all(x, y, name) {
         let kind = format!("{figure:?}");
         let kind = kind.split('(').next().unwrap_or_default();
-        let svg = figure.svg();
+        let svg = figure.svg().unwrap();
         let text_free = strip_text(&svg);
         assert!(!text_free.contains("NaN") && !text_free.contains("inf"), "{kind} of {what}");
         assert!(svg.len() < 1_200_000, "{kind} of {what}: {} bytes", svg.len());

@@ -14,7 +14,7 @@ fn sample_figures() -> Vec<Figure> {
 #[test]
 fn equal_data_give_equal_bytes() {
     for (a, b) in sample_figures().into_iter().zip(sample_figures()) {
-        let (a, b) = (a.svg(), b.svg());
+        let (a, b) = (a.svg().unwrap(), b.svg().unwrap());
         assert_eq!(a, b);
         assert_eq!(png(&a).unwrap(), png(&b).unwrap());
     }
@@ -62,7 +62,7 @@ fn unwritable_path_is_an_environment_error() {
 fn notes_are_wrapped() {
     let note = "12000 rpm, load 0, -3.9, 0 N: slip 13.703 %, BPFO 2.63358 of 3.05224 kinematic (Light spindle with free \
                 balls and cage in one bearing)";
-    let svg = Figure::Orbits(Orbits { note: note.into(), ..Orbits::default() }).svg();
+    let svg = Figure::Orbits(Orbits { note: note.into(), ..Orbits::default() }).svg().unwrap();
     let texts = svg.split("</text>").filter_map(|part| part.rsplit('>').next());
     let grey: Vec<&str> = texts.filter(|text| note.contains(text.trim()) && text.contains(' ')).collect();
     assert!(grey.len() > 1, "{grey:?}");
@@ -76,8 +76,8 @@ fn decimation_of_a_million_samples_keeps_the_peak() {
     let mut value: Vec<f64> = time.iter().map(|t| (t * 3000.0).sin()).collect();
     // One sample in a million stands out; the axis and the curve must both show it.
     value[654_321] = 9.0;
-    let channel = Channel { time, value, ..Default::default() };
-    let svg = Figure::History(History { channels: vec![channel], ..Default::default() }).svg();
+    let channel = Channel { time: time.into(), value: value.into(), ..Default::default() };
+    let svg = Figure::History(History { channels: vec![channel], ..Default::default() }).svg().unwrap();
     assert!(svg.len() < 150_000, "{} bytes", svg.len());
     let curve = svg
         .split("<path d=\"")
@@ -95,7 +95,7 @@ fn decimation_of_a_million_samples_keeps_the_peak() {
 fn nan_gaps_break_a_curve() {
     let curve = |y: Vec<f64>| Curve { x: vec![0.0, 1.0, 2.0, 3.0, 4.0], y, ..Default::default() };
     let pieces = |y| {
-        let svg = Figure::Lines(Lines { curves: vec![curve(y)], ..Default::default() }).svg();
+        let svg = Figure::Lines(Lines { curves: vec![curve(y)], ..Default::default() }).svg().unwrap();
         let path =
             svg.split("<path d=\"").filter_map(|p| p.split('"').next()).max_by_key(|d| d.len()).unwrap();
         path.matches('M').count()
@@ -115,7 +115,7 @@ fn phase_jumps_are_not_joined() {
         hz,
         ..Default::default()
     };
-    let svg = Figure::Frf(Frf { curves: vec![curve], ..Default::default() }).svg();
+    let svg = Figure::Frf(Frf { curves: vec![curve], ..Default::default() }).svg().unwrap();
     let most =
         svg.split("<path d=\"").filter_map(|p| p.split('"').next()).map(|d| d.matches('M').count()).max();
     assert_eq!(most, Some(4));
@@ -129,9 +129,9 @@ fn heat_map_shows_a_single_cell_peak_at_its_place() {
         ((0..nx).map(f64::from).collect(), (0..ny).map(f64::from).collect());
     let mut level_db = vec![-100.0; (nx * ny) as usize];
     level_db[(750 * ny + 1500) as usize] = 0.0;
-    let panels = vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db }];
+    let panels = vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: level_db.into() }];
     let map = Spectrogram { panels, span_db: 80.0, ..Default::default() };
-    let svg = Figure::Spectrogram(map).svg();
+    let svg = Figure::Spectrogram(map).svg().unwrap();
     let picture = tiny_skia::Pixmap::decode_png(&png(&svg).unwrap()).unwrap();
     let attribute = |name: &str| -> f64 {
         let image = svg.split("<image ").nth(1).unwrap();

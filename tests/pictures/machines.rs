@@ -212,8 +212,9 @@ pub fn pictures(text: &str) -> BTreeMap<String, String> {
 
 pub fn pictures_of(machine: &Machine, results: &Results) -> BTreeMap<String, String> {
     figures::all(results, machine)
+        .unwrap()
         .into_iter()
-        .map(|(name, figure): (String, Figure)| (name, figure.svg()))
+        .map(|(name, figure): (String, Figure)| (name, figure.svg().unwrap()))
         .collect()
 }
 

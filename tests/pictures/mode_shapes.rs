@@ -116,7 +116,9 @@ fn shape(shaft: f64, u: [f64; 3], theta: [f64; 3]) -> ModeShape {
 }
 
 fn drawn(mode: ModeShape) -> String {
-    Figure::ModeShapes(ModeShapes { rotor: rotor(), modes: vec![mode], ..ModeShapes::default() }).svg()
+    Figure::ModeShapes(ModeShapes { rotor: rotor(), modes: vec![mode], ..ModeShapes::default() })
+        .svg()
+        .unwrap()
 }
 
 /// Shift of the shaft line and of the block, from the same picture without motion.

@@ -22,7 +22,7 @@ fn figure(rpm: &[f64], response: impl Fn(f64) -> Complex64) -> String {
         amplitude: values.iter().map(|v| v.norm()).collect(),
         phase_deg: values.iter().map(|v| v.arg().to_degrees()).collect(),
     };
-    Figure::Polar(Polar { unit: "µm".into(), curves: vec![curve], ..Polar::default() }).svg()
+    Figure::Polar(Polar { unit: "µm".into(), curves: vec![curve], ..Polar::default() }).svg().unwrap()
 }
 
 /// The curve in units of the response, from the page: the outermost ring is the largest circle.

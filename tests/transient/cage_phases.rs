@@ -99,7 +99,7 @@ fn run(machine: &Machine) -> (History, Report, Option<StepError>) {
     assert_eq!(report.end, End::Complete);
     let history = recorder.history;
     let orders = machine.checked_orders();
-    let error = machine.step_error(&study, &reduction, &orders, (&checkpoints, &history, &report));
+    let error = machine.step_error(&study, &reduction, &orders, (&checkpoints, &history, &report)).unwrap();
     (history, report, error)
 }
 

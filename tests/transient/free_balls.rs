@@ -33,7 +33,7 @@ fn study(machine: &Machine) -> RunUpStudy {
 }
 
 fn channel<'a>(history: &'a History, name: &str) -> &'a [f64] {
-    &history.channels.iter().find(|channel| channel.name == name).unwrap().values
+    history.channel(name).unwrap().values.in_memory().unwrap()
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -83,8 +83,9 @@ fn friction_of_free_balls_slows_a_coasting_shaft() {
     println!("residual {:.2e} of {:.3e} J", energy.residual(), energy.exchanged());
     assert!(energy.residual().abs() < 1e-3 * energy.exchanged(), "{energy:?}");
     let torque = channel(&history, "B_friction_torque");
+    let [first, last] = history.speed.ends().unwrap().unwrap();
     let impulse = 0.1 * mean(torque);
-    let slowed = machine.assembly.polar_inertia * (history.speed[0] - history.speed[history.speed.len() - 1]);
+    let slowed = machine.assembly.polar_inertia * (first - last);
     println!("friction {impulse:.4e} N m s, momentum lost {slowed:.4e} N m s");
     assert!(impulse > 1e-5 && (slowed / impulse - 1.0).abs() < 0.05, "{slowed} {impulse}");
 }
@@ -205,7 +206,7 @@ fn interval_means_do_not_alias_collisions() {
     let (history, _) = run(&machine, &study(&machine));
     let level = |name: &str, order: f64| {
         let from = history.angle.len() / 3;
-        let (angle, values) = (&history.angle[from..], &channel(&history, name)[from..]);
+        let (angle, values) = (&history.angle.in_memory().unwrap()[from..], &channel(&history, name)[from..]);
         let span = angle[angle.len() - 1] - angle[0];
         let window = |a: f64| (std::f64::consts::PI * (a - angle[0]) / span).sin().powi(2);
         let sum = |wave: fn(f64) -> f64| -> f64 {

@@ -12,6 +12,8 @@ mod impact;
 mod imperfections;
 mod measured_run_up;
 mod radial_balls;
+mod resume;
+mod resume_steady;
 mod run_up;
 mod static_and_steady;
 mod steady_motion;

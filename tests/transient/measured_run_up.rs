@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use rotordyn::io::budget::Limits;
 use rotordyn::io::external_file;
 use rotordyn::model::{Model, Options, load_with};
 use rotordyn::results::History;
@@ -80,7 +81,7 @@ const FROM: f64 = 3.5;
 
 fn machine(set: &[(&str, &str)]) -> Option<Model> {
     let file = measured("tacho_run_up/time_s.csv")?;
-    let files = [external_file::read_external_file(file.parent()?, "time_s.csv")];
+    let files = [external_file::read_external_file(file.parent()?, "time_s.csv", &Limits::default())];
     let set = set.iter().map(|(path, value)| ((*path).to_string(), (*value).to_string())).collect();
     let options = Options { set, ..Options::default() };
     let loaded = load_with("run_up.toml", MACHINE, &options, &files).unwrap_or_else(|e| panic!("{e}"));
@@ -183,7 +184,7 @@ fn angle_resampling_sharpens_the_lines() {
     };
     let history = run(model);
     let rate = history.sample_rate;
-    let rpm = [history.speed[0], *history.speed.last().unwrap()].map(|w| w * 60.0 / TAU);
+    let rpm = history.speed.ends().unwrap().unwrap().map(|w| w * 60.0 / TAU);
     println!("{:.0} to {:.0} rpm, BPFO {bpfo:.4}", rpm[0], rpm[1]);
     assert!(rpm[0] < 1500.0 && rpm[1] > 2050.0, "{rpm:?}");
     // The angle as for a measured record: from the tacho pulses, not from the simulation.
@@ -195,7 +196,7 @@ fn angle_resampling_sharpens_the_lines() {
     let mean_hz = turns * rate / (theta.len() - 1) as f64;
     // The band around BPFO excludes 3x and 4x.
     for (channel, order, reach, sharp) in [("x", 1.0, 0.4, 0.03), ("y_acceleration", bpfo, 0.1, 0.01)] {
-        let values = &history.channels.iter().find(|c| c.name == channel).unwrap().values;
+        let values = history.channel(channel).unwrap().values.in_memory().unwrap();
         let values = &values[first..first + theta.len()];
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let values: Vec<f64> = values.iter().map(|v| v - mean).collect();

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::rig::variant;
 use rotordyn::model::study::{CampbellStudy, OrderStudy, RunUpStudy, SpectrogramStudy, WindowKind};
-use rotordyn::results::History;
+use rotordyn::results::{History, SpectrogramResult};
 use rotordyn::study::{Machine, Recorder};
 use rotordyn::transient::run::{End, Report};
 
@@ -21,6 +21,12 @@ fn run(machine: &Machine, step: f64) -> (History, Report) {
     });
     assert_eq!(report.end, End::Complete);
     (recorder.history, report)
+}
+
+/// Amplitudes of a frame.
+fn row(found: &SpectrogramResult, frame: usize) -> Vec<f64> {
+    let bins = found.spectrogram.frequencies.len();
+    found.spectrogram.amplitude.read(frame * bins..(frame + 1) * bins).unwrap().into_owned()
 }
 
 fn spectrogram_study(channel: &str) -> SpectrogramStudy {
@@ -56,7 +62,7 @@ fn synchronous_ridge_energy_balance_and_step_size() {
         if hz < 6.0 {
             continue;
         }
-        let row = shown.spectrogram.row(frame);
+        let row = row(shown, frame);
         // BPFO passes through the first bending pair below 500 rpm: search 1x near its frequency only.
         let near: Vec<usize> =
             (0..row.len()).filter(|k| (shown.spectrogram.frequencies[*k] - hz).abs() < 0.3 * hz).collect();
@@ -120,7 +126,7 @@ fn second_bending_pair_follows_the_campbell_lines() {
             let k = (x as usize).min(23);
             let (a, b) = (branch.omega(k).unwrap(), branch.omega(k + 1).unwrap());
             let hz = (a + (x - k as f64) * (b - a)) / TAU;
-            let row = shown.spectrogram.row(frame);
+            let row = row(shown, frame);
             let level = |k: &usize| row[*k];
             let within = |width: f64| (0..row.len()).filter(move |k| (axis[*k] - hz).abs() <= width);
             let strongest = within(8.0).max_by(|p, q| row[*p].total_cmp(&row[*q])).expect("bins within 8 Hz");

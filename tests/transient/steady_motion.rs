@@ -17,7 +17,7 @@ use rotordyn::study::Machine;
 use rotordyn::transient::steady::run_steady;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
-const EVERY_INTEGRATOR: [Integrator; 4] = [
+pub const EVERY_INTEGRATOR: [Integrator; 4] = [
     Integrator::Newmark,
     Integrator::GeneralisedAlpha { rho_infinity: 0.8 },
     Integrator::RungeKutta4,
@@ -30,7 +30,12 @@ fn jeffcott(set: &[(&str, &str)]) -> Model {
     load("jeffcott.toml", include_str!("../../models/jeffcott.toml"), &options).unwrap().model
 }
 
-fn steady(speed: f64, clock: SectionTrigger, step: f64, [settle, periods]: [usize; 2]) -> SteadyRunSettings {
+pub fn steady(
+    speed: f64,
+    clock: SectionTrigger,
+    step: f64,
+    [settle, periods]: [usize; 2],
+) -> SteadyRunSettings {
     let integrator = Integrator::Newmark;
     SteadyRunSettings {
         speed,

@@ -19,7 +19,7 @@ pub struct Description {
     pub more: String,
 }
 
-const DOWN: &str = "9.81 m/s^2";
+pub const DOWN: &str = "9.81 m/s^2";
 /// Shaft vertical, so that gravity is axial.
 const VERTICAL: &str = "0, 0, -9.81 m/s^2";
 
@@ -65,12 +65,12 @@ impl Description {
 }
 
 /// The bearing that locates the shaft.
-fn fixed(designation: &str) -> String {
+pub fn fixed(designation: &str) -> String {
     format!("model = \"ball\"\ndesignation = \"{designation}\"\n")
 }
 
 /// The bearing whose outer ring slides, pushed by a wave spring towards the other.
-fn floating(designation: &str, thrust: &str, force: f64) -> String {
+pub fn floating(designation: &str, thrust: &str, force: f64) -> String {
     format!(
         "{}thrust = \"{thrust}\"\npreload = {{ force = \"{force} N\", spring = \"{:.0} N/m\" }}\n",
         fixed(designation),
@@ -79,7 +79,7 @@ fn floating(designation: &str, thrust: &str, force: f64) -> String {
 }
 
 /// A duplex pair back to back with light preload.
-fn pair(designation: &str, spacing: f64, preload: f64) -> String {
+pub fn pair(designation: &str, spacing: f64, preload: f64) -> String {
     format!(
         "{}arrangement = \"back_to_back\"\nrow_spacing = \"{spacing} mm\"\npreload = {{ dry_force = \"{preload} N\" }}\n",
         fixed(designation)
@@ -87,7 +87,7 @@ fn pair(designation: &str, spacing: f64, preload: f64) -> String {
 }
 
 /// A bearing given by stiffness and damping, as of a journal bearing or a measured one.
-fn linear(k: f64, c: f64, axial: bool) -> String {
+pub fn linear(k: f64, c: f64, axial: bool) -> String {
     let axial = if axial { "k_zz = \"1e7 N/m\"\n" } else { "" };
     format!(
         "model = \"linear\"\nk_xx = \"{k} N/m\"\nk_yy = \"{k} N/m\"\nc_xx = \"{c} N s/m\"\nc_yy = \"{c} N s/m\"\n{axial}"

@@ -1,10 +1,16 @@
 //! Warnings: plausible machines have none, a spoiled copy has exactly its own, and random machines have those whose
 //! criterion holds.
 
+mod copies;
+mod every_code;
 mod machines;
+mod measured_codes;
 mod plausible;
+mod program;
 mod random;
 mod spoiled;
+mod study_codes;
+mod unusual;
 
 use rotordyn::model::{self, Diagnostic, Options};
 use rotordyn::study::Machine;

@@ -2,13 +2,14 @@
 
 use crate::machines::{self, Description};
 use crate::{codes, warnings_of};
+use rotordyn::assembly::rigid_body_modes::motion_of;
 
-fn machine(name: &str) -> Description {
+pub fn machine(name: &str) -> Description {
     machines::all().into_iter().find(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))
 }
 
 /// Replaces a part of the text, which must be there.
-fn replaced(text: &str, from: &str, to: &str) -> String {
+pub fn replaced(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from} is not in\n{text}");
     text.replacen(from, to, 1)
 }
@@ -176,4 +177,28 @@ fn a_response_without_damping() {
     assert!(warnings_of(&rotor.text()).is_empty());
     let undamped = rotor.text().replace("\"2000 N s/m\"", "\"0 N s/m\"");
     only(&undamped, "undamped-peak");
+}
+
+/// Every degree of freedom at which a solution may fail stands for a motion of the shaft or of a body.
+#[test]
+fn the_motion_of_a_degree_of_freedom_has_a_name() {
+    let motor = include_str!("../../assets/init/motor.toml");
+    let model = rotordyn::model::load("motor.toml", motor, &Default::default()).unwrap().model;
+    let machine = rotordyn::study::Machine::new(model).unwrap();
+    let dofs = &machine.assembly.dofs;
+    let mut of_bodies = 0;
+    for k in 0..dofs.len() {
+        let (name, motion) = (dofs.name(k), motion_of(&machine.assembly, k));
+        let (direction, _) = name.split_once(" of ").unwrap();
+        let of_shaft = match direction {
+            "u_z" => "axial motion of the shaft",
+            "u_x" | "u_y" => "lateral motion of the shaft",
+            "θ_z" => "rotation of the shaft about z",
+            _ => "tilting of the shaft",
+        };
+        of_bodies += usize::from(motion.starts_with("body `"));
+        assert!(motion.starts_with(of_shaft) || motion.starts_with("body `"), "{name}: {motion}");
+        assert!(motion.ends_with(&format!("({direction})")), "{name}: {motion}");
+    }
+    assert_eq!(of_bodies, 12, "two housings");
 }

@@ -3,6 +3,7 @@
 //! A bearing with free bodies has states z with ż = g(z, r, ṙ, t), integrated in time with the machine by explicit steps.
 //! Its rows r are the six relative displacements, then the six displacements of a housing that moves.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt::Debug;
 
@@ -22,7 +23,7 @@ pub struct BodyChannel {
 }
 
 /// Place and motion of one free body in the axes of the bearing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyPose {
     /// Centre \[m\].
     pub position: [f64; 3],

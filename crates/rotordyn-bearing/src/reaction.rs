@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Kinematic state of a bearing at one instant: angles and speeds of cage and shaft.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Rotation {
     /// Cage angle ψ \[rad\].
     pub cage_angle: f64,
@@ -16,7 +16,7 @@ pub struct Rotation {
 }
 
 /// Bearing force on the shaft with stiffness and damping tangents, at one relative displacement and velocity.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reaction {
     /// Force and moment on the shaft f \[N, N m\]; the reaction on the housing is −f.
     pub force: [f64; 6],

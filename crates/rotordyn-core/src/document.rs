@@ -20,6 +20,7 @@
 
 mod rows;
 
+use crate::series::Series;
 use rotordyn_linalg::Complex64;
 use std::borrow::Cow;
 
@@ -67,6 +68,18 @@ pub enum Value<'a> {
         groups: Vec<(String, Document<'a>)>,
     },
     Table(Table<'a>),
+    /// In HDF5 only.
+    Stored(StoredArray),
+}
+
+/// Real values in row-major order that are read when they are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredArray {
+    pub shape: Vec<usize>,
+    pub values: Series,
+    pub unit: String,
+    /// Dimensions and the names of their axes.
+    pub axes: Vec<(usize, String)>,
 }
 
 /// Values in row-major order.
@@ -258,6 +271,11 @@ impl<'a> Document<'a> {
 
     pub fn array(self, names: impl Into<Names>, array: Array<'a>) -> Self {
         self.with(names, Value::Array(array))
+    }
+
+    /// Values that are read when they are written, in HDF5 only.
+    pub fn stored(self, hdf5: &str, array: StoredArray) -> Self {
+        self.with(in_hdf5(hdf5), Value::Stored(array))
     }
 
     pub fn group(self, names: impl Into<Names>, members: Document<'a>) -> Self {

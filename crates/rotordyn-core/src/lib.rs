@@ -3,6 +3,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`conventions`] | axes, order of DOFs, signs, symbols |
+//! | [`series`] | numbers in memory or read from where they are stored |
 //! | [`document`] | results as named quantities with units, for files and tables |
 //! | [`warning`] | restrictions of results as data with codes |
 //! | [`element`] | shaft elements, discs, bodies, bushings, joints, belts |
@@ -19,6 +20,7 @@ pub mod conventions;
 pub mod document;
 pub mod element;
 pub mod model;
+pub mod series;
 
 pub mod geometry;
 

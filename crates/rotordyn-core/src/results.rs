@@ -14,6 +14,7 @@ mod motion;
 mod order_line;
 mod poincare;
 mod response_grid;
+mod run_summary;
 mod run_up;
 mod run_up_correlation;
 mod signal;
@@ -39,14 +40,15 @@ pub use motion::{BearingMotion, BodyMotion, Motion};
 pub use order_line::OrderLine;
 pub use poincare::{PlaneSection, PoincareResult, Whirl};
 pub use response_grid::{UndampedPeak, is_rotation, unit_of};
+pub use run_summary::{ChannelSummary, RunSummary};
 pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, RunUpResult, StepError, StepErrorLine};
 pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
 pub use signal::{
     BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,
     ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramWithSpeed,
 };
-pub use spectra::{OrderResult, SpectrogramResult};
-pub use steady::{SectionChannel, SectionClock};
+pub use spectra::{OrderResult, SpectrogramPeak, SpectrogramResult};
+pub use steady::{RecordedPeriods, SectionChannel, SectionClock};
 pub use unbalance::{DiscOrbit, ResponsePeak, UnbalanceChannel, UnbalanceResult};
 pub use variant_comparison::{PairedMode, PairedModes, UnpairedVariant, VariantComparison, VariantMode};
 

@@ -16,11 +16,12 @@ mod cells;
 mod columns;
 
 use crate::error::Error;
+use crate::whole_file;
 use cells::{Within, all_values, array_cells, is_axis, title, values};
 pub use columns::TextTable;
 use columns::{Columns, Tables, joined};
 use rotordyn_core::document::{Array, Count, Data, Document, Field, Section, Table, Value};
-use rotordyn_units::names::file_name;
+use rotordyn_units::names::file_names;
 use std::path::{Path, PathBuf};
 
 /// All tables of the sections that have rows.
@@ -40,19 +41,23 @@ pub fn tables(sections: &[Section]) -> Vec<TextTable> {
     out.finished()
 }
 
+/// Names of the CSV files of tables, none twice.
+pub fn csv_names(tables: &[TextTable]) -> Vec<String> {
+    let stems = file_names(tables.iter().map(|table| table.name.as_str()));
+    stems.into_iter().map(|stem| format!("{stem}.csv")).collect()
+}
+
 /// Writes every table of the sections as `NAME.csv`; returns the files.
 ///
 /// # Errors
-/// A file cannot be written, or two tables have the same file name.
+/// A file cannot be written.
 pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Error> {
     std::fs::create_dir_all(folder).map_err(Error::of_file("create folder", folder))?;
     let mut files = Vec::new();
-    for table in tables(sections) {
-        let path = folder.join(format!("{}.csv", file_name(&table.name)));
-        if files.contains(&path) {
-            return Err(Error::of_file("write", &path)("two tables have this name"));
-        }
-        std::fs::write(&path, table.csv()).map_err(Error::of_file("write", &path))?;
+    let tables = tables(sections);
+    for (table, name) in tables.iter().zip(csv_names(&tables)) {
+        let path = folder.join(name);
+        whole_file::write_derived(&path, table.csv().as_bytes()).map_err(Error::of_file("write", &path))?;
         files.push(path);
     }
     Ok(files)

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 pub use rotordyn_core::assembly::PhysicsError;
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::StudyError;
 use rotordyn_signal::SignalError;
 use rotordyn_signal::record::RecordError;
@@ -34,6 +35,17 @@ pub enum Error {
     Environment { operation: &'static str, path: PathBuf, source: Box<dyn std::error::Error + Send + Sync> },
 }
 
+/// Longest piece of a file in a message [characters].
+const SNIPPET: usize = 60;
+
+/// The beginning of a text from a file, for a message.
+pub(crate) fn snippet(text: &str) -> String {
+    match text.char_indices().nth(SNIPPET) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text.into(),
+    }
+}
+
 impl Error {
     /// The failure of an operation on a file or folder, for `map_err`.
     pub fn of_file<E>(operation: &'static str, path: &Path) -> impl Fn(E) -> Self
@@ -53,11 +65,18 @@ impl From<RecordError> for Error {
     }
 }
 
+impl From<SeriesError> for Error {
+    fn from(SeriesError { place, reason }: SeriesError) -> Self {
+        Self::Environment { operation: "read", path: place.into(), source: reason.into() }
+    }
+}
+
 impl From<StudyError> for Error {
     fn from(error: StudyError) -> Self {
         match error {
             StudyError::Physics(error) => Self::Physics(error),
             StudyError::Signal(error) => Self::Signal(error),
+            StudyError::Samples(error) => error.into(),
         }
     }
 }

@@ -13,7 +13,7 @@ use rotordyn_core::geometry::scene_graph::Scene;
 use rotordyn_core::model::Model;
 use rotordyn_core::results::Motion;
 use rotordyn_core::study::{Machine, Results};
-use rotordyn_units::names::file_name;
+use rotordyn_units::names::file_names;
 
 /// Ratio of the largest displacement of an exported mode shape to the length of the shaft.
 const MODE_SHAPE_SIZE: f64 = 0.1;
@@ -26,10 +26,11 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
     create_folder(folder)?;
     let mut files = vec![folder.join("machine.glb")];
     gltf::write(&files[0], &Scene::of_machine(&machine.model))?;
-    for site in &machine.model.bearings {
+    let stems = file_names(machine.model.bearings.iter().map(|site| site.name.as_str()));
+    for (site, stem) in machine.model.bearings.iter().zip(stems) {
         if let Some(ball) = site.bearing.ball() {
             let scene = Scene::of_ball_bearing(&site.name, ball);
-            let file = folder.join(file_name(&format!("bearing_{}.glb", site.name)));
+            let file = folder.join(format!("bearing_{stem}.glb"));
             gltf::write(&file, &scene)?;
             files.push(file);
         }

@@ -3,12 +3,13 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::{Deserialize, Serialize};
 
+use crate::budget::{self, Limits};
 use crate::csv::{self, Column};
 use crate::error::{Error, PhysicsError};
+use crate::whole_file;
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::contact::ehl::{EhlError, Films, Solution, SolvedContacts, Table, TableSpec};
@@ -110,9 +111,22 @@ fn cache_file(folder: &Path, kind: &str, key: &str) -> PathBuf {
 
 /// Reads the table of a key from the cache; `None` if missing or damaged.
 fn read(folder: &Path, key: &str) -> Option<Table> {
-    let text = std::fs::read(cache_file(folder, "film", key)).ok()?;
+    let (text, _) = budget::read_file(&cache_file(folder, "film", key), &Limits::default()).ok()?;
     let table: Table = serde_json::from_slice(&text).ok()?;
-    (table.key == key).then_some(table)
+    (table.key == key && is_complete(&table)).then_some(table)
+}
+
+/// Whether every array has a value for each load and speed.
+fn is_complete(table: &Table) -> bool {
+    let full = |rows: &[Vec<f64>]| {
+        rows.len() == table.speeds.len() && rows.iter().all(|row| row.len() == table.loads.len())
+    };
+    let arrays = [&table.shift, &table.central_film, &table.minimum_film];
+    let numbers = || arrays.into_iter().flatten().flatten().chain(&table.loads).chain(&table.speeds);
+    !table.loads.is_empty()
+        && !table.speeds.is_empty()
+        && arrays.into_iter().all(|rows| full(rows))
+        && numbers().all(|value| value.is_finite())
 }
 
 /// Whether the table could be written.
@@ -120,19 +134,12 @@ fn write(folder: &Path, table: &Table) -> bool {
     write_whole(folder, &cache_file(folder, "film", &table.key), table)
 }
 
-/// Writes a temporary file and renames it (atomic), so that no reader sees an incomplete file; whether it was written.
+/// Writes a file as a whole, so that no reader sees an incomplete one; whether it was written.
 fn write_whole(folder: &Path, path: &Path, content: &impl serde::Serialize) -> bool {
-    static NUMBER: AtomicUsize = AtomicUsize::new(0);
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let temporary = path.with_extension(format!("{}-{number}.tmp", std::process::id()));
-    let written = std::fs::create_dir_all(folder)
+    std::fs::create_dir_all(folder)
         .and_then(|()| serde_json::to_vec(content).map_err(std::io::Error::other))
-        .and_then(|text| std::fs::write(&temporary, text))
-        .and_then(|()| std::fs::rename(&temporary, path));
-    if written.is_err() {
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.is_ok()
+        .and_then(|text| whole_file::write_derived(path, &text))
+        .is_ok()
 }
 
 /// Solved contacts of unfinished tables: one small file each.
@@ -146,7 +153,7 @@ struct SolvedContact {
 
 impl SolvedContacts for ContactFolder<'_> {
     fn find(&self, key: &str) -> Option<Films> {
-        let text = std::fs::read(cache_file(self.0, "contact", key)).ok()?;
+        let (text, _) = budget::read_file(&cache_file(self.0, "contact", key), &Limits::default()).ok()?;
         let contact: SolvedContact = serde_json::from_slice(&text).ok()?;
         (contact.key == key).then_some(contact.films)
     }
@@ -163,6 +170,7 @@ mod tests {
     use rotordyn_bearing::contact::ehl::{self, Domain, Grid, Problem};
     use rotordyn_bearing::contact::{EllipticContact, Lubricant};
     use rotordyn_bearing::material::Material;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn steel() -> Material {
         Material { name: "steel".into(), young: 2.06e11, shear: 8e10, poisson: 0.3, density: 7850.0 }
@@ -219,6 +227,10 @@ mod tests {
         let renamed = cache_file(folder.path(), "film", "another");
         std::fs::rename(cache_file(folder.path(), "film", &table.key), &renamed).unwrap();
         assert_eq!(read(folder.path(), "another"), None);
+        // Of the right key, but cut short by hand.
+        let ragged = Table { minimum_film: vec![vec![2.0e-7]], ..table };
+        assert!(write(folder.path(), &ragged));
+        assert_eq!(read(folder.path(), &ragged.key), None);
     }
 
     /// A table that stops after some contacts finds them again: only the others are solved.

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::animated_scene::AnimatedScene;
 use crate::error::Error;
+use crate::whole_file;
 use rotordyn_core::geometry::scene_graph::{Material, Node, Scene};
 
 const FLOAT: u32 = 5126;
@@ -51,7 +52,8 @@ pub fn to_animated_glb(animated: &AnimatedScene, slow_motion: f64) -> Vec<u8> {
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write_animated(path: &Path, animated: &AnimatedScene, slow_motion: f64) -> Result<(), Error> {
-    std::fs::write(path, to_animated_glb(animated, slow_motion)).map_err(Error::of_file("write", path))
+    whole_file::write_derived(path, &to_animated_glb(animated, slow_motion))
+        .map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a .glb file; `animations` appends what they need to the buffer.
@@ -109,7 +111,7 @@ fn glb(scene: &Scene, animations: impl FnOnce(&mut Buffer) -> Option<Value>) -> 
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write(path: &Path, scene: &Scene) -> Result<(), Error> {
-    std::fs::write(path, to_glb(scene)).map_err(Error::of_file("write", path))
+    whole_file::write_derived(path, &to_glb(scene)).map_err(Error::of_file("write", path))
 }
 
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {

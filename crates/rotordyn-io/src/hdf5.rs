@@ -5,17 +5,37 @@
 //! missing parent groups are created.
 
 mod attribute;
+mod child;
+mod handle;
+mod new_store;
+mod protocol;
+mod reader;
+mod recording;
+mod sample_sets;
 mod scale;
+mod serve;
 mod stream;
 
 pub use attribute::Attribute;
-pub use stream::{Channel, ChannelStream, Recording, read_recording};
+pub use child::{READER_ARGUMENT, open_reader};
+pub use reader::{Link, LinkTarget, Links, OpenFile, Reader};
+pub use recording::{
+    COMPLETE, Channel, RUNNING, Recording, channel_names, read_channel, read_recording, read_time,
+    recorded_samples, run_state,
+};
+pub(crate) use recording::{channel_path, describe_channel, sampling, time_path};
+pub use sample_sets::{RunFormat, copy_run, preallocate_run};
+pub use serve::{Stage, serve};
+pub use stream::ChannelStream;
 
 use crate::error::Error;
+use crate::whole_file::NewFile;
+use handle::Handle;
 use hdf5::file::LibraryVersion;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, File, Group, H5Type, OpenMode};
 use nalgebra::Complex;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Most values per chunk (256 kB of f64).
@@ -28,12 +48,14 @@ const DEFLATE_LEVEL: u8 = 1;
 /// An open HDF5 file.
 #[derive(Debug)]
 pub struct Store {
-    file: File,
+    file: Handle,
     path: PathBuf,
+    /// The temporary file of a store that replaces `path` when it is committed.
+    new: Option<NewFile>,
 }
 
 /// Kind of object that a name in a file refers to.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ObjectKind {
     Group,
     /// Numbers, read as f64, with their shape.
@@ -61,7 +83,7 @@ struct ComplexPair {
 }
 
 impl Store {
-    /// Creates a file and its parent folders; an existing file is replaced.
+    /// Creates a file and its parent folders; an existing file is overwritten in place, see [`replace`](Self::replace).
     pub fn create(path: impl AsRef<Path>) -> Result<Store, Error> {
         let path = path.as_ref();
         if let Some(folder) = path.parent() {
@@ -92,7 +114,7 @@ impl Store {
         });
         options.with_fcpl(|create| create.obj_track_times(false));
         let file = options.open_as(path, mode).map_err(Error::of_file(operation, path))?;
-        Ok(Store { file, path: path.into() })
+        Ok(Store { file: Handle::new(file), path: path.into(), new: None })
     }
 
     /// The file's path.
@@ -102,7 +124,7 @@ impl Store {
 
     /// Flushes all written data to the operating system.
     pub fn flush(&self) -> Result<(), Error> {
-        self.file.flush().map_err(Error::of_file("write", &self.path))
+        self.file.settle(Vec::new(), Ok(())).map_err(Error::of_file("write", &self.path))
     }
 
     /// Whether there is a group or data set of this name.
@@ -229,8 +251,8 @@ impl Store {
     /// Reads an attribute of a data set or group; `None` if missing.
     pub fn attribute(&self, object: &str, name: &str) -> Result<Option<Attribute>, Error> {
         let read = match self.file.dataset(object) {
-            Ok(dataset) => attribute::get(&dataset, name),
-            Err(_) => self.file.group(object).and_then(|group| attribute::get(&group, name)),
+            Ok(dataset) => attribute::get(&dataset, name, u64::MAX),
+            Err(_) => self.file.group(object).and_then(|group| attribute::get(&group, name, u64::MAX)),
         };
         self.map_read_error(object, read)
     }
@@ -278,8 +300,9 @@ impl Store {
             builder = builder.chunk(chunk(shape)).shuffle().deflate(DEFLATE_LEVEL);
         }
         let dataset = builder.shape(shape).create(name)?;
-        dataset.write_raw(data)?;
-        attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))
+        let set = |(name, value): &(&str, Attribute)| attribute::set(&dataset, name, value);
+        let written = dataset.write_raw(data).and_then(|()| attributes.iter().try_for_each(set));
+        self.file.settle(vec![dataset], written)
     }
 
     fn read_as<T: H5Type>(&self, name: &str) -> Result<Array<T>, Error> {
@@ -291,7 +314,10 @@ impl Store {
     }
 
     fn map_write_error<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {
-        result.map_err(|e| Error::of_file("write", &self.path)(format!("{object}: {e}")))
+        result.map_err(|e| {
+            self.file.keep_open();
+            Error::of_file("write", &self.path)(format!("{object}: {e}"))
+        })
     }
 
     fn map_read_error<T>(&self, object: &str, result: hdf5::Result<T>) -> Result<T, Error> {

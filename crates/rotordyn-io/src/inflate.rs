@@ -1,15 +1,41 @@
-//! Decompression (inflate) of the zlib streams in .mat files.
+//! Decompression (inflate) of the zlib streams in .mat files, and checksums of archives.
 //!
 //! The only module that uses the flate2 crate.
 
-use flate2::read::ZlibDecoder;
 use std::io::Read;
 
-/// Inflates a zlib stream.
+use flate2::Crc;
+use flate2::read::ZlibDecoder;
+
+/// The first `count` bytes of a zlib stream.
 ///
 /// # Errors
-/// The bytes are damaged or cut off.
-pub fn zlib(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut out = Vec::new();
-    ZlibDecoder::new(bytes).read_to_end(&mut out).map(|_| out)
+/// The bytes are damaged or cut off, or contain less.
+pub fn zlib_start(bytes: &[u8], count: usize) -> std::io::Result<Vec<u8>> {
+    let mut out = vec![0; count];
+    ZlibDecoder::new(bytes).read_exact(&mut out).map(|()| out)
+}
+
+/// Bytes behind the data of a stream that are taken for padding.
+const PADDING: usize = 8;
+
+/// Inflates a zlib stream of `size` bytes into `out`, which has room for them, and verifies its checksum.
+///
+/// # Errors
+/// The bytes are damaged or cut off, or contain less than `size`, or more than that and some padding.
+pub fn zlib(bytes: &[u8], size: usize, out: &mut Vec<u8>) -> std::io::Result<()> {
+    // The decoder verifies the checksum at the end, which must be reached.
+    let found = ZlibDecoder::new(bytes).take((size + PADDING) as u64 + 1).read_to_end(out)?;
+    if !(size..=size + PADDING).contains(&found) {
+        return Err(std::io::Error::other("its size is not the stated one"));
+    }
+    out.truncate(size);
+    Ok(())
+}
+
+/// CRC-32 of bytes, as in ZIP archives.
+pub fn crc32(bytes: &[u8]) -> u32 {
+    let mut crc = Crc::new();
+    crc.update(bytes);
+    crc.sum()
 }

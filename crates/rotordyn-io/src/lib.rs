@@ -3,6 +3,8 @@
 pub mod error;
 
 pub mod animated_scene;
+pub mod budget;
+pub mod checkpoint_file;
 pub mod csv;
 pub mod document_tables;
 pub mod export_3d;
@@ -22,9 +24,12 @@ pub mod npy;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
 pub mod run_export;
+pub mod run_identity;
 pub mod saved_results;
+pub mod spill;
 pub mod uff;
 pub mod vtk;
 mod vtk_machine;
 mod vtk_motion;
 pub mod wav;
+pub mod whole_file;

@@ -10,6 +10,7 @@ use crate::measured::mapping::direction;
 use rotordyn_core::element::Anchor;
 use rotordyn_core::model::Model;
 use rotordyn_core::results::{FrfResult, History, ModalResult};
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
 use rotordyn_signal::record::{
     Analysis, Axis, AxisQuantity, Dof, Geometry, Kind, MeasuredData, MeasurementNoise, Node, Points,
@@ -17,25 +18,27 @@ use rotordyn_signal::record::{
 };
 use rotordyn_update::target::node_position;
 
-/// Channels of a run, at their points, with the shaft's angle and speed \[rpm\].
-pub fn run_records(history: &History, model: &Model) -> MeasuredData {
-    let start = history.time.first().copied().unwrap_or(0.0);
+/// Channels of a run, at their points, with the shaft's angle and speed \[rpm\], all in memory.
+///
+/// # Errors
+/// Stored samples that cannot be read.
+pub fn run_records(history: &History, model: &Model) -> Result<MeasuredData, SeriesError> {
+    let start = history.time.at(0)?.unwrap_or(0.0);
     let axis = Axis::uniform(AxisQuantity::Time, start, 1.0 / history.sample_rate);
     let record = |name: &str, unit: &str, values: Vec<f64>| {
         Record::new(name, Kind::Time, axis.clone(), Values::Real(values), unit)
     };
-    let channel = |c: &rotordyn_core::results::HistoryChannel| Record {
-        response: Dof::new(
-            point_number(model, &c.station).unwrap_or(0),
-            direction(&c.direction).unwrap_or(0),
-        ),
-        ..record(&c.name, &c.unit, c.values.clone())
+    let channel = |c: &rotordyn_core::results::HistoryChannel| -> Result<Record, SeriesError> {
+        let response =
+            Dof::new(point_number(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0));
+        Ok(Record { response, ..record(&c.name, &c.unit, c.values.all()?.into_owned()) })
     };
-    let mut records: Vec<Record> = history.channels.iter().map(channel).collect();
-    records.push(record("shaft_angle", "rad", history.angle.clone()));
-    let rpm = history.speed.iter().map(|speed| speed * 60.0 / TAU).collect();
+    let mut records = history.channels.iter().map(channel).collect::<Result<Vec<Record>, _>>()?;
+    records.push(record("shaft_angle", "rad", history.angle.all()?.into_owned()));
+    let rpm = history.speed.all()?.iter().map(|speed| speed * 60.0 / TAU).collect();
     records.push(record("shaft_speed", "rpm", rpm));
-    MeasuredData { title: model.title.clone(), records, geometry: geometry(model), ..MeasuredData::default() }
+    let title = model.title.clone();
+    Ok(MeasuredData { title, records, geometry: geometry(model), ..MeasuredData::default() })
 }
 
 /// Point number of a station, bearing or body; the prefixes of `housing.A`, `body.block`, `disc.main` and

@@ -9,7 +9,9 @@ use std::path::Path;
 
 use super::inflate;
 use super::measured::arrays::{Array, Data};
+use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
 use crate::error::Error;
+use crate::whole_file;
 use rotordyn_signal::Complex;
 
 /// Data types of elements.
@@ -28,8 +30,24 @@ const HEADER: usize = 128;
 /// Longest variable name in MATLAB (`namelengthmax`).
 pub const MAX_NAME_LENGTH: usize = 63;
 
-/// Message on an error in a file.
-type Message = &'static str;
+/// Why a file cannot be used.
+#[derive(Debug)]
+enum Fault {
+    Damage(&'static str),
+    Budget(Exceeded),
+}
+
+impl From<&'static str> for Fault {
+    fn from(problem: &'static str) -> Self {
+        Self::Damage(problem)
+    }
+}
+
+impl From<Exceeded> for Fault {
+    fn from(exceeded: Exceeded) -> Self {
+        Self::Budget(exceeded)
+    }
+}
 
 /// Whether a file starts with the header of a v5 .mat file.
 pub fn is_mat(head: &[u8]) -> bool {
@@ -39,39 +57,63 @@ pub fn is_mat(head: &[u8]) -> bool {
 /// Reads every numeric and text array of a file; the second list has the names of skipped arrays.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, or is not a v5 .mat file.
-pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
-    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
-    parse(&bytes).map_err(|problem| Error::Content {
-        path: path.into(),
-        problem: problem.into(),
-        advice: "copy the file again, or save it with `save -v7`".into(),
-    })
+/// The file cannot be read, is cut off, is not a v5 .mat file, or exceeds its budget.
+pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Budget), Error> {
+    let (bytes, budget) = budget::read_file(path, limits)?;
+    match parse(&bytes, &budget) {
+        Ok((arrays, left_out)) => Ok((arrays, left_out, budget)),
+        Err(Fault::Budget(exceeded)) => Err(exceeded.of_file(path)),
+        Err(Fault::Damage(problem)) => Err(Error::Content {
+            path: path.into(),
+            problem: problem.into(),
+            advice: "copy the file again, or save it with `save -v7`".into(),
+        }),
+    }
 }
 
-fn parse(bytes: &[u8]) -> Result<(Vec<Array>, Vec<String>), Message> {
+const CUT_OFF: &str = "the file is cut off";
+const DAMAGED_ARRAY: &str = "a compressed array is damaged or cut off";
+const DAMAGED_SIZE: &str = "an array's size is damaged";
+
+fn parse(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), Fault> {
     if !is_mat(bytes) {
-        return Err("it is not a MATLAB v5 file");
+        return Err("it is not a MATLAB v5 file".into());
     }
     let little = bytes[126] == b'I';
     let (mut arrays, mut left_out) = (Vec::new(), Vec::new());
     let mut file = Reader { rest: &bytes[HEADER..], little };
     while !file.rest.is_empty() {
         let (kind, data) = file.element()?;
-        let inflated: Cow<[u8]> = match kind {
-            COMPRESSED => inflate::zlib(data).map_err(|_| "a compressed array is damaged or cut off")?.into(),
+        let element: Cow<[u8]> = match kind {
+            COMPRESSED => inflated(data, little, budget)?.into(),
             MATRIX => data.into(),
             _ => continue,
         };
-        // A compressed element contains a complete element with its tag.
-        let mut inner = Reader { rest: &inflated, little };
-        let body = if kind == COMPRESSED { inner.element()?.1 } else { &inflated };
-        match matrix(Reader { rest: body, little })? {
+        budget.objects("arrays", 1)?;
+        match matrix(Reader { rest: &element, little }, budget)? {
             Ok(array) => arrays.push(array),
             Err(name) => left_out.push(name),
         }
+        if let Cow::Owned(inflated) = element {
+            budget.give_back(inflated.len());
+        }
     }
     Ok((arrays, left_out))
+}
+
+/// The data of the one element within a compressed one. Its own tag states its size, which is held against the budget
+/// before anything is inflated.
+fn inflated(data: &[u8], little: bool, budget: &Budget) -> Result<Vec<u8>, Fault> {
+    let tag = inflate::zlib_start(data, 8).map_err(|_| DAMAGED_ARRAY)?;
+    let reader = Reader { rest: &[], little };
+    if reader.u32(&tag[..4]) != MATRIX {
+        return Err("a compressed element contains no array".into());
+    }
+    let size = reader.u32(&tag[4..]) as usize;
+    let mut out = budget.list(|| "a compressed array".into(), size + 8)?;
+    inflate::zlib(data, size + 8, &mut out).map_err(|_| DAMAGED_ARRAY)?;
+    out.drain(..8);
+    Ok(out)
 }
 
 /// Reads data elements in sequence.
@@ -79,8 +121,6 @@ struct Reader<'a> {
     rest: &'a [u8],
     little: bool,
 }
-
-const CUT_OFF: Message = "the file is cut off";
 
 impl<'a> Reader<'a> {
     fn number<const N: usize>(&self, bytes: &[u8]) -> [u8; N] {
@@ -92,7 +132,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Type and data of the next element; data of up to four bytes are stored within its tag.
-    fn element(&mut self) -> Result<(u32, &'a [u8]), Message> {
+    fn element(&mut self) -> Result<(u32, &'a [u8]), Fault> {
         let (tag, rest) = self.rest.split_at_checked(8).ok_or(CUT_OFF)?;
         let first = self.u32(&tag[..4]);
         let small = (first >> 16) as usize;
@@ -108,17 +148,25 @@ impl<'a> Reader<'a> {
     }
 
     /// Numbers of an element of any numeric type.
-    fn numbers(&mut self) -> Result<Vec<f64>, Message> {
+    fn numbers(&mut self, budget: &Budget) -> Result<Vec<f64>, Fault> {
         let (kind, data) = self.element()?;
+        let size = match kind {
+            1 | 2 | 16 => 1,
+            3 | 4 | 17 => 2,
+            5 | 6 | 7 | 18 => 4,
+            9 | 12 | 13 => 8,
+            _ => return Err("an array's data is of an unknown type".into()),
+        };
+        let mut values = budget.list(|| "an array".into(), data.len() / size)?;
         macro_rules! read {
             ($type:ty) => {{
                 const SIZE: usize = size_of::<$type>();
-                data.chunks_exact(SIZE).map(|b| <$type>::from_le_bytes(self.number(b)) as f64).collect()
+                let numbers = data.chunks_exact(SIZE).map(|b| <$type>::from_le_bytes(self.number(b)) as f64);
+                values.extend(numbers)
             }};
         }
-        Ok(match kind {
+        match kind {
             1 => read!(i8),
-            2 | 16 => read!(u8),
             3 => read!(i16),
             4 | 17 => read!(u16),
             5 => read!(i32),
@@ -127,62 +175,82 @@ impl<'a> Reader<'a> {
             9 => read!(f64),
             12 => read!(i64),
             13 => read!(u64),
-            _ => return Err("an array's data is of an unknown type"),
-        })
+            _ => read!(u8),
+        }
+        Ok(values)
     }
 }
 
+/// Sizes of an array's dimensions.
+fn dimensions(body: &mut Reader, budget: &Budget) -> Result<Vec<usize>, Fault> {
+    let sizes = body.numbers(budget)?;
+    if sizes.len() > MAX_DIMENSIONS || sizes.iter().any(|n| *n < 0.0) {
+        return Err(DAMAGED_SIZE.into());
+    }
+    Ok(sizes.iter().map(|&n| n as usize).collect())
+}
+
 /// Reads one array, or the name of one that is neither numeric nor text.
-fn matrix(mut body: Reader) -> Result<Result<Array, String>, Message> {
+fn matrix(mut body: Reader, budget: &Budget) -> Result<Result<Array, String>, Fault> {
     let flags = body.element()?.1;
     let flags = body.u32(flags.get(..4).ok_or(CUT_OFF)?);
     let class = (flags & 0xff) as u8;
-    let shape: Vec<usize> = body.numbers()?.iter().map(|&n| n as usize).collect();
+    let shape = dimensions(&mut body, budget)?;
     let name = String::from_utf8_lossy(body.element()?.1).into_owned();
-    let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
-    let count = count.ok_or("an array's size is damaged")?;
+    let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(DAMAGED_SIZE)?;
     if class == CHAR_CLASS {
-        let codes = if count == 0 { Vec::new() } else { text_codes(&mut body, count)? };
-        let rows = shape.first().copied().filter(|_| count > 0).unwrap_or(0);
-        let row = |k: usize| -> String {
-            let letters = codes.iter().skip(k).step_by(rows.max(1));
-            let text: String = letters.map(|&c| char::from_u32(c).unwrap_or('?')).collect();
-            // Rows are padded with blanks or zeros.
-            text.trim_matches(|c: char| c == '\0' || c.is_whitespace()).to_owned()
-        };
-        let texts: Vec<String> = (0..rows).map(row).collect();
-        return Ok(Ok(Array { name, shape: vec![rows], data: Data::Text(texts) }));
+        let texts = if count == 0 { Vec::new() } else { texts(&mut body, &shape, count, budget)? };
+        return Ok(Ok(Array { name, shape: vec![texts.len()], data: Data::Text(texts) }));
     }
     if !NUMERIC.contains(&class) {
         return Ok(Err(name));
     }
-    let re = body.numbers()?;
+    let fewer = "an array has fewer values than its size states";
+    let re = body.numbers(budget)?;
+    if re.len() != count {
+        return Err(fewer.into());
+    }
     let data = if flags & COMPLEX_FLAG == 0 {
         Data::Real(to_row_major(&re, &shape))
     } else {
-        let im = body.numbers()?;
+        let im = body.numbers(budget)?;
+        if im.len() != count {
+            return Err(fewer.into());
+        }
         let values: Vec<_> = re.iter().zip(&im).map(|(&re, &im)| Complex::new(re, im)).collect();
         Data::Complex(to_row_major(&values, &shape))
     };
-    if data.len() != count {
-        return Err("an array has fewer values than its size states");
-    }
     Ok(Ok(Array { name, shape, data }))
 }
 
+/// The rows of a text, of which at least one letter is there.
+fn texts(body: &mut Reader, shape: &[usize], count: usize, budget: &Budget) -> Result<Vec<String>, Fault> {
+    let codes = text_codes(body, budget)?;
+    let rows = shape.first().copied().unwrap_or(0);
+    // In UTF-8 a letter beyond 16 bits is one code for two letters.
+    if codes.len() < rows || codes.len() < count / 2 {
+        return Err("a text has fewer characters than its size states".into());
+    }
+    budget.objects("rows of a text", rows)?;
+    let row = |k: usize| -> String {
+        let letters = codes.iter().skip(k).step_by(rows);
+        let text: String = letters.map(|&c| char::from_u32(c).unwrap_or('?')).collect();
+        // Rows are padded with blanks or zeros.
+        text.trim_matches(|c: char| c == '\0' || c.is_whitespace()).to_owned()
+    };
+    Ok((0..rows).map(row).collect())
+}
+
 /// Character codes of a text; UTF-8 has several bytes per character.
-fn text_codes(body: &mut Reader, count: usize) -> Result<Vec<u32>, Message> {
+fn text_codes(body: &mut Reader, budget: &Budget) -> Result<Vec<u32>, Fault> {
     let before = body.rest;
     let (kind, data) = body.element()?;
     if kind == 16 {
+        budget.take_values::<[u32; 2]>(|| "a text".into(), data.len())?;
         return Ok(String::from_utf8_lossy(data).chars().map(u32::from).collect());
     }
     body.rest = before;
-    let codes = body.numbers()?;
-    if codes.len() < count {
-        return Err("a text has fewer characters than its size states");
-    }
-    Ok(codes.iter().map(|&c| c as u32).collect())
+    Ok(body.numbers(budget)?.iter().map(|&c| c as u32).collect())
 }
 
 /// Column-major values (first index fastest) reordered to row-major (last index fastest).
@@ -225,7 +293,7 @@ pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
         problem: format!("`{name}` is too large for a v5 .mat file"),
         advice: "write .npz or HDF5 instead".into(),
     })?;
-    std::fs::write(path, bytes).map_err(Error::of_file("write", path))
+    whole_file::write(path, &bytes).map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a file; error: the name of an array that is too large.

@@ -4,7 +4,7 @@
 //! numpy.lib.format, versions 1.0 to 3.0. The crate npyz would do, but for its parser of headers (pest) and its zip 0.6,
 //! which need a C compiler.
 
-use std::io::{BufWriter, Cursor, Read, Seek, Write};
+use std::io::{Cursor, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
 use zip::result::{ZipError, ZipResult};
@@ -12,7 +12,10 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::measured::arrays::{Array, Data};
+use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
 use crate::error::Error;
+use crate::inflate::crc32;
+use crate::whole_file;
 use rotordyn_signal::Complex;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -31,53 +34,68 @@ pub fn is_npz(head: &[u8]) -> bool {
 /// names of skipped members.
 ///
 /// # Errors
-/// The file cannot be read, is damaged or cut off.
-pub fn read(path: &Path) -> Result<(Vec<Array>, Vec<String>), Error> {
-    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
-    let content = |problem: String| Error::Content {
-        path: path.into(),
-        problem,
-        advice: "copy the file again, or save plain arrays with numpy.savez".into(),
+/// The file cannot be read, is damaged or cut off, fails a checksum, or exceeds its budget.
+pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Budget), Error> {
+    let (bytes, budget) = budget::read_file(path, limits)?;
+    let content = |fault: Fault| match fault {
+        Fault::Budget(exceeded) => exceeded.of_file(path),
+        Fault::Damage(problem) => Error::Content {
+            path: path.into(),
+            problem,
+            advice: "copy the file again, or save plain arrays with numpy.savez".into(),
+        },
     };
     if is_npy(&bytes) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let array = array(&name, &bytes).map_err(|p| content(p.into()))?;
-        return Ok(array.map_or_else(|| (Vec::new(), vec![name]), |array| (vec![array], Vec::new())));
+        let found = array(&name, &bytes, &budget).map_err(content)?;
+        let left_out = if found.is_none() { vec![name] } else { Vec::new() };
+        return Ok((found.into_iter().collect(), left_out, budget));
     }
-    let (mut arrays, mut left_out) = (Vec::new(), Vec::new());
-    for (name, data) in members(&bytes).map_err(|p| content(p.into()))? {
-        let Some(name) = name.strip_suffix(".npy") else {
-            left_out.push(name);
-            continue;
-        };
-        match array(name, &data).map_err(|p| content(format!("`{name}`: {p}")))? {
-            Some(array) => arrays.push(array),
-            None => left_out.push(name.to_owned()),
-        }
-    }
-    Ok((arrays, left_out))
+    let (arrays, left_out) = archive(&bytes, &budget).map_err(content)?;
+    Ok((arrays, left_out, budget))
 }
 
-/// Message on an error in a file.
-type Message = &'static str;
+/// Why a file cannot be used.
+enum Fault {
+    Damage(String),
+    Budget(Exceeded),
+}
 
-const CUT_OFF: Message = "the file is cut off";
-const DAMAGED: Message = "the archive is damaged";
+impl From<&str> for Fault {
+    fn from(problem: &str) -> Self {
+        Self::Damage(problem.into())
+    }
+}
 
-fn u16_at(bytes: &[u8], at: usize) -> Result<usize, Message> {
+impl From<Exceeded> for Fault {
+    fn from(exceeded: Exceeded) -> Self {
+        Self::Budget(exceeded)
+    }
+}
+
+const CUT_OFF: &str = "the file is cut off";
+const DAMAGED: &str = "the archive is damaged";
+const DAMAGED_HEADER: &str = "its header is damaged";
+
+fn u16_at(bytes: &[u8], at: usize) -> Result<usize, Fault> {
     let b = bytes.get(at..at + 2).ok_or(CUT_OFF)?;
     Ok(usize::from(b[0]) | usize::from(b[1]) << 8)
 }
 
-fn u32_at(bytes: &[u8], at: usize) -> Result<usize, Message> {
+fn u32_at(bytes: &[u8], at: usize) -> Result<usize, Fault> {
     Ok(u16_at(bytes, at)? | u16_at(bytes, at + 2)? << 16)
 }
 
-/// Files of a ZIP archive.
-fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Message> {
+/// Arrays of a ZIP archive, and the names of its other files.
+fn archive(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), Fault> {
     // The directory of an archive is at its end.
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|_| CUT_OFF)?;
-    let mut out = Vec::with_capacity(archive.len());
+    budget.objects("files in the archive", archive.len())?;
+    // Files that share their bytes would be inflated again and again.
+    if archive.has_overlapping_files().map_err(|_| DAMAGED)? {
+        return Err("files of the archive overlap".into());
+    }
+    let (mut arrays, mut left_out) = (Vec::new(), Vec::new());
     for k in 0..archive.len() {
         let mut file = archive.by_index(k).map_err(|error| match error {
             ZipError::CompressionMethodNotSupported(_) => {
@@ -86,46 +104,103 @@ fn members(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, Message> {
             ZipError::UnsupportedArchive(_) => "the archive is encrypted or of an unsupported kind",
             _ => DAMAGED,
         })?;
-        let mut data = Vec::new();
-        file.read_to_end(&mut data).map_err(|_| DAMAGED)?;
         let name = file.name().map_err(|_| DAMAGED)?.into_owned();
-        out.push((name, data));
+        let Some(plain) = name.strip_suffix(".npy").map(str::to_owned) else {
+            left_out.push(name);
+            continue;
+        };
+        let damaged = |problem: &str| Fault::Damage(format!("`{plain}`: {problem}"));
+        let size = usize::try_from(file.size()).map_err(|_| damaged(DAMAGED))?;
+        let mut data = budget.list(|| format!("`{plain}`"), size)?;
+        let (stated, start) = (file.crc32(), file.header_start());
+        Read::by_ref(&mut file).take(size as u64 + 1).read_to_end(&mut data).map_err(|error| {
+            damaged(match error.kind() {
+                ErrorKind::InvalidData => "its checksum (CRC) does not fit: the archive is damaged",
+                _ => "it is cut off or damaged",
+            })
+        })?;
+        if data.len() != size {
+            return Err(damaged("its size is not the stated one"));
+        }
+        if crc32(&data) != stated || local_crc(bytes, start).is_some_and(|local| local != stated) {
+            return Err(damaged("its checksum (CRC) does not fit: the archive is damaged"));
+        }
+        match array(&plain, &data, budget) {
+            Ok(Some(array)) => arrays.push(array),
+            Ok(None) => left_out.push(plain),
+            Err(Fault::Damage(problem)) => return Err(damaged(&problem)),
+            Err(fault) => return Err(fault),
+        }
+        budget.give_back(size);
     }
-    Ok(out)
+    Ok((arrays, left_out))
+}
+
+/// Checksum in the header before a file's data; `None` if it stands after the data (bit 3 of the flags).
+fn local_crc(bytes: &[u8], start: u64) -> Option<u32> {
+    let header = bytes.get(usize::try_from(start).ok()?..)?.first_chunk::<18>()?;
+    let after = header[6] & 8 != 0;
+    (!after).then(|| u32::from_le_bytes([header[14], header[15], header[16], header[17]]))
+}
+
+/// Header of a .npy.
+struct Header<'a> {
+    /// Type as "<f8"; `None` for structured types.
+    descr: Option<&'a str>,
+    fortran: bool,
+    shape: Vec<usize>,
+    /// Where the data starts.
+    end: usize,
+}
+
+impl<'a> Header<'a> {
+    fn read(bytes: &'a [u8]) -> Result<Self, Fault> {
+        if !is_npy(bytes) {
+            return Err("it is not a NumPy array".into());
+        }
+        let version = *bytes.get(6).ok_or(CUT_OFF)?;
+        let (length, start) = if version == 1 { (u16_at(bytes, 8)?, 10) } else { (u32_at(bytes, 8)?, 12) };
+        let end = start + length;
+        let header = bytes.get(start..end).ok_or(CUT_OFF)?;
+        let header = std::str::from_utf8(header).map_err(|_| DAMAGED_HEADER)?;
+        let entry = |key: &str| {
+            let after = &header[header.find(&format!("'{key}':"))? + key.len() + 3..];
+            Some(after.trim_start())
+        };
+        let descr = entry("descr").ok_or(DAMAGED_HEADER)?;
+        let descr = descr.strip_prefix('\'').and_then(|d| d.split('\'').next());
+        let fortran = entry("fortran_order").ok_or(DAMAGED_HEADER)?.starts_with("True");
+        let shape = entry("shape").and_then(|s| s.strip_prefix('(')?.split(')').next());
+        let sizes = shape.ok_or(DAMAGED_HEADER)?.split(',').map(str::trim).filter(|n| !n.is_empty());
+        // Python 2 wrote long integers with an L.
+        let shape: Option<Vec<usize>> =
+            sizes.take(MAX_DIMENSIONS + 1).map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect();
+        let shape = shape.filter(|shape| shape.len() <= MAX_DIMENSIONS).ok_or(DAMAGED_HEADER)?;
+        Ok(Header { descr, fortran, shape, end })
+    }
 }
 
 /// Reads one .npy; `None` for object and structured arrays, which are not supported.
-fn array(name: &str, bytes: &[u8]) -> Result<Option<Array>, Message> {
-    if !is_npy(bytes) {
-        return Err("it is not a NumPy array");
-    }
-    let version = *bytes.get(6).ok_or(CUT_OFF)?;
-    let (length, start) = if version == 1 { (u16_at(bytes, 8)?, 10) } else { (u32_at(bytes, 8)?, 12) };
-    let header = bytes.get(start..start + length).ok_or(CUT_OFF)?;
-    let header = std::str::from_utf8(header).map_err(|_| "its header is damaged")?;
-    let entry = |key: &str| {
-        let after = &header[header.find(&format!("'{key}':"))? + key.len() + 3..];
-        Some(after.trim_start())
-    };
-    let damaged = "its header is damaged";
-    let descr = entry("descr").ok_or(damaged)?;
-    let Some(descr) = descr.strip_prefix('\'').and_then(|d| d.split('\'').next()) else { return Ok(None) };
-    let fortran = entry("fortran_order").ok_or(damaged)?.starts_with("True");
-    let shape = entry("shape").and_then(|s| s.strip_prefix('(')?.split(')').next()).ok_or(damaged)?;
-    let shape: Option<Vec<usize>> =
-        shape.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().ok()).collect();
-    let shape = shape.ok_or(damaged)?;
-    let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(damaged)?;
+fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Option<Array>, Fault> {
+    let Header { descr, fortran, shape, end } = Header::read(bytes)?;
+    let Some(descr) = descr else { return Ok(None) };
+    let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(DAMAGED_HEADER)?;
     let (order, kind) = descr.split_at(usize::from(descr.starts_with(['<', '>', '|', '='])));
     let big = order == ">";
     if !kind.is_ascii() {
-        return Err(damaged);
+        return Err(DAMAGED_HEADER.into());
     }
     let (kind, width) = kind.split_at(kind.len().min(1));
-    let width: usize = width.parse().unwrap_or(1);
-    let element = if kind == "U" { width.checked_mul(4).ok_or(damaged)? } else { width };
-    let size = count.checked_mul(element).ok_or(damaged)?;
-    let data = bytes[start + length..].get(..size).ok_or(CUT_OFF)?;
+    let width: usize = if width.is_empty() { 1 } else { width.parse().map_err(|_| DAMAGED_HEADER)? };
+    let element = if kind == "U" { width.checked_mul(4).ok_or(DAMAGED_HEADER)? } else { width };
+    let size = count.checked_mul(element).ok_or(DAMAGED_HEADER)?;
+    let data = bytes[end..].get(..size).ok_or(CUT_OFF)?;
+    let memory = match kind {
+        "c" => size_of::<Complex<f64>>(),
+        "U" | "S" => size_of::<String>() + element,
+        _ => size_of::<f64>(),
+    };
+    budget.take(|| format!("`{name}`"), (count as u64).saturating_mul(memory as u64))?;
     let values = |width: usize, read: fn([u8; 8]) -> f64| -> Vec<f64> {
         let ordered = |b: &[u8]| {
             std::array::from_fn(|k| match (k < width, big) {
@@ -150,17 +225,17 @@ fn array(name: &str, bytes: &[u8]) -> Result<Option<Array>, Message> {
         ("U", _) => {
             let letter =
                 |b: &[u8]| u32::from_le_bytes(std::array::from_fn(|k| b[if big { 3 - k } else { k }]));
-            let text = |b: &[u8]| -> String {
+            Data::Text(texts(data, element, count, |b| {
                 b.chunks_exact(4).filter_map(|b| char::from_u32(letter(b))).filter(|&c| c != '\0').collect()
-            };
-            let texts = if element == 0 {
-                vec![String::new(); count]
-            } else {
-                data.chunks_exact(element).map(text).collect()
-            };
-            Data::Text(texts)
+            }))
         }
-        _ => return Ok(None),
+        ("S", _) => Data::Text(texts(data, element, count, |b| {
+            String::from_utf8_lossy(b).trim_end_matches('\0').to_owned()
+        })),
+        _ => {
+            budget.give_back(count.saturating_mul(memory));
+            return Ok(None);
+        }
     };
     let data = match data {
         Data::Real(v) if fortran => Data::Real(super::mat::to_row_major(&v, &shape)),
@@ -168,6 +243,14 @@ fn array(name: &str, bytes: &[u8]) -> Result<Option<Array>, Message> {
         data => data,
     };
     Ok(Some(Array { name: name.to_owned(), shape, data }))
+}
+
+/// Texts of `element` bytes each, which may be none.
+fn texts(data: &[u8], element: usize, count: usize, read: impl Fn(&[u8]) -> String) -> Vec<String> {
+    match element {
+        0 => vec![String::new(); count],
+        _ => data.chunks_exact(element).map(read).collect(),
+    }
 }
 
 fn paired(values: &[f64]) -> Vec<Complex<f64>> {
@@ -179,8 +262,8 @@ fn paired(values: &[f64]) -> Vec<Complex<f64>> {
 /// # Errors
 /// A file that cannot be written.
 pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
-    let file = std::fs::File::create(path).map_err(Error::of_file("write", path))?;
-    write_archive(BufWriter::new(file), arrays).map_err(Error::of_file("write", path))
+    whole_file::write_with(path, |out| write_archive(out, arrays).map_err(std::io::Error::other))
+        .map_err(Error::of_file("write", path))
 }
 
 /// A ZIP archive of stored files, without the time of writing: the same arrays give the same bytes.

@@ -5,15 +5,16 @@
 //! for other programs are in JSON and HDF5.
 
 use crate::error::Error;
+use crate::whole_file;
 use rmp_serde::decode::Error as DecodeError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufReader, BufWriter};
 use std::path::Path;
 
 /// Name and version of the format.
-const FORMAT: &str = "rotordyn-saved-results-1";
+const FORMAT: &str = "rotordyn-saved-results-2";
 
 #[derive(Serialize, Deserialize)]
 struct Header {
@@ -28,24 +29,25 @@ struct Header {
 /// The file cannot be written.
 pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Error> {
     let path = path.as_ref();
-    let temporary = path.with_extension(format!("{}.tmp", std::process::id()));
-    let saved = write_to(&temporary, result)
-        .and_then(|()| std::fs::rename(&temporary, path).map_err(Error::of_file("write", path)));
-    if saved.is_err() {
-        let _ = std::fs::remove_file(&temporary);
-    }
-    saved
-}
-
-fn write_to<T: Serialize>(path: &Path, result: &T) -> Result<(), Error> {
-    let mut out = BufWriter::new(File::create(path).map_err(Error::of_file("create", path))?);
     let header = Header { format: FORMAT.into(), version: env!("CARGO_PKG_VERSION").into() };
     let write = |out: &mut BufWriter<File>| -> Result<(), rmp_serde::encode::Error> {
         rmp_serde::encode::write_named(out, &header)?;
         rmp_serde::encode::write_named(out, result)
     };
-    write(&mut out).map_err(Error::of_file("write", path))?;
-    out.flush().map_err(Error::of_file("write", path))
+    whole_file::write_with(path, |out| write(out).map_err(std::io::Error::other))
+        .map_err(Error::of_file("write", path))
+}
+
+/// A value as MessagePack.
+pub(crate) fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, rmp_serde::encode::Error> {
+    rmp_serde::to_vec_named(value)
+}
+
+/// The value of [`to_bytes`]; else the place in it and the reason.
+pub(crate) fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+    let mut from = rmp_serde::Deserializer::from_read_ref(bytes);
+    serde_path_to_error::deserialize(&mut from)
+        .map_err(|error| format!("{}: {}", error.path(), error.inner()))
 }
 
 /// Loads a result saved by [`save`] from the same type.

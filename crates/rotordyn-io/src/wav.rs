@@ -3,9 +3,13 @@
 //! The only module that uses the hound crate. PCM values are fractions of full scale, −1 to 1; WAV has no
 //! units.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
+use crate::budget::{self, Budget, Limits};
 use crate::error::Error;
+use crate::whole_file::NewFile;
 use rotordyn_signal::record::{MeasuredData, Record, RecordError, Values};
 
 /// How samples are written.
@@ -26,23 +30,44 @@ pub fn is_wav(head: &[u8]) -> bool {
 /// Reads every channel, named after the file and numbered if there is more than one.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, or has another encoding than PCM and 32-bit floats.
-pub fn read(path: &Path) -> Result<MeasuredData, Error> {
+/// The file cannot be read, is cut off, has another encoding than PCM and 32-bit floats, or exceeds its budget.
+pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
     let failed = |error: hound::Error| failure("read", path, error);
-    let mut file = hound::WavReader::open(path).map_err(failed)?;
+    let file = File::open(path).map_err(Error::of_file("read", path))?;
+    let size = budget::regular_size(path, &file)?;
+    let budget = Budget::new(limits, size);
+    let mut file = hound::WavReader::new(BufReader::new(file)).map_err(failed)?;
     let spec = file.spec();
     let expected = file.len() as usize;
-    let values: Vec<f64> = match spec.sample_format {
+    let channels = usize::from(spec.channels).max(1);
+    budget.objects("channels", channels).map_err(|e| e.of_file(path))?;
+    // The header states any number of samples where the writer did not come to its end.
+    let bytes = u64::from(spec.bits_per_sample / 8).max(1);
+    let there = usize::try_from(size / bytes).unwrap_or(usize::MAX).min(expected);
+    let mut values: Vec<f64> =
+        budget.list(|| "the list of samples".into(), there).map_err(|e| e.of_file(path))?;
+    match spec.sample_format {
         hound::SampleFormat::Float => {
-            file.samples::<f32>().map(|s| s.map(f64::from)).collect::<Result<_, _>>()
+            for sample in file.samples::<f32>().take(there) {
+                match sample {
+                    Ok(sample) => values.push(f64::from(sample)),
+                    // The end of the file, of which the number of samples tells.
+                    Err(hound::Error::IoError(_)) => break,
+                    Err(error) => return Err(failed(error)),
+                }
+            }
         }
         hound::SampleFormat::Int => {
             let full_scale = 2.0_f64.powi(i32::from(spec.bits_per_sample) - 1);
-            file.samples::<i32>().map(|s| s.map(|v| f64::from(v) / full_scale)).collect::<Result<_, _>>()
+            for sample in file.samples::<i32>().take(there) {
+                match sample {
+                    Ok(sample) => values.push(f64::from(sample) / full_scale),
+                    Err(hound::Error::IoError(_)) => break,
+                    Err(error) => return Err(failed(error)),
+                }
+            }
         }
     }
-    .map_err(failed)?;
-    let channels = usize::from(spec.channels).max(1);
     let content =
         |problem: String, advice: &str| Error::Content { path: path.into(), problem, advice: advice.into() };
     if values.len() < expected || values.is_empty() {
@@ -52,13 +77,15 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
     if spec.sample_rate == 0 {
         return Err(content("the sampling rate is 0 Hz".into(), "write the file again with its rate"));
     }
+    budget.take_values::<f64>(|| "the channels".into(), values.len()).map_err(|e| e.of_file(path))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let record = |channel: usize| {
         let name = if channels == 1 { stem.to_string() } else { format!("{stem}_{}", channel + 1) };
         let samples = values.iter().skip(channel).step_by(channels).copied().collect();
         Record::samples(&name, f64::from(spec.sample_rate), 0.0, samples, "")
     };
-    Ok(MeasuredData { records: (0..channels).map(record).collect(), ..MeasuredData::default() })
+    let records = (0..channels).map(record).collect();
+    Ok((MeasuredData { records, ..MeasuredData::default() }, budget))
 }
 
 /// Writes time records of one rate and length as the channels of one file.
@@ -100,7 +127,8 @@ pub fn write(path: &Path, records: &[&Record], samples: SampleFormat) -> Result<
         sample_format: format,
     };
     let failed = |error: hound::Error| failure("write", path, error);
-    let mut file = hound::WavWriter::create(path, spec).map_err(failed)?;
+    let new = NewFile::replacing(path);
+    let mut file = hound::WavWriter::create(new.part(), spec).map_err(failed)?;
     for k in 0..count {
         for (values, record) in channels.iter().zip(records) {
             match samples {
@@ -120,7 +148,8 @@ pub fn write(path: &Path, records: &[&Record], samples: SampleFormat) -> Result<
             }
         }
     }
-    file.finalize().map_err(failed)
+    file.finalize().map_err(failed)?;
+    new.publish().map_err(Error::of_file("write", path))
 }
 
 fn failure(operation: &'static str, path: &Path, error: hound::Error) -> Error {

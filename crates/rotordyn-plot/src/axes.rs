@@ -4,6 +4,7 @@ use super::scale::{Range, Scale, Tick};
 use super::style::*;
 use super::svg::{Point, Style, Svg, Text};
 use super::{decimate, font};
+use rotordyn_core::series::{Series, SeriesError};
 
 /// A rectangle on the page \[px\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,6 +164,19 @@ impl Axes {
     pub fn curve(&self, svg: &mut Svg, x: &[f64], y: &[f64], style: Style) {
         let points = decimate::decimate_columns(x.iter().zip(y).map(|(&x, &y)| self.at(x, y)));
         self.clipped(svg, &points, style);
+    }
+
+    /// The same of samples, which are read block by block.
+    ///
+    /// # Errors
+    /// Samples that cannot be read.
+    pub fn curve_of(&self, svg: &mut Svg, x: &Series, y: &Series, style: Style) -> Result<(), SeriesError> {
+        let mut columns = decimate::Columns::default();
+        for (x, y) in x.blocks().zip(y.blocks()) {
+            x?.iter().zip(&*y?).for_each(|(&x, &y)| columns.push(self.at(x, y)));
+        }
+        self.clipped(svg, &columns.finish(), style);
+        Ok(())
     }
 
     /// A curve of page points clipped to the frame.

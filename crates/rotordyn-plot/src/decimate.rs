@@ -7,27 +7,44 @@ const MAX_FREE_CURVE_POINTS: usize = 20_000;
 
 /// Keeps the first, lowest, highest and last of the consecutive points that fall in one px column of the
 /// page.
-pub fn decimate_columns(points: impl Iterator<Item = Point>) -> Vec<Point> {
-    let mut out = Vec::new();
-    let mut group: Vec<Point> = Vec::new();
-    let mut column = i64::MIN;
-    for p in points {
+#[derive(Default)]
+pub struct Columns {
+    out: Vec<Point>,
+    /// Points of the current column.
+    group: Vec<Point>,
+    column: Option<i64>,
+}
+
+impl Columns {
+    /// Takes the next point of the curve.
+    pub fn push(&mut self, p: Point) {
         let here = if p[0].is_finite() && p[1].is_finite() { p[0].floor() as i64 } else { i64::MAX };
-        if here != column {
-            flush(&mut group, &mut out);
-            column = here;
+        if self.column != Some(here) {
+            flush(&mut self.group, &mut self.out);
+            self.column = Some(here);
         }
         // Keep one point of a gap.
-        if here == i64::MAX && !group.is_empty() {
-            continue;
+        if here == i64::MAX && !self.group.is_empty() {
+            return;
         }
-        group.push(p);
-        if group.len() > 64 {
-            reduce(&mut group);
+        self.group.push(p);
+        if self.group.len() > 64 {
+            reduce(&mut self.group);
         }
     }
-    flush(&mut group, &mut out);
-    out
+
+    /// The points kept.
+    pub fn finish(mut self) -> Vec<Point> {
+        flush(&mut self.group, &mut self.out);
+        self.out
+    }
+}
+
+/// The points of a curve that [`Columns`] keeps.
+pub fn decimate_columns(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut columns = Columns::default();
+    points.for_each(|p| columns.push(p));
+    columns.finish()
 }
 
 fn flush(group: &mut Vec<Point>, out: &mut Vec<Point>) {

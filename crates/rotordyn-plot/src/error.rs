@@ -1,5 +1,6 @@
 //! Failure to draw or to write a figure.
 
+use rotordyn_core::series::SeriesError;
 use std::path::{Path, PathBuf};
 
 /// A failed operation on a figure's file or folder.
@@ -18,5 +19,11 @@ impl FigureError {
         E: Into<Box<dyn std::error::Error + Send + Sync>>,
     {
         move |source| Self { operation, path: path.into(), source: source.into() }
+    }
+}
+
+impl From<SeriesError> for FigureError {
+    fn from(SeriesError { place, reason }: SeriesError) -> Self {
+        Self { operation: "read", path: place.into(), source: reason.into() }
     }
 }

@@ -5,6 +5,9 @@ use super::color_map;
 use super::scale::{Range, Scale, extremes};
 use super::style::*;
 use super::svg::{Svg, Text};
+use rotordyn_core::series::{Series, SeriesError};
+use std::borrow::Cow;
+use std::convert::Infallible;
 
 /// Image pixels per page px; with 200 colours a noisy map stays below a megabyte.
 const PIXELS_PER_PX: f64 = 1.5;
@@ -19,43 +22,95 @@ pub struct Heat<'a> {
 
 /// Level bounds of the colour map: highest level rounded up to a multiple of five, minus `span`.
 pub fn bounds(levels: impl Iterator<Item = f64>, span: f64) -> Range {
-    let (lo, hi) = extremes(levels).unwrap_or((-1.0, 0.0));
+    bounds_between(extremes(levels), span)
+}
+
+/// The same from the lowest and highest level.
+pub fn bounds_between(extremes: Option<(f64, f64)>, span: f64) -> Range {
+    let (lo, hi) = extremes.unwrap_or((-1.0, 0.0));
     let top = 5.0 * (hi / 5.0).ceil();
     let span = if span > 0.0 && span.is_finite() { span } else { 80.0 };
     Range::new(if hi - lo < 1.0 { top - 5.0 } else { top - span }, top)
+}
+
+/// Levels of the points of a grid along y, one row for each x; a row may be shorter.
+pub trait Rows {
+    type Error;
+
+    /// The row at `x[i]`, of `count` levels.
+    ///
+    /// # Errors
+    /// Levels that cannot be read.
+    fn row(&self, i: usize, count: usize) -> Result<Cow<'_, [f64]>, Self::Error>;
+}
+
+impl Rows for [f64] {
+    type Error = Infallible;
+
+    fn row(&self, i: usize, count: usize) -> Result<Cow<'_, [f64]>, Infallible> {
+        let end = ((i + 1) * count).min(self.len());
+        Ok(Cow::Borrowed(&self[(i * count).min(end)..end]))
+    }
+}
+
+impl Rows for Series {
+    type Error = SeriesError;
+
+    fn row(&self, i: usize, count: usize) -> Result<Cow<'_, [f64]>, SeriesError> {
+        self.read(i * count..(i + 1) * count)
+    }
 }
 
 impl Heat<'_> {
     /// Draws the map into the axes: each pixel shows the highest level of the cells it covers, so that narrow
     /// ridges are kept; non-finite levels and points outside the grid stay white.
     pub fn draw(&self, svg: &mut Svg, axes: &Axes, bounds: Range) {
-        let f = axes.frame;
-        let (w, h) = (
-            (f.w * PIXELS_PER_PX).round().max(1.0) as usize,
-            (f.h * PIXELS_PER_PX).round().max(1.0) as usize,
-        );
-        let columns = cells(self.x, &axes.x, w);
-        let rows = cells(self.y, &axes.y, h);
-        let empty = color_map::COUNT as u8;
-        let mut pixels = vec![empty; w * h];
-        for (px, xs) in columns.of_pixel.iter().enumerate() {
-            for (py, ys) in rows.of_pixel.iter().enumerate() {
-                let mut highest = f64::NEG_INFINITY;
-                for i in &columns.order[xs.clone()] {
-                    let levels =
-                        rows.order[ys.clone()].iter().filter_map(|j| self.level.get(i * self.y.len() + j));
-                    highest = levels.copied().filter(|v| v.is_finite()).fold(highest, f64::max);
-                }
-                if let Some(index) = color_map::index(highest, bounds.lo, bounds.hi) {
-                    // Image rows go downwards.
-                    pixels[(h - 1 - py) * w + px] = index;
-                }
-            }
-        }
-        if let Some(png) = indexed_png(w, h, &pixels) {
-            svg.image(f.x, f.y, f.w, f.h, &png);
+        match draw_rows(svg, axes, bounds, [self.x, self.y], self.level) {
+            Ok(()) => {}
+            Err(never) => match never {},
         }
     }
+}
+
+/// The same with levels that are read row by row, at `x` and `y`.
+///
+/// # Errors
+/// Levels that cannot be read.
+pub fn draw_rows<L: Rows + ?Sized>(
+    svg: &mut Svg,
+    axes: &Axes,
+    bounds: Range,
+    [x, y]: [&[f64]; 2],
+    levels: &L,
+) -> Result<(), L::Error> {
+    let f = axes.frame;
+    let (w, h) =
+        ((f.w * PIXELS_PER_PX).round().max(1.0) as usize, (f.h * PIXELS_PER_PX).round().max(1.0) as usize);
+    let columns = cells(x, &axes.x, w);
+    let rows = cells(y, &axes.y, h);
+    let empty = color_map::COUNT as u8;
+    let mut pixels = vec![empty; w * h];
+    let mut highest = vec![f64::NEG_INFINITY; h];
+    for (px, xs) in columns.of_pixel.iter().enumerate() {
+        highest.fill(f64::NEG_INFINITY);
+        for i in &columns.order[xs.clone()] {
+            let row = levels.row(*i, y.len())?;
+            for (highest, ys) in highest.iter_mut().zip(&rows.of_pixel) {
+                let levels = rows.order[ys.clone()].iter().filter_map(|j| row.get(*j));
+                *highest = levels.copied().filter(|v| v.is_finite()).fold(*highest, f64::max);
+            }
+        }
+        for (py, highest) in highest.iter().enumerate() {
+            if let Some(index) = color_map::index(*highest, bounds.lo, bounds.hi) {
+                // Image rows go downwards.
+                pixels[(h - 1 - py) * w + px] = index;
+            }
+        }
+    }
+    if let Some(png) = indexed_png(w, h, &pixels) {
+        svg.image(f.x, f.y, f.w, f.h, &png);
+    }
+    Ok(())
 }
 
 /// The cells of a grid along one axis.

@@ -3,9 +3,10 @@
 use super::axes::Axes;
 use super::labels::{Entry, page_heading};
 use super::panels::stack;
-use super::scale::Range;
+use super::scale::{Range, widened};
 use super::style::*;
 use super::svg::{Dash, Style, Svg, Text};
+use rotordyn_core::series::{Series, SeriesError};
 
 /// Largest number of channels in one figure.
 const MAX_CHANNELS: usize = 12;
@@ -20,12 +21,12 @@ pub struct Channel {
     pub quantity: String,
     pub unit: String,
     /// Times \[s\], ascending.
-    pub time: Vec<f64>,
-    pub value: Vec<f64>,
+    pub time: Series,
+    pub value: Series,
     /// Running mean of the values, drawn over them; empty for none.
-    pub mean: Vec<f64>,
+    pub mean: Series,
     /// What the values are compared with; empty for none.
-    pub reference: Vec<f64>,
+    pub reference: Series,
     /// Second scale at the right edge.
     pub second: Option<SecondScale>,
     /// The y axis starts at zero.
@@ -57,7 +58,9 @@ const SCATTER: Style = Style::stroke(PALE, 0.7);
 const MEAN: Style = Style::stroke(BLUE, 1.5);
 const REFERENCE: Style = Style::stroke(RED, 1.3).dashed(Dash::Long);
 
-pub fn draw(data: &History) -> Svg {
+/// # Errors
+/// Samples that cannot be read.
+pub fn draw(data: &History) -> Result<Svg, SeriesError> {
     let channels = &data.channels[..data.channels.len().min(MAX_CHANNELS)];
     let averaged = channels.iter().any(|c| !c.mean.is_empty());
     let styles = [if averaged { SCATTER.thick(1.4) } else { VALUE }, MEAN, REFERENCE];
@@ -73,11 +76,11 @@ pub fn draw(data: &History) -> Svg {
     let second = channels.iter().any(|c| c.second.is_some());
     let right = if second { SECOND_SCALE } else { RIGHT };
     let frames = stack(top, WIDTH - LEFT - right, &vec![height; channels.len().max(1)]);
-    let x = Range::of(channels.iter().flat_map(|c| c.time.iter().copied()));
+    let x = Range::of(extremes(channels.iter().map(|c| &c.time))?);
     let none = Channel::default();
     for (k, frame) in frames.iter().enumerate() {
         let channel = channels.get(k).unwrap_or(&none);
-        let values = channel.value.iter().chain(&channel.reference).copied();
+        let values = extremes([&channel.value, &channel.reference])?;
         let y = match channel.from_zero {
             true => Range::with_zero(values).padded_top(0.25),
             // Room for the label above scattered values.
@@ -90,9 +93,9 @@ pub fn draw(data: &History) -> Svg {
             axes.segment(&mut svg, [x.lo, 0.0], [x.hi, 0.0], Style::stroke(PALE, 0.8));
         }
         let style = if channel.mean.is_empty() { VALUE } else { SCATTER };
-        axes.curve(&mut svg, &channel.time, &channel.value, style);
-        axes.curve(&mut svg, &channel.time, &channel.reference, REFERENCE);
-        axes.curve(&mut svg, &channel.time, &channel.mean, MEAN);
+        axes.curve_of(&mut svg, &channel.time, &channel.value, style)?;
+        axes.curve_of(&mut svg, &channel.time, &channel.reference, REFERENCE)?;
+        axes.curve_of(&mut svg, &channel.time, &channel.mean, MEAN)?;
         let last = k + 1 == frames.len();
         let x_label = axes.x.label("time", "s");
         axes.border(
@@ -106,5 +109,11 @@ pub fn draw(data: &History) -> Svg {
         svg.text([frame.x + 8.0, frame.y + 15.0], &channel.label, Text::new(TICK, INK).halo());
     }
     svg.height = frames.last().map_or(top, |f| f.bottom()) + BOTTOM;
-    svg
+    Ok(svg)
+}
+
+/// Smallest and largest finite value of some series; empty if there is none.
+fn extremes<'a>(series: impl IntoIterator<Item = &'a Series>) -> Result<Vec<f64>, SeriesError> {
+    let found = series.into_iter().try_fold(None, |seen, series| series.fold(seen, widened))?;
+    Ok(found.map_or_else(Vec::new, |(lo, hi)| vec![lo, hi]))
 }

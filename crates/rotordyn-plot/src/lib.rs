@@ -20,6 +20,7 @@ mod decimate;
 mod font;
 mod footnote;
 mod heat;
+mod identity;
 pub mod labels;
 mod leaders;
 mod mode_data;
@@ -59,7 +60,9 @@ mod symbols;
 mod waterfall;
 mod wireframe;
 
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::warning::Warning;
+use rotordyn_io::whole_file;
 use std::path::Path;
 
 use resvg::{tiny_skia, usvg};
@@ -129,16 +132,19 @@ pub enum Figure {
 
 impl Figure {
     /// The figure as an SVG document.
-    pub fn svg(&self) -> String {
-        self.page().finish()
+    ///
+    /// # Errors
+    /// Samples of a time history, or levels of a map, that cannot be read.
+    pub fn svg(&self) -> Result<String, SeriesError> {
+        Ok(self.page()?.finish())
     }
 
-    fn page(&self) -> svg::Svg {
-        match self {
+    fn page(&self) -> Result<svg::Svg, SeriesError> {
+        Ok(match self {
             Figure::Campbell(data) => campbell::draw(data),
-            Figure::Spectrogram(data) => spectrogram::draw(data),
+            Figure::Spectrogram(data) => spectrogram::draw(data)?,
             Figure::Waterfall(data) => waterfall::draw(data),
-            Figure::OrderMap(data) => order_map::draw(data),
+            Figure::OrderMap(data) => order_map::draw(data)?,
             Figure::Frf(data) => frf::draw(data),
             Figure::ModeShapes(data) => mode_shape::draw(data),
             Figure::Bode(data) => bode::draw(data),
@@ -148,7 +154,7 @@ impl Figure {
             Figure::Bifurcation(data) => bifurcation::draw(data),
             Figure::BallLoads(data) => ball_load::draw(data),
             Figure::Deflection(data) => deflection::draw(data),
-            Figure::History(data) => history::draw(data),
+            Figure::History(data) => history::draw(data)?,
             Figure::Lines(data) => lines::draw(data),
             Figure::Grid(data) => grid::draw(data),
             Figure::CursorLines(data) => cursor_spectrum::draw(data),
@@ -159,16 +165,29 @@ impl Figure {
             Figure::MachineLayout(data) => machine_layout::draw(data),
             Figure::Stabilisation(data) => stabilisation::draw(data),
             Figure::Wireframe(data) => wireframe::draw(data),
-        }
+        })
     }
 }
 
 /// Writes a figure with the warnings of its results below it as `stem.svg` and `stem.png`.
 ///
 /// # Errors
-/// A file cannot be written.
+/// A file cannot be written, or its numbers cannot be read.
 pub fn write(figure: &Figure, warnings: &[Warning], stem: &Path) -> Result<(), FigureError> {
-    let mut page = figure.page();
+    write_of_run(figure, warnings, stem, None)
+}
+
+/// As [`write`], with the identity of the run that the figure shows as metadata of both files.
+///
+/// # Errors
+/// A file cannot be written, or its numbers cannot be read.
+pub fn write_of_run(
+    figure: &Figure,
+    warnings: &[Warning],
+    stem: &Path,
+    identity: Option<&str>,
+) -> Result<(), FigureError> {
+    let mut page = figure.page()?;
     footnote::add(&mut page, warnings);
     let svg = page.finish();
     let name = |extension: &str| {
@@ -178,10 +197,14 @@ pub fn write(figure: &Figure, warnings: &[Warning], stem: &Path) -> Result<(), F
         std::path::PathBuf::from(name)
     };
     let put = |path: std::path::PathBuf, bytes: &[u8]| {
-        std::fs::write(&path, bytes).map_err(FigureError::of_file("write figure", &path))
+        whole_file::write_derived(&path, bytes).map_err(FigureError::of_file("write figure", &path))
+    };
+    let png = png(&svg).map_err(FigureError::of_file("render figure", &name(".png")))?;
+    let (svg, png) = match identity {
+        Some(identity) => (identity::mark_svg(&svg, identity), identity::mark_png(&png, identity)),
+        None => (svg, png),
     };
     put(name(".svg"), svg.as_bytes())?;
-    let png = png(&svg).map_err(FigureError::of_file("render figure", &name(".png")))?;
     put(name(".png"), &png)
 }
 

@@ -2,11 +2,12 @@
 
 use super::axes::{Axes, Frame};
 use super::campbell::OrderLine;
-use super::heat::{self, COLOR_BAR_WIDTH, Heat, color_bar};
+use super::heat::{self, COLOR_BAR_WIDTH, color_bar};
 use super::labels::{EndLabel, end_label_width, end_labels, page_heading};
-use super::scale::Range;
+use super::scale::{Range, widened};
 use super::style::*;
 use super::svg::Svg;
+use rotordyn_core::series::{Series, SeriesError};
 
 /// Data of an order map.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +19,7 @@ pub struct OrderMap {
     /// Orders \[events per revolution\].
     pub order: Vec<f64>,
     /// Levels \[dB\], `level_db[i * order.len() + j]` at `rpm[i]`, `order[j]`.
-    pub level_db: Vec<f64>,
+    pub level_db: Series,
     /// Quantity and unit of the levels, e.g. "acceleration level" and "dB re 1 m/s²".
     pub quantity: String,
     pub unit: String,
@@ -30,7 +31,9 @@ pub struct OrderMap {
     pub max_order: Option<f64>,
 }
 
-pub fn draw(data: &OrderMap) -> Svg {
+/// # Errors
+/// Levels that cannot be read.
+pub fn draw(data: &OrderMap) -> Result<Svg, SeriesError> {
     let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &[]);
     let room = end_label_width(data.orders.iter().map(|o| o.label.clone()));
     let frame = Frame { x: LEFT, y: top + 4.0, w: WIDTH - LEFT - room - COLOR_BAR_WIDTH, h: 420.0 };
@@ -39,9 +42,8 @@ pub fn draw(data: &OrderMap) -> Svg {
         None => Range::of(data.order.iter().copied()).near_zero(),
     };
     let axes = Axes::linear(frame, Range::of(data.rpm.iter().copied()).near_zero(), y);
-    let heat = Heat { x: &data.rpm, y: &data.order, level: &data.level_db };
-    let bounds = heat::bounds(data.level_db.iter().copied(), data.span_db);
-    heat.draw(&mut svg, &axes, bounds);
+    let bounds = heat::bounds_between(data.level_db.fold(None, widened)?, data.span_db);
+    heat::draw_rows(&mut svg, &axes, bounds, [&data.rpm, &data.order], &data.level_db)?;
     let mut labels = Vec::new();
     for line in data.orders.iter().filter(|o| y.contains(o.order)) {
         let (a, b) = (axes.x.range.lo, axes.x.range.hi);
@@ -53,5 +55,5 @@ pub fn draw(data: &OrderMap) -> Svg {
     let label = format!("{} [{}]", data.quantity, data.unit);
     color_bar(&mut svg, frame, WIDTH - COLOR_BAR_WIDTH, bounds, &label);
     svg.height = frame.bottom() + BOTTOM;
-    svg
+    Ok(svg)
 }

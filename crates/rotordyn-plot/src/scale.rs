@@ -86,10 +86,16 @@ fn bounded(value: f64) -> f64 {
 
 /// Smallest and largest finite value.
 pub fn extremes(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
-    values.into_iter().filter(|v| v.is_finite()).fold(None, |seen, v| match seen {
-        None => Some((v, v)),
-        Some((lo, hi)) => Some((f64::min(lo, v), f64::max(hi, v))),
-    })
+    values.into_iter().fold(None, widened)
+}
+
+/// Smallest and largest finite value with one more value.
+pub fn widened(seen: Option<(f64, f64)>, value: f64) -> Option<(f64, f64)> {
+    match seen {
+        _ if !value.is_finite() => seen,
+        None => Some((value, value)),
+        Some((lo, hi)) => Some((f64::min(lo, value), f64::max(hi, value))),
+    }
 }
 
 /// Step 1, 2 or 5 times a power of ten that gives about `count` steps over the span.

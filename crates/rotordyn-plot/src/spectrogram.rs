@@ -3,12 +3,13 @@
 
 use super::axes::Axes;
 use super::campbell::{Branch, OrderLine, branch_ends, order_lines};
-use super::heat::{self, COLOR_BAR_WIDTH, Heat, color_bar};
+use super::heat::{self, COLOR_BAR_WIDTH, color_bar};
 use super::labels::{Entry, end_label_width, end_labels, page_heading};
 use super::panel_row::PanelRow;
-use super::scale::Range;
+use super::scale::{Range, widened};
 use super::style::*;
 use super::svg::{Style, Svg};
+use rotordyn_core::series::{Series, SeriesError};
 
 /// Spectrogram of one run.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +21,7 @@ pub struct SpectrogramPanel {
     /// Frequencies \[Hz\].
     pub hz: Vec<f64>,
     /// Levels \[dB\], `level_db[i * hz.len() + j]` at `rpm[i]`, `hz[j]`.
-    pub level_db: Vec<f64>,
+    pub level_db: Series,
 }
 
 /// Data of a spectrogram over speed; several panels are drawn in a row on common scales.
@@ -40,7 +41,9 @@ pub struct Spectrogram {
     pub max_hz: Option<f64>,
 }
 
-pub fn draw(data: &Spectrogram) -> Svg {
+/// # Errors
+/// Levels that cannot be read.
+pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     let mut kinds: Vec<Entry> = Vec::new();
     for whirl in data.branches.iter().flat_map(|b| b.whirl.iter().copied()) {
         if kinds.iter().all(|k| k.text != whirl.name()) {
@@ -58,12 +61,13 @@ pub fn draw(data: &Spectrogram) -> Svg {
         None => Range::of(all_values(|p| &p.hz)).near_zero(),
     };
     let x = Range::of(all_values(|p| &p.rpm)).near_zero();
-    let bounds = heat::bounds(all_values(|p| &p.level_db), data.span_db);
+    let levels = data.panels.iter().try_fold(None, |seen, p| p.level_db.fold(seen, widened))?;
+    let bounds = heat::bounds_between(levels, data.span_db);
     let count = data.panels.len().max(1);
     for k in 0..count {
         let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
         if let Some(panel) = data.panels.get(k) {
-            Heat { x: &panel.rpm, y: &panel.hz, level: &panel.level_db }.draw(&mut svg, &axes, bounds);
+            heat::draw_rows(&mut svg, &axes, bounds, [&panel.rpm, &panel.hz], &panel.level_db)?;
         }
         // A pale edge keeps the dashes visible on dark levels.
         for order in &data.orders {
@@ -87,5 +91,5 @@ pub fn draw(data: &Spectrogram) -> Svg {
             svg.height = axes.frame.bottom() + BOTTOM;
         }
     }
-    svg
+    Ok(svg)
 }

@@ -44,7 +44,7 @@ impl OrderSettings {
 
 /// Order spectrogram: amplitudes over speed and order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OrderSpectrogram {
+pub struct OrderSpectrogram<A = Vec<f64>> {
     /// Time at each window's centre in angle \[s\].
     pub times: Vec<f64>,
     /// Speed there \[rpm\], averaged over the revolution around it.
@@ -52,7 +52,7 @@ pub struct OrderSpectrogram {
     /// Order bins, 0 to the highest kept.
     pub orders: Vec<f64>,
     /// Amplitudes, row-major: a row for each window, a column for each order.
-    pub amplitude: Vec<f64>,
+    pub amplitude: A,
     /// Equivalent noise bandwidth in bins.
     pub noise_bandwidth_bins: f64,
     pub level: Level,
@@ -225,6 +225,21 @@ impl OrderTracker {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleRecord {
     pub parts: Vec<Vec<f64>>,
+}
+
+impl<A> OrderSpectrogram<A> {
+    /// The same with amplitudes in another form, such as stored ones.
+    ///
+    /// # Errors
+    /// That of `form`.
+    pub fn try_map_amplitude<B, E>(
+        self,
+        form: impl FnOnce(A) -> Result<B, E>,
+    ) -> Result<OrderSpectrogram<B>, E> {
+        let Self { times, rpm, orders, amplitude, noise_bandwidth_bins, level } = self;
+        let amplitude = form(amplitude)?;
+        Ok(OrderSpectrogram { times, rpm, orders, amplitude, noise_bandwidth_bins, level })
+    }
 }
 
 impl OrderSpectrogram {

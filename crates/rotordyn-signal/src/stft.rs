@@ -32,13 +32,13 @@ impl StftSettings {
 
 /// Amplitudes over time and frequency.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Spectrogram {
+pub struct Spectrogram<A = Vec<f64>> {
     /// Centre of each frame \[s\] from the record's first sample.
     pub times: Vec<f64>,
     /// Bin frequencies \[Hz\].
     pub frequencies: Vec<f64>,
     /// Amplitudes, row-major: a row for each time, a column for each frequency.
-    pub amplitude: Vec<f64>,
+    pub amplitude: A,
     /// Equivalent noise bandwidth in bins.
     pub noise_bandwidth_bins: f64,
     pub level: Level,
@@ -49,6 +49,18 @@ impl Spectrogram {
     pub fn row(&self, frame: usize) -> &[f64] {
         let bins = self.frequencies.len();
         &self.amplitude[frame * bins..(frame + 1) * bins]
+    }
+}
+
+impl<A> Spectrogram<A> {
+    /// The same with amplitudes in another form, such as stored ones.
+    ///
+    /// # Errors
+    /// That of `form`.
+    pub fn try_map_amplitude<B, E>(self, form: impl FnOnce(A) -> Result<B, E>) -> Result<Spectrogram<B>, E> {
+        let Self { times, frequencies, amplitude, noise_bandwidth_bins, level } = self;
+        let amplitude = form(amplitude)?;
+        Ok(Spectrogram { times, frequencies, amplitude, noise_bandwidth_bins, level })
     }
 
     /// Speed at each frame's centre, by linear interpolation of a speed sampled like the record.
@@ -101,19 +113,31 @@ impl Stft {
     /// Amplitudes are scaled like [`super::spectrum::amplitude_spectrum`]. Errors: NaN, record shorter than a
     /// frame.
     pub fn spectrogram(&mut self, record: &[f64]) -> Result<Spectrogram, SignalError> {
+        self.spectrogram_up_to(record, f64::INFINITY)
+    }
+
+    /// The same without the bins above a frequency \[Hz\]; at least one is kept.
+    ///
+    /// # Errors
+    /// As [`Self::spectrogram`].
+    pub fn spectrogram_up_to(&mut self, record: &[f64], limit: f64) -> Result<Spectrogram, SignalError> {
         check_record("record", record)?;
         let StftSettings { length, hop, level, fft_length, .. } = self.settings;
         check_length("record", record.len(), length, "one frame")?;
         let frames = (record.len() - length) / hop + 1;
         let bins = self.transform.bins();
-        let mut amplitude = vec![0.0; frames * bins];
-        for (frame, row) in amplitude.chunks_exact_mut(bins).enumerate() {
-            self.transform.amplitudes(&record[frame * hop..frame * hop + length], level, row);
+        let mut frequencies = bin_axis(bins, fft_length, self.sample_rate);
+        frequencies.truncate(frequencies.partition_point(|f| *f <= limit).max(1));
+        let kept = frequencies.len();
+        let (mut amplitude, mut all) = (vec![0.0; frames * kept], vec![0.0; bins]);
+        for (frame, row) in amplitude.chunks_exact_mut(kept).enumerate() {
+            self.transform.amplitudes(&record[frame * hop..frame * hop + length], level, &mut all);
+            row.copy_from_slice(&all[..kept]);
         }
         let centre = |frame: usize| ((frame * hop) as f64 + length as f64 / 2.0) / self.sample_rate;
         Ok(Spectrogram {
             times: (0..frames).map(centre).collect(),
-            frequencies: bin_axis(bins, fft_length, self.sample_rate),
+            frequencies,
             amplitude,
             noise_bandwidth_bins: self.transform.noise_bandwidth_bins(),
             level,

@@ -108,11 +108,15 @@ pub fn sensors(dofs: &[Dof], geometry: &Geometry, model: &Model) -> Result<Vec<S
     let mut unmapped: Vec<String> = Vec::new();
     let mut missing_direction = false;
     let radius = rotation_radius(model);
+    // Points are numbered from 1; a file may state any number.
+    let node_of = |number: i64| {
+        let place = usize::try_from(number.checked_sub(1)?).ok();
+        place.filter(|k| *k < nodes)
+    };
     let place = |number: i64| -> Option<Anchor> {
-        let own = usize::try_from(number - 1).ok().filter(|k| *k < nodes);
+        let own = node_of(number);
         if let Some(mount) = geometry.attached_points.iter().find(|m| m.number == number) {
-            let on = usize::try_from(mount.carrier - 1).ok().filter(|k| *k < nodes)?;
-            return Some(Anchor { node: Some(on), offset: mount.offset });
+            return Some(Anchor { node: Some(node_of(mount.carrier)?), offset: mount.offset });
         }
         let stated = geometry.nodes.iter().find(|n| n.number == number).map(|n| n.position);
         match (own, stated) {

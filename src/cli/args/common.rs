@@ -1,8 +1,11 @@
 //! Arguments shared by commands: model, results folder, output, stored runs.
 
+use super::super::limits;
 use super::keys::{help as key_help, help_with as key_help_with};
 use clap::Args;
+use rotordyn::units;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Output options common to all commands.
 #[derive(Args, Clone, Debug)]
@@ -20,6 +23,10 @@ pub struct Output {
     /// Number of threads; results do not depend on it [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Memory for the contents of one file that is read, such as 16GB [default: by its size, 64 MB and 32 times
+    /// the file, at most 8 GB]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = limits::size)]
+    pub read_limit: Option<u64>,
 }
 
 /// Model file, variant and overrides.
@@ -49,6 +56,39 @@ pub struct StudyArgs {
     /// Also write the tables of the results as CSV files, to csv/ in the results folder
     #[arg(long)]
     pub csv: bool,
+}
+
+/// Checkpoints of long studies.
+#[derive(Args, Clone, Debug, Default)]
+pub struct CheckpointArgs {
+    /// Go on from the checkpoint of a run that was stopped or killed, to the same results bit for bit; afresh
+    /// without one
+    #[arg(long)]
+    pub resume: bool,
+    /// Time between checkpoints, such as "10 s", or off [default: 30 s, longer where they would take 1 % of the
+    /// time]
+    #[arg(long, value_name = "TIME", value_parser = interval)]
+    pub checkpoint: Option<Interval>,
+}
+
+/// Interval of checkpoints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interval {
+    Off,
+    /// As given, whatever they take.
+    Given(Duration),
+    /// The default one, by their cost.
+    Default,
+}
+
+/// Parse a time or "off".
+fn interval(text: &str) -> Result<Interval, String> {
+    if text.trim() == "off" {
+        return Ok(Interval::Off);
+    }
+    let seconds = units::parse(text, units::TIME).map_err(|error| format!("{error}; or off"))?;
+    let duration = Duration::try_from_secs_f64(seconds).map_err(|_| "give a time of zero or more, or off")?;
+    Ok(Interval::Given(duration))
 }
 
 /// What is written beside the results file.

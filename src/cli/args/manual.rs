@@ -24,7 +24,8 @@ Examples:
 Units: values are written with their unit: \"20 um\", \"1200 rpm\", \"12 deg\", \"2.1e11 Pa\". A bare number is an error.
 
 Results go to out/NAME/ (out/NAME_VARIANT/ for a variant): results.h5 (HDF5, opens with h5py) and every figure as SVG \
-and PNG. Tables go to standard output; progress, warnings and errors to standard error.
+and PNG. One command at a time writes to a folder. While one runs, results_unfinished.h5 has its finished studies and \
+the samples so far; it stays if the program is killed, and spectrogram, orders, signal and export read it. Tables go to standard output; progress, warnings and errors to standard error.
 
 Exit codes:
   0    success
@@ -33,7 +34,9 @@ Exit codes:
   4    file error: a file or folder cannot be read or written
   5    with --strict: there are warnings; everything is computed and written
   101  internal error (a bug in rotordyn): please report it
-  130  interrupted by Ctrl-C; partial results are on disk
+  129  ended by SIGHUP (terminal closed); partial results are on disk
+  130  ended by Ctrl-C; partial results are on disk
+  143  ended by SIGTERM; partial results are on disk
 
 Warnings have a code: `rotordyn help CODE` explains one, `rotordyn help warnings` lists them.
 

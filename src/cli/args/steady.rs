@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use super::StudyArgs;
 use super::keys::{help as key_help, help_with as key_help_with};
+use super::{CheckpointArgs, StudyArgs};
 
 /// Shown with the long help of `poincare`.
 pub const POINCARE: &str = "\
@@ -50,6 +50,8 @@ pub struct SteadyArgs {
     /// generalised-alpha, newmark, rk4 or dormand-prince
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
+    #[command(flatten)]
+    pub checkpoints: CheckpointArgs,
 }
 
 /// Arguments of `poincare`.

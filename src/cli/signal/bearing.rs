@@ -1,7 +1,7 @@
 //! Bearing of the diagnosis: from the catalogue, from a model, or by its defect frequencies (orders).
 
 use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
-use rotordyn::io::hdf5::Store;
+use rotordyn::io::hdf5::open_reader;
 use rotordyn::model::catalogue;
 use rotordyn::names::nearest;
 use rotordyn::results::BearingWithOrders;
@@ -9,6 +9,7 @@ use rotordyn::results::BearingWithOrders;
 use super::super::args::ModelArgs;
 use super::super::catalogue::geometry as catalogue_geometry;
 use super::super::failure::Failure;
+use super::super::limits::limits;
 use super::super::machine::ModelSource;
 use super::super::settings::Settings;
 use super::super::store::stored_origin;
@@ -30,7 +31,7 @@ pub fn find(
             let model = ModelArgs { model: model.clone(), variant: None, set: Vec::new() };
             Some(ModelSource::read(&model)?)
         }
-        None if file.stored_run => stored_origin(&Store::open(&file.path)?).ok(),
+        None if file.stored_run => stored_origin(&*open_reader(&file.path, limits())?).ok(),
         None => None,
     };
     let of_model = match &origin {

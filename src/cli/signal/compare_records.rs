@@ -25,6 +25,7 @@ pub fn second_record(
         other => other,
     };
     let file = File::read(path)?;
+    warnings.extend(file.measured.left_out_text().map(|text| format!("{}: {text}", path.display())));
     let mut findings = InputProblems::default();
     let names: Vec<String> = args.compare_channel.iter().cloned().collect();
     let choice = ChannelSelection {

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::io::measured::{self, unit_label};
+use rotordyn::io::results_file::newest_results;
 use rotordyn::names::nearest;
 use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
 
 use super::super::failure::Failure;
+use super::super::limits::limits;
 use super::super::store;
 
 /// All errors of the flags and the file, and warnings.
@@ -102,9 +104,10 @@ pub struct File {
 
 impl File {
     pub fn read(path: &Path) -> Result<File, Failure> {
-        let path = if path.is_dir() { path.join(store::FILE) } else { path.to_path_buf() };
-        let measured = measured::read(&path)?;
-        let stored_run = path.file_name().is_some_and(|name| name == store::FILE);
+        let path = if path.is_dir() { newest_results(path) } else { path.to_path_buf() };
+        let measured = measured::read_within(&path, limits())?;
+        let stored_run =
+            path.file_name().is_some_and(|name| name == store::FILE || name == store::UNFINISHED);
         let named = if stored_run { path.parent().unwrap_or(&path) } else { &path };
         let stem = if stored_run { named.file_name() } else { named.file_stem() };
         let stem = stem.map_or_else(|| "record".into(), |s| s.to_string_lossy().into_owned());

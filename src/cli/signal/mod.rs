@@ -20,6 +20,7 @@ use rotordyn::figures;
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::signal_to_json;
 use rotordyn::io::results_file::{self, SignalMeta};
+use rotordyn::names::folder_name;
 use rotordyn::results::SignalResult;
 use rotordyn::units::SPEED;
 use rotordyn::warning::Code;
@@ -27,6 +28,7 @@ use serde_json::json;
 
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::folder_lock::FolderLock;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 use args::SignalArgs;
@@ -39,6 +41,9 @@ const RESULTS: &str = "signal.h5";
 pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let file = File::read(&args.file)?;
+    if let Some(left_out) = file.measured.left_out_text() {
+        terminal.warn_of(Code::LeftOut, left_out);
+    }
     let mut findings = InputProblems::default();
     let without: Vec<&str> =
         args.shaft.tacho.as_deref().into_iter().chain(args.quadrature_channel.as_deref()).collect();
@@ -91,6 +96,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     }
 
     let folder = folder(args, &file);
+    let _lock = FolderLock::take(&folder, terminal)?;
     let files = write(args, &file, &results, other.as_ref(), &folder, terminal)?;
     let seconds = start.elapsed().as_secs_f64();
     print_written_files(terminal, &folder, &files);
@@ -117,7 +123,7 @@ fn folder(args: &SignalArgs, file: &File) -> PathBuf {
     match (&args.out, file.stored_run) {
         (Some(out), _) => out.clone(),
         (None, true) => file.path.parent().map(PathBuf::from).unwrap_or_default(),
-        (None, false) => Path::new("out").join(&file.stem),
+        (None, false) => Path::new("out").join(folder_name(&file.stem)),
     }
 }
 
@@ -130,11 +136,12 @@ fn write(
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let store = Store::create(folder.join(RESULTS))?;
+    let store = Store::replace(folder.join(RESULTS))?;
     let command: Vec<String> = std::env::args().skip(1).collect();
     let meta = SignalMeta { file: &file.path.display().to_string(), command: &command.join(" ") };
     results_file::write_signal(&store, &meta, results, other.map(|(other, _)| other))?;
     let mut files = vec![store.path().to_path_buf()];
+    store.commit()?;
     if args.csv {
         let sections: Vec<Section> = results.iter().map(SignalResult::section).collect();
         files.extend(write_csv(folder, &sections)?);

@@ -6,6 +6,7 @@ pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatmen
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::mounted_preload::mounted_preloads;
 use super::preload::MountedPreload;
+use crate::assembly::rigid_body_modes::motion_of;
 use crate::assembly::{Assembly, DofMap, PhysicsError};
 use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::Model;
@@ -160,7 +161,7 @@ pub fn equilibrium(
         let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
         let lu = layout
             .factor::<f64>(values)
-            .map_err(|p| PhysicsError::Singular { motion: assembly.dofs.name(p.unknown) })?;
+            .map_err(|p| PhysicsError::Singular { motion: motion_of(assembly, p.unknown) })?;
         let mut direction = residual.clone();
         lu.solve(&mut direction);
         let before = dot(&residual, &direction);
@@ -193,7 +194,7 @@ pub fn equilibrium(
     let furthest = max_abs(&q);
     if furthest > 1e3 {
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
-        return Err(PhysicsError::Singular { motion: assembly.dofs.name(worst) });
+        return Err(PhysicsError::Singular { motion: motion_of(assembly, worst) });
     }
     let accepted = (ACCEPTED * size_of(&reactions)).max(round_off(&q, &reactions));
     if left > accepted.max(SMALLEST_FORCE) || left.is_nan() {

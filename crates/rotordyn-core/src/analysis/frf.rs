@@ -1,6 +1,7 @@
 //! Frequency response functions at a fixed speed, solved directly.
 
 use super::harmonic::HarmonicSystem;
+use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
@@ -44,7 +45,7 @@ pub fn frf(
             |solver, &hz| {
                 let omega = hz * TAU;
                 solver.factor(omega).map_err(|pivot| PhysicsError::Singular {
-                    motion: format!("at {hz} Hz {}", assembly.dofs.name(pivot.unknown)),
+                    motion: format!("at {hz} Hz {}", unconstrained_motion(assembly, system, pivot.unknown)),
                 })?;
                 let scale = derivative_factor(quantity, omega);
                 let mut column = Vec::with_capacity(excitations.len() * responses.len());

@@ -14,6 +14,7 @@ use super::harmonic::HarmonicSystem;
 use super::mode::inner;
 use super::preload::with_mounted_preload;
 use super::table_range;
+use crate::assembly::rigid_body_modes::{motion_of, unconstrained_motion};
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::{Model, Quantity};
 use rotordyn_bearing::{Reaction, SiteTangent};
@@ -137,7 +138,7 @@ impl Linearised {
         let tangent = SparseMatrix::sum(&[(1.0, stiffness), (1.0, &bearings), (MASS_SHIFT, mass)]);
         let lu = layout
             .factor::<f64>(layout.scatter(&tangent))
-            .map_err(|p| PhysicsError::Singular { motion: self.assembly.dofs.name(p.unknown) })?;
+            .map_err(|p| PhysicsError::Singular { motion: motion_of(&self.assembly, p.unknown) })?;
         lu.solve(&mut change);
         Ok(change)
     }
@@ -420,8 +421,8 @@ pub fn frf_sensitivity(
         let omega = TAU * hz;
         let value = Complex64::new(0.0, omega);
         solver.factor(omega).map_err(|pivot| {
-            let name = at.assembly.dofs.name(pivot.unknown);
-            PhysicsError::Singular { motion: format!("at {hz} Hz {name}") }
+            let motion = unconstrained_motion(&at.assembly, system, pivot.unknown);
+            PhysicsError::Singular { motion: format!("at {hz} Hz {motion}") }
         })?;
         for (e, excitation) in excitations.iter().enumerate() {
             let mut q = vec![Complex64::default(); harmonic.size()];

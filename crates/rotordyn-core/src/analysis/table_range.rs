@@ -1,7 +1,7 @@
 //! Speeds of a study compared with the tables of bearings over speed.
 
 use crate::assembly::PhysicsError;
-use crate::model::Model;
+use crate::model::{BearingSite, Model};
 use crate::warning::{Code, Warning};
 use rotordyn_bearing::BeyondTable;
 use std::f64::consts::TAU;
@@ -40,6 +40,49 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
         warnings.push(Warning::new(Code::TableRange, item, text));
     }
     Ok(warnings)
+}
+
+/// Warnings of bearings whose tables cover less than the speeds of several studies, one for each bearing.
+///
+/// `studies`: name, lowest and highest speed \[rad/s\] of each. A bearing that refuses such speeds has none: its studies end
+/// with an error.
+pub fn warnings(model: &Model, studies: &[(&str, [f64; 2])]) -> Vec<Warning> {
+    let rpm = |speed: f64| format!("{:.0}", speed * 60.0 / TAU);
+    let of_bearing = |site: &BearingSite| {
+        let range = site.bearing.speed_range().filter(|range| range.beyond != BeyondTable::Refuse)?;
+        let [first, last] = range.speeds;
+        let margin = TABLE_MARGIN * last;
+        let beyond: Vec<&(&str, [f64; 2])> = studies
+            .iter()
+            .filter(|(_, [low, high])| *low < first - margin || *high > last + margin)
+            .collect();
+        if beyond.is_empty() {
+            return None;
+        }
+        let need = |(study, [low, high]): &(&str, [f64; 2])| match low == high {
+            true => format!("{study} needs {} rpm", rpm(*low)),
+            false => format!("{study} needs {} to {} rpm", rpm(*low), rpm(*high)),
+        };
+        let needs: Vec<String> = beyond.into_iter().map(need).collect();
+        let low = studies.iter().any(|(_, speeds)| speeds[0] < first - margin);
+        let high = studies.iter().any(|(_, speeds)| speeds[1] > last + margin);
+        let held = match (low, high) {
+            (true, false) => {
+                format!("below {0} rpm the values of {0} rpm hold, also at standstill", rpm(first))
+            }
+            (false, true) => format!("above {0} rpm the values of {0} rpm hold", rpm(last)),
+            _ => "beyond it the values of its end hold".into(),
+        };
+        let name = &site.name;
+        let text = format!(
+            "bearing {name}: its table covers {} to {} rpm, {}; {held}",
+            rpm(first),
+            rpm(last),
+            needs.join(", ")
+        );
+        Some(Warning::new(Code::TableRange, format!("bearing.{name}"), text))
+    };
+    model.bearings.iter().filter_map(of_bearing).collect()
 }
 
 /// Warning of a motor whose torque table (speed \[rad/s\], torque \[N m\]) covers less than the speeds of a run.

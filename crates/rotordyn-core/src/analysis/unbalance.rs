@@ -4,6 +4,7 @@ use super::campbell::Tangents;
 use super::frf::derivative_factor;
 use super::harmonic::HarmonicSystem;
 use super::mode_kind::whirl_index;
+use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
@@ -78,9 +79,9 @@ pub fn response(
             let reached: Vec<usize> = (0..q.len()).filter(|&i| q[i] != Complex64::default()).collect();
             let harmonic = HarmonicSystem::new(&system, Some(&reached));
             let mut solver = harmonic.solver();
-            solver
-                .factor(speed)
-                .map_err(|pivot| PhysicsError::Singular { motion: assembly.dofs.name(pivot.unknown) })?;
+            solver.factor(speed).map_err(|pivot| PhysicsError::Singular {
+                motion: unconstrained_motion(assembly, &system, pivot.unknown),
+            })?;
             solver.solve(&mut q);
             Ok(q)
         })

@@ -6,7 +6,7 @@ use super::modal_damping::ModalDamping;
 use super::spin_up::SpinUpForm;
 use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
-use crate::model::Model;
+use crate::model::{Model, ShaftExtent};
 use rotordyn_bearing::Reaction;
 use rotordyn_linalg::{Complex64, SparseMatrix, SparseRow, dot};
 use std::sync::Arc;
@@ -52,6 +52,8 @@ pub struct Assembly {
     pub modal: Option<Arc<ModalDamping>>,
     /// Mass over all DOFs, before elimination.
     pub full_mass: SparseMatrix,
+    /// The shaft's mesh, for messages.
+    pub extent: ShaftExtent,
 }
 
 /// Bearing site: its six relative displacements as linear functions of q.
@@ -158,6 +160,7 @@ impl Assembly {
             modal_damping: model.damping.modal.clone(),
             modal: None,
             full_mass: full.mass,
+            extent: ShaftExtent::of(model),
             dofs,
         };
         check_mass(&assembly)?;

@@ -23,6 +23,10 @@ pub enum PhysicsError {
         "unbalance {unbalance} of {magnitude:.3e} kg m is too large for a torque drive: U^2 must be less than m J of the rotor at its station, and there m = {mass:.3e} kg and J = {inertia:.3e} kg m^2 move with it; put it on a disc, or add its mass as a disc"
     )]
     UnbalanceAboveInertia { unbalance: String, magnitude: f64, mass: f64, inertia: f64 },
+    #[error(
+        "the snapshot at t = {time:.6} s is one of another machine or integrator: resume with the model and settings of its run"
+    )]
+    OtherSnapshot { time: f64 },
     #[error("the clock of the Poincaré section does not advance at {speed_rpm:.1} rpm")]
     SectionClockStopped { speed_rpm: f64 },
     #[error("no steady motion at any value of the parameter: {reason}")]
@@ -45,6 +49,18 @@ pub enum PhysicsError {
     Film { bearing: String, race: String, reason: String },
     #[error("bearing {bearing} at t = {time:.6} s, {speed_rpm:.1} rpm: {reason}")]
     FreeBodies { bearing: String, time: f64, speed_rpm: f64, reason: String },
+    #[error(
+        "{purpose} needs {gigabytes:.1} GB for dense matrices of {unknowns} coupled unknowns, at most {limit:.1} GB are allowed: {shaft}; check the unit of its length, or raise element_length"
+    )]
+    TooLarge { purpose: String, unknowns: usize, gigabytes: f64, limit: f64, shaft: String },
+    #[error(
+        "the recorded motion of a run has {frames:.0} frames, {gigabytes:.1} GB in memory, at most {limit:.1} GB are allowed; lower motion_rate, or record a shorter time"
+    )]
+    TooManyFrames { frames: f64, gigabytes: f64, limit: f64 },
+    #[error(
+        "{motion} is unconstrained, or so soft that its natural frequency is below 0.016 Hz: {shaft}, {slenderness:.0} times its thickness; check the unit of its length"
+    )]
+    TooSlender { motion: String, slenderness: f64, shaft: String },
     #[error("no derivative with respect to the parameter: {reason}")]
     NoDerivative { reason: String },
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]

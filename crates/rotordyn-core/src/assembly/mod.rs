@@ -3,6 +3,7 @@
 //! M q̈ + (C + Ω G) q̇ + (K + Ω̇ K_s + Ω K_c) q = f over the free DOFs q; q_full = T q holds six DOFs per
 //! node, shaft nodes first, then bodies. θ_z of a shaft node is its twist relative to the drive's rotation.
 
+pub mod dense_limit;
 pub mod dofs;
 mod elements;
 mod equations;

@@ -149,7 +149,31 @@ fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
     }
     motions.sort_by(|a, b| b.0.total_cmp(&a.0));
     motions.truncate(shapes.len());
-    let name = |&(_, owner, direction): &(f64, usize, usize)| match (owner, direction) {
+    motions.into_iter().map(|(_, owner, direction)| name_of(assembly, owner, direction)).collect()
+}
+
+/// The motion of the body that a DOF moves most, such as the DOF at which a factorisation fails.
+pub fn motion_of(assembly: &Assembly, unknown: usize) -> String {
+    let dofs = &assembly.dofs;
+    let mut shape = vec![0.0; dofs.len()];
+    shape[unknown] = 1.0;
+    let full = dofs.expand(&shape);
+    let most = (0..full.len()).max_by(|&a, &b| full[a].abs().total_cmp(&full[b].abs()).then(b.cmp(&a)));
+    let moved = most.unwrap_or(0);
+    name_of(assembly, (moved / 6 + 1).saturating_sub(dofs.shaft_nodes), moved % 6)
+}
+
+/// What a system that cannot be solved leaves free: its rigid-body modes, else the motion of the unknown at which its
+/// factorisation fails.
+pub fn unconstrained_motion(assembly: &Assembly, system: &LinearSystem, unknown: usize) -> String {
+    let motions = rigid_body_modes_of(assembly, system).unwrap_or_default();
+    if motions.is_empty() { motion_of(assembly, unknown) } else { motions.join(", ") }
+}
+
+/// Name of a motion; `owner`: 0 for the shaft, else the number of a body from 1.
+fn name_of(assembly: &Assembly, owner: usize, direction: usize) -> String {
+    let dofs = &assembly.dofs;
+    match (owner, direction) {
         (0, 2) => AXIAL.into(),
         (0, 5) => SPIN.into(),
         (0, 0 | 1) => format!("lateral motion of the shaft ({})", DOF_NAMES[direction]),
@@ -157,6 +181,5 @@ fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
         (body, _) => {
             format!("body `{}` ({})", dofs.node_names[dofs.shaft_nodes + body - 1], DOF_NAMES[direction])
         }
-    };
-    motions.iter().map(name).collect()
+    }
 }

@@ -1,5 +1,6 @@
 //! The modal damping matrix, from the undamped modes at standstill.
 
+use super::dense_limit::check_dense;
 use super::modal_damping::ratio;
 use super::{Assembly, ModalDamping, PhysicsError};
 use nalgebra::DMatrix;
@@ -9,12 +10,14 @@ use std::sync::Arc;
 
 /// Shifts σ \[rad²/s²\] of K + σ M, tried in turn: 1 for a rigid-body mode, more for a negative stiffness.
 const MASS_SHIFTS: [f64; 5] = [1.0, 1e2, 1e4, 1e6, 1e8];
+/// Dense matrices in memory for the block of a group: M, K, factor, congruent K, modes, momenta, weighted ones.
+const BLOCK_MATRICES: usize = 7;
 
 impl ModalDamping {
     /// Modal damping with one tangent at standstill per bearing site; `None` without a damping table.
     ///
     /// # Errors
-    /// Undamped modes that do not converge, or matrices that are not finite.
+    /// Undamped modes that do not converge, matrices that are not finite, or too large.
     pub fn new(assembly: &Assembly, standstill: &[SiteTangent]) -> Result<Option<Self>, PhysicsError> {
         let table = assembly.modal_damping.clone();
         if table.is_empty() {
@@ -22,6 +25,8 @@ impl ModalDamping {
         }
         let stiffness = symmetric_stiffness(assembly, standstill);
         let layout = BandLayout::new(&[&assembly.mass, &stiffness]);
+        let largest = layout.groups().map(<[usize]>::len).max().unwrap_or(0);
+        check_dense("modal damping", largest, BLOCK_MATRICES, &assembly.extent)?;
         let blocks = layout
             .groups()
             .map(|group| Ok((group.to_vec(), block(&assembly.mass, &stiffness, group, &table)?)))

@@ -4,12 +4,14 @@ mod external_file;
 pub mod free_ball_study;
 mod integrator;
 mod probe;
+mod shaft_extent;
 pub mod speed_profile;
 mod steady_study;
 pub mod study;
 
 pub use external_file::{ExternalColumn, ExternalFile};
 pub use probe::{Probe, Quantity};
+pub use shaft_extent::{EqualElements, ShaftExtent};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
 use crate::element::{

@@ -2,6 +2,7 @@
 
 use rotordyn_linalg::pchip::Pchip;
 use rotordyn_linalg::spline::Spline;
+use serde::{Deserialize, Serialize};
 
 /// Prescribed shaft speed over time; speeds in rad/s, times in s.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,7 @@ pub enum SpeedProfile {
 }
 
 /// Shaft angle, speed and acceleration at one time.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Spin {
     /// θ \[rad\], zero at t = 0; with measured pulses zero at the first pulse.
     pub angle: f64,

@@ -1,6 +1,6 @@
 //! Samples of a transient run.
 
-use crate::document::Rows;
+use crate::series::Series;
 use serde::{Deserialize, Serialize};
 
 /// A channel of a transient run.
@@ -14,35 +14,23 @@ pub struct HistoryChannel {
     /// Station or body, and direction.
     pub station: String,
     pub direction: String,
-    pub values: Vec<f64>,
+    pub values: Series,
 }
 
-/// Samples of a transient run at a constant rate.
+/// Samples of a transient run at a constant rate, in memory or in the file to which they were streamed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     pub sample_rate: f64,
-    pub time: Vec<f64>,
+    pub time: Series,
     /// Shaft angle θ \[rad\] and speed Ω \[rad/s\].
-    pub angle: Vec<f64>,
-    pub speed: Vec<f64>,
+    pub angle: Series,
+    pub speed: Series,
     pub channels: Vec<HistoryChannel>,
 }
 
-impl HistoryChannel {
-    /// What is written beside the streamed samples.
-    pub(super) fn columns<'a>(rows: &[Self]) -> Rows<'a, '_, Self> {
-        let rms = |c: &Self| {
-            let square = c.values.iter().map(|v| v * v).sum::<f64>() / c.values.len() as f64;
-            square.sqrt()
-        };
-        Rows::of(rows)
-            .text("name", |c| &c.name)
-            .text("unit", |c| &c.unit)
-            .text("quantity", |c| &c.quantity)
-            .text("station", |c| &c.station)
-            .text("direction", |c| &c.direction)
-            .number("minimum", "", |c| c.values.iter().copied().fold(f64::INFINITY, f64::min))
-            .number("maximum", "", |c| c.values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
-            .number("rms", "", rms)
+impl History {
+    /// The channel of a name.
+    pub fn channel(&self, name: &str) -> Option<&HistoryChannel> {
+        self.channels.iter().find(|channel| channel.name == name)
     }
 }

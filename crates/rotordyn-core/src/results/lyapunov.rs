@@ -1,6 +1,6 @@
 //! Largest Lyapunov exponent.
 
-use super::steady::{SectionClock, exponent_document};
+use super::steady::{RecordedPeriods, SectionClock, exponent_document};
 use crate::document::{Array, Document, named};
 use rotordyn_signal::lyapunov::LyapunovExponent;
 use serde::{Deserialize, Serialize};
@@ -12,6 +12,8 @@ pub struct LyapunovResult {
     pub speed: f64,
     pub clock: SectionClock,
     pub exponent: LyapunovExponent,
+    /// Periods recorded when the run was stopped before its end; the exponent is that of these alone.
+    pub partial: Option<RecordedPeriods>,
 }
 
 impl LyapunovResult {
@@ -23,6 +25,7 @@ impl LyapunovResult {
             .quantity("speed", "rad/s", self.speed)
             .group(named("clock", ""), self.clock.document())
             .group(named("exponent", ""), exponent_document(e))
+            .and_if(self.partial, |out, partial| out.group("partial", partial.document()))
             .array(named("history", "exponent"), history)
             .numbers(named("time_s", "time"), "s", &e.times)
     }

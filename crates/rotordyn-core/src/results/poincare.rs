@@ -1,6 +1,6 @@
 //! Poincaré sections.
 
-use super::steady::{SectionChannel, SectionClock, motion_document};
+use super::steady::{RecordedPeriods, SectionChannel, SectionClock, motion_document};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named};
 use rotordyn_signal::motion_classification::Classification;
 use rotordyn_signal::orbit::FilteredOrbit;
@@ -20,6 +20,8 @@ pub struct PoincareResult {
     /// Shaft angle at every sample of the orbits \[rad\].
     pub shaft_angle: Vec<f64>,
     pub planes: Vec<PlaneSection>,
+    /// Periods recorded when the run was stopped before its end; the motion is that of these alone.
+    pub partial: Option<RecordedPeriods>,
 }
 
 /// One plane of an orbit.
@@ -68,6 +70,7 @@ impl PoincareResult {
             .group(named("motion", ""), motion_document(&self.motion))
             .integer("transient_periods", self.transient_periods)
             .integer("groups", self.groups)
+            .and_if(self.partial, |out, partial| out.group("partial", partial.document()))
             .numbers(in_hdf5("shaft_angle"), "rad", &self.shaft_angle)
             .groups(named("planes", ""), "name", self.planes.iter().map(|p| (p.name.clone(), p.document())))
     }

@@ -1,6 +1,7 @@
 //! A run-up, and its reliability: error of its time step, dependence on the initial cage phase.
 
-use super::history::{History, HistoryChannel};
+use super::history::History;
+use super::run_summary::RunSummary;
 use super::{OrderLine, RollingCageComparison};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named, quantity};
 use crate::transient::run::{End, Report};
@@ -18,6 +19,8 @@ pub struct RunUpResult {
     /// Largest relative error of the reduced model's damped frequencies up to half the cutoff, at top speed.
     pub frequency_error: f64,
     pub history: History,
+    /// Extremes and levels of the samples.
+    pub summary: RunSummary,
     pub report: Report,
     /// Requested step \[s\]; the step used divides the sampling interval.
     pub requested_step: f64,
@@ -77,9 +80,9 @@ impl RunUpResult {
             .count("halvings", report.halvings)
             .group(named("energy_j", ""), energy)
             .number(in_json("sample_rate_hz"), "Hz", self.history.sample_rate)
-            .integer(in_json("samples"), self.history.time.len())
+            .integer(in_json("samples"), self.summary.samples)
             .integer(in_hdf5("samples"), report.samples)
-            .table(in_json("channels"), HistoryChannel::columns(&self.history.channels));
+            .with(in_json("channels"), Value::Table(self.summary.columns(&self.history.channels)));
         if let Some(comparison) = &self.cage_comparison {
             out = out.group("cage_comparison", comparison.document());
         }

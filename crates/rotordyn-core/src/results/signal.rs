@@ -24,6 +24,7 @@ use rotordyn_signal::cepstrum::Cepstrum;
 use rotordyn_signal::spectrum::Spectrum;
 use rotordyn_signal::statistics::Statistics;
 use rotordyn_signal::stft::Spectrogram;
+use rotordyn_units::names::group_name;
 use std::f64::consts::TAU;
 
 /// Results of one channel; analyses not requested are empty.
@@ -97,7 +98,7 @@ pub struct SpectrogramWithSpeed {
 impl SignalResult {
     /// The group of the channel.
     pub fn section(&self) -> Section<'_> {
-        Section::listed("channels", self.channel.replace('/', "_"), self.document())
+        Section::listed("channels", group_name(&self.channel), self.document())
     }
 
     /// What is written to files.
@@ -115,7 +116,7 @@ impl SignalResult {
                 .with(in_json("peaks"), peaks)
         };
         Document::new()
-            .text(in_json("channel"), &self.channel)
+            .text("channel", &self.channel)
             .text("unit", unit)
             .number(named("sample_rate_hz", "sample_rate"), "Hz", self.sample_rate)
             .quantity("start", "s", self.start)

@@ -1,7 +1,8 @@
 //! Spectrograms and order spectrograms of a run-up.
 
 use super::OrderLine;
-use crate::document::{Array, Document, Rows, Section, Value, in_hdf5, in_json};
+use crate::document::{Array, Document, Rows, Section, StoredArray, Value, in_hdf5, in_json};
+use crate::series::Series;
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
 use rotordyn_signal::segment::Level;
 use rotordyn_signal::stft::Spectrogram;
@@ -13,10 +14,21 @@ use std::f64::consts::TAU;
 pub struct SpectrogramResult {
     pub channel: String,
     pub unit: String,
-    pub spectrogram: Spectrogram,
+    pub spectrogram: Spectrogram<Series>,
+    /// Its highest amplitude; `None` of an empty one.
+    pub peak: Option<SpectrogramPeak>,
     /// Speed at every frame \[rad/s\].
     pub speed: Vec<f64>,
     pub orders: Vec<OrderLine>,
+}
+
+/// The highest amplitude of a spectrogram.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpectrogramPeak {
+    /// Speed \[rad/s\] and frequency \[Hz\] there.
+    pub speed: f64,
+    pub frequency: f64,
+    pub amplitude: f64,
 }
 
 /// Order spectrogram and cuts of one channel.
@@ -24,7 +36,7 @@ pub struct SpectrogramResult {
 pub struct OrderResult {
     pub channel: String,
     pub unit: String,
-    pub spectrogram: OrderSpectrogram,
+    pub spectrogram: OrderSpectrogram<Series>,
     pub cuts: Vec<(OrderLine, OrderCut)>,
 }
 
@@ -37,12 +49,11 @@ impl SpectrogramResult {
     fn document(&self) -> Document<'_> {
         let s = &self.spectrogram;
         let (frames, bins) = (s.times.len(), s.frequencies.len());
-        let highest = (0..s.amplitude.len()).max_by(|&a, &b| s.amplitude[a].total_cmp(&s.amplitude[b]));
-        let peak = highest.map(|k| {
+        let peak = self.peak.map(|peak| {
             Document::new()
-                .quantity("speed", "rad/s", self.speed[k / bins])
-                .quantity("frequency", "Hz", s.frequencies[k % bins])
-                .number("amplitude", "", s.amplitude[k])
+                .quantity("speed", "rad/s", peak.speed)
+                .quantity("frequency", "Hz", peak.frequency)
+                .number("amplitude", "", peak.amplitude)
         });
         let rpm: Vec<f64> = self.speed.iter().map(|speed| speed * 60.0 / TAU).collect();
         Document::new()
@@ -110,7 +121,7 @@ impl OrderResult {
 fn map_document<'a>(
     level: Level,
     noise_bandwidth_bins: f64,
-    amplitude: &'a [f64],
+    amplitude: &'a Series,
     shape: [usize; 2],
     unit: &str,
     axis: &str,
@@ -119,9 +130,20 @@ fn map_document<'a>(
         Level::Peak => "peak",
         Level::Rms => "RMS",
     };
-    let map = Array::real(&shape, unit, amplitude).over(0, "rpm").over(0, "time").over(1, axis);
-    Document::new()
-        .text(in_hdf5("level"), level)
-        .number(in_hdf5("noise_bandwidth_bins"), "1", noise_bandwidth_bins)
-        .array(in_hdf5("amplitude"), map)
+    let out = Document::new().text(in_hdf5("level"), level).number(
+        in_hdf5("noise_bandwidth_bins"),
+        "1",
+        noise_bandwidth_bins,
+    );
+    match amplitude.in_memory() {
+        Some(values) => {
+            let map = Array::real(&shape, unit, values).over(0, "rpm").over(0, "time").over(1, axis);
+            out.array(in_hdf5("amplitude"), map)
+        }
+        None => {
+            let axes = [(0, "rpm"), (0, "time"), (1, axis)].map(|(k, name)| (k, name.to_string())).into();
+            let (shape, values) = (shape.into(), amplitude.clone());
+            out.stored("amplitude", StoredArray { shape, values, unit: unit.into(), axes })
+        }
+    }
 }

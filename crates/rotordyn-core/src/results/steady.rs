@@ -33,6 +33,24 @@ impl SectionClock {
     }
 }
 
+/// Periods of a record that was stopped before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RecordedPeriods {
+    pub recorded: usize,
+    pub requested: usize,
+}
+
+impl RecordedPeriods {
+    /// "20 of 200 periods".
+    pub fn words(&self) -> String {
+        format!("{} of {} periods", self.recorded, self.requested)
+    }
+
+    pub(super) fn document(&self) -> Document<'static> {
+        Document::new().integer("recorded", self.recorded).integer("requested", self.requested)
+    }
+}
+
 /// What is written of a classified motion.
 pub(super) fn motion_document<'a>(found: &Classification) -> Document<'a> {
     let period = found.motion.period();

@@ -1,11 +1,15 @@
 //! Bifurcation diagrams: Poincaré sections over a parameter, with or without continuation, on all cores.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use super::settled_run::{Criteria, SettledRun};
+use super::milestone::Milestone;
+use super::settled_run::{Criteria, SettledRun, SettledSnapshot, SettledStart};
 use super::steady_motion::{RestartState, clock_name, section_channel};
 use super::{Machine, StudyError};
 use crate::analysis::ball_inertia::decided_together;
@@ -21,6 +25,44 @@ const STOPPED: &str = "stopped";
 
 /// Result of one parameter value, and the restart state of its run.
 type Outcome = (Result<SteadyMotion, String>, Option<RestartState>);
+
+/// Values of a bifurcation diagram finished so far, with the restart states of their runs.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct FinishedValues {
+    chunks: BTreeMap<ChunkName, Vec<Outcome>>,
+}
+
+impl FinishedValues {
+    /// Number of finished runs.
+    pub fn len(&self) -> usize {
+        self.chunks.values().map(Vec::len).sum()
+    }
+
+    /// Whether no run is finished.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// A chunk of a sweep: name of the sweep, first and last step with those before the seam, and whether it is rerun from
+/// the final state of the chunk before.
+type ChunkName = (String, usize, usize, bool);
+
+/// How far a bifurcation diagram is.
+pub struct BifurcationProgress<'a> {
+    /// Completed runs, those of an earlier run included.
+    pub done: usize,
+    /// Planned runs; a chunk that is rerun adds to them.
+    pub planned: usize,
+    finished: &'a Mutex<FinishedValues>,
+}
+
+impl BifurcationProgress<'_> {
+    /// The finished values, from which [`bifurcation_from`] goes on to the same bits.
+    pub fn snapshot(&self) -> FinishedValues {
+        self.finished.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
 
 /// Bifurcation diagram of a family of machines, one model per value of the study's parameter.
 ///
@@ -38,6 +80,19 @@ type Outcome = (Result<SteadyMotion, String>, Option<RestartState>);
 pub fn bifurcation(
     models: &[Model],
     progress: &(dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
+) -> Result<BifurcationResult, StudyError> {
+    bifurcation_from(models, FinishedValues::default(), &|now| progress(now.done, now.planned))
+}
+
+/// As [`bifurcation`], with the values that an earlier run has finished: these are not computed again, and the diagram
+/// is that of a run which was never stopped.
+///
+/// # Errors
+/// As [`bifurcation`].
+pub fn bifurcation_from(
+    models: &[Model],
+    finished: FinishedValues,
+    progress: &(dyn Fn(&BifurcationProgress) -> ControlFlow<()> + Sync),
 ) -> Result<BifurcationResult, StudyError> {
     let study = models.first().and_then(|m| m.studies.bifurcation.as_ref()).ok_or(StudyError::Signal(
         rotordyn_signal::SignalError::Empty { name: "list of models with a bifurcation study" },
@@ -66,6 +121,8 @@ pub fn bifurcation(
         models,
         progress,
         done: AtomicUsize::new(0),
+        finished: Mutex::new(finished),
+        stopped: AtomicBool::new(false),
         planned: AtomicUsize::new(runs * directions.len()),
     };
     let tasks: Vec<(&'static str, [usize; 2])> =
@@ -118,9 +175,11 @@ fn value_index(direction: &str, step: usize, n: usize) -> usize {
 /// Data shared by all chunks.
 struct ChunkRunner<'a> {
     models: &'a [Model],
-    progress: &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync),
+    progress: &'a (dyn Fn(&BifurcationProgress) -> ControlFlow<()> + Sync),
     done: AtomicUsize,
     planned: AtomicUsize,
+    finished: Mutex<FinishedValues>,
+    stopped: AtomicBool,
 }
 
 impl ChunkRunner<'_> {
@@ -132,21 +191,43 @@ impl ChunkRunner<'_> {
         start: Option<RestartState>,
         carry: bool,
     ) -> Vec<Outcome> {
+        let name: ChunkName = (direction.to_string(), from, to, start.is_some());
+        let known = |found: &FinishedValues| found.chunks.get(&name).cloned().unwrap_or_default();
+        let mut outcomes = known(&self.finished());
+        outcomes.truncate(to - from);
+        self.done.fetch_add(outcomes.len(), Ordering::Relaxed);
         let mut carried = start;
-        let mut outcomes = Vec::with_capacity(to - from);
-        for step in from..to {
+        if let Some((_, state)) = outcomes.last() {
+            carried = state.clone().filter(|_| carry);
+        }
+        for step in from + outcomes.len()..to {
             let model = &self.models[value_index(direction, step, self.models.len())];
             let outcome = self.run_value(model, carried.as_ref());
             // After a failed value the next one starts from equilibrium.
             carried = outcome.1.clone().filter(|_| carry);
+            if !matches!(&outcome.0, Err(reason) if reason == STOPPED) {
+                self.finished().chunks.entry(name.clone()).or_default().push(outcome.clone());
+            }
             outcomes.push(outcome);
         }
         outcomes
     }
 
+    fn finished(&self) -> MutexGuard<'_, FinishedValues> {
+        self.finished.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn run_value(&self, model: &Model, carried: Option<&RestartState>) -> Outcome {
-        let report_progress =
-            || (self.progress)(self.done.load(Ordering::Relaxed), self.planned.load(Ordering::Relaxed));
+        let report_progress = || {
+            let (done, planned) = (self.done.load(Ordering::Relaxed), self.planned.load(Ordering::Relaxed));
+            // Once stopped it stays so: what follows would start from another state than it should.
+            if self.stopped.load(Ordering::Relaxed) {
+                return ControlFlow::Break(());
+            }
+            let flow = (self.progress)(&BifurcationProgress { done, planned, finished: &self.finished });
+            self.stopped.fetch_or(flow.is_break(), Ordering::Relaxed);
+            flow
+        };
         let outcome = match &model.studies.bifurcation {
             _ if report_progress().is_break() => (Err(STOPPED.to_string()), None),
             None => (Err("the model has no bifurcation study".to_string()), None),
@@ -206,8 +287,10 @@ fn steady_motion(
         perturbation: study.perturbation,
     };
     let shown = (&probes[..], &channels[..]);
-    let settled = machine.settled_run(&reduction, state, &study.steady, shown, criteria, progress)?;
-    let Some(SettledRun { run, motion, .. }) = settled else { return Ok(None) };
+    let start = SettledStart::State(Box::new(state));
+    let observe = &mut |now: &Milestone<SettledSnapshot>| progress(now.share);
+    let settled = machine.settled_run(&reduction, start, &study.steady, shown, criteria, observe)?;
+    let Some(SettledRun { run, motion, complete: true, .. }) = settled else { return Ok(None) };
     Ok(Some((motion, RestartState::new(&reduction, &run.state))))
 }
 

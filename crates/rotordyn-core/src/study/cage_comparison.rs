@@ -20,6 +20,7 @@
 //! which are 0.1 to 0.2 N below the quasi-static ones over the first 40°. Housing B itself shakes with the collisions: BPFO is only
 //! 12 to 16 times above their noise there, and 12 to 15 % off.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -29,6 +30,7 @@ use super::step_error::line_level;
 use super::{Machine, Recorder, StudyError};
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{CageLine, CageSpeed, History, RollingCageComparison};
+use crate::series::{Series, SeriesError};
 use crate::transient::run::End;
 use rotordyn_bearing::free_ball::ball_offset_name;
 use rotordyn_bearing::{BallBearing, SpacedBalls};
@@ -53,9 +55,13 @@ impl Machine {
         let rolling = |site: usize| self.model.bearings[site].bearing.with_rolling_cage();
         let free: Vec<usize> =
             (0..self.model.bearings.len()).filter(|site| rolling(*site).is_some()).collect();
-        let Some(stretch) = last_third(history).filter(|_| !free.is_empty()) else { return Ok(None) };
+        if free.is_empty() {
+            return Ok(None);
+        }
+        let angle = history.angle.all()?;
+        let Some(stretch) = last_third(&angle) else { return Ok(None) };
         let [first, end] = stretch;
-        let revolutions = (history.angle[end] - history.angle[first]).abs() / TAU;
+        let revolutions = (angle[end] - angle[first]).abs() / TAU;
 
         let mut model = self.model.clone();
         for site in &free {
@@ -72,7 +78,7 @@ impl Machine {
             let mut reduction = machine.reduce(study)?;
             for site in free.iter().filter(|_| drive != CageDrive::Rolling) {
                 let site = &machine.model.bearings[*site];
-                let Some(recorded) = BallAngles::of(history, &site.name) else { return Ok(None) };
+                let Some(recorded) = BallAngles::of(history, &angle, &site.name)? else { return Ok(None) };
                 let interfaces = reduction.system.interfaces.iter_mut();
                 for interface in interfaces.filter(|interface| interface.name == site.name) {
                     interface.cage_angles = Some(recorded.mean_over_shaft());
@@ -83,7 +89,12 @@ impl Machine {
                     }
                 }
             }
-            let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+            let probes = &self.model.probes;
+            let recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+            // Only what is compared is kept: the probes, and the angles of the cages.
+            let mut recorder = recorder.with_channels(|channel| {
+                probes.iter().any(|probe| probe.name == channel.name) || channel.direction == "cage"
+            });
             let report = machine.run_up(study, &reduction, |sample| {
                 recorder.record(sample);
                 progress()
@@ -96,43 +107,48 @@ impl Machine {
         }
         let [rolling, driven, spaced] = &runs[..] else { return Ok(None) };
 
-        let cages: Vec<CageSpeed> =
-            free.iter().map(|site| self.cage_speed(*site, history, rolling, stretch)).collect();
+        let cages = free.iter().map(|site| self.cage_speed(*site, history, rolling, stretch));
+        let cages = cages.collect::<Result<Vec<CageSpeed>, SeriesError>>()?;
         let mut lines = Vec::new();
         let offset = LINES_BESIDE / revolutions;
         let samples_per_revolution = (end - first) as f64 / revolutions;
         for probe in 0..self.model.probes.len() {
-            let means = channel(history, &interval_mean_name(&history.channels[probe].name));
-            let means = if means.is_empty() { &history.channels[probe].values[..] } else { means };
+            let own = &history.channels[probe];
+            let means = history.channel(&interval_mean_name(&own.name)).unwrap_or(own);
+            let means = means.values.read(first..end + 1)?;
+            let angle = &angle[first..=end];
+            let stretch_of = |run: &History| -> Result<[Vec<f64>; 2], SeriesError> {
+                let values = run.channels[probe].values.read(first..end + 1)?;
+                Ok([run.angle.read(first..end + 1)?.into_owned(), values.into_owned()])
+            };
+            let kinematic = [stretch_of(rolling)?, stretch_of(driven)?, stretch_of(spaced)?];
             for order in self.checked_orders() {
-                let own = cages.iter().find(|cage| (cage.rolling_bpfo - order).abs() < 1e-6);
-                let order_of_run = own.map_or(order, |cage| cage.bpfo);
+                let cage = cages.iter().find(|cage| (cage.rolling_bpfo - order).abs() < 1e-6);
+                let order_of_run = cage.map_or(order, |cage| cage.bpfo);
                 if order * revolutions < FEWEST_CYCLES {
                     continue;
                 }
-                let level = |run: &History, order: f64| {
-                    line_level(&run.angle[first..=end], &run.channels[probe].values[first..=end], order)
-                };
+                let level =
+                    |run: usize, order: f64| line_level(&kinematic[run][0], &kinematic[run][1], order);
                 // Without aliasing; a mean over an interval lowers a line by sin(x)/x.
                 let x = std::f64::consts::PI * order_of_run / samples_per_revolution;
-                let free_level = |order: f64| {
-                    line_level(&history.angle[first..=end], &means[first..=end], order) * x / x.sin()
-                };
+                let free_level = |order: f64| line_level(angle, &means, order) * x / x.sin();
                 let noise = [-offset, offset].map(|offset| free_level(order_of_run + offset));
                 lines.extend(self.order_lines(&[order]).into_iter().map(|line| CageLine {
-                    channel: history.channels[probe].name.clone(),
-                    unit: history.channels[probe].unit.clone(),
+                    channel: own.name.clone(),
+                    unit: own.unit.clone(),
                     line,
                     free: free_level(order_of_run),
-                    rolling: level(rolling, order),
-                    driven: level(driven, order_of_run),
-                    spaced: level(spaced, order_of_run),
+                    rolling: level(0, order),
+                    driven: level(1, order_of_run),
+                    spaced: level(2, order_of_run),
                     noise: 0.5 * (noise[0] + noise[1]),
                 }));
             }
         }
+        let time_at = |index: usize| Ok::<_, SeriesError>(history.time.at(index)?.unwrap_or(f64::NAN));
         Ok(Some(RollingCageComparison {
-            stretch: [history.time[first], history.time[end]],
+            stretch: [time_at(first)?, time_at(end)?],
             revolutions,
             cages,
             lines,
@@ -146,42 +162,46 @@ impl Machine {
         free: &History,
         rolling: &History,
         [first, end]: [usize; 2],
-    ) -> CageSpeed {
+    ) -> Result<CageSpeed, SeriesError> {
         let site = &self.model.bearings[site];
-        let of = |run: &History, name: &str| -> f64 {
-            let turned = run.angle[end] - run.angle[first];
-            let values = channel(run, &format!("{}_{name}", site.name));
-            values.get(end).zip(values.get(first)).map_or(f64::NAN, |(end, first)| (end - first) / turned)
+        let change = |values: &Series| -> Result<f64, SeriesError> {
+            let ends = values.at(end)?.zip(values.at(first)?);
+            Ok(ends.map_or(f64::NAN, |(end, first)| end - first))
         };
-        let within = |name: &str| {
+        let of = |run: &History, name: &str| -> Result<f64, SeriesError> {
+            let values = channel(run, &format!("{}_{name}", site.name));
+            Ok(change(&values)? / change(&run.angle)?)
+        };
+        let within = |name: &str| -> Result<Vec<f64>, SeriesError> {
             let values = channel(free, &format!("{}_{name}", site.name));
-            values.get(first..=end).unwrap_or_default().to_vec()
+            Ok(values.read(first..end + 1)?.into_owned())
         };
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len().max(1) as f64;
         let largest = |values: Vec<f64>| {
             values.into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a })
         };
         let balls = site.bearing.ball().map_or(0.0, |ball| ball.geometry.balls as f64);
-        let (order, rolling_order) = (of(free, "ball_angle"), of(rolling, "cage_angle"));
-        CageSpeed {
+        let (order, rolling_order) = (of(free, "ball_angle")?, of(rolling, "cage_angle")?);
+        Ok(CageSpeed {
             bearing: site.name.clone(),
             order,
             rolling_order,
             bpfo: balls * order,
             rolling_bpfo: site.bearing.characteristic_orders().map_or(balls * rolling_order, |c| c.bpfo),
-            largest_slip: largest(within("cage_slip")),
-            pocket_force: largest(within("pocket_force")),
-            friction_torque: mean(within("friction_torque")),
-            friction_power: mean(within("friction_power")),
-        }
+            largest_slip: largest(within("cage_slip")?),
+            pocket_force: largest(within("pocket_force")?),
+            friction_torque: mean(within("friction_torque")?),
+            friction_power: mean(within("friction_power")?),
+        })
     }
 }
 
 /// Spectral radius at high frequencies of the kinematic runs: the default of run-ups.
 const RHO_INFINITY: f64 = 0.8;
 
-fn channel<'a>(history: &'a History, name: &str) -> &'a [f64] {
-    history.channels.iter().find(|channel| channel.name == name).map_or(&[], |channel| &channel.values)
+/// The values of a channel; none without such a channel.
+fn channel(history: &History, name: &str) -> Series {
+    history.channel(name).map_or_else(Series::default, |channel| channel.values.clone())
 }
 
 /// What turns the balls of a kinematic run.
@@ -203,27 +223,28 @@ struct BallAngles {
 }
 
 impl BallAngles {
-    /// By increasing shaft angle, without those at which the shaft stands; `None` for a shaft that reverses, or without
+    /// By increasing angle of the shaft, without those at which it stands; `None` for a shaft that reverses, or without
     /// record.
-    fn of(history: &History, bearing: &str) -> Option<Self> {
+    fn of(history: &History, angle: &[f64], bearing: &str) -> Result<Option<Self>, SeriesError> {
         let mean = channel(history, &format!("{bearing}_ball_angle"));
-        let offsets: Vec<&[f64]> = (0..)
-            .map(|ball| channel(history, &format!("{bearing}_{}", ball_offset_name(ball))))
-            .take_while(|values| !values.is_empty())
-            .collect();
+        let mean = mean.all()?;
+        let mut offsets = Vec::new();
+        while let Some(found) = history.channel(&format!("{bearing}_{}", ball_offset_name(offsets.len()))) {
+            offsets.push(found.values.all()?);
+        }
         let spacing = TAU / offsets.len() as f64;
-        let points = history.angle.iter().zip(mean).enumerate().map(|(k, (shaft, mean))| {
-            let ball = |(j, offset): (usize, &&[f64])| mean + j as f64 * spacing + offset[k];
+        let points = angle.iter().zip(&*mean).enumerate().map(|(k, (shaft, mean))| {
+            let ball = |(j, offset): (usize, &Cow<[f64]>)| mean + j as f64 * spacing + offset[k];
             (*shaft, *mean, offsets.iter().enumerate().map(ball).collect::<Vec<_>>())
         });
-        let points = over_shaft_angle(points.collect(), |(shaft, ..)| *shaft)?;
+        let Some(points) = over_shaft_angle(points.collect(), |(shaft, ..)| *shaft) else { return Ok(None) };
         let mut out = Self { shaft: Vec::new(), mean: Vec::new(), every: Vec::new() };
         for (shaft, mean, every) in points {
             out.shaft.push(shaft);
             out.mean.push(mean);
             out.every.push(every);
         }
-        Some(out)
+        Ok(Some(out))
     }
 
     fn mean_over_shaft(&self) -> Vec<[f64; 2]> {
@@ -236,10 +257,10 @@ impl BallAngles {
 }
 
 /// First and last sample of the last third of the revolutions; `None` unless the shaft turns.
-fn last_third(history: &History) -> Option<[usize; 2]> {
-    let (start, last) = (*history.angle.first()?, history.angle.len() - 1);
-    let turned = history.angle[last] - start;
-    let first = history.angle.iter().position(|angle| (angle - start).abs() >= SKIPPED * turned.abs())?;
+fn last_third(angle: &[f64]) -> Option<[usize; 2]> {
+    let (start, last) = (*angle.first()?, angle.len() - 1);
+    let turned = angle[last] - start;
+    let first = angle.iter().position(|angle| (angle - start).abs() >= SKIPPED * turned.abs())?;
     (turned != 0.0 && first < last).then_some([first, last])
 }
 

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
+use super::order_tracking::is_selected;
 use super::{Machine, Recorder, StudyError};
 use crate::model::Model;
 use crate::model::study::{OrderStudy, RunUpStudy};
@@ -95,7 +96,9 @@ impl Machine {
         }
         let machine = Self::new(model)?;
         let reduction = machine.reduce(study)?;
-        let mut recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+        // Of these runs, several at once, only what the orders need is kept.
+        let recorder = Recorder::new(&machine.model, &reduction.system, study.sample_rate);
+        let mut recorder = recorder.with_channels(|channel| is_selected(channel, &orders.channels));
         let report = machine.run_up(study, &reduction, |sample| {
             recorder.record(sample);
             progress()

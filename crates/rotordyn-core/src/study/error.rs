@@ -1,6 +1,7 @@
-//! Errors of studies that need both the physics and signal processing.
+//! Errors of studies that need the physics, signal processing and recorded samples.
 
 use crate::assembly::PhysicsError;
+use crate::series::SeriesError;
 use rotordyn_signal::SignalError;
 
 /// A study without result.
@@ -10,4 +11,7 @@ pub enum StudyError {
     Physics(#[from] PhysicsError),
     #[error(transparent)]
     Signal(#[from] SignalError),
+    /// Recorded samples that cannot be read.
+    #[error(transparent)]
+    Samples(#[from] SeriesError),
 }

@@ -5,13 +5,14 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::{Machine, StudyError};
+use crate::assembly::PhysicsError;
 use crate::model::study::{
     BifurcationStudy, CampbellStudy, Continuation, FrfStudy, Integrator, ModalStudy, RunUpStudy,
     SectionTrigger, SpectrogramStudy, SteadyRunSettings, Studies, Sweep, UnbalanceStudy,
 };
 use crate::model::{BearingSite, Model, Probe, Quantity};
 use crate::results::Motion;
-use crate::transient::reduction::Reduction;
+use crate::transient::reduction::{Reduction, check_size};
 use crate::transient::run::{Settings, run};
 use crate::transient::system::State;
 
@@ -29,6 +30,8 @@ const COMPLEX: f64 = 16.0;
 /// Channels of a run beside the probes: time, angle, speed and eight terms of the energy balance; and per bearing.
 const COMMON_CHANNELS: usize = 11;
 const BEARING_CHANNELS: usize = 4;
+/// Largest size of the frames of a motion: 100 MB of an animation are already hard to show.
+const MAX_MOTION_BYTES: f64 = 1e9;
 
 /// Kind of work of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,12 +140,27 @@ fn free_channels(site: &BearingSite) -> usize {
     site.bearing.element().bodies().map_or(0, |bodies| bodies.channels().len())
 }
 
-/// Bytes of the frames of a run-up whose motion is recorded.
-fn motion_bytes(study: &RunUpStudy, model: &Model) -> f64 {
+/// Refuses frames of a run-up's motion, which are in memory during the run, beyond [`MAX_MOTION_BYTES`].
+fn check_motion(study: &RunUpStudy, model: &Model) -> Result<(), PhysicsError> {
+    let bytes = motion_bytes(study, model);
+    if bytes <= MAX_MOTION_BYTES {
+        return Ok(());
+    }
+    let [gigabytes, limit] = [bytes, MAX_MOTION_BYTES].map(|bytes| 1e-9 * bytes);
+    Err(PhysicsError::TooManyFrames { frames: motion_frames(study, model), gigabytes, limit })
+}
+
+/// Frames of a run-up whose motion is recorded.
+fn motion_frames(study: &RunUpStudy, model: &Model) -> f64 {
     let Some(motion) = study.motion else { return 0.0 };
     let duration = (model.profile.duration().min(motion.to) - motion.from).max(0.0);
     let stride = motion.stride(study.sample_rate) as f64;
-    let frames = (duration * study.sample_rate / stride).floor() + 1.0;
+    (duration * study.sample_rate / stride).floor() + 1.0
+}
+
+/// Bytes of these frames.
+fn motion_bytes(study: &RunUpStudy, model: &Model) -> f64 {
+    let frames = motion_frames(study, model);
     let bodies = |site: &BearingSite| {
         let free = site.bearing.free_balls()?;
         Some(free.ball.geometry.balls + usize::from(free.cage.is_some()))
@@ -213,6 +231,21 @@ fn bifurcation_runs(study: &BifurcationStudy) -> f64 {
 }
 
 impl Machine {
+    /// Refuses a study whose matrices would not fit into memory, before anything is computed.
+    ///
+    /// # Errors
+    /// [`PhysicsError::TooLarge`] with what makes the machine so large, [`PhysicsError::TooManyFrames`].
+    pub fn check_memory(&self, study: &str) -> Result<(), PhysicsError> {
+        match study {
+            "run-up" => {
+                check_size(&self.assembly)?;
+                self.model.studies.run_up.as_ref().map_or(Ok(()), |study| check_motion(study, &self.model))
+            }
+            "poincare" | "lyapunov" | "bifurcation" => check_size(&self.assembly),
+            _ => Ok(()),
+        }
+    }
+
     /// Forecasts of the requested studies; free balls divide the steps of runs as their contacts need at the start.
     pub fn forecasts(&self) -> Vec<Forecast> {
         let mut found = forecasts(&self.model, self.assembly.dofs.len());

@@ -14,7 +14,7 @@ use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalS
 use crate::model::{Drive, Model};
 use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
 use crate::transient::reduction::{Reduction, reduce};
-use crate::transient::run::{Report, Sample, Settings, run};
+use crate::transient::run::{Report, RunSnapshot, Sample, Settings, resume, run};
 use crate::warning::Warning;
 use rotordyn_bearing::{BearingElement, SiteTangent};
 use rotordyn_linalg::{SparseMatrix, krylov};
@@ -259,6 +259,7 @@ impl Machine {
         reduction: &Reduction,
         observe: impl FnMut(&Sample) -> ControlFlow<()>,
     ) -> Report {
+        let settings = self.run_settings(study);
         let start = if study.from_equilibrium { 1.0 } else { 0.0 };
         let x = &reduction.equilibrium * start;
         let v = &reduction.equilibrium * 0.0;
@@ -270,13 +271,27 @@ impl Machine {
         if let Err(error) = reduction.system.check_placement(&state, super::free_ball::overlap_at_start) {
             return Report::not_started(error);
         }
-        let settings = Settings {
+        run(&reduction.system, state, &settings, observe)
+    }
+
+    /// Goes on with a run-up after the sample of a snapshot, in the same bits as the run that was never stopped.
+    pub fn resume_run_up(
+        &self,
+        study: &RunUpStudy,
+        reduction: &Reduction,
+        snapshot: RunSnapshot,
+        observe: impl FnMut(&Sample) -> ControlFlow<()>,
+    ) -> Report {
+        resume(&reduction.system, snapshot, &self.run_settings(study), observe)
+    }
+
+    fn run_settings(&self, study: &RunUpStudy) -> Settings {
+        Settings {
             integrator: study.integrator,
             step: study.step,
             sample_rate: study.sample_rate,
             duration: self.model.profile.duration(),
-        };
-        run(&reduction.system, state, &settings, observe)
+        }
     }
 
     /// Order lines with labels: "2x", or for multiples of a bearing's characteristic orders "BPFO", "2 BPFI".
@@ -310,10 +325,17 @@ impl Machine {
     }
 }
 
+/// Length over thickness of a shaft that no machine has: a unit is wrong rather than a support missing.
+const SLENDER: f64 = 1000.0;
+
 /// Replaces a failed equilibrium by the rigid-body mode that causes it, if there is one.
 fn name_rigid_body_mode(error: PhysicsError, model: &Model, assembly: &Assembly) -> PhysicsError {
     let free = rigid_body_modes::rigid_body_modes_of_machine(model, assembly).unwrap_or_default();
+    let slenderness = assembly.extent.slenderness();
     match free.into_iter().next() {
+        Some(motion) if slenderness > SLENDER => {
+            PhysicsError::TooSlender { motion, slenderness, shaft: assembly.extent.to_string() }
+        }
         Some(motion) => PhysicsError::Singular { motion },
         None => error,
     }

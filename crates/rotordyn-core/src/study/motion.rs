@@ -1,12 +1,14 @@
 //! Recorder of the motion of all parts in a run, for animations.
 
 use super::Machine;
+use crate::assembly::PhysicsError;
 use crate::model::study::MotionSettings;
 use crate::results::{BearingMotion, BodyMotion, Motion};
 use crate::transient::reduction::Reduction;
 use crate::transient::run::Sample;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rotordyn_bearing::BodyPose;
+use serde::{Deserialize, Serialize};
 
 /// Tolerance of the ends of the recorded time, in sampling intervals.
 const TIME_SLACK: f64 = 1e-6;
@@ -25,7 +27,49 @@ pub struct MotionRecorder<'a> {
     pub motion: Motion,
 }
 
+/// A recorder after a sample: its frames, and what turns the bodies on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionSnapshot {
+    samples: usize,
+    /// Bodies of every interface with w, x, y, z of their orientations.
+    last: Vec<Vec<(BodyPose, [f64; 4])>>,
+    last_time: f64,
+    motion: Motion,
+}
+
 impl<'a> MotionRecorder<'a> {
+    /// The recorder as it is after a sample.
+    pub fn snapshot(&self) -> MotionSnapshot {
+        let parts = |(pose, q): &(BodyPose, UnitQuaternion<f64>)| (*pose, [q.w, q.i, q.j, q.k]);
+        MotionSnapshot {
+            samples: self.samples,
+            last: self.last.iter().map(|bodies| bodies.iter().map(parts).collect()).collect(),
+            last_time: self.last_time,
+            motion: self.motion.clone(),
+        }
+    }
+
+    /// Goes on from a snapshot of a recorder of the same run, in the same bits.
+    ///
+    /// # Errors
+    /// A snapshot of another machine.
+    pub fn resume(&mut self, snapshot: MotionSnapshot) -> Result<(), PhysicsError> {
+        let names = |motion: &Motion| motion.bearings.iter().map(|b| b.name.clone()).collect::<Vec<_>>();
+        let bearings = self.motion.bearings.len();
+        let same = names(&snapshot.motion) == names(&self.motion);
+        if !same || ![0, bearings].contains(&snapshot.last.len()) {
+            return Err(PhysicsError::OtherSnapshot { time: snapshot.last_time });
+        }
+        // Not normalised again, which would change the last bit.
+        let whole = |(pose, [w, x, y, z]): (BodyPose, [f64; 4])| {
+            (pose, UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z)))
+        };
+        let MotionSnapshot { samples, last, last_time, motion } = snapshot;
+        self.last = last.into_iter().map(|bodies| bodies.into_iter().map(whole).collect()).collect();
+        (self.samples, self.last_time, self.motion) = (samples, last_time, motion);
+        Ok(())
+    }
+
     /// Recorder of a run of `reduction` sampled at `sample_rate` \[Hz\].
     pub fn new(
         machine: &'a Machine,

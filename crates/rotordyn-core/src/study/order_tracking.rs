@@ -1,11 +1,12 @@
 //! Spectrograms and order tracking of a recorded run.
 
-use super::Machine;
+use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
-use crate::results::{History, HistoryChannel, OrderResult, SpectrogramResult};
+use crate::results::{History, HistoryChannel, OrderResult, SpectrogramPeak, SpectrogramResult};
+use crate::series::{Keep, Series, SeriesError};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
-use rotordyn_signal::stft::{Stft, StftSettings};
+use rotordyn_signal::stft::{Spectrogram, Stft, StftSettings};
 
 /// Half width of an order cut's band in bins: three bins contain the level of a Hann-windowed line to 0.2 dB,
 /// and at a resolution of 0.05 they separate 7x from 2 BPFO = 7.14x.
@@ -17,69 +18,111 @@ impl Machine {
     /// The mean of each channel (static deflection) is removed.
     ///
     /// # Errors
-    /// A record too short for the window, or invalid settings.
+    /// A record too short for the window, invalid settings, or samples that cannot be read.
     pub fn spectrograms(
         &self,
         study: &SpectrogramStudy,
         history: &History,
-    ) -> Result<Vec<SpectrogramResult>, SignalError> {
+    ) -> Result<Vec<SpectrogramResult>, StudyError> {
+        self.spectrograms_kept(study, history, &mut |amplitude| Ok(amplitude.into()))
+    }
+
+    /// As [`Self::spectrograms`], one channel after another, its amplitudes kept by `keep`.
+    ///
+    /// # Errors
+    /// As [`Self::spectrograms`], and those of `keep`.
+    pub fn spectrograms_kept(
+        &self,
+        study: &SpectrogramStudy,
+        history: &History,
+        keep: Keep,
+    ) -> Result<Vec<SpectrogramResult>, StudyError> {
         let rate = history.sample_rate;
         let length = (study.length * rate).round() as usize;
         let settings = StftSettings::new(study.window, length, study.overlap)?;
         let mut stft = Stft::new(settings, rate)?;
         let orders = self.order_lines(&study.orders);
-        selected_channels(&study.channels, history)
-            .map(|channel| {
-                let mut spectrogram = stft.spectrogram(&without_mean(&channel.values))?;
-                let speed = spectrogram.speed_at_frames(&history.speed, rate)?;
-                crop(&mut spectrogram.amplitude, &mut spectrogram.frequencies, study.max_frequency);
-                Ok(SpectrogramResult {
-                    channel: channel.name.clone(),
-                    unit: channel.unit.clone(),
-                    spectrogram,
-                    speed,
-                    orders: orders.clone(),
-                })
-            })
-            .collect()
+        let speed_of_run = history.speed.all()?;
+        let mut found = Vec::new();
+        for channel in selected_channels(&study.channels, history) {
+            let spectrogram = stft.spectrogram_up_to(&without_mean(&channel.values)?, study.max_frequency)?;
+            let speed = spectrogram.speed_at_frames(&speed_of_run, rate)?;
+            let peak = peak(&spectrogram, &speed);
+            found.push(SpectrogramResult {
+                channel: channel.name.clone(),
+                unit: channel.unit.clone(),
+                spectrogram: spectrogram.try_map_amplitude(&mut *keep)?,
+                peak,
+                speed,
+                orders: orders.clone(),
+            });
+        }
+        Ok(found)
     }
 
     /// Order spectrograms and order cuts of the requested channels, their means removed.
     ///
     /// # Errors
-    /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order.
-    pub fn orders(&self, study: &OrderStudy, history: &History) -> Result<Vec<OrderResult>, SignalError> {
+    /// A run of too few revolutions for the resolution, a sampling rate too low for the highest order, samples that
+    /// cannot be read.
+    pub fn orders(&self, study: &OrderStudy, history: &History) -> Result<Vec<OrderResult>, StudyError> {
+        self.orders_kept(study, history, &mut |amplitude| Ok(amplitude.into()))
+    }
+
+    /// As [`Self::orders`], one channel after another, its amplitudes kept by `keep`.
+    ///
+    /// # Errors
+    /// As [`Self::orders`], and those of `keep`.
+    pub fn orders_kept(
+        &self,
+        study: &OrderStudy,
+        history: &History,
+        keep: Keep,
+    ) -> Result<Vec<OrderResult>, StudyError> {
         let settings = OrderSettings {
             overlap: study.overlap,
             window: study.window,
             ..OrderSettings::new(study.resolution, study.max_order)
         };
-        let mut tracker = OrderTracker::new(&history.angle, history.sample_rate, settings)?;
+        let mut tracker = OrderTracker::new(&history.angle.all()?, history.sample_rate, settings)?;
         let lines = self.order_lines(&study.cuts);
-        selected_channels(&study.channels, history)
-            .map(|channel| {
-                let records = tracker.resample(&[&without_mean(&channel.values)])?;
-                let spectrogram = tracker.spectrogram(&records[0]);
-                let cut = |line: &crate::results::OrderLine| {
-                    let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
-                    Ok((line.clone(), cut))
-                };
-                let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
-                Ok(OrderResult {
-                    channel: channel.name.clone(),
-                    unit: channel.unit.clone(),
-                    spectrogram,
-                    cuts,
-                })
-            })
-            .collect()
+        let mut found = Vec::new();
+        for channel in selected_channels(&study.channels, history) {
+            let records = tracker.resample(&[&without_mean(&channel.values)?])?;
+            let spectrogram = tracker.spectrogram(&records[0]);
+            let cut = |line: &crate::results::OrderLine| {
+                let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
+                Ok((line.clone(), cut))
+            };
+            let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
+            found.push(OrderResult {
+                channel: channel.name.clone(),
+                unit: channel.unit.clone(),
+                spectrogram: spectrogram.try_map_amplitude(&mut *keep)?,
+                cuts,
+            });
+        }
+        Ok(found)
     }
 }
 
+/// The highest amplitude of a spectrogram.
+fn peak(found: &Spectrogram, speed: &[f64]) -> Option<SpectrogramPeak> {
+    let bins = found.frequencies.len();
+    let (k, amplitude) = found.amplitude.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    Some(SpectrogramPeak {
+        speed: speed[k / bins],
+        frequency: found.frequencies[k % bins],
+        amplitude: *amplitude,
+    })
+}
+
 /// Values less their mean.
-pub(super) fn without_mean(values: &[f64]) -> Vec<f64> {
+pub(super) fn without_mean(values: &Series) -> Result<Vec<f64>, SeriesError> {
+    let mut values = values.all()?.into_owned();
     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-    values.iter().map(|v| v - mean).collect()
+    values.iter_mut().for_each(|v| *v -= mean);
+    Ok(values)
 }
 
 /// The named channels; without names all displacements, velocities and accelerations.
@@ -87,19 +130,13 @@ fn selected_channels<'a>(
     names: &'a [String],
     history: &'a History,
 ) -> impl Iterator<Item = &'a HistoryChannel> {
-    history.channels.iter().filter(move |c| {
-        if names.is_empty() {
-            ["displacement", "velocity", "acceleration"].contains(&c.quantity.as_str())
-        } else {
-            names.contains(&c.name)
-        }
-    })
+    history.channels.iter().filter(move |channel| is_selected(channel, names))
 }
 
-/// Removes the columns above a frequency.
-fn crop(amplitude: &mut Vec<f64>, frequencies: &mut Vec<f64>, limit: f64) {
-    let bins = frequencies.len();
-    let kept = frequencies.partition_point(|f| *f <= limit).max(1);
-    *amplitude = amplitude.chunks_exact(bins).flat_map(|row| row[..kept].iter().copied()).collect();
-    frequencies.truncate(kept);
+/// Whether a channel is named; without names every displacement, velocity and acceleration is.
+pub(super) fn is_selected(channel: &HistoryChannel, names: &[String]) -> bool {
+    match names {
+        [] => ["displacement", "velocity", "acceleration"].contains(&channel.quantity.as_str()),
+        names => names.contains(&channel.name),
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::model::{Model, Probe, Quantity};
 use crate::results::{History, HistoryChannel, unit_of};
+use crate::series::Series;
 use crate::transient::run::Sample;
 use crate::transient::system::System;
 
@@ -9,6 +10,10 @@ use crate::transient::system::System;
 pub struct Recorder {
     pub history: History,
     row: Vec<f64>,
+    /// Places in the row of the channels of the history.
+    kept: Vec<usize>,
+    /// Whether samples are kept in memory.
+    keeps_samples: bool,
     /// Number of force components (of u_x u_y u_z) of every bearing.
     directions: Vec<usize>,
     /// Whether the work of a torque drive is recorded.
@@ -29,7 +34,7 @@ impl Recorder {
                 quantity: quantity.into(),
                 station: station.into(),
                 direction: direction.into(),
-                values: Vec::new(),
+                values: Series::default(),
             };
         for interface in &system.interfaces {
             let site = &interface.name;
@@ -55,13 +60,29 @@ impl Recorder {
         }
         Self {
             row: Vec::with_capacity(channels.len()),
+            kept: (0..channels.len()).collect(),
+            keeps_samples: true,
             drive,
             directions: system.interfaces.iter().map(|i| i.element.relative_dofs().min(3)).collect(),
             history: History { sample_rate, channels, ..History::default() },
         }
     }
 
-    /// Records one sample; returns its values in the order of the channels.
+    /// The recorder of only those channels that are `wanted`, with less memory.
+    pub fn with_channels(mut self, wanted: impl Fn(&HistoryChannel) -> bool) -> Self {
+        let channels = std::mem::take(&mut self.history.channels);
+        let kept = channels.into_iter().zip(std::mem::take(&mut self.kept)).filter(|(c, _)| wanted(c));
+        (self.history.channels, self.kept) = kept.unzip();
+        self
+    }
+
+    /// The recorder for samples that are stored elsewhere: the history has the channels without values.
+    pub fn without_samples(mut self) -> Self {
+        self.keeps_samples = false;
+        self
+    }
+
+    /// Records one sample; returns the values of all channels of the run in their order.
     pub fn record(&mut self, sample: &Sample) -> &[f64] {
         let state = sample.state;
         self.row.clear();
@@ -88,11 +109,14 @@ impl Recorder {
             self.row.push(e.drive);
         }
         self.row.extend_from_slice(sample.means);
-        self.history.time.push(state.time);
-        self.history.angle.push(state.spin.angle);
-        self.history.speed.push(state.spin.speed);
-        for (channel, value) in self.history.channels.iter_mut().zip(&self.row) {
-            channel.values.push(*value);
+        if self.keeps_samples {
+            let history = &mut self.history;
+            history.time.push(state.time);
+            history.angle.push(state.spin.angle);
+            history.speed.push(state.spin.speed);
+            for (channel, place) in history.channels.iter_mut().zip(&self.kept) {
+                channel.values.push(self.row[*place]);
+            }
         }
         &self.row
     }
@@ -137,6 +161,6 @@ pub(super) fn probe_channel(model: &Model, probe: &Probe) -> HistoryChannel {
         quantity: quantity.into(),
         station,
         direction,
-        values: Vec::new(),
+        values: Series::default(),
     }
 }

@@ -1,9 +1,9 @@
 //! Test-analysis correlation of a run-up: the model driven by the measured shaft angle, read at the sensors.
 
-use super::Machine;
 use super::order_tracking::without_mean;
 use super::record::probe_channel;
 use super::signal::{ShaftMotion, SignalChannel};
+use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
 use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult};
@@ -53,7 +53,7 @@ impl MeasuredRun {
             sample_rate: rate,
             angle: motion.angle.iter().map(|a| (a - motion.angle[0]).abs()).collect(),
             speed: time.iter().map(|t| curve.at(*t).speed).collect(),
-            time,
+            time: time.into(),
             channels: Vec::new(),
         };
         let mut probes = Vec::new();
@@ -101,18 +101,18 @@ impl Machine {
     /// settings of the model's studies within the range of both sampling rates.
     ///
     /// # Errors
-    /// A run too short for the window or for the order resolution, invalid settings.
+    /// A run too short for the window or for the order resolution, invalid settings, samples that cannot be read.
     pub fn correlate_run_up(
         &self,
         measured: &History,
         computed: &History,
-    ) -> Result<Vec<ChannelPair>, SignalError> {
+    ) -> Result<Vec<ChannelPair>, StudyError> {
         let studies = &self.model.studies;
         let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
             return Ok(Vec::new());
         };
         let rate = measured.sample_rate.min(computed.sample_rate);
-        let fastest = measured.speed.iter().copied().fold(0.0, f64::max) / std::f64::consts::TAU;
+        let fastest = measured.speed.fold(0.0, f64::max)? / std::f64::consts::TAU;
         let spectra = SpectrogramStudy {
             channels: Vec::new(),
             max_frequency: spectra.max_frequency.min(0.5 * rate),
@@ -137,12 +137,13 @@ impl Machine {
         for channel in &runs[0].channels {
             let of = |run: usize| {
                 let place = maps[run].iter().position(|m| m.channel == channel.name)?;
-                let own = runs[run].channels.iter().find(|c| c.name == channel.name)?;
-                Some((rms(&without_mean(&own.values)), maps[run][place].clone(), tracked[run][place].clone()))
+                let own = runs[run].channel(&channel.name)?;
+                Some((own, maps[run][place].clone(), tracked[run][place].clone()))
             };
-            let (Some((rms_m, map_m, orders_m)), Some((rms_c, map_c, orders_c))) = (of(0), of(1)) else {
+            let (Some((own_m, map_m, orders_m)), Some((own_c, map_c, orders_c))) = (of(0), of(1)) else {
                 continue;
             };
+            let [rms_m, rms_c] = [rms(&without_mean(&own_m.values)?), rms(&without_mean(&own_c.values)?)];
             pairs.push(ChannelPair {
                 channel: channel.name.clone(),
                 unit: channel.unit.clone(),

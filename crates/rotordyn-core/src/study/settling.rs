@@ -1,13 +1,16 @@
 //! Runs at constant speed continued until the motion has settled, up to a limit of periods.
 
-use super::settled_run::{Criteria, SettledRun};
-use super::steady_motion::{Progress, sections};
+use std::ops::ControlFlow;
+
+use super::milestone::Milestone;
+use super::settled_run::{Criteria, SettledRun, SettledSnapshot, SettledStart};
+use super::steady_motion::sections;
 use super::{Machine, StudyError};
 use crate::model::Probe;
 use crate::model::study::SteadyRunSettings;
 use crate::results::{SectionChannel, SteadyMotion};
 use crate::transient::reduction::Reduction;
-use crate::transient::system::State;
+use crate::transient::steady::{SteadySnapshot, SteadyStart};
 use rotordyn_signal::motion_classification::{Classification, Motion};
 
 /// Logarithmic change of a section's mean square change between its halves below which a motion counts as
@@ -17,31 +20,51 @@ const SAME_AMPLITUDE: f64 = 0.05;
 /// Number by which the estimated periods to the limit may exceed the periods left for the run to go on.
 const WORTH_CONTINUING: f64 = 3.0;
 
+/// Fewest section points of a motion that can be classified.
+const FEWEST_SECTIONS: usize = 8;
+
 impl Machine {
     /// Runs, records and classifies; while the motion has not settled, everything so far becomes transient and the
     /// record is repeated after as many periods as its decay needs, or after as many again where that is unknown,
-    /// until `transient_limit`; earlier if the decay needs far more. `None` when stopped.
+    /// until `transient_limit`; earlier if the decay needs far more.
+    ///
+    /// When stopped: what is recorded by then if it can be classified, else the record before, else `None`.
     pub(super) fn settled_run(
         &self,
         reduction: &Reduction,
-        state: State,
+        start: SettledStart,
         steady: &SteadyRunSettings,
         (probes, channels): (&[&Probe], &[SectionChannel]),
         criteria: Criteria,
-        progress: Progress,
+        progress: &mut dyn FnMut(&Milestone<SettledSnapshot>) -> ControlFlow<()>,
     ) -> Result<Option<SettledRun>, StudyError> {
-        let mut state = state;
         let mut settings = steady.clone();
-        let mut discarded = steady.transient_periods;
-        let mut before: Option<Classification> = None;
+        let (mut discarded, mut before) = (steady.transient_periods, None);
+        let mut start = match start {
+            SettledStart::State(state) => SteadyStart::State(state),
+            SettledStart::Snapshot(snapshot) => {
+                settings.transient_periods = snapshot.transient_periods;
+                (discarded, before) = (snapshot.discarded, snapshot.before);
+                SteadyStart::Snapshot(Box::new(snapshot.run))
+            }
+        };
+        let mut last_record = None;
         loop {
-            let perturbation = criteria.perturbation;
-            let Some(run) = self.steady_run(reduction, state, &settings, probes, perturbation, progress)?
-            else {
-                return Ok(None);
+            let (transient_periods, mut stopped) = (settings.transient_periods, false);
+            let observe = &mut |now: &Milestone<SteadySnapshot>| {
+                let take = || SettledSnapshot { discarded, transient_periods, before, run: now.snapshot() };
+                let flow = progress(&Milestone::new(now.share, &take));
+                stopped |= flow.is_break();
+                flow
             };
+            let perturbation = criteria.perturbation;
+            let run = self.steady_run(reduction, start, &settings, (probes, perturbation), observe)?;
+            if stopped && run.periods < FEWEST_SECTIONS.min(settings.periods) {
+                return Ok(last_record);
+            }
+            let recorded = SteadyRunSettings { periods: run.periods, ..settings.clone() };
             let (strobe, mut motion) =
-                sections(&run, channels, &settings, criteria.tolerance, criteria.longest_period)?;
+                sections(&run, channels, &recorded, criteria.tolerance, criteria.longest_period)?;
             motion.transient_periods = discarded;
             let unconfirmed = !confirmed(&motion.motion, before.as_ref());
             let left = steady.transient_limit.saturating_sub(discarded + steady.periods);
@@ -50,16 +73,18 @@ impl Machine {
             } else {
                 0.0
             };
-            if !unconfirmed || left == 0 || further > WORTH_CONTINUING * left as f64 {
+            let last = !unconfirmed || left == 0 || further > WORTH_CONTINUING * left as f64;
+            if stopped || last {
                 if unconfirmed && motion.motion.motion == Motion::QuasiPeriodic {
                     motion.motion.motion = Motion::Unsettled;
                 }
-                return Ok(Some(SettledRun { run, strobe, motion }));
+                return Ok(Some(SettledRun { run, strobe, motion, complete: !stopped }));
             }
             before = Some(motion.motion);
             settings.transient_periods = (further as usize).clamp(1, left);
             discarded += steady.periods + settings.transient_periods;
-            state = run.state;
+            start = SteadyStart::State(Box::new(run.state.clone()));
+            last_record = Some(SettledRun { run, strobe, motion, complete: false });
         }
     }
 }

@@ -4,29 +4,31 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::settled_run::{Criteria, SettledRun};
+use super::milestone::Milestone;
+use super::settled_run::{Criteria, SettledRun, SettledSnapshot, SettledStart};
 use super::{Machine, StudyError};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
 use crate::model::study::{LyapunovStudy, Plane, PoincareStudy, SectionTrigger, SteadyRunSettings};
 use crate::model::{BearingSite, Model, Probe, SpeedProfile};
 use crate::results::{
-    LyapunovResult, PlaneSection, PoincareResult, SectionChannel, SectionClock, SteadyMotion, Whirl,
-    is_rotation, unit_of,
+    LyapunovResult, PlaneSection, PoincareResult, RecordedPeriods, SectionChannel, SectionClock,
+    SteadyMotion, Whirl, is_rotation, unit_of,
 };
 use crate::transient::reduction::{Reduction, reduce};
-use crate::transient::steady::{SteadyRun, run_steady};
+use crate::transient::steady::{SteadyRun, SteadySnapshot, SteadyStart, run_steady_from};
 use crate::transient::system::{Channel, State};
 use rotordyn_signal::lyapunov::lyapunov_exponent;
 use rotordyn_signal::motion_classification::classify_motion;
 use rotordyn_signal::orbit::FilteredOrbit;
 use rotordyn_signal::poincare::{StroboscopicSampling, cluster_points};
+use serde::{Deserialize, Serialize};
 
 /// Number of periods of the orbit stored with its section.
 pub(super) const ORBIT_PERIODS: usize = 32;
 
 /// Restart state: final free DOFs and angles of a run, from which a run of another model can start.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RestartState {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
@@ -53,15 +55,34 @@ impl Machine {
         study: &PoincareStudy,
         progress: Progress,
     ) -> Result<Option<PoincareResult>, StudyError> {
+        let found = self.poincare_from(study, None, &mut |now| progress(now.share))?;
+        Ok(found.filter(|found| found.partial.is_none()))
+    }
+
+    /// As [`Self::poincare`], from a snapshot of an earlier run; when stopped with what is recorded by then, marked as
+    /// partial, or `None` if that is less than eight periods.
+    ///
+    /// # Errors
+    /// As [`Self::poincare`], and a snapshot of another machine.
+    pub fn poincare_from(
+        &self,
+        study: &PoincareStudy,
+        snapshot: Option<SettledSnapshot>,
+        progress: &mut dyn FnMut(&Milestone<SettledSnapshot>) -> ControlFlow<()>,
+    ) -> Result<Option<PoincareResult>, StudyError> {
         let steady = &study.steady;
         let probes: Vec<&Probe> = study.planes.iter().flat_map(|p| [&p.x, &p.y]).collect();
         let (reduction, state) = self.steady_initial_state(steady, None)?;
         let channels: Vec<SectionChannel> = probes.iter().map(|probe| section_channel(probe)).collect();
         let criteria =
             Criteria { tolerance: study.tolerance, longest_period: study.longest_period, perturbation: None };
+        let start = match snapshot {
+            Some(snapshot) => SettledStart::Snapshot(Box::new(snapshot)),
+            None => SettledStart::State(Box::new(state)),
+        };
         let settled =
-            self.settled_run(&reduction, state, steady, (&probes, &channels), criteria, progress)?;
-        let Some(SettledRun { run, strobe, motion }) = settled else { return Ok(None) };
+            self.settled_run(&reduction, start, steady, (&probes, &channels), criteria, progress)?;
+        let Some(SettledRun { run, strobe, motion, complete }) = settled else { return Ok(None) };
         let reach: Vec<f64> =
             orbit_sizes(&motion.extremes, &channels).iter().map(|size| study.tolerance * size).collect();
         let all: Vec<&[f64]> = motion.sections.iter().map(Vec::as_slice).collect();
@@ -95,6 +116,8 @@ impl Machine {
             groups,
             shaft_angle,
             planes,
+            partial: (!complete)
+                .then_some(RecordedPeriods { recorded: run.periods, requested: steady.periods }),
         }))
     }
 
@@ -107,16 +130,42 @@ impl Machine {
         study: &LyapunovStudy,
         progress: Progress,
     ) -> Result<Option<LyapunovResult>, StudyError> {
+        let found = self.lyapunov_from(study, None, &mut |now| progress(now.share))?;
+        Ok(found.filter(|found| found.partial.is_none()))
+    }
+
+    /// As [`Self::lyapunov`], from a snapshot of an earlier run; when stopped with the periods recorded by then, marked
+    /// as partial, or `None` without any.
+    ///
+    /// # Errors
+    /// As [`Self::lyapunov`], and a snapshot of another machine.
+    pub fn lyapunov_from(
+        &self,
+        study: &LyapunovStudy,
+        snapshot: Option<SteadySnapshot>,
+        progress: &mut dyn FnMut(&Milestone<SteadySnapshot>) -> ControlFlow<()>,
+    ) -> Result<Option<LyapunovResult>, StudyError> {
         let steady = &study.steady;
         let (reduction, state) = self.steady_initial_state(steady, None)?;
-        let perturbation = Some(study.perturbation);
-        let Some(run) = self.steady_run(&reduction, state, steady, &[], perturbation, progress)? else {
-            return Ok(None);
+        let start = match snapshot {
+            Some(snapshot) => SteadyStart::Snapshot(Box::new(snapshot)),
+            None => SteadyStart::State(Box::new(state)),
         };
+        let mut stopped = false;
+        let perturbation = Some(study.perturbation);
+        let run = self.steady_run(&reduction, start, steady, (&[], perturbation), &mut |now| {
+            let flow = progress(now);
+            stopped |= flow.is_break();
+            flow
+        })?;
+        if stopped && run.log_growth.is_empty() {
+            return Ok(None);
+        }
         let time: f64 = run.intervals.iter().sum();
         let clock = section_clock(&self.model, steady, run.intervals.len() as f64 / time);
         let exponent = lyapunov_exponent(&run.log_growth, &run.intervals)?;
-        Ok(Some(LyapunovResult { speed: steady.speed, clock, exponent }))
+        let partial = stopped.then_some(RecordedPeriods { recorded: run.periods, requested: steady.periods });
+        Ok(Some(LyapunovResult { speed: steady.speed, clock, exponent, partial }))
     }
 
     /// The machine reduced at a constant speed, and the initial state: static equilibrium, or the restart
@@ -175,16 +224,15 @@ impl Machine {
         Ok((reduction, state))
     }
 
-    /// A run of the reduced machine, recording probes.
+    /// A run of the reduced machine, recording probes; with fewer periods when stopped.
     pub(super) fn steady_run(
         &self,
         reduction: &Reduction,
-        state: State,
+        start: SteadyStart,
         steady: &SteadyRunSettings,
-        probes: &[&Probe],
-        perturbation: Option<f64>,
-        progress: Progress,
-    ) -> Result<Option<SteadyRun>, StudyError> {
+        (probes, perturbation): (&[&Probe], Option<f64>),
+        progress: &mut dyn FnMut(&Milestone<SteadySnapshot>) -> ControlFlow<()>,
+    ) -> Result<SteadyRun, StudyError> {
         let channel = |probe: &&Probe| {
             let mut row = vec![0.0; self.assembly.dofs.len()];
             self.assembly.direction_row(&probe.at, &probe.direction).add_to(1.0, &mut row);
@@ -192,8 +240,10 @@ impl Machine {
         };
         let channels: Vec<Channel> = probes.iter().map(channel).collect();
         let total = (steady.transient_periods + steady.periods) as f64;
-        let mut share = |periods: usize| progress(periods as f64 / total);
-        Ok(run_steady(&reduction.system, state, steady, &channels, perturbation, &mut share)?)
+        let recorded = (&channels[..], perturbation);
+        Ok(run_steady_from(&reduction.system, start, steady, recorded, &mut |now| {
+            progress(&Milestone::new(now.periods as f64 / total, &|| now.snapshot()))
+        })?)
     }
 }
 

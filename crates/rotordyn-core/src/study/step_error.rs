@@ -6,9 +6,12 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
+
 use super::Machine;
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{History, StepError, StepErrorLine};
+use crate::series::SeriesError;
 use crate::transient::reduction::Reduction;
 use crate::transient::run::{End, Report, Sample, Settings, run};
 use crate::transient::system::State;
@@ -28,7 +31,8 @@ const FEWEST_CYCLES: f64 = 4.0;
 /// Lines below this share of their channel's largest level are left out.
 const SMALLEST_SHARE: f64 = 0.01;
 
-/// States of a run at regular intervals, from which a stretch can be rerun.
+/// States of a run at regular intervals, from which a stretch can be rerun: at most 65 of them, whatever its duration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoints {
     every: usize,
     states: Vec<State>,
@@ -54,44 +58,51 @@ impl Machine {
     ///
     /// `None` for error-controlled steps, for those that free balls choose (whose collisions make lines below the noise of
     /// the run differ at any step), for a run that ended early, and for one too short: an order needs four cycles
-    /// within the stretch.
+    /// within the stretch. Of the samples only parts are read, one channel after another.
+    ///
+    /// # Errors
+    /// Samples that cannot be read.
     pub fn step_error(
         &self,
         study: &RunUpStudy,
         reduction: &Reduction,
         orders: &[f64],
         (checkpoints, history, report): (&Checkpoints, &History, &Report),
-    ) -> Option<StepError> {
-        let step = report.step.filter(|_| report.end == End::Complete)?;
+    ) -> Result<Option<StepError>, SeriesError> {
+        let Some(step) = report.step.filter(|_| report.end == End::Complete) else { return Ok(None) };
         let every = checkpoints.every;
-        if every < FEWEST_SAMPLES || reduction.system.has_bodies() {
-            return None;
+        if every < FEWEST_SAMPLES || reduction.system.has_bodies() || history.time.is_empty() {
+            return Ok(None);
         }
         let probes = self.model.probes.len();
         let last = (history.time.len() - 1) / every;
-        let centre = largest_response(history, probes, every, last)?;
+        let Some(centre) = largest_response(history, probes, every, last)? else { return Ok(None) };
         let explicit = study.integrator == Integrator::RungeKutta4;
         let (lead, compared) = if explicit { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
         let compared_from = centre.saturating_sub(1).min(last.saturating_sub(compared));
         let begin = compared_from.saturating_sub(lead) * every;
         let [first, end] = [compared_from * every, (compared_from + compared).min(last) * every];
-        let revolutions = (history.angle[end] - history.angle[first]).abs() / TAU;
+        let stretch_angle = history.angle.read(first..end + 1)?;
+        let turned = stretch_angle[end - first] - stretch_angle[0];
+        let revolutions = turned.abs() / TAU;
         let orders: Vec<f64> =
             orders.iter().copied().filter(|order| order * revolutions >= FEWEST_CYCLES).collect();
         if orders.is_empty() {
-            return None;
+            return Ok(None);
         }
 
         // An odd number of steps to a sample, doubled, divides two samples.
         let substeps = (1.0 / (step * study.sample_rate)).round() as usize;
         let every_second = !explicit && substeps % 2 == 1;
         let thinning = if every_second { 2 } else { 1 };
-        let state = checkpoints.states.get(begin / every)?.clone();
+        let Some(state) = checkpoints.states.get(begin / every).cloned() else { return Ok(None) };
+        let time_at = |index: usize| Ok(history.time.at(index)?.unwrap_or(f64::NAN));
+        let [time_begin, time_first, time_end] = [time_at(begin)?, time_at(first)?, time_at(end)?];
         let settings = Settings {
             integrator: study.integrator,
             step: step * if explicit { 0.5 } else { 2.0 },
             sample_rate: study.sample_rate / thinning as f64,
-            duration: history.time[end] - history.time[begin],
+            duration: time_end - time_begin,
         };
         let skipped = first - begin;
         let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
@@ -103,21 +114,23 @@ impl Machine {
             ControlFlow::Continue(())
         });
         if rerun.end != End::Complete {
-            return None;
+            return Ok(None);
         }
         // L(h) − L(0) in terms of the other level less L(h): order 4 with half the step, order 2 with twice the step.
         let factor = if explicit { -16.0 / 15.0 } else { 1.0 / 3.0 };
         // The record of the run at the samples of the rerun.
         let from = first + (thinning - skipped % thinning) % thinning;
-        let at_samples =
-            |values: &[f64]| -> Vec<f64> { values[from..=end].iter().copied().step_by(thinning).collect() };
-        let own_angle = at_samples(&history.angle);
+        let at_samples = |stretch: &[f64]| -> Vec<f64> {
+            stretch[from - first..].iter().copied().step_by(thinning).collect()
+        };
+        let own_angle = at_samples(&stretch_angle);
         let mut lines = Vec::new();
         for (channel, other) in history.channels.iter().zip(&values) {
             let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
                 orders.iter().map(|order| line_level(angle, values, *order)).collect()
             };
-            let [own, other] = [level(&own_angle, &at_samples(&channel.values)), level(&angle, other)];
+            let own_values = at_samples(&channel.values.read(first..end + 1)?);
+            let [own, other] = [level(&own_angle, &own_values), level(&angle, other)];
             let largest = own.iter().copied().fold(0.0, f64::max);
             let named = self.order_lines(&orders).into_iter();
             for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
@@ -128,14 +141,14 @@ impl Machine {
                 }
             }
         }
-        Some(StepError {
-            stretch: [history.time[first], history.time[end]],
-            speed: (history.angle[end] - history.angle[first]) / (history.time[end] - history.time[first]),
+        Ok(Some(StepError {
+            stretch: [time_first, time_end],
+            speed: turned / (time_end - time_first),
             other_step: settings.step,
             lines,
             steps: rerun.steps,
             cost: rerun.steps as f64 / report.steps.max(1) as f64,
-        })
+        }))
     }
 
     /// Orders whose levels are checked: those of the order cuts, or 1x, 2x and the outer race of every bearing.
@@ -156,17 +169,24 @@ impl Machine {
 
 /// The interval with the largest response: variance of every probe relative to its largest, summed over the probes.
 /// Intervals at standstill do not count.
-fn largest_response(history: &History, probes: usize, every: usize, intervals: usize) -> Option<usize> {
-    let moves = |k: &usize| history.angle[(k + 1) * every] != history.angle[k * every];
+fn largest_response(
+    history: &History,
+    probes: usize,
+    every: usize,
+    intervals: usize,
+) -> Result<Option<usize>, SeriesError> {
+    let angles = (0..=intervals).map(|k| history.angle.at(k * every)).collect::<Result<Vec<_>, _>>()?;
+    let moves = |k: &usize| angles[k + 1] != angles[*k];
     let mut sums = vec![0.0; intervals];
     for channel in &history.channels[..probes] {
-        let variances: Vec<f64> = channel.values.chunks_exact(every).take(intervals).map(variance).collect();
+        let parts = (0..intervals).map(|k| Ok(variance(&channel.values.read(k * every..(k + 1) * every)?)));
+        let variances = parts.collect::<Result<Vec<f64>, SeriesError>>()?;
         let largest = variances.iter().copied().fold(0.0, f64::max);
         if largest > 0.0 {
             sums.iter_mut().zip(&variances).for_each(|(sum, v)| *sum += v / largest);
         }
     }
-    (0..intervals).filter(moves).max_by(|a, b| sums[*a].total_cmp(&sums[*b]))
+    Ok((0..intervals).filter(moves).max_by(|a, b| sums[*a].total_cmp(&sums[*b])))
 }
 
 fn variance(values: &[f64]) -> f64 {

@@ -6,6 +6,7 @@
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
+use super::numbers::vector;
 use super::system::{State, System};
 use super::torque::DriveEnergy;
 use rotordyn_bearing::{Reaction, Rotation};
@@ -55,14 +56,23 @@ impl Energy {
 }
 
 /// Updates the energy balance step by step; allocation-free after construction.
+///
+/// Saved and loaded, it goes on with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     pub energy: Energy,
+    #[serde(with = "vector")]
     load: DVector<f64>,
+    #[serde(with = "vector")]
     previous_load: DVector<f64>,
+    #[serde(with = "vector")]
     linear: DVector<f64>,
     scratch: Vec<f64>,
+    #[serde(with = "vector")]
     moved: DVector<f64>,
+    #[serde(with = "vector")]
     x: DVector<f64>,
+    #[serde(with = "vector")]
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
@@ -95,6 +105,14 @@ impl EnergyBalance {
         balance.update_stored_energy(system, state);
         balance.energy.start = balance.energy.stored();
         balance
+    }
+
+    /// Whether it is one of a system of this size.
+    pub(super) fn fits(&self, system: &System) -> bool {
+        let vectors = [&self.load, &self.previous_load, &self.linear, &self.moved, &self.x, &self.v];
+        vectors.iter().all(|vector| vector.len() == system.size())
+            && self.rotations.len() == system.interfaces.len()
+            && self.rotation.is_some() == system.drive.is_some()
     }
 
     /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.

@@ -10,8 +10,10 @@ mod driven_buffers;
 mod driven_step;
 mod effective_matrix;
 mod interface_newton;
+mod memory;
 mod scheme;
 
+pub use memory::StepMemory;
 use nalgebra::DVector;
 pub use scheme::{Scheme, StepFailure};
 
@@ -67,6 +69,11 @@ impl GeneralisedAlpha {
             scratch: Vec::new(),
             driven: None,
         }
+    }
+
+    /// Its parameters.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
     }
 
     /// Newton iterations so far, for the report of the run.

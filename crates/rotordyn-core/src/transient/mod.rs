@@ -6,6 +6,7 @@ pub mod energy;
 mod free_bodies;
 pub mod generalised_alpha;
 pub mod interface;
+mod numbers;
 pub mod perturbed_trajectory;
 pub mod reduction;
 pub mod run;

@@ -1,9 +1,11 @@
 //! A perturbed trajectory alongside the reference run, for the largest Lyapunov exponent (Benettin).
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::interface::Interface;
-use super::stepper::Stepper;
+use super::numbers::matrix;
+use super::stepper::{Stepper, StepperMemory};
 use super::system::{Bodies, State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
@@ -27,7 +29,47 @@ pub struct PerturbedTrajectory {
     dv: DVector<f64>,
 }
 
+/// A perturbed trajectory between two steps, complete.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PerturbedSnapshot {
+    state: State,
+    stepper: StepperMemory,
+    #[serde(with = "matrix")]
+    stiffness: DMatrix<f64>,
+    size: f64,
+    cages: Vec<(Rotation, f64)>,
+}
+
+impl PerturbedSnapshot {
+    /// Whether it is one of this integrator and of a system of this size.
+    pub fn fits(&self, system: &System, integrator: Integrator) -> bool {
+        self.state.fits(system)
+            && self.stepper.fits(system, integrator)
+            && self.stiffness.shape() == (system.size(), system.size())
+            && self.cages.len() == system.interfaces.len()
+    }
+}
+
 impl PerturbedTrajectory {
+    /// The trajectory as it is after a step.
+    pub fn snapshot(&self) -> PerturbedSnapshot {
+        PerturbedSnapshot {
+            state: self.state.clone(),
+            stepper: self.stepper.memory(),
+            stiffness: self.stiffness.clone(),
+            size: self.size,
+            cages: self.cages.clone(),
+        }
+    }
+
+    /// The trajectory of a snapshot, which fits system and integrator; it goes on in the same bits.
+    pub fn after(system: &System, integrator: Integrator, snapshot: PerturbedSnapshot) -> Self {
+        let PerturbedSnapshot { state, stepper, stiffness, size, cages } = snapshot;
+        let zero = || DVector::zeros(system.size());
+        let stepper = Stepper::after(system, integrator, &stepper);
+        Self { state, stepper, stiffness, size, cages, dx: zero(), dv: zero() }
+    }
+
     /// Copies `reference` with a perturbation of equal energy in every coordinate, whose largest displacement in any
     /// bearing is `displacement` \[m\] (small against clearances and ramps, large against round-off: 1e-9).
     pub fn new(

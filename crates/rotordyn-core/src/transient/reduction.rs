@@ -11,6 +11,7 @@ use super::interface::Interface;
 use super::system::{Channel, LoadHistory, Panels, System};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
+use crate::assembly::dense_limit::check_dense;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
 use crate::model::{Drive, Model};
 use rotordyn_bearing::Rotation;
@@ -19,6 +20,17 @@ use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 /// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
 /// shaft in unstable equilibrium on one ball.
 const MASS_SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
+
+/// Dense matrices over all DOFs in memory together: M, K, factor, congruent K, modes, momenta, and two of a projection.
+const DENSE_MATRICES: usize = 8;
+
+/// Refuses a machine whose dense matrices would not fit into memory.
+///
+/// # Errors
+/// [`PhysicsError::TooLarge`].
+pub fn check_size(assembly: &Assembly) -> Result<(), PhysicsError> {
+    check_dense("the reduced model of a run", assembly.dofs.len(), DENSE_MATRICES, &assembly.extent)
+}
 
 /// A reduced machine with the basis for expansion to all DOFs.
 #[derive(Clone, Debug)]
@@ -55,7 +67,7 @@ fn padded(vector: DVector<f64>, size: usize) -> DVector<f64> {
 /// Reduces `assembly` about `equilibrium`, keeping modes up to `cutoff` \[Hz\] (infinity keeps all).
 ///
 /// # Errors
-/// No undamped modes (mass or stiffness not positive definite).
+/// No undamped modes (mass or stiffness not positive definite), or too many DOFs.
 pub fn reduce(
     model: &Model,
     assembly: &Assembly,
@@ -75,6 +87,7 @@ pub fn reduce(
         (1.0, &assembly.belt_stiffness),
         (1.0, &tangent.build()),
     ]);
+    check_size(assembly)?;
     let mass = assembly.mass.to_dense();
     let stiffness = tangent_stiffness.to_dense();
     let modes_at = |shift: &f64| eigen::undamped(&stiffness, &mass, *shift);

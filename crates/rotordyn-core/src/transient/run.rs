@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 use super::energy::{Energy, EnergyBalance};
-use super::stepper::{Stepper, check_divergence};
+use super::stepper::{Stepper, StepperMemory, check_divergence};
 use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
@@ -31,6 +31,74 @@ pub struct Sample<'a> {
     /// Their means over the interval since the sample before, with free bodies; else empty.
     pub means: &'a [f64],
     pub energy: &'a Energy,
+    run: RunParts<'a>,
+}
+
+/// What a snapshot takes from a run beside its state.
+#[derive(Clone, Copy)]
+struct RunParts<'a> {
+    start: f64,
+    last: usize,
+    stepper: &'a Stepper,
+    balance: &'a EnergyBalance,
+    means: &'a IntervalMeans,
+}
+
+impl Sample<'_> {
+    /// Whether it is the last one of the run.
+    pub fn is_last(&self) -> bool {
+        self.index == self.run.last
+    }
+
+    /// The run at this sample, from which [`resume`] goes on with the same bits.
+    pub fn snapshot(&self) -> RunSnapshot {
+        RunSnapshot {
+            index: self.index,
+            start: self.run.start,
+            state: self.state.clone(),
+            stepper: self.run.stepper.memory(),
+            balance: self.run.balance.clone(),
+            channels: self.run.means.now.clone(),
+        }
+    }
+}
+
+/// A run at a sampling instant, complete: state, memory of the integrator, energy balance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunSnapshot {
+    index: usize,
+    /// Time of the first sample \[s\].
+    start: f64,
+    state: State,
+    stepper: StepperMemory,
+    balance: EnergyBalance,
+    /// Channels at the last step, with free bodies.
+    channels: Vec<f64>,
+}
+
+impl RunSnapshot {
+    /// Index of its sample; the run goes on with the next one.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Time of its sample \[s\].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Speed at its sample \[rad/s\].
+    pub fn speed(&self) -> f64 {
+        self.state.spin.speed
+    }
+
+    fn fits(&self, system: &System, integrator: Integrator) -> bool {
+        let means = if system.has_bodies() { system.channels.len() } else { 0 };
+        self.state.fits(system)
+            && self.stepper.fits(system, integrator)
+            && self.balance.fits(system)
+            && self.channels.len() == means
+    }
 }
 
 /// Outcome and cost of a run.
@@ -82,67 +150,136 @@ pub enum End {
 /// samples have been observed. Deterministic: the result depends only on the arguments.
 pub fn run(
     system: &System,
-    mut state: State,
+    state: State,
     settings: &Settings,
-    mut observe: impl FnMut(&Sample) -> ControlFlow<()>,
+    observe: impl FnMut(&Sample) -> ControlFlow<()>,
 ) -> Report {
-    let interval = 1.0 / settings.sample_rate;
-    let substeps = (interval / settings.step * (1.0 - 1e-12)).ceil().max(1.0) as usize;
-    let step = interval / substeps as f64;
-    let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
-    let mut stepper = Stepper::new(system, settings.integrator, step);
-    let start = state.time;
-    let used = (!stepper.is_adaptive()).then_some(step);
-    // Error control chooses the steps between two samples.
-    let (calls, step) = if stepper.is_adaptive() { (1, interval) } else { (substeps, step) };
-    let mut balance = EnergyBalance::new(system, &state);
-    let mut channels = vec![0.0; system.channels.len()];
-    let mut means = IntervalMeans::new(system, &state);
-    let mut report = Report {
-        step: used,
-        samples: 0,
-        steps: 0,
-        iterations: 0,
-        refactored: 0,
-        halvings: 0,
-        energy: balance.energy,
-        end: End::Complete,
+    let grid = Grid::new(settings);
+    let run = Run {
+        start: state.time,
+        stepper: Stepper::new(system, settings.integrator, grid.step),
+        balance: EnergyBalance::new(system, &state),
+        means: IntervalMeans::new(system, &state),
+        state,
     };
-    if let Err(error) = system.check_integrator(settings.integrator, &state) {
-        report.end = End::Failed(error);
-        return report;
+    if let Err(error) = system.check_integrator(settings.integrator, &run.state) {
+        return Report { energy: run.balance.energy, step: run.step(&grid), ..Report::not_started(error) };
     }
-    for index in 0..=samples {
-        if index > 0 {
-            means.restart();
-            let advanced = (0..calls).try_for_each(|k| {
-                let end = start + ((index - 1) * calls + k + 1) as f64 * step;
-                stepper.advance(system, &mut state, step, end, &mut |state, taken| {
-                    finish_step(system, state, &mut balance);
-                    means.add(system, state, taken / interval);
-                    Ok(())
-                })
-            });
-            if let Err(error) = advanced.and_then(|()| check_divergence(system, &state)) {
-                report.end = End::Failed(error);
+    run.perform(system, &grid, 0, observe)
+}
+
+/// Goes on with a run after the sample of a snapshot, in the same bits as the run that was never stopped.
+///
+/// `system` and `settings` are those of the run; `observe` gets the samples after that of the snapshot, and the report
+/// is that of the whole run. A snapshot of another system or integrator ends with [`PhysicsError::OtherSnapshot`].
+pub fn resume(
+    system: &System,
+    snapshot: RunSnapshot,
+    settings: &Settings,
+    observe: impl FnMut(&Sample) -> ControlFlow<()>,
+) -> Report {
+    if !snapshot.fits(system, settings.integrator) {
+        return Report::not_started(PhysicsError::OtherSnapshot { time: snapshot.time() });
+    }
+    let RunSnapshot { index, start, state, stepper, balance, channels } = snapshot;
+    let stepper = Stepper::after(system, settings.integrator, &stepper);
+    let means = IntervalMeans::after(channels);
+    let run = Run { start, state, stepper, balance, means };
+    run.perform(system, &Grid::new(settings), index + 1, observe)
+}
+
+/// Times of a run: `calls` of the stepper of length `step` between two samples.
+struct Grid {
+    interval: f64,
+    calls: usize,
+    step: f64,
+    /// Index of the last sample.
+    samples: usize,
+}
+
+impl Grid {
+    fn new(settings: &Settings) -> Self {
+        let interval = 1.0 / settings.sample_rate;
+        let substeps = (interval / settings.step * (1.0 - 1e-12)).ceil().max(1.0) as usize;
+        let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
+        Self { interval, calls: substeps, step: interval / substeps as f64, samples }
+    }
+}
+
+/// A run between two samples.
+struct Run {
+    /// Time of the first sample \[s\].
+    start: f64,
+    state: State,
+    stepper: Stepper,
+    balance: EnergyBalance,
+    means: IntervalMeans,
+}
+
+impl Run {
+    /// Step reported before free bodies divide it; `None` if error control chooses it.
+    fn step(&self, grid: &Grid) -> Option<f64> {
+        (!self.stepper.is_adaptive()).then_some(grid.step)
+    }
+
+    /// Runs to the samples from the index `from` on and observes them.
+    fn perform(
+        mut self,
+        system: &System,
+        grid: &Grid,
+        from: usize,
+        mut observe: impl FnMut(&Sample) -> ControlFlow<()>,
+    ) -> Report {
+        let mut channels = vec![0.0; system.channels.len()];
+        let (mut seen, mut end) = (from, End::Complete);
+        for index in from..=grid.samples {
+            if index > 0
+                && let Err(error) = self.advance(system, grid, index)
+            {
+                end = End::Failed(error);
+                break;
+            }
+            self.balance.update_stored_energy(system, &self.state);
+            system.read_channels(&self.state, &mut channels);
+            seen = index + 1;
+            let Self { start, state, stepper, balance, means } = &self;
+            let run = RunParts { start: *start, last: grid.samples, stepper, balance, means };
+            let (channels, energy) = (&channels, &balance.energy);
+            let sample = Sample { system, index, state, channels, means: &means.sums, energy, run };
+            if observe(&sample).is_break() {
+                end = End::Stopped;
                 break;
             }
         }
-        balance.update_stored_energy(system, &state);
-        system.read_channels(&state, &mut channels);
-        report.samples = index + 1;
-        let (channels, means) = (&channels, &means.sums);
-        let sample = Sample { system, index, state: &state, channels, means, energy: &balance.energy };
-        if observe(&sample).is_break() {
-            report.end = End::Stopped;
-            break;
+        let (iterations, refactored) = self.stepper.iteration_counts();
+        Report {
+            step: self.step(grid).map(|step| step.min(self.stepper.shortest_step())),
+            samples: seen,
+            steps: self.stepper.steps,
+            iterations,
+            refactored,
+            halvings: self.stepper.halvings,
+            energy: self.balance.energy,
+            end,
         }
     }
-    (report.iterations, report.refactored) = stepper.iteration_counts();
-    (report.steps, report.halvings) = (stepper.steps, stepper.halvings);
-    report.step = report.step.map(|step| step.min(stepper.shortest_step()));
-    report.energy = balance.energy;
-    report
+
+    /// Steps from the sample before to the one at `index`.
+    fn advance(&mut self, system: &System, grid: &Grid, index: usize) -> Result<(), PhysicsError> {
+        let Self { start, state, stepper, balance, means } = self;
+        // Error control chooses the steps between two samples.
+        let (calls, step) = if stepper.is_adaptive() { (1, grid.interval) } else { (grid.calls, grid.step) };
+        means.restart();
+        for k in 0..calls {
+            let end = *start + ((index - 1) * calls + k + 1) as f64 * step;
+            stepper.advance(system, state, step, end, &mut |state, taken| {
+                finish_step(system, state, balance);
+                means.add(system, state, taken / grid.interval);
+                Ok(())
+            })?;
+        }
+        check_divergence(system, state)
+    }
 }
 
 /// Means of the channels over a sampling interval, by the trapezoidal rule over the steps.
@@ -161,6 +298,11 @@ impl IntervalMeans {
         let mut now = vec![0.0; size];
         system.read_channels(state, &mut now);
         Self { sums: now.clone(), before: now.clone(), now }
+    }
+
+    /// After a sample, at whose step the channels had the values `now`.
+    fn after(now: Vec<f64>) -> Self {
+        Self { sums: vec![0.0; now.len()], before: now.clone(), now }
     }
 
     fn restart(&mut self) {

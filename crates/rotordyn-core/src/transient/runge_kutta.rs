@@ -112,6 +112,16 @@ impl RungeKutta {
         }
     }
 
+    /// Reactions of the last evaluation: a force without tangents leaves those of the evaluation before.
+    pub fn reactions(&self) -> &[Reaction] {
+        &self.reactions
+    }
+
+    /// The integrator after a step that ended with these reactions, as many as interfaces.
+    pub fn set_reactions(&mut self, reactions: &[Reaction]) {
+        self.reactions.copy_from_slice(reactions);
+    }
+
     /// Rate (ẋ, ẍ) at (time, x, v), written to `stage`; reactions, d and ḋ of that point stay in the buffers.
     fn evaluate(&mut self, system: &System, state: &State, time: f64, spin: &Spin, stage: usize) {
         self.evaluations += 1;

@@ -3,8 +3,10 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use super::perturbed_trajectory::PerturbedTrajectory;
-use super::stepper::{Stepper, check_divergence};
+use serde::{Deserialize, Serialize};
+
+use super::perturbed_trajectory::{PerturbedSnapshot, PerturbedTrajectory};
+use super::stepper::{Stepper, StepperMemory, check_divergence};
 use super::system::{Channel, State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::{SectionTrigger, SteadyRunSettings};
@@ -15,7 +17,7 @@ const MARGIN_SAMPLES: f64 = 3.5;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Result of a run at constant speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SteadyRun {
     /// Time between samples \[s\]: the integrator's step.
     pub step: f64,
@@ -33,6 +35,76 @@ pub struct SteadyRun {
     pub state: State,
     /// Integration steps.
     pub steps: u64,
+    /// Whole periods recorded; fewer than requested if the run was stopped.
+    pub periods: usize,
+}
+
+/// Where a run at constant speed begins.
+pub enum SteadyStart {
+    State(Box<State>),
+    Snapshot(Box<SteadySnapshot>),
+}
+
+/// A run at constant speed between two steps, complete, with what it has recorded.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SteadySnapshot {
+    run: SteadyRun,
+    stepper: StepperMemory,
+    perturbed: Option<PerturbedSnapshot>,
+    times: SectionTimes,
+}
+
+impl SteadySnapshot {
+    /// Time of the run \[s\].
+    pub fn time(&self) -> f64 {
+        self.run.state.time
+    }
+
+    fn fits(&self, system: &System, settings: &SteadyRunSettings, channels: usize) -> bool {
+        let record = &self.run;
+        let lengths = record.channels.iter().map(Vec::len).chain([record.shaft_angle.len()]);
+        record.state.fits(system)
+            && self.stepper.fits(system, settings.integrator)
+            && self.perturbed.as_ref().is_none_or(|own| own.fits(system, settings.integrator))
+            && record.channels.len() == channels
+            && lengths.into_iter().all(|length| length == record.phase.len())
+    }
+}
+
+/// Sections and times of a run that its start fixes, and those it has passed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct SectionTimes {
+    /// Steps per period.
+    per_period: f64,
+    /// Section at or after the first state, in turns of the clock, and time of that state \[s\].
+    start: f64,
+    begin: f64,
+    /// Steps of the stepper.
+    count: u64,
+    last_section: f64,
+    last_section_time: f64,
+}
+
+/// A run at constant speed when a period of its clock has passed.
+pub struct SteadyProgress<'a> {
+    /// Periods since the start.
+    pub periods: usize,
+    run: &'a SteadyRun,
+    stepper: &'a Stepper,
+    perturbed: Option<&'a PerturbedTrajectory>,
+    times: SectionTimes,
+}
+
+impl SteadyProgress<'_> {
+    /// The run at this instant, from which [`run_steady_from`] goes on with the same bits.
+    pub fn snapshot(&self) -> SteadySnapshot {
+        SteadySnapshot {
+            run: self.run.clone(),
+            stepper: self.stepper.memory(),
+            perturbed: self.perturbed.map(PerturbedTrajectory::snapshot),
+            times: self.times,
+        }
+    }
 }
 
 /// Phase of a clock \[rad\]; a Poincaré section is taken every 2π.
@@ -63,89 +135,168 @@ fn phase_rate(clock: SectionTrigger, state: &State) -> f64 {
 /// A clock that does not advance, a step that does not converge, a run that diverges.
 pub fn run_steady(
     system: &System,
-    mut state: State,
+    state: State,
     settings: &SteadyRunSettings,
     channels: &[Channel],
     perturbation: Option<f64>,
     progress: &mut dyn FnMut(usize) -> ControlFlow<()>,
 ) -> Result<Option<SteadyRun>, PhysicsError> {
-    let rate = phase_rate(settings.trigger, &state);
-    let nominal = TAU / rate;
-    if !(nominal > 0.0 && nominal.is_finite()) {
-        return Err(PhysicsError::SectionClockStopped { speed_rpm: state.spin.speed * 60.0 / TAU });
-    }
-    let per_period = (nominal / settings.step * (1.0 - 1e-12)).ceil().max(1.0);
-    let step = nominal / per_period;
+    let mut stopped = false;
+    let run = run_steady_from(
+        system,
+        SteadyStart::State(Box::new(state)),
+        settings,
+        (channels, perturbation),
+        &mut |now| {
+            let flow = progress(now.periods);
+            stopped |= flow.is_break();
+            flow
+        },
+    )?;
+    Ok((!stopped).then_some(run))
+}
+
+/// As [`run_steady`], from a state or a snapshot of an earlier run, with what is recorded when `progress` stops it.
+///
+/// From a snapshot the result is that of the run which was never stopped, bit for bit. A run that is stopped has its
+/// record to the last whole period, as a run of that many `periods` would.
+///
+/// # Errors
+/// As [`run_steady`], and a snapshot of another system or integrator.
+pub fn run_steady_from(
+    system: &System,
+    start: SteadyStart,
+    settings: &SteadyRunSettings,
+    (channels, perturbation): (&[Channel], Option<f64>),
+    progress: &mut dyn FnMut(&SteadyProgress) -> ControlFlow<()>,
+) -> Result<SteadyRun, PhysicsError> {
     // Phase in clock periods relative to the section; sections lie at integers.
     let turns = |state: &State| (phase(settings.trigger, state) - settings.phase) / TAU;
-    let start = (turns(&state) - ROUND_OFF).ceil();
-    let first = start + settings.transient_periods as f64;
-    let last = first + settings.periods as f64;
-    let perturbed_from = start + (settings.transient_periods / 2) as f64;
-    let margin = MARGIN_SAMPLES / per_period;
-
-    system.check_integrator(settings.integrator, &state)?;
-    if perturbation.is_some() {
-        system.refuse_bodies("a Lyapunov exponent", &state)?;
-    }
-    let mut stepper = Stepper::new(system, settings.integrator, step);
-    let mut perturbed: Option<PerturbedTrajectory> = None;
-    let mut run = SteadyRun {
-        step,
-        phase: Vec::new(),
-        shaft_angle: Vec::new(),
-        channels: vec![Vec::new(); channels.len()],
-        log_growth: Vec::new(),
-        intervals: Vec::new(),
-        state: state.clone(),
-        steps: 0,
-    };
-    let begin = state.time;
-    let (mut last_section, mut last_section_time) = ((turns(&state) + ROUND_OFF).floor(), state.time);
-    for count in 1u64.. {
-        let at = turns(&state);
-        if at >= first - margin {
-            run.phase.push(phase(settings.trigger, &state));
-            run.shaft_angle.push(state.spin.angle);
-            for (channel, values) in channels.iter().zip(&mut run.channels) {
-                values.push(channel.read(&state));
+    let integrator = settings.integrator;
+    let (mut run, mut stepper, mut perturbed, mut times) = match start {
+        SteadyStart::State(state) => {
+            let (per_period, step) = steps_of_period(settings, &state)?;
+            system.check_integrator(integrator, &state)?;
+            if perturbation.is_some() {
+                system.refuse_bodies("a Lyapunov exponent", &state)?;
             }
+            let times = SectionTimes {
+                per_period,
+                start: (turns(&state) - ROUND_OFF).ceil(),
+                begin: state.time,
+                count: 0,
+                last_section: (turns(&state) + ROUND_OFF).floor(),
+                last_section_time: state.time,
+            };
+            (
+                SteadyRun::new(step, channels.len(), *state),
+                Stepper::new(system, integrator, step),
+                None,
+                times,
+            )
+        }
+        SteadyStart::Snapshot(snapshot) => {
+            if !snapshot.fits(system, settings, channels.len()) {
+                return Err(PhysicsError::OtherSnapshot { time: snapshot.time() });
+            }
+            let SteadySnapshot { run, stepper, perturbed, times } = *snapshot;
+            let stepper = Stepper::after(system, integrator, &stepper);
+            let perturbed = perturbed.map(|own| PerturbedTrajectory::after(system, integrator, own));
+            (run, stepper, perturbed, times)
+        }
+    };
+    let step = run.step;
+    let first = times.start + settings.transient_periods as f64;
+    let mut last = first + settings.periods as f64;
+    let perturbed_from = times.start + (settings.transient_periods / 2) as f64;
+    let margin = MARGIN_SAMPLES / times.per_period;
+    let mut stopped = false;
+    loop {
+        let at = turns(&run.state);
+        if at >= first - margin {
+            run.record(phase(settings.trigger, &run.state), channels);
         }
         if at > last + margin {
             break;
         }
-        if perturbation.is_some_and(|_| perturbed.is_none() && at >= perturbed_from - ROUND_OFF) {
-            let displacement = perturbation.unwrap_or_default();
-            perturbed =
-                Some(PerturbedTrajectory::new(system, &state, settings.integrator, step, displacement));
-            last_section_time = state.time;
+        if let Some(displacement) = perturbation
+            && perturbed.is_none()
+            && at >= perturbed_from - ROUND_OFF
+        {
+            perturbed = Some(PerturbedTrajectory::new(system, &run.state, integrator, step, displacement));
+            times.last_section_time = run.state.time;
         }
-        let end = begin + count as f64 * step;
-        stepper.advance(system, &mut state, step, end, &mut |state, step| match &mut perturbed {
+        times.count += 1;
+        let end = times.begin + times.count as f64 * step;
+        stepper.advance(system, &mut run.state, step, end, &mut |state, step| match &mut perturbed {
             Some(trajectory) => trajectory.repeat_step(system, state, step),
             None => Ok(()),
         })?;
-        check_divergence(system, &state)?;
-        let now = (turns(&state) + ROUND_OFF).floor();
+        check_divergence(system, &run.state)?;
+        let now = (turns(&run.state) + ROUND_OFF).floor();
+        let passed = now > times.last_section;
         if let Some(trajectory) = &mut perturbed {
-            trajectory.sync(&state);
-            if now > last_section {
-                let growth = trajectory.renormalise(system, &state);
+            trajectory.sync(&run.state);
+            if passed {
+                let growth = trajectory.renormalise(system, &run.state);
                 if now > first && now <= last {
                     run.log_growth.push(growth);
-                    run.intervals.push(state.time - last_section_time);
+                    run.intervals.push(run.state.time - times.last_section_time);
                 }
-                last_section_time = state.time;
+                times.last_section_time = run.state.time;
             }
         }
-        if now > last_section {
-            last_section = now;
-            if progress((now - start).max(0.0) as usize).is_break() {
-                return Ok(None);
+        if passed {
+            times.last_section = now;
+            let periods = (now - times.start).max(0.0) as usize;
+            let perturbed = perturbed.as_ref();
+            let instant = SteadyProgress { periods, run: &run, stepper: &stepper, perturbed, times };
+            if !stopped && progress(&instant).is_break() {
+                stopped = true;
+                // The record ends with this period; some samples after it are needed to interpolate the section.
+                last = last.min(now);
+                if last <= first {
+                    break;
+                }
             }
         }
     }
+    run.periods = (last - first).max(0.0) as usize;
     run.steps = stepper.steps;
-    run.state = state;
-    Ok(Some(run))
+    Ok(run)
+}
+
+/// Steps of a period of the clock at a state, and their length \[s\].
+fn steps_of_period(settings: &SteadyRunSettings, state: &State) -> Result<(f64, f64), PhysicsError> {
+    let nominal = TAU / phase_rate(settings.trigger, state);
+    if !(nominal > 0.0 && nominal.is_finite()) {
+        return Err(PhysicsError::SectionClockStopped { speed_rpm: state.spin.speed * 60.0 / TAU });
+    }
+    let per_period = (nominal / settings.step * (1.0 - 1e-12)).ceil().max(1.0);
+    Ok((per_period, nominal / per_period))
+}
+
+impl SteadyRun {
+    /// A run at its start, without samples.
+    fn new(step: f64, channels: usize, state: State) -> Self {
+        Self {
+            step,
+            phase: Vec::new(),
+            shaft_angle: Vec::new(),
+            channels: vec![Vec::new(); channels],
+            log_growth: Vec::new(),
+            intervals: Vec::new(),
+            state,
+            steps: 0,
+            periods: 0,
+        }
+    }
+
+    fn record(&mut self, phase: f64, channels: &[Channel]) {
+        self.phase.push(phase);
+        self.shaft_angle.push(self.state.spin.angle);
+        for (channel, values) in channels.iter().zip(&mut self.channels) {
+            values.push(channel.read(&self.state));
+        }
+    }
 }

@@ -1,10 +1,13 @@
 //! Common interface of the time integrators: fixed steps, halved on failure, or error-controlled steps.
 
-use super::generalised_alpha::{GeneralisedAlpha, Scheme};
+use serde::{Deserialize, Serialize};
+
+use super::generalised_alpha::{GeneralisedAlpha, Scheme, StepMemory};
 use super::runge_kutta::RungeKutta;
 use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::Integrator;
+use rotordyn_bearing::Reaction;
 
 /// Largest number of halvings of a step: 2⁻¹² of its length.
 const MAX_HALVINGS: u32 = 12;
@@ -38,6 +41,41 @@ enum Method {
     },
 }
 
+/// What a [`Stepper`] takes from the steps before: with it a new one goes on with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepperMemory {
+    method: MethodMemory,
+    steps: u64,
+    halvings: u64,
+    structure_step: Option<f64>,
+    shortest: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+enum MethodMemory {
+    Implicit(StepMemory),
+    Explicit {
+        reactions: Vec<Reaction>,
+        evaluations: u64,
+        /// The next step under error control \[s\].
+        step: Option<f64>,
+    },
+}
+
+impl StepperMemory {
+    /// Whether it is one of this integrator and of a system of this size.
+    pub fn fits(&self, system: &System, integrator: Integrator) -> bool {
+        let implicit = matches!(integrator, Integrator::GeneralisedAlpha { .. } | Integrator::Newmark);
+        let adaptive = matches!(integrator, Integrator::DormandPrince { .. });
+        match &self.method {
+            MethodMemory::Implicit(memory) => implicit && memory.fits(system),
+            MethodMemory::Explicit { reactions, step, .. } => {
+                !implicit && adaptive == step.is_some() && reactions.len() == system.interfaces.len()
+            }
+        }
+    }
+}
+
 /// Called after every accepted step with its length.
 pub type OnStep<'a> = &'a mut dyn FnMut(&mut State, f64) -> Result<(), PhysicsError>;
 
@@ -58,6 +96,54 @@ impl Stepper {
             },
         };
         Self { method, steps: 0, halvings: 0, structure_step: None, shortest: f64::INFINITY }
+    }
+
+    /// What later steps take from those so far.
+    pub fn memory(&self) -> StepperMemory {
+        let explicit = |method: &RungeKutta, step| MethodMemory::Explicit {
+            reactions: method.reactions().to_vec(),
+            evaluations: method.evaluations,
+            step,
+        };
+        let method = match &self.method {
+            Method::Implicit(method) => MethodMemory::Implicit(method.memory()),
+            Method::Fixed(method) => explicit(method, None),
+            Method::Adaptive { method, step, .. } => explicit(method, Some(*step)),
+        };
+        StepperMemory {
+            method,
+            steps: self.steps,
+            halvings: self.halvings,
+            structure_step: self.structure_step,
+            shortest: self.shortest,
+        }
+    }
+
+    /// The stepper after the steps that left `memory`, which fits system and integrator.
+    pub fn after(system: &System, integrator: Integrator, memory: &StepperMemory) -> Self {
+        let mut out = Self::new(system, integrator, 0.0);
+        match (&mut out.method, &memory.method) {
+            (Method::Implicit(method), MethodMemory::Implicit(memory)) => {
+                **method = GeneralisedAlpha::after(system, method.scheme(), memory);
+            }
+            (
+                Method::Fixed(method) | Method::Adaptive { method, .. },
+                MethodMemory::Explicit { reactions, evaluations, .. },
+            ) => {
+                method.set_reactions(reactions);
+                method.evaluations = *evaluations;
+            }
+            // Not of this integrator, which `fits` refuses.
+            _ => {}
+        }
+        if let (Method::Adaptive { step: own, .. }, MethodMemory::Explicit { step: Some(step), .. }) =
+            (&mut out.method, &memory.method)
+        {
+            *own = *step;
+        }
+        (out.steps, out.halvings) = (memory.steps, memory.halvings);
+        (out.structure_step, out.shortest) = (memory.structure_step, memory.shortest);
+        out
     }
 
     /// Shortest step taken where free bodies divide the given one \[s\]; else infinite.

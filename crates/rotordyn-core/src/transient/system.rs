@@ -6,8 +6,10 @@
 //! with ż = g(z, d, ḋ, rotation).
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::interface::{Interface, StepTangents};
+use super::numbers::vector;
 use super::torque::{DrivenState, TorqueDrive};
 use crate::assembly::PhysicsError;
 use crate::model::{Quantity, SpeedCurve, Spin};
@@ -114,12 +116,15 @@ impl Panels {
 }
 
 /// State of a run: time, shaft motion, coordinates and bearing states.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub time: f64,
     pub spin: Spin,
+    #[serde(with = "vector")]
     pub x: DVector<f64>,
+    #[serde(with = "vector")]
     pub v: DVector<f64>,
+    #[serde(with = "vector")]
     pub a: DVector<f64>,
     /// Per interface: angle and speed of cage and shaft.
     pub rotations: Vec<Rotation>,
@@ -141,6 +146,20 @@ pub struct State {
 pub struct Bodies<'a> {
     pub states: &'a [f64],
     pub rates: &'a mut [f64],
+}
+
+impl State {
+    /// Whether it is one of a system of this size.
+    pub fn fits(&self, system: &System) -> bool {
+        let driven = if system.drive.is_some() { system.size() } else { 0 };
+        let vectors = [&self.x, &self.v, &self.a];
+        let places = [&self.d, &self.d_rate, &self.force];
+        vectors.iter().all(|vector| vector.len() == system.size())
+            && places.iter().all(|place| place.len() == system.interface_size())
+            && [self.rotations.len(), self.reactions.len()] == [system.interfaces.len(); 2]
+            && [self.bodies.len(), self.body_rates.len()] == [system.body_states(); 2]
+            && [self.driven.load.len(), self.driven.acceleration.len()] == [driven; 2]
+    }
 }
 
 impl System {

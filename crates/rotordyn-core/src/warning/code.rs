@@ -76,6 +76,10 @@ codes! {
     DefectGeometry, "defect-geometry", Caution,
         "A defect of a bearing is wider than one contact, or deeper than a ball can reach.",
         "check width and depth of the defect";
+    LeftOut, "left-out", Caution,
+        "Part of a file was not read: links that lead nowhere or to other files, types that are neither numbers nor texts, \
+         damaged or oversized data. All the rest was read.",
+        "see the text of the warning; where the part is needed, write the file again with plain arrays";
     MeasuredSpeed, "measured-speed", Caution,
         "A measured speed curve is changed or extended to be followed.",
         "look at the curve of the record";
@@ -183,6 +187,10 @@ codes! {
     SampleRate, "sample-rate", Caution,
         "An order line that is asked for lies above half the sampling rate at the highest speed.",
         "raise study.run_up.sample_rate, or ask for lower orders";
+    OrderSmear, "order-smear", Caution,
+        "The speed changes so much within a window of a spectrogram that an order line is more than twice as wide as a shorter \
+         window would show it, and too low.",
+        "shorten study.spectrogram.length, or see the order cuts of [study.orders], which follow the shaft angle";
     FreeBalls, "free-balls", Caution,
         "A study of balls and cage as free bodies, or their comparison with a kinematic cage, could not be computed.",
         "see the text of the warning";

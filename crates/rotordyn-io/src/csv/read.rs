@@ -5,9 +5,12 @@
 //! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, or a line of units follows them. Columns `x_re`,
 //! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`.
 
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use crate::error::Error;
+use crate::budget::{self, Budget, Exceeded, Limits};
+use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
 use crate::measured::unit_label::{self, SiUnit};
 use rotordyn_signal::Complex;
@@ -20,24 +23,64 @@ type Cell = Option<Complex<f64>>;
 ///
 /// # Errors
 /// The file cannot be read, contains no numbers, a line has another number of cells, a cell is not a number,
-/// an axis does not increase.
-pub fn read(path: &Path) -> Result<MeasuredData, Error> {
-    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
-    let text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        // Not UTF-8: Latin-1, which has degree signs.
-        Err(error) => error.as_bytes().iter().map(|&b| char::from(b)).collect(),
-    };
+/// an axis does not increase, or the contents exceed the budget.
+pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
+    let (bytes, budget) = budget::read_file(path, limits)?;
+    let mut notes = Vec::new();
+    let text = decoded(bytes, &budget, &mut notes).map_err(|exceeded| exceeded.of_file(path))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    parse(text.trim_start_matches('\u{feff}'), &stem).map_err(|(problem, advice)| Error::Content {
-        path: path.into(),
-        problem,
-        advice: advice.into(),
-    })
+    let text = text.trim_start_matches('\u{feff}');
+    let mut found = parse(text, &stem, &budget).map_err(|error| error.of_file(path))?;
+    found.notes.splice(0..0, notes);
+    Ok((found, budget))
+}
+
+/// Text in UTF-8, or in UTF-16 with its byte order mark, else in Latin-1, which has degree signs.
+fn decoded(bytes: Vec<u8>, budget: &Budget, notes: &mut Vec<String>) -> Result<String, Exceeded> {
+    let utf_16: Option<fn([u8; 2]) -> u16> = match bytes {
+        _ if bytes.starts_with(&[0xff, 0xfe]) => Some(u16::from_le_bytes),
+        _ if bytes.starts_with(&[0xfe, 0xff]) => Some(u16::from_be_bytes),
+        _ => None,
+    };
+    let text = || "the text".to_owned();
+    let Some(unit) = utf_16 else {
+        return String::from_utf8(bytes).or_else(|error| {
+            budget.take(text, 2 * error.as_bytes().len() as u64)?;
+            Ok(error.as_bytes().iter().map(|&b| char::from(b)).collect())
+        });
+    };
+    // Two bytes become three at most.
+    let mut out = String::from_utf8(budget.list(text, bytes.len() / 2 * 3)?).unwrap_or_default();
+    let (pairs, rest) = bytes.as_chunks::<2>();
+    let mut damaged = rest.len();
+    for letter in char::decode_utf16(pairs.iter().map(|pair| unit(*pair))) {
+        damaged += usize::from(letter.is_err());
+        out.push(letter.unwrap_or(char::REPLACEMENT_CHARACTER));
+    }
+    if damaged > 0 {
+        notes.push(format!("the text is damaged: {damaged} characters are not valid UTF-16"));
+    }
+    Ok(out)
 }
 
 /// Error message and hint.
-type ParseError = (String, &'static str);
+struct ParseError(String, String);
+
+impl ParseError {
+    fn new(problem: String, advice: &str) -> Self {
+        Self(problem, advice.into())
+    }
+
+    fn of_file(self, path: &Path) -> Error {
+        Error::Content { path: path.into(), problem: self.0, advice: self.1 }
+    }
+}
+
+impl From<Exceeded> for ParseError {
+    fn from(exceeded: Exceeded) -> Self {
+        Self(exceeded.to_string(), exceeded.advice())
+    }
+}
 
 const FORMAT_HINT: &str = "write one line of names and then numbers, separated by commas";
 
@@ -80,11 +123,11 @@ impl TableStyle {
         if cell.is_empty() {
             return Some(None);
         }
-        let cell = if self.decimal_comma { cell.replace(',', ".") } else { cell.to_owned() };
+        let cell: Cow<str> = if self.decimal_comma { cell.replace(',', ".").into() } else { cell.into() };
         if let Ok(number) = cell.parse::<f64>() {
             return Some(Some(number.into()));
         }
-        if matches!(cell.to_ascii_lowercase().as_str(), "#n/a" | "n/a" | "na" | "-nan" | "1.#qnan") {
+        if ["#n/a", "n/a", "na", "-nan", "1.#qnan"].iter().any(|missing| cell.eq_ignore_ascii_case(missing)) {
             return Some(Some(f64::NAN.into()));
         }
         complex(&cell).map(Some)
@@ -112,55 +155,106 @@ struct Column {
     /// As written.
     stated: String,
     si: Option<SiUnit>,
-    cells: Vec<Cell>,
+    /// Real parts, NaN for empty cells.
+    re: Vec<f64>,
+    /// Imaginary parts; empty as long as all are zero.
+    im: Vec<f64>,
+    /// Number of cells up to the last that is not empty.
+    length: usize,
 }
 
-fn parse(text: &str, stem: &str) -> Result<MeasuredData, ParseError> {
-    let lines: Vec<(usize, &str)> = text
-        .lines()
-        .enumerate()
-        .map(|(k, line)| (k + 1, line))
-        .filter(|(_, l)| !l.trim().is_empty())
-        .collect();
+impl Column {
+    fn new(name: String, stated: String, si: Option<SiUnit>) -> Self {
+        Column { name, stated, si, re: Vec::new(), im: Vec::new(), length: 0 }
+    }
+
+    fn push(&mut self, cell: Cell) {
+        let value = cell.unwrap_or(Complex::new(f64::NAN, 0.0));
+        if value.im != 0.0 && self.im.is_empty() {
+            self.im.resize(self.re.len(), 0.0);
+        }
+        if value.im != 0.0 || !self.im.is_empty() {
+            self.im.push(value.im);
+        }
+        self.re.push(value.re);
+        if cell.is_some() {
+            self.length = self.re.len();
+        }
+    }
+}
+
+/// Lines that are longer are searched for their number of cells before they are split \[bytes\].
+const LONG_LINE: usize = 100_000;
+
+/// Refuses a line of too many cells.
+fn check_width(line: &str, budget: &Budget) -> Result<(), Exceeded> {
+    if line.len() < LONG_LINE {
+        return Ok(());
+    }
+    let separated = |separator: u8| line.bytes().filter(|&b| b == separator).count() + 1;
+    let cells = [b',', b';', b'\t'].map(separated).into_iter().chain([line.split_whitespace().count()]);
+    cells.max().map_or(Ok(()), |most| budget.check_objects("columns", most))
+}
+
+fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, ParseError> {
+    let lines = text.lines().enumerate().map(|(k, line)| (k + 1, line)).filter(|(_, l)| !l.trim().is_empty());
     let is_comment = |line: &str| line.starts_with(['#', '%']) || line.starts_with("//");
-    let found = lines.iter().enumerate().find_map(|(at, (_, line))| {
-        let style = TableStyle::of(line).filter(|_| !is_comment(line))?;
-        Some((at, style))
-    });
-    let (first, mut style) = found.ok_or(("the file contains no line of numbers".to_owned(), FORMAT_HINT))?;
+    // The last lines before the numbers, with and without comments: units and names are among them.
+    let (mut last_header, mut header_lines) = ("", Vec::new());
+    let mut data = lines.clone();
+    let (first, mut style) = loop {
+        let before = data.clone();
+        let Some((_, line)) = data.next() else {
+            return Err(ParseError::new("the file contains no line of numbers".into(), FORMAT_HINT));
+        };
+        if !is_comment(line) {
+            check_width(line, budget)?;
+            if let Some(style) = TableStyle::of(line) {
+                data = before;
+                break (line, style);
+            }
+            budget.take_values::<&str>(|| "the header".into(), 1)?;
+            header_lines.push(line);
+        }
+        last_header = line;
+    };
     // Numbers with a decimal comma in one column look like two columns: the header line decides.
-    let header_lines: Vec<&str> =
-        lines[..first].iter().map(|(_, line)| *line).filter(|l| !is_comment(l)).collect();
     if let Some(head) = header_lines.last()
         && style.separator == ','
         && head.contains([';', '\t'])
     {
         style = TableStyle { separator: if head.contains(';') { ';' } else { '\t' }, decimal_comma: true };
     }
-    let width = style.split(lines[first].1).len();
-    let mut columns =
-        header(&header_lines, lines[..first].iter().map(|(_, l)| *l).collect(), style, width, stem);
+    let width = style.split(first).len();
+    budget.objects("columns", width)?;
+    let mut columns = header(&header_lines, last_header, style, width, stem);
 
-    for (number, line) in lines[first..].iter().filter(|(_, line)| !is_comment(line)) {
+    for (number, line) in data.filter(|(_, line)| !is_comment(line)) {
         let cells = style.split(line);
         if cells.len() != width {
             let problem = format!("line {number} has {} cells, the first data line has {width}", cells.len());
-            return Err((problem, "the file is cut off or damaged: copy or export it again"));
+            return Err(ParseError::new(problem, "the file is cut off or damaged: copy or export it again"));
         }
+        // A column and the record of it.
+        budget.take_values::<[f64; 2]>(|| "the numbers".into(), width)?;
         for (column, cell) in columns.iter_mut().zip(cells) {
             let value = style.value(cell).ok_or_else(|| {
-                (format!("`{cell}` in line {number}, column `{}`, is not a number", column.name), FORMAT_HINT)
+                let (cell, name) = (snippet(cell), snippet(&column.name));
+                ParseError::new(
+                    format!("`{cell}` in line {number}, column `{name}`, is not a number"),
+                    FORMAT_HINT,
+                )
             })?;
-            column.cells.push(value);
+            column.push(value);
         }
     }
     // A separator at the end of every line makes an empty column.
-    columns.retain(|c| c.cells.iter().any(Option::is_some));
-    records(columns)
+    columns.retain(|c| c.length > 0);
+    records(columns, budget)
 }
 
 /// Names and units of the columns from the lines before the numbers.
-fn header(header_lines: &[&str], all: Vec<&str>, style: TableStyle, width: usize, stem: &str) -> Vec<Column> {
+fn header(header_lines: &[&str], last: &str, style: TableStyle, width: usize, stem: &str) -> Vec<Column> {
     let cells = |line: &str| -> Option<Vec<String>> {
         let cells: Vec<String> = match style.separator {
             // Names may contain blanks; then commas separate them.
@@ -169,10 +263,12 @@ fn header(header_lines: &[&str], all: Vec<&str>, style: TableStyle, width: usize
         };
         (cells.len() == width).then_some(cells)
     };
-    let mut rows: Vec<Vec<String>> = header_lines.iter().filter_map(|line| cells(line)).collect();
+    let mut rows: Vec<Vec<String>> =
+        header_lines.iter().rev().filter_map(|line| cells(line)).take(2).collect();
+    rows.reverse();
     if rows.is_empty() {
         // numpy.savetxt puts names into a comment.
-        rows.extend(all.last().and_then(|line| cells(line.trim_start_matches(['#', '%', '/', ' ']))));
+        rows.extend(cells(last.trim_start_matches(['#', '%', '/', ' '])));
     }
     let units = match rows.len() {
         0 | 1 => None,
@@ -190,7 +286,7 @@ fn header(header_lines: &[&str], all: Vec<&str>, style: TableStyle, width: usize
             match units {
                 Some(row) => {
                     let stated = unit_cell(&row[k]).to_owned();
-                    Column { si: unit_label::si(&stated), name, stated, cells: Vec::new() }
+                    Column::new(name, stated.clone(), unit_label::si(&stated))
                 }
                 None => column(&name),
             }
@@ -208,23 +304,13 @@ fn column(name: &str) -> Column {
         if let Some(at) = name.find(open).filter(|_| name.ends_with(close)) {
             let (base, stated) = (name[..at].trim(), &name[at + 1..name.len() - 1]);
             if !base.is_empty() {
-                return Column {
-                    name: base.into(),
-                    stated: stated.into(),
-                    si: unit_label::si(stated),
-                    cells: Vec::new(),
-                };
+                return Column::new(base.into(), stated.into(), unit_label::si(stated));
             }
         }
     }
     match unit_label::split_unit_suffix(name) {
-        Some((base, si)) => Column {
-            name: base.into(),
-            stated: name[base.len() + 1..].into(),
-            si: Some(si),
-            cells: Vec::new(),
-        },
-        None => Column { name: name.into(), stated: String::new(), si: None, cells: Vec::new() },
+        Some((base, si)) => Column::new(base.into(), name[base.len() + 1..].into(), Some(si)),
+        None => Column::new(name.into(), String::new(), None),
     }
 }
 
@@ -240,7 +326,22 @@ fn axis_of(column: &Column) -> Option<AxisQuantity> {
     }
 }
 
-fn records(mut columns: Vec<Column>) -> Result<MeasuredData, ParseError> {
+/// The column `x_im` for each `x_re` of the same unit.
+fn imaginary_parts(columns: &[Column]) -> HashMap<usize, usize> {
+    let ending = |end: &str| {
+        let mut found = HashMap::new();
+        for (k, column) in columns.iter().enumerate() {
+            if let Some(base) = column.name.strip_suffix(end) {
+                found.entry((base.to_owned(), column.stated.clone())).or_insert(k);
+            }
+        }
+        found
+    };
+    let (re, im) = (ending("_re"), ending("_im"));
+    re.iter().filter_map(|(of, k)| Some((*k, *im.get(of)?))).collect()
+}
+
+fn records(mut columns: Vec<Column>, budget: &Budget) -> Result<MeasuredData, ParseError> {
     let mut out = MeasuredData::default();
     let mut axis: Option<(AxisQuantity, Vec<f64>)> = None;
     let place = columns.iter().position(|c| axis_of(c).is_some()).filter(|_| columns.len() > 1);
@@ -248,59 +349,54 @@ fn records(mut columns: Vec<Column>) -> Result<MeasuredData, ParseError> {
         let column = columns.remove(at);
         let quantity = axis_of(&column).unwrap_or_default();
         let (up, down) = column.si.as_ref().map_or((1.0, 1.0), |si| (si.numerator, si.divisor));
-        let points: Vec<f64> = column
-            .cells
-            .iter()
-            .map(|c| c.map_or(f64::NAN, |v| if up == down { v.re } else { v.re * up / down }))
-            .collect();
+        let points: Vec<f64> =
+            column.re.iter().map(|v| if up == down { *v } else { v * up / down }).collect();
         if let Some(k) = points
             .windows(2)
             .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
         {
             let problem = format!("`{}` does not increase after its value {}", column.name, k + 1);
-            return Err((problem, "sort the lines, and remove duplicate and empty ones"));
+            return Err(ParseError::new(problem, "sort the lines, and remove duplicate and empty ones"));
         }
         if let Axis { points: Points::NonUniform(_), .. } = Axis::from_points(quantity, points.clone()) {
             out.notes.push(format!("`{}` is not uniformly spaced", column.name));
+            // Every record has its own list.
+            let all = points.len().saturating_mul(columns.len());
+            budget.take_values::<f64>(|| "the axes of the columns".into(), all)?;
         }
         axis = Some((quantity, points));
     }
-    let mut taken = vec![false; columns.len()];
-    for k in 0..columns.len() {
-        if taken[k] {
-            continue;
-        }
-        let column = &columns[k];
-        let partner = column.name.strip_suffix("_re").and_then(|base| {
-            let is_partner =
-                |c: &Column| c.name.strip_suffix("_im") == Some(base) && c.stated == column.stated;
-            columns.iter().position(is_partner).map(|at| (base, at))
-        });
+    let partners = imaginary_parts(&columns);
+    let is_partner: HashSet<usize> = partners.values().copied().collect();
+    for k in (0..columns.len()).filter(|k| !is_partner.contains(k)) {
+        let partner = partners.get(&k);
+        let im = match partner {
+            Some(&at) => std::mem::take(&mut columns[at].re),
+            None => std::mem::take(&mut columns[k].im),
+        };
+        let column = &mut columns[k];
         let mut name = column.name.clone();
-        let mut values: Vec<Cell> = column.cells.clone();
+        let is_complex = partner.is_some() || !im.is_empty();
         // Shorter columns end in empty cells.
-        let length = values.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
-        values.truncate(length);
-        let mut is_complex = values.iter().flatten().any(|v| v.im != 0.0);
-        if let Some((base, at)) = partner {
-            name = base.to_owned();
-            (taken[at], is_complex) = (true, true);
-            for (value, im) in values.iter_mut().zip(&columns[at].cells) {
-                *value = value.zip(*im).map(|(re, im)| Complex::new(re.re, im.re));
-            }
-        }
-        let filled = values.iter().map(|v| v.unwrap_or(Complex::new(f64::NAN, 0.0)));
+        let mut re = std::mem::take(&mut column.re);
+        re.truncate(column.length);
         let mut values = match is_complex {
-            true => Values::Complex(filled.collect()),
-            false => Values::Real(filled.map(|v| v.re).collect()),
+            true => {
+                let im = im.into_iter().chain(std::iter::repeat(f64::NAN));
+                Values::Complex(re.into_iter().zip(im).map(|(re, im)| Complex::new(re, im)).collect())
+            }
+            false => Values::Real(re),
         };
         if let Some(si) = &column.si {
             values.scale(si.numerator, si.divisor);
         }
         let axis = match &axis {
-            Some((quantity, points)) => Axis::from_points(*quantity, points[..length].to_vec()),
+            Some((quantity, points)) => Axis::from_points(*quantity, points[..column.length].to_vec()),
             None => Axis::UNKNOWN,
         };
+        if partner.is_some() {
+            name.truncate(name.len() - "_re".len());
+        }
         let kind = guess_kind(&name, &values, axis.quantity);
         let unit = match &column.si {
             Some(si) => si.name.clone(),

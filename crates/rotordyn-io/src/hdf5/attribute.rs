@@ -1,10 +1,14 @@
 //! Attributes of groups and data sets.
 
-use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
 use hdf5::{H5Type, Location};
+use serde::{Deserialize, Serialize};
+
+/// Longest text of fixed length that is read \[bytes\].
+pub(super) const MAX_FIXED_TEXT: usize = 1024;
 
 /// The value of an attribute.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Attribute {
     Text(String),
     Number(f64),
@@ -66,29 +70,67 @@ pub(super) fn set(object: &Location, name: &str, value: &Attribute) -> hdf5::Res
     }
 }
 
-/// Reads an attribute; `None` if missing.
-pub(super) fn get(object: &Location, name: &str) -> hdf5::Result<Option<Attribute>> {
+/// Text of a file, which need not be UTF-8.
+pub(super) fn lossy(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Reads an attribute of at most `memory` bytes; `None` if missing.
+pub(super) fn get(object: &Location, name: &str, memory: u64) -> hdf5::Result<Option<Attribute>> {
     if !has(object, name)? {
         return Ok(None);
     }
+    value(object, name, memory).map(Some)
+}
+
+/// All attributes that are texts or numbers.
+pub(super) fn all(object: &Location, memory: u64) -> hdf5::Result<Vec<(String, Attribute)>> {
+    let names = object.attr_names()?.into_iter();
+    let found = names.filter_map(|name| value(object, &name, memory).ok().map(|value| (name, value)));
+    Ok(found.collect())
+}
+
+fn value(object: &Location, name: &str, memory: u64) -> hdf5::Result<Attribute> {
     let attribute = object.attr(name)?;
-    let value = match (attribute.dtype()?.to_descriptor()?, attribute.is_scalar()) {
-        (TypeDescriptor::VarLenUnicode, true) => {
-            Attribute::Text(attribute.read_scalar::<VarLenUnicode>()?.to_string())
+    let shape = attribute.space()?.shape();
+    let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
+    // The largest element is a text of fixed length.
+    if count.is_none_or(|count| (count as u64).saturating_mul(MAX_FIXED_TEXT as u64) > memory) {
+        return Err(hdf5::Error::Internal(format!("attribute {name} is too large")));
+    }
+    let one = attribute.is_scalar();
+    let texts = |found: Vec<String>| match one {
+        true => Attribute::Text(found.into_iter().next().unwrap_or_default()),
+        false => Attribute::Texts(found),
+    };
+    Ok(match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::VarLenUnicode => {
+            texts(attribute.read_raw::<VarLenUnicode>()?.iter().map(|t| lossy(t.as_bytes())).collect())
         }
-        (TypeDescriptor::VarLenUnicode, false) => {
-            Attribute::Texts(attribute.read_raw::<VarLenUnicode>()?.iter().map(|t| t.to_string()).collect())
+        TypeDescriptor::VarLenAscii => {
+            texts(attribute.read_raw::<VarLenAscii>()?.iter().map(|t| lossy(t.as_bytes())).collect())
         }
-        (TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_), true) => {
-            Attribute::Integer(attribute.read_scalar()?)
+        TypeDescriptor::FixedAscii(length) if length <= MAX_FIXED_TEXT => {
+            let found = attribute.read_raw::<FixedAscii<MAX_FIXED_TEXT>>()?;
+            texts(found.iter().map(|t| lossy(t.as_bytes())).collect())
         }
-        (TypeDescriptor::Float(_), true) => Attribute::Number(attribute.read_scalar()?),
-        (TypeDescriptor::Float(_), false) => Attribute::Numbers(attribute.read_raw()?),
-        (other, _) => {
+        TypeDescriptor::FixedUnicode(length) if length <= MAX_FIXED_TEXT => {
+            let found = attribute.read_raw::<FixedUnicode<MAX_FIXED_TEXT>>()?;
+            texts(found.iter().map(|t| lossy(t.as_bytes())).collect())
+        }
+        TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) if one => {
+            Attribute::Integer(attribute.read_raw()?.first().copied().unwrap_or(0))
+        }
+        TypeDescriptor::Float(_) if one => {
+            Attribute::Number(attribute.read_raw()?.first().copied().unwrap_or(f64::NAN))
+        }
+        TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_) | TypeDescriptor::Float(_) => {
+            Attribute::Numbers(attribute.read_raw()?)
+        }
+        other => {
             return Err(hdf5::Error::Internal(format!("attribute {name} is of type {other}")));
         }
-    };
-    Ok(Some(value))
+    })
 }
 
 pub(super) fn has(object: &Location, name: &str) -> hdf5::Result<bool> {

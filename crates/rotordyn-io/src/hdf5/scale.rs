@@ -1,9 +1,11 @@
 //! Dimension scales: axes of data sets, in the form of the HDF5 dimension scale specification.
 
 use super::attribute;
+use crate::whole_file::NewFile;
 use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenArray, VarLenUnicode};
 use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A file whose only attribute CLASS has the type required by the specification, a null-terminated string of
 /// 16 bytes; the hdf5 crate can read this type from a file but not create it. Written with h5py:
@@ -79,14 +81,16 @@ fn mark_as_scale(axis: &Dataset, path: &Path, label: &str) -> hdf5::Result<()> {
     name.write_scalar(&label.parse::<FixedUnicode<64>>().map_err(internal)?)
 }
 
-/// Reads the type of CLASS from a temporary file next to `path`.
+/// The type of CLASS, read once from a temporary file next to `path`.
 fn scale_class(path: &Path) -> hdf5::Result<Datatype> {
-    let mut small = path.as_os_str().to_owned();
-    small.push(".scale_class");
-    std::fs::write(&small, SCALE_CLASS).map_err(internal)?;
-    let class = File::open(&small).and_then(|file| file.attr("CLASS")?.dtype());
-    std::fs::remove_file(&small).map_err(internal)?;
-    class
+    static CLASS: OnceLock<Datatype> = OnceLock::new();
+    if let Some(class) = CLASS.get() {
+        return Ok(class.clone());
+    }
+    let small = NewFile::replacing(path);
+    std::fs::write(small.part(), SCALE_CLASS).map_err(internal)?;
+    let class = File::open(small.part()).and_then(|file| file.attr("CLASS")?.dtype())?;
+    Ok(CLASS.get_or_init(|| class).clone())
 }
 
 fn internal(error: impl std::fmt::Display) -> hdf5::Error {

@@ -1,203 +1,208 @@
-//! Channels of a run: streamed to disk during the run, read back afterwards.
+//! Samples of a run, written to its preallocated data sets while it is under way.
 
-use super::{Attribute, DEFLATE_LEVEL, Store, attribute};
+use super::Store;
+use super::recording::{channel_names, recorded_samples};
+use super::sample_sets::set_paths;
 use crate::error::Error;
-use hdf5::Dataset;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-/// Samples per chunk; also the most that a killed run loses.
-const BLOCK_SAMPLES: usize = 4096;
-/// Attribute of `<at>/time`: state of the run.
-const RUN_STATE: &str = "run_state";
+/// Samples written at a time; also the most that a killed program loses.
+const BLOCK_SAMPLES: usize = 1024;
+/// Bytes of a sample.
+const BYTES: u64 = 8;
+/// Interval at which samples are synced to the disk; a loss of power loses those since.
+const SYNC_INTERVAL: Duration = Duration::from_secs(10);
 
-/// Description of a channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
-    /// Name, also of its data set; without `/`.
-    pub name: String,
-    /// Unit, "m/s2".
-    pub unit: String,
-    /// Quantity, "acceleration".
-    pub quantity: String,
-    /// Station or body of the sensor.
-    pub station: String,
-    /// Direction, "x", "theta_y" or a vector.
-    pub direction: String,
-}
-
-/// Streams the samples of a run to disk.
+/// Writes the samples of a run to the data sets of [`preallocate_run`](super::preallocate_run), of a file that is closed.
 ///
-/// `<at>/time/{t, theta, speed}` and `<at>/channels/<name>` (in the order of the attribute `names`) grow
-/// together in blocks, each followed by a flush, and no block is written twice: after a kill the file can be
-/// opened and contains all complete blocks. The attribute `run_state` of `<at>/time` is "running", then
-/// "complete" or "stopped: reason".
+/// The samples go straight to their places in the file, without HDF5: whatever ends the program, the file can be
+/// opened, and what was recorded ends before the first NaN of the times, which are written last.
 #[derive(Debug)]
 pub struct ChannelStream {
-    store: Store,
-    root: String,
-    datasets: Vec<Dataset>,
+    path: PathBuf,
+    file: File,
+    names: Vec<String>,
+    /// Offset of every data set in the file: time, angle, speed, channels.
+    offsets: Vec<u64>,
     columns: Vec<Vec<f64>>,
+    bytes: Vec<u8>,
     written: usize,
-    finished: bool,
+    capacity: usize,
+    synced: Instant,
 }
 
 impl ChannelStream {
-    /// Starts a run under the group `at` ("" for the root) of a store open for writing.
+    /// Starts a run in the file `path`, whose data sets are preallocated under `root`.
     ///
-    /// `sample_rate` \[Hz\] and `start` \[s\] are f_s and t_0 of the uniform sampling.
-    pub fn create(
-        store: &Store,
-        root: &str,
-        channels: &[Channel],
-        sample_rate: f64,
-        start: f64,
-    ) -> Result<ChannelStream, Error> {
-        let store = Store { file: store.file.clone(), path: store.path.clone() };
-        let sampling = [("fs", Attribute::from(sample_rate)), ("t0", start.into())];
-        let mut datasets = Vec::with_capacity(3 + channels.len());
-        for (name, unit) in [("t", "s"), ("theta", "rad"), ("speed", "rad/s")] {
-            let attributes = [&[("unit", unit.into())], &sampling[..]].concat();
-            datasets.push(growable_dataset(&store, &format!("{root}/time/{name}"), &attributes)?);
+    /// # Errors
+    /// The file cannot be opened, or has no preallocated run.
+    pub fn start(path: &Path, root: &str) -> Result<ChannelStream, Error> {
+        ChannelStream::resume(path, root, 0)
+    }
+
+    /// Goes on with a run under way after its first `samples`; those behind are discarded.
+    ///
+    /// # Errors
+    /// The file cannot be opened, or has no preallocated run with as many samples.
+    pub fn resume(path: &Path, root: &str, samples: usize) -> Result<ChannelStream, Error> {
+        let store = Store::open(path)?;
+        let names = channel_names(&store, root)?;
+        let mut offsets = Vec::new();
+        let mut capacity = usize::MAX;
+        for set in set_paths(root, &names) {
+            let dataset = store.map_read_error(&set, store.file.dataset(&set))?;
+            let Some(offset) = dataset.offset().filter(|_| !dataset.is_chunked()) else {
+                let message = format!("{set} is no preallocated data set of a run under way");
+                return Err(Error::of_file("write", path)(message));
+            };
+            offsets.push(offset);
+            capacity = capacity.min(dataset.size());
         }
-        let names: Vec<String> = channels.iter().map(|c| c.name.clone()).collect();
-        if !names.is_empty() {
-            store.set_attribute(&format!("{root}/channels"), "names", names)?;
+        let recorded = recorded_samples(&store, root)?;
+        drop(store);
+        if samples > recorded {
+            let message = format!("{recorded} samples are recorded, fewer than {samples}");
+            return Err(Error::of_file("resume", path)(message));
         }
-        store.create_group(&format!("{root}/channels"))?;
-        for channel in channels {
-            if channel.name.is_empty() || channel.name.contains('/') {
-                let message = format!("{:?} cannot be the name of a channel", channel.name);
-                return Err(Error::of_file("write", &store.path)(message));
-            }
-            let attributes: [(&str, Attribute); 4] = [
-                ("unit", channel.unit.as_str().into()),
-                ("quantity", channel.quantity.as_str().into()),
-                ("station", channel.station.as_str().into()),
-                ("direction", channel.direction.as_str().into()),
-            ];
-            let name = format!("{root}/channels/{}", channel.name);
-            datasets.push(growable_dataset(&store, &name, &[&attributes[..], &sampling[..]].concat())?);
+        let file = File::options().read(true).write(true).open(path);
+        let columns = vec![Vec::with_capacity(BLOCK_SAMPLES); offsets.len()];
+        let mut stream = ChannelStream {
+            path: path.into(),
+            file: file.map_err(Error::of_file("open for writing", path))?,
+            names,
+            offsets,
+            columns,
+            bytes: Vec::with_capacity(BLOCK_SAMPLES * BYTES as usize),
+            written: samples,
+            capacity,
+            synced: Instant::now(),
+        };
+        for from in (samples..recorded).step_by(BLOCK_SAMPLES) {
+            let none = [f64::NAN; BLOCK_SAMPLES];
+            stream.write_column(0, from, &none[..BLOCK_SAMPLES.min(recorded - from)])?;
         }
-        for channel in channels {
-            let name = format!("{root}/channels/{}", channel.name);
-            store.attach_scale(&name, 0, &format!("{root}/time/t"), "time")?;
-        }
-        store.set_attribute(&format!("{root}/time"), RUN_STATE, "running")?;
-        store.flush()?;
-        let columns = vec![Vec::with_capacity(BLOCK_SAMPLES); datasets.len()];
-        Ok(ChannelStream { store, root: root.into(), datasets, columns, written: 0, finished: false })
+        Ok(stream)
+    }
+
+    /// Samples pushed so far, with those before [`resume`](Self::resume).
+    pub fn samples(&self) -> usize {
+        self.written + self.columns[0].len()
     }
 
     /// Appends one sample: time \[s\], shaft angle \[rad\], speed \[rad/s\] and the channels' values.
+    ///
+    /// # Errors
+    /// Another number of values than channels, more samples than preallocated, or a file that cannot be written.
     pub fn push(&mut self, time: f64, angle: f64, speed: f64, values: &[f64]) -> Result<(), Error> {
         if values.len() + 3 != self.columns.len() {
-            let message = format!("{} values for {} channels", values.len(), self.columns.len() - 3);
-            return Err(Error::of_file("write", &self.store.path)(message));
+            return self.refuse(format!("{} values for {} channels", values.len(), self.columns.len() - 3));
+        }
+        if self.samples() == self.capacity {
+            return self.refuse(format!("more samples than the {} announced", self.capacity));
         }
         let row = [time, angle, speed];
         for (column, value) in self.columns.iter_mut().zip(row.iter().chain(values)) {
             column.push(*value);
         }
-        if self.columns[0].len() == BLOCK_SAMPLES { self.write_block() } else { Ok(()) }
-    }
-
-    /// Writes the remaining samples and the final state, "complete" or "stopped: reason".
-    pub fn finish(mut self, state: &str) -> Result<(), Error> {
-        self.finalise(state)
-    }
-
-    fn finalise(&mut self, state: &str) -> Result<(), Error> {
-        self.finished = true;
-        self.write_block()?;
-        self.store.set_attribute(&format!("{}/time", self.root), RUN_STATE, state)?;
-        self.store.flush()
-    }
-
-    fn write_block(&mut self) -> Result<(), Error> {
-        let end = self.written + self.columns[0].len();
-        for (dataset, column) in self.datasets.iter().zip(&mut self.columns) {
-            let written =
-                dataset.resize(end).and_then(|()| dataset.write_slice(&column[..], self.written..end));
-            self.store.map_write_error(&dataset.name(), written)?;
-            column.clear();
+        if self.columns[0].len() < BLOCK_SAMPLES {
+            return Ok(());
         }
-        self.written = end;
-        self.store.flush()
+        self.write_block()?;
+        if self.synced.elapsed() > SYNC_INTERVAL { self.sync() } else { Ok(()) }
+    }
+
+    fn refuse(&self, message: String) -> Result<(), Error> {
+        Err(Error::of_file("write", &self.path)(message))
+    }
+
+    /// Writes all samples pushed so far and waits until they are on the disk.
+    ///
+    /// # Errors
+    /// The file cannot be written, or was removed.
+    pub fn sync(&mut self) -> Result<(), Error> {
+        self.write_block()?;
+        self.synced = Instant::now();
+        self.file.sync_data().map_err(Error::of_file("write", &self.path))?;
+        if !self.path.exists() {
+            return self.refuse("the file was removed during the run".into());
+        }
+        Ok(())
+    }
+
+    /// Reads samples of a channel back, of those pushed so far.
+    ///
+    /// # Errors
+    /// The file cannot be read, or has no such channel or samples.
+    pub fn read_channel(&mut self, name: &str, range: Range<usize>) -> Result<Vec<f64>, Error> {
+        let channel = self.names.iter().position(|other| other == name);
+        match channel.filter(|_| range.start <= range.end && range.end <= self.samples()) {
+            Some(channel) => self.read_column(channel + 3, range),
+            None => {
+                let message = format!("samples {} to {} of channel {name}", range.start, range.end);
+                Err(Error::of_file("read", &self.path)(message))
+            }
+        }
+    }
+
+    fn read_column(&mut self, column: usize, range: Range<usize>) -> Result<Vec<f64>, Error> {
+        self.write_block()?;
+        let mut bytes = vec![0; range.len() * BYTES as usize];
+        let from = self.offsets[column] + BYTES * range.start as u64;
+        self.file
+            .seek(SeekFrom::Start(from))
+            .and_then(|_| self.file.read_exact(&mut bytes))
+            .map_err(Error::of_file("read", &self.path))?;
+        let (samples, _) = bytes.as_chunks();
+        Ok(samples.iter().map(|sample| f64::from_ne_bytes(*sample)).collect())
+    }
+
+    /// Writes the remaining samples and waits until they are on the disk; returns their number.
+    ///
+    /// # Errors
+    /// The file cannot be written, or was removed.
+    pub fn finish(mut self) -> Result<usize, Error> {
+        self.sync()?;
+        Ok(self.written)
+    }
+
+    /// The times come last: a sample exists when its time does.
+    fn write_block(&mut self) -> Result<(), Error> {
+        let count = self.columns[0].len();
+        for column in (0..self.columns.len()).rev() {
+            let samples = std::mem::take(&mut self.columns[column]);
+            let written = self.write_column(column, self.written, &samples);
+            self.columns[column] = samples;
+            written?;
+        }
+        self.columns.iter_mut().for_each(Vec::clear);
+        self.written += count;
+        Ok(())
+    }
+
+    fn write_column(&mut self, column: usize, from: usize, samples: &[f64]) -> Result<(), Error> {
+        if samples.is_empty() {
+            return Ok(());
+        }
+        // HDF5 stores native numbers in this order of bytes.
+        self.bytes.clear();
+        self.bytes.extend(samples.iter().flat_map(|sample| sample.to_ne_bytes()));
+        let write = |file: &mut File, at: u64, bytes: &[u8]| -> io::Result<()> {
+            file.seek(SeekFrom::Start(at))?;
+            file.write_all(bytes)
+        };
+        let at = self.offsets[column] + BYTES * from as u64;
+        write(&mut self.file, at, &self.bytes).map_err(Error::of_file("write", &self.path))
     }
 }
 
 impl Drop for ChannelStream {
     /// Keeps the samples of a run that ended with an error.
     fn drop(&mut self) {
-        if !self.finished {
-            // `drop` cannot report an error; `run_state` then stays "running".
-            let _ = self.finalise("stopped: not finished");
-        }
+        // `drop` cannot report an error; what is recorded then ends earlier.
+        let _ = self.write_block();
     }
-}
-
-/// An empty one-dimensional data set that can grow.
-fn growable_dataset(store: &Store, name: &str, attributes: &[(&str, Attribute)]) -> Result<Dataset, Error> {
-    let parent = name.rsplit_once('/').map_or("", |(parent, _)| parent);
-    let created = store.group(parent).and_then(|_| {
-        let builder = store.file.new_dataset::<f64>().obj_track_times(false).chunk(BLOCK_SAMPLES);
-        let dataset = builder.shuffle().deflate(DEFLATE_LEVEL).shape(0..).create(name)?;
-        attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
-        Ok(dataset)
-    });
-    store.map_write_error(name, created)
-}
-
-/// A stored run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
-    /// Times \[s\].
-    pub time: Vec<f64>,
-    /// Shaft angles \[rad\].
-    pub angle: Vec<f64>,
-    /// Speeds \[rad/s\].
-    pub speed: Vec<f64>,
-    /// Sampling rate \[Hz\].
-    pub sample_rate: f64,
-    /// Time of the first sample \[s\].
-    pub start: f64,
-    /// Description and samples of every channel, in alphabetical order of the names.
-    pub channels: Vec<(Channel, Vec<f64>)>,
-    /// "running", "complete" or "stopped: reason".
-    pub state: String,
-}
-
-/// Reads a run that a [`ChannelStream`] wrote under `at`, complete or not.
-pub fn read_recording(store: &Store, root: &str) -> Result<Recording, Error> {
-    let missing =
-        |object: &str, name| Error::of_file("read", &store.path)(format!("{object} has no attribute {name}"));
-    let text = |object: &str, name| match store.attribute(object, name)? {
-        Some(Attribute::Text(text)) => Ok(text),
-        _ => Err(missing(object, name)),
-    };
-    let number = |object: &str, name| match store.attribute(object, name)? {
-        Some(Attribute::Number(number)) => Ok(number),
-        _ => Err(missing(object, name)),
-    };
-    let (time, folder) = (format!("{root}/time/t"), format!("{root}/channels"));
-    let mut channels = Vec::new();
-    for name in store.members(&folder)? {
-        let object = format!("{folder}/{name}");
-        let channel = Channel {
-            unit: text(&object, "unit")?,
-            quantity: text(&object, "quantity")?,
-            station: text(&object, "station")?,
-            direction: text(&object, "direction")?,
-            name,
-        };
-        channels.push((channel, store.read(&object)?.data));
-    }
-    Ok(Recording {
-        time: store.read(&time)?.data,
-        angle: store.read(&format!("{root}/time/theta"))?.data,
-        speed: store.read(&format!("{root}/time/speed"))?.data,
-        sample_rate: number(&time, "fs")?,
-        start: number(&time, "t0")?,
-        channels,
-        state: text(&format!("{root}/time"), RUN_STATE)?,
-    })
 }

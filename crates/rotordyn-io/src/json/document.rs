@@ -52,6 +52,8 @@ fn insert(out: &mut Map<String, Json>, Field { names, value }: &Field) {
         Value::Group(members) => document(members),
         Value::Groups { key, groups: found } => groups(key, found),
         Value::Table(table) => rows(table),
+        // Has no name in JSON.
+        Value::Stored(_) => return,
     };
     out.insert(name.clone(), value);
 }

@@ -10,8 +10,11 @@
 //! the records with the same prefix. H\[i, j, line\] becomes one record for each response i + 1 and reference
 //! j + 1.
 
+use std::collections::HashMap;
+
 pub use super::array::{Array, Data};
 use super::{signal_calc, unit_label};
+use crate::budget::{Budget, Exceeded};
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
 
 const RATES: [&str; 9] =
@@ -26,18 +29,21 @@ const PROPERTY_SUFFIXES: [&str; 10] =
     ["fs", "t0", "t", "freq_hz", "unit", "kind", "dof", "rpm", "name", "is"];
 
 /// Records from arrays, by the naming rules above.
-pub fn to_records(arrays: Vec<Array>) -> MeasuredData {
+///
+/// # Errors
+/// More records or memory than the budget of the file has.
+pub fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, Exceeded> {
     if arrays.iter().any(|a| a.name == signal_calc::INFO_ARRAY) {
-        return signal_calc::to_records(&arrays);
+        return signal_calc::to_records(arrays, budget);
     }
-    let file = File { arrays: &arrays };
+    let file = File::new(arrays);
     let mut out = MeasuredData::default();
     let axes = Axes {
         rate: file.global_rate(),
         time: file.increasing_list(&TIMES),
         frequency: file.increasing_list(&FREQUENCIES),
     };
-    for array in &arrays {
+    for array in arrays {
         let lower = array.name.to_lowercase();
         let is_axis = [&TIMES[..], &FREQUENCIES].iter().any(|names| names.contains(&lower.as_str()));
         let is_setting = RATES.contains(&lower.as_str()) || STEPS.contains(&lower.as_str()) || lower == "t0";
@@ -49,18 +55,20 @@ pub fn to_records(arrays: Vec<Array>) -> MeasuredData {
             (data, _) if data.is_empty() => {}
             (_, Some(_)) if is_setting => {}
             (_, Some(value)) => out.scalars.push((array.name.clone(), value)),
-            _ => file.records(array, &axes, &mut out),
+            _ => file.records(array, &axes, budget, &mut out)?,
         }
     }
     assign_speeds(&mut out);
     if let Some(title) = file.get("title").and_then(Array::as_text) {
         out.title = title.into();
     }
-    out
+    Ok(out)
 }
 
 struct File<'a> {
     arrays: &'a [Array],
+    /// Place of the first array of a name.
+    places: HashMap<&'a str, usize>,
 }
 
 /// Common axes of all records of a file.
@@ -72,8 +80,13 @@ struct Axes<'a> {
 }
 
 impl<'a> File<'a> {
+    fn new(arrays: &'a [Array]) -> Self {
+        let places = arrays.iter().enumerate().rev().map(|(k, array)| (array.name.as_str(), k)).collect();
+        Self { arrays, places }
+    }
+
     fn get(&self, name: &str) -> Option<&'a Array> {
-        self.arrays.iter().find(|a| a.name == name)
+        self.places.get(name).map(|&k| &self.arrays[k])
     }
 
     /// Array with one of the names, case-insensitive.
@@ -106,7 +119,13 @@ impl<'a> File<'a> {
     }
 
     /// The records of one array.
-    fn records(&self, array: &Array, axes: &Axes, out: &mut MeasuredData) {
+    fn records(
+        &self,
+        array: &Array,
+        axes: &Axes,
+        budget: &Budget,
+        out: &mut MeasuredData,
+    ) -> Result<(), Exceeded> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let name = own("name").or_else(|| own("is")).and_then(Array::as_text).unwrap_or(&array.name);
         let stated = own("unit").and_then(Array::as_text).unwrap_or_default();
@@ -116,9 +135,10 @@ impl<'a> File<'a> {
         if let Some(column) = two_column_record(array, axes) {
             out.notes.push(format!("`{name}`: its first column is taken as time"));
             out.records.push(column);
-            return;
+            return Ok(());
         }
-        for Slice { index, mut values, axis } in self.slices_along_axis(array, &shape, axes) {
+        let slices = self.slices_along_axis(array, &shape, axes, budget)?;
+        for Slice { index, mut values, axis } in slices {
             let mut numbers: Vec<String> = index.iter().map(|k| (k + 1).to_string()).collect();
             let label =
                 if index.is_empty() { name.to_owned() } else { format!("{name}[{}]", numbers.join(",")) };
@@ -149,10 +169,17 @@ impl<'a> File<'a> {
             record.speed_rpm = own("rpm").and_then(Array::as_scalar);
             out.records.push(record);
         }
+        Ok(())
     }
 
     /// One-dimensional slices of an array along its axis.
-    fn slices_along_axis(&self, array: &Array, shape: &[usize], axes: &Axes) -> Vec<Slice> {
+    fn slices_along_axis(
+        &self,
+        array: &Array,
+        shape: &[usize],
+        axes: &Axes,
+        budget: &Budget,
+    ) -> Result<Vec<Slice>, Exceeded> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let own_list = |suffix: &str| own(suffix).and_then(Array::as_list);
         let even = |rate: f64| {
@@ -189,6 +216,12 @@ impl<'a> File<'a> {
         let count = shape.get(along).copied().unwrap_or(1);
         let stride: usize = shape.iter().skip(along + 1).product();
         let outer: usize = shape.iter().take(along).product();
+        // The values as a record, and a list of axis points of each.
+        let complex = matches!(array.data, Data::Complex(_));
+        let each = size_of::<f64>() * if complex { 3 } else { 2 } * count + size_of::<Record>();
+        budget.objects("channels", stride.saturating_mul(outer))?;
+        let what = || format!("the channels of `{}`", array.name);
+        budget.take(what, (stride.saturating_mul(outer) as u64).saturating_mul(each as u64))?;
         let mut out = Vec::new();
         for lead in 0..outer {
             for trail in 0..stride {
@@ -204,7 +237,7 @@ impl<'a> File<'a> {
                 out.push(Slice { index: index.collect(), values, axis: over(count) });
             }
         }
-        out
+        Ok(out)
     }
 }
 
@@ -262,16 +295,22 @@ pub(crate) fn guess_kind(name: &str, values: &Values, axis: AxisQuantity) -> Kin
 
 /// Assigns a speed `<prefix>RPM` to the time records with that prefix, a single speed to all.
 fn assign_speeds(out: &mut MeasuredData) {
-    let ends = |name: &str| name.to_lowercase().ends_with("rpm");
-    let speeds: Vec<_> = out.scalars.iter().filter(|(name, _)| ends(name)).collect();
+    let is_speed = |name: &str| name.to_lowercase().ends_with("rpm");
+    let speeds: Vec<_> = out.scalars.iter().filter(|(name, _)| is_speed(name)).collect();
+    // The first speed of every prefix, with its place.
+    let mut prefixes: HashMap<&str, (usize, f64)> = HashMap::new();
+    for (k, (name, rpm)) in speeds.iter().enumerate().rev() {
+        let prefix = name.get(..name.len() - 3).unwrap_or_default().trim_end_matches('_');
+        if !prefix.is_empty() {
+            prefixes.insert(prefix, (k, *rpm));
+        }
+    }
+    let longest = prefixes.keys().map(|prefix| prefix.len()).max().unwrap_or(0);
+    let lone = speeds.first().filter(|_| speeds.len() == 1).map(|(_, rpm)| *rpm);
     for record in out.records.iter_mut().filter(|r| r.kind == Kind::Time && r.speed_rpm.is_none()) {
-        let begins = |name: &str| {
-            let begin = name.get(..name.len() - 3).unwrap_or_default().trim_end_matches('_');
-            !begin.is_empty() && record.name.starts_with(begin)
-        };
-        let own = speeds.iter().find(|(name, _)| begins(name));
-        let lone = speeds.first().filter(|_| speeds.len() == 1);
-        record.speed_rpm = own.or(lone).map(|(_, rpm)| *rpm);
+        let ends = (1..=longest.min(record.name.len())).filter_map(|end| record.name.get(..end));
+        let own = ends.filter_map(|begin| prefixes.get(begin)).min_by_key(|(k, _)| *k);
+        record.speed_rpm = own.map(|(_, rpm)| *rpm).or(lone);
     }
 }
 

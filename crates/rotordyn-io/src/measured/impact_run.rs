@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use crate::error::Error;
-use crate::hdf5::{Attribute, Store};
-use crate::results_file::read_history;
+use crate::hdf5::read_recording;
+use crate::hdf5::{Attribute, Reader};
+use crate::results_file::history_of;
 use rotordyn_linalg::{Outside, piecewise};
 use rotordyn_model::{self as model, Load, Model, Options, Quantity};
 use rotordyn_signal::impact::{Hit, ImpactWindows, frf_from_hits};
@@ -21,7 +22,7 @@ pub const PEAK_FORCE: &str = "peak_force";
 ///
 /// # Errors
 /// The file cannot be read, or the run is too short for an FRF.
-pub fn impact_frfs(store: &Store) -> Result<Option<MeasuredData>, Error> {
+pub fn impact_frfs(store: &dyn Reader) -> Result<Option<MeasuredData>, Error> {
     impact_frfs_windowed(store, ImpactWindows::default())
 }
 
@@ -29,18 +30,21 @@ pub fn impact_frfs(store: &Store) -> Result<Option<MeasuredData>, Error> {
 ///
 /// # Errors
 /// As [`impact_frfs`].
-pub fn impact_frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Option<MeasuredData>, Error> {
-    if !store.contains("/time/t") {
+pub fn impact_frfs_windowed(
+    store: &dyn Reader,
+    windows: ImpactWindows,
+) -> Result<Option<MeasuredData>, Error> {
+    if !store.contains("/time/t")? {
         return Ok(None);
     }
     let Some(model) = stored_model(store)? else { return Ok(None) };
     let varying: Vec<&Load> = model.loads.iter().filter(|l| !l.history.is_empty()).collect();
     let [load] = varying[..] else { return Ok(None) };
-    let history = read_history(store)?;
+    let history = history_of(&read_recording(store, "")?);
     let (Some(first), Some(last)) = (load.history.first(), load.history.last()) else { return Ok(None) };
     let (size, direction) = magnitude_and_direction(&load.force);
     let load_factor = |t: &f64| piecewise(&load.history, *t, Outside::Zero)[1];
-    let force: Vec<f64> = history.time.iter().map(|t| size * load_factor(t)).collect();
+    let force: Vec<f64> = history.time.all()?.iter().map(|t| size * load_factor(t)).collect();
     let node = |at: &rotordyn_core::element::Anchor| match at.node {
         Some(node) if at.offset == [0.0; 3] => node as i64 + 1,
         _ => 0,
@@ -48,10 +52,12 @@ pub fn impact_frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Opt
     let reference = Dof::new(node(&load.at), direction);
     let max_frequency = 1.0 / (last[0] - first[0]).max(1.0 / history.sample_rate);
     let mut out = MeasuredData { title: model.title.clone(), ..MeasuredData::default() };
+    let speed = history.speed.at(0)?;
     for probe in &model.probes {
-        let Some(channel) = history.channels.iter().find(|c| c.name == probe.name) else { continue };
-        let rest = channel.values.first().copied().unwrap_or(0.0);
-        let response: Vec<f64> = channel.values.iter().map(|v| v - rest).collect();
+        let Some(channel) = history.channel(&probe.name) else { continue };
+        let values = channel.values.all()?;
+        let rest = values.first().copied().unwrap_or(0.0);
+        let response: Vec<f64> = values.iter().map(|v| v - rest).collect();
         let hit = Hit { force: &force, response: &response };
         let found = frf_from_hits(&[hit], history.sample_rate, windows)?;
         let count = found.frequencies.iter().filter(|f| **f <= max_frequency).count();
@@ -67,7 +73,7 @@ pub fn impact_frfs_windowed(store: &Store, windows: ImpactWindows) -> Result<Opt
         out.records.push(Record {
             response: Dof::new(node(&probe.at), way),
             reference,
-            speed_rpm: history.speed.first().map(|s| s * 60.0 / TAU),
+            speed_rpm: speed.map(|s| s * 60.0 / TAU),
             ..Record::new(&probe.name, Kind::Frf, axis, values, unit)
         });
     }
@@ -88,7 +94,7 @@ fn magnitude_and_direction(force: &[f64; 6]) -> (f64, i8) {
 }
 
 /// The model with which the run was computed.
-fn stored_model(store: &Store) -> Result<Option<Model>, Error> {
+fn stored_model(store: &dyn Reader) -> Result<Option<Model>, Error> {
     let text = |name: &str| -> Result<Option<String>, Error> {
         Ok(match store.attribute("/meta", name)? {
             Some(Attribute::Text(text)) => Some(text),

@@ -25,6 +25,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::unit_label;
+use crate::budget::{self, Limits};
 use crate::error::Error;
 use rotordyn_signal::record::{AttachedPoint, Dof, Geometry, Kind, MeasuredData, Record};
 use rotordyn_units as units;
@@ -67,7 +68,7 @@ struct ReferenceEntry {
 /// # Errors
 /// The file cannot be read, or does not have the format above; the message has the line.
 pub fn read(path: &Path) -> Result<Mapping, Error> {
-    let text = std::fs::read_to_string(path).map_err(Error::of_file("read", path))?;
+    let text = budget::read_text(path, &Limits::default())?;
     toml::from_str(&text).map_err(|error| Error::Content {
         path: path.into(),
         problem: error.to_string().trim_end().to_owned(),

@@ -22,10 +22,12 @@ mod signal_calc;
 pub mod test_data;
 pub mod unit_label;
 
+use std::collections::{HashMap, HashSet};
 use std::io::Read;
 use std::path::Path;
 
 use super::{csv, mat, npy, uff, wav};
+use crate::budget::{self, Budget, Limits};
 use crate::error::Error;
 use rotordyn_signal::record::{MeasuredData, Points, Record};
 
@@ -56,6 +58,10 @@ impl Format {
             _ if npy::is_npy(head) || npy::is_npz(head) => Some(Format::Numpy),
             _ if wav::is_wav(head) => Some(Format::Wav),
             _ if first_line == Some(b"-1") => Some(Format::Universal),
+            // Text in UTF-16, with its byte order mark.
+            _ if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| head.starts_with(mark)) => {
+                Some(Format::Table)
+            }
             // Text has no control characters other than tabs and line ends.
             _ if head.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r')) => Some(Format::Table),
             _ => None,
@@ -77,17 +83,25 @@ impl Format {
     }
 }
 
-/// Reads every channel of a file of any supported format.
+/// Reads every channel of a file of any supported format, within the usual limits.
 ///
 /// Names of records are made unique, and non-finite values are reported in the notes.
 ///
 /// # Errors
-/// The file cannot be read, is of an unknown format, damaged or cut off; each message has a hint.
+/// The file cannot be read, is of an unknown format, damaged or cut off, or exceeds its budget; each message has a hint.
 pub fn read(path: &Path) -> Result<MeasuredData, Error> {
+    read_within(path, &Limits::default())
+}
+
+/// As [`read`], within other limits.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
     let mut head = Vec::new();
-    let file = std::fs::File::open(path);
-    file.and_then(|file| file.take(DETECTION_BYTES as u64).read_to_end(&mut head))
-        .map_err(Error::of_file("read", path))?;
+    let file = std::fs::File::open(path).map_err(Error::of_file("read", path))?;
+    budget::regular_size(path, &file)?;
+    file.take(DETECTION_BYTES as u64).read_to_end(&mut head).map_err(Error::of_file("read", path))?;
     let content = |problem: &str, advice: &str| Error::Content {
         path: path.into(),
         problem: problem.into(),
@@ -96,23 +110,21 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
     if head.is_empty() {
         return Err(content("the file is empty", "copy or export it again"));
     }
-    let of_arrays = |(arrays, left_out): (Vec<arrays::Array>, Vec<String>)| {
-        let mut out = arrays::to_records(arrays);
-        if !left_out.is_empty() {
-            out.notes.push(format!("not read, since they are not plain arrays: {}", left_out.join(", ")));
-        }
-        out
+    let of_arrays = |(arrays, left_out, budget): (Vec<arrays::Array>, Vec<String>, Budget)| {
+        let mut out = arrays::to_records(&arrays, &budget).map_err(|exceeded| exceeded.of_file(path))?;
+        out.left_out = left_out;
+        Ok::<_, Error>(out)
     };
     let mut out = match Format::of_content(&head) {
-        Some(Format::Universal) => uff::read(path)?,
-        Some(Format::Mat) => of_arrays(mat::read(path)?),
-        Some(Format::Numpy) => of_arrays(npy::read(path)?),
-        Some(Format::Wav) => wav::read(path)?,
+        Some(Format::Universal) => uff::read(path, limits)?.0,
+        Some(Format::Mat) => of_arrays(mat::read(path, limits)?)?,
+        Some(Format::Numpy) => of_arrays(npy::read(path, limits)?)?,
+        Some(Format::Wav) => wav::read(path, limits)?.0,
         #[cfg(feature = "hdf5")]
-        Some(Format::Hdf5) => hdf5_records::read(path)?,
+        Some(Format::Hdf5) => hdf5_records::read(path, limits)?,
         #[cfg(not(feature = "hdf5"))]
         Some(Format::Hdf5) => return Err(without_hdf5(path)),
-        Some(Format::Table) => csv::read(path)?,
+        Some(Format::Table) => csv::read(path, limits)?.0,
         None if Format::of_extension(path) == Some(Format::Mat) => {
             return Err(content("it is not a MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
         }
@@ -122,7 +134,11 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
         }
     };
     if out.records.is_empty() && out.shapes.is_empty() && out.geometry.nodes.is_empty() {
-        return Err(content("the file contains no channel", "export the records themselves"));
+        let problem = match out.left_out_text() {
+            Some(left_out) => format!("the file contains no channel that can be read; {left_out}"),
+            None => "the file contains no channel".into(),
+        };
+        return Err(content(&problem, "export the records themselves"));
     }
     make_names_unique_and_check(&mut out);
     Ok(out)
@@ -137,28 +153,44 @@ fn without_hdf5(path: &Path) -> Error {
     }
 }
 
+/// Most remarks on a file; further ones are counted.
+const MAX_NOTES: usize = 50;
+
 /// Start of the note on channels without an axis.
 pub const MISSING_AXIS_NOTE: &str = "no sampling rate or frequency step is stated for";
 
 /// Makes names unique and reports non-finite values.
 fn make_names_unique_and_check(out: &mut MeasuredData) {
-    for k in 1..out.records.len() {
-        let (before, here) = out.records.split_at_mut(k);
-        let taken = |name: &str| before.iter().any(|r| r.name == name);
-        let name = here[0].name.clone();
-        let mut number = 1;
-        while taken(&here[0].name) {
-            number += 1;
-            here[0].name = format!("{name} ({number})");
+    let mut taken: HashSet<String> = HashSet::with_capacity(out.records.len());
+    let mut last_numbers: HashMap<String, usize> = HashMap::new();
+    for record in &mut out.records {
+        if taken.insert(record.name.clone()) {
+            continue;
+        }
+        let base = std::mem::take(&mut record.name);
+        let number = last_numbers.entry(base.clone()).or_insert(1);
+        loop {
+            *number += 1;
+            record.name = format!("{base} ({number})");
+            if taken.insert(record.name.clone()) {
+                break;
+            }
         }
     }
+    let mut more = 0;
     for record in &out.records {
-        if let Some((count, first)) = record.values.not_finite() {
-            let (name, length) = (&record.name, record.values.len());
-            out.notes.push(format!(
-                "`{name}` has {count} values of {length} that are not finite, the first at index {first}"
-            ));
+        let Some((count, first)) = record.values.not_finite() else { continue };
+        if out.notes.len() >= MAX_NOTES {
+            more += 1;
+            continue;
         }
+        let (name, length) = (&record.name, record.values.len());
+        out.notes.push(format!(
+            "`{name}` has {count} values of {length} that are not finite, the first at index {first}"
+        ));
+    }
+    if more > 0 {
+        out.notes.push(format!("{more} more channels have values that are not finite"));
     }
     let without: Vec<&str> =
         out.records.iter().filter(|r| r.axis.points == Points::Unknown).map(|r| r.name.as_str()).collect();

@@ -1,8 +1,11 @@
 //! MATLAB files of the analyser SignalCalc (Data Physics): arrays X1, H1_2, C1_2 of two columns, axis and
 //! value.
 
+use std::collections::HashMap;
+
 use super::array::{Array, Data};
 use super::unit_label;
+use crate::budget::{Budget, Exceeded};
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
 
 /// Name of the array that identifies such a file: rows of "Signal H1_2", "Real/Imag g / N", position.
@@ -12,18 +15,25 @@ pub const INFO_ARRAY: &str = "DP_Info";
 ///
 /// The first number of a name is the reference's channel, the second the response's; of a single one, it is
 /// the channel itself.
-pub fn to_records(arrays: &[Array]) -> MeasuredData {
+///
+/// # Errors
+/// More records or memory than the budget of the file has: a signal may be listed any number of times.
+pub fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, Exceeded> {
     let mut out = MeasuredData::default();
     let rows = arrays.iter().find(|a| a.name == INFO_ARRAY);
-    let Some(Array { data: Data::Text(rows), .. }) = rows else { return out };
+    let Some(Array { data: Data::Text(rows), .. }) = rows else { return Ok(out) };
+    let places: HashMap<&str, &Array> =
+        arrays.iter().rev().map(|array| (array.name.as_str(), array)).collect();
     for pair in rows.windows(2) {
         let Some(name) = pair[0].strip_prefix("Signal ") else { continue };
-        let Some(array) = arrays.iter().find(|a| a.name == name.trim()) else { continue };
+        let Some(array) = places.get(name.trim()) else { continue };
+        budget.objects("signals", 1)?;
+        budget.take_values::<[f64; 2]>(|| format!("`{}`", array.name), array.data.len())?;
         let words = ["Real EU", "Mag EU", "Real/Imag", "dB Mag EU"];
         let label = words.iter().find_map(|form| pair[1].strip_prefix(form)).unwrap_or_default().trim();
         out.records.extend(record(array, label));
     }
-    out
+    Ok(out)
 }
 
 fn record(array: &Array, label: &str) -> Option<Record> {

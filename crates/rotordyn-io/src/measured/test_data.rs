@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::mapping;
 use super::mapping::Mapping;
+use crate::budget::{Budget, Limits};
 use crate::error::Error;
-use crate::hdf5::Store;
+use crate::hdf5::open_reader;
 use crate::machine_records;
 use crate::measured;
 use rotordyn_core::model::Model;
@@ -25,6 +26,8 @@ pub struct ReadSettings<'a> {
     pub band: Option<[f64; 2]>,
     /// Speed Ω \[rad/s\] of the measurement, if the file does not state it.
     pub speed: Option<f64>,
+    /// Limits for reading the file; the usual ones if `None`.
+    pub limits: Option<&'a Limits>,
 }
 
 /// Test data of a file, and warnings.
@@ -32,6 +35,8 @@ pub struct ReadSettings<'a> {
 pub struct TestData {
     pub target: Target,
     pub warnings: Vec<String>,
+    /// What of the file was not read; `None` if nothing.
+    pub left_out: Option<String>,
     /// "9 modes identified from 12 FRFs", "9 modes of the file".
     pub source: String,
     /// Peak force of a simulated impact \[N\].
@@ -47,9 +52,11 @@ pub struct TestData {
 /// # Errors
 /// A file that cannot be read, a mapping or points that do not fit the model, no mode in the band.
 pub fn read(path: &Path, reading: &ReadSettings, model: &Model) -> Result<Option<TestData>, Error> {
-    let mut measured = match from_results_file(path)? {
+    let usual = Limits::default();
+    let limits = reading.limits.unwrap_or(&usual);
+    let mut measured = match from_results_file(path, limits)? {
         Some(measured) => measured,
-        None => measured::read(path)?,
+        None => measured::read_within(path, limits)?,
     };
     let has_modes = measured.shapes.iter().any(is_mode);
     if !has_modes && !measured.records.iter().any(|r| r.kind == Kind::Frf) {
@@ -76,6 +83,7 @@ pub fn read(path: &Path, reading: &ReadSettings, model: &Model) -> Result<Option
         }
     }
     out.warnings.splice(0..0, warnings);
+    out.left_out = measured.left_out_text();
     if out.target.sensors.len() < 3 {
         let n = out.target.sensors.len();
         out.warnings.push(format!(
@@ -131,7 +139,7 @@ fn of_shapes(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> 
     let speed = rpm.map(|rpm| rpm * TAU / 60.0).or(reading.speed).unwrap_or(0.0);
     let source = format!("{} modes of the file", modes.len());
     let target = Target { speed, sensors, modes, frfs: None };
-    Ok(TestData { target, warnings: Vec::new(), source, peak_force: None })
+    Ok(TestData { target, warnings: Vec::new(), left_out: None, source, peak_force: None })
 }
 
 fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Result<TestData, Error> {
@@ -179,7 +187,7 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
     let source = format!("{} modes identified from {count} FRFs", modes.len());
     let target = Target { speed, sensors: points, modes, frfs };
     let force = measured.scalars.iter().find(|(name, _)| name == super::impact_run::PEAK_FORCE).map(|s| s.1);
-    Ok(TestData { target, warnings, source, peak_force: force })
+    Ok(TestData { target, warnings, left_out: None, source, peak_force: force })
 }
 
 /// Removes responses whose FRFs are all zero; returns a warning for each.
@@ -239,22 +247,41 @@ fn modes_of_identified(found: &ModalIdentification) -> (Vec<Dof>, Vec<TargetMode
 }
 
 /// Modes of a results file of this program as shapes, at every speed; `None` for any other file.
-fn from_results_file(path: &Path) -> Result<Option<MeasuredData>, Error> {
+fn from_results_file(path: &Path, limits: &Limits) -> Result<Option<MeasuredData>, Error> {
     let is_hdf5 = matches!(measured::Format::of_extension(path), Some(measured::Format::Hdf5));
     if !is_hdf5 || !path.exists() {
         return Ok(None);
     }
-    let store = Store::open(path)?;
-    if let Some(frfs) = super::impact_run::impact_frfs(&store)? {
+    let store = open_reader(path, limits)?;
+    if let Some(frfs) = super::impact_run::impact_frfs(&*store)? {
         return Ok(Some(frfs));
     }
-    if !store.contains("/modes/eigenvalue") || !store.contains("/modes/shapes") {
+    if !store.contains("/modes/eigenvalue")? || !store.contains("/modes/shapes")? {
         return Ok(None);
     }
     let rpm = store.read("/modes/rpm")?.data;
     let values = store.read_complex("/modes/eigenvalue")?;
     let shapes = store.read_complex("/modes/shapes")?;
-    let (modes, nodes) = (values.shape[1], shapes.shape[2]);
+    let (speeds, modes, nodes) = match (&values.shape[..], &shapes.shape[..]) {
+        (&[speeds, modes], &[of_speeds, of_modes, nodes, 6])
+            if speeds == rpm.len() && of_speeds == speeds && of_modes == modes =>
+        {
+            (speeds, modes, nodes)
+        }
+        _ => {
+            let (values, shapes) = (&values.shape, &shapes.shape);
+            let problem = format!(
+                "/modes/shapes of shape {shapes:?} does not belong to /modes/eigenvalue of shape {values:?} at {} speeds",
+                rpm.len()
+            );
+            let advice = "compute it again with `rotordyn modal`".into();
+            return Err(Error::Content { path: path.into(), problem, advice });
+        }
+    };
+    // Every shape has its own list of points.
+    let budget = Budget::of_memory(store.memory());
+    let points = speeds.saturating_mul(modes).saturating_mul(nodes);
+    budget.take_values::<i64>(|| "the mode shapes".into(), points).map_err(|e| e.of_file(path))?;
     let mut out = MeasuredData::default();
     for (s, rpm) in rpm.iter().enumerate() {
         for k in 0..modes {

@@ -56,9 +56,16 @@ const ADDITIONAL_UNITS: &[(&str, f64, f64, Powers)] = &[
     ("-", 1.0, 1.0, NONE), ("none", 1.0, 1.0, NONE),
 ];
 
+/// Longest label \[bytes\].
+const MAX_LABEL: usize = 100;
+
 /// The SI unit of a label; `None` if the label is empty or unknown.
 pub fn si(label: &str) -> Option<SiUnit> {
     let label = label.trim();
+    // Brackets within each other are read by recursion.
+    if label.len() > MAX_LABEL {
+        return None;
+    }
     if label.eq_ignore_ascii_case("rpm") || label == "rev/min" || label == "1/min" {
         return Some(SiUnit { name: "rpm".into(), numerator: 1.0, divisor: 1.0 });
     }
@@ -83,7 +90,8 @@ pub fn split_unit_suffix(name: &str) -> Option<(&str, SiUnit)> {
         "deg", "Hz", "kHz", "K", "W", "kg", "rpm",
     ];
     // The longest unit wins: m_s2 before s2.
-    let starts: Vec<usize> = name.match_indices('_').map(|(at, _)| at).filter(|&at| at > 0).collect();
+    let near = |&at: &usize| at > 0 && name.len() - at <= MAX_LABEL;
+    let starts: Vec<usize> = name.match_indices('_').map(|(at, _)| at).filter(near).collect();
     starts.into_iter().find_map(|at| {
         let parts: Vec<&str> = name[at + 1..].split('_').collect();
         let known = |part: &str| {
@@ -144,7 +152,7 @@ impl UnitParser<'_> {
                 sum.divisor *= down;
             }
             for (total, p) in sum.powers.iter_mut().zip(factor.powers) {
-                *total += power * p;
+                *total = total.checked_add(power.checked_mul(p)?)?;
             }
             divide = false;
         }

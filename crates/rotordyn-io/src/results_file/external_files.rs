@@ -1,8 +1,9 @@
 //! External data files of a model, stored with its text: a stored run can be evaluated without them.
 
 use super::GroupWriter;
+use crate::budget::Budget;
 use crate::error::Error;
-use crate::hdf5::{Attribute, Store};
+use crate::hdf5::{Attribute, Reader, Store};
 use rotordyn_core::model::{ExternalColumn, ExternalFile};
 
 const GROUP: &str = "/meta/files";
@@ -33,7 +34,7 @@ pub fn write_external_files(store: &Store, files: &[ExternalFile]) -> Result<(),
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn read_external_files(store: &Store) -> Result<Vec<ExternalFile>, Error> {
+pub fn read_external_files(store: &dyn Reader) -> Result<Vec<ExternalFile>, Error> {
     let texts = |group: &str, name: &str| -> Result<Vec<String>, Error> {
         Ok(match store.attribute(group, name)? {
             Some(Attribute::Texts(texts)) => texts,
@@ -41,14 +42,18 @@ pub fn read_external_files(store: &Store) -> Result<Vec<ExternalFile>, Error> {
             _ => Vec::new(),
         })
     };
-    if !store.contains(GROUP) {
+    if !store.contains(GROUP)? {
         return Ok(Vec::new());
     }
+    let budget = Budget::of_memory(store.memory());
     let read = |(k, path): (usize, String)| -> Result<ExternalFile, Error> {
         let group = format!("{GROUP}/{k}");
         let columns = texts(&group, "columns")?.into_iter().zip(texts(&group, "units")?).enumerate();
         let column = |(c, (name, unit)): (usize, (String, String))| -> Result<ExternalColumn, Error> {
-            Ok(ExternalColumn { name, unit, values: store.read(&format!("{group}/{c}"))?.data })
+            let values = store.read(&format!("{group}/{c}"))?.data;
+            let taken = budget.take_values::<f64>(|| group.clone(), values.len());
+            taken.map_err(|exceeded| exceeded.of_file(store.path()))?;
+            Ok(ExternalColumn { name, unit, values })
         };
         Ok(ExternalFile { path, content: Ok(columns.map(column).collect::<Result<_, _>>()?) })
     };

@@ -2,7 +2,7 @@
 //!
 //! | group | contents |
 //! |---|---|
-//! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, model (its text), title, variant, settings, seed, units, estimated_geometry (bearings whose internal geometry is estimated) |
+//! | `/meta` | attributes: schema (2; files without it have schema 1), program, version, git, identity (digest of model, settings and side files, also in figures), run_state (complete, running or stopped: why), files (figures and tables of these results), model (its text), title, variant, settings, seed, units, estimated_geometry (bearings whose internal geometry is estimated) |
 //! | `/meta/files` | columns of the external data files of the model |
 //! | `/labels` | names and positions of nodes, names of DOFs; per bearing its geometry and orders as attributes |
 //! | `/equilibrium` | displacement \[node, DOF\]; per bearing force, displacement, tangents, balls; per belt stated and remaining pull; per preloaded bearing stated and carried axial force |
@@ -16,7 +16,7 @@
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/ball_inertia/<study>/<bearing>` | attributes: stated and used ball inertia; speed, centrifugal_force, largest_contact_load, ratio, limit: why |
 //! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value`; `film_<race>` |
-//! | `/time`, `/channels` | the run-up, streamed during the run |
+//! | `/time`, `/channels` | the run-up; in `results_unfinished.h5` the samples so far, NaN behind them |
 //! | `/motion` | frames of the run for animations: `displacement` \[frame, node, DOF\]; per bearing with free balls `position`, `orientation` (quaternion, scalar first), `angular_velocity`, `ball_forces` (inner, outer, pocket) \[body, frame, component\], the balls before the cage |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance; `step_error`, `cage_phases` |
 //! | `/spectra/<channel>` | `spectrogram` and `orders` with their axes as dimension scales, order cuts |
@@ -28,69 +28,29 @@
 mod external_files;
 mod group_writer;
 mod motion;
+mod provenance;
+mod run_history;
 mod run_up_correlation;
 mod section;
 mod signal;
+mod writer;
 
 pub use external_files::{read_external_files, write_external_files};
 use group_writer::GroupWriter;
 pub use motion::{read_motion, write_motion};
+pub use provenance::{
+    Meta, Provenance, SCHEMA, results_state, schema, stored_files, stored_identity, write_meta,
+};
+pub use run_history::{channels_of, history_of, read_history};
 pub use run_up_correlation::write_run_up_correlation;
 pub use section::{write_document, write_section};
 pub use signal::{SignalMeta, write_signal};
+pub use writer::{FINISHED, PREVIOUS, ResultsWriter, UNFINISHED, UNFINISHED_PREVIOUS, newest_results};
 
-use super::hdf5::{Attribute, Channel, Store, read_recording};
+use super::hdf5::Store;
 use crate::error::Error;
-use rotordyn_core::results::{BearingResult, History, HistoryChannel, warnings_section};
+use rotordyn_core::results::{BearingResult, warnings_section};
 use rotordyn_core::study::{Machine, Results};
-
-/// Version of the names of groups, data sets and attributes, in `/meta`.
-pub const SCHEMA: i64 = 2;
-
-/// Provenance of results.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Meta<'a> {
-    /// Text of the model file.
-    pub model: &'a str,
-    pub title: &'a str,
-    /// Empty for the base model.
-    pub variant: &'a str,
-    /// Every override "path = value" of the file.
-    pub settings: &'a [String],
-}
-
-/// Writes `/meta`, replacing an earlier one.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_meta(store: &Store, meta: &Meta) -> Result<(), Error> {
-    let writer = GroupWriter::new(store, "/meta")?;
-    writer.set_attribute("schema", SCHEMA)?;
-    writer.set_attribute("program", "rotordyn")?;
-    writer.set_attribute("version", env!("CARGO_PKG_VERSION"))?;
-    writer.set_attribute("git", option_env!("ROTORDYN_GIT").unwrap_or("unknown"))?;
-    writer.set_attribute("model", meta.model)?;
-    writer.set_attribute("title", meta.title)?;
-    writer.set_attribute("variant", meta.variant)?;
-    writer.set_attribute("settings", meta.settings.join("\n"))?;
-    writer.set_attribute(
-        "seed",
-        "none for the program: random parts of the model have their seeds in its text",
-    )?;
-    writer.set_attribute("units", "SI: m, kg, s, N, rad; speeds in rad/s unless named rpm, frequencies in Hz")
-}
-
-/// Schema of a stored file; 1 for files written before the attribute was added.
-///
-/// # Errors
-/// The file cannot be read.
-pub fn schema(store: &Store) -> Result<i64, Error> {
-    let stored = if store.contains("/meta") { store.attribute("/meta", "schema")? } else { None };
-    Ok(match stored {
-        Some(Attribute::Integer(schema)) => schema,
-        _ => 1,
-    })
-}
 
 /// Writes every available result, replacing earlier ones; the run itself is streamed.
 ///
@@ -116,26 +76,6 @@ pub fn write_bearings(store: &Store, results: &Results) -> Result<(), Error> {
     store.flush()
 }
 
-/// Records in `/meta` that the run's speed is a measured one, not that of the model's text.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn note_measured_speed(store: &Store, source: &str) -> Result<(), Error> {
-    store.set_attribute("/meta", "speed", format!("as measured: {source}"))
-}
-
-/// The channels of a history in the form of a stream.
-pub fn channels_of(history: &History) -> Vec<Channel> {
-    let plain = |c: &HistoryChannel| Channel {
-        name: c.name.clone(),
-        unit: c.unit.clone(),
-        quantity: c.quantity.clone(),
-        station: c.station.clone(),
-        direction: c.direction.clone(),
-    };
-    history.channels.iter().map(plain).collect()
-}
-
 /// Removes a stored run with its summary and spectra, so that another can be streamed into the file.
 ///
 /// # Errors
@@ -144,35 +84,11 @@ pub fn remove_run(store: &Store) -> Result<(), Error> {
     ["/channels", "/time", "/run_up", "/spectra", "/motion"].iter().try_for_each(|group| store.remove(group))
 }
 
-/// Reads the stored run, complete or not, its channels in the order they were recorded.
+/// Writes names and positions of nodes, DOFs and bearings, the indices of the arrays in other groups.
 ///
 /// # Errors
-/// The file cannot be read or contains no run.
-pub fn read_history(store: &Store) -> Result<History, Error> {
-    let stored = read_recording(store, "")?;
-    let plain = |(c, values): (Channel, Vec<f64>)| HistoryChannel {
-        name: c.name,
-        unit: c.unit,
-        quantity: c.quantity,
-        station: c.station,
-        direction: c.direction,
-        values,
-    };
-    let mut channels: Vec<HistoryChannel> = stored.channels.into_iter().map(plain).collect();
-    if let Some(Attribute::Texts(order)) = store.attribute("/channels", "names")? {
-        channels.sort_by_key(|c| order.iter().position(|name| *name == c.name));
-    }
-    Ok(History {
-        sample_rate: stored.sample_rate,
-        time: stored.time,
-        angle: stored.angle,
-        speed: stored.speed,
-        channels,
-    })
-}
-
-/// Names and positions of nodes, DOFs and bearings, the indices of the arrays in other groups.
-fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
+/// The file cannot be written.
+pub fn write_labels(store: &Store, machine: &Machine) -> Result<(), Error> {
     let writer = GroupWriter::new(store, "/labels")?;
     let (model, dofs) = (&machine.model, &machine.assembly.dofs);
     writer.write_texts("node", &[dofs.node_names.len()], &dofs.node_names)?;

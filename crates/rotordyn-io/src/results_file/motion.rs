@@ -2,7 +2,7 @@
 
 use super::section::write_section;
 use crate::error::Error;
-use crate::hdf5::{Attribute, Store};
+use crate::hdf5::{Attribute, Reader, Store};
 use rotordyn_core::results::{BearingMotion, BodyMotion, Motion};
 
 const GROUP: &str = "/motion";
@@ -20,8 +20,8 @@ pub fn write_motion(store: &Store, motion: &Motion) -> Result<(), Error> {
 ///
 /// # Errors
 /// The file cannot be read, or its arrays do not belong together.
-pub fn read_motion(store: &Store) -> Result<Option<Motion>, Error> {
-    if !store.contains(GROUP) {
+pub fn read_motion(store: &dyn Reader) -> Result<Option<Motion>, Error> {
+    if !store.contains(GROUP)? {
         return Ok(None);
     }
     let wrong = |what: &str| Error::of_file("read", store.path())(format!("{GROUP}: {what}"));
@@ -29,15 +29,18 @@ pub fn read_motion(store: &Store) -> Result<Option<Motion>, Error> {
     let frames = time.len();
     let displacement = store.read(&format!("{GROUP}/displacement"))?.data;
     let per_frame = displacement.len() / frames.max(1);
+    if per_frame.checked_mul(frames) != Some(displacement.len()) {
+        return Err(wrong("arrays of different lengths"));
+    }
     let bearing = |name: String| {
         let at = format!("{GROUP}/bearings/{name}");
         let balls = match store.attribute(&at, "balls")? {
-            Some(Attribute::Integer(balls)) => balls as usize,
+            Some(Attribute::Integer(balls)) if balls >= 0 => balls as usize,
             _ => return Err(wrong("a bearing without its number of balls")),
         };
         let cage_angle = store.read(&format!("{at}/cage_angle"))?.data;
         let mut bodies = Vec::new();
-        if store.contains(&format!("{at}/position")) {
+        if store.contains(&format!("{at}/position"))? {
             let position = vectors::<3>(store, &format!("{at}/position"), frames)?;
             let orientation = vectors::<4>(store, &format!("{at}/orientation"), frames)?;
             let rotation = vectors::<3>(store, &format!("{at}/angular_velocity"), frames)?;
@@ -72,7 +75,11 @@ pub fn read_motion(store: &Store) -> Result<Option<Motion>, Error> {
 }
 
 /// An array \[body, frame, N\] as vectors over the frames of every body.
-fn vectors<const N: usize>(store: &Store, name: &str, frames: usize) -> Result<Vec<Vec<[f64; N]>>, Error> {
+fn vectors<const N: usize>(
+    store: &dyn Reader,
+    name: &str,
+    frames: usize,
+) -> Result<Vec<Vec<[f64; N]>>, Error> {
     let data = store.read(name)?.data;
     let (vectors, rest) = data.as_chunks::<N>();
     if frames == 0 || !rest.is_empty() || vectors.len() % frames != 0 {

@@ -21,13 +21,13 @@ pub fn write_run_up_correlation(
         let writer = GroupWriter::new(store, name)?;
         let count = run.time.len();
         writer.set_attribute("sample_rate", run.sample_rate)?;
-        writer.write_array("time/t", &[count], &run.time, "s")?;
-        writer.write_array("time/theta", &[count], &run.angle, "rad")?;
-        writer.write_array("time/speed", &[count], &run.speed, "rad/s")?;
+        writer.write_array("time/t", &[count], &run.time.all()?, "s")?;
+        writer.write_array("time/theta", &[count], &run.angle.all()?, "rad")?;
+        writer.write_array("time/speed", &[count], &run.speed.all()?, "rad/s")?;
         for pair in pairs {
             if let Some(channel) = run.channels.iter().find(|c| c.name == pair.channel) {
                 let at = format!("channels/{}", pair.channel);
-                writer.write_array(&at, &[count], &channel.values, &pair.unit)?;
+                writer.write_array(&at, &[count], &channel.values.all()?, &pair.unit)?;
             }
             write_section(store, name, &pair.spectrograms[k].section())?;
             write_section(store, name, &pair.orders[k].section())?;

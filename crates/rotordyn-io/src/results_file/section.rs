@@ -74,6 +74,11 @@ impl Writer<'_> {
                     let axes = array.axes.iter().map(|(k, axis)| (*k, join(group, axis))).collect();
                     self.array(&at, &array.shape, &array.data, &array.unit, axes)?;
                 }
+                Value::Stored(stored) => {
+                    let axes = stored.axes.iter().map(|(k, axis)| (*k, join(group, axis))).collect();
+                    let data = Data::Real(stored.values.all()?);
+                    self.array(&at, &stored.shape, &data, &stored.unit, axes)?;
+                }
                 Value::Group(members) => self.document(&at, members)?,
                 Value::Groups { groups, .. } => {
                     groups.iter().try_for_each(|(name, members)| self.document(&join(&at, name), members))?;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `/meta` | attributes: schema, program, version, git, file, command |
 //! | `/compared_record/<channel>` | the channel of the compared record |
-//! | `/<channel>` | attributes: unit, sample_rate, start, statistics, speed, bearing and its orders, diagnosis |
+//! | `/<channel>` | attributes: channel (its name, in which `/` is allowed), unit, sample_rate, start, statistics, speed, bearing and its orders, diagnosis |
 //! | `.../record`, `.../speed` | the samples analysed; the shaft's speed over time |
 //! | `.../spectrum`, `.../density`, `.../envelope`, `.../spectral_kurtosis` | values over their axis |
 //! | `.../kurtogram`, `.../band_scores` | low, high, level, value of every band |
@@ -12,8 +12,9 @@
 //! | `.../cepstrum`, `.../jerk`, `.../folded_jerk`, `.../synchronous_average` | curves; jerk folded over the ball passages, time-synchronous average |
 //! | `.../lines` | one row for every bearing defect line searched |
 
+use super::GroupWriter;
+use super::provenance::SCHEMA;
 use super::section::write_section;
-use super::{GroupWriter, SCHEMA};
 use crate::error::Error;
 use crate::hdf5::Store;
 use rotordyn_core::results::SignalResult;

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::machine_records::is_vibration;
 use crate::measured;
 use rotordyn_signal::record::{MeasuredData, RecordError};
-use rotordyn_units::names::file_name;
+use rotordyn_units::names::file_names;
 use std::path::PathBuf;
 
 /// Writes the files.
@@ -18,8 +18,9 @@ pub(super) fn write(run: &MeasuredData, options: &Options) -> Result<Vec<PathBuf
         return Err(RecordError::NoChannel { name: "vibration".into(), known: "none".into() }.into());
     }
     let mut files = Vec::new();
-    for record in audible {
-        let path = options.folder.join(format!("{}.wav", file_name(&record.name)));
+    let stems = file_names(audible.iter().map(|record| record.name.as_str()));
+    for (record, stem) in audible.into_iter().zip(stems) {
+        let path = options.folder.join(format!("{stem}.wav"));
         let one = MeasuredData { records: vec![record.clone()], ..MeasuredData::default() };
         measured::write(&path, &one)?;
         files.push(path);

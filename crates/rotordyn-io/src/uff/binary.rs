@@ -1,6 +1,7 @@
 //! Binary data of set 58b: header and byte format.
 
 use super::ParseError;
+use crate::error::snippet;
 
 /// First line of a 58b.
 pub(super) struct BinaryHeader {
@@ -21,9 +22,9 @@ impl BinaryHeader {
     /// Reads byte order, float format, header lines and byte count, `(I6,I6,I12,I12)`, after `58b`.
     pub fn of_header(fields: &str, line: usize) -> Result<BinaryHeader, ParseError> {
         let values: Vec<usize> = fields.split_whitespace().map_while(|word| word.parse().ok()).collect();
-        let fault = |problem: String, advice| ParseError { line, problem, advice };
+        let fault = |problem: String, advice: &str| ParseError { line, problem, advice: advice.into() };
         let [order, format, header_lines, stated, ..] = values[..] else {
-            let problem = format!("the header of binary set 58b is `{}`", fields.trim());
+            let problem = format!("the header of binary set 58b is `{}`", snippet(fields.trim()));
             return Err(fault(problem, "export the file again, as ASCII if necessary"));
         };
         if format != 2 {

@@ -10,11 +10,13 @@ impl BinaryHeader {
     /// was found.
     ///
     /// Tries the stated byte count and the one computed from the number of values, and takes the one after
-    /// which the block ends. Programs add line ends, pad with zeros or count wrongly.
+    /// which the block ends. Programs add line ends, pad with zeros or count wrongly. From `blank_from` on the rest
+    /// is blank.
     pub fn locate_data<'a>(
         &self,
         block: &Block,
         rest: &'a [u8],
+        blank_from: usize,
     ) -> Result<(&'a [u8], usize, bool), ParseError> {
         let layout = DataForm::of(block)?;
         let sizes = layout.binary_sizes();
@@ -25,7 +27,7 @@ impl BinaryHeader {
         }
         // A file may end directly after the data.
         for size in sizes {
-            if rest.len() >= size && rest[size..].iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
+            if rest.len() >= size && size >= blank_from {
                 return Ok((&rest[..size], rest.len(), false));
             }
         }
@@ -52,10 +54,22 @@ impl BinaryHeader {
     }
 }
 
-/// Start of the line after a closing -1, if only line ends and zeros precede that -1.
+/// Most line ends and zeros between data and closing -1: programs pad to blocks of some kB.
+const MAX_PADDING: usize = 65_536;
+/// Longest line of a closing -1, which is padded to 80 columns.
+const MAX_DELIMITER: usize = 256;
+
+/// Start of the line after a closing -1, if only line ends and zeros precede that -1. It looks at so many bytes and no
+/// further, since it is asked at every place where -1 stands.
 fn end_of_delimiter(rest: &[u8]) -> Option<usize> {
-    let start = rest.iter().position(|&b| !(b == b'\r' || b == b'\n' || b == 0))?;
-    let end = rest[start..].iter().position(|&b| b == b'\n').map_or(rest.len(), |at| start + at + 1);
+    let near = &rest[..rest.len().min(MAX_PADDING)];
+    let start = near.iter().position(|&b| !(b == b'\r' || b == b'\n' || b == 0))?;
+    let line = &rest[start..rest.len().min(start + MAX_DELIMITER)];
+    let end = match line.iter().position(|&b| b == b'\n') {
+        Some(at) => start + at + 1,
+        None if line.len() < MAX_DELIMITER => rest.len(),
+        None => return None,
+    };
     is_delimiter(&rest[start..end]).then_some(end)
 }
 

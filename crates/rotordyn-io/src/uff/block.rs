@@ -4,6 +4,8 @@ use std::borrow::Cow;
 
 use super::binary::Binary;
 use super::{ParseError, field};
+use crate::budget::Exceeded;
+use crate::error::snippet;
 
 /// One data set.
 pub(super) struct Block<'a> {
@@ -39,20 +41,31 @@ impl Block<'_> {
     pub fn integers(&self, k: usize) -> Result<Vec<i64>, ParseError> {
         let line = self.record(k)?;
         line.split_whitespace().map(|word| word.parse().ok()).collect::<Option<Vec<i64>>>().ok_or_else(|| {
-            self.error_at(k, format!("integers are expected in `{}`", line.trim()), DAMAGED_HINT)
+            self.error_at(k, format!("integers are expected in `{}`", snippet(line.trim())), DAMAGED_HINT)
         })
     }
 
     /// Numbers of line k.
     pub fn numbers(&self, k: usize) -> Result<Vec<f64>, ParseError> {
         let line = self.record(k)?;
-        field::numbers(line)
-            .map_err(|word| self.error_at(k, format!("`{word}` is expected to be a number"), DAMAGED_HINT))
+        field::numbers(line).map_err(|word| {
+            self.error_at(k, format!("`{}` is expected to be a number", snippet(&word)), DAMAGED_HINT)
+        })
     }
 
     /// Error at line k.
-    pub fn error_at(&self, k: usize, problem: String, advice: &'static str) -> ParseError {
-        ParseError { line: self.line + 1 + k.min(self.lines.len()), problem, advice }
+    pub fn error_at(&self, k: usize, problem: String, advice: &str) -> ParseError {
+        ParseError { line: self.line + 1 + k.min(self.lines.len()), problem, advice: advice.into() }
+    }
+
+    /// A request to the budget, with the block's line if it is exceeded.
+    pub fn within<T>(&self, request: Result<T, Exceeded>) -> Result<T, ParseError> {
+        request.map_err(|exceeded| self.error_at(0, exceeded.to_string(), &exceeded.advice()))
+    }
+
+    /// Memory of the list of lines \[bytes\].
+    pub fn memory(&self) -> usize {
+        self.lines.len() * size_of::<Cow<str>>()
     }
 }
 

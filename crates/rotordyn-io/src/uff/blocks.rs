@@ -3,6 +3,8 @@
 use super::binary::Binary;
 use super::block::{Block, is_delimiter};
 use super::{ParseError, binary};
+use crate::budget::Budget;
+use crate::error::snippet;
 use std::borrow::Cow;
 
 /// Iterates over the blocks of a file.
@@ -10,11 +12,15 @@ pub(super) struct Blocks<'a> {
     bytes: &'a [u8],
     position: usize,
     line: usize,
+    /// Start of the blanks and zeros at the end of the file.
+    blank_from: usize,
+    budget: &'a Budget,
 }
 
 impl<'a> Blocks<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
-        Blocks { bytes, position: 0, line: 0 }
+    pub fn new(bytes: &'a [u8], budget: &'a Budget) -> Self {
+        let last = bytes.iter().rposition(|b| !(b.is_ascii_whitespace() || *b == 0));
+        Blocks { bytes, position: 0, line: 0, blank_from: last.map_or(0, |last| last + 1), budget }
     }
 
     /// The next block; `None` at the end of the file.
@@ -39,16 +45,19 @@ impl<'a> Blocks<'a> {
         let digits = name.bytes().take_while(u8::is_ascii_digit).count();
         let set = name[..digits].parse().map_err(|_| ParseError {
             line,
-            problem: format!("`{}` is expected to be the number of a data set", name.trim_end()),
-            advice: "is this a universal file? export it again as one",
+            problem: format!("`{}` is expected to be the number of a data set", snippet(name.trim_end())),
+            advice: "is this a universal file? export it again as one".into(),
         })?;
         let mut block = Block { set, line, lines: Vec::new(), binary: None, terminated: false };
         if set == 58 && name[digits..].starts_with(['b', 'B']) {
             let form = binary::BinaryHeader::of_header(&name[digits + 1..], line)?;
             for _ in 0..form.header_lines {
-                block.lines.extend(self.next_line().map(decode));
+                // The header may promise any number of lines.
+                let Some(line) = self.next_line() else { break };
+                self.push(&mut block, line)?;
             }
-            let (data, used, closed) = form.locate_data(&block, &self.bytes[self.position..])?;
+            let blank_from = self.blank_from.saturating_sub(self.position);
+            let (data, used, closed) = form.locate_data(&block, &self.bytes[self.position..], blank_from)?;
             block.binary = Some(Binary { header: form, data });
             block.terminated = closed;
             self.line +=
@@ -61,9 +70,19 @@ impl<'a> Blocks<'a> {
                 block.terminated = true;
                 break;
             }
-            block.lines.push(decode(line));
+            self.push(&mut block, line)?;
         }
         Ok(Some(block))
+    }
+
+    /// Adds a line to a block, at the cost of its place in the list and, in Latin-1, of its copy.
+    fn push(&self, block: &mut Block<'a>, line: &'a [u8]) -> Result<(), ParseError> {
+        let text = decode(line);
+        let copy = if matches!(text, Cow::Owned(_)) { text.len() } else { 0 };
+        let lines = || format!("the lines of data set {}", block.set);
+        block.within(self.budget.take(lines, (size_of::<Cow<str>>() + copy) as u64))?;
+        block.lines.push(text);
+        Ok(())
     }
 
     fn next_line(&mut self) -> Option<&'a [u8]> {

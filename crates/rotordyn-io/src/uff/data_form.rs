@@ -2,6 +2,7 @@
 
 use super::block::{Block, DAMAGED_HINT};
 use super::{ParseError, field};
+use crate::error::snippet;
 
 pub(super) const RECORD_7: usize = 6;
 
@@ -21,11 +22,15 @@ impl DataForm {
     /// Reads `(3I10,3E13.5)`.
     pub fn of(block: &Block) -> Result<Self, ParseError> {
         let line = block.record(RECORD_7)?;
-        let fault = |problem: String, advice| block.error_at(RECORD_7, problem, advice);
-        let words: Vec<f64> = field::numbers(line)
-            .map_err(|word| fault(format!("`{word}` is expected to be a number"), DAMAGED_HINT))?;
+        let fault = |problem: String, advice: &str| block.error_at(RECORD_7, problem, advice);
+        let words: Vec<f64> = field::numbers(line).map_err(|word| {
+            fault(format!("`{}` is expected to be a number", snippet(&word)), DAMAGED_HINT)
+        })?;
         let [kind, count, even, start, step, ..] = words[..] else {
-            return Err(fault(format!("`{}` is not a data form (record 7)", line.trim()), DAMAGED_HINT));
+            return Err(fault(
+                format!("`{}` is not a data form (record 7)", snippet(line.trim())),
+                DAMAGED_HINT,
+            ));
         };
         let (complex, double) = match kind as i64 {
             2 => (false, false),

@@ -4,6 +4,7 @@ use super::block::{Block, CUT_OFF_HINT, DAMAGED_HINT};
 use super::data_form::DataForm;
 use super::ordinate::{AxisCharacteristics, ratio};
 use super::{ParseError, UnitSystem, field};
+use crate::budget::Budget;
 use crate::measured::unit_label;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
@@ -76,6 +77,7 @@ impl DofIdentification {
 pub(super) fn read(
     block: &Block,
     system: Option<UnitSystem>,
+    budget: &Budget,
     out: &mut MeasuredData,
 ) -> Result<(), ParseError> {
     let identity = DofIdentification::of(block, &mut out.notes)?;
@@ -83,11 +85,18 @@ pub(super) fn read(
     let id_line = |k: usize| block.text(k).filter(|text| *text != "NONE").unwrap_or_default();
     let name = identity.name(id_line(0));
     let numbers = match &block.binary {
-        Some(binary) => binary.numbers(&layout),
+        Some(binary) => {
+            let count = binary.data.len() / if layout.double { 8 } else { 4 };
+            block.within(budget.take_values::<[f64; 3]>(|| format!("`{name}`"), count))?;
+            binary.numbers(&layout)
+        }
         None => {
             let mut numbers = Vec::new();
             for k in HEADER_LINES..block.lines.len() {
-                numbers.extend(block.numbers(k)?);
+                let row = block.numbers(k)?;
+                // The numbers as read, as values, and as axis.
+                block.within(budget.take_values::<[f64; 3]>(|| format!("`{name}`"), row.len()))?;
+                numbers.extend(row);
             }
             numbers
         }

@@ -24,8 +24,10 @@ mod write;
 use unit_system::{ParseError, SI, UnitSystem};
 pub use write::{GeometrySets, Options, to_bytes, write};
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::budget::{self, Budget, Limits};
 use crate::error::Error;
 use block::Block;
 use blocks::Blocks;
@@ -34,35 +36,49 @@ use rotordyn_signal::record::MeasuredData;
 /// Reads a universal file.
 ///
 /// # Errors
-/// The file cannot be read, or a block is cut off or does not have the format of its data set number.
-pub fn read(path: &Path) -> Result<MeasuredData, Error> {
-    let bytes = std::fs::read(path).map_err(Error::of_file("read", path))?;
-    parse(&bytes).map_err(|fault| Error::Content {
-        path: path.into(),
-        problem: format!("line {}: {}", fault.line, fault.problem),
-        advice: fault.advice.into(),
-    })
+/// The file cannot be read, a block is cut off or does not have the format of its data set number, or the contents
+/// exceed the budget.
+pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
+    let (bytes, budget) = budget::read_file(path, limits)?;
+    match parse(&bytes, &budget) {
+        Ok(measured) => Ok((measured, budget)),
+        Err(fault) => Err(Error::Content {
+            path: path.into(),
+            problem: format!("line {}: {}", fault.line, fault.problem),
+            advice: fault.advice,
+        }),
+    }
 }
 
-fn parse(bytes: &[u8]) -> Result<MeasuredData, ParseError> {
+/// Most remarks on the blocks of a file; further ones are counted.
+const MAX_NOTES: usize = 50;
+
+fn parse(bytes: &[u8], budget: &Budget) -> Result<MeasuredData, ParseError> {
     let mut measured = MeasuredData::default();
     let mut system: Option<UnitSystem> = None;
-    let mut skipped: Vec<u32> = Vec::new();
-    let mut blocks = Blocks::new(bytes);
+    let mut skipped: BTreeSet<u32> = BTreeSet::new();
+    let mut more_notes = 0;
+    let mut blocks = Blocks::new(bytes, budget);
     while let Some(block) = blocks.next()? {
         let units = system.unwrap_or(SI);
+        block.within(budget.objects("data sets", 1))?;
         match block.set {
-            15 | 2411 => geometry::nodes(&block, units, &mut measured.geometry)?,
-            82 => geometry::lines(&block, &mut measured.geometry)?,
-            2412 => geometry::elements(&block, &mut measured.geometry)?,
-            55 => shape::read_55(&block, units, &mut measured)?,
-            2414 => shape::read_2414(&block, units, &mut measured)?,
-            58 => function::read(&block, system, &mut measured)?,
+            15 | 2411 => geometry::nodes(&block, units, budget, &mut measured.geometry)?,
+            82 => geometry::lines(&block, budget, &mut measured.geometry)?,
+            2412 => geometry::elements(&block, budget, &mut measured.geometry)?,
+            55 => shape::read_55(&block, units, budget, &mut measured)?,
+            2414 => shape::read_2414(&block, units, budget, &mut measured)?,
+            58 => function::read(&block, system, budget, &mut measured)?,
             151 => measured.title = title(&block),
             164 => system = Some(unit_system(&block, &mut measured.notes)?),
-            other if !skipped.contains(&other) => skipped.push(other),
-            _ => {}
+            other => _ = skipped.insert(other),
         }
+        more_notes += measured.notes.len().saturating_sub(MAX_NOTES);
+        measured.notes.truncate(MAX_NOTES);
+        budget.give_back(block.memory());
+    }
+    if more_notes > 0 {
+        measured.notes.push(format!("and {more_notes} more remarks"));
     }
     let local = measured.geometry.nodes.iter().filter(|n| n.local_system != 0).count();
     if local > 0 {
@@ -71,8 +87,9 @@ fn parse(bytes: &[u8]) -> Result<MeasuredData, ParseError> {
         ));
     }
     if !skipped.is_empty() {
-        let list: Vec<String> = skipped.iter().map(u32::to_string).collect();
-        measured.notes.push(format!("not read: data sets {}", list.join(", ")));
+        let list: Vec<String> = skipped.iter().take(MAX_NOTES).map(u32::to_string).collect();
+        let more = if skipped.len() > MAX_NOTES { ", ..." } else { "" };
+        measured.left_out.push(format!("data sets {}{more}", list.join(", ")));
     }
     Ok(measured)
 }

@@ -2,6 +2,7 @@
 
 use super::block::{Block, CUT_OFF_HINT, DAMAGED_HINT};
 use super::{ParseError, UnitSystem};
+use crate::budget::Budget;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Analysis, MeasuredData, Shape};
 
@@ -43,7 +44,12 @@ impl ShapeHeader {
 }
 
 /// Reads set 55.
-pub(super) fn read_55(block: &Block, units: UnitSystem, out: &mut MeasuredData) -> Result<(), ParseError> {
+pub(super) fn read_55(
+    block: &Block,
+    units: UnitSystem,
+    budget: &Budget,
+    out: &mut MeasuredData,
+) -> Result<(), ParseError> {
     let form = ShapeHeader::of(block, 5)?;
     let whole = block.integers(6)?;
     // The first two are the numbers of integer and of real parameters.
@@ -71,14 +77,19 @@ pub(super) fn read_55(block: &Block, units: UnitSystem, out: &mut MeasuredData) 
         _ => Analysis::Unknown,
     };
     let name = block.text(0).unwrap_or_default();
-    read_nodes(block, k, form, (name, number, analysis), units, out)
+    read_nodes(block, k, form, (name, number, analysis), units, budget, out)
 }
 
 /// Reads set 2414, data at nodes.
-pub(super) fn read_2414(block: &Block, units: UnitSystem, out: &mut MeasuredData) -> Result<(), ParseError> {
+pub(super) fn read_2414(
+    block: &Block,
+    units: UnitSystem,
+    budget: &Budget,
+    out: &mut MeasuredData,
+) -> Result<(), ParseError> {
     let place = block.integers(2)?;
     if place.first() != Some(&1) {
-        out.notes.push(format!("line {}: results on elements (set 2414) are not read", block.line));
+        out.left_out.push(format!("line {}: results on elements (set 2414)", block.line));
         return Ok(());
     }
     let form = ShapeHeader::of(block, 8)?;
@@ -103,7 +114,7 @@ pub(super) fn read_2414(block: &Block, units: UnitSystem, out: &mut MeasuredData
     let field = if form.analysis == 5 { 7 } else { 5 };
     let number = whole.get(field).copied().unwrap_or(0);
     let name = block.text(1).unwrap_or_default();
-    read_nodes(block, 13, form, (name, number, analysis), units, out)
+    read_nodes(block, 13, form, (name, number, analysis), units, budget, out)
 }
 
 /// Reads `(I10)` node and `(6E13.5)` values from line `k` on.
@@ -113,6 +124,7 @@ fn read_nodes(
     form: ShapeHeader,
     (name, number, analysis): (&str, i64, Analysis),
     units: UnitSystem,
+    budget: &Budget,
     out: &mut MeasuredData,
 ) -> Result<(), ParseError> {
     let (unit, divisor) = form.unit(units);
@@ -131,6 +143,8 @@ fn read_nodes(
             row.extend(block.numbers(k)?);
             k += 1;
         }
+        let bytes = size_of::<i64>() + form.components * size_of::<Complex<f64>>();
+        block.within(budget.take(|| "the shapes".into(), 2 * bytes as u64))?;
         nodes.push(node);
         // Some programs pad every node to six values.
         row.truncate(width);

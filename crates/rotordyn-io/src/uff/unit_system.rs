@@ -6,7 +6,7 @@ pub(super) struct ParseError {
     /// Line, from 1.
     pub(super) line: usize,
     pub(super) problem: String,
-    pub(super) advice: &'static str,
+    pub(super) advice: String,
 }
 
 /// Unit factors of set 164: a value in the file's units divided by them is in SI.

@@ -153,7 +153,12 @@ pub(super) fn service(r: &Reader, lubricants: &[Lubricant]) -> Service {
         static_rating: r.get(&SERVICE.static_rating),
         fatigue_limit: r.get(&SERVICE.fatigue_limit),
         lubricant: if has_film(r) || !has_oil { None } else { lubricant(r, lubricants) },
-        lubrication: lubrication(r),
+        // Without oil there is no viscous friction, and no method to state.
+        lubrication: if has_oil || has_film(r) || r.has(&SERVICE.lubrication) {
+            lubrication(r)
+        } else {
+            Lubrication::default()
+        },
         sliding_friction: r.value(&SERVICE.sliding_friction),
         contamination: r.value(&SERVICE.contamination),
         reliability: r.value(&SERVICE.reliability),

@@ -48,6 +48,7 @@ use material::material;
 use places::Places;
 use rotordyn_bearing::Bearing;
 use rotordyn_core::element::Material;
+use rotordyn_units::names::folder_problem;
 use rotordyn_units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};
 
 /// The model file.
@@ -202,7 +203,10 @@ fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
     if name.is_empty() && r.has_no_errors() {
         r.error(Kind::OutOfRange, &HEADER.name, "model.name is empty");
     }
-    if !name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.')) || name.starts_with('.') {
+    if !name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'))
+        || name.starts_with('.')
+        || !name.is_empty() && folder_problem(&name).is_some()
+    {
         let problem =
             Problem::new(Kind::OutOfRange, &r.span_of(&HEADER.name), "model.name is not a valid folder name");
         r.log.error(problem.expected("letters, digits, `_`, `-` and `.` (the results go to out/NAME)"));

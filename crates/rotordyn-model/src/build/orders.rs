@@ -55,7 +55,7 @@ fn named_order(text: &str, model: &Model) -> Result<f64, String> {
         None => (1.0, text.trim()),
     };
     let (wanted, frequency) = name.rsplit_once('.').map_or((None, name), |(b, f)| (Some(b), f));
-    let mut found: Vec<f64> = Vec::new();
+    let mut found: Vec<(&str, f64)> = Vec::new();
     for site in &model.bearings {
         if let Some(ball) = site.bearing.ball()
             && wanted.is_none_or(|w| w == site.name || w.strip_prefix("bearing.") == Some(&site.name))
@@ -66,18 +66,25 @@ fn named_order(text: &str, model: &Model) -> Result<f64, String> {
                 Cage::Rolling => 0.5 * (1.0 - ratio),
                 Cage::Ratio(cage) => cage,
             };
-            found.push(match frequency {
+            let order = match frequency {
                 "BPFO" => g.balls as f64 * cage,
                 "BPFI" => g.balls as f64 * (1.0 - cage),
                 "BSF" => g.pitch_diameter / (2.0 * g.ball_diameter) * (1.0 - ratio * ratio),
                 "FTF" => cage,
                 _ => return Err(format!("`{frequency}` is not one of BPFO, BPFI, BSF, FTF")),
-            });
+            };
+            found.push((&site.name, order));
         }
     }
     match found[..] {
         [] => Err(format!("`{text}` needs a ball bearing, but no such bearing exists")),
-        [first, ..] if found.iter().all(|f| (f - first).abs() <= 1e-9 * first) => Ok(factor * first),
-        _ => Err(format!("`{text}` differs between bearings; write BEARING.{frequency}")),
+        [(_, first), ..] if found.iter().all(|(_, f)| (f - first).abs() <= 1e-9 * first) => {
+            Ok(factor * first)
+        }
+        _ => {
+            let named = |(bearing, order): &(&str, f64)| format!("\"{bearing}.{frequency}\" is {order:.3}");
+            let choices: Vec<String> = found.iter().map(named).collect();
+            Err(format!("`{text}` differs between bearings; write one of them: {}", choices.join(", ")))
+        }
     }
 }

@@ -9,9 +9,11 @@ use crate::file::key::{
 };
 use crate::file::reader::Reader;
 use crate::file::tree::Value;
+use rotordyn_core::document::number;
 use rotordyn_core::element::{Disc, Material, ShaftElement, ShearCoefficient};
 use rotordyn_units::{FORCE, LENGTH, MOMENT, NUMBER, RATE, TIME};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 keys! {
     /// Tables of this file.
@@ -125,6 +127,8 @@ struct Properties {
 
 struct Section {
     z: [f64; 2],
+    /// The key that states its length or end, and where.
+    extent: (String, Range<usize>),
     outer: [f64; 2],
     inner: [f64; 2],
     properties: Properties,
@@ -140,8 +144,8 @@ impl Section {
 
 /// Positions closer than this fraction of the shaft's length are equal.
 const RELATIVE_POSITION_TOLERANCE: f64 = 1e-9;
-/// More nodes than this are treated as an error in `element_length`.
-const MAX_NODES: f64 = 5000.0;
+/// More elements than this are treated as an error in a length.
+const MAX_ELEMENTS: f64 = 5000.0;
 
 pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
     if !top.has(&TOP.shaft) {
@@ -220,10 +224,11 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
             let message = format!("{} {word} {other}, which ends at {end} m", s.name(&SECTION.from));
             s.error(Kind::Geometry, &SECTION.from, message);
         }
-        let to = match s.one_of(&[&SECTION.length, &SECTION.to]) {
-            Some(given) if given.is(&SECTION.to) => s.value(&SECTION.to),
-            _ => from + s.value(&SECTION.length),
+        let (to, extent) = match s.one_of(&[&SECTION.length, &SECTION.to]) {
+            Some(given) if given.is(&SECTION.to) => (s.value(&SECTION.to), &SECTION.to),
+            _ => (from + s.value(&SECTION.length), &SECTION.length),
         };
+        let extent = (s.name(extent), s.span_of(extent));
         if to <= from && s.has_no_errors() {
             let message = format!("{} lies before the section's start, {from} m", s.name(&SECTION.to));
             s.error(Kind::Geometry, &SECTION.to, message);
@@ -238,7 +243,7 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
         }
         let properties = properties(&s, Some(common), materials);
         s.finish();
-        sections.push(Section { z: [from, to], outer, inner, properties });
+        sections.push(Section { z: [from, to], extent, outer, inner, properties });
         end = to;
     }
     sections
@@ -274,14 +279,20 @@ pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Ve
 fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing: f64) -> MeshedShaft {
     let mut line = MeshedShaft::default();
     let total = sections[sections.len() - 1].z[1] - sections[0].z[0];
-    let nodes: f64 = sections.iter().map(|s| (s.z[1] - s.z[0]) / s.properties.element_length).sum();
-    if nodes > MAX_NODES {
-        let message = format!("the shaft would have {nodes:.0} elements");
-        let span = top.table(&TOP.shaft).map_or(0..0, |r| r.span_of(&PROPERTY.element_length));
-        let problem = Problem::new(Kind::OutOfRange, &span, message);
-        top.log.error(
-            problem.hint(format!("at most {MAX_NODES} are allowed; check the unit of element_length")),
+    let elements_of = |s: &Section| ((s.z[1] - s.z[0]) / s.properties.element_length).ceil();
+    let elements: f64 = sections.iter().map(elements_of).sum();
+    let most = sections.iter().max_by(|a, b| elements_of(a).total_cmp(&elements_of(b)));
+    if let Some(most) = most.filter(|_| elements > MAX_ELEMENTS) {
+        let (key, span) = &most.extent;
+        let message = format!(
+            "the shaft would have {elements:.0} elements, {:.0} of them in one section: `{key}` gives it {} m, its \
+             element_length is {} mm",
+            elements_of(most),
+            number(most.z[1] - most.z[0], 5),
+            number(1e3 * most.properties.element_length, 5),
         );
+        let hint = format!("at most {MAX_ELEMENTS} are allowed; check the units of both lengths");
+        top.log.error(Problem::new(Kind::OutOfRange, span, message).hint(hint));
         return MeshedShaft { stations, ..line };
     }
     line.node_z.push(sections[0].z[0]);

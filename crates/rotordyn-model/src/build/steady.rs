@@ -1,14 +1,13 @@
 //! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::bifurcation_parameter::{ParameterKeys, parameter};
-use super::run_keys::{IntegratorKeys, RUN_STEP, channels, default_integrator, integrator};
+use super::run_keys::{IntegratorKeys, channels, default_integrator, default_step_us, integrator, top_speed};
 use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
     Count, Declared, Flag, Group, Key, Quantity, SubTable, Table, Text, Texts, Words, any, count, flag, keys,
     positive, quantity, sub_table, text, texts, words,
 };
-use crate::file::quantities::declared_default;
 use crate::file::reader::Reader;
 use crate::study::{
     BifurcationStudy, Continuation, LyapunovStudy, Plane, PoincareStudy, RunUpStudy, SectionTrigger,
@@ -203,10 +202,12 @@ fn steady(
     let periods_key = periods;
     let [transient_periods, periods] = [transient_periods, periods].map(|key| r.count(key));
     let limit = DEFAULT_LIMIT_FACTOR * (transient_periods + periods);
+    let speed = r.or(&STEADY.speed, top);
+    let step = || default_step_us(model, &[], speed.max(top_speed(model))) / 1e6;
     let settings = SteadyRunSettings {
-        speed: r.or(&STEADY.speed, top),
+        speed,
         integrator: integrator(r, run_up.map_or_else(|| default_integrator(model), |s| s.integrator), model),
-        step: r.or(&STEADY.step, run_up.map_or_else(|| declared_default(&RUN_STEP.step), |s| s.step)),
+        step: r.or(&STEADY.step, run_up.map_or_else(step, |s| s.step)),
         cutoff: r.or(&STEADY.cutoff, run_up.map_or(f64::INFINITY, |s| s.cutoff)),
         trigger: section_trigger(r, model),
         phase: r.value(&STEADY.phase),

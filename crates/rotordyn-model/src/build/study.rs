@@ -6,7 +6,9 @@ use super::increasing::check_increasing;
 use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
-use super::run_keys::{IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, integrator};
+use super::run_keys::{
+    IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, default_step_us, integrator, top_speed,
+};
 use super::steady::{self, SteadyStudyKeys};
 use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
@@ -256,16 +258,9 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         }
         r.finish();
     }
-    if let Some(r) = all.table(&STUDY.run_up) {
-        let study = run_up(top, &r, model);
-        work_limits::check_run_up(
-            &r,
-            [&RUN_STEP.step, &RUN_UP.sample_rate],
-            &study,
-            model.profile.duration(),
-        );
-        studies.run_up = Some(study);
-        r.finish();
+    let run_up_table = all.table(&STUDY.run_up);
+    if let Some(r) = &run_up_table {
+        studies.run_up = Some(run_up(top, r, model));
     }
     let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
     if let Some(r) = all.table(&STUDY.spectrogram) {
@@ -276,6 +271,16 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     if let Some(r) = all.table(&STUDY.orders) {
         needs_run_up(&r, &studies);
         studies.orders = Some(order_spectra(&r, model));
+        r.finish();
+    }
+    if let (Some(r), Some(study)) = (run_up_table, &mut studies.run_up) {
+        if !r.has(&RUN_STEP.step) {
+            let cuts = studies.orders.as_ref().map_or(&[][..], |orders| &orders.cuts);
+            let step = default_step_us(model, cuts, top_speed(model));
+            study.step = step / 1e6;
+            r.taken_by_default(&RUN_STEP.step, format!("\"{step} us\""));
+        }
+        work_limits::check_run_up(&r, [&RUN_STEP.step, &RUN_UP.sample_rate], study, model.profile.duration());
         r.finish();
     }
     steady::read(&all, model, &mut studies);
@@ -367,7 +372,7 @@ fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
     }
     RunUpStudy {
         integrator: integrator(r, default_integrator(model), model),
-        step: r.value(&RUN_STEP.step),
+        step: r.get(&RUN_STEP.step).unwrap_or(f64::INFINITY),
         sample_rate: r.value(&RUN_UP.sample_rate),
         cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),
         from_equilibrium: r.flag(&RUN_UP.from_equilibrium),

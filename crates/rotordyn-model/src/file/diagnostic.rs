@@ -204,11 +204,21 @@ pub(crate) struct Log {
     defaults: RefCell<Vec<DefaultValue>>,
     /// Where the spans of the file end and those of settings of the command line start.
     file_end: Cell<usize>,
+    /// Starts of the keys that each variant sets, in the order in which the variants apply.
+    variant_keys: RefCell<Vec<Vec<usize>>>,
 }
 
 impl Log {
     pub fn error(&self, problem: Problem) {
         self.errors.borrow_mut().push(problem);
+    }
+
+    /// Add an error of a place that is read more than once.
+    pub fn error_once(&self, problem: Problem) {
+        let is_it = |p: &Problem| p.span == problem.span && p.message == problem.message;
+        if !self.errors.borrow().iter().any(is_it) {
+            self.error(problem);
+        }
     }
 
     /// Remove the report of a missing key whose misspelt form was found.
@@ -256,6 +266,20 @@ impl Log {
     /// Whether a span lies in a setting of the command line.
     pub fn is_setting(&self, span: &Range<usize>) -> bool {
         span.start > self.file_end.get()
+    }
+
+    /// Record the starts of the keys that a variant sets.
+    pub fn add_variant(&self, keys: Vec<usize>) {
+        self.variant_keys.borrow_mut().push(keys);
+    }
+
+    /// Which of two keys overrides the other: 0 in the file itself, then the variants in order, then the command line.
+    pub fn precedence(&self, span: &Range<usize>) -> usize {
+        let variants = self.variant_keys.borrow();
+        if self.is_setting(span) {
+            return variants.len() + 1;
+        }
+        variants.iter().rposition(|keys| keys.contains(&span.start)).map_or(0, |of| of + 1)
     }
 
     /// Number of errors so far; a check that needs valid values compares it with the number before.

@@ -4,6 +4,7 @@ use super::diagnostic::{Kind, Log, Problem, Sources};
 use super::key::{NamedTables, Text, Texts, keys, named_tables, text, texts};
 use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
+use rotordyn_units::names::folder_problem;
 use std::ops::Range;
 
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
@@ -60,6 +61,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
         }
         None => (Table::default(), 0..0),
     };
+    check_names(&variants, log);
     let Some(name) = wanted else { return };
     let mut chain: Vec<&Entry> = Vec::new();
     let mut next = Some((name.to_string(), place));
@@ -109,7 +111,33 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
             remove(root, &list, log);
         }
         renamed::translate(&mut overrides, log);
+        let mut keys = Vec::new();
+        key_starts(&overrides, &mut keys);
+        log.add_variant(keys);
         merge(root, overrides);
+    }
+}
+
+/// Refuses names that would lead out of the folder of results, or to that of another variant.
+fn check_names(variants: &Table, log: &Log) {
+    for (k, Entry { key, key_span, .. }) in variants.entries.iter().enumerate() {
+        let refuse = |reason: String| {
+            let message = format!("{key:?} cannot be the name of a variant: {reason}");
+            let problem = Problem::new(Kind::OutOfRange, key_span, message);
+            log.error(
+                problem
+                    .hint("its results go to the folder out/NAME_VARIANT: use letters, digits, `_` and `-`"),
+            );
+        };
+        match folder_problem(key) {
+            Some(reason) => refuse(reason),
+            None => {
+                let same = |other: &&Entry| other.key.to_lowercase() == key.to_lowercase();
+                if let Some(other) = variants.entries[..k].iter().find(same) {
+                    refuse(format!("it differs from `{}` only in upper and lower case", other.key));
+                }
+            }
+        }
     }
 }
 
@@ -154,6 +182,16 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
     }
 }
 
+/// Starts of all keys of a table and of those within.
+fn key_starts(table: &Table, found: &mut Vec<usize>) {
+    for entry in &table.entries {
+        found.push(entry.key_span.start);
+        if let Value::Table(inner) = &entry.node.value {
+            key_starts(inner, found);
+        }
+    }
+}
+
 fn merge(into: &mut Table, from: Table) {
     for entry in from.entries {
         match into.get_mut(&entry.key) {
@@ -169,6 +207,10 @@ fn merge(into: &mut Table, from: Table) {
         }
     }
 }
+
+/// Most parts of a path, far above what any key needs (`study.bifurcation.a.parameter.1.path`): tables within tables are
+/// followed by calls within calls.
+const MAX_PARTS: usize = 32;
 
 /// Apply one `--set PATH=VALUE`; the value is parsed as TOML, or taken as a string if it is not TOML
 /// (`20 um`).
@@ -188,6 +230,12 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
         Part { name, span }
     };
     let mut parts: Vec<Part> = path.split('.').map(locate).collect();
+    if parts.len() > MAX_PARTS {
+        let message = format!("a path of {} parts; the model file has at most {MAX_PARTS}", parts.len());
+        let problem = Problem::new(Kind::BadPath, &parts[MAX_PARTS].span, message);
+        log.error(problem.hint("such as bearing.B.radial_clearance"));
+        return;
+    }
     let mut names: Vec<&str> = parts.iter().map(|part| part.name).collect();
     for k in 0..names.len() {
         if let Some(new) = renamed::renamed_part(&names, k) {

@@ -96,6 +96,7 @@ impl<'a> Reader<'a> {
         let Some(all) = self.table_of(key, NO_KEYS) else { return Vec::new() };
         let value = |entry: &'a Entry| {
             let before = self.log.error_count();
+            self.check_item_name(key.about.name, entry);
             let value = all.single(&entry.key, &entry.node, key.value.0);
             value.filter(|_| self.log.error_count() == before)
         };

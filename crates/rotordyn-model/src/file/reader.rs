@@ -10,7 +10,7 @@ use super::key::{
     Words,
 };
 use super::tree::{Entry, Node, Table, Value};
-use rotordyn_units::names::nearest;
+use rotordyn_units::names::{item_problem, nearest};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -191,13 +191,14 @@ impl<'a> Reader<'a> {
         self.log.error(Problem::new(Kind::WrongType, &node.span, message).expected(expected));
     }
 
-    /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given. A key of
-    /// the command line takes the place of those of the file.
+    /// Log an error if more than one of these mutually exclusive keys is given; returns the first one given. A key of a
+    /// variant takes the place of those that it overrides, a key of the command line that of all of the file.
     pub fn one_of<'k>(&self, keys: &[&'k dyn Declared]) -> Option<&'k dyn Declared> {
         let mut given: Vec<&'k dyn Declared> = keys.iter().copied().filter(|k| self.has(*k)).collect();
-        if given.iter().any(|key| self.is_setting(*key)) {
-            given.retain(|key| self.is_setting(*key));
-        }
+        let precedence =
+            |key: &&dyn Declared| self.entry(*key).map_or(0, |entry| self.log.precedence(&entry.key_span));
+        let last = given.iter().map(precedence).max().unwrap_or(0);
+        given.retain(|key| precedence(key) == last);
         if let [first, second, ..] = given[..] {
             let message = format!("{} and `{}` are mutually exclusive", self.name(first), second.name());
             let problem = Problem::new(Kind::Conflict, &self.span_of(second), message);
@@ -382,6 +383,7 @@ impl<'a> Reader<'a> {
         let mut items = Vec::new();
         for entry in &all.table.entries {
             let path = all.entry_name(&entry.key);
+            self.check_item_name(key.about.name, entry);
             match &entry.node.value {
                 Value::Table(table) => {
                     let paths = [path, all.declared_path.clone()];
@@ -392,6 +394,15 @@ impl<'a> Reader<'a> {
             }
         }
         items
+    }
+
+    /// Refuses the name of an item under a key, which becomes that of a group and part of names of files.
+    pub(super) fn check_item_name(&self, of: &str, item: &Entry) {
+        if let Some(reason) = item_problem(&item.key) {
+            let message = format!("{:?} cannot be the name of a {of}: {reason}", item.key);
+            let problem = Problem::new(Kind::OutOfRange, &item.key_span, message);
+            self.log.error_once(problem.hint("names become groups of the results file and names of files"));
+        }
     }
 
     /// The tables of a list, `[[shaft.section]]`.

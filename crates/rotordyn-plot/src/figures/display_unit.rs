@@ -1,5 +1,7 @@
 //! Display units of figures.
 
+use rotordyn_core::series::Series;
+
 /// Display unit: factor from SI and name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayUnit {
@@ -40,7 +42,16 @@ pub fn quantity(si: &str) -> &'static str {
 
 /// Levels in dB re 1 unit of `display`.
 pub fn decibels(amplitude: &[f64], display: DisplayUnit) -> Vec<f64> {
-    amplitude.iter().map(|a| 20.0 * (a * display.factor).log10()).collect()
+    amplitude.iter().map(|a| decibel(*a, display)).collect()
+}
+
+/// The same, computed when they are read.
+pub fn decibels_of(amplitude: &Series, display: DisplayUnit) -> Series {
+    amplitude.mapped(move |a| decibel(a, display))
+}
+
+fn decibel(amplitude: f64, display: DisplayUnit) -> f64 {
+    20.0 * (amplitude * display.factor).log10()
 }
 
 /// Typographic unit: `m/s^2` becomes `m/s²`.

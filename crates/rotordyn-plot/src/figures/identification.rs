@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::DMatrix;
 
 use super::display_unit::typographic_unit;
-use super::{Named, write_all};
+use super::{Named, write_plain};
 use crate::FigureError;
 use crate::{Figure, Frf, FrfCurve, Matrix, PoleStability, Stabilisation, WireShape, Wireframe};
 use rotordyn_core::model::Quantity;
@@ -33,7 +33,7 @@ pub fn draw(
     }
     figures.extend(fits(found, frfs, title));
     figures.extend(shapes(found, geometry, title));
-    write_all(&figures, &[], folder)
+    write_plain(figures, folder)
 }
 
 fn stabilisation(found: &ModalIdentification, title: &str) -> Named {

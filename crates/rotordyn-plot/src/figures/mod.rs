@@ -25,8 +25,10 @@
 mod bearing;
 mod campbell;
 mod comparison;
+mod concern;
 mod display_unit;
 mod drawn;
+mod folder;
 mod free_ball;
 pub mod identification;
 mod machine;
@@ -41,111 +43,192 @@ mod signal_units;
 mod steady;
 mod validation;
 
-use named::{Named, TO_RPM};
+use concern::Concern;
+pub use folder::FigureFolder;
+use named::TO_RPM;
+pub use named::{Named, WithWarnings};
 pub use validation::Stage;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 
 use crate::FigureError;
 use crate::{self as plot, Figure};
 use rotordyn_core::document::Section;
+use rotordyn_core::model::BearingSite;
 use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, SignalResult};
 use rotordyn_core::study::{Machine, Results};
-use rotordyn_core::warning::Warning;
 use rotordyn_update::target::Target;
 
 /// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
 ///
 /// # Errors
-/// A file cannot be written.
-pub fn draw(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&all(results, machine), &results.warnings, folder)
+/// A file cannot be written, or stored numbers cannot be read.
+pub fn draw<'a>(
+    results: &Results,
+    machine: &Machine,
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&all_with_warnings(results, machine)?, folder)
 }
 
 /// All figures of the available results with their file names (without extension).
-pub fn all(results: &Results, machine: &Machine) -> Vec<(String, Figure)> {
-    let mut figures = vec![machine::layout(machine)];
-    figures.extend(results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine)));
-    figures.extend(results.modal.iter().map(|found| machine::modes(found, machine)));
-    figures.extend(results.campbell.iter().map(|found| campbell::campbell(found, machine)));
-    figures.extend(results.frf.iter().flat_map(|found| response::frf(found, machine)));
+///
+/// Samples, spectrograms and order maps stay where they are stored until a figure is written.
+///
+/// # Errors
+/// Stored numbers cannot be read.
+pub fn all(results: &Results, machine: &Machine) -> Result<Vec<(String, Figure)>, FigureError> {
+    Ok(with_concerns(results, machine)?.into_iter().map(|(_, named)| named).collect())
+}
+
+/// All figures, each with the warnings that concern what it shows.
+///
+/// # Errors
+/// As [`all`].
+pub fn all_with_warnings(results: &Results, machine: &Machine) -> Result<Vec<WithWarnings>, FigureError> {
+    let warned = |(concern, named): (Concern, Named)| (named, concern.select(&results.warnings));
+    Ok(with_concerns(results, machine)?.into_iter().map(warned).collect())
+}
+
+/// All figures, each with what it shows.
+fn with_concerns<'a>(
+    results: &'a Results,
+    machine: &'a Machine,
+) -> Result<Vec<(Concern<'a>, Named)>, FigureError> {
+    let mut out = vec![(Concern::of(&[]), machine::layout(machine))];
+    let mut add = |studies: &'static [&'static str], figures: Vec<Named>| {
+        out.extend(figures.into_iter().map(|named| (Concern::of(studies), named)));
+    };
+    let equilibrium = results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine));
+    add(&["static"], equilibrium.collect());
+    add(&["modal"], results.modal.iter().map(|found| machine::modes(found, machine)).collect());
+    add(&["campbell"], results.campbell.iter().map(|found| campbell::campbell(found, machine)).collect());
+    add(&["frf"], results.frf.iter().flat_map(|found| response::frf(found, machine)).collect());
     let criticals = response::criticals(results);
-    figures
-        .extend(results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine)));
-    figures.extend(results.run_up.iter().flat_map(|found| run::histories(&found.history, machine)));
-    figures.extend(results.run_up.iter().flat_map(|found| run_free_ball::figures(&found.history, machine)));
+    let unbalance =
+        results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine));
+    add(&["unbalance"], unbalance.collect());
+    if let Some(found) = &results.run_up {
+        add(&["run_up"], run::histories(&found.history, machine));
+        add(&["run_up"], run_free_ball::figures(&found.history, machine)?);
+    }
     let campbell = results.campbell.as_ref();
-    figures.extend(results.spectrograms.iter().flat_map(|found| run::spectrogram(found, campbell, machine)));
-    figures.extend(
-        results.orders.iter().flat_map(|found| run::orders(found, results.cage_phases.as_ref(), machine)),
-    );
-    figures.extend(results.poincare.iter().flat_map(|found| steady::poincare(found, machine)));
-    figures.extend(results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)));
-    figures.extend(results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine)));
-    figures.extend(bearings(&results.bearings, &machine.model.title));
-    figures.extend(drawn::figures(&results.sections(&machine.assembly.dofs), &machine.model.title));
-    figures
+    for found in &results.spectrograms {
+        add(&["run_up", "spectrogram"], run::spectrogram(found, campbell, machine)?);
+    }
+    let cage_phases = results.cage_phases.as_ref();
+    let orders = results.orders.iter().flat_map(|found| run::orders(found, cage_phases, machine));
+    add(&["run_up", "orders"], orders.collect());
+    let poincare = results.poincare.iter().flat_map(|found| steady::poincare(found, machine));
+    add(&["poincare"], poincare.collect());
+    add(&["lyapunov"], results.lyapunov.iter().map(|found| steady::lyapunov(found, machine)).collect());
+    let bifurcation = results.bifurcation.iter().flat_map(|found| steady::bifurcation(found, machine));
+    add(&["bifurcation"], bifurcation.collect());
+    for found in &results.bearings {
+        let concern = Concern::of(&["bearing"]).of_bearing(&found.name);
+        out.extend(bearing_figures(found, &machine.model.title).map(|named| (concern, named)));
+    }
+    for section in results.sections(&machine.assembly.dofs) {
+        let concern = Concern::of(studies_of_section(section.json));
+        let drawn = drawn::figures(std::slice::from_ref(&section), &machine.model.title);
+        out.extend(drawn.into_iter().map(|named| (concern, named)));
+    }
+    // A history of the forces in one bearing shows that bearing.
+    for (concern, (name, _)) in &mut out {
+        let of = |bearing: &&BearingSite| {
+            let stem = name.strip_prefix("run_up_bearing_").and_then(|rest| rest.strip_prefix(&bearing.name));
+            stem.is_some_and(|rest| rest.is_empty() || rest.starts_with("_cage"))
+        };
+        if let Some(site) = machine.model.bearings.iter().find(of) {
+            *concern = concern.of_bearing(&site.name);
+        }
+    }
+    Ok(out)
+}
+
+/// Studies, as in the model file, of a section of the results.
+fn studies_of_section(section: &str) -> &'static [&'static str] {
+    match section {
+        "equilibrium" => &["static"],
+        "modal" => &["modal"],
+        "campbell" => &["campbell"],
+        "critical_speeds" => &["critical"],
+        "frf" => &["frf"],
+        "unbalance" => &["unbalance"],
+        "run_up" => &["run_up"],
+        "cage_phases" | "orders" => &["run_up", "orders"],
+        "spectrograms" => &["run_up", "spectrogram"],
+        "poincare" => &["poincare"],
+        "lyapunov" => &["lyapunov"],
+        "bifurcation" => &["bifurcation"],
+        "bearings" => &["bearing"],
+        _ => &[],
+    }
 }
 
 /// Draws the quantities that documents mark as drawn; `note` stands below the titles. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_marked(sections: &[Section], note: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&drawn::figures(sections, note), &[], folder)
-}
-
-/// Draws all figures of ball bearing analyses; returns the SVG files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn draw_bearings(
-    found: &[BearingResult],
-    title: &str,
-    folder: &Path,
+pub fn draw_marked<'a>(
+    sections: &[Section],
+    note: &str,
+    folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    let warnings: Vec<Warning> = found.iter().flat_map(|found| found.warnings.clone()).collect();
-    write_all(&bearings(found, title).collect::<Vec<_>>(), &warnings, folder)
+    write_plain(drawn::figures(sections, note), folder)
 }
 
 /// Draws all figures of analysed records; `title` is the name of their file. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_signal(found: &[SignalResult], title: &str, folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+pub fn draw_signal<'a>(
+    found: &[SignalResult],
+    title: &str,
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
     let mut figures: Vec<Named> = found.iter().flat_map(|r| signal::figures(r, title)).collect();
     let sections: Vec<Section> = found.iter().map(SignalResult::section).collect();
     figures.extend(drawn::figures(&sections, title));
-    write_all(&figures, &[], folder)
+    write_plain(figures, folder)
 }
 
 /// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_envelope_comparison(
+pub fn draw_envelope_comparison<'a>(
     of: [(&SignalResult, &str); 2],
-    folder: &Path,
+    folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), &[], folder)
+    write_plain(signal::envelope_comparison(of).into_iter().collect::<Vec<_>>(), folder)
 }
 
-fn bearings(found: &[BearingResult], title: &str) -> impl Iterator<Item = Named> {
-    found.iter().flat_map(|found| {
-        let free = found.free_balls.iter().flat_map(|free| free_ball::figures(free, title));
-        let skidding = found.skidding.iter().map(|map| free_ball::skidding(map, title));
-        bearing::figures(found, title).into_iter().chain(free).chain(skidding)
-    })
+/// All figures of ball bearing analyses, each with the warnings of its bearing.
+pub fn of_bearings(found: &[BearingResult], title: &str) -> Vec<WithWarnings> {
+    let of = |found: &BearingResult| {
+        bearing_figures(found, title).map(|named| (named, found.warnings.clone())).collect::<Vec<_>>()
+    };
+    found.iter().flat_map(of).collect()
+}
+
+fn bearing_figures(found: &BearingResult, title: &str) -> impl Iterator<Item = Named> {
+    let free = found.free_balls.iter().flat_map(|free| free_ball::figures(free, title));
+    let skidding = found.skidding.iter().map(|map| free_ball::skidding(map, title));
+    bearing::figures(found, title).into_iter().chain(free).chain(skidding)
 }
 
 /// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&comparison::figures(variants), &[], folder)
+pub fn draw_comparison<'a>(
+    variants: &[(String, &Results)],
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(comparison::figures(variants), folder)
 }
 
 /// Draws the comparison of a measurement with stages of a model; file names start with `prefix`. Returns the
@@ -153,36 +236,64 @@ pub fn draw_comparison(variants: &[(String, &Results)], folder: &Path) -> Result
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_validation(
+pub fn draw_validation<'a>(
     prefix: &str,
     title: &str,
     target: &Target,
     stages: &[Stage],
-    folder: &Path,
+    folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&validation::figures(prefix, title, target, stages), &[], folder)
+    write_plain(validation::figures(prefix, title, target, stages), folder)
 }
 
 /// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn draw_run_up_correlation(
+pub fn draw_run_up_correlation<'a>(
     prefix: &str,
     pairs: &[ChannelPair],
     campbell: Option<&CampbellResult>,
     machine: &Machine,
-    folder: &Path,
+    folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_all(&run_up_correlation::figures(prefix, pairs, campbell, machine), &[], folder)
+    write_plain(run_up_correlation::figures(prefix, pairs, campbell, machine)?, folder)
 }
 
-fn write_all(figures: &[Named], warnings: &[Warning], folder: &Path) -> Result<Vec<PathBuf>, FigureError> {
+/// Writes figures without warnings.
+fn write_plain<'a>(
+    figures: Vec<Named>,
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_all(&figures.into_iter().map(|named| (named, Vec::new())).collect::<Vec<_>>(), folder)
+}
+
+/// Names of the files of figures, SVG and PNG.
+pub fn file_names(figures: &[WithWarnings]) -> Vec<String> {
+    stems(figures)
+        .iter()
+        .flat_map(|stem| [".svg", ".png"].map(|extension| format!("{stem}{extension}")))
+        .collect()
+}
+
+/// Names of figures as files: none twice in a folder.
+fn stems(figures: &[WithWarnings]) -> Vec<String> {
+    rotordyn_units::names::file_names(figures.iter().map(|((name, _), _)| name.as_str()))
+}
+
+/// Writes figures, each with its warnings below it; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_all<'a>(
+    figures: &[WithWarnings],
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    let FigureFolder { path: folder, identity } = folder.into();
     std::fs::create_dir_all(folder).map_err(FigureError::of_file("create folder", folder))?;
-    let stems: Vec<String> = figures.iter().map(|(name, _)| rotordyn_units::names::file_name(name)).collect();
-    figures
-        .par_iter()
-        .zip(&stems)
-        .try_for_each(|((_, figure), stem)| plot::write(figure, warnings, &folder.join(stem)))?;
+    let stems = stems(figures);
+    figures.par_iter().zip(&stems).try_for_each(|(((_, figure), warnings), stem)| {
+        plot::write_of_run(figure, warnings, &folder.join(stem), identity)
+    })?;
     Ok(stems.iter().map(|stem| folder.join(format!("{stem}.svg"))).collect())
 }

@@ -1,7 +1,7 @@
 //! Figures of a run-up: time histories, spectrograms, waterfalls, order maps and order cuts.
 
 use super::campbell::{branches, order_lines};
-use super::display_unit::{DisplayUnit, decibels, quantity, unit};
+use super::display_unit::{DisplayUnit, decibels_of, quantity, unit};
 use super::{Named, TO_RPM};
 use crate::{
     Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, SpectrogramPanel, Waterfall,
@@ -10,6 +10,7 @@ use crate::{
 use rotordyn_core::results::{
     self, CagePhaseBand, CampbellResult, HistoryChannel, OrderResult, SpectrogramResult,
 };
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
 use rotordyn_signal::waterfall::waterfall;
 
@@ -26,7 +27,7 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
             quantity: quantity(&c.unit).into(),
             unit: shown.name.into(),
             time: history.time.clone(),
-            value: c.values.iter().map(|v| v * shown.factor).collect(),
+            value: c.values.scaled(shown.factor),
             ..Channel::default()
         }
     };
@@ -73,7 +74,7 @@ pub(super) fn shaft_speed(history: &results::History) -> Channel {
         quantity: "speed".into(),
         unit: "rpm".into(),
         time: history.time.clone(),
-        value: history.speed.iter().map(|s| s * TO_RPM).collect(),
+        value: history.speed.scaled(TO_RPM),
         ..Channel::default()
     }
 }
@@ -110,26 +111,30 @@ pub(super) fn waterfall_panels(runs: &[SpectraOverSpeed], factor: f64) -> Vec<Wa
     runs.iter().filter_map(panel).collect()
 }
 
+/// # Errors
+/// Amplitudes that cannot be read.
 pub fn spectrogram(
     found: &SpectrogramResult,
     campbell: Option<&CampbellResult>,
     machine: &Machine,
-) -> Vec<Named> {
-    spectrograms(&[("", found)], &format!("Spectra of the run-up, {}", found.channel), campbell, machine)
-        .into_iter()
-        .map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure))
-        .collect()
+) -> Result<Vec<Named>, SeriesError> {
+    let title = format!("Spectra of the run-up, {}", found.channel);
+    let figures = spectrograms(&[("", found)], &title, campbell, machine)?.into_iter();
+    Ok(figures.map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure)).collect())
 }
 
 /// Spectrogram map and waterfall of one channel, one panel per named run; kinds "spectrogram" and
 /// "waterfall".
+///
+/// # Errors
+/// Amplitudes that cannot be read.
 pub(super) fn spectrograms(
     runs: &[(&str, &SpectrogramResult)],
     title: &str,
     campbell: Option<&CampbellResult>,
     machine: &Machine,
-) -> Vec<(&'static str, Figure)> {
-    let Some((_, first)) = runs.first() else { return Vec::new() };
+) -> Result<Vec<(&'static str, Figure)>, SeriesError> {
+    let Some((_, first)) = runs.first() else { return Ok(Vec::new()) };
     let shown = unit(&first.unit);
     let highest = runs.iter().filter_map(|(_, r)| r.spectrogram.frequencies.last()).copied();
     let highest = highest.fold(0.0, f64::max);
@@ -144,7 +149,7 @@ pub(super) fn spectrograms(
         name: (*name).into(),
         rpm: rpm.clone(),
         hz: found.spectrogram.frequencies.clone(),
-        level_db: decibels(&found.spectrogram.amplitude, shown),
+        level_db: decibels_of(&found.spectrogram.amplitude, shown),
     };
     let map = Spectrogram {
         title: title.into(),
@@ -158,14 +163,16 @@ pub(super) fn spectrograms(
         max_hz: Some(highest),
     };
     let mut figures = vec![("spectrogram", Figure::Spectrogram(map))];
+    let amplitudes = runs.iter().map(|(_, found)| found.spectrogram.amplitude.all());
+    let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
     let spectra: Vec<SpectraOverSpeed> = runs
         .iter()
-        .zip(&rpm)
-        .map(|((name, found), rpm)| SpectraOverSpeed {
+        .zip(rpm.iter().zip(&amplitudes))
+        .map(|((name, found), (rpm, amplitude))| SpectraOverSpeed {
             name,
             rpm,
             hz: &found.spectrogram.frequencies,
-            amplitude: &found.spectrogram.amplitude,
+            amplitude,
         })
         .collect();
     let panels = waterfall_panels(&spectra, shown.factor);
@@ -173,7 +180,7 @@ pub(super) fn spectrograms(
         let figure = Waterfall { title: title.into(), note, panels, unit: shown.name.into(), orders };
         figures.push(("waterfall", Figure::Waterfall(figure)));
     }
-    figures
+    Ok(figures)
 }
 
 pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Machine) -> Vec<Named> {
@@ -196,7 +203,7 @@ pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Mac
         note: note.clone(),
         rpm: s.rpm.clone(),
         order: s.orders.clone(),
-        level_db: decibels(&s.amplitude, shown),
+        level_db: decibels_of(&s.amplitude, shown),
         quantity: format!("{} level", quantity(&found.unit)),
         unit: reference(shown),
         span_db,

@@ -6,7 +6,9 @@ use crate::{Channel, Figure, History, Orbit, Orbits, SecondScale};
 use rotordyn_bearing::free_ball::{FreeBallBearing, Guidance};
 use rotordyn_core::model::BearingSite;
 use rotordyn_core::results;
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// Share of the highest shaft speed below which slip is not drawn: the speed of the balls scatters there as elsewhere.
@@ -16,14 +18,18 @@ const ORBIT_TURNS: f64 = 4.0;
 const ORBITS: usize = 4;
 
 /// Figures of every bearing with free balls.
-pub fn figures(history: &results::History, machine: &Machine) -> Vec<Named> {
-    let sites = machine.model.bearings.iter();
-    let found = sites.filter_map(|site| {
-        let bearing = site.bearing.free_balls()?;
+///
+/// # Errors
+/// Samples that cannot be read.
+pub fn figures(history: &results::History, machine: &Machine) -> Result<Vec<Named>, SeriesError> {
+    let mut found = Vec::new();
+    for site in &machine.model.bearings {
+        let Some(bearing) = site.bearing.free_balls() else { continue };
         let recorded = Recorded { history, site, title: &machine.model.title };
-        Some([recorded.cage_motion(bearing), recorded.cage_orbits(bearing)])
-    });
-    found.flatten().flatten().collect()
+        found.extend(recorded.cage_motion(bearing)?);
+        found.extend(recorded.cage_orbits(bearing)?);
+    }
+    Ok(found)
 }
 
 /// A bearing with free balls in a run.
@@ -35,10 +41,9 @@ struct Recorded<'a> {
 }
 
 impl Recorded<'_> {
-    fn channel(&self, name: &str) -> Option<&[f64]> {
-        let name = format!("{}_{name}", self.site.name);
-        let found = self.history.channels.iter().find(|channel| channel.name == name)?;
-        Some(&found.values)
+    fn channel(&self, name: &str) -> Result<Option<Cow<'_, [f64]>>, SeriesError> {
+        let found = self.history.channel(&format!("{}_{name}", self.site.name));
+        found.map(|channel| channel.values.all()).transpose()
     }
 
     fn name(&self, what: &str) -> String {
@@ -46,17 +51,19 @@ impl Recorded<'_> {
     }
 
     /// Speed, slip, pocket force and friction torque over time.
-    fn cage_motion(&self, bearing: &FreeBallBearing) -> Option<Named> {
+    fn cage_motion(&self, bearing: &FreeBallBearing) -> Result<Option<Named>, SeriesError> {
         let history = self.history;
         let body = if bearing.cage.is_some() { "cage" } else { "balls" };
-        let speed = self.channel("cage_speed")?;
-        let slip = self.channel("cage_slip")?;
-        let top = history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
+        let (Some(speed), Some(slip)) = (self.channel("cage_speed")?, self.channel("cage_slip")?) else {
+            return Ok(None);
+        };
+        let [shaft, angle] = [history.speed.all()?, history.angle.all()?];
+        let top = shaft.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
         // Slip is recorded as 1 − ω/ω_rolling.
         let rolling: Vec<f64> = speed
             .iter()
-            .zip(slip)
-            .zip(&history.speed)
+            .zip(&*slip)
+            .zip(&*shaft)
             .map(
                 |((speed, slip), shaft)| {
                     if shaft.abs() > LEAST_SPEED * top { speed / (1.0 - slip) } else { f64::NAN }
@@ -68,20 +75,20 @@ impl Recorded<'_> {
             .zip(&rolling)
             .map(|(v, rolling)| if rolling.is_nan() { f64::NAN } else { *v })
             .collect();
-        let [mean_speed, mean_rolling] = [&drawn, &rolling].map(|v| mean_over_turn(v, &history.angle));
+        let [mean_speed, mean_rolling] = [&drawn, &rolling].map(|v| mean_over_turn(v, &angle));
         let over_rolling = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a / b).collect::<Vec<_>>();
         let over_time = |label: &str, quantity: &str, unit: &str, value: Vec<f64>| Channel {
             label: label.into(),
             quantity: quantity.into(),
             unit: unit.into(),
             time: history.time.clone(),
-            mean: mean_over_turn(&value, &history.angle),
-            value,
+            mean: mean_over_turn(&value, &angle).into(),
+            value: value.into(),
             ..Channel::default()
         };
         let scaled = |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
         let ratio = Channel {
-            mean: over_rolling(&mean_speed, &mean_rolling),
+            mean: over_rolling(&mean_speed, &mean_rolling).into(),
             second: Some(SecondScale {
                 quantity: "slip".into(),
                 unit: "%".into(),
@@ -92,23 +99,23 @@ impl Recorded<'_> {
                 &format!("{body}: speed over rolling"),
                 "speed ratio",
                 "",
-                over_rolling(speed, &rolling),
+                over_rolling(&speed, &rolling),
             )
         };
         let mut channels = vec![
             shaft_speed(history),
             Channel {
-                reference: scaled(&rolling, TO_RPM),
-                ..over_time(&format!("{body}: speed"), "speed", "rpm", scaled(speed, TO_RPM))
+                reference: scaled(&rolling, TO_RPM).into(),
+                ..over_time(&format!("{body}: speed"), "speed", "rpm", scaled(&speed, TO_RPM))
             },
             ratio,
         ];
-        if let Some(force) = self.channel("pocket_force").filter(|_| bearing.cage.is_some()) {
+        if let Some(force) = self.channel("pocket_force")?.filter(|_| bearing.cage.is_some()) {
             let label = "largest force of a pocket on its ball";
-            channels.push(Channel { from_zero: true, ..over_time(label, "force", "N", force.to_vec()) });
+            channels.push(Channel { from_zero: true, ..over_time(label, "force", "N", force.into_owned()) });
         }
-        if let Some(torque) = self.channel("friction_torque") {
-            channels.push(over_time("friction torque on the shaft", "torque", "N mm", scaled(torque, 1e3)));
+        if let Some(torque) = self.channel("friction_torque")? {
+            channels.push(over_time("friction torque on the shaft", "torque", "N mm", scaled(&torque, 1e3)));
         }
         let figure = History {
             title: format!("Run-up, {body} of bearing {}", self.site.name),
@@ -117,14 +124,15 @@ impl Recorded<'_> {
                 .map(String::from),
             channels,
         };
-        Some((self.name("cage"), Figure::History(figure)))
+        Ok(Some((self.name("cage"), Figure::History(figure))))
     }
 
     /// Orbits of the cage in its clearance at instants of the run.
-    fn cage_orbits(&self, bearing: &FreeBallBearing) -> Option<Named> {
-        let cage = bearing.cage.as_ref()?;
+    fn cage_orbits(&self, bearing: &FreeBallBearing) -> Result<Option<Named>, SeriesError> {
+        let Some(cage) = &bearing.cage else { return Ok(None) };
         let [x, y, speed] = ["cage_x", "cage_y", "cage_speed"].map(|name| self.channel(name));
-        let (x, y, speed) = (x?, y?, speed?);
+        let (Some(x), Some(y), Some(speed)) = (x?, y?, speed?) else { return Ok(None) };
+        let [time, shaft] = [self.history.time.all()?, self.history.speed.all()?];
         let (clearance, how) = match &cage.guidance {
             Guidance::Land(land) => (land.clearance, "on its land"),
             Guidance::Balls => (
@@ -138,8 +146,8 @@ impl Recorded<'_> {
             let turned = ORBIT_TURNS * TAU * self.history.sample_rate;
             let length = (turned / speed[last].abs()).ceil() as usize;
             let first = last.saturating_sub(length.clamp(1, (samples / ORBITS).max(1)));
-            let [from, to] = [first, last].map(|k| self.history.time[k]);
-            let rpm = self.history.speed[last] * TO_RPM;
+            let [from, to] = [first, last].map(|k| time[k]);
+            let rpm = shaft[last] * TO_RPM;
             Some(Orbit {
                 title: format!("{from:.3} to {to:.3} s, shaft at {rpm:.0} rpm"),
                 x: x[first..=last].to_vec(),
@@ -153,7 +161,7 @@ impl Recorded<'_> {
             note: format!("{}; circle: radial clearance of the cage {how}", self.title),
             orbits: (1..=ORBITS).filter_map(orbit).collect(),
         };
-        Some((self.name("cage_orbit"), Figure::Orbits(figure)))
+        Ok(Some((self.name("cage_orbit"), Figure::Orbits(figure))))
     }
 }
 

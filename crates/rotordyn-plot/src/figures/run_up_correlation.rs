@@ -6,23 +6,28 @@ use super::display_unit::{quantity, unit};
 use super::run::spectrograms;
 use crate::{Curve, Figure, Grid, GridPanel};
 use rotordyn_core::results::{CampbellResult, ChannelPair, OrderResult};
+use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
 
+/// # Errors
+/// Amplitudes that cannot be read.
 pub fn figures(
     prefix: &str,
     pairs: &[ChannelPair],
     campbell: Option<&CampbellResult>,
     machine: &Machine,
-) -> Vec<Named> {
-    let of_one = |pair: &ChannelPair| {
+) -> Result<Vec<Named>, SeriesError> {
+    let mut figures = Vec::new();
+    for pair in pairs {
         let [measured, computed] = &pair.spectrograms;
         let title = format!("Run-up, {}: measured and computed", pair.channel);
-        let maps = spectrograms(&[("measured", measured), ("computed", computed)], &title, campbell, machine);
+        let runs = [("measured", measured), ("computed", computed)];
+        let maps = spectrograms(&runs, &title, campbell, machine)?;
         let cuts = ("order_cuts", Figure::Grid(cuts(pair, machine)));
         let named = |(kind, figure)| (format!("{prefix}_{kind}_{}", pair.channel), figure);
-        maps.into_iter().chain([cuts]).map(named).collect::<Vec<_>>()
-    };
-    pairs.iter().flat_map(of_one).collect()
+        figures.extend(maps.into_iter().chain([cuts]).map(named));
+    }
+    Ok(figures)
 }
 
 /// Order cuts (RMS over speed), one panel per order.

@@ -7,6 +7,7 @@ use crate::{
     MarkedRegion,
 };
 use rotordyn_core::results::{EnvelopeResult, KurtogramResult, SignalResult};
+use rotordyn_core::series::Series;
 use rotordyn_signal::bearing_lines::{BearingPart, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
 use rotordyn_signal::kurtogram::Kurtogram;
@@ -99,10 +100,10 @@ fn record(r: &SignalResult, note: &str) -> History {
         quantity: quantity_name(r).into(),
         unit: d.name.into(),
         time: (0..r.samples.len()).map(|n| r.start + n as f64 / r.sample_rate).collect(),
-        value: scaled(&r.samples, d.factor),
+        value: scaled(&r.samples, d.factor).into(),
         ..Channel::default()
     };
-    let [time, value] = r.speed.clone();
+    let [time, value] = r.speed.clone().map(Series::from);
     let (label, quantity, unit) = ("shaft speed".into(), "speed".into(), "rpm".into());
     let speed =
         (!time.is_empty()).then_some(Channel { label, quantity, unit, time, value, ..Channel::default() });

@@ -11,6 +11,7 @@ use crate::{
 use rotordyn_core::results::{
     CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult, SpectrogramWithSpeed,
 };
+use rotordyn_core::series::Series;
 use rotordyn_signal::race_defects::DefectKind;
 
 /// Dynamic range of level maps \[dB\].
@@ -94,7 +95,7 @@ fn over_speed(r: &SignalResult, found: &SpectrogramWithSpeed, note: &str) -> Vec
             name: String::new(),
             rpm: found.rpm.clone(),
             hz: found.map.frequencies.clone(),
-            level_db,
+            level_db: level_db.into(),
         }],
         quantity: format!("{} level", quantity_name(r)),
         unit,
@@ -131,7 +132,7 @@ fn orders(r: &SignalResult, found: &ShaftOrders, note: &str) -> OrderMap {
         note: note.into(),
         rpm: found.map.rpm.clone(),
         order: found.map.orders.clone(),
-        level_db,
+        level_db: level_db.into(),
         quantity: format!("{} level", quantity_name(r)),
         unit,
         span_db: DYNAMIC_RANGE_DB,
@@ -248,7 +249,7 @@ fn jerk(r: &SignalResult, found: &JerkResult, note: &str) -> History {
     // From the middle: the start of a run contains a transient.
     let first = (r.samples.len() - count) / 2;
     let range = first..first + count;
-    let time: Vec<f64> = range.clone().map(|n| r.start + n as f64 / r.sample_rate).collect();
+    let time: Series = range.clone().map(|n| r.start + n as f64 / r.sample_rate).collect();
     let channel = |label: &str, quantity: String, unit: String, values: &[f64]| Channel {
         label: label.into(),
         quantity,

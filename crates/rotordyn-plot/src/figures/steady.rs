@@ -5,8 +5,8 @@ use super::display_unit::{DisplayUnit, quantity, unit};
 use super::{Named, TO_RPM};
 use crate::{Bifurcation, Curve, Figure, Lines, PhasePlane, PhasePlanes, SweepPoints};
 use rotordyn_core::results::{
-    BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult, SectionChannel,
-    SteadyMotion,
+    BifurcationResult, BifurcationSweep, LyapunovResult, PlaneSection, PoincareResult, RecordedPeriods,
+    SectionChannel, SteadyMotion,
 };
 use rotordyn_core::study::Machine;
 use rotordyn_signal::motion_classification::Motion;
@@ -16,11 +16,12 @@ const FILTERED_ORBIT_POINTS: usize = 181;
 
 pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
     let note = format!(
-        "{}, {:.1} rpm: {}, one point per {}",
+        "{}, {:.1} rpm: {}, one point per {}{}",
         machine.model.title,
         found.speed * TO_RPM,
         found.motion.motion.name(),
-        found.clock.name
+        found.clock.name,
+        stopped_after(found.partial)
     );
     let figure = |name: &str, title: &str, planes: Vec<PhasePlane>| {
         let data = PhasePlanes { title: title.into(), note: note.clone(), planes };
@@ -35,6 +36,11 @@ pub fn poincare(found: &PoincareResult, machine: &Machine) -> Vec<Named> {
         figure("poincare_orbits", "Orbits with their Poincaré points", orbits.collect()),
         figure("poincare_sections", "Poincaré sections", sections.collect()),
     ]
+}
+
+/// How much there is of a record that was stopped; else nothing.
+fn stopped_after(partial: Option<RecordedPeriods>) -> String {
+    partial.map_or_else(String::new, |partial| format!("; stopped after {}", partial.words()))
 }
 
 /// Samples at which the keyphasor passes.
@@ -90,13 +96,14 @@ pub fn lyapunov(found: &LyapunovResult, machine: &Machine) -> Named {
     let figure = Lines {
         title: "Convergence of the largest Lyapunov exponent".into(),
         note: format!(
-            "{}, {:.1} rpm: {:.4} ± {:.2} 1/s over {} periods, one per {}",
+            "{}, {:.1} rpm: {:.4} ± {:.2} 1/s over {} periods, one per {}{}",
             machine.model.title,
             found.speed * TO_RPM,
             e.value,
             e.standard_error,
             e.times.len(),
-            found.clock.name
+            found.clock.name,
+            stopped_after(found.partial)
         ),
         x_name: "time".into(),
         x_unit: "s".into(),

@@ -28,7 +28,12 @@ pub struct MeasuredData {
     pub shapes: Vec<Shape>,
     /// Assumptions and corrections made by the reader, as text.
     pub notes: Vec<String>,
+    /// Contents of the file that were not read, by their names in it, with the reason where it is not their type.
+    pub left_out: Vec<String>,
 }
+
+/// Most names of contents that were left out in a message.
+const MAX_LEFT_OUT: usize = 12;
 
 /// One channel of sampled values over an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -320,6 +325,15 @@ impl Record {
 }
 
 impl MeasuredData {
+    /// What was left out of the file, as a sentence; `None` if nothing was.
+    pub fn left_out_text(&self) -> Option<String> {
+        let count = self.left_out.len();
+        let listed = self.left_out[..count.min(MAX_LEFT_OUT)].join(", ");
+        let more = count.saturating_sub(MAX_LEFT_OUT);
+        let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+        (count > 0).then(|| format!("not read: {listed}{more}"))
+    }
+
     /// The record of this name.
     ///
     /// # Errors

@@ -16,8 +16,11 @@ fn tracked(orders: &[f64], bandwidth: Bandwidth) -> Vec<TrackedOrder> {
     orders.iter().map(|order| TrackedOrder { order: *order, bandwidth }).collect()
 }
 
+/// Complex amplitude over time \[s\].
+type Amplitude<'a> = &'a dyn Fn(f64) -> Complex<f64>;
+
 /// Re Σ X(t) e^{jνθ}.
-fn sum_of_orders(theta: &[f64], parts: &[(f64, &dyn Fn(f64) -> Complex<f64>)]) -> Vec<f64> {
+fn sum_of_orders(theta: &[f64], parts: &[(f64, Amplitude)]) -> Vec<f64> {
     let at = |(n, angle): (usize, &f64)| {
         let t = n as f64 / RATE;
         parts.iter().map(|(order, x)| (x(t) * Complex::from_polar(1.0, order * angle)).re).sum()

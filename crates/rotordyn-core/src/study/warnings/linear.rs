@@ -38,6 +38,8 @@ impl Machine {
 
     /// Ball bearings whose contacts would open under the linear unbalance response.
     ///
+    /// Clearances in bearings are the only gaps that a model has: discs, housings and bodies have masses and springs, but no
+    /// bores or walls, and linear bearings no play; a response that strikes a part of the machine shows in its amplitude only.
     /// The contacts open where the displacement exceeds the compression of the most loaded ball; in a bearing with
     /// unloaded balls the force follows its tangent only up to about the static load.
     fn opened_contacts(&self, result: &UnbalanceResult) -> Vec<Warning> {

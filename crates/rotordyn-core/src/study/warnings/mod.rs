@@ -3,7 +3,9 @@
 mod linear;
 mod modes;
 mod run;
+mod spectrogram;
 mod supports;
+mod tables;
 
 pub use run::run_up as run_up_warnings;
 pub(super) use supports::standstill_and_top;
@@ -23,6 +25,7 @@ impl Machine {
         if !speeds.is_empty() {
             found.extend(self.support_warnings(speeds));
         }
+        found.extend(tables::warnings(&self.model, results));
         found.extend(supports::ball_inertia(results));
         found.extend(modes::warnings(results));
         found.extend(self.mesh_warnings(results));
@@ -33,6 +36,7 @@ impl Machine {
         found.extend(self.linear_warnings(results));
         found.extend(results.run_up.iter().flat_map(run::run_up));
         found.extend(run::sample_rate(&self.model, results));
+        found.extend(spectrogram::smeared_orders(&self.model, results));
         found.extend(run::settling(&self.model, results));
         found
     }

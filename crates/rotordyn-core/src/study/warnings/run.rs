@@ -46,30 +46,46 @@ pub fn run_up(run: &RunUpResult) -> Vec<Warning> {
     found
 }
 
-/// Order cuts that lie above half the sampling rate at the highest speed of the run.
+/// The highest order line of the spectrograms that leaves the record: above half its sampling rate at the highest speed.
+///
+/// Order tracking refuses such orders by itself.
 pub(super) fn sample_rate(model: &Model, results: &Results) -> Option<Warning> {
-    let run = results.run_up.as_ref()?;
-    let top = run.history.speed.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
     let rate = model.studies.run_up.as_ref()?.sample_rate;
-    let cuts = results.orders.iter().flat_map(|found| &found.cuts).map(|cut| &cut.0);
-    let highest = cuts.max_by(|a, b| a.order.total_cmp(&b.order))?;
+    let speeds = results.spectrograms.iter().flat_map(|found| &found.speed);
+    let top = speeds.fold(0.0, |top: f64, speed| top.max(speed.abs()));
+    let lines = results.spectrograms.iter().flat_map(|found| &found.orders);
+    let highest = lines.max_by(|a, b| a.order.total_cmp(&b.order))?;
     let frequency = highest.order * top / TAU;
     (frequency > 0.5 * rate).then(|| {
         let text = format!(
-            "the order line {} reaches {frequency:.0} Hz at {:.0} rpm, above half the sampling rate of {rate:.0} Hz: its cut \
-             ends where the record does not contain it",
+            "the order line {} reaches {frequency:.0} Hz at {:.0} rpm, above half the sampling rate of {rate:.0} Hz: the \
+             spectrogram does not contain it there, and shows what the sampling folds back",
             highest.label,
             top * TO_RPM
         );
-        Warning::new(Code::SampleRate, "study.orders", text)
+        Warning::new(Code::SampleRate, "study.spectrogram", text)
     })
 }
 
-/// Motions that have not settled.
+/// Motions that have not settled, and records that were stopped before their end.
 pub(super) fn settling(model: &Model, results: &Results) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let partial = [
+        ("poincare", "class of the motion", results.poincare.as_ref().and_then(|found| found.partial)),
+        ("lyapunov", "exponent", results.lyapunov.as_ref().and_then(|found| found.partial)),
+    ];
+    for (study, what, partial) in partial {
+        let Some(partial) = partial else { continue };
+        let text = format!(
+            "study.{study}: stopped after {}; the {what} is that of these periods alone, which may not have settled",
+            partial.words()
+        );
+        let item = format!("study.{study}");
+        warnings.push(Warning::new(Code::NotSettled, &item, text).advise("--resume goes on from there"));
+    }
     if let (Some(found), Some(study)) = (&results.poincare, &model.studies.poincare)
         && !found.motion.motion.is_settled()
+        && found.partial.is_none()
     {
         let periods = found.transient_periods + study.steady.periods;
         let more = match found.motion.periods_to_settle(study.tolerance) {

@@ -1,9 +1,11 @@
 //! Buffers and guesses of a step under a torque drive.
 
+use crate::transient::numbers::vector;
 use crate::transient::system::State;
 use crate::transient::torque::TorqueDrive;
 use crate::transient::torque::coupling::Workspace;
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 /// Buffers and guesses of the iteration.
 pub(super) struct DrivenStep {
@@ -24,7 +26,43 @@ pub(super) struct DrivenStep {
     pub(super) previous_step: f64,
 }
 
+/// What a step under a torque drive takes from the one before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DrivenMemory {
+    #[serde(with = "vector")]
+    spin_up: DVector<f64>,
+    #[serde(with = "vector")]
+    previous_load: DVector<f64>,
+    previous_rate: f64,
+    previous_step: f64,
+}
+
+impl DrivenMemory {
+    pub(super) fn fits(&self, size: usize) -> bool {
+        self.spin_up.len() == size && self.previous_load.len() == size
+    }
+}
+
 impl DrivenStep {
+    /// What the next step takes from the last one.
+    pub(super) fn memory(&self) -> DrivenMemory {
+        DrivenMemory {
+            spin_up: self.spin_up.clone(),
+            previous_load: self.previous_load.clone(),
+            previous_rate: self.previous_rate,
+            previous_step: self.previous_step,
+        }
+    }
+
+    /// Buffers after the step that left `memory`.
+    pub(super) fn after(drive: &TorqueDrive, memory: &DrivenMemory) -> Self {
+        let mut out = Self::new(drive, memory.spin_up.len());
+        out.spin_up.copy_from(&memory.spin_up);
+        out.previous_load.copy_from(&memory.previous_load);
+        (out.previous_rate, out.previous_step) = (memory.previous_rate, memory.previous_step);
+        out
+    }
+
     pub fn new(drive: &TorqueDrive, size: usize) -> Self {
         let zero = || DVector::zeros(size);
         Self {

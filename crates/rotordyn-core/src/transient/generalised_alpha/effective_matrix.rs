@@ -6,6 +6,7 @@ use super::Scheme;
 use crate::model::Spin;
 use crate::transient::system::System;
 use rotordyn_linalg::panel::Panel;
+use serde::{Deserialize, Serialize};
 
 /// Largest (Ω − Ω_f) h for which an inverse computed at Ω_f is reused, by its first-order expansion in Ω: the neglected
 /// second-order term is the square of this, 1e-8 of the gyroscopic effect.
@@ -36,7 +37,30 @@ pub(super) struct EffectiveMatrix {
     compliance: [Vec<f64>; 2],
 }
 
+/// Step length, speed and acceleration of every inversion in use, and the number of inversions: they give the same
+/// inverses again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Inversions {
+    in_use: Vec<[f64; 3]>,
+    count: u64,
+}
+
 impl EffectiveMatrices {
+    /// When the matrices were inverted.
+    pub fn inversions(&self) -> Inversions {
+        let of = |matrix: &EffectiveMatrix| [matrix.step, matrix.speed, matrix.acceleration];
+        Inversions { in_use: self.matrices.iter().map(of).collect(), count: self.inverted }
+    }
+
+    /// The matrices of earlier inversions, inverted again.
+    pub fn repeat(system: &System, scheme: Scheme, inversions: &Inversions) -> Self {
+        let again = |[step, speed, acceleration]: &[f64; 3]| {
+            let spin = Spin { angle: 0.0, speed: *speed, acceleration: *acceleration };
+            EffectiveMatrix::new(system, scheme, *step, &spin)
+        };
+        Self { matrices: inversions.in_use.iter().map(again).collect(), inverted: inversions.count }
+    }
+
     /// The matrix for a step length, inverted again if the speed has changed too much.
     pub fn at(&mut self, system: &System, scheme: Scheme, step: f64, spin: &Spin) -> &EffectiveMatrix {
         let known = self.matrices.iter().position(|matrix| matrix.step == step);

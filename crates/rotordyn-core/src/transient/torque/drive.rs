@@ -1,8 +1,10 @@
 //! A torque drive and its unbalances in the run's coordinates.
 
 use crate::assembly::PhysicsError;
+use crate::transient::numbers::vector;
 use nalgebra::{DMatrix, DVector};
 use rotordyn_linalg::{Outside, piecewise};
+use serde::{Deserialize, Serialize};
 
 /// Driving torque T(Ω) at one node with viscous drag, and what couples the rotation to the other coordinates.
 #[derive(Clone, Debug)]
@@ -39,11 +41,13 @@ pub struct RotatingUnbalance {
 }
 
 /// What a state has under a torque drive in addition.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DrivenState {
     /// Load of the coupling at the state (see [`super::coupling`]).
+    #[serde(with = "vector")]
     pub load: DVector<f64>,
     /// ẍ of the equations of motion at the state's time (the integrator's own acceleration may be shifted in time).
+    #[serde(with = "vector")]
     pub acceleration: DVector<f64>,
     /// Rotational acceleration of the integrator, to `spin.acceleration` as `a` to `acceleration`.
     pub rate: f64,

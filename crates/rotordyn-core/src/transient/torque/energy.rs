@@ -1,13 +1,14 @@
 //! Energies of a rotation that is an unknown: kinetic energy, work of the drive, losses.
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use super::TorqueDrive;
 use super::coupling::cage_power;
 use crate::transient::system::{State, System};
 
 /// What the energy balance needs of the rotation at the last state.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DriveEnergy {
     angle: f64,
     speed: f64,

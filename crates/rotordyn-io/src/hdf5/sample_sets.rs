@@ -1,0 +1,127 @@
+//! The data sets of a run: preallocated while it is under way, compressed when it has ended.
+
+use super::recording::{
+    Channel, RUN_STATE, RUNNING, channel_names, channel_path, describe_channel, recorded_samples, sampling,
+    time_path,
+};
+use super::{Attribute, DEFLATE_LEVEL, Store, attribute};
+use crate::error::Error;
+use hdf5::Dataset;
+use hdf5::plist::dataset_create::{AllocTime, FillTime};
+
+/// Samples per chunk of the compressed data sets.
+const CHUNK_SAMPLES: usize = 4096;
+
+/// Name and unit of the data sets of `<root>/time`, before the channels.
+pub(super) const TIME_SETS: [(&str, &str); 3] = [("t", "s"), ("theta", "rad"), ("speed", "rad/s")];
+
+/// What the data sets of a run describe.
+#[derive(Clone, Copy, Debug)]
+pub struct RunFormat<'a> {
+    pub channels: &'a [Channel],
+    /// f_s of the uniform sampling \[Hz\].
+    pub sample_rate: f64,
+    /// Time of the first sample \[s\].
+    pub start: f64,
+}
+
+/// Creates the data sets of a run under the group `root` ("" for the root) at their full size, filled with NaN.
+///
+/// From then on only samples are written, in place, by a [`ChannelStream`](super::ChannelStream): nothing that HDF5
+/// needs to open the file changes during the run.
+///
+/// # Errors
+/// The file cannot be written, or a channel's name cannot be that of a data set.
+pub fn preallocate_run(store: &Store, root: &str, run: &RunFormat, samples: usize) -> Result<(), Error> {
+    let contiguous = |name: &str, attributes: &[(&str, Attribute)]| {
+        let builder = store.file.new_dataset::<f64>().obj_track_times(false);
+        let builder = builder.alloc_time(Some(AllocTime::Early)).fill_value(f64::NAN);
+        let dataset = builder.fill_time(FillTime::Alloc).shape(samples).create(name)?;
+        attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
+        Ok(dataset)
+    };
+    create(store, root, run, &contiguous)?;
+    store.set_attribute(&format!("{root}/time"), RUN_STATE, RUNNING)
+}
+
+/// Copies a run under `root` into another file, compressed and cut to the samples recorded, block by block.
+///
+/// `state`: "complete" or "stopped: reason".
+///
+/// # Errors
+/// One of the files cannot be read or written.
+pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(), Error> {
+    let names = channel_names(from, root)?;
+    let channels: Vec<Channel> =
+        names.iter().map(|name| describe_channel(from, root, name)).collect::<Result<_, _>>()?;
+    let [sample_rate, start] = sampling(from, root)?;
+    let growable = |name: &str, attributes: &[(&str, Attribute)]| {
+        let builder = to.file.new_dataset::<f64>().obj_track_times(false).chunk(CHUNK_SAMPLES);
+        let dataset = builder.shuffle().deflate(DEFLATE_LEVEL).shape(0..).create(name)?;
+        attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
+        Ok(dataset)
+    };
+    let sets = create(to, root, &RunFormat { channels: &channels, sample_rate, start }, &growable)?;
+    let paths = set_paths(root, &names);
+    let sources: Vec<Dataset> = paths
+        .iter()
+        .map(|path| from.map_read_error(path, from.file.dataset(path)))
+        .collect::<Result<_, _>>()?;
+    let samples = recorded_samples(from, root)?;
+    let copied = (0..samples).step_by(CHUNK_SAMPLES).try_for_each(|begin| {
+        let end = samples.min(begin + CHUNK_SAMPLES);
+        sources.iter().zip(&sets).try_for_each(|(source, set)| {
+            let block = source.read_slice_1d::<f64, _>(begin..end)?;
+            set.resize(end).and_then(|()| set.write_slice(&block, begin..end))
+        })
+    });
+    to.map_write_error(&format!("{root}/channels"), to.file.settle(sets, copied))?;
+    to.set_attribute(&format!("{root}/time"), RUN_STATE, state)
+}
+
+/// Paths of the data sets of a run: time, angle, speed, channels.
+pub(super) fn set_paths<T: AsRef<str>>(root: &str, channels: &[T]) -> Vec<String> {
+    let time = TIME_SETS.iter().map(|(name, _)| time_path(root, name));
+    time.chain(channels.iter().map(|name| channel_path(root, name.as_ref()))).collect()
+}
+
+/// Creates a data set of a name with attributes.
+type NewSet<'a> = &'a dyn Fn(&str, &[(&str, Attribute)]) -> hdf5::Result<Dataset>;
+
+/// Creates all data sets by a function of name and attributes, with the times as their dimension scale.
+fn create(store: &Store, root: &str, run: &RunFormat, new: NewSet) -> Result<Vec<Dataset>, Error> {
+    let sampling = [("fs", Attribute::from(run.sample_rate)), ("t0", run.start.into())];
+    let (times, folder) = (format!("{root}/time"), format!("{root}/channels"));
+    store.create_group(&times)?;
+    let mut sets = Vec::with_capacity(TIME_SETS.len() + run.channels.len());
+    let mut add = |name: &str, own: &[(&str, Attribute)]| -> Result<(), Error> {
+        let created = new(name, &[own, &sampling[..]].concat());
+        sets.push(store.map_write_error(name, created)?);
+        Ok(())
+    };
+    for (name, unit) in TIME_SETS {
+        add(&time_path(root, name), &[("unit", unit.into())])?;
+    }
+    let names: Vec<String> = run.channels.iter().map(|c| c.name.clone()).collect();
+    if !names.is_empty() {
+        store.set_attribute(&folder, "names", names)?;
+    }
+    store.create_group(&folder)?;
+    for channel in run.channels {
+        if channel.name.is_empty() || channel.name.contains('/') {
+            let message = format!("{:?} cannot be the name of a channel", channel.name);
+            return Err(Error::of_file("write", &store.path)(message));
+        }
+        let attributes: [(&str, Attribute); 4] = [
+            ("unit", channel.unit.as_str().into()),
+            ("quantity", channel.quantity.as_str().into()),
+            ("station", channel.station.as_str().into()),
+            ("direction", channel.direction.as_str().into()),
+        ];
+        add(&channel_path(root, &channel.name), &attributes)?;
+    }
+    for channel in run.channels {
+        store.attach_scale(&channel_path(root, &channel.name), 0, &time_path(root, "t"), "time")?;
+    }
+    Ok(sets)
+}

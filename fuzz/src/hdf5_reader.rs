@@ -1,0 +1,45 @@
+//! This program as the process that reads one HDF5 file for a target, limited like that of the command line.
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::ExitCode;
+
+use rotordyn::io::budget::Limits;
+use rotordyn::io::hdf5::{READER_ARGUMENT, Stage, serve};
+
+use crate::limits;
+
+/// Memory of the HDF5 library besides the data, and of the program \[bytes\].
+const OWN_MEMORY: u64 = 256_000_000;
+
+/// Processor time for one question \[s\].
+const SECONDS: u64 = 2;
+
+/// The limits with which targets read files: HDF5 by this program in a process of its own, as by the command line.
+///
+/// With `ROTORDYN_FUZZ_HDF5=here` set, the worker itself reads them: several times faster, and a crash of the HDF5 library
+/// is a finding.
+pub fn reading_limits() -> Limits {
+    let here = std::env::var_os("ROTORDYN_FUZZ_HDF5").is_some_and(|value| value == "here");
+    let program = if here { None } else { std::env::current_exe().ok() };
+    Limits { hdf5_program: program, ..Limits::default() }
+}
+
+/// Reads the file for the process that started this one, if the arguments say so.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Option<ExitCode> {
+    let mut arguments = arguments.into_iter().skip(1);
+    if arguments.next()? != READER_ARGUMENT {
+        return None;
+    }
+    let (memory, file) = (arguments.next()?, arguments.next()?);
+    let memory: u64 = memory.to_str()?.parse().ok()?;
+    limits::limit_memory(memory.saturating_mul(2).saturating_add(OWN_MEMORY));
+    let prepare = |stage| {
+        if stage == Stage::Question {
+            limits::limit_cpu_seconds(SECONDS);
+        }
+    };
+    let mut questions = std::io::stdin().lock();
+    let served = serve(Path::new(&file), memory, &mut questions, std::io::stdout().lock(), &prepare);
+    Some(if served.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

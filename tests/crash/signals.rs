@@ -1,0 +1,88 @@
+//! SIGINT, SIGTERM and SIGHUP end a command and keep its results and the earlier ones.
+
+use crate::locks::{long_run, signal, wait_for_samples};
+use crate::names;
+use crate::scenarios::finished_results;
+use rotordyn::io::hdf5::{COMPLETE, Store};
+use rotordyn::io::results_file::results_state;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+fn state(file: &Path) -> String {
+    results_state(&Store::open(file).unwrap()).unwrap()
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_end_a_run_and_keep_the_earlier_one() {
+    for (name, code, cause) in [("INT", 130, "Ctrl-C"), ("TERM", 143, "SIGTERM"), ("HUP", 129, "SIGHUP")] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        finished_results(folder.path());
+        let earlier = std::fs::read(out.join("results.h5")).unwrap();
+        let mut child = long_run(&out).stderr(Stdio::piped()).spawn().unwrap();
+        wait_for_samples(&out);
+        signal(name, child.id());
+        let mut text = String::new();
+        std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut text).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(code), "{text}");
+        assert!(text.contains(&format!("run-up: ended by {cause}")), "{text}");
+        let results = out.join("results.h5");
+        assert!(
+            state(&results).starts_with(&format!("stopped: ended by {cause} at t = ")),
+            "{}",
+            state(&results)
+        );
+        // With the checkpoint from which the run can be resumed.
+        let expected = ["checkpoint.bin", "checkpoint_samples.h5", "results.h5", "results_previous.h5"];
+        assert_eq!(names(&out), expected);
+        // A complete run is never lost to one that was stopped.
+        assert!(std::fs::read(out.join("results_previous.h5")).unwrap() == earlier);
+        assert_eq!(state(&out.join("results_previous.h5")), COMPLETE);
+    }
+}
+
+/// Two signals that arrive together: the second does not wait for what the first has requested.
+#[cfg(unix)]
+#[test]
+fn a_second_signal_ends_the_program_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut child = long_run(&out).stderr(Stdio::null()).spawn().unwrap();
+    wait_for_samples(&out);
+    for name in ["STOP", "INT", "TERM", "CONT"] {
+        signal(name, child.id());
+    }
+    let code = child.wait().unwrap().code();
+    assert!([Some(130), Some(143)].contains(&code), "{code:?}");
+    assert_eq!(names(&out), [".rotordyn.lock", "results_unfinished.h5"]);
+    assert_eq!(state(&out.join("results_unfinished.h5")), "running");
+}
+
+/// `nohup` starts a command with SIGHUP ignored; it stays ignored.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_ignored_hangup_stays_ignored() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let run = long_run(&out);
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "trap '' HUP; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
+    shell.current_dir(env!("CARGO_MANIFEST_DIR")).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = shell.spawn().unwrap();
+    wait_for_samples(&out);
+    signal("HUP", child.id());
+    let begun =
+        rotordyn::io::hdf5::recorded_samples(&Store::open(out.join("results_unfinished.h5")).unwrap(), "");
+    let begun = begun.unwrap();
+    let samples = || {
+        let store = Store::open(out.join("results_unfinished.h5"));
+        store.and_then(|store| rotordyn::io::hdf5::recorded_samples(&store, ""))
+    };
+    while samples().unwrap() <= begun {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert_eq!(child.try_wait().unwrap(), None, "it goes on");
+    signal("TERM", child.id());
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+}

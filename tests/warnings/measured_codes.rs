@@ -1,0 +1,118 @@
+//! Spoiled measurements: the codes of commands that read files.
+
+use crate::copies::Case;
+use crate::program;
+use crate::spoiled::machine;
+use rotordyn::io::measured;
+use rotordyn::linalg::Complex64;
+use rotordyn::signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
+use rotordyn::warning::Code;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+pub const CASES: &[Case] = &[
+    (Code::LowMac, || {
+        let folder = two_discs();
+        store_modes(folder.path(), "own", "material.steel.young=210 GPa");
+        // Frequencies as the root of the modulus: 21 % lower.
+        store_modes(folder.path(), "soft", "material.steel.young=130 GPa");
+        ["own", "soft"].map(|file| validate(folder.path(), &[file]))
+    }),
+    (Code::MeasuredData, || {
+        let folder = two_discs();
+        store_modes(folder.path(), "own", "shaft.element_length=15 mm");
+        store_modes(folder.path(), "coarse", "shaft.element_length=40 mm");
+        [validate(folder.path(), &["own", "own"]), validate(folder.path(), &["own", "coarse"])]
+    }),
+    (Code::ModelUpdate, || {
+        let folder = two_discs();
+        store_modes(folder.path(), "own", "bearing.A.k_xx=5e6 N/m");
+        // Of a symmetric rotor the modes determine the sum of both stiffnesses only.
+        ["bearing.A.k_xx", "bearing.A.k_xx,bearing.B.k_xx"].map(|free| {
+            let arguments = ["update", "machine.toml", "--measured", "own/results.h5", "--free", free];
+            program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
+        })
+    }),
+    (Code::Identification, || {
+        let folder = program::folder(&[]);
+        let frfs = [1, 2].map(frf);
+        let coherences = frfs.iter().map(coherence);
+        write(folder.path(), "plain.npz", frfs.iter().cloned().chain(coherences).collect());
+        write(folder.path(), "spoiled.npz", frfs.to_vec());
+        ["plain.npz", "spoiled.npz"]
+            .map(|file| program::codes(folder.path(), &[&["identify", file][..], &OUT].concat(), 0))
+    }),
+    (Code::LeftOut, || {
+        let folder = program::folder(&[]);
+        let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 5000.0);
+        let values = Values::Real((0..2000).map(|k| (0.3 * f64::from(k)).sin()).collect());
+        let record = Record::new("acc", Kind::Time, axis, values, "m/s^2");
+        for name in ["plain.h5", "spoiled.h5"] {
+            write(folder.path(), name, vec![record.clone()]);
+        }
+        let file = hdf5::File::open_rw(folder.path().join("spoiled.h5")).unwrap();
+        file.link_soft("/nowhere", "moved").unwrap();
+        drop(file);
+        ["plain.h5", "spoiled.h5"]
+            .map(|file| program::codes(folder.path(), &[&["signal", file][..], &OUT].concat(), 0))
+    }),
+    (Code::SignalAnalysis, || {
+        let sample = |k: u32| format!("{:.5},{:.6}\n", f64::from(k) / 5000.0, (0.3 * f64::from(k)).sin());
+        let record = format!("time [s],acc [m/s^2]\n{}", (0..2000).map(sample).collect::<String>());
+        let folder = program::folder(&[("record.csv", record)]);
+        // The rate of the time column, and another.
+        ["5 kHz", "4 kHz"].map(|rate| {
+            let arguments = [&["signal", "record.csv", "--rate", rate][..], &OUT].concat();
+            program::codes(folder.path(), &arguments, 0)
+        })
+    }),
+];
+
+const OUT: [&str; 3] = ["--no-figures", "--out", "out"];
+
+fn two_discs() -> tempfile::TempDir {
+    program::folder(&[("machine.toml", machine("two_discs_soft").text())])
+}
+
+/// Modes of the machine with one other value, as if they were measured.
+fn store_modes(folder: &Path, name: &str, set: &str) {
+    let arguments = ["modal", "machine.toml", "--no-figures", "--out", name, "--set", set];
+    assert!(program::codes(folder, &arguments, 0).is_empty());
+}
+
+/// Codes of the comparison of the machine with stored modes.
+fn validate(folder: &Path, files: &[&str]) -> std::collections::BTreeSet<String> {
+    let paths: Vec<String> = files.iter().map(|file| format!("{file}/results.h5")).collect();
+    let measured = paths.iter().flat_map(|path| ["--measured", path]);
+    let arguments: Vec<&str> = ["validate", "machine.toml"].into_iter().chain(measured).chain(OUT).collect();
+    program::codes(folder, &arguments, 0)
+}
+
+/// Accelerance of a structure with two modes, 5 to 110 Hz, at the driving point and another.
+fn frf(point: i64) -> Record {
+    let accelerance = |hz: f64| -> Complex64 {
+        let s = Complex64::new(0.0, TAU * hz);
+        let mode = |natural: f64, zeta: f64| {
+            let omega = TAU * natural;
+            s * s / (s * s + 2.0 * zeta * omega * s + omega * omega)
+        };
+        mode(21.0, 0.006) + mode(48.0, 0.009) * if point == 1 { 1.0 } else { -0.6 }
+    };
+    let values = (0..421).map(|k| accelerance(5.0 + 0.25 * f64::from(k))).collect();
+    let axis = Axis::uniform(AxisQuantity::Frequency, 5.0, 0.25);
+    let mut record =
+        Record::new(&format!("y{point}/f1"), Kind::Frf, axis, Values::Complex(values), "(m/s^2)/N");
+    (record.response, record.reference) = (Dof::new(point, 2), Dof::new(1, 2));
+    record
+}
+
+fn coherence(frf: &Record) -> Record {
+    let values = Values::Real(vec![0.999; frf.values.len()]);
+    let record =
+        Record::new(&format!("coherence {}", frf.name), Kind::Coherence, frf.axis.clone(), values, "1");
+    Record { response: frf.response, reference: frf.reference, ..record }
+}
+
+fn write(folder: &Path, name: &str, records: Vec<Record>) {
+    measured::write(&folder.join(name), &MeasuredData { records, ..MeasuredData::default() }).unwrap();
+}
