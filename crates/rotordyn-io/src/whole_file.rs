@@ -79,7 +79,7 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(content))
 }
 
-/// As [`write`], with content that a function writes.
+/// As [`write()`], with content that a function writes.
 ///
 /// # Errors
 /// It cannot be written, or that of the function; the former file is unchanged.

@@ -177,7 +177,7 @@ pub fn write(figure: &Figure, warnings: &[Warning], stem: &Path) -> Result<(), F
     write_of_run(figure, warnings, stem, None)
 }
 
-/// As [`write`], with the identity of the run that the figure shows as metadata of both files.
+/// As [`write()`], with the identity of the run that the figure shows as metadata of both files.
 ///
 /// # Errors
 /// A file cannot be written, or its numbers cannot be read.
