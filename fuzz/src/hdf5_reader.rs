@@ -1,11 +1,10 @@
 //! This program as the process that reads one HDF5 file for a target, limited like that of the command line.
 
 use std::ffi::OsString;
-use std::path::Path;
 use std::process::ExitCode;
 
 use rotordyn::io::budget::Limits;
-use rotordyn::io::hdf5::{READER_ARGUMENT, Stage, serve};
+use rotordyn::io::hdf5::{Stage, serve_if_asked};
 
 use crate::limits;
 
@@ -27,19 +26,9 @@ pub fn reading_limits() -> Limits {
 
 /// Reads the file for the process that started this one, if the arguments say so.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Option<ExitCode> {
-    let mut arguments = arguments.into_iter().skip(1);
-    if arguments.next()? != READER_ARGUMENT {
-        return None;
-    }
-    let (memory, file) = (arguments.next()?, arguments.next()?);
-    let memory: u64 = memory.to_str()?.parse().ok()?;
-    limits::limit_memory(memory.saturating_mul(2).saturating_add(OWN_MEMORY));
-    let prepare = |stage| {
-        if stage == Stage::Question {
-            limits::limit_cpu_seconds(SECONDS);
-        }
-    };
-    let mut questions = std::io::stdin().lock();
-    let served = serve(Path::new(&file), memory, &mut questions, std::io::stdout().lock(), &prepare);
-    Some(if served.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    serve_if_asked(arguments, &|stage, memory| match stage {
+        Stage::Started => limits::limit_memory(memory.saturating_mul(2).saturating_add(OWN_MEMORY)),
+        Stage::Opened => {}
+        Stage::Question => limits::limit_cpu_seconds(SECONDS),
+    })
 }

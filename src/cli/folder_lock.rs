@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use rotordyn::error::Error;
-use rotordyn::io::whole_file::remove_abandoned_parts;
+use rotordyn::io::atomic_file::remove_abandoned_parts;
 
 use super::failure::Failure;
 use super::system::{host_name, is_same_file};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rotordyn::io::whole_file;
+use rotordyn::io::atomic_file;
 use serde_json::{Value, json};
 
 use super::args::{InitArgs, STARTERS};
@@ -33,7 +33,7 @@ pub fn run(args: &InitArgs, terminal: &Terminal) -> Result<Value, Failure> {
         let message = format!("{} exists; --force overwrites it, -o FILE writes another", path.display());
         return Err(Failure::Input(message));
     }
-    whole_file::write(path, kind.text.as_bytes())
+    atomic_file::write(path, kind.text.as_bytes())
         .map_err(|error| Failure::environment("write", path, error))?;
     terminal.print(&format!("{} written: {}", path.display(), kind.meaning));
     let next: Vec<String> =

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rotordyn::model::{ExternalFile, Options};
+use rotordyn::model::{ExternalColumn, ExternalFile, Options};
 use serde::{Deserialize, Serialize};
 use similar::{ChangeTag, TextDiff};
 
@@ -21,49 +21,18 @@ pub struct RunIdentity {
     /// Paths and values of `--set` and of flags, in order.
     pub settings: Vec<(String, String)>,
     /// Files that the model reads, with their content.
-    pub files: Vec<UsedFile>,
-}
-
-/// A file that the model reads.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct UsedFile {
-    pub path: String,
-    /// Name, unit and numbers of every column, or why it could not be read.
-    pub columns: Result<Vec<(String, String, Vec<f64>)>, String>,
-}
-
-impl PartialEq for UsedFile {
-    /// The numbers are the same if their bits are.
-    fn eq(&self, other: &Self) -> bool {
-        let bits = |file: &Self| {
-            let columns = file.columns.as_ref().map(|columns| {
-                let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-                columns
-                    .iter()
-                    .map(|(name, unit, v)| (name.clone(), unit.clone(), bits(v)))
-                    .collect::<Vec<_>>()
-            });
-            columns.map_err(String::clone)
-        };
-        self.path == other.path && bits(self) == bits(other)
-    }
+    pub files: Vec<ExternalFile>,
 }
 
 impl RunIdentity {
     pub fn new(command: &str, model: &[u8], options: &Options, files: &[ExternalFile]) -> Self {
-        let side_file = |file: &ExternalFile| {
-            let columns = file.content.as_ref().map_err(String::clone).map(|columns| {
-                columns.iter().map(|c| (c.name.clone(), c.unit.clone(), c.values.clone())).collect()
-            });
-            UsedFile { path: file.path.clone(), columns }
-        };
         Self {
             command: command.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             model: model.into(),
             variant: options.variant.clone(),
             settings: options.set.clone(),
-            files: files.iter().map(side_file).collect(),
+            files: files.to_vec(),
         }
     }
 
@@ -86,7 +55,7 @@ impl RunIdentity {
             let list = |paths: Vec<String>| if paths.is_empty() { "none".into() } else { paths.join(", ") };
             found.push(format!("the side files were {}, are {}", list(paths(self)), list(paths(now))));
         } else {
-            let changed = self.files.iter().zip(&now.files).filter(|(before, now)| before != now);
+            let changed = self.files.iter().zip(&now.files).filter(|(before, now)| !same_bits(before, now));
             found.extend(changed.map(|(before, _)| format!("the content of {} has changed", before.path)));
         }
         if self.model != now.model {
@@ -97,6 +66,19 @@ impl RunIdentity {
             ));
         }
         found
+    }
+}
+
+/// Whether two files have the same columns, their numbers compared by their bits.
+fn same_bits(a: &ExternalFile, b: &ExternalFile) -> bool {
+    let same = |(a, b): (&ExternalColumn, &ExternalColumn)| {
+        let bits = |column: &ExternalColumn| column.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        a.name == b.name && a.unit == b.unit && bits(a) == bits(b)
+    };
+    match (&a.content, &b.content) {
+        (Ok(a), Ok(b)) => a.len() == b.len() && a.iter().zip(b).all(same),
+        (Err(a), Err(b)) => a == b,
+        _ => false,
     }
 }
 

@@ -6,7 +6,7 @@ use rotordyn::document::Section;
 use rotordyn::figures::{self, Stage};
 use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::test_data;
-use rotordyn::io::{json, model_file_edit, results_file, whole_file};
+use rotordyn::io::{atomic_file, json, model_file_edit, results_file};
 use rotordyn::model::{self, Model, Options};
 use rotordyn::update::correlation::Correlation;
 use rotordyn::update::frf::{FrfFitting, rms_difference_db};
@@ -316,7 +316,7 @@ fn write_model(
     let text = String::from_utf8_lossy(&origin.text);
     let new = model_file_edit::rewrite(&text, origin.options.variant.as_deref(), &changes)
         .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))?;
-    whole_file::write(&path, new.as_bytes())
+    atomic_file::write(&path, new.as_bytes())
         .map_err(|e| Failure::environment("write the model file", &path, e))?;
     Ok(path)
 }

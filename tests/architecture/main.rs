@@ -204,7 +204,7 @@ fn computing_modules_do_not_access_files() {
     );
 }
 
-/// Files are replaced as a whole (`whole_file`, `Store::replace`), and what is printed is checked (`terminal`).
+/// Files are replaced as a whole (`atomic_file`, `Store::replace`), and what is printed is checked (`terminal`).
 #[test]
 fn files_and_prints_go_through_one_place() {
     const IN_PLACE: [&str; 5] =

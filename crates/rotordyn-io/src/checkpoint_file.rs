@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::inflate::crc32;
-use crate::{saved_results, whole_file};
+use crate::{atomic_file, saved_results};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
@@ -42,7 +42,7 @@ pub fn save(path: &Path, blocks: &[&[u8]]) -> Result<(), Error> {
         bytes.extend(*block);
     }
     bytes.extend(crc32(&bytes).to_le_bytes());
-    whole_file::write(path, &bytes).map_err(Error::of_file("write", path))
+    atomic_file::write(path, &bytes).map_err(Error::of_file("write", path))
 }
 
 /// Reads the blocks of a file; `None` if there is no such file.

@@ -7,8 +7,8 @@ pub use read::read;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 use rotordyn_signal::record::{AxisQuantity, Record, RecordError, Values};
 
 /// One column: a name such as `B_ax`, its unit such as `m/s^2`, and its values.
@@ -66,7 +66,7 @@ pub fn to_csv(columns: &[Column]) -> String {
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write(path: &Path, columns: &[Column]) -> Result<(), Error> {
-    whole_file::write(path, to_csv(columns).as_bytes()).map_err(Error::of_file("write", path))
+    atomic_file::write(path, to_csv(columns).as_bytes()).map_err(Error::of_file("write", path))
 }
 
 /// Writes channels of one constant sample rate, with the first column `time_s` = t₀ + k/f_s.

@@ -15,8 +15,8 @@
 mod cells;
 mod columns;
 
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 use cells::{Within, all_values, array_cells, is_axis, title, values};
 pub use columns::TextTable;
 use columns::{Columns, Tables, joined};
@@ -57,7 +57,7 @@ pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Er
     let tables = tables(sections);
     for (table, name) in tables.iter().zip(csv_names(&tables)) {
         let path = folder.join(name);
-        whole_file::write_derived(&path, table.csv().as_bytes()).map_err(Error::of_file("write", &path))?;
+        atomic_file::write_derived(&path, table.csv().as_bytes()).map_err(Error::of_file("write", &path))?;
         files.push(path);
     }
     Ok(files)

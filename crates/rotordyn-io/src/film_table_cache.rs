@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::atomic_file;
 use crate::budget::{self, Limits};
 use crate::csv::{self, Column};
 use crate::error::{Error, PhysicsError};
-use crate::whole_file;
 use rotordyn_bearing::BallBearing;
 use rotordyn_bearing::contact::ContactLaw;
 use rotordyn_bearing::contact::ehl::{EhlError, Films, Solution, SolvedContacts, Table, TableSpec};
@@ -138,7 +138,7 @@ fn write(folder: &Path, table: &Table) -> bool {
 fn write_whole(folder: &Path, path: &Path, content: &impl serde::Serialize) -> bool {
     std::fs::create_dir_all(folder)
         .and_then(|()| serde_json::to_vec(content).map_err(std::io::Error::other))
-        .and_then(|text| whole_file::write_derived(path, &text))
+        .and_then(|text| atomic_file::write_derived(path, &text))
         .is_ok()
 }
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::animated_scene::AnimatedScene;
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 use rotordyn_core::geometry::scene_graph::{Material, Node, Scene};
 
 const FLOAT: u32 = 5126;
@@ -52,7 +52,7 @@ pub fn to_animated_glb(animated: &AnimatedScene, slow_motion: f64) -> Vec<u8> {
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write_animated(path: &Path, animated: &AnimatedScene, slow_motion: f64) -> Result<(), Error> {
-    whole_file::write_derived(path, &to_animated_glb(animated, slow_motion))
+    atomic_file::write_derived(path, &to_animated_glb(animated, slow_motion))
         .map_err(Error::of_file("write", path))
 }
 
@@ -111,7 +111,7 @@ fn glb(scene: &Scene, animations: impl FnOnce(&mut Buffer) -> Option<Value>) -> 
 /// # Errors
 /// [`Error::Environment`] when the file cannot be written.
 pub fn write(path: &Path, scene: &Scene) -> Result<(), Error> {
-    whole_file::write_derived(path, &to_glb(scene)).map_err(Error::of_file("write", path))
+    atomic_file::write_derived(path, &to_glb(scene)).map_err(Error::of_file("write", path))
 }
 
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {

@@ -17,7 +17,7 @@ mod serve;
 mod stream;
 
 pub use attribute::Attribute;
-pub use child::{READER_ARGUMENT, open_reader};
+pub use child::open_reader;
 pub use reader::{Link, LinkTarget, Links, OpenFile, Reader};
 pub use recording::{
     COMPLETE, Channel, RUNNING, Recording, channel_names, read_channel, read_recording, read_time,
@@ -25,11 +25,11 @@ pub use recording::{
 };
 pub(crate) use recording::{channel_path, describe_channel, sampling, time_path};
 pub use sample_sets::{RunFormat, copy_run, preallocate_run};
-pub use serve::{Stage, serve};
+pub use serve::{Stage, serve_if_asked};
 pub use stream::ChannelStream;
 
+use crate::atomic_file::NewFile;
 use crate::error::Error;
-use crate::whole_file::NewFile;
 use handle::Handle;
 use hdf5::file::LibraryVersion;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
@@ -124,7 +124,7 @@ impl Store {
 
     /// Flushes all written data to the operating system.
     pub fn flush(&self) -> Result<(), Error> {
-        self.file.settle(Vec::new(), Ok(())).map_err(Error::of_file("write", &self.path))
+        self.file.flush_open(Vec::new(), Ok(())).map_err(Error::of_file("write", &self.path))
     }
 
     /// Whether there is a group or data set of this name.
@@ -302,7 +302,7 @@ impl Store {
         let dataset = builder.shape(shape).create(name)?;
         let set = |(name, value): &(&str, Attribute)| attribute::set(&dataset, name, value);
         let written = dataset.write_raw(data).and_then(|()| attributes.iter().try_for_each(set));
-        self.file.settle(vec![dataset], written)
+        self.file.flush_open(vec![dataset], written)
     }
 
     fn read_as<T: H5Type>(&self, name: &str) -> Result<Array<T>, Error> {

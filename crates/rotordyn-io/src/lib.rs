@@ -3,6 +3,7 @@
 pub mod error;
 
 pub mod animated_scene;
+pub mod atomic_file;
 pub mod budget;
 pub mod checkpoint_file;
 pub mod csv;
@@ -32,4 +33,3 @@ pub mod vtk;
 mod vtk_machine;
 mod vtk_motion;
 pub mod wav;
-pub mod whole_file;

@@ -9,9 +9,9 @@ use std::path::Path;
 
 use super::inflate;
 use super::measured::arrays::{Array, Data};
+use crate::atomic_file;
 use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
 use crate::error::Error;
-use crate::whole_file;
 use rotordyn_signal::Complex;
 
 /// Data types of elements.
@@ -293,7 +293,7 @@ pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
         problem: format!("`{name}` is too large for a v5 .mat file"),
         advice: "write .npz or HDF5 instead".into(),
     })?;
-    whole_file::write(path, &bytes).map_err(Error::of_file("write", path))
+    atomic_file::write(path, &bytes).map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a file; error: the name of an array that is too large.

@@ -12,10 +12,10 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::measured::arrays::{Array, Data};
+use crate::atomic_file;
 use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
 use crate::error::Error;
 use crate::inflate::crc32;
-use crate::whole_file;
 use rotordyn_signal::Complex;
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -262,7 +262,7 @@ fn paired(values: &[f64]) -> Vec<Complex<f64>> {
 /// # Errors
 /// A file that cannot be written.
 pub fn write(path: &Path, arrays: &[Array]) -> Result<(), Error> {
-    whole_file::write_with(path, |out| write_archive(out, arrays).map_err(std::io::Error::other))
+    atomic_file::write_with(path, |out| write_archive(out, arrays).map_err(std::io::Error::other))
         .map_err(Error::of_file("write", path))
 }
 

@@ -4,8 +4,8 @@
 //! values: a header and the result, structures as maps by field names. NaN and infinite values keep their bits. Results
 //! for other programs are in JSON and HDF5.
 
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 use rmp_serde::decode::Error as DecodeError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,7 @@ pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Erro
         rmp_serde::encode::write_named(out, &header)?;
         rmp_serde::encode::write_named(out, result)
     };
-    whole_file::write_with(path, |out| write(out).map_err(std::io::Error::other))
+    atomic_file::write_with(path, |out| write(out).map_err(std::io::Error::other))
         .map_err(Error::of_file("write", path))
 }
 

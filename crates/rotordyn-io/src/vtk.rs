@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 
 /// Points with lines and triangles between them; a point without either becomes a vertex cell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -240,7 +240,7 @@ pub fn to_vtu(grid: &Grid, fields: &[Field]) -> Result<String, String> {
 /// [`Error::Environment`] when [`to_vtu`] rejects the data or the file cannot be written.
 pub fn write_vtu(path: &Path, grid: &Grid, fields: &[Field]) -> Result<(), Error> {
     let text = to_vtu(grid, fields).map_err(Error::of_file("write", path))?;
-    whole_file::write_derived(path, text.as_bytes()).map_err(Error::of_file("write", path))
+    atomic_file::write_derived(path, text.as_bytes()).map_err(Error::of_file("write", path))
 }
 
 /// Writes a .pvd collection of .vtu files in the same folder over time \[s\] (or phase, or mode number).
@@ -257,7 +257,7 @@ pub fn write_pvd(path: &Path, frames: &[(f64, String)]) -> Result<(), Error> {
         let _ = writeln!(out, "<DataSet timestep=\"{time:e}\" part=\"0\" file=\"{file}\"/>");
     }
     out.push_str("</Collection>\n</VTKFile>\n");
-    whole_file::write_derived(path, out.as_bytes()).map_err(Error::of_file("write", path))
+    atomic_file::write_derived(path, out.as_bytes()).map_err(Error::of_file("write", path))
 }
 
 fn array(out: &mut String, name: &str, components: usize, numbers: &[f64]) -> Result<(), String> {

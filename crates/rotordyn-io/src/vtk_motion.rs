@@ -1,9 +1,9 @@
 //! The recorded motion of a machine for ParaView: one .vtu per frame, and the .pvd of all.
 
 use crate::animated_scene::{AnimatedScene, Track};
+use crate::atomic_file;
 use crate::error::Error;
 use crate::vtk::{Field, Grid, Part, Values, machine_fields, part_field, to_binary_vtu, write_pvd};
-use crate::whole_file;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rotordyn_core::geometry::mesh::Mesh;
 use rotordyn_core::geometry::scene;
@@ -74,7 +74,7 @@ pub fn export_motion(
         let name = format!("motion/motion_{k:05}.vtu");
         let path = folder.join(&name);
         let bytes = to_binary_vtu(&grid, &fields).map_err(Error::of_file("write", &path))?;
-        whole_file::write_derived(&path, &bytes).map_err(Error::of_file("write", &path))?;
+        atomic_file::write_derived(&path, &bytes).map_err(Error::of_file("write", &path))?;
         files.push((*time, name));
     }
     still.clear();

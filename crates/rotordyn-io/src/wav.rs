@@ -7,9 +7,9 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
+use crate::atomic_file::NewFile;
 use crate::budget::{self, Budget, Limits};
 use crate::error::Error;
-use crate::whole_file::NewFile;
 use rotordyn_signal::record::{MeasuredData, Record, RecordError, Values};
 
 /// How samples are written.

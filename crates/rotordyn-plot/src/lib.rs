@@ -62,7 +62,7 @@ mod wireframe;
 
 use rotordyn_core::series::SeriesError;
 use rotordyn_core::warning::Warning;
-use rotordyn_io::whole_file;
+use rotordyn_io::atomic_file;
 use std::path::Path;
 
 use resvg::{tiny_skia, usvg};
@@ -197,7 +197,7 @@ pub fn write_of_run(
         std::path::PathBuf::from(name)
     };
     let put = |path: std::path::PathBuf, bytes: &[u8]| {
-        whole_file::write_derived(&path, bytes).map_err(FigureError::of_file("write figure", &path))
+        atomic_file::write_derived(&path, bytes).map_err(FigureError::of_file("write figure", &path))
     };
     let png = png(&svg).map_err(FigureError::of_file("render figure", &name(".png")))?;
     let (svg, png) = match identity {

@@ -1,7 +1,9 @@
 //! External data files that a model file refers to, such as a tacho record; read by the caller of the loader.
 
+use serde::{Deserialize, Serialize};
+
 /// External data file of a model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ExternalFile {
     /// Path as written in the model file.
     pub path: String,
@@ -10,7 +12,7 @@ pub struct ExternalFile {
 }
 
 /// A column of numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ExternalColumn {
     pub name: String,
     /// Unit of the values: SI, or rpm for speeds; empty if the file does not give one.

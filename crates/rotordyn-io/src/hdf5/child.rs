@@ -15,7 +15,7 @@ use crate::budget::{Budget, Limits, regular_size};
 use crate::error::Error;
 
 /// First argument of the program when it is to read a file for another process.
-pub const READER_ARGUMENT: &str = "hdf5-reader";
+pub(super) const READER_ARGUMENT: &str = "hdf5-reader";
 
 /// Opens a file for reading: in a process of its own if the limits name its program, else in this one.
 ///

@@ -21,13 +21,13 @@ impl Handle {
     }
 
     /// Writes what is in memory while `datasets` are open, which then are closed if that succeeds.
-    pub fn settle(&self, datasets: Vec<Dataset>, written: hdf5::Result<()>) -> hdf5::Result<()> {
-        let settled = written.and_then(|()| self.flush());
-        if settled.is_err() {
+    pub fn flush_open(&self, datasets: Vec<Dataset>, written: hdf5::Result<()>) -> hdf5::Result<()> {
+        let flushed = written.and_then(|()| self.flush());
+        if flushed.is_err() {
             self.keep_open();
             datasets.into_iter().for_each(std::mem::forget);
         }
-        settled
+        flushed
     }
 
     /// Leaves the file open until the program ends: something could not be written.
@@ -37,7 +37,7 @@ impl Handle {
 
     /// Writes what is in memory and closes the file.
     pub fn close(mut self) -> hdf5::Result<()> {
-        self.settle(Vec::new(), Ok(()))?;
+        self.flush_open(Vec::new(), Ok(()))?;
         // Nothing has failed since it was opened.
         self.file.take().map_or(Ok(()), File::close)
     }

@@ -1,8 +1,8 @@
 //! Files written under a temporary name and renamed when they are complete.
 
 use super::Store;
+use crate::atomic_file::NewFile;
 use crate::error::Error;
-use crate::whole_file::NewFile;
 use hdf5::OpenMode;
 use std::path::Path;
 

@@ -75,7 +75,7 @@ pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(),
             set.resize(end).and_then(|()| set.write_slice(&block, begin..end))
         })
     });
-    to.map_write_error(&format!("{root}/channels"), to.file.settle(sets, copied))?;
+    to.map_write_error(&format!("{root}/channels"), to.file.flush_open(sets, copied))?;
     to.set_attribute(&format!("{root}/time"), RUN_STATE, state)
 }
 

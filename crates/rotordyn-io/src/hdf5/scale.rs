@@ -1,7 +1,7 @@
 //! Dimension scales: axes of data sets, in the form of the HDF5 dimension scale specification.
 
 use super::attribute;
-use crate::whole_file::NewFile;
+use crate::atomic_file::NewFile;
 use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenArray, VarLenUnicode};
 use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 use std::path::Path;

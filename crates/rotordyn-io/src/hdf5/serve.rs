@@ -1,10 +1,13 @@
 //! The process that reads an HDF5 file for another one: it answers questions from standard input on standard output.
 
+use std::ffi::OsString;
 use std::io::{BufWriter, ErrorKind, Read, Result, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::process::ExitCode;
 
 use super::Array;
+use super::child::READER_ARGUMENT;
 use super::protocol::{Answer, MAX_QUESTION, Question, receive, send, send_complex, send_numbers};
 use super::reader::{OpenFile, Reader};
 use crate::budget::Limits;
@@ -13,10 +16,32 @@ use crate::error::Error;
 /// What the process is about to do: the caller sets the limits of the operating system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// The file will be opened.
+    Started,
     /// The file is open, and no other file is needed.
     Opened,
     /// A question will be answered.
     Question,
+}
+
+/// Reads a file for the process that started this one, if the arguments of the program say so; whether it ended well.
+///
+/// `prepare` is called with the size of the largest data set to be read \[bytes\].
+pub fn serve_if_asked(
+    arguments: impl IntoIterator<Item = OsString>,
+    prepare: &dyn Fn(Stage, u64),
+) -> Option<ExitCode> {
+    let mut arguments = arguments.into_iter().skip(1);
+    if arguments.next()? != READER_ARGUMENT {
+        return None;
+    }
+    let (memory, file) = (arguments.next()?, arguments.next()?);
+    let memory: u64 = memory.to_str()?.parse().ok()?;
+    let prepare = |stage| prepare(stage, memory);
+    prepare(Stage::Started);
+    let mut questions = std::io::stdin().lock();
+    let served = serve(Path::new(&file), memory, &mut questions, std::io::stdout().lock(), &prepare);
+    Some(if served.is_ok() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// Opens `file` and answers questions until the asking process closes the pipe.
@@ -25,7 +50,7 @@ pub enum Stage {
 ///
 /// # Errors
 /// The pipes cannot be read or written. Problems of the file are answers.
-pub fn serve(
+fn serve(
     file: &Path,
     memory: u64,
     questions: &mut impl Read,

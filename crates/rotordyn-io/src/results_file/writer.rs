@@ -10,9 +10,9 @@
 
 use super::provenance::{Provenance, results_state, set_results_state, set_stored_files, stored_files};
 use super::{remove_run, write_labels, write_section};
+use crate::atomic_file::{NewFile, sync_folder_of};
 use crate::error::Error;
 use crate::hdf5::{COMPLETE, ChannelStream, RUNNING, RunFormat, Store, copy_run, preallocate_run};
-use crate::whole_file::{NewFile, sync_folder_of};
 use rotordyn_core::document::Section;
 use rotordyn_core::study::Machine;
 use std::collections::BTreeSet;

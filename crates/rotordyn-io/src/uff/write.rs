@@ -6,8 +6,8 @@ use super::field::{ascii, or_none, scientific, text};
 use super::function::KINDS;
 use super::geometry::BEAM_DESCRIPTORS;
 use super::ordinate::{axis_label, data_type_of, split_ratio};
+use crate::atomic_file;
 use crate::error::Error;
-use crate::whole_file;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{
     Analysis, AxisQuantity, Geometry, Kind, MeasuredData, Points, Record, RecordError, Shape, Values,
@@ -39,7 +39,7 @@ pub enum GeometrySets {
 /// A record without a sampling rate or with NaN, or a file that cannot be written.
 pub fn write(path: &Path, measured: &MeasuredData, options: Options) -> Result<(), Error> {
     let bytes = to_bytes(measured, options)?;
-    whole_file::write(path, &bytes).map_err(Error::of_file("write", path))
+    atomic_file::write(path, &bytes).map_err(Error::of_file("write", path))
 }
 
 /// The bytes of a universal file; the same input gives the same bytes, dates are those of the records.
