@@ -9,6 +9,7 @@ mod hdf5_reader;
 mod hdf5_round_trip;
 mod hdf5_stream;
 mod mapping;
+mod matlab_structures;
 #[path = "../common/measured_data.rs"]
 mod measured_data;
 mod measured_files;

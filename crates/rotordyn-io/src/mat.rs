@@ -1,8 +1,12 @@
 //! MATLAB v5 .mat files: numeric and text arrays, compressed or not, either byte order; written uncompressed.
 //!
-//! Cells, structs and sparse matrices are skipped and their names reported. Version 7.3 files are HDF5.
-//! The crate matfile 0.5 reads numbers only, without texts, the names of what it skips, or writing.
+//! The contents of structures and cells are named by their path as in MATLAB, with linear indices: `bearing.gs`,
+//! `runs(2).x`, `c{3}`. Sparse matrices, function handles and objects without fields are skipped and their names reported.
+//! Version 4 files are read too; version 7.3 files are HDF5.
+//! The crate matfile 0.5 reads numbers only, without texts, structures, the names of what it skips, or writing.
 //! Format: MATLAB MAT-File Format, The MathWorks, R2019b.
+
+mod version_4;
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -10,7 +14,7 @@ use std::path::Path;
 use super::inflate;
 use super::measured::arrays::{Array, Data};
 use crate::atomic_file;
-use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
+use crate::budget::{self, Budget, Exceeded, Limits, MAX_DEPTH, MAX_DIMENSIONS};
 use crate::error::Error;
 use rotordyn_signal::Complex;
 
@@ -21,6 +25,9 @@ const DOUBLE: u32 = 9;
 const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;
 /// Array classes.
+const CELL_CLASS: u8 = 1;
+const STRUCTURE_CLASS: u8 = 2;
+const OBJECT_CLASS: u8 = 3;
 const CHAR_CLASS: u8 = 4;
 const DOUBLE_CLASS: u8 = 6;
 /// Classes of numbers: double, single, and integers of either sign up to 64 bits.
@@ -49,18 +56,27 @@ impl From<Exceeded> for Fault {
     }
 }
 
-/// Whether a file starts with the header of a v5 .mat file.
+/// Whether a file starts with the header of a .mat file of version 5, or of an array of version 4.
 pub fn is_mat(head: &[u8]) -> bool {
+    is_version_5(head) || version_4::is_array(head)
+}
+
+fn is_version_5(head: &[u8]) -> bool {
     matches!(head.get(124..128), Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
 }
 
-/// Reads every numeric and text array of a file; the second list has the names of skipped arrays.
+/// Arrays named by their path, and the names of what is not read, each with the reason.
+type Contents = (Vec<Array>, Vec<String>);
+
+/// Reads every numeric and text array of a file, also within structures and cells; the second list has the names of
+/// skipped arrays.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, is not a v5 .mat file, or exceeds its budget.
+/// The file cannot be read, is cut off, is not a .mat file of version 4 or 5, or exceeds its budget.
 pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Budget), Error> {
     let (bytes, budget) = budget::read_file(path, limits)?;
-    match parse(&bytes, &budget) {
+    let found = if is_version_5(&bytes) { parse(&bytes, &budget) } else { version_4::parse(&bytes, &budget) };
+    match found {
         Ok((arrays, left_out)) => Ok((arrays, left_out, budget)),
         Err(Fault::Budget(exceeded)) => Err(exceeded.of_file(path)),
         Err(Fault::Damage(problem)) => Err(Error::Content {
@@ -75,12 +91,9 @@ const CUT_OFF: &str = "the file is cut off";
 const DAMAGED_ARRAY: &str = "a compressed array is damaged or cut off";
 const DAMAGED_SIZE: &str = "an array's size is damaged";
 
-fn parse(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), Fault> {
-    if !is_mat(bytes) {
-        return Err("it is not a MATLAB v5 file".into());
-    }
+fn parse(bytes: &[u8], budget: &Budget) -> Result<Contents, Fault> {
     let little = bytes[126] == b'I';
-    let (mut arrays, mut left_out) = (Vec::new(), Vec::new());
+    let mut found = Contents::default();
     let mut file = Reader { rest: &bytes[HEADER..], little };
     while !file.rest.is_empty() {
         let (kind, data) = file.element()?;
@@ -89,16 +102,12 @@ fn parse(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), Fau
             MATRIX => data.into(),
             _ => continue,
         };
-        budget.objects("arrays", 1)?;
-        match matrix(Reader { rest: &element, little }, budget)? {
-            Ok(array) => arrays.push(array),
-            Err(name) => left_out.push(name),
-        }
+        collect(Reader { rest: &element, little }, None, 0, budget, &mut found)?;
         if let Cow::Owned(inflated) = element {
             budget.give_back(inflated.len());
         }
     }
-    Ok((arrays, left_out))
+    Ok(found)
 }
 
 /// The data of the one element within a compressed one. Its own tag states its size, which is held against the budget
@@ -190,37 +199,120 @@ fn dimensions(body: &mut Reader, budget: &Budget) -> Result<Vec<usize>, Fault> {
     Ok(sizes.iter().map(|&n| n as usize).collect())
 }
 
-/// Reads one array, or the name of one that is neither numeric nor text.
-fn matrix(mut body: Reader, budget: &Budget) -> Result<Result<Array, String>, Fault> {
+/// Reads one array, with what it contains if it is a structure or a cell. `path`: its name, if it is within another.
+fn collect(
+    mut body: Reader,
+    path: Option<String>,
+    depth: usize,
+    budget: &Budget,
+    found: &mut Contents,
+) -> Result<(), Fault> {
+    budget.objects("arrays", 1)?;
     let flags = body.element()?.1;
     let flags = body.u32(flags.get(..4).ok_or(CUT_OFF)?);
     let class = (flags & 0xff) as u8;
     let shape = dimensions(&mut body, budget)?;
-    let name = String::from_utf8_lossy(body.element()?.1).into_owned();
+    let own_name = String::from_utf8_lossy(body.element()?.1).into_owned();
+    let name = path.unwrap_or(own_name);
     let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(DAMAGED_SIZE)?;
-    if class == CHAR_CLASS {
-        let texts = if count == 0 { Vec::new() } else { texts(&mut body, &shape, count, budget)? };
-        return Ok(Ok(Array { name, shape: vec![texts.len()], data: Data::Text(texts) }));
+    let nested = matches!(class, CELL_CLASS | STRUCTURE_CLASS | OBJECT_CLASS);
+    if nested && depth == MAX_DEPTH {
+        found.1.push(format!("{name} (more than {MAX_DEPTH} structures or cells deep)"));
+        return Ok(());
     }
-    if !NUMERIC.contains(&class) {
-        return Ok(Err(name));
+    match class {
+        CELL_CLASS => {
+            for k in 1..=count {
+                member(&mut body, format!("{name}{{{k}}}"), depth, budget, found)?;
+            }
+        }
+        STRUCTURE_CLASS | OBJECT_CLASS => {
+            if class == OBJECT_CLASS {
+                // The name of its class.
+                body.element()?;
+            }
+            let fields = field_names(&mut body, budget)?;
+            for k in 1..=if fields.is_empty() { 0 } else { count } {
+                let element = if count == 1 { name.clone() } else { format!("{name}({k})") };
+                for field in &fields {
+                    member(&mut body, format!("{element}.{field}"), depth, budget, found)?;
+                }
+            }
+        }
+        CHAR_CLASS => {
+            let texts = if count == 0 { Vec::new() } else { texts(&mut body, &shape, count, budget)? };
+            found.0.push(Array { name, shape: vec![texts.len()], data: Data::Text(texts) });
+        }
+        _ if NUMERIC.contains(&class) => {
+            let data = numbers(&mut body, &shape, count, flags & COMPLEX_FLAG != 0, budget)?;
+            found.0.push(Array { name, shape, data });
+        }
+        5 => found.1.push(format!("{name} (a sparse matrix)")),
+        16 => found.1.push(format!("{name} (a function handle)")),
+        _ => found.1.push(format!("{name} (a MATLAB object)")),
     }
+    Ok(())
+}
+
+/// One array within a structure or a cell; an element without data is an empty array.
+fn member(
+    body: &mut Reader,
+    path: String,
+    depth: usize,
+    budget: &Budget,
+    found: &mut Contents,
+) -> Result<(), Fault> {
+    let (kind, data) = body.element()?;
+    if kind != MATRIX {
+        return Err("a structure or cell contains something that is no array".into());
+    }
+    if data.is_empty() {
+        return Ok(());
+    }
+    collect(Reader { rest: data, little: body.little }, Some(path), depth + 1, budget, found)
+}
+
+/// Names of a structure's fields: texts of one length, ended by zeros.
+fn field_names(body: &mut Reader, budget: &Budget) -> Result<Vec<String>, Fault> {
+    let length = body.element()?.1;
+    let length = body.u32(length.get(..4).ok_or(CUT_OFF)?) as usize;
+    let letters = body.element()?.1;
+    if letters.is_empty() {
+        return Ok(Vec::new());
+    }
+    if length == 0 || letters.len() % length != 0 {
+        return Err("the names of a structure's fields are damaged".into());
+    }
+    budget.objects("fields", letters.len() / length)?;
+    let name = |letters: &[u8]| {
+        let end = letters.iter().position(|&c| c == 0).unwrap_or(letters.len());
+        String::from_utf8_lossy(&letters[..end]).into_owned()
+    };
+    Ok(letters.chunks_exact(length).map(name).collect())
+}
+
+/// The values of a numeric array.
+fn numbers(
+    body: &mut Reader,
+    shape: &[usize],
+    count: usize,
+    complex: bool,
+    budget: &Budget,
+) -> Result<Data, Fault> {
     let fewer = "an array has fewer values than its size states";
     let re = body.numbers(budget)?;
     if re.len() != count {
         return Err(fewer.into());
     }
-    let data = if flags & COMPLEX_FLAG == 0 {
-        Data::Real(to_row_major(&re, &shape))
-    } else {
-        let im = body.numbers(budget)?;
-        if im.len() != count {
-            return Err(fewer.into());
-        }
-        let values: Vec<_> = re.iter().zip(&im).map(|(&re, &im)| Complex::new(re, im)).collect();
-        Data::Complex(to_row_major(&values, &shape))
-    };
-    Ok(Ok(Array { name, shape, data }))
+    if !complex {
+        return Ok(Data::Real(to_row_major(&re, shape)));
+    }
+    let im = body.numbers(budget)?;
+    if im.len() != count {
+        return Err(fewer.into());
+    }
+    let values: Vec<_> = re.iter().zip(&im).map(|(&re, &im)| Complex::new(re, im)).collect();
+    Ok(Data::Complex(to_row_major(&values, shape)))
 }
 
 /// The rows of a text, of which at least one letter is there.

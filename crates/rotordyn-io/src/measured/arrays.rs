@@ -8,21 +8,49 @@
 //! Arrays of other programs are interpreted by name: `fs`, `dt`, `time`, `frequency`; complex values over
 //! frequency are FRFs; names that begin with `coh` are coherence; a scalar that ends in `RPM` is the speed of
 //! the records with the same prefix. H\[i, j, line\] becomes one record for each response i + 1 and reference
-//! j + 1.
+//! j + 1. Arrays of a structure, `bearing.gs`, have its axes, `bearing.sr`, else those of the structures around it.
 
 use std::collections::HashMap;
 
 pub use super::array::{Array, Data};
 use super::{signal_calc, unit_label};
-use crate::budget::{Budget, Exceeded};
+use crate::budget::{Budget, Exceeded, MAX_DEPTH};
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
 
-const RATES: [&str; 9] =
-    ["fs", "fs_hz", "sample_rate", "samplerate", "sampling_rate", "samplingrate", "sr", "fsamp", "rate"];
-const STEPS: [&str; 3] = ["dt", "delta_t", "ts"];
-const TIMES: [&str; 5] = ["t", "time", "time_s", "t_s", "times"];
-const FREQUENCIES: [&str; 8] =
-    ["freq_hz", "frequency", "frequencies", "freq", "freqs", "f", "f_hz", "frequency_hz"];
+// Names of axes in lower case, the most definite first: of `sr` and `rate` the second may be the shaft's.
+const RATES: [&str; 15] = [
+    "fs",
+    "fs_hz",
+    "sample_rate",
+    "samplerate",
+    "sampling_rate",
+    "samplingrate",
+    "sample_frequency",
+    "samplefrequency",
+    "sampling_frequency",
+    "samplingfrequency",
+    "fsample",
+    "fsamp",
+    "sr",
+    "srate",
+    "rate",
+];
+const STEPS: [&str; 7] = ["dt", "delta_t", "deltat", "time_step", "timestep", "sample_interval", "ts"];
+const TIMES: [&str; 8] = ["time", "t", "time_s", "t_s", "times", "time_domain", "tvec", "x_value"];
+const FREQUENCIES: [&str; 11] = [
+    "freq_hz",
+    "frequency",
+    "frequencies",
+    "freq",
+    "freqs",
+    "f",
+    "f_hz",
+    "frequency_hz",
+    "freq_domain",
+    "frequency_domain",
+    "fvec",
+];
+const UNITS: [&str; 2] = ["unit", "units"];
 
 /// Suffixes of arrays that describe another array.
 const PROPERTY_SUFFIXES: [&str; 10] =
@@ -38,24 +66,19 @@ pub fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, Exc
     }
     let file = File::new(arrays);
     let mut out = MeasuredData::default();
-    let axes = Axes {
-        rate: file.global_rate(),
-        time: file.increasing_list(&TIMES),
-        frequency: file.increasing_list(&FREQUENCIES),
-    };
+    let mut axes: HashMap<&str, Axes> = HashMap::new();
     for array in arrays {
-        let lower = array.name.to_lowercase();
-        let is_axis = [&TIMES[..], &FREQUENCIES].iter().any(|names| names.contains(&lower.as_str()));
-        let is_setting = RATES.contains(&lower.as_str()) || STEPS.contains(&lower.as_str()) || lower == "t0";
-        if is_axis && array.as_list().is_some() || file.is_attribute(&array.name) {
+        let structure = structure_of(&array.name);
+        let axes = axes.entry(structure).or_insert_with(|| file.axes(structure));
+        if file.is_axis_list(array) || file.is_attribute(&array.name) {
             continue;
         }
         match (&array.data, array.as_scalar()) {
             (Data::Text(_), _) => {}
             (data, _) if data.is_empty() => {}
-            (_, Some(_)) if is_setting => {}
+            (_, Some(_)) if file.is_axis_setting(array) => {}
             (_, Some(value)) => out.scalars.push((array.name.clone(), value)),
-            _ => file.records(array, &axes, budget, &mut out)?,
+            _ => file.records(array, axes, budget, &mut out)?,
         }
     }
     assign_speeds(&mut out);
@@ -69,9 +92,23 @@ struct File<'a> {
     arrays: &'a [Array],
     /// Place of the first array of a name.
     places: HashMap<&'a str, usize>,
+    /// Place of the first array of a structure ("" for none) and a name in lower case.
+    members: HashMap<(&'a str, String), usize>,
+    /// Number of numeric arrays of more than one value of every structure.
+    lists: HashMap<&'a str, usize>,
 }
 
-/// Common axes of all records of a file.
+/// Structure of a path, `bearing` of `bearing.gs`; "" for none.
+fn structure_of(name: &str) -> &str {
+    name.rsplit_once('.').map_or("", |(structure, _)| structure)
+}
+
+/// Name without the structure's path.
+fn last_name(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(_, last)| last)
+}
+
+/// Common axes of all records of a file or a structure.
 struct Axes<'a> {
     /// Uniform time axis: start and step.
     rate: Option<Points>,
@@ -82,32 +119,76 @@ struct Axes<'a> {
 impl<'a> File<'a> {
     fn new(arrays: &'a [Array]) -> Self {
         let places = arrays.iter().enumerate().rev().map(|(k, array)| (array.name.as_str(), k)).collect();
-        Self { arrays, places }
+        let key = |name: &'a str| (structure_of(name), last_name(name).to_lowercase());
+        let members = arrays.iter().enumerate().rev().map(|(k, array)| (key(&array.name), k)).collect();
+        let mut lists = HashMap::new();
+        for array in arrays.iter().filter(|a| a.data.len() > 1 && !matches!(a.data, Data::Text(_))) {
+            *lists.entry(structure_of(&array.name)).or_insert(0) += 1;
+        }
+        Self { arrays, places, members, lists }
     }
 
     fn get(&self, name: &str) -> Option<&'a Array> {
         self.places.get(name).map(|&k| &self.arrays[k])
     }
 
-    /// Array with one of the names, case-insensitive.
-    fn find_ignoring_case(&self, names: &[&str]) -> Option<&'a Array> {
-        self.arrays.iter().find(|a| names.iter().any(|n| a.name.eq_ignore_ascii_case(n)))
-    }
-
-    fn scalar(&self, name: &str) -> Option<f64> {
-        self.get(name).and_then(Array::as_scalar)
+    /// First of the names that a structure has, in any case.
+    fn member(&self, structure: &'a str, names: &[&str]) -> Option<&'a Array> {
+        names.iter().find_map(|name| Some(&self.arrays[*self.members.get(&(structure, (*name).into()))?]))
     }
 
     /// Increasing list with one of the names.
-    fn increasing_list(&self, names: &[&str]) -> Option<&'a [f64]> {
-        self.find_ignoring_case(names)?.as_list().filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]))
+    fn increasing_list(&self, structure: &'a str, names: &[&str]) -> Option<&'a [f64]> {
+        let list = self.member(structure, names)?.as_list();
+        list.filter(|list| list.windows(2).all(|pair| pair[0] < pair[1]))
     }
 
-    fn global_rate(&self) -> Option<Points> {
-        let rate = self.find_ignoring_case(&RATES).and_then(Array::as_scalar).map(|rate| 1.0 / rate);
-        let step = rate.or_else(|| self.find_ignoring_case(&STEPS).and_then(Array::as_scalar));
-        let start = self.scalar("t0").unwrap_or(0.0);
+    /// Axes of a structure, else those of the structures around it.
+    fn axes(&self, structure: &'a str) -> Axes<'a> {
+        let mut found = Axes { rate: None, time: None, frequency: None };
+        let mut at = structure;
+        for _ in 0..=MAX_DEPTH {
+            found.rate = found.rate.or_else(|| self.rate(at));
+            found.time = found.time.or_else(|| self.increasing_list(at, &TIMES));
+            found.frequency = found.frequency.or_else(|| self.increasing_list(at, &FREQUENCIES));
+            if at.is_empty() {
+                break;
+            }
+            at = structure_of(at);
+        }
+        found
+    }
+
+    fn rate(&self, structure: &'a str) -> Option<Points> {
+        let scalar = |names: &[&str]| self.member(structure, names).and_then(Array::as_scalar);
+        let step = scalar(&RATES).map(|rate| 1.0 / rate).or_else(|| scalar(&STEPS));
+        let start = scalar(&["t0"]).unwrap_or(0.0);
         step.filter(|step| *step > 0.0 && step.is_finite()).map(|step| Points::Uniform { start, step })
+    }
+
+    /// Whether an array is a list of times or frequencies.
+    fn is_axis_list(&self, array: &'a Array) -> bool {
+        let structure = structure_of(&array.name);
+        let named = [&TIMES[..], &FREQUENCIES].into_iter().filter_map(|names| self.member(structure, names));
+        array.as_list().is_some() && named.into_iter().any(|axis| std::ptr::eq(axis, array))
+    }
+
+    /// Whether a scalar is the rate, the step or the start of an axis.
+    fn is_axis_setting(&self, array: &'a Array) -> bool {
+        let structure = structure_of(&array.name);
+        let named =
+            [&RATES[..], &STEPS, &["t0"]].into_iter().filter_map(|names| self.member(structure, names));
+        named.into_iter().any(|setting| std::ptr::eq(setting, array))
+    }
+
+    /// Unit stated beside the only record of a structure.
+    fn unit_of_structure(&self, array: &'a Array) -> Option<&'a str> {
+        let structure = structure_of(&array.name);
+        let is_list = |axis: &&Array| axis.as_list().is_some();
+        let axes = [&TIMES[..], &FREQUENCIES].into_iter().filter_map(|names| self.member(structure, names));
+        let records = self.lists.get(structure)?.saturating_sub(axes.filter(is_list).count());
+        let alone = !structure.is_empty() && records == 1;
+        self.member(structure, &UNITS).filter(|_| alone).and_then(Array::as_text)
     }
 
     /// Whether a name is that of another array with a suffix for its properties.
@@ -121,14 +202,15 @@ impl<'a> File<'a> {
     /// The records of one array.
     fn records(
         &self,
-        array: &Array,
+        array: &'a Array,
         axes: &Axes,
         budget: &Budget,
         out: &mut MeasuredData,
     ) -> Result<(), Exceeded> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let name = own("name").or_else(|| own("is")).and_then(Array::as_text).unwrap_or(&array.name);
-        let stated = own("unit").and_then(Array::as_text).unwrap_or_default();
+        let stated = own("unit").and_then(Array::as_text).or_else(|| self.unit_of_structure(array));
+        let stated = stated.unwrap_or_default();
         let kind = own("kind").and_then(Array::as_text);
         let kind = kind.and_then(|word| Kind::LABELS.iter().find(|k| k.1 == word)).map(|k| k.0);
         let shape = array.squeezed();
@@ -142,7 +224,7 @@ impl<'a> File<'a> {
             let mut numbers: Vec<String> = index.iter().map(|k| (k + 1).to_string()).collect();
             let label =
                 if index.is_empty() { name.to_owned() } else { format!("{name}[{}]", numbers.join(",")) };
-            let kind = kind.unwrap_or_else(|| guess_kind(&array.name, &values, axis.quantity));
+            let kind = kind.unwrap_or_else(|| guess_kind(last_name(&array.name), &values, axis.quantity));
             let known = unit_label::si(stated);
             if let Some(known) = &known {
                 values.scale(known.numerator, known.divisor);
