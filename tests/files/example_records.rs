@@ -126,6 +126,7 @@ pub fn everything() -> MeasuredData {
         title: "overhung rig".into(),
         records: [time_records(), frequency_records()].concat(),
         scalars: Vec::new(),
+        axis_sources: Vec::new(),
         geometry: geometry(),
         shapes: shapes(),
         notes: Vec::new(),

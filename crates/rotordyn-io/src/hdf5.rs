@@ -63,6 +63,8 @@ pub enum ObjectKind {
     /// Compounds {r, i}.
     Complex(Vec<usize>),
     Text(Vec<usize>),
+    /// References to objects of the file.
+    References(Vec<usize>),
     /// Any other data type; not read.
     Other,
 }

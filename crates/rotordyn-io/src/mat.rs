@@ -28,6 +28,7 @@ const COMPRESSED: u32 = 15;
 const CELL_CLASS: u8 = 1;
 const STRUCTURE_CLASS: u8 = 2;
 const OBJECT_CLASS: u8 = 3;
+const OPAQUE_CLASS: u8 = 17;
 const CHAR_CLASS: u8 = 4;
 const DOUBLE_CLASS: u8 = 6;
 /// Classes of numbers: double, single, and integers of either sign up to 64 bits.
@@ -211,9 +212,14 @@ fn collect(
     let flags = body.element()?.1;
     let flags = body.u32(flags.get(..4).ok_or(CUT_OFF)?);
     let class = (flags & 0xff) as u8;
-    let shape = dimensions(&mut body, budget)?;
+    // Objects of classes such as table and string state no size.
+    let shape = if class == OPAQUE_CLASS { Vec::new() } else { dimensions(&mut body, budget)? };
     let own_name = String::from_utf8_lossy(body.element()?.1).into_owned();
     let name = path.unwrap_or(own_name);
+    // The data of such objects follow in an array without a name.
+    if name.is_empty() {
+        return Ok(());
+    }
     let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(DAMAGED_SIZE)?;
     let nested = matches!(class, CELL_CLASS | STRUCTURE_CLASS | OBJECT_CLASS);
     if nested && depth == MAX_DEPTH {
@@ -232,6 +238,9 @@ fn collect(
                 body.element()?;
             }
             let fields = field_names(&mut body, budget)?;
+            if fields.is_empty() {
+                found.1.push(format!("{name} (a structure without fields)"));
+            }
             for k in 1..=if fields.is_empty() { 0 } else { count } {
                 let element = if count == 1 { name.clone() } else { format!("{name}({k})") };
                 for field in &fields {
@@ -262,11 +271,15 @@ fn member(
     budget: &Budget,
     found: &mut Contents,
 ) -> Result<(), Fault> {
+    // The names of elements may be longer than what they name.
+    budget.take(|| "the names of structures and cells".into(), 2 * path.len() as u64)?;
     let (kind, data) = body.element()?;
     if kind != MATRIX {
         return Err("a structure or cell contains something that is no array".into());
     }
     if data.is_empty() {
+        budget.objects("arrays", 1)?;
+        found.1.push(format!("{path} (empty)"));
         return Ok(());
     }
     collect(Reader { rest: data, little: body.little }, Some(path), depth + 1, budget, found)
@@ -346,7 +359,7 @@ fn text_codes(body: &mut Reader, budget: &Budget) -> Result<Vec<u32>, Fault> {
 }
 
 /// Column-major values (first index fastest) reordered to row-major (last index fastest).
-pub(super) fn to_row_major<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
+pub(crate) fn to_row_major<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
     reorder(values, shape, shape.iter().scan(1, |stride, n| Some(std::mem::replace(stride, *stride * n))))
 }
 

@@ -106,7 +106,7 @@ fn archive(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), F
         })?;
         let name = file.name().map_err(|_| DAMAGED)?.into_owned();
         let Some(plain) = name.strip_suffix(".npy").map(str::to_owned) else {
-            left_out.push(name);
+            left_out.push(format!("{name} (no NumPy array)"));
             continue;
         };
         let damaged = |problem: &str| Fault::Damage(format!("`{plain}`: {problem}"));
@@ -127,7 +127,7 @@ fn archive(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), F
         }
         match array(&plain, &data, budget) {
             Ok(Some(array)) => arrays.push(array),
-            Ok(None) => left_out.push(plain),
+            Ok(None) => left_out.push(format!("{plain} (Python objects or a structured type)")),
             Err(Fault::Damage(problem)) => return Err(damaged(&problem)),
             Err(fault) => return Err(fault),
         }

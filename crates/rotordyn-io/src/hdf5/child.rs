@@ -224,6 +224,13 @@ impl Reader for Process {
         }
     }
 
+    fn references(&self, name: &str) -> Result<Vec<String>, Error> {
+        match self.ask(&Question::References(name.into()))? {
+            Answer::Names(marks) => Ok(marks),
+            other => Err(self.unexpected(other)),
+        }
+    }
+
     fn read_texts(&self, name: &str) -> Result<Vec<String>, Error> {
         match self.ask(&Question::ReadTexts(name.into()))? {
             Answer::Names(texts) => Ok(texts),

@@ -29,6 +29,7 @@ pub(super) enum Question {
     ReadRange(String, Range<usize>),
     ReadComplex(String),
     ReadTexts(String),
+    References(String),
 }
 
 /// Answer to a question of the same name.

@@ -8,8 +8,13 @@ use std::ops::Range;
 use std::path::Path;
 
 use hdf5::plist::dataset_create::Layout;
-use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
-use hdf5::{Dataset, H5Type, IndexType, IterationOrder, LinkType, LocationType};
+use hdf5::types::{
+    CompoundType, FixedAscii, FixedUnicode, Reference, TypeDescriptor, VarLenAscii, VarLenUnicode,
+};
+use hdf5::{
+    Dataset, H5Type, IndexType, IterationOrder, LinkType, LocationType, ObjectReference, ObjectReference1,
+    ReferencedObject,
+};
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +48,8 @@ pub trait Reader: Debug + Send {
     fn read_range(&self, name: &str, range: Range<usize>) -> Result<Vec<f64>, Error>;
     /// A data set of complex numbers.
     fn read_complex(&self, name: &str) -> Result<Array<Complex<f64>>, Error>;
+    /// Marks of the objects to which a data set of references leads, as in [`Link::mark`]; empty for those to nothing.
+    fn references(&self, name: &str) -> Result<Vec<String>, Error>;
     /// A data set of strings.
     fn read_texts(&self, name: &str) -> Result<Vec<String>, Error>;
 }
@@ -59,6 +66,8 @@ pub struct Links {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Link {
     pub name: String,
+    /// Mark of the place in the file of what the link leads to; empty if to nothing.
+    pub mark: String,
     pub target: LinkTarget,
 }
 
@@ -134,6 +143,21 @@ pub(super) fn damaged(path: &Path, problem: String) -> Error {
     Error::Content { path: path.into(), problem, advice }
 }
 
+/// Memory of a mark \[bytes\].
+const MARK: usize = 128;
+
+/// The compound of complex numbers in MATLAB 7.3; that of h5py is {r, i}.
+#[derive(Clone, Copy, H5Type)]
+#[repr(C)]
+struct MatlabPair {
+    real: f64,
+    imag: f64,
+}
+
+fn is_pair(compound: &CompoundType, names: [&str; 2]) -> bool {
+    compound.fields.iter().map(|field| field.name.as_str()).eq(names)
+}
+
 /// Values per block of a list of texts, whose lengths are known only when they have been read.
 const TEXT_BLOCK: usize = 64;
 impl<T: Bounded> Reader for T {
@@ -166,11 +190,11 @@ impl<T: Bounded> Reader for T {
         let mut links = Vec::with_capacity(found.len());
         for (name, about) in found {
             let path = format!("{}/{name}", group.trim_end_matches('/'));
-            let target = match about.link_type {
-                LinkType::External => LinkTarget::Nothing("a link to another file".into()),
+            let (mark, target) = match about.link_type {
+                LinkType::External => (String::new(), LinkTarget::Nothing("a link to another file".into())),
                 LinkType::Hard | LinkType::Soft => self.target(&path),
             };
-            links.push(Link { name, target });
+            links.push(Link { name, mark, target });
         }
         links.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(Links { group: mark, links })
@@ -215,8 +239,33 @@ impl<T: Bounded> Reader for T {
     }
 
     fn read_complex(&self, name: &str) -> Result<Array<Complex<f64>>, Error> {
+        let kind = self.data(name)?.dtype().and_then(|kind| kind.to_descriptor());
+        let of_matlab = |kind: &TypeDescriptor| matches!(kind, TypeDescriptor::Compound(c) if is_pair(c, ["real", "imag"]));
+        if kind.is_ok_and(|kind| of_matlab(&kind)) {
+            let Array { shape, data } = self.values(name, MatlabPair { real: 0.0, imag: 0.0 })?;
+            return Ok(Array { shape, data: data.iter().map(|z| Complex::new(z.real, z.imag)).collect() });
+        }
         let Array { shape, data } = self.values(name, ComplexPair { r: 0.0, i: 0.0 })?;
         Ok(Array { shape, data: data.iter().map(|z| Complex::new(z.r, z.i)).collect() })
+    }
+
+    fn references(&self, name: &str) -> Result<Vec<String>, Error> {
+        let dataset = self.data(name)?;
+        let shape = self.shape(name, &dataset)?;
+        let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
+        self.allow::<(ObjectReference1, [u8; MARK])>(name, count)?;
+        let counted = self.budget().objects("references", count.unwrap_or(usize::MAX));
+        counted.map_err(|exceeded| exceeded.of_file(&self.store().path))?;
+        let found = self.answer(name, dataset.read_raw::<ObjectReference1>())?;
+        let mark = |reference: &ObjectReference1| {
+            let about = match reference.dereference(&self.store().file)? {
+                ReferencedObject::Group(group) => group.loc_info(),
+                ReferencedObject::Dataset(data) => data.loc_info(),
+                ReferencedObject::Datatype(_) => return Ok(String::new()),
+            };
+            Ok::<_, hdf5::Error>(format!("{:?}", about?.token))
+        };
+        Ok(found.iter().map(|reference| mark(reference).unwrap_or_default()).collect())
     }
 
     fn read_texts(&self, name: &str) -> Result<Vec<String>, Error> {
@@ -244,13 +293,15 @@ trait Steps: Bounded {
         result.map_err(|error| damaged(&self.store().path, format!("{object}: {error}")))
     }
 
-    fn target(&self, path: &str) -> LinkTarget {
+    /// What a link leads to, with its mark.
+    fn target(&self, path: &str) -> (String, LinkTarget) {
         let file = &self.store().file;
         let Ok(about) = file.loc_info_by_name(path) else {
-            return LinkTarget::Nothing("a link to nothing".into());
+            return (String::new(), LinkTarget::Nothing("a link to nothing".into()));
         };
-        match about.loc_type {
-            LocationType::Group => LinkTarget::Group(format!("{:?}", about.token)),
+        let mark = format!("{:?}", about.token);
+        let target = match about.loc_type {
+            LocationType::Group => LinkTarget::Group(mark.clone()),
             LocationType::Dataset => match self.data(path).and_then(|data| self.kind(path, &data)) {
                 Ok(ObjectKind::Other) => LinkTarget::Nothing("neither numbers nor texts".into()),
                 Ok(kind) => LinkTarget::DataSet(kind),
@@ -260,7 +311,8 @@ trait Steps: Bounded {
                 Err(other) => LinkTarget::Nothing(other.to_string()),
             },
             _ => LinkTarget::Nothing("a data type".into()),
-        }
+        };
+        (mark, target)
     }
 
     /// A data set whose values are in this file.
@@ -290,12 +342,12 @@ trait Steps: Bounded {
             {
                 ObjectKind::Text(shape)
             }
-            // Names of h5py and of MATLAB.
             Ok(TypeDescriptor::Compound(compound))
-                if compound.fields.iter().map(|f| f.name.as_str()).eq(["r", "i"]) =>
+                if is_pair(&compound, ["r", "i"]) || is_pair(&compound, ["real", "imag"]) =>
             {
                 ObjectKind::Complex(shape)
             }
+            Ok(TypeDescriptor::Reference(Reference::Object)) => ObjectKind::References(shape),
             _ => ObjectKind::Other,
         })
     }

@@ -114,6 +114,7 @@ fn found(reader: &OpenFile, question: Question) -> std::result::Result<Found, Er
         Question::Attribute(object, name) => Answer::Attribute(reader.attribute(&object, &name)?),
         Question::Attributes(object) => Answer::Attributes(reader.attributes(&object)?),
         Question::ReadTexts(name) => Answer::Names(reader.read_texts(&name)?),
+        Question::References(name) => Answer::Names(reader.references(&name)?),
         Question::Read(name) => return reader.read(&name).map(Found::Numbers),
         Question::ReadComplex(name) => return reader.read_complex(&name).map(Found::Complex),
         Question::ReadRange(name, range) => {

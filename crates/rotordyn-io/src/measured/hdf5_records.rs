@@ -3,22 +3,14 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::array::{Array, Data};
+use super::array::Data;
+use super::hdf5_arrays::Collected;
 use super::mapping::direction;
-use super::{arrays, unit_label};
-use crate::budget::{Budget, Limits, MAX_DEPTH};
+use super::{arrays, record_arrays, unit_label};
+use crate::budget::{Budget, Limits};
 use crate::error::Error;
-use crate::hdf5::{
-    Attribute, Link, LinkTarget, Links, ObjectKind, Reader, Store, open_reader, read_recording,
-};
-use rotordyn_signal::Complex;
+use crate::hdf5::{Attribute, Reader, Store, open_reader, read_recording};
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
-
-/// Attributes of data sets for unit, sampling rate, step and start in files of other programs.
-const UNITS: [&str; 3] = ["unit", "units", "Unit"];
-const RATES: [&str; 4] = ["fs", "sample_rate", "sampling_rate", "SamplingRate"];
-const STEPS: [&str; 3] = ["dt", "wf_increment", "step"];
-const STARTS: [&str; 2] = ["t0", "wf_start_offset"];
 
 /// Reads the channels and FRFs of a results file, else every numeric data set of any other file.
 ///
@@ -33,17 +25,9 @@ pub fn read(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
     }
     let size = std::fs::metadata(path).map_err(Error::of_file("read", path))?.len();
     let budget = Budget::new(limits, size);
-    let mut collected = Collected {
-        file: &*file,
-        budget: &budget,
-        found: Vec::new(),
-        left_out: Vec::new(),
-        seen: HashMap::new(),
-    };
-    collected.group("", 0)?;
-    let Collected { found, left_out, .. } = collected;
-    let mut out = arrays::to_records(&found, &budget).map_err(|exceeded| exceeded.of_file(path))?;
-    out.left_out = left_out;
+    let Collected { found, left_out, .. } = Collected::of_file(&*file, &budget)?;
+    let mut out = arrays::to_records(&found, &budget).map_err(|refusal| refusal.of_file(path))?;
+    out.left_out.splice(0..0, left_out);
     Ok(out)
 }
 
@@ -53,7 +37,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
 /// The file cannot be written.
 pub fn write(path: &Path, measured: &MeasuredData) -> Result<(), Error> {
     let store = Store::replace(path)?;
-    for array in arrays::from_records(measured, usize::MAX) {
+    for array in record_arrays::from_records(measured, usize::MAX) {
         let name = format!("/{}", array.name);
         let shape = if array.shape.is_empty() { vec![1] } else { array.shape.clone() };
         match &array.data {
@@ -63,145 +47,6 @@ pub fn write(path: &Path, measured: &MeasuredData) -> Result<(), Error> {
         }
     }
     store.commit()
-}
-
-/// The data sets of a file as arrays, with unit, rate and start from their attributes.
-struct Collected<'a> {
-    file: &'a dyn Reader,
-    budget: &'a Budget,
-    found: Vec<Array>,
-    /// Names of what is not read, with the reason.
-    left_out: Vec<String>,
-    /// Path of every group by the mark of its place.
-    seen: HashMap<String, String>,
-}
-
-impl Collected<'_> {
-    /// Every data set below a group ("" for the root), which is `depth` groups deep.
-    fn group(&mut self, group: &str, depth: usize) -> Result<(), Error> {
-        let whole = if group.is_empty() { "/" } else { group };
-        let Links { group: mark, links } = match self.file.links(whole) {
-            Ok(links) => links,
-            Err(error) => return self.leave_out(whole, error),
-        };
-        self.seen.insert(mark, whole.into());
-        self.count("links", links.len())?;
-        // MATLAB keeps the contents of cells in #refs#.
-        for Link { name, target } in links.into_iter().filter(|link| !link.name.starts_with('#')) {
-            let path = format!("{group}/{name}");
-            match target {
-                LinkTarget::Group(mark) => match self.seen.get(&mark) {
-                    Some(same) => self.left_out.push(format!("{path} (the group {same} again)")),
-                    None if depth == MAX_DEPTH => {
-                        self.left_out.push(format!("{path} (more than {MAX_DEPTH} groups deep)"));
-                    }
-                    None => self.group(&path, depth + 1)?,
-                },
-                LinkTarget::DataSet(kind) => {
-                    let bytes = memory_of(&kind);
-                    let whole = Budget::of_memory(self.file.memory());
-                    if let Err(exceeded) = whole.take(|| "it".into(), bytes) {
-                        let advice = exceeded.advice();
-                        self.left_out.push(format!("{path} ({exceeded}; {advice})"));
-                        continue;
-                    }
-                    // All data sets together are another matter than one that nobody can read.
-                    let taken = self.budget.take(|| path.clone(), bytes);
-                    taken.map_err(|exceeded| exceeded.of_file(self.file.path()))?;
-                    if let Err(error) = self.data_set(&path, kind) {
-                        self.leave_out(&path, error)?;
-                    }
-                }
-                LinkTarget::Nothing(why) => self.left_out.push(format!("{path} ({why})")),
-            }
-        }
-        Ok(())
-    }
-
-    /// Notes an object that cannot be read, unless nothing can be read any more.
-    fn leave_out(&mut self, path: &str, error: Error) -> Result<(), Error> {
-        self.file.contains("/")?;
-        match error {
-            Error::Content { problem, .. } => {
-                self.left_out.push(format!("{path} ({})", problem.trim_start_matches(&format!("{path}: "))));
-            }
-            other => return Err(other),
-        }
-        Ok(())
-    }
-
-    fn count(&self, what: &str, count: usize) -> Result<(), Error> {
-        self.budget.objects(what, count).map_err(|exceeded| exceeded.of_file(self.file.path()))
-    }
-
-    fn data_set(&mut self, path: &str, kind: ObjectKind) -> Result<(), Error> {
-        let name = path[1..].replace('/', "_");
-        let attributes = self.file.attributes(path)?;
-        let attribute = |names: &[&str]| {
-            names.iter().find_map(|name| Some(&attributes.iter().find(|(n, _)| n == name)?.1))
-        };
-        let number = |names: &[&str]| match attribute(names) {
-            Some(Attribute::Number(value)) => Some(*value),
-            Some(Attribute::Integer(value)) => Some(*value as f64),
-            Some(Attribute::Numbers(values)) if values.len() == 1 => Some(values[0]),
-            _ => None,
-        };
-        let text = |names: &[&str]| match attribute(names) {
-            Some(Attribute::Text(text)) => Some(text.clone()),
-            Some(Attribute::Texts(texts)) if texts.len() == 1 => Some(texts[0].clone()),
-            _ => None,
-        };
-        let is_text = text(&["MATLAB_class"]).as_deref() == Some("char");
-        let (shape, data) = match kind {
-            ObjectKind::Complex(_) => {
-                let array = self.file.read_complex(path)?;
-                (array.shape, Data::Complex(array.data))
-            }
-            ObjectKind::Text(shape) => (shape, Data::Text(self.file.read_texts(path)?)),
-            _ => {
-                let array = self.file.read(path)?;
-                match is_text {
-                    true => {
-                        let texts = matlab_texts(&array.shape, &array.data);
-                        (vec![texts.len()], Data::Text(texts))
-                    }
-                    false => (array.shape, Data::Real(array.data)),
-                }
-            }
-        };
-        let rate = number(&RATES).or_else(|| number(&STEPS).map(|step| 1.0 / step));
-        self.found.extend(rate.map(|rate| Array::scalar(&format!("{name}_fs"), rate)));
-        self.found.extend(number(&STARTS).map(|start| Array::scalar(&format!("{name}_t0"), start)));
-        if let Some(unit) = text(&UNITS) {
-            self.found.push(Array::text(&format!("{name}_unit"), &unit));
-        }
-        self.found.push(Array { name, shape, data });
-        Ok(())
-    }
-}
-
-/// Memory of the values of a data set \[bytes\].
-fn memory_of(kind: &ObjectKind) -> u64 {
-    let (shape, value) = match kind {
-        ObjectKind::Real(shape) => (shape, size_of::<f64>()),
-        ObjectKind::Complex(shape) => (shape, size_of::<Complex<f64>>()),
-        ObjectKind::Text(shape) => (shape, size_of::<String>()),
-        ObjectKind::Group | ObjectKind::Other => return 0,
-    };
-    shape.iter().fold(value as u64, |product, n| product.saturating_mul(*n as u64))
-}
-
-/// Rows of a text of MATLAB 7.3: codes over column and row.
-fn matlab_texts(shape: &[usize], codes: &[f64]) -> Vec<String> {
-    let [_, rows] = *shape else { return Vec::new() };
-    let row = |k: usize| {
-        let units = codes.iter().skip(k).step_by(rows).map(|&code| code as u16);
-        let text: String =
-            char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
-        text.trim_matches(|c: char| c == '\0' || c.is_whitespace()).to_owned()
-    };
-    // Empty ones state their size as numbers.
-    if codes.len() < rows { Vec::new() } else { (0..rows).map(row).collect() }
 }
 
 /// Channels, shaft speed and FRFs of a results file.

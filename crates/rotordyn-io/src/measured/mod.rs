@@ -11,13 +11,19 @@
 
 mod array;
 pub mod arrays;
+pub(crate) mod axis_names;
+#[cfg(feature = "hdf5")]
+mod hdf5_arrays;
 #[cfg(feature = "hdf5")]
 pub mod hdf5_records;
 #[cfg(feature = "hdf5")]
 pub mod impact_run;
 pub mod mapping;
+mod record_arrays;
+pub(crate) mod refusal;
 pub mod run_up;
 mod signal_calc;
+mod structures;
 #[cfg(feature = "hdf5")]
 pub mod test_data;
 pub mod unit_label;
@@ -111,8 +117,8 @@ pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> 
         return Err(content("the file is empty", "copy or export it again"));
     }
     let of_arrays = |(arrays, left_out, budget): (Vec<arrays::Array>, Vec<String>, Budget)| {
-        let mut out = arrays::to_records(&arrays, &budget).map_err(|exceeded| exceeded.of_file(path))?;
-        out.left_out = left_out;
+        let mut out = arrays::to_records(&arrays, &budget).map_err(|refusal| refusal.of_file(path))?;
+        out.left_out.splice(0..0, left_out);
         Ok::<_, Error>(out)
     };
     let mut out = match Format::of_content(&head) {
@@ -213,8 +219,8 @@ pub fn write(path: &Path, measured: &MeasuredData) -> Result<(), Error> {
             let geometry = if modern { uff::GeometrySets::Modern } else { uff::GeometrySets::Classic };
             uff::write(path, measured, uff::Options { geometry, ..uff::Options::default() })
         }
-        Some(Format::Mat) => mat::write(path, &arrays::from_records(measured, mat::MAX_NAME_LENGTH)),
-        Some(Format::Numpy) => npy::write(path, &arrays::from_records(measured, usize::MAX)),
+        Some(Format::Mat) => mat::write(path, &record_arrays::from_records(measured, mat::MAX_NAME_LENGTH)),
+        Some(Format::Numpy) => npy::write(path, &record_arrays::from_records(measured, usize::MAX)),
         Some(Format::Wav) => wav::write(path, &all, wav::SampleFormat::Float),
         Some(Format::Table) => csv::write_records(path, &all),
         #[cfg(feature = "hdf5")]

@@ -24,6 +24,8 @@ pub struct MeasuredData {
     pub records: Vec<Record>,
     /// Named scalars, such as a rotational speed.
     pub scalars: Vec<(String, f64)>,
+    /// Names of records with what in the file states their axis, such as "`bearing.sr` (97656)".
+    pub axis_sources: Vec<(String, String)>,
     pub geometry: Geometry,
     pub shapes: Vec<Shape>,
     /// Assumptions and corrections made by the reader, as text.

@@ -1,0 +1,247 @@
+//! The arrays of a file by their structures, and the axes that structures state.
+//!
+//! `rig.acc.x` belongs to the structure `rig.acc`; what the array itself states (`rig.acc.x.fs`, an attribute of a data
+//! set) wins over what its structure states, and this over what the structures around it state.
+
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
+
+use super::array::{Array, Data};
+use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning};
+use super::refusal::Refusal;
+use crate::budget::MAX_DEPTH;
+use rotordyn_signal::record::{Axis, AxisQuantity, Points};
+
+const UNITS: [&str; 4] = ["unit", "units", "unit_string", "y_unit_label"];
+
+/// Structure of a path, `bearing` of `bearing.gs`; "" for none.
+pub(super) fn structure_of(name: &str) -> &str {
+    name.rsplit_once('.').map_or("", |(structure, _)| structure)
+}
+
+/// Name without the structure's path.
+pub(super) fn last_name(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(_, last)| last)
+}
+
+/// The arrays of a file.
+pub(super) struct Structures<'a> {
+    pub arrays: &'a [Array],
+    /// Place of the first array of a name.
+    places: HashMap<&'a str, usize>,
+    /// What the arrays of a structure ("" for none) state of axes, the most definite first.
+    stated: HashMap<&'a str, Vec<(Meaning, usize)>>,
+    /// Place of the first unit of a structure.
+    units: HashMap<&'a str, usize>,
+    /// Number of numeric arrays of a structure that are records.
+    records: HashMap<&'a str, usize>,
+    /// Places of the arrays that have been taken as axis, unit or title.
+    used: RefCell<HashSet<usize>>,
+}
+
+/// A list of times or frequencies.
+#[derive(Clone, Copy)]
+pub(super) struct AxisList<'a> {
+    pub quantity: AxisQuantity,
+    pub values: &'a [f64],
+    place: usize,
+    meaning: Meaning,
+    /// Structures further out than the record.
+    distance: usize,
+}
+
+/// The axes that hold for the records of a structure: its own, else those of the structures around it.
+#[derive(Default)]
+pub(super) struct Axes<'a> {
+    /// Rates, steps, starts and counts of the nearest structure that states a rate.
+    rates: Vec<(StatedRate, usize)>,
+    distance: usize,
+    start: Option<(f64, usize)>,
+    count: Option<(f64, usize)>,
+    pub time: Option<AxisList<'a>>,
+    pub frequency: Option<AxisList<'a>>,
+}
+
+impl<'a> Structures<'a> {
+    pub fn new(arrays: &'a [Array]) -> Self {
+        let mut found = Self {
+            arrays,
+            places: HashMap::new(),
+            stated: HashMap::new(),
+            units: HashMap::new(),
+            records: HashMap::new(),
+            used: RefCell::default(),
+        };
+        for (place, array) in arrays.iter().enumerate() {
+            found.places.entry(array.name.as_str()).or_insert(place);
+            let (structure, last) = (structure_of(&array.name), last_name(&array.name));
+            if let Some(meaning) = meaning_of(array, last) {
+                found.stated.entry(structure).or_default().push((meaning, place));
+            } else if array.as_text().is_some() && UNITS.iter().any(|unit| unit.eq_ignore_ascii_case(last)) {
+                found.units.entry(structure).or_insert(place);
+            } else if array.data.len() > 1 && !matches!(array.data, Data::Text(_)) {
+                *found.records.entry(structure).or_default() += 1;
+            }
+        }
+        for stated in found.stated.values_mut() {
+            // Of `t` and `T` the second may be a temperature.
+            let capital = |place: usize| {
+                let last = last_name(&arrays[place].name);
+                last.len() == 1 && last != last.to_lowercase()
+            };
+            stated.sort_by_key(|(meaning, place)| (meaning.rank, capital(*place), *place));
+        }
+        found
+    }
+
+    pub fn get(&self, name: &str) -> Option<&'a Array> {
+        self.places.get(name).map(|&k| &self.arrays[k])
+    }
+
+    pub fn use_array(&self, place: usize) {
+        self.used.borrow_mut().insert(place);
+    }
+
+    /// As [`Self::get`], of an array that is taken as title, axis or unit.
+    pub fn get_used(&self, name: &str) -> Option<&'a Array> {
+        let place = *self.places.get(name)?;
+        self.use_array(place);
+        Some(&self.arrays[place])
+    }
+
+    pub fn is_used(&self, place: usize) -> bool {
+        self.used.borrow().contains(&place)
+    }
+
+    /// Whether an array is a list of times or frequencies.
+    pub fn is_axis_list(&self, place: usize) -> bool {
+        let array = &self.arrays[place];
+        array.data.len() > 1 && meaning_of(array, last_name(&array.name)).is_some()
+    }
+
+    /// What holds for the records of an array.
+    pub fn axes(&self, array: &'a Array) -> Result<Axes<'a>, Refusal> {
+        let mut found = Axes::default();
+        let mut at = array.name.as_str();
+        for distance in 0..=MAX_DEPTH + 1 {
+            if let Some(stated) = self.stated.get(at) {
+                self.add(&mut found, stated, distance)?;
+            }
+            if at.is_empty() {
+                break;
+            }
+            at = structure_of(at);
+        }
+        Ok(found)
+    }
+
+    fn add(&self, found: &mut Axes<'a>, stated: &[(Meaning, usize)], distance: usize) -> Result<(), Refusal> {
+        let scalar = |role: Role| {
+            let of_role = stated.iter().find(|(meaning, _)| meaning.role == role);
+            of_role.and_then(|(_, place)| Some((self.arrays[*place].as_scalar()?, *place)))
+        };
+        if found.rates.is_empty() {
+            let rates = stated.iter().filter_map(|(meaning, place)| {
+                let array = &self.arrays[*place];
+                Some((meaning, StatedRate::of(meaning, &array.name, array.as_scalar()?)?, *place))
+            });
+            let (uncertain, certain): (Vec<_>, Vec<_>) = rates.partition(|(meaning, ..)| meaning.uncertain);
+            check_same(certain.iter().map(|(_, rate, _)| rate))?;
+            let chosen = if certain.is_empty() { uncertain.into_iter().take(1).collect() } else { certain };
+            found.rates = chosen.into_iter().map(|(_, rate, place)| (rate, place)).collect();
+            found.distance = distance;
+            found.start = if found.rates.is_empty() { None } else { scalar(Role::Start) };
+        }
+        found.count = found.count.or_else(|| scalar(Role::Count));
+        let list = |role: Role, quantity: AxisQuantity| {
+            let of_role = stated.iter().find(|(meaning, _)| meaning.role == role);
+            of_role.and_then(|&(meaning, place)| {
+                let values = self.arrays[place].as_list()?;
+                Some(AxisList { quantity, values, place, meaning, distance })
+            })
+        };
+        found.time = found.time.or_else(|| list(Role::Times, AxisQuantity::Time));
+        found.frequency = found.frequency.or_else(|| list(Role::Frequencies, AxisQuantity::Frequency));
+        Ok(())
+    }
+
+    /// The axis of a record of `count` values, and what states it.
+    pub fn axis(&self, axes: &Axes<'a>, count: usize, is_time: bool) -> Result<(Axis, String), Refusal> {
+        let frequency = axes.frequency.filter(|list| list.values.len() == count && !is_time);
+        let time = axes.time.filter(|list| list.values.len() == count);
+        let nearest = [frequency, time].into_iter().flatten().min_by_key(|list| list.distance);
+        let rate = axes.rates.first();
+        let list = match (nearest, rate) {
+            (Some(list), Some(_)) if list.distance > axes.distance => None,
+            (Some(list), _) => Some(list),
+            (None, _) => None,
+        };
+        if let Some(list) = list {
+            self.use_array(list.place);
+            let axis = list.axis();
+            let source = format!("`{}`", self.arrays[list.place].name);
+            if let (AxisQuantity::Time, Points::Uniform { step, .. }) = (axis.quantity, &axis.points)
+                && let Some((rate, place)) = rate
+                && list.distance == axes.distance
+            {
+                let of_list = StatedRate { rate: 1.0 / step, step: *step, source: source.clone() };
+                check_same([rate, &of_list])?;
+                self.use_array(*place);
+            }
+            return Ok((axis, source));
+        }
+        let Some((stated, _)) = rate else { return Ok((Axis::UNKNOWN, String::new())) };
+        axes.rates.iter().for_each(|(_, place)| self.use_array(*place));
+        let start = axes.start.map_or(0.0, |(start, place)| {
+            self.use_array(place);
+            start
+        });
+        Ok((Axis::uniform(AxisQuantity::Time, start, stated.step), stated.source.clone()))
+    }
+
+    /// Number of samples that is stated for the records of a structure.
+    pub fn count(&self, axes: &Axes<'a>) -> Option<(f64, &'a str)> {
+        let (count, place) = axes.count?;
+        self.use_array(place);
+        Some((count, &self.arrays[place].name))
+    }
+
+    /// Unit stated by an attribute of an array, or beside the only record of its structure.
+    pub fn unit(&self, array: &'a Array) -> Option<&'a str> {
+        let structure = structure_of(&array.name);
+        let alone = !structure.is_empty() && self.records.get(structure) == Some(&1);
+        let own = self.units.get(array.name.as_str());
+        let place = own.or_else(|| self.units.get(structure).filter(|_| alone))?;
+        self.use_array(*place);
+        self.arrays[*place].as_text()
+    }
+}
+
+impl Axes<'_> {
+    pub fn are_unknown(&self) -> bool {
+        self.rates.is_empty() && self.time.is_none() && self.frequency.is_none()
+    }
+}
+
+impl AxisList<'_> {
+    fn axis(&self) -> Axis {
+        let Meaning { numerator, divisor, .. } = self.meaning;
+        let si = |v: &f64| if numerator == divisor { *v } else { v * numerator / divisor };
+        Axis::from_points(self.quantity, self.values.iter().map(si).collect())
+    }
+}
+
+/// What an array states of an axis by its name and form: a number, or a list that increases.
+fn meaning_of(array: &Array, last: &str) -> Option<Meaning> {
+    if let Some(value) = array.as_scalar() {
+        let meaning = meaning(last, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
+        let possible = match meaning.role {
+            Role::Rate | Role::Step => StatedRate::of(&meaning, last, value).is_some(),
+            _ => value.is_finite(),
+        };
+        return possible.then_some(meaning);
+    }
+    let list = array.as_list()?;
+    let meaning = meaning(last, &[Role::Times, Role::Frequencies])?;
+    list.windows(2).all(|pair| pair[0] < pair[1]).then_some(meaning)
+}
