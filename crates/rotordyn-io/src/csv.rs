@@ -1,6 +1,13 @@
 //! CSV with a header of names and units, '.' as decimal sign, constant step.
 
+mod columns;
+mod date_time;
+pub(crate) mod encoding;
+mod lvm;
 mod read;
+mod settings;
+mod style;
+mod table_axis;
 
 pub use read::read;
 

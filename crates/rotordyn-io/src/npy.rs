@@ -48,7 +48,8 @@ pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Bu
     if is_npy(&bytes) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let found = array(&name, &bytes, &budget).map_err(content)?;
-        let left_out = if found.is_none() { vec![name] } else { Vec::new() };
+        let reason = format!("{name} (Python objects or a structured type)");
+        let left_out = if found.is_none() { vec![reason] } else { Vec::new() };
         return Ok((found.into_iter().collect(), left_out, budget));
     }
     let (arrays, left_out) = archive(&bytes, &budget).map_err(content)?;

@@ -1,10 +1,10 @@
-//! WAV files: PCM of 8 to 32 bits and 32-bit floats read, 32-bit floats or PCM written.
+//! WAV files: PCM of 8 to 64 bits and floats of 32 and 64 bits read, 32-bit floats or PCM written.
 //!
-//! The only module that uses the hound crate. PCM values are fractions of full scale, −1 to 1; WAV has no
-//! units.
+//! The only module that uses the hound crate, which writes; it reads neither 64-bit floats nor RF64. PCM values are
+//! fractions of full scale, −1 to 1; WAV has no units.
 
-use std::fs::File;
-use std::io::BufReader;
+mod chunks;
+
 use std::path::Path;
 
 use crate::atomic_file::NewFile;
@@ -24,68 +24,20 @@ pub enum SampleFormat {
 
 /// Whether a file starts with a WAV header.
 pub fn is_wav(head: &[u8]) -> bool {
-    head.starts_with(b"RIFF") && head.get(8..12) == Some(b"WAVE")
+    chunks::is_wav(head)
 }
 
 /// Reads every channel, named after the file and numbered if there is more than one.
 ///
 /// # Errors
-/// The file cannot be read, is cut off, has another encoding than PCM and 32-bit floats, or exceeds its budget.
+/// The file cannot be read, is cut off, has another encoding than PCM and floats, or exceeds its budget.
 pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
-    let failed = |error: hound::Error| failure("read", path, error);
-    let file = File::open(path).map_err(Error::of_file("read", path))?;
-    let size = budget::regular_size(path, &file)?;
-    let budget = Budget::new(limits, size);
-    let mut file = hound::WavReader::new(BufReader::new(file)).map_err(failed)?;
-    let spec = file.spec();
-    let expected = file.len() as usize;
-    let channels = usize::from(spec.channels).max(1);
-    budget.objects("channels", channels).map_err(|e| e.of_file(path))?;
-    // The header states any number of samples where the writer did not come to its end.
-    let bytes = u64::from(spec.bits_per_sample / 8).max(1);
-    let there = usize::try_from(size / bytes).unwrap_or(usize::MAX).min(expected);
-    let mut values: Vec<f64> =
-        budget.list(|| "the list of samples".into(), there).map_err(|e| e.of_file(path))?;
-    match spec.sample_format {
-        hound::SampleFormat::Float => {
-            for sample in file.samples::<f32>().take(there) {
-                match sample {
-                    Ok(sample) => values.push(f64::from(sample)),
-                    // The end of the file, of which the number of samples tells.
-                    Err(hound::Error::IoError(_)) => break,
-                    Err(error) => return Err(failed(error)),
-                }
-            }
-        }
-        hound::SampleFormat::Int => {
-            let full_scale = 2.0_f64.powi(i32::from(spec.bits_per_sample) - 1);
-            for sample in file.samples::<i32>().take(there) {
-                match sample {
-                    Ok(sample) => values.push(f64::from(sample) / full_scale),
-                    Err(hound::Error::IoError(_)) => break,
-                    Err(error) => return Err(failed(error)),
-                }
-            }
-        }
-    }
-    let content =
-        |problem: String, advice: &str| Error::Content { path: path.into(), problem, advice: advice.into() };
-    if values.len() < expected || values.is_empty() {
-        let problem = format!("the file is cut off: {} of {expected} samples", values.len());
-        return Err(content(problem, "copy the file again"));
-    }
-    if spec.sample_rate == 0 {
-        return Err(content("the sampling rate is 0 Hz".into(), "write the file again with its rate"));
-    }
-    budget.take_values::<f64>(|| "the channels".into(), values.len()).map_err(|e| e.of_file(path))?;
+    let (bytes, budget) = budget::read_file(path, limits)?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let record = |channel: usize| {
-        let name = if channels == 1 { stem.to_string() } else { format!("{stem}_{}", channel + 1) };
-        let samples = values.iter().skip(channel).step_by(channels).copied().collect();
-        Record::samples(&name, f64::from(spec.sample_rate), 0.0, samples, "")
-    };
-    let records = (0..channels).map(record).collect();
-    Ok((MeasuredData { records, ..MeasuredData::default() }, budget))
+    match chunks::records(&bytes, &stem, &budget) {
+        Ok(found) => Ok((found, budget)),
+        Err(refusal) => Err(refusal.of_file(path)),
+    }
 }
 
 /// Writes time records of one rate and length as the channels of one file.

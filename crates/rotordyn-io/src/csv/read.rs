@@ -2,186 +2,45 @@
 //!
 //! The separator (comma, semicolon, tab or blanks) is the one that splits the first data line into numbers; a
 //! decimal comma is accepted with the other three. Lines that begin with `#`, `%` or `//` are comments. Names
-//! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, or a line of units follows them. Columns `x_re`,
-//! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`.
+//! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, `a / m/s²`, or a line of units follows them. Columns `x_re`,
+//! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`. The axis is a column of times or frequencies, of
+//! dates, the first column of a table without names if it increases uniformly, or the rate that a line states.
 
-use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
+use super::columns::{Column, columns};
+use super::date_time::{Stamp, seconds};
+use super::encoding::decoded;
+use super::settings::stated;
+use super::style::TableStyle;
+use super::{lvm, table_axis};
 use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
-use crate::measured::unit_label::{self, SiUnit};
+use crate::measured::refusal::Refusal;
 use rotordyn_signal::Complex;
-use rotordyn_signal::record::{Axis, AxisQuantity, Kind, MeasuredData, Points, Record, Values};
+use rotordyn_signal::record::{Axis, Kind, MeasuredData, Record, Values};
 
-/// A real or complex value; `None` for an empty cell.
-type Cell = Option<Complex<f64>>;
-
-/// Reads a table.
+/// Reads a table, or a LabVIEW measurement file.
 ///
 /// # Errors
 /// The file cannot be read, contains no numbers, a line has another number of cells, a cell is not a number,
-/// an axis does not increase, or the contents exceed the budget.
+/// an axis does not increase, dates may be read in two ways, two sampling rates are stated, or the contents exceed the
+/// budget.
 pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
     let (bytes, budget) = budget::read_file(path, limits)?;
     let mut notes = Vec::new();
     let text = decoded(bytes, &budget, &mut notes).map_err(|exceeded| exceeded.of_file(path))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let text = text.trim_start_matches('\u{feff}');
-    let mut found = parse(text, &stem, &budget).map_err(|error| error.of_file(path))?;
+    let found = if lvm::is_lvm(text) { lvm::parse(text, &budget) } else { parse(text, &stem, &budget) };
+    let mut found = found.map_err(|refusal| refusal.of_file(path))?;
     found.notes.splice(0..0, notes);
     Ok((found, budget))
 }
 
-/// Text in UTF-8, or in UTF-16 with its byte order mark, else in Latin-1, which has degree signs.
-fn decoded(bytes: Vec<u8>, budget: &Budget, notes: &mut Vec<String>) -> Result<String, Exceeded> {
-    let utf_16: Option<fn([u8; 2]) -> u16> = match bytes {
-        _ if bytes.starts_with(&[0xff, 0xfe]) => Some(u16::from_le_bytes),
-        _ if bytes.starts_with(&[0xfe, 0xff]) => Some(u16::from_be_bytes),
-        _ => None,
-    };
-    let text = || "the text".to_owned();
-    let Some(unit) = utf_16 else {
-        return String::from_utf8(bytes).or_else(|error| {
-            budget.take(text, 2 * error.as_bytes().len() as u64)?;
-            Ok(error.as_bytes().iter().map(|&b| char::from(b)).collect())
-        });
-    };
-    // Two bytes become three at most.
-    let mut out = String::from_utf8(budget.list(text, bytes.len() / 2 * 3)?).unwrap_or_default();
-    let (pairs, rest) = bytes.as_chunks::<2>();
-    let mut damaged = rest.len();
-    for letter in char::decode_utf16(pairs.iter().map(|pair| unit(*pair))) {
-        damaged += usize::from(letter.is_err());
-        out.push(letter.unwrap_or(char::REPLACEMENT_CHARACTER));
-    }
-    if damaged > 0 {
-        notes.push(format!("the text is damaged: {damaged} characters are not valid UTF-16"));
-    }
-    Ok(out)
-}
-
-/// Error message and hint.
-struct ParseError(String, String);
-
-impl ParseError {
-    fn new(problem: String, advice: &str) -> Self {
-        Self(problem, advice.into())
-    }
-
-    fn of_file(self, path: &Path) -> Error {
-        Error::Content { path: path.into(), problem: self.0, advice: self.1 }
-    }
-}
-
-impl From<Exceeded> for ParseError {
-    fn from(exceeded: Exceeded) -> Self {
-        Self(exceeded.to_string(), exceeded.advice())
-    }
-}
-
 const FORMAT_HINT: &str = "write one line of names and then numbers, separated by commas";
-
-/// Separator and decimal sign of a table.
-#[derive(Clone, Copy)]
-struct TableStyle {
-    /// A blank means any number of blanks.
-    separator: char,
-    decimal_comma: bool,
-}
-
-impl TableStyle {
-    /// The style in which every cell of a line is a number.
-    fn of(line: &str) -> Option<TableStyle> {
-        let styles =
-            [('\t', false), (';', false), (',', false), (' ', false), ('\t', true), (';', true), (' ', true)];
-        styles.into_iter().map(|(separator, decimal_comma)| TableStyle { separator, decimal_comma }).find(
-            |style| {
-                let cells = style.split(line);
-                // A single cell has no separator.
-                let is_separated =
-                    cells.len() > 1 || style.separator == ' ' || !line.contains([',', ';', '\t']);
-                is_separated
-                    && cells.iter().any(|c| !c.is_empty())
-                    && cells.iter().all(|c| style.value(c).is_some())
-            },
-        )
-    }
-
-    fn split<'a>(&self, line: &'a str) -> Vec<&'a str> {
-        let clean = |cell: &'a str| cell.trim().trim_matches('"').trim();
-        match self.separator {
-            ' ' => line.split_whitespace().map(clean).collect(),
-            separator => line.split(separator).map(clean).collect(),
-        }
-    }
-
-    /// The cell's value: `Some(None)` for an empty one, `None` if it is not a number.
-    fn value(&self, cell: &str) -> Option<Cell> {
-        if cell.is_empty() {
-            return Some(None);
-        }
-        let cell: Cow<str> = if self.decimal_comma { cell.replace(',', ".").into() } else { cell.into() };
-        if let Ok(number) = cell.parse::<f64>() {
-            return Some(Some(number.into()));
-        }
-        if ["#n/a", "n/a", "na", "-nan", "1.#qnan"].iter().any(|missing| cell.eq_ignore_ascii_case(missing)) {
-            return Some(Some(f64::NAN.into()));
-        }
-        complex(&cell).map(Some)
-    }
-}
-
-/// `(1.0-2.0e-3j)`, `1+2i`, `-2j`.
-fn complex(cell: &str) -> Option<Complex<f64>> {
-    let inner = cell.trim_start_matches('(').trim_end_matches(')');
-    let body = inner.strip_suffix(['j', 'i', 'J', 'I'])?;
-    let sign = body
-        .char_indices()
-        .skip(1)
-        .filter(|&(at, c)| matches!(c, '+' | '-') && !body[..at].ends_with(['e', 'E']));
-    match sign.last() {
-        Some((at, _)) => {
-            Some(Complex::new(body[..at].trim().parse().ok()?, body[at..].replace(' ', "").parse().ok()?))
-        }
-        None => Some(Complex::new(0.0, body.parse().ok()?)),
-    }
-}
-
-struct Column {
-    name: String,
-    /// As written.
-    stated: String,
-    si: Option<SiUnit>,
-    /// Real parts, NaN for empty cells.
-    re: Vec<f64>,
-    /// Imaginary parts; empty as long as all are zero.
-    im: Vec<f64>,
-    /// Number of cells up to the last that is not empty.
-    length: usize,
-}
-
-impl Column {
-    fn new(name: String, stated: String, si: Option<SiUnit>) -> Self {
-        Column { name, stated, si, re: Vec::new(), im: Vec::new(), length: 0 }
-    }
-
-    fn push(&mut self, cell: Cell) {
-        let value = cell.unwrap_or(Complex::new(f64::NAN, 0.0));
-        if value.im != 0.0 && self.im.is_empty() {
-            self.im.resize(self.re.len(), 0.0);
-        }
-        if value.im != 0.0 || !self.im.is_empty() {
-            self.im.push(value.im);
-        }
-        self.re.push(value.re);
-        if cell.is_some() {
-            self.length = self.re.len();
-        }
-    }
-}
 
 /// Lines that are longer are searched for their number of cells before they are split \[bytes\].
 const LONG_LINE: usize = 100_000;
@@ -196,51 +55,80 @@ fn check_width(line: &str, budget: &Budget) -> Result<(), Exceeded> {
     cells.max().map_or(Ok(()), |most| budget.check_objects("columns", most))
 }
 
-fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, ParseError> {
+fn is_comment(line: &str) -> bool {
+    line.starts_with(['#', '%']) || line.starts_with("//")
+}
+
+/// Whether a line says nothing: separators only, or the separator for Excel.
+fn is_bare(line: &str) -> bool {
+    line.trim_matches([' ', '\t', ',', ';', '"', '#', '%', '/', '-', '=']).is_empty()
+        || line.starts_with("sep=")
+}
+
+fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Refusal> {
     let lines = text.lines().enumerate().map(|(k, line)| (k + 1, line)).filter(|(_, l)| !l.trim().is_empty());
-    let is_comment = |line: &str| line.starts_with(['#', '%']) || line.starts_with("//");
-    // The last lines before the numbers, with and without comments: units and names are among them.
-    let (mut last_header, mut header_lines) = ("", Vec::new());
+    // The lines before the numbers: rates, names and units are among them.
+    let mut before = Vec::new();
     let mut data = lines.clone();
     let (first, mut style) = loop {
-        let before = data.clone();
+        let here = data.clone();
         let Some((_, line)) = data.next() else {
-            return Err(ParseError::new("the file contains no line of numbers".into(), FORMAT_HINT));
+            return Err(Refusal::new("the file contains no line of numbers", FORMAT_HINT));
         };
         if !is_comment(line) {
             check_width(line, budget)?;
             if let Some(style) = TableStyle::of(line) {
-                data = before;
+                data = here;
                 break (line, style);
             }
-            budget.take_values::<&str>(|| "the header".into(), 1)?;
-            header_lines.push(line);
         }
-        last_header = line;
+        budget.take_values::<[&str; 2]>(|| "the header".into(), 1)?;
+        before.push(line);
     };
+    let settings: Vec<_> = before.iter().filter_map(|line| stated(line)).collect();
+    let last_comment = before.last().copied().filter(|line| is_comment(line) && stated(line).is_none());
+    let header_lines: Vec<&str> =
+        before.iter().copied().filter(|line| !is_comment(line) && stated(line).is_none()).collect();
     // Numbers with a decimal comma in one column look like two columns: the header line decides.
     if let Some(head) = header_lines.last()
         && style.separator == ','
+        && style.stamps == 0
         && head.contains([';', '\t'])
     {
-        style = TableStyle { separator: if head.contains(';') { ';' } else { '\t' }, decimal_comma: true };
+        let separator = if head.contains(';') { ';' } else { '\t' };
+        style = TableStyle { separator, decimal_comma: true, ..style };
     }
     let width = style.split(first).len();
     budget.objects("columns", width)?;
-    let mut columns = header(&header_lines, last_header, style, width, stem);
+    let (mut columns, used) = columns(&header_lines, last_comment, style, width, stem);
+    let nameless = used.lines.is_empty() && !used.comment;
 
+    let mut stamps = Vec::new();
     for (number, line) in data.filter(|(_, line)| !is_comment(line)) {
-        let cells = style.split(line);
+        let mut cells = style.split(line);
+        // The last line may have no separator at its end.
+        if cells.len() + 1 == width && columns.last().is_some_and(|column| column.length == 0) {
+            cells.push("");
+        }
         if cells.len() != width {
             let problem = format!("line {number} has {} cells, the first data line has {width}", cells.len());
-            return Err(ParseError::new(problem, "the file is cut off or damaged: copy or export it again"));
+            return Err(Refusal::new(problem, "the file is cut off or damaged: copy or export it again"));
         }
         // A column and the record of it.
         budget.take_values::<[f64; 2]>(|| "the numbers".into(), width)?;
-        for (column, cell) in columns.iter_mut().zip(cells) {
+        if style.stamps > 0 {
+            budget.take_values::<Stamp>(|| "the times".into(), 1)?;
+            let text = cells[..style.stamps].join(" ");
+            let stamp = Stamp::read(&text).ok_or_else(|| {
+                let text = snippet(&text);
+                Refusal::new(format!("`{text}` in line {number} is not a date and a time"), FORMAT_HINT)
+            })?;
+            stamps.push(stamp);
+        }
+        for (column, cell) in columns.iter_mut().zip(&cells[style.stamps..]) {
             let value = style.value(cell).ok_or_else(|| {
                 let (cell, name) = (snippet(cell), snippet(&column.name));
-                ParseError::new(
+                Refusal::new(
                     format!("`{cell}` in line {number}, column `{name}`, is not a number"),
                     FORMAT_HINT,
                 )
@@ -248,82 +136,44 @@ fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, ParseE
             column.push(value);
         }
     }
-    // A separator at the end of every line makes an empty column.
+    let mut out = MeasuredData::default();
+    // A separator at the end of every line makes an empty column without a name.
+    let is_named = |name: &str| !nameless && !name.starts_with(&format!("{stem}_"));
+    let empty = columns.iter().filter(|c| c.length == 0 && is_named(&c.name));
+    out.left_out.extend(empty.map(|column| format!("{} (an empty column)", column.name)));
     columns.retain(|c| c.length > 0);
-    records(columns, budget)
+    out.left_out.extend(unread_lines(&before, &header_lines, &used.lines, used.comment));
+    let mut date = String::new();
+    let mut times = None;
+    if style.stamps > 0 {
+        date = style.split(first)[..style.stamps].join(" ");
+        times = Some(seconds(&stamps)?);
+    }
+    let source = table_axis::Source { settings, times, nameless };
+    let axis = table_axis::of_table(&mut columns, source, budget, &mut out)?;
+    records(columns, &axis, &mut out);
+    out.records.iter_mut().for_each(|record| record.date.clone_from(&date));
+    Ok(out)
 }
 
-/// Names and units of the columns from the lines before the numbers.
-fn header(header_lines: &[&str], last: &str, style: TableStyle, width: usize, stem: &str) -> Vec<Column> {
-    let cells = |line: &str| -> Option<Vec<String>> {
-        let cells: Vec<String> = match style.separator {
-            // Names may contain blanks; then commas separate them.
-            ' ' if line.contains(',') => line.split(',').map(|c| c.trim().to_owned()).collect(),
-            _ => style.split(line).into_iter().map(str::to_owned).collect(),
-        };
-        (cells.len() == width).then_some(cells)
+/// What of the lines before the numbers says something that is not read, as one entry.
+fn unread_lines(before: &[&str], header_lines: &[&str], used: &[usize], comment: bool) -> Option<String> {
+    let used: Vec<&str> = used.iter().map(|&k| header_lines[k]).collect();
+    let last = before.len().saturating_sub(1);
+    let is_used = |k: usize, line: &str| {
+        used.iter().any(|used| std::ptr::eq(*used, line)) || (comment && k == last) || stated(line).is_some()
     };
-    let mut rows: Vec<Vec<String>> =
-        header_lines.iter().rev().filter_map(|line| cells(line)).take(2).collect();
-    rows.reverse();
-    if rows.is_empty() {
-        // numpy.savetxt puts names into a comment.
-        rows.extend(cells(last.trim_start_matches(['#', '%', '/', ' '])));
-    }
-    let units = match rows.len() {
-        0 | 1 => None,
-        _ => rows.last().filter(|row| {
-            let bare =
-                |cell: &String| unit_cell(cell).is_empty() || unit_label::si(unit_cell(cell)).is_some();
-            row.iter().all(bare)
-        }),
-    };
-    let names = if units.is_some() { rows.get(rows.len() - 2) } else { rows.last() };
-    (0..width)
-        .map(|k| {
-            let alone = if width == 1 { stem.to_owned() } else { format!("{stem}_{}", k + 1) };
-            let name = names.map(|row| row[k].clone()).filter(|name| !name.is_empty()).unwrap_or(alone);
-            match units {
-                Some(row) => {
-                    let stated = unit_cell(&row[k]).to_owned();
-                    Column::new(name, stated.clone(), unit_label::si(&stated))
-                }
-                None => column(&name),
-            }
-        })
-        .collect()
-}
-
-fn unit_cell(cell: &str) -> &str {
-    cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')'])
-}
-
-/// A column from its name, with the unit in brackets or as a suffix.
-fn column(name: &str) -> Column {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some(at) = name.find(open).filter(|_| name.ends_with(close)) {
-            let (base, stated) = (name[..at].trim(), &name[at + 1..name.len() - 1]);
-            if !base.is_empty() {
-                return Column::new(base.into(), stated.into(), unit_label::si(stated));
-            }
-        }
-    }
-    match unit_label::split_unit_suffix(name) {
-        Some((base, si)) => Column::new(base.into(), name[base.len() + 1..].into(), Some(si)),
-        None => Column::new(name.into(), String::new(), None),
-    }
-}
-
-/// Axis quantity of a column, by its name and unit; `None` if it is not an axis.
-fn axis_of(column: &Column) -> Option<AxisQuantity> {
-    let name = column.name.to_lowercase();
-    let unit = column.si.as_ref().map(|si| si.name.as_str());
-    match (name.as_str(), unit) {
-        ("time" | "t" | "times" | "zeit" | "x", Some("s")) | ("time" | "t", None) => Some(AxisQuantity::Time),
-        ("frequency" | "freq" | "f" | "frequencies" | "x", Some("Hz")) => Some(AxisQuantity::Frequency),
-        ("frequency" | "freq" | "f", None) => Some(AxisQuantity::Frequency),
-        _ => None,
-    }
+    let mut unread = before
+        .iter()
+        .enumerate()
+        .filter(|(k, line)| !is_used(*k, line) && !is_bare(line))
+        .map(|(_, line)| line);
+    let first = unread.next()?;
+    let (first, more) = (snippet(first.trim()), unread.count());
+    Some(match more {
+        0 => format!("a line before the numbers (`{first}`)"),
+        more => format!("{} lines before the numbers (`{first}`, ...)", more + 1),
+    })
 }
 
 /// The column `x_im` for each `x_re` of the same unit.
@@ -341,31 +191,8 @@ fn imaginary_parts(columns: &[Column]) -> HashMap<usize, usize> {
     re.iter().filter_map(|(of, k)| Some((*k, *im.get(of)?))).collect()
 }
 
-fn records(mut columns: Vec<Column>, budget: &Budget) -> Result<MeasuredData, ParseError> {
-    let mut out = MeasuredData::default();
-    let mut axis: Option<(AxisQuantity, Vec<f64>)> = None;
-    let place = columns.iter().position(|c| axis_of(c).is_some()).filter(|_| columns.len() > 1);
-    if let Some(at) = place {
-        let column = columns.remove(at);
-        let quantity = axis_of(&column).unwrap_or_default();
-        let (up, down) = column.si.as_ref().map_or((1.0, 1.0), |si| (si.numerator, si.divisor));
-        let points: Vec<f64> =
-            column.re.iter().map(|v| if up == down { *v } else { v * up / down }).collect();
-        if let Some(k) = points
-            .windows(2)
-            .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
-        {
-            let problem = format!("`{}` does not increase after its value {}", column.name, k + 1);
-            return Err(ParseError::new(problem, "sort the lines, and remove duplicate and empty ones"));
-        }
-        if let Axis { points: Points::NonUniform(_), .. } = Axis::from_points(quantity, points.clone()) {
-            out.notes.push(format!("`{}` is not uniformly spaced", column.name));
-            // Every record has its own list.
-            let all = points.len().saturating_mul(columns.len());
-            budget.take_values::<f64>(|| "the axes of the columns".into(), all)?;
-        }
-        axis = Some((quantity, points));
-    }
+/// Adds the record of every column over the axis.
+fn records(mut columns: Vec<Column>, axis: &table_axis::TableAxis, out: &mut MeasuredData) {
     let partners = imaginary_parts(&columns);
     let is_partner: HashSet<usize> = partners.values().copied().collect();
     for k in (0..columns.len()).filter(|k| !is_partner.contains(k)) {
@@ -390,22 +217,21 @@ fn records(mut columns: Vec<Column>, budget: &Budget) -> Result<MeasuredData, Pa
         if let Some(si) = &column.si {
             values.scale(si.numerator, si.divisor);
         }
-        let axis = match &axis {
-            Some((quantity, points)) => Axis::from_points(*quantity, points[..column.length].to_vec()),
-            None => Axis::UNKNOWN,
-        };
+        let axis_of_record: Axis = axis.of(column.length);
         if partner.is_some() {
             name.truncate(name.len() - "_re".len());
         }
-        let kind = guess_kind(&name, &values, axis.quantity);
+        let kind = guess_kind(&name, &values, axis_of_record.quantity);
         let unit = match &column.si {
             Some(si) => si.name.clone(),
             None if kind == Kind::Coherence && column.stated.is_empty() => "1".into(),
             None => String::new(),
         };
-        let mut record = Record::new(&name, kind, axis, values, &unit);
+        if !axis.source.is_empty() {
+            out.axis_sources.push((name.clone(), axis.source.clone()));
+        }
+        let mut record = Record::new(&name, kind, axis_of_record, values, &unit);
         record.file_unit = if unit == "1" { unit } else { column.stated.clone() };
         out.records.push(record);
     }
-    Ok(out)
 }

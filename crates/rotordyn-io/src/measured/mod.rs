@@ -3,10 +3,11 @@
 //! | format | read | written | contents |
 //! |---|---|---|---|
 //! | universal file | .uff .unv .uf | .uff (ASCII), .unv | all |
-//! | MATLAB v5 | .mat | .mat | records |
+//! | MATLAB v4, v5 | .mat | .mat (v5) | records |
 //! | NumPy | .npz .npy | .npz | records |
-//! | WAV | .wav | .wav | time records of one rate, without units |
+//! | WAV, RF64 | .wav | .wav | time records of one rate, without units |
 //! | table | .csv .txt .tsv .dat | .csv | records over one axis |
+//! | LabVIEW | .lvm | | records |
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 mod array;
@@ -48,6 +49,12 @@ pub enum Format {
     Hdf5,
 }
 
+/// Beginnings of TDMS files and of their index files. The crates tdms 0.3 and tdms-rs 2.0 allocate what a file states and
+/// have never been fuzzed.
+const TDMS_MARKS: [&[u8]; 2] = [b"TDSm", b"TDSh"];
+const TDMS_ADVICE: &str = "export it as .lvm, .csv or .mat from LabVIEW or DIAdem, or in Python with the package npTDMS: \
+                           `TdmsFile.read(\"x.tdms\").as_hdf(\"x.h5\")`";
+
 /// Bytes from the start for detecting a format; HDF5 may follow a user block of 512 bytes.
 const DETECTION_BYTES: usize = 520;
 
@@ -64,10 +71,7 @@ impl Format {
             _ if npy::is_npy(head) || npy::is_npz(head) => Some(Format::Numpy),
             _ if wav::is_wav(head) => Some(Format::Wav),
             _ if first_line == Some(b"-1") => Some(Format::Universal),
-            // Text in UTF-16, with its byte order mark.
-            _ if [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| head.starts_with(mark)) => {
-                Some(Format::Table)
-            }
+            _ if csv::encoding::utf_16(head).is_some() => Some(Format::Table),
             // Text has no control characters other than tabs and line ends.
             _ if head.iter().all(|&b| b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r')) => Some(Format::Table),
             _ => None,
@@ -82,7 +86,7 @@ impl Format {
             "mat" => Format::Mat,
             "npz" | "npy" => Format::Numpy,
             "wav" => Format::Wav,
-            "csv" | "txt" | "tsv" | "dat" => Format::Table,
+            "csv" | "txt" | "tsv" | "dat" | "lvm" => Format::Table,
             "h5" | "hdf5" => Format::Hdf5,
             _ => return None,
         })
@@ -132,7 +136,10 @@ pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> 
         Some(Format::Hdf5) => return Err(without_hdf5(path)),
         Some(Format::Table) => csv::read(path, limits)?.0,
         None if Format::of_extension(path) == Some(Format::Mat) => {
-            return Err(content("it is not a MATLAB file of version 5 or 7.3", "save it with `save -v7`"));
+            return Err(content("it is not a MATLAB file of version 4, 5 or 7.3", "save it with `save -v7`"));
+        }
+        None if TDMS_MARKS.iter().any(|mark| head.starts_with(mark)) => {
+            return Err(content("it is a TDMS file of LabVIEW or DIAdem, which is not read", TDMS_ADVICE));
         }
         None => {
             let advice = "use a universal file, MATLAB, NumPy, WAV, CSV or HDF5 file";

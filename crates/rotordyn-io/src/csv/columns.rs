@@ -1,0 +1,191 @@
+//! The columns of a table: names and units from the lines before the numbers, and what a column is.
+
+use super::style::{Cell, TableStyle};
+use crate::measured::axis_names::{Meaning, Role, meaning};
+use crate::measured::unit_label::{self, SiUnit};
+use rotordyn_signal::Complex;
+use rotordyn_signal::record::AxisQuantity;
+
+pub(super) struct Column {
+    pub name: String,
+    /// As written.
+    pub stated: String,
+    pub si: Option<SiUnit>,
+    /// Real parts, NaN for empty cells.
+    pub re: Vec<f64>,
+    /// Imaginary parts; empty as long as all are zero.
+    pub im: Vec<f64>,
+    /// Number of cells up to the last that is not empty.
+    pub length: usize,
+}
+
+impl Column {
+    pub fn new(name: String, stated: String, si: Option<SiUnit>) -> Self {
+        Column { name, stated, si, re: Vec::new(), im: Vec::new(), length: 0 }
+    }
+
+    pub fn push(&mut self, cell: Cell) {
+        let value = cell.unwrap_or(Complex::new(f64::NAN, 0.0));
+        if value.im != 0.0 && self.im.is_empty() {
+            self.im.resize(self.re.len(), 0.0);
+        }
+        if value.im != 0.0 || !self.im.is_empty() {
+            self.im.push(value.im);
+        }
+        self.re.push(value.re);
+        if cell.is_some() {
+            self.length = self.re.len();
+        }
+    }
+
+    /// Whether every value is larger than the one before it.
+    pub fn increases(&self) -> bool {
+        self.im.is_empty() && self.re.windows(2).all(|pair| pair[0] < pair[1])
+    }
+
+    /// Quantity of the axis that the column is, by its name and unit; `None` if it is none.
+    pub fn axis(&self) -> Option<AxisQuantity> {
+        let unit = self.si.as_ref().map(|si| si.name.as_str());
+        if self.name.eq_ignore_ascii_case("x") {
+            return match unit {
+                Some("s") => Some(AxisQuantity::Time),
+                Some("Hz") => Some(AxisQuantity::Frequency),
+                _ => None,
+            };
+        }
+        let meaning = meaning(&self.name, &[Role::Times, Role::Frequencies])?;
+        let fits = match (unit, self.stated.as_str()) {
+            (Some(unit), _) => meaning.role.takes_unit(unit),
+            // A column `f` of no unit may be a force, which does not increase.
+            (None, "") => meaning.role == Role::Times || self.increases(),
+            (None, _) => false,
+        };
+        let quantity = if meaning.role == Role::Times { AxisQuantity::Time } else { AxisQuantity::Frequency };
+        fits.then_some(quantity)
+    }
+
+    /// The rate, the step or the number of samples that the column states, if all its values are the same.
+    pub fn setting(&self) -> Option<(Meaning, f64)> {
+        let mut meaning = meaning(&self.name, &[Role::Rate, Role::Step, Role::Count])?;
+        let mut values = self.re[..self.length].iter().filter(|v| !v.is_nan());
+        let first = *values.next()?;
+        let fits = match &self.si {
+            Some(si) => {
+                (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
+                meaning.role.takes_unit(&si.name)
+            }
+            None => self.stated.is_empty(),
+        };
+        let constant = self.im.is_empty() && values.all(|v| *v == first);
+        (fits && constant && !meaning.uncertain).then_some((meaning, first))
+    }
+}
+
+/// The columns of a table from the lines before its numbers, and how many of the last lines name them.
+///
+/// `header_lines`: without comments. `comment`: the last line before the numbers, if it is one. `width`: of the data lines,
+/// date and time included.
+pub(super) fn columns(
+    header_lines: &[&str],
+    comment: Option<&str>,
+    style: TableStyle,
+    width: usize,
+    stem: &str,
+) -> (Vec<Column>, HeaderUse) {
+    let cells = |line: &str| -> Option<Vec<String>> {
+        let mut cells: Vec<String> = match style.separator {
+            // Names may contain blanks; then commas separate them.
+            ' ' if line.contains(',') => line.split(',').map(|c| c.trim().to_owned()).collect(),
+            _ => style.split(line).into_iter().map(str::to_owned).collect(),
+        };
+        // Date and time in two cells have often one name, and lines may end in a separator.
+        if style.stamps > 1 && cells.len() + style.stamps - 1 == width {
+            cells.splice(0..0, vec![String::new(); style.stamps - 1]);
+        }
+        let trailing = |cells: &[String]| cells.last().is_some_and(String::is_empty);
+        match cells.len() {
+            n if n == width => {}
+            n if n + 1 == width && style.separator != ' ' => cells.push(String::new()),
+            n if n == width + 1 && trailing(&cells) => {
+                cells.pop();
+            }
+            _ => return None,
+        }
+        Some(cells)
+    };
+    let mut rows: Vec<(usize, Vec<String>)> = header_lines
+        .iter()
+        .enumerate()
+        .rev()
+        .filter_map(|(k, line)| cells(line).map(|cells| (k, cells)))
+        .take(2)
+        .collect();
+    rows.reverse();
+    let mut taken = HeaderUse::default();
+    let units = match &rows[..] {
+        [_, (k, row)] => {
+            let bare =
+                |cell: &String| unit_cell(cell).is_empty() || unit_label::si(unit_cell(cell)).is_some();
+            row.iter().all(bare).then_some((*k, row))
+        }
+        _ => None,
+    };
+    let names = if units.is_some() { rows.first() } else { rows.last() };
+    taken.lines.extend(units.iter().map(|(k, _)| *k).chain(names.iter().map(|(k, _)| *k)));
+    let mut names = names.map(|(_, row)| row.clone());
+    if rows.is_empty() {
+        // numpy.savetxt puts names into a comment.
+        names = comment.and_then(|line| cells(line.trim_start_matches(['#', '%', '/', ' '])));
+        taken.comment = names.is_some();
+    }
+    let columns = (style.stamps..width).map(|k| {
+        let alone = if width == 1 { stem.to_owned() } else { format!("{stem}_{}", k + 1) };
+        let name = names.as_ref().map(|row| row[k].clone()).filter(|name| !name.is_empty()).unwrap_or(alone);
+        match units {
+            Some((_, row)) => {
+                let stated = unit_cell(&row[k]).to_owned();
+                Column::new(name, stated.clone(), unit_label::si(&stated))
+            }
+            None => column(&name),
+        }
+    });
+    (columns.collect(), taken)
+}
+
+/// Which of the lines before the numbers name the columns or state their units.
+#[derive(Default)]
+pub(super) struct HeaderUse {
+    /// Places among the lines without comments.
+    pub lines: Vec<usize>,
+    /// The comment before the numbers.
+    pub comment: bool,
+}
+
+fn unit_cell(cell: &str) -> &str {
+    cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')'])
+}
+
+/// A column from its name, with the unit in brackets, behind a slash or " in ", or as a suffix.
+pub(super) fn column(name: &str) -> Column {
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some(at) = name.find(open).filter(|_| name.ends_with(close)) {
+            let (base, stated) = (name[..at].trim(), &name[at + 1..name.len() - 1]);
+            if !base.is_empty() {
+                return Column::new(base.into(), stated.into(), unit_label::si(stated));
+            }
+        }
+    }
+    // "a / m/s²" and "Weg in mm", as ISO 80000-1 and DIN 461 want it.
+    for separator in ["/", " in "] {
+        if let Some((base, stated)) = name.split_once(separator)
+            && !base.trim().is_empty()
+            && let Some(si) = unit_label::si(stated.trim())
+        {
+            return Column::new(base.trim().into(), stated.trim().into(), Some(si));
+        }
+    }
+    match unit_label::split_unit_suffix(name) {
+        Some((base, si)) => Column::new(base.into(), name[base.len() + 1..].into(), Some(si)),
+        None => Column::new(name.into(), String::new(), None),
+    }
+}
