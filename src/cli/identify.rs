@@ -130,7 +130,7 @@ fn with_file_name(path: &Path, error: Error) -> Failure {
     match error {
         error @ (Error::Content { .. } | Error::Environment { .. }) => error.into(),
         Error::Record(RecordError::NoRate { channel }) => Failure::Input(format!(
-            "{}: `{channel}` does not state its sampling rate; give it, such as --rate \"12 kHz\"",
+            "{}: `{channel}` does not state its sampling rate; give it with --rate RATE",
             path.display()
         )),
         error => Failure::Input(format!("{}: {error}", path.display())),

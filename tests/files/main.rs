@@ -3,6 +3,7 @@
 mod analyser;
 mod arrays;
 mod example_records;
+mod foreign_records;
 mod formats;
 mod hdf5_h5py;
 mod hdf5_reader;

@@ -67,7 +67,15 @@ fn nested_structures_cells_and_arrays_of_structures_have_paths() {
     assert_record(&data, "runs(2).x", 5e-4, |k| 2.0 * k);
     assert_record(&data, "cells{3}", 1.0 / 512.0, |k| 5.0 * k);
     assert_eq!(data.scalars, [("rig.sensor.temperature".to_owned(), 21.5)]);
-    assert_eq!(data.left_out, ["sparse (a sparse matrix)"]);
+    assert_eq!(
+        data.left_out,
+        [
+            "sparse (a sparse matrix)",
+            "runs(1).note (text \"first\")",
+            "runs(2).note (text \"second\")",
+            "cells{2} (text \"text\")"
+        ]
+    );
 }
 
 #[test]

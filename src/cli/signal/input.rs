@@ -1,5 +1,6 @@
 //! Reads the channels of a record: selection, sampling rate, unit and time range.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use rotordyn::io::measured::run_up::is_rotation_signal;
@@ -9,6 +10,7 @@ use rotordyn::names::nearest;
 use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
+use serde_json::{Value, json};
 
 use super::super::failure::Failure;
 use super::super::limits::limits;
@@ -143,6 +145,28 @@ impl File {
         let vibrates = |r: &&Record| !without.contains(&r.name.as_str()) && !is_rotation_signal(r);
         self.time_records().filter(vibrates).min_by_key(|r| rank(r))
     }
+}
+
+/// For JSON: every channel of a file with what states its axis, its numbers, and what was not read.
+pub fn contents(file: &File) -> Value {
+    let sources: HashMap<&str, &str> =
+        file.measured.axis_sources.iter().map(|(name, source)| (name.as_str(), source.as_str())).collect();
+    let channel = |record: &Record| {
+        json!({
+            "name": record.name,
+            "kind": record.kind.label(),
+            "samples": record.values.len(),
+            "sample_rate": record.sample_rate().ok(),
+            "axis_stated_by": sources.get(record.name.as_str()),
+            "unit": record.unit,
+            "unit_in_file": record.file_unit,
+        })
+    };
+    json!({
+        "channels": file.measured.records.iter().map(channel).collect::<Vec<_>>(),
+        "numbers": file.measured.scalars.iter().map(|(name, value)| json!({ "name": name, "value": value })).collect::<Vec<_>>(),
+        "not_read": file.measured.left_out,
+    })
 }
 
 /// Selection of channels, and overrides of rate, unit and time range.
@@ -306,7 +330,10 @@ fn rate(record: &Record, choice: &ChannelSelection, findings: &mut InputProblems
         }
         (Err(RecordError::NoRate { .. }), Some(given)) => Some(given),
         (Err(RecordError::NoRate { channel }), None) => {
-            findings.problem(format!("`{channel}` has no sampling rate; give it, such as {flag} \"12 kHz\""));
+            findings.problem(format!(
+                "`{channel}` has no sampling rate: the file states none by a name that is known (fs, dt, time, ...); give it \
+                 with {flag} RATE"
+            ));
             None
         }
         (Err(error), _) => {

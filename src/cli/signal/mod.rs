@@ -113,6 +113,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");
     document["file"] = json!(file.path);
+    document["contents"] = input::contents(&file);
     document["seconds"] = json!({ "signal": seconds });
     document["files"] = json!(files);
     Ok(document.into())

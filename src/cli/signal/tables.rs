@@ -15,6 +15,8 @@ use super::line_tables;
 
 /// Largest number of rows of the channel list.
 const MAX_CHANNELS: usize = 24;
+/// Most names of what states the rates.
+const MAX_SOURCES: usize = 6;
 
 /// Channels of a file.
 pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
@@ -46,6 +48,15 @@ pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
     };
     let title = format!("{}: {} channels{more}", file.path.display(), records.len());
     terminal.table(&title, &["channel", "content", "samples", "rate Hz", "unit", "use"], &rows);
+    // What states the rate, once for all channels that have it from there.
+    let mut sources: Vec<&str> =
+        file.measured.axis_sources.iter().map(|(_, source)| source.as_str()).collect();
+    sources.dedup();
+    if !sources.is_empty() {
+        let more = if sources.len() > MAX_SOURCES { ", ..." } else { "" };
+        let some = sources[..sources.len().min(MAX_SOURCES)].join(", ");
+        terminal.print(&format!("  rate or axis from {some}{more}"));
+    }
 }
 
 /// Shaft speed and bearing defect frequencies.
