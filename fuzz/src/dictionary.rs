@@ -150,7 +150,9 @@ pub fn mat() -> Vec<Vec<u8>> {
         b"\xe8\x03\0\0",
         b"\x33\0\0\0",
     ]);
-    found.extend(words(&["fs", "dt", "time", "H", "freq", "info_t", "x_fs", "x_unit", "coh", "_RPM"]));
+    found.extend(words(&[
+        "fs", "dt", "time", "H", "freq", "info_t", "x_fs", "x_unit", "coh", "_RPM", "sr", "npts",
+    ]));
     found
 }
 
@@ -221,6 +223,19 @@ pub fn csv() -> Vec<Vec<u8>> {
         "\u{2212}5",
         "1'000",
         "# fs = 12000",
+        "2026-11-23T12:00:00.5Z",
+        "23.11.2026 12:00:00,5",
+        "01/02/2026 1:00 PM",
+        "Sampling rate: 12 kHz",
+        "dt;0,001;s",
+        "LabVIEW Measurement",
+        "***End_of_Header***",
+        "***Start_Special***",
+        "Multi_Headings\tYes",
+        "X_Columns\tMulti",
+        "Channels\t2",
+        "Delta_X\t0.001",
+        "X_Value\ta\tComment",
         "real",
         "imag",
     ]);

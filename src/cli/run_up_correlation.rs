@@ -63,7 +63,7 @@ pub fn read(
     }
     if let Some(record) = file.time_records().find(|r| r.sample_rate().is_err()) {
         return Ok(Err(format!(
-            "`{}` has no sampling rate: give it in the mapping, such as rate = \"12 kHz\"",
+            "`{}` has no sampling rate: give it in the mapping: rate = \"RATE\"",
             record.name
         )));
     }

@@ -93,3 +93,47 @@ fn structures_within_each_other() {
     }
     refused(&inner, &["a.mat: "]);
 }
+
+/// A field name of 50 kB for every element, of which a tag of 8 bytes is there.
+#[test]
+fn a_long_field_name_of_many_elements() {
+    let length = 50_000_u32;
+    let mut letters = vec![b'f'; length as usize];
+    letters[length as usize - 1] = 0;
+    let names = [element(5, &length.to_le_bytes()), element(1, &letters)].concat();
+    let elements = element(14, b"").repeat(50_000);
+    refused(
+        &array(2, &sizes(&[1, 50_000]), &[names, elements]),
+        &["the names of structures and cells would need", "--read-limit"],
+    );
+}
+
+#[test]
+fn cells_and_structures_of_any_size() {
+    refused(&array(1, &sizes(&[u32::MAX, u32::MAX]), &[]), &["a.mat: "]);
+    refused(&array(1, &sizes(&[1 << 31, 1]), &[element(14, b"")]), &["the file is cut off"]);
+    let names = [element(5, &4_u32.to_le_bytes()), element(1, &b"abc\0".repeat(200_000))].concat();
+    refused(&array(2, &sizes(&[1, 1]), &[names]), &["it would need 200001 fields or more"]);
+    let odd = [element(5, &3_u32.to_le_bytes()), element(1, b"abcd")].concat();
+    refused(&array(2, &sizes(&[1, 1]), &[odd]), &["the names of a structure's fields are damaged"]);
+}
+
+/// Version 4: sizes are in every header.
+#[test]
+fn headers_of_version_4() {
+    let matrix = |kind: u32, rows: u32, columns: u32, data: &[u8]| {
+        let mut out: Vec<u8> = [kind, rows, columns, 0, 2].iter().flat_map(|n| n.to_le_bytes()).collect();
+        out.extend(b"a\0");
+        out.extend(data);
+        out
+    };
+    let refused = |bytes: &[u8], parts: &[&str]| bytes_refused("a.mat", bytes, parts);
+    refused(&matrix(0, u32::MAX, u32::MAX, &[0; 16]), &["a.mat: "]);
+    refused(&matrix(0, 1 << 20, 1 << 20, &[0; 16]), &["the file is cut off"]);
+    refused(&matrix(51, 1 << 31, 0, b""), &["contains no channel"]);
+    refused(
+        &[matrix(0, 1, 1, &[0; 8]), vec![1; 19]].concat(),
+        &["the header of a version 4 array is damaged"],
+    );
+    refused(&matrix(0, 0, 0, b"").repeat(200_000), &["arrays or more"]);
+}

@@ -69,3 +69,32 @@ fn half_letters_in_utf_16() {
         assert!(seen.reported.contains("2 characters are not valid UTF-16"), "{}", seen.reported);
     }
 }
+
+const LABVIEW: &str = "LabVIEW Measurement\t\nMulti_Headings\tYes\nX_Columns\tOne\n***End_of_Header***\t\n";
+
+#[test]
+fn labview_headers_that_lie() {
+    let refused =
+        |rest: &str, parts: &[&str]| bytes_refused("a.lvm", format!("{LABVIEW}{rest}").as_bytes(), parts);
+    refused("", &["no line of numbers behind a line `X_Value`"]);
+    refused("***Start_Special***\n1\n", &["the special block of line 5 has no end"]);
+    refused(&"Channels\t9999999\n".repeat(100_000), &["no line of numbers"]);
+    refused(&format!("X_Value\t{}\n", "a\t".repeat(200_000)), &["channels or more"]);
+    refused("X_Value\ta\n0\t1\n0\tx\n", &["`x` in line 7, channel `a`, is not a number"]);
+    refused("X_Value\ta\n0\t1\n0\t2\n", &["`X_Value` of `a` does not increase after its value 1"]);
+    refused("Channels\t0\nX_Value\ta\n0\t1\n", &["names no channel"]);
+    // A header for every value.
+    let segment = "Channels\t1\nDelta_X\t1\nX0\t5\nX_Value\ta\n0\t1\n";
+    refused(&segment.repeat(120_000), &["more than the 100000"]);
+}
+
+#[test]
+fn dates_that_are_none() {
+    bytes_refused(
+        "a.csv",
+        b"31.12.2026 0:00;1\n32.12.2026 0:00;2\n",
+        &["`32.12.2026 0:00` in line 2 is not a date"],
+    );
+    bytes_refused("a.csv", b"99/99/9999 0:00,1\n", &["no line of numbers"]);
+    bytes_refused("a.csv", b"9999-12-31 23:59:60,1\n0001-01-01 0:00,2\n", &["`dates` does not increase"]);
+}

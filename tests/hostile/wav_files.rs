@@ -36,3 +36,26 @@ fn chunks_without_end() {
     bytes_refused("a.wav", &wav(b"junk\xff\xff\xff\xff", 1, 8000, 10, &[0; 10]), &["a.wav: "]);
     bytes_refused("a.wav", b"RIFF\0\0\0\0WAVE", &["a.wav: "]);
 }
+
+/// The format chunk of a file, and an RF64 file that states any size.
+#[test]
+fn formats_and_long_sizes_that_lie() {
+    let with = |code: u16, block: u16, bits: u16| {
+        let mut out = b"RIFF\xff\xff\xff\xffWAVEfmt \x10\0\0\0".to_vec();
+        out.extend([code, 1, 8000, 0, 0, 0, block, bits].iter().flat_map(|n| n.to_le_bytes()));
+        out.extend(b"data\x08\0\0\0\0\0\0\0\0\0\0\0");
+        out
+    };
+    bytes_refused("a.wav", &with(3, 2, 16), &["floats of 16 bits in 2 bytes"]);
+    bytes_refused("a.wav", &with(1, 5, 40), &["integers of 40 bits in 5 bytes"]);
+    bytes_refused("a.wav", &with(1, 2, 64), &["integers of 64 bits in 2 bytes"]);
+    bytes_refused("a.wav", &with(1, 0, 0), &["integers of 0 bits"]);
+    bytes_refused("a.wav", &with(6, 1, 8), &["A-law"]);
+    bytes_refused("a.wav", &with(0xfffe, 2, 16), &["damaged"]);
+    let mut long = b"RF64\xff\xff\xff\xffWAVEds64\x18\0\0\0".to_vec();
+    long.extend([0xff; 24]);
+    long.extend(&wav(b"", 1, 8000, u32::MAX, &[0; 100])[12..]);
+    bytes_refused("a.wav", &long, &["cut off"]);
+    let named = wav(&b"abcd\0\0\0\0".repeat(100_000), 1, 8000, 0, b"");
+    bytes_refused("a.wav", &named, &["cut off"]);
+}

@@ -31,6 +31,8 @@ pub struct Target {
 }
 
 const MODELS: &[(&str, &str)] = &[("models", "toml")];
+const FOREIGN: &str = "tests/data/arrays/foreign";
+const TABLES: &[(&str, &str)] = &[(FOREIGN, "csv"), (FOREIGN, "txt"), (FOREIGN, "lvm")];
 
 /// All targets.
 pub static ALL: [Target; 10] = [
@@ -76,7 +78,7 @@ pub static ALL: [Target; 10] = [
         text: false,
         max_length: 1 << 16,
         dictionary: dictionary::mat,
-        seed_files: &[("tests/data/arrays", "mat")],
+        seed_files: &[("tests/data/arrays", "mat"), (FOREIGN, "mat")],
         made_seeds: Vec::new,
     },
     Target {
@@ -85,7 +87,7 @@ pub static ALL: [Target; 10] = [
         text: false,
         max_length: 1 << 16,
         dictionary: dictionary::numpy,
-        seed_files: &[("tests/data/arrays", "npz")],
+        seed_files: &[("tests/data/arrays", "npz"), (FOREIGN, "npz")],
         made_seeds: Vec::new,
     },
     Target {
@@ -94,7 +96,7 @@ pub static ALL: [Target; 10] = [
         text: true,
         max_length: 1 << 16,
         dictionary: dictionary::csv,
-        seed_files: &[],
+        seed_files: TABLES,
         made_seeds: Vec::new,
     },
     Target {
@@ -103,7 +105,7 @@ pub static ALL: [Target; 10] = [
         text: false,
         max_length: 1 << 14,
         dictionary: dictionary::wav,
-        seed_files: &[],
+        seed_files: &[(FOREIGN, "wav")],
         made_seeds: Vec::new,
     },
     Target {
@@ -112,7 +114,7 @@ pub static ALL: [Target; 10] = [
         text: false,
         max_length: 1 << 17,
         dictionary: dictionary::hdf5,
-        seed_files: &[],
+        seed_files: &[(FOREIGN, "h5"), (FOREIGN, "mat")],
         made_seeds: Vec::new,
     },
     Target {

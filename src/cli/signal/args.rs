@@ -28,7 +28,9 @@ fn analyses_help() -> String {
 /// Arguments of `signal`.
 #[derive(Args, Clone, Debug)]
 pub struct SignalArgs {
-    /// The record: .mat, .csv, .wav, .uff, .npz, .h5, or a folder with the results.h5 of a run
+    /// The record: .mat (versions 4 to 7.3), .csv, .txt, .lvm, .wav, .uff, .npz, .h5, or a folder with the results.h5 of a
+    /// run. Channels of structures and cells are named by path, such as bearing.gs, runs(2).x, c{3}; rates are found by name
+    /// (fs, sr, SampleFrequency, dt, t, X_Value, freq ...)
     pub file: PathBuf,
     /// Channels, separated by commas, or "all" [default: the first vibration channel]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]

@@ -93,6 +93,7 @@ impl<'a> Collected<'a> {
             }
         }
         all.group(&Object { path: "", name: "", depth: 0 })?;
+        all.left_out.iter_mut().for_each(shorten);
         Ok(all)
     }
 
@@ -167,9 +168,11 @@ impl<'a> Collected<'a> {
     fn leave_out(&mut self, label: &str, error: Error) -> Result<(), Error> {
         self.file.contains("/")?;
         match error {
-            Error::Content { problem, .. } => {
-                self.left_out
-                    .push(format!("{label} ({})", problem.trim_start_matches(&format!("{label}: "))));
+            Error::Content { problem, advice, .. } => {
+                let problem = problem.trim_start_matches(&format!("{label}: "));
+                let advice =
+                    if advice.contains("--read-limit") { format!("; {advice}") } else { String::new() };
+                self.left_out.push(format!("{label} ({problem}{advice})"));
             }
             other => return Err(other),
         }
@@ -260,16 +263,17 @@ impl<'a> Collected<'a> {
         }
         let marks = self.file.references(object.path)?;
         let lone = marks.len() == 1;
+        self.count("references", marks.len())?;
+        // The names of elements may be longer than what they name: each has 20 digits and marks at most, and is kept twice.
+        let names = (2 * marks.len() as u64).saturating_mul(object.name.len() as u64 + 20);
+        let taken = self.budget.take(|| "the names of its elements".into(), names);
+        taken.map_err(|exceeded| exceeded.of_file(self.file.path()))?;
         for (k, mark) in marks.iter().enumerate() {
             let name = match field {
                 Some(_) if lone => object.name.to_owned(),
                 Some((structure, field)) => format!("{structure}({}).{field}", k + 1),
                 None => format!("{}{{{}}}", object.name, k + 1),
             };
-            self.count("references", 1)?;
-            // The names of elements may be longer than what they name.
-            let taken = self.budget.take(|| "the names of its elements".into(), 2 * name.len() as u64);
-            taken.map_err(|exceeded| exceeded.of_file(self.file.path()))?;
             let Some(link) = self.referenced.get(mark) else {
                 self.left_out.push(format!("{name} (a reference to nothing in #refs#)"));
                 continue;
@@ -292,6 +296,19 @@ impl<'a> Collected<'a> {
             self.object(&element, target, None, Some(mark))?;
         }
         Ok(())
+    }
+}
+
+/// Longest entry of what is left out, and what is kept of a longer one \[characters\].
+const MAX_ENTRY: usize = 400;
+
+/// Takes the middle out of an entry whose names are too long for a message.
+fn shorten(entry: &mut String) {
+    let count = if entry.len() > MAX_ENTRY { entry.chars().count() } else { 0 };
+    if count > MAX_ENTRY {
+        let begin: String = entry.chars().take(MAX_ENTRY / 4).collect();
+        let end: String = entry.chars().skip(count - MAX_ENTRY / 2).collect();
+        *entry = format!("{begin} ... {end}");
     }
 }
 

@@ -64,9 +64,9 @@ pub fn channels(measured: &MeasuredData, model: &Model) -> Result<PlacedChannels
     if !unplaced.is_empty() {
         warnings.push(format!("left out, their places are not known: {}; {advice}", listed(&unplaced)));
     }
-    let rate = first.sample_rate().map_err(|error| {
-        UpdateError::new(error.to_string(), "give it in the mapping, such as rate = \"12 kHz\"")
-    })?;
+    let rate = first
+        .sample_rate()
+        .map_err(|error| UpdateError::new(error.to_string(), "give it in the mapping: rate = \"RATE\""))?;
     let (axis, count): (Axis, usize) = (first.axis.clone(), first.values.len());
     let others: Vec<&str> = placed
         .iter()
