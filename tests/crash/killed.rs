@@ -56,7 +56,7 @@ fn read_all(store: &Store, group: &str) {
             ObjectKind::Real(_) => drop(store.read(&at).unwrap()),
             ObjectKind::Complex(_) => drop(store.read_complex(&at).unwrap()),
             ObjectKind::Text(_) => drop(store.read_texts(&at).unwrap()),
-            ObjectKind::Other => panic!("{at}"),
+            ObjectKind::References(_) | ObjectKind::Other => panic!("{at}"),
         }
     }
 }
