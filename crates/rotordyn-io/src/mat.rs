@@ -6,6 +6,7 @@
 //! The crate matfile 0.5 reads numbers only, without texts, structures, the names of what it skips, or writing.
 //! Format: MATLAB MAT-File Format, The MathWorks, R2019b.
 
+mod elements;
 mod version_4;
 
 use std::borrow::Cow;
@@ -14,8 +15,10 @@ use std::path::Path;
 use super::inflate;
 use super::measured::arrays::{Array, Data};
 use crate::atomic_file;
-use crate::budget::{self, Budget, Exceeded, Limits, MAX_DEPTH, MAX_DIMENSIONS};
+use crate::budget::{self, Budget, Limits, MAX_DEPTH, MAX_DIMENSIONS};
 use crate::error::Error;
+pub(crate) use elements::to_row_major;
+use elements::{COMPRESSED, CUT_OFF, Contents, DAMAGED_SIZE, Fault, Reader};
 use rotordyn_signal::Complex;
 
 /// Data types of elements.
@@ -23,7 +26,6 @@ const INT32: u32 = 5;
 const UINT32: u32 = 6;
 const DOUBLE: u32 = 9;
 const MATRIX: u32 = 14;
-const COMPRESSED: u32 = 15;
 /// Array classes.
 const CELL_CLASS: u8 = 1;
 const STRUCTURE_CLASS: u8 = 2;
@@ -38,25 +40,6 @@ const HEADER: usize = 128;
 /// Longest variable name in MATLAB (`namelengthmax`).
 pub const MAX_NAME_LENGTH: usize = 63;
 
-/// Why a file cannot be used.
-#[derive(Debug)]
-enum Fault {
-    Damage(&'static str),
-    Budget(Exceeded),
-}
-
-impl From<&'static str> for Fault {
-    fn from(problem: &'static str) -> Self {
-        Self::Damage(problem)
-    }
-}
-
-impl From<Exceeded> for Fault {
-    fn from(exceeded: Exceeded) -> Self {
-        Self::Budget(exceeded)
-    }
-}
-
 /// Whether a file starts with the header of a .mat file of version 5, or of an array of version 4.
 pub fn is_mat(head: &[u8]) -> bool {
     is_version_5(head) || version_4::is_array(head)
@@ -65,9 +48,6 @@ pub fn is_mat(head: &[u8]) -> bool {
 fn is_version_5(head: &[u8]) -> bool {
     matches!(head.get(124..128), Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
 }
-
-/// Arrays named by their path, and the names of what is not read, each with the reason.
-type Contents = (Vec<Array>, Vec<String>);
 
 /// Reads every numeric and text array of a file, also within structures and cells; the second list has the names of
 /// skipped arrays.
@@ -88,10 +68,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Bu
     }
 }
 
-const CUT_OFF: &str = "the file is cut off";
 const DAMAGED_ARRAY: &str = "a compressed array is damaged or cut off";
-const DAMAGED_SIZE: &str = "an array's size is damaged";
-
 fn parse(bytes: &[u8], budget: &Budget) -> Result<Contents, Fault> {
     let little = bytes[126] == b'I';
     let mut found = Contents::default();
@@ -124,71 +101,6 @@ fn inflated(data: &[u8], little: bool, budget: &Budget) -> Result<Vec<u8>, Fault
     inflate::zlib(data, size + 8, &mut out).map_err(|_| DAMAGED_ARRAY)?;
     out.drain(..8);
     Ok(out)
-}
-
-/// Reads data elements in sequence.
-struct Reader<'a> {
-    rest: &'a [u8],
-    little: bool,
-}
-
-impl<'a> Reader<'a> {
-    fn number<const N: usize>(&self, bytes: &[u8]) -> [u8; N] {
-        std::array::from_fn(|k| bytes[if self.little { k } else { N - 1 - k }])
-    }
-
-    fn u32(&self, bytes: &[u8]) -> u32 {
-        u32::from_le_bytes(self.number(bytes))
-    }
-
-    /// Type and data of the next element; data of up to four bytes are stored within its tag.
-    fn element(&mut self) -> Result<(u32, &'a [u8]), Fault> {
-        let (tag, rest) = self.rest.split_at_checked(8).ok_or(CUT_OFF)?;
-        let first = self.u32(&tag[..4]);
-        let small = (first >> 16) as usize;
-        if small > 0 {
-            self.rest = rest;
-            return Ok((first & 0xffff, tag.get(4..4 + small).ok_or("an element's tag is damaged")?));
-        }
-        let size = self.u32(&tag[4..]) as usize;
-        let (data, after) = rest.split_at_checked(size).ok_or(CUT_OFF)?;
-        let padding = if first == COMPRESSED { 0 } else { size.next_multiple_of(8) - size };
-        self.rest = after.get(padding..).unwrap_or_default();
-        Ok((first, data))
-    }
-
-    /// Numbers of an element of any numeric type.
-    fn numbers(&mut self, budget: &Budget) -> Result<Vec<f64>, Fault> {
-        let (kind, data) = self.element()?;
-        let size = match kind {
-            1 | 2 | 16 => 1,
-            3 | 4 | 17 => 2,
-            5 | 6 | 7 | 18 => 4,
-            9 | 12 | 13 => 8,
-            _ => return Err("an array's data is of an unknown type".into()),
-        };
-        let mut values = budget.list(|| "an array".into(), data.len() / size)?;
-        macro_rules! read {
-            ($type:ty) => {{
-                const SIZE: usize = size_of::<$type>();
-                let numbers = data.chunks_exact(SIZE).map(|b| <$type>::from_le_bytes(self.number(b)) as f64);
-                values.extend(numbers)
-            }};
-        }
-        match kind {
-            1 => read!(i8),
-            3 => read!(i16),
-            4 | 17 => read!(u16),
-            5 => read!(i32),
-            6 | 18 => read!(u32),
-            7 => read!(f32),
-            9 => read!(f64),
-            12 => read!(i64),
-            13 => read!(u64),
-            _ => read!(u8),
-        }
-        Ok(values)
-    }
 }
 
 /// Sizes of an array's dimensions.
@@ -358,34 +270,10 @@ fn text_codes(body: &mut Reader, budget: &Budget) -> Result<Vec<u32>, Fault> {
     Ok(body.numbers(budget)?.iter().map(|&c| c as u32).collect())
 }
 
-/// Column-major values (first index fastest) reordered to row-major (last index fastest).
-pub(crate) fn to_row_major<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
-    reorder(values, shape, shape.iter().scan(1, |stride, n| Some(std::mem::replace(stride, *stride * n))))
-}
-
 /// Row-major values reordered to column-major.
 fn to_column_major<T: Copy>(values: &[T], shape: &[usize]) -> Vec<T> {
     let mirrored: Vec<usize> = shape.iter().rev().copied().collect();
     to_row_major(values, &mirrored)
-}
-
-fn reorder<T: Copy>(values: &[T], shape: &[usize], strides: impl Iterator<Item = usize>) -> Vec<T> {
-    let strides: Vec<usize> = strides.collect();
-    let mut index = vec![0; shape.len()];
-    let mut out = Vec::with_capacity(values.len());
-    while out.len() < values.len() {
-        let at: usize = index.iter().zip(&strides).map(|(i, s)| i * s).sum();
-        let Some(value) = values.get(at) else { break };
-        out.push(*value);
-        for axis in (0..shape.len()).rev() {
-            index[axis] += 1;
-            if index[axis] < shape[axis] {
-                break;
-            }
-            index[axis] = 0;
-        }
-    }
-    out
 }
 
 /// Writes arrays as doubles and texts, uncompressed, little endian; one-dimensional ones as column vectors.

@@ -36,7 +36,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Erro
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     match chunks::records(&bytes, &stem, &budget) {
         Ok(found) => Ok((found, budget)),
-        Err(refusal) => Err(refusal.of_file(path)),
+        Err(problem) => Err(problem.of_file(path)),
     }
 }
 

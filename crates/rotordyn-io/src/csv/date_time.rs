@@ -3,7 +3,7 @@
 //! Whether day or month is first in dates with slashes follows from all dates of a column; where they leave it open, the
 //! file is refused. There are no leap seconds, and no summer time unless each time states its offset.
 
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 
 /// Nanoseconds of a second and a day.
 const SECOND: i64 = 1_000_000_000;
@@ -159,7 +159,7 @@ fn read_time(text: &str) -> Option<i64> {
 ///
 /// # Errors
 /// Dates with slashes whose order of day and month is open, or dates that are in no order.
-pub(super) fn seconds(stamps: &[Stamp]) -> Result<Vec<f64>, Refusal> {
+pub(super) fn seconds(stamps: &[Stamp]) -> Result<Vec<f64>, ContentProblem> {
     let month_first = month_first(stamps)?;
     let at = |stamp: &Stamp| {
         let days = match stamp.date {
@@ -175,13 +175,13 @@ pub(super) fn seconds(stamps: &[Stamp]) -> Result<Vec<f64>, Refusal> {
     let first = stamps.first().and_then(at).unwrap_or(0);
     let seconds = |stamp: &Stamp| at(stamp).map(|at| (at - first) as f64 / SECOND as f64);
     let found: Option<Vec<f64>> = stamps.iter().map(seconds).collect();
-    found.ok_or_else(|| Refusal::new("some dates have the month first and others the day", ADVICE))
+    found.ok_or_else(|| ContentProblem::new("some dates have the month first and others the day", ADVICE))
 }
 
 const ADVICE: &str = "write the dates as year-month-day, such as 2026-11-23";
 
 /// Whether the month is first in dates with slashes.
-fn month_first(stamps: &[Stamp]) -> Result<bool, Refusal> {
+fn month_first(stamps: &[Stamp]) -> Result<bool, ContentProblem> {
     let dates = || {
         stamps.iter().filter_map(|stamp| match stamp.date {
             Some(Date::Slashed(a, b, year)) => Some((a, b, year)),
@@ -201,7 +201,7 @@ fn month_first(stamps: &[Stamp]) -> Result<bool, Refusal> {
     }
     let (a, b, year) = first;
     let text = format!("`{a:02}/{b:02}/{year}` may be month and day or day and month");
-    Err(Refusal::new(text, ADVICE))
+    Err(ContentProblem::new(text, ADVICE))
 }
 
 #[cfg(test)]
@@ -254,7 +254,7 @@ mod tests {
     fn order_of_day_and_month_follows_from_the_column_or_is_asked_for() {
         let seconds_of = |texts: &[&str]| {
             let stamps: Vec<Stamp> = texts.iter().map(|text| Stamp::read(text).unwrap()).collect();
-            seconds(&stamps).map_err(|refusal| refusal.problem)
+            seconds(&stamps).map_err(|problem| problem.problem)
         };
         assert_eq!(seconds_of(&["11/12/2026 0:00", "11/13/2026 0:00"]).unwrap()[1], 86_400.0);
         assert_eq!(seconds_of(&["12/11/2026 0:00", "13/11/2026 0:00"]).unwrap()[1], 86_400.0);

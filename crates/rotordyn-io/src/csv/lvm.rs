@@ -7,7 +7,7 @@ use super::columns::column;
 use super::style::TableStyle;
 use crate::budget::Budget;
 use crate::error::snippet;
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 use crate::measured::unit_label;
 use rotordyn_signal::record::{Axis, AxisQuantity, Kind, MeasuredData, Points, Record, Values};
 
@@ -53,7 +53,7 @@ struct Channel {
 ///
 /// # Errors
 /// No numbers, a cell that is no number, an abscissa that does not increase, or contents that exceed the budget.
-pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, Refusal> {
+pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, ContentProblem> {
     let mut lines = text.lines().enumerate().map(|(k, line)| (k + 1, line));
     let mut out = MeasuredData::default();
     let mut comments = 0_usize;
@@ -101,7 +101,7 @@ pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, Refusal
     }
     finish(&mut open, &mut out, budget)?;
     if out.records.is_empty() {
-        return Err(Refusal::new(
+        return Err(ContentProblem::new(
             "the LabVIEW file contains no line of numbers behind a line `X_Value`",
             ADVICE,
         ));
@@ -153,10 +153,11 @@ fn skip_special<'a>(
     lines: &mut impl Iterator<Item = (usize, &'a str)>,
     start: usize,
     out: &mut MeasuredData,
-) -> Result<(), Refusal> {
+) -> Result<(), ContentProblem> {
     let end = lines.find(|(_, line)| line.starts_with("***End_Special***"));
-    let (end, _) =
-        end.ok_or_else(|| Refusal::new(format!("the special block of line {start} has no end"), ADVICE))?;
+    let (end, _) = end.ok_or_else(|| {
+        ContentProblem::new(format!("the special block of line {start} has no end"), ADVICE)
+    })?;
     out.left_out.push(format!("the special block of lines {start} to {end}"));
     Ok(())
 }
@@ -170,7 +171,12 @@ struct Plan {
 
 impl Plan {
     /// From the line of names, `X_Value`, names, `Comment`.
-    fn of(names: &[&str], rows: &[Row], abscissas: Abscissas, budget: &Budget) -> Result<Self, Refusal> {
+    fn of(
+        names: &[&str],
+        rows: &[Row],
+        abscissas: Abscissas,
+        budget: &Budget,
+    ) -> Result<Self, ContentProblem> {
         let last = names.iter().rposition(|name| !name.is_empty());
         let comment = last.filter(|at| names[*at] == "Comment");
         let end = comment.unwrap_or(names.len());
@@ -189,7 +195,7 @@ impl Plan {
             .collect();
         budget.objects("channels", channels.len())?;
         if channels.is_empty() {
-            return Err(Refusal::new("a line `X_Value` of the LabVIEW file names no channel", ADVICE));
+            return Err(ContentProblem::new("a line `X_Value` of the LabVIEW file names no channel", ADVICE));
         }
         Ok(Self { channels, comment })
     }
@@ -223,13 +229,16 @@ impl Plan {
         number: usize,
         style: &TableStyle,
         channels: &mut [Channel],
-    ) -> Result<usize, Refusal> {
-        let real = |at: usize, channel: &Channel| -> Result<Option<f64>, Refusal> {
+    ) -> Result<usize, ContentProblem> {
+        let real = |at: usize, channel: &Channel| -> Result<Option<f64>, ContentProblem> {
             let cell = cells.get(at).copied().unwrap_or_default();
             let value = style.value(cell).filter(|value| value.is_none_or(|value| value.im == 0.0));
             let value = value.ok_or_else(|| {
                 let (cell, name) = (snippet(cell), snippet(&channel.name));
-                Refusal::new(format!("`{cell}` in line {number}, channel `{name}`, is not a number"), ADVICE)
+                ContentProblem::new(
+                    format!("`{cell}` in line {number}, channel `{name}`, is not a number"),
+                    ADVICE,
+                )
             })?;
             Ok(value.map(|value| value.re))
         };
@@ -251,7 +260,11 @@ impl Plan {
 const CONTINUES: f64 = 0.05;
 
 /// Adds the channels of a segment to the records.
-fn finish(channels: &mut Vec<Channel>, out: &mut MeasuredData, budget: &Budget) -> Result<(), Refusal> {
+fn finish(
+    channels: &mut Vec<Channel>,
+    out: &mut MeasuredData,
+    budget: &Budget,
+) -> Result<(), ContentProblem> {
     for channel in channels.drain(..).filter(|channel| !channel.y.is_empty()) {
         let Channel { name, unit, date, quantity, start, step, samples, x, y } = channel;
         if let Some(samples) = samples.filter(|samples| *samples != y.len() as f64) {
@@ -274,7 +287,7 @@ fn finish(channels: &mut Vec<Channel>, out: &mut MeasuredData, budget: &Budget) 
                 if let Some(k) = x.windows(2).position(|pair| pair[0] >= pair[1] || pair[0].is_nan()) {
                     let problem =
                         format!("`X_Value` of `{name}` does not increase after its value {}", k + 1);
-                    return Err(Refusal::new(problem, ADVICE));
+                    return Err(ContentProblem::new(problem, ADVICE));
                 }
                 (Axis::from_points(abscissa, x.clone()), "`X_Value`".into())
             }

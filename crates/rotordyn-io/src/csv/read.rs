@@ -18,7 +18,7 @@ use super::{lvm, table_axis};
 use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Axis, Kind, MeasuredData, Record, Values};
 
@@ -35,7 +35,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Erro
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let text = text.trim_start_matches('\u{feff}');
     let found = if lvm::is_lvm(text) { lvm::parse(text, &budget) } else { parse(text, &stem, &budget) };
-    let mut found = found.map_err(|refusal| refusal.of_file(path))?;
+    let mut found = found.map_err(|problem| problem.of_file(path))?;
     found.notes.splice(0..0, notes);
     Ok((found, budget))
 }
@@ -65,7 +65,7 @@ fn is_bare(line: &str) -> bool {
         || line.starts_with("sep=")
 }
 
-fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Refusal> {
+fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, ContentProblem> {
     let lines = text.lines().enumerate().map(|(k, line)| (k + 1, line)).filter(|(_, l)| !l.trim().is_empty());
     // The lines before the numbers: rates, names and units are among them.
     let mut before = Vec::new();
@@ -73,7 +73,7 @@ fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Refusa
     let (first, mut style) = loop {
         let here = data.clone();
         let Some((_, line)) = data.next() else {
-            return Err(Refusal::new("the file contains no line of numbers", FORMAT_HINT));
+            return Err(ContentProblem::new("the file contains no line of numbers", FORMAT_HINT));
         };
         if !is_comment(line) {
             check_width(line, budget)?;
@@ -112,7 +112,10 @@ fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Refusa
         }
         if cells.len() != width {
             let problem = format!("line {number} has {} cells, the first data line has {width}", cells.len());
-            return Err(Refusal::new(problem, "the file is cut off or damaged: copy or export it again"));
+            return Err(ContentProblem::new(
+                problem,
+                "the file is cut off or damaged: copy or export it again",
+            ));
         }
         // A column and the record of it.
         budget.take_values::<[f64; 2]>(|| "the numbers".into(), width)?;
@@ -121,14 +124,17 @@ fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Refusa
             let text = cells[..style.stamps].join(" ");
             let stamp = Stamp::read(&text).ok_or_else(|| {
                 let text = snippet(&text);
-                Refusal::new(format!("`{text}` in line {number} is not a date and a time"), FORMAT_HINT)
+                ContentProblem::new(
+                    format!("`{text}` in line {number} is not a date and a time"),
+                    FORMAT_HINT,
+                )
             })?;
             stamps.push(stamp);
         }
         for (column, cell) in columns.iter_mut().zip(&cells[style.stamps..]) {
             let value = style.value(cell).ok_or_else(|| {
                 let (cell, name) = (snippet(cell), snippet(&column.name));
-                Refusal::new(
+                ContentProblem::new(
                     format!("`{cell}` in line {number}, column `{name}`, is not a number"),
                     FORMAT_HINT,
                 )

@@ -3,7 +3,7 @@
 use super::columns::Column;
 use crate::budget::Budget;
 use crate::measured::axis_names::{Meaning, Role, StatedRate, check_same, six_digits};
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 use rotordyn_signal::record::{Axis, AxisQuantity, MeasuredData, Points};
 
 /// Where the axis may be.
@@ -48,7 +48,7 @@ pub(super) fn of_table(
     source: Source,
     budget: &Budget,
     out: &mut MeasuredData,
-) -> Result<TableAxis, Refusal> {
+) -> Result<TableAxis, ContentProblem> {
     let mut settings = source.settings;
     // A column that repeats the rate is no record, unless there is nothing else.
     while columns.len() > 1
@@ -81,7 +81,7 @@ pub(super) fn of_table(
         .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
     {
         let problem = format!("`{name}` does not increase after its value {}", k + 1);
-        return Err(Refusal::new(problem, "sort the lines, and remove duplicate and empty ones"));
+        return Err(ContentProblem::new(problem, "sort the lines, and remove duplicate and empty ones"));
     }
     match (Axis::from_points(quantity, points.clone()).points, rate) {
         (Points::NonUniform(_), _) => {

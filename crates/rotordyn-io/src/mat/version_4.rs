@@ -3,7 +3,7 @@
 //! Type (byte order, number format, class), rows, columns, whether complex, length of the name. Format: MATLAB MAT-File
 //! Format, The MathWorks, R2019b, "Version 4".
 
-use super::{Contents, DAMAGED_SIZE, Fault, Reader, to_row_major};
+use super::elements::{Contents, DAMAGED_SIZE, Fault, Reader, to_row_major};
 use crate::budget::Budget;
 use crate::measured::arrays::{Array, Data};
 use rotordyn_signal::Complex;

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 pub use super::array::{Array, Data};
 use super::axis_names::six_digits;
-use super::refusal::Refusal;
+use super::content_problem::ContentProblem;
 use super::structures::{Axes, Structures, last_name};
 use super::{signal_calc, unit_label};
 use crate::budget::Budget;
@@ -25,7 +25,7 @@ const PROPERTY_SUFFIXES: [&str; 10] =
 ///
 /// # Errors
 /// More records or memory than the budget of the file has, or two sampling rates that differ for one record.
-pub(crate) fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, Refusal> {
+pub(crate) fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, ContentProblem> {
     if arrays.iter().any(|a| a.name == signal_calc::INFO_ARRAY) {
         return Ok(signal_calc::to_records(arrays, budget)?);
     }
@@ -86,7 +86,12 @@ impl<'a> File<'a> {
     }
 
     /// The records of one array.
-    fn records(&self, array: &'a Array, budget: &Budget, out: &mut MeasuredData) -> Result<(), Refusal> {
+    fn records(
+        &self,
+        array: &'a Array,
+        budget: &Budget,
+        out: &mut MeasuredData,
+    ) -> Result<(), ContentProblem> {
         let axes = &self.structures.axes(array)?;
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let name = own("name").or_else(|| own("is")).and_then(Array::as_text).unwrap_or(&array.name);
@@ -153,12 +158,12 @@ impl<'a> File<'a> {
         shape: &[usize],
         axes: &Axes<'a>,
         budget: &Budget,
-    ) -> Result<Vec<Slice>, Refusal> {
+    ) -> Result<Vec<Slice>, ContentProblem> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let own_list = |suffix: &str| own(suffix).and_then(Array::as_list);
         let is_time = own("kind").and_then(Array::as_text) == Some(Kind::Time.label())
             || array.name.to_lowercase().ends_with("_time");
-        let over = |count: usize| -> Result<(Axis, String), Refusal> {
+        let over = |count: usize| -> Result<(Axis, String), ContentProblem> {
             let fits = |list: &&[f64]| list.len() == count;
             let stated_by = |suffix: &str| format!("`{}_{suffix}`", array.name);
             if let Some(rate) = own("fs").and_then(Array::as_scalar).filter(|rate| *rate > 0.0) {

@@ -4,7 +4,7 @@
 //! A unit may follow: `fs_kHz`, `time_ms`.
 
 use super::unit_label;
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 
 /// What a name states of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -201,12 +201,12 @@ impl StatedRate {
 ///
 /// # Errors
 /// Two rates differ by more than 0.5 %.
-pub(crate) fn check_same<'a>(rates: impl IntoIterator<Item = &'a StatedRate>) -> Result<(), Refusal> {
+pub(crate) fn check_same<'a>(rates: impl IntoIterator<Item = &'a StatedRate>) -> Result<(), ContentProblem> {
     let mut rates = rates.into_iter();
     let Some(first) = rates.next() else { return Ok(()) };
     match rates.find(|other| (other.rate / first.rate - 1.0).abs() > SAME_RATE) {
         None => Ok(()),
-        Some(other) => Err(Refusal::new(
+        Some(other) => Err(ContentProblem::new(
             format!(
                 "it states two sampling rates: {} is {} Hz, {} is {} Hz",
                 first.source,

@@ -26,7 +26,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
     let size = std::fs::metadata(path).map_err(Error::of_file("read", path))?.len();
     let budget = Budget::new(limits, size);
     let Collected { found, left_out, .. } = Collected::of_file(&*file, &budget)?;
-    let mut out = arrays::to_records(&found, &budget).map_err(|refusal| refusal.of_file(path))?;
+    let mut out = arrays::to_records(&found, &budget).map_err(|problem| problem.of_file(path))?;
     out.left_out.splice(0..0, left_out);
     Ok(out)
 }

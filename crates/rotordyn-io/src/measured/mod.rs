@@ -10,9 +10,10 @@
 //! | LabVIEW | .lvm | | records |
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
-mod array;
+pub(crate) mod array;
 pub mod arrays;
 pub(crate) mod axis_names;
+pub(crate) mod content_problem;
 #[cfg(feature = "hdf5")]
 mod hdf5_arrays;
 #[cfg(feature = "hdf5")]
@@ -21,7 +22,6 @@ pub mod hdf5_records;
 pub mod impact_run;
 pub mod mapping;
 mod record_arrays;
-pub(crate) mod refusal;
 pub mod run_up;
 mod signal_calc;
 mod structures;
@@ -121,7 +121,7 @@ pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> 
         return Err(content("the file is empty", "copy or export it again"));
     }
     let of_arrays = |(arrays, left_out, budget): (Vec<arrays::Array>, Vec<String>, Budget)| {
-        let mut out = arrays::to_records(&arrays, &budget).map_err(|refusal| refusal.of_file(path))?;
+        let mut out = arrays::to_records(&arrays, &budget).map_err(|problem| problem.of_file(path))?;
         out.left_out.splice(0..0, left_out);
         Ok::<_, Error>(out)
     };

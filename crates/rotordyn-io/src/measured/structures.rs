@@ -8,7 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::array::{Array, Data};
 use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning};
-use super::refusal::Refusal;
+use super::content_problem::ContentProblem;
 use crate::budget::MAX_DEPTH;
 use rotordyn_signal::record::{Axis, AxisQuantity, Points};
 
@@ -120,7 +120,7 @@ impl<'a> Structures<'a> {
     }
 
     /// What holds for the records of an array.
-    pub fn axes(&self, array: &'a Array) -> Result<Axes<'a>, Refusal> {
+    pub fn axes(&self, array: &'a Array) -> Result<Axes<'a>, ContentProblem> {
         let mut found = Axes::default();
         let mut at = array.name.as_str();
         for distance in 0..=MAX_DEPTH + 1 {
@@ -135,7 +135,12 @@ impl<'a> Structures<'a> {
         Ok(found)
     }
 
-    fn add(&self, found: &mut Axes<'a>, stated: &[(Meaning, usize)], distance: usize) -> Result<(), Refusal> {
+    fn add(
+        &self,
+        found: &mut Axes<'a>,
+        stated: &[(Meaning, usize)],
+        distance: usize,
+    ) -> Result<(), ContentProblem> {
         let scalar = |role: Role| {
             let of_role = stated.iter().find(|(meaning, _)| meaning.role == role);
             of_role.and_then(|(_, place)| Some((self.arrays[*place].as_scalar()?, *place)))
@@ -166,7 +171,12 @@ impl<'a> Structures<'a> {
     }
 
     /// The axis of a record of `count` values, and what states it.
-    pub fn axis(&self, axes: &Axes<'a>, count: usize, is_time: bool) -> Result<(Axis, String), Refusal> {
+    pub fn axis(
+        &self,
+        axes: &Axes<'a>,
+        count: usize,
+        is_time: bool,
+    ) -> Result<(Axis, String), ContentProblem> {
         let frequency = axes.frequency.filter(|list| list.values.len() == count && !is_time);
         let time = axes.time.filter(|list| list.values.len() == count);
         let nearest = [frequency, time].into_iter().flatten().min_by_key(|list| list.distance);

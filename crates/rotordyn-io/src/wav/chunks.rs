@@ -4,7 +4,7 @@
 //! (RF64, whose sizes beyond 4 GB are in the chunk `ds64`).
 
 use crate::budget::Budget;
-use crate::measured::refusal::Refusal;
+use crate::measured::content_problem::ContentProblem;
 use rotordyn_signal::record::{MeasuredData, Record};
 
 /// Codes of the format.
@@ -47,8 +47,8 @@ fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 impl Form {
-    fn read(chunk: &[u8]) -> Result<Self, Refusal> {
-        let damaged = || Refusal::new("its format (chunk `fmt `) is damaged", COPY_AGAIN);
+    fn read(chunk: &[u8]) -> Result<Self, ContentProblem> {
+        let damaged = || ContentProblem::new("its format (chunk `fmt `) is damaged", COPY_AGAIN);
         let code = u16_at(chunk, 0).ok_or_else(damaged)?;
         let channels = usize::from(u16_at(chunk, 2).ok_or_else(damaged)?);
         let rate = u32_at(chunk, 4).ok_or_else(damaged)?;
@@ -58,7 +58,10 @@ impl Form {
             EXTENSIBLE => {
                 let sub_format = u16_at(chunk, 24).ok_or_else(damaged)?;
                 if chunk.get(26..40) != Some(&GUID[..]) {
-                    return Err(Refusal::new("its samples are of an unknown kind (sub-format)", SAVE_AS));
+                    return Err(ContentProblem::new(
+                        "its samples are of an unknown kind (sub-format)",
+                        SAVE_AS,
+                    ));
                 }
                 sub_format
             }
@@ -76,7 +79,7 @@ impl Form {
                 let kind = if code == PCM { "integers" } else { "floats" };
                 let problem =
                     format!("its samples are {kind} of {bits} bits in {width} bytes, which are not read");
-                return Err(Refusal::new(problem, SAVE_AS));
+                return Err(ContentProblem::new(problem, SAVE_AS));
             }
             (code, ..) => {
                 let kind = match code {
@@ -86,11 +89,17 @@ impl Form {
                     0x50 | 0x55 => "compressed (MPEG)",
                     _ => "of an unknown kind",
                 };
-                return Err(Refusal::new(format!("its samples are {kind}: format code {code}"), SAVE_AS));
+                return Err(ContentProblem::new(
+                    format!("its samples are {kind}: format code {code}"),
+                    SAVE_AS,
+                ));
             }
         };
         if rate == 0 {
-            return Err(Refusal::new("the sampling rate is 0 Hz", "write the file again with its rate"));
+            return Err(ContentProblem::new(
+                "the sampling rate is 0 Hz",
+                "write the file again with its rate",
+            ));
         }
         Ok(Self { float, channels, rate, width })
     }
@@ -117,7 +126,7 @@ impl Form {
 ///
 /// # Errors
 /// Samples that are missing or of another kind, or contents that exceed the budget.
-pub(super) fn records(bytes: &[u8], stem: &str, budget: &Budget) -> Result<MeasuredData, Refusal> {
+pub(super) fn records(bytes: &[u8], stem: &str, budget: &Budget) -> Result<MeasuredData, ContentProblem> {
     let mut out = MeasuredData::default();
     let (mut form, mut found, mut long_size, mut more) = (None, None, None, 0);
     let mut rest = bytes.get(12..).unwrap_or_default();
@@ -150,13 +159,14 @@ pub(super) fn records(bytes: &[u8], stem: &str, budget: &Budget) -> Result<Measu
     if more > 0 {
         out.left_out.push(format!("{more} more chunks"));
     }
-    let form = form.ok_or_else(|| Refusal::new("the file has no format (chunk `fmt `)", COPY_AGAIN))?;
+    let form =
+        form.ok_or_else(|| ContentProblem::new("the file has no format (chunk `fmt `)", COPY_AGAIN))?;
     let (data, stated) =
-        found.ok_or_else(|| Refusal::new("the file is cut off: it has no samples", COPY_AGAIN))?;
+        found.ok_or_else(|| ContentProblem::new("the file is cut off: it has no samples", COPY_AGAIN))?;
     let expected = stated / form.width as u64;
     let samples = data.len() / form.width;
     if (samples as u64) < expected || samples < form.channels {
-        return Err(Refusal::new(
+        return Err(ContentProblem::new(
             format!("the file is cut off: {samples} of {expected} samples"),
             COPY_AGAIN,
         ));

@@ -7,12 +7,12 @@ use crate::error::Error;
 
 /// A problem of a file's contents, and a hint how to correct it.
 #[derive(Debug)]
-pub(crate) struct Refusal {
+pub(crate) struct ContentProblem {
     pub problem: String,
     pub advice: String,
 }
 
-impl Refusal {
+impl ContentProblem {
     pub fn new(problem: impl Into<String>, advice: impl Into<String>) -> Self {
         Self { problem: problem.into(), advice: advice.into() }
     }
@@ -22,7 +22,7 @@ impl Refusal {
     }
 }
 
-impl From<Exceeded> for Refusal {
+impl From<Exceeded> for ContentProblem {
     fn from(exceeded: Exceeded) -> Self {
         Self::new(exceeded.to_string(), exceeded.advice())
     }
