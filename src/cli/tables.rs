@@ -13,6 +13,7 @@ use rotordyn::results::{
 use rotordyn::series::SeriesError;
 
 use super::equilibrium_loads;
+use super::printed;
 use super::terminal::{Terminal, number, rpm};
 
 /// Largest number of rows printed; the rest is in results.h5.
@@ -422,4 +423,5 @@ pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
     let header = ["channel", "order line", "order", "peak RMS", "unit", "at rpm"];
     terminal.table("Order cuts: peak levels", &header, &rows);
     print_omitted_count(terminal, count);
+    found.iter().for_each(|result| printed::tables(terminal, &result.section().content));
 }
