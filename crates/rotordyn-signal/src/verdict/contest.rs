@@ -1,0 +1,190 @@
+//! Contest of the bearing parts with each other and with their rivals in one envelope spectrum.
+
+use super::super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
+use super::grade::{FEATURES, Features};
+use super::line_spectrum::{LinePeak, LineSpectrum};
+use super::part_fit::{FittedLine, PRESENT, PartFit};
+use super::rivals::{Rival, find_rivals};
+
+/// Amplitude ratio from which a neighbouring line dominates another on its skirt.
+const DOMINANT: f64 = 3.0;
+/// Evidence of a ball's lines from which FTF counts as its modulation.
+const BALL_EVIDENCE: f64 = 25.0;
+
+/// What one envelope spectrum says: the best part, what competes with it.
+pub(super) struct Contest {
+    pub winner: PartFit,
+    /// Rivals of the winner: families among the lines that are not its own.
+    pub rivals: Vec<Rival>,
+    pub features: Features,
+    /// Rank of the band: evidence, less if stronger lines remain unexplained.
+    pub score: f64,
+    /// The part with the highest evidence if a rival explains most of it as well.
+    pub unresolved: Option<(BearingPart, f64, Rival)>,
+}
+
+/// Compares the parts in a spectrum; `hz_per_unit` is the frequency unit \[Hz\], `None` for orders.
+pub(super) fn contest(
+    spectrum: &LineSpectrum,
+    rates: &DefectFrequencies,
+    settings: &LineSettings,
+    hz_per_unit: Option<f64>,
+) -> Contest {
+    let step = spectrum.step;
+    let mut fits = BearingPart::ALL.map(|part| PartFit::new(spectrum, part, rates, settings));
+    let cage = fits[BearingPart::Cage as usize].clone();
+    let rivals: Vec<Vec<Rival>> = fits
+        .iter_mut()
+        .map(|fit| {
+            let rivals = rivals_of(fit, spectrum, rates, hz_per_unit);
+            let owns: Vec<bool> = fit
+                .lines
+                .iter()
+                .map(|line| {
+                    !rivals.iter().any(|r| r.explains(line.frequency, step))
+                        && !is_dominated(fit, line, spectrum, rates)
+                        && !is_cage_harmonic(fit, line, &cage, spectrum)
+                })
+                .collect();
+            fit.lines.iter_mut().zip(owns).for_each(|(line, own)| line.own = own);
+            rivals
+        })
+        .collect();
+    let strength = fits.each_ref().map(|fit| match fit.part {
+        BearingPart::Ball if fit.own_evidence() > BALL_EVIDENCE => {
+            // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
+            fit.own_evidence() + cage.own_evidence()
+        }
+        _ => fit.own_evidence(),
+    });
+    let best = (0..fits.len()).max_by(|&a, &b| strength[a].total_cmp(&strength[b])).unwrap_or(0);
+    let runner_up = (0..fits.len())
+        .filter(|k| *k != best)
+        .map(|k| {
+            let own = fits[k].lines.iter().filter(|l| l.own);
+            own.filter(|l| !fits[best].explains(l.frequency, rates.shaft, step)).map(|l| l.evidence).sum::<f64>()
+        })
+        .fold(0.0, f64::max);
+    let unresolved = unresolved(&fits, &rivals, step);
+    let features = features(&fits[best], &rivals[best], runner_up, spectrum, rates, hz_per_unit);
+    let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0);
+    let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
+    Contest { winner, rivals, features, score, unresolved }
+}
+
+/// Families that the peaks beside a part's own lines support.
+fn rivals_of(
+    fit: &PartFit,
+    spectrum: &LineSpectrum,
+    rates: &DefectFrequencies,
+    hz_per_unit: Option<f64>,
+) -> Vec<Rival> {
+    let step = spectrum.step;
+    let others: Vec<LinePeak> =
+        spectrum.peaks.iter().filter(|p| !fit.explains(p.frequency, rates.shaft, step)).copied().collect();
+    // The part's own rate, found again by lines of its family that wandered, is no rival.
+    let excluded = |rate: f64| {
+        fit.has_harmonic(rate, step) || fit.part == BearingPart::Ball && (rate / fit.cage - 1.0).abs() < 0.006
+    };
+    find_rivals(&others, rates.shaft, hz_per_unit, step, excluded)
+}
+
+/// Whether a line lies on the skirt of a higher one that is not of its family.
+fn is_dominated(fit: &PartFit, line: &FittedLine, spectrum: &LineSpectrum, rates: &DefectFrequencies) -> bool {
+    let reach = (4.0 * spectrum.step).max(0.008 * line.frequency);
+    spectrum.highest(line.frequency, reach).is_some_and(|(frequency, amplitude)| {
+        amplitude > DOMINANT * line.amplitude && !fit.explains(frequency, rates.shaft, spectrum.step)
+    })
+}
+
+/// Whether a line is harmonic k of FTF and most of FTF's harmonics below it stand as well.
+///
+/// BPFO is Z FTF: in a cage's family it is one harmonic of many; beside a ball only those count that its own
+/// load modulation (up to 4 FTF about 0 and about the line) does not give.
+fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: &LineSpectrum) -> bool {
+    if fit.part == BearingPart::Cage {
+        return false;
+    }
+    let number = (line.frequency / cage.base).round();
+    let near = 1.2 * spectrum.step + 1e-3 * line.frequency;
+    if number < 3.0 || (line.frequency - number * cage.base).abs() > near {
+        return false;
+    }
+    let margin = if fit.part == BearingPart::Ball { 5 } else { 1 };
+    let compared = margin..(number as usize + 1).saturating_sub(margin).min(20);
+    let stands = |n: &usize| {
+        let place = *n as f64 * cage.base;
+        let amplitude = spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
+        spectrum.evidence(place) > PRESENT && amplitude > 0.2 * line.amplitude
+    };
+    let count = compared.len();
+    count >= 2 && 2 * compared.filter(stands).count() > count
+}
+
+/// The part of highest evidence, if a rival explains more than half of it.
+fn unresolved(fits: &[PartFit; 4], rivals: &[Vec<Rival>], step: f64) -> Option<(BearingPart, f64, Rival)> {
+    let (fit, rivals) = fits.iter().zip(rivals).max_by(|a, b| a.0.evidence().total_cmp(&b.0.evidence()))?;
+    if fit.own_evidence() > 0.5 * fit.evidence() {
+        return None;
+    }
+    let first = fit.main_lines().filter(|l| l.evidence > PRESENT).min_by_key(|l| l.harmonic)?;
+    let rival = rivals.iter().find(|r| r.explains(first.frequency, step))?;
+    Some((fit.part, first.frequency, *rival))
+}
+
+/// The quantities the grade depends on, see [`FEATURES`].
+fn features(
+    fit: &PartFit,
+    rivals: &[Rival],
+    runner_up: f64,
+    spectrum: &LineSpectrum,
+    rates: &DefectFrequencies,
+    hz_per_unit: Option<f64>,
+) -> Features {
+    let step = spectrum.step;
+    let own = fit.own_evidence();
+    let amplitude = fit.own_amplitude();
+    let level = |a: f64| if amplitude > 0.0 { (a / amplitude).ln().clamp(-3.0, 3.0) } else { 3.0 };
+    let known = rivals.iter().filter(|r| r.kind != super::RivalKind::Periodic);
+    let known: Vec<Rival> = known.copied().collect();
+    let unexplained = spectrum.peaks.iter().find(|p| {
+        !fit.explains(p.frequency, rates.shaft, step) && !known.iter().any(|r| r.explains(p.frequency, step))
+    });
+    let free = rivals.iter().filter(|r| r.kind == super::RivalKind::Periodic);
+    let strongest_rival = free.map(|r| r.amplitude).fold(0.0, f64::max);
+    let present = |l: &&FittedLine| l.own && l.evidence > PRESENT;
+    let main = fit.main_lines().filter(|l| l.harmonic <= 4).filter(present).count();
+    let side = fit.lines.iter().filter(|l| l.modulation.is_some() && l.harmonic <= 2).filter(present).count();
+    let first = fit.main_lines().find(|l| l.harmonic == 1).map_or(0.0, |l| l.amplitude);
+    let highest = fit.main_lines().map(|l| l.amplitude).fold(f64::MIN_POSITIVE, f64::max);
+    let is = |part: BearingPart| f64::from(fit.part == part);
+    let mut out = [0.0; FEATURES.count];
+    out[FEATURES.constant] = 1.0;
+    out[FEATURES.inner] = is(BearingPart::InnerRace);
+    out[FEATURES.ball] = is(BearingPart::Ball);
+    out[FEATURES.cage] = is(BearingPart::Cage);
+    out[FEATURES.evidence] = own.ln_1p().min(12.0);
+    out[FEATURES.unexplained] = level(unexplained.map_or(0.0, |p| p.amplitude));
+    out[FEATURES.rival] = level(strongest_rival);
+    out[FEATURES.shared] = if fit.evidence() > 0.0 { 1.0 - own / fit.evidence() } else { 1.0 };
+    out[FEATURES.harmonics] = main as f64 / 4.0;
+    out[FEATURES.fundamental] = (first / highest).max(1e-9).ln().max(-3.0);
+    out[FEATURES.inner_side_bands] = is(BearingPart::InnerRace) * side as f64 / 8.0;
+    out[FEATURES.ball_side_bands] = is(BearingPart::Ball) * side as f64 / 8.0;
+    out[FEATURES.runner_up] = (runner_up.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
+    out[FEATURES.fraction] = fraction_evidence(fit, spectrum).ln_1p().min(8.0);
+    let _ = hz_per_unit;
+    out
+}
+
+/// Evidence of lines at fractions of the defect frequency, j f/n: a slower family has them, the bearing not.
+fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum) -> f64 {
+    let mean = |n: usize| {
+        let places = (1..2 * n).filter(|j| j % n != 0);
+        let values = places.map(|j| spectrum.evidence(j as f64 * fit.base / n as f64).min(200.0));
+        values.sum::<f64>() / (2 * n - 2) as f64
+    };
+    // Half of 2 BSF is BSF itself: unequal impacts on the two races.
+    let from = if fit.part == BearingPart::Ball { 3 } else { 2 };
+    (from..=6).map(mean).fold(0.0, f64::max)
+}

@@ -1,0 +1,130 @@
+//! An envelope spectrum over its noise floor: evidence of a line at each bin, and the strongest peaks.
+
+use std::f64::consts::LN_2;
+
+use super::super::background::running_median;
+use super::super::ridge::interpolate_peak;
+use super::super::spectrum::Spectrum;
+
+/// Lowest background over the highest line: what is 54 dB below it may be its own by-product.
+const DYNAMIC_RANGE: f64 = 2e-3;
+/// Bins averaged for lines that speed and slip smear, with the frequency over bin spacing from which a line
+/// may be that wide (0.5 % of its frequency), and the independent values they hold behind a Hann window.
+const WIDTHS: [(usize, f64, f64); 4] = [(1, 0.0, 1.0), (3, 300.0, 1.86), (5, 500.0, 2.87), (9, 900.0, 4.91)];
+/// Evidence from which a single peak counts as a line: one noise bin in 2e5 has as much.
+const PEAK_EVIDENCE: f64 = 9.0;
+/// Peaks kept.
+const MAX_PEAKS: usize = 40;
+
+/// Envelope spectrum with the evidence of lines.
+pub(super) struct LineSpectrum {
+    /// Spacing of the bins.
+    pub step: f64,
+    pub amplitude: Vec<f64>,
+    evidence: Vec<f64>,
+    /// Strongest local maxima above the background, strongest first.
+    pub peaks: Vec<LinePeak>,
+}
+
+/// A peak that noise does not explain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LinePeak {
+    pub frequency: f64,
+    pub amplitude: f64,
+    pub background: f64,
+}
+
+impl LineSpectrum {
+    /// Evidence: log-likelihood ratio n (q̄ − 1 − ln q̄) of the mean of n bins of q = A² ln 2/m² > 1 against noise.
+    ///
+    /// m is the running median over ± ¾ of the shaft speed; the noise has q exponential with mean 1.
+    pub fn new(spectrum: &Spectrum, shaft: f64) -> Self {
+        let step = spectrum.frequencies[1] - spectrum.frequencies[0];
+        let half_width = ((0.75 * shaft / step).round() as usize).max(24);
+        let mut background = running_median(&spectrum.values, half_width);
+        let highest = spectrum.values.iter().skip(1).copied().fold(0.0, f64::max);
+        background.iter_mut().for_each(|m| *m = m.max(DYNAMIC_RANGE * highest));
+        let ratio: Vec<f64> =
+            spectrum.values.iter().zip(&background).map(|(a, m)| LN_2 * (a / m).powi(2)).collect();
+        let evidence = line_evidence(&ratio);
+        let peaks = peaks(spectrum, &background, &ratio);
+        LineSpectrum { step, amplitude: spectrum.values.clone(), evidence, peaks }
+    }
+
+    /// Highest frequency.
+    pub fn end(&self) -> f64 {
+        self.step * (self.amplitude.len() - 2) as f64
+    }
+
+    /// Evidence at a frequency: the higher of the two bins beside it; 0 outside the spectrum.
+    pub fn evidence(&self, frequency: f64) -> f64 {
+        let place = frequency / self.step;
+        if place < 2.0 || place >= (self.evidence.len() - 2) as f64 {
+            return 0.0;
+        }
+        let bin = place as usize;
+        self.evidence[bin].max(self.evidence[bin + 1])
+    }
+
+    /// Highest bin within ± `reach` of a frequency: frequency and amplitude; `None` outside the spectrum.
+    pub fn highest(&self, frequency: f64, reach: f64) -> Option<(f64, f64)> {
+        let first = ((frequency - reach) / self.step).ceil().max(2.0) as usize;
+        let last = ((frequency + reach) / self.step).floor().max(0.0) as usize;
+        let bins = first..=last.min(self.amplitude.len() - 2);
+        let bin = bins.max_by(|&a, &b| self.amplitude[a].total_cmp(&self.amplitude[b]))?;
+        Some((bin as f64 * self.step, self.amplitude[bin]))
+    }
+}
+
+/// Evidence at every bin, the highest over the admitted widths.
+fn line_evidence(ratio: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; ratio.len() + 1];
+    for (k, q) in ratio.iter().enumerate() {
+        sums[k + 1] = sums[k] + q;
+    }
+    let at = |k: usize| {
+        let admitted = WIDTHS.iter().filter(|(width, from, _)| {
+            k as f64 >= *from && k >= width / 2 && k + width / 2 < ratio.len()
+        });
+        admitted
+            .map(|(width, _, independent)| {
+                let (first, end) = (k - width / 2, k + width / 2 + 1);
+                let mean = (sums[end] - sums[first]) / *width as f64;
+                if mean > 1.0 { independent * (mean - 1.0 - mean.ln()) } else { 0.0 }
+            })
+            .fold(0.0, f64::max)
+    };
+    (0..ratio.len()).map(at).collect()
+}
+
+fn peaks(spectrum: &Spectrum, background: &[f64], ratio: &[f64]) -> Vec<LinePeak> {
+    let values = &spectrum.values;
+    let is_peak = |k: &usize| {
+        let q = ratio[*k];
+        values[*k] > values[k - 1] && values[*k] >= values[k + 1] && q - 1.0 - q.ln() > PEAK_EVIDENCE && q > 1.0
+    };
+    let mut found: Vec<LinePeak> = (2..values.len().saturating_sub(2))
+        .filter(is_peak)
+        .map(|k| {
+            let peak = interpolate_peak(&spectrum.frequencies, values, k);
+            LinePeak { frequency: peak.position, amplitude: peak.amplitude, background: background[k] }
+        })
+        .collect();
+    found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude).then(a.frequency.total_cmp(&b.frequency)));
+    // A peak on the skirt of a higher one is part of that line.
+    let step = spectrum.frequencies[1] - spectrum.frequencies[0];
+    let mut kept: Vec<LinePeak> = Vec::new();
+    for peak in found {
+        let skirt = |top: &LinePeak| {
+            (peak.frequency - top.frequency).abs() < (3.0 * step).max(0.008 * top.frequency)
+                && top.amplitude > 2.0 * peak.amplitude
+        };
+        if !kept.iter().any(skirt) {
+            kept.push(peak);
+        }
+        if kept.len() == MAX_PEAKS {
+            break;
+        }
+    }
+    kept
+}
