@@ -2,14 +2,16 @@
 
 use super::super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use super::grade::{FEATURES, Features};
-use super::line_spectrum::{LinePeak, LineSpectrum};
+use super::line_spectrum::{KnownLines, LinePeak, LineSpectrum};
 use super::part_fit::{FittedLine, PRESENT, PartFit};
 use super::rivals::{Rival, find_rivals};
 
 /// Amplitude ratio from which a neighbouring line dominates another on its skirt.
 const DOMINANT: f64 = 3.0;
 /// Evidence of a ball's lines from which FTF counts as its modulation.
-const BALL_EVIDENCE: f64 = 25.0;
+const BALL_EVIDENCE: f64 = 12.0;
+/// Share of its evidence that a ball without any side band keeps in the contest: its impacts pass the load zone.
+const WITHOUT_SIDE_BANDS: f64 = 0.5;
 
 /// What one envelope spectrum says: the best part, what competes with it.
 pub(super) struct Contest {
@@ -31,6 +33,7 @@ pub(super) fn contest(
     hz_per_unit: Option<f64>,
 ) -> Contest {
     let step = spectrum.step;
+    let known = KnownLines { shaft: rates.shaft, hz_per_unit, step };
     let mut fits = BearingPart::ALL.map(|part| PartFit::new(spectrum, part, rates, settings));
     let cage = fits[BearingPart::Cage as usize].clone();
     let rivals: Vec<Vec<Rival>> = fits
@@ -44,29 +47,37 @@ pub(super) fn contest(
                     !rivals.iter().any(|r| r.explains(line.frequency, step))
                         && !is_dominated(fit, line, spectrum, rates)
                         && !is_cage_harmonic(fit, line, &cage, spectrum)
+                        && (fit.part == BearingPart::Cage || !known.contains(line.frequency))
                 })
                 .collect();
             fit.lines.iter_mut().zip(owns).for_each(|(line, own)| line.own = own);
             rivals
         })
         .collect();
+    let own = fits.each_ref().map(|fit| fit.own_evidence());
+    let ball = own[BearingPart::Ball as usize];
     let strength = fits.each_ref().map(|fit| match fit.part {
-        BearingPart::Ball if fit.own_evidence() > BALL_EVIDENCE => {
-            // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
-            fit.own_evidence() + cage.own_evidence()
-        }
-        _ => fit.own_evidence(),
+        // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
+        BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 => ball + own[BearingPart::Cage as usize],
+        BearingPart::Ball => WITHOUT_SIDE_BANDS * ball,
+        part => own[part as usize],
     });
     let best = (0..fits.len()).max_by(|&a, &b| strength[a].total_cmp(&strength[b])).unwrap_or(0);
-    let runner_up = (0..fits.len())
-        .filter(|k| *k != best)
-        .map(|k| {
-            let own = fits[k].lines.iter().filter(|l| l.own);
-            own.filter(|l| !fits[best].explains(l.frequency, rates.shaft, step)).map(|l| l.evidence).sum::<f64>()
+    let others = || (0..fits.len()).filter(|k| *k != best);
+    let runner_up = others()
+        .map(|k| match fits[best].part {
+            // Every line near a multiple of FTF could be the cage's.
+            BearingPart::Cage => own[k],
+            _ => {
+                let own = fits[k].lines.iter().filter(|l| l.own);
+                let left = own.filter(|l| !fits[best].explains(l.frequency, rates.shaft, step));
+                left.map(|l| l.evidence).sum::<f64>()
+            }
         })
         .fold(0.0, f64::max);
+    let ambiguity = others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
     let unresolved = unresolved(&fits, &rivals, step);
-    let features = features(&fits[best], &rivals[best], runner_up, spectrum, rates, hz_per_unit);
+    let features = features(&fits[best], &rivals[best], [runner_up, ambiguity], spectrum, &known);
     let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0);
     let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
     Contest { winner, rivals, features, score, unresolved }
@@ -97,28 +108,32 @@ fn is_dominated(fit: &PartFit, line: &FittedLine, spectrum: &LineSpectrum, rates
     })
 }
 
-/// Whether a line is harmonic k of FTF and most of FTF's harmonics below it stand as well.
+/// Whether a line is harmonic k of FTF and FTF's harmonics about k/2 stand as well.
 ///
-/// BPFO is Z FTF: in a cage's family it is one harmonic of many; beside a ball only those count that its own
-/// load modulation (up to 4 FTF about 0 and about the line) does not give.
+/// BPFO is Z FTF: in a cage's family it is one harmonic of many. A ball's load modulation gives the first few
+/// multiples of FTF and side bands about 2 BSF, but none half-way between.
 fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: &LineSpectrum) -> bool {
     if fit.part == BearingPart::Cage {
         return false;
     }
     let number = (line.frequency / cage.base).round();
-    let near = 1.2 * spectrum.step + 1e-3 * line.frequency;
-    if number < 3.0 || (line.frequency - number * cage.base).abs() > near {
+    let near = 1.2 * spectrum.step + 3e-3 * line.frequency;
+    if number < 4.0 || (line.frequency - number * cage.base).abs() > near {
         return false;
     }
-    let margin = if fit.part == BearingPart::Ball { 5 } else { 1 };
-    let compared = margin..(number as usize + 1).saturating_sub(margin).min(20);
-    let stands = |n: &usize| {
-        let place = *n as f64 * cage.base;
+    let middle = (0.5 * number).round();
+    let stands = |n: &f64| {
+        let place = n * cage.base;
         let amplitude = spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
-        spectrum.evidence(place) > PRESENT && amplitude > 0.2 * line.amplitude
+        spectrum.evidence(place) > PRESENT && amplitude > 0.4 * line.amplitude
     };
-    let count = compared.len();
-    count >= 2 && 2 * compared.filter(stands).count() > count
+    [middle - 1.0, middle, middle + 1.0].iter().filter(|n| stands(n)).count() >= 2
+}
+
+/// Number of side bands of the first `harmonics` that stand and are the part's own.
+fn side_bands(fit: &PartFit, harmonics: usize) -> usize {
+    let side = fit.lines.iter().filter(|l| l.modulation.is_some() && l.harmonic <= harmonics);
+    side.filter(|l| l.own && l.evidence > PRESENT).count()
 }
 
 /// The part of highest evidence, if a rival explains more than half of it.
@@ -136,25 +151,25 @@ fn unresolved(fits: &[PartFit; 4], rivals: &[Vec<Rival>], step: f64) -> Option<(
 fn features(
     fit: &PartFit,
     rivals: &[Rival],
-    runner_up: f64,
+    [runner_up, ambiguity]: [f64; 2],
     spectrum: &LineSpectrum,
-    rates: &DefectFrequencies,
-    hz_per_unit: Option<f64>,
+    known: &KnownLines,
 ) -> Features {
     let step = spectrum.step;
     let own = fit.own_evidence();
     let amplitude = fit.own_amplitude();
     let level = |a: f64| if amplitude > 0.0 { (a / amplitude).ln().clamp(-3.0, 3.0) } else { 3.0 };
-    let known = rivals.iter().filter(|r| r.kind != super::RivalKind::Periodic);
-    let known: Vec<Rival> = known.copied().collect();
-    let unexplained = spectrum.peaks.iter().find(|p| {
-        !fit.explains(p.frequency, rates.shaft, step) && !known.iter().any(|r| r.explains(p.frequency, step))
-    });
+    let unexplained = spectrum
+        .peaks
+        .iter()
+        .find(|p| !fit.explains(p.frequency, known.shaft, step) && !known.contains(p.frequency));
     let free = rivals.iter().filter(|r| r.kind == super::RivalKind::Periodic);
     let strongest_rival = free.map(|r| r.amplitude).fold(0.0, f64::max);
     let present = |l: &&FittedLine| l.own && l.evidence > PRESENT;
-    let main = fit.main_lines().filter(|l| l.harmonic <= 4).filter(present).count();
-    let side = fit.lines.iter().filter(|l| l.modulation.is_some() && l.harmonic <= 2).filter(present).count();
+    // Impacts of the cage have many harmonics, a modulation at FTF few.
+    let counted = if fit.part == BearingPart::Cage { 8 } else { 4 };
+    let main = fit.main_lines().filter(|l| l.harmonic <= counted).filter(present).count();
+    let side = side_bands(fit, 2);
     let first = fit.main_lines().find(|l| l.harmonic == 1).map_or(0.0, |l| l.amplitude);
     let highest = fit.main_lines().map(|l| l.amplitude).fold(f64::MIN_POSITIVE, f64::max);
     let is = |part: BearingPart| f64::from(fit.part == part);
@@ -167,22 +182,24 @@ fn features(
     out[FEATURES.unexplained] = level(unexplained.map_or(0.0, |p| p.amplitude));
     out[FEATURES.rival] = level(strongest_rival);
     out[FEATURES.shared] = if fit.evidence() > 0.0 { 1.0 - own / fit.evidence() } else { 1.0 };
-    out[FEATURES.harmonics] = main as f64 / 4.0;
+    out[FEATURES.harmonics] = main as f64 / counted as f64;
     out[FEATURES.fundamental] = (first / highest).max(1e-9).ln().max(-3.0);
     out[FEATURES.inner_side_bands] = is(BearingPart::InnerRace) * side as f64 / 8.0;
     out[FEATURES.ball_side_bands] = is(BearingPart::Ball) * side as f64 / 8.0;
     out[FEATURES.runner_up] = (runner_up.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
-    out[FEATURES.fraction] = fraction_evidence(fit, spectrum).ln_1p().min(8.0);
-    let _ = hz_per_unit;
+    out[FEATURES.ambiguity] = (ambiguity.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
+    out[FEATURES.fraction] = fraction_evidence(fit, spectrum, known);
     out
 }
 
-/// Evidence of lines at fractions of the defect frequency, j f/n: a slower family has them, the bearing not.
-fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum) -> f64 {
+/// Mean of ln(1 + evidence) at fractions j f/n of the defect frequency: a slower family has them, the bearing not.
+fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum, known: &KnownLines) -> f64 {
     let mean = |n: usize| {
-        let places = (1..2 * n).filter(|j| j % n != 0);
-        let values = places.map(|j| spectrum.evidence(j as f64 * fit.base / n as f64).min(200.0));
-        values.sum::<f64>() / (2 * n - 2) as f64
+        let places = (1..2 * n).filter(|j| j % n != 0).map(|j| j as f64 * fit.base / n as f64);
+        let own = |f: &f64| fit.explains(*f, known.shaft, spectrum.step) || known.contains(*f);
+        let values: Vec<f64> =
+            places.filter(|f| !own(f)).map(|f| (spectrum.evidence(f) - 1.0).max(0.0).ln_1p()).collect();
+        if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
     };
     // Half of 2 BSF is BSF itself: unequal impacts on the two races.
     let from = if fit.part == BearingPart::Ball { 3 } else { 2 };

@@ -23,8 +23,10 @@ pub(super) struct FeaturePlaces {
     pub ball_side_bands: usize,
     /// ln of the evidence of the next best part over that of the best.
     pub runner_up: usize,
-    /// ln(1 + mean evidence at fractions of the defect frequency).
+    /// Mean of ln(1 + evidence) at fractions of the defect frequency.
     pub fraction: usize,
+    /// As `runner_up`, with the lines that both explain.
+    pub ambiguity: usize,
     pub count: usize,
 }
 
@@ -43,7 +45,8 @@ pub(super) const FEATURES: FeaturePlaces = FeaturePlaces {
     ball_side_bands: 11,
     runner_up: 12,
     fraction: 13,
-    count: 14,
+    ambiguity: 14,
+    count: 15,
 };
 
 /// Number of features of a grade, the constant included.
@@ -54,7 +57,7 @@ pub type Features = [f64; FEATURE_COUNT];
 
 /// Coefficients of the log-odds, fitted to generated records by `tests/diagnosis` of this crate.
 pub const COEFFICIENTS: Features =
-    [-6.0, 0.0, 0.0, 0.0, 1.5, -1.0, -0.5, -2.0, 1.0, 0.5, 1.0, 1.0, -0.3, -0.5];
+    [-6.0, 0.0, 0.0, 0.0, 1.5, -1.0, -0.5, -2.0, 1.0, 0.5, 1.0, 1.0, -0.3, -0.5, -0.3];
 
 /// Probability 1/(1 + e^(−β·x)).
 pub(super) fn probability(features: &Features) -> f64 {

@@ -22,6 +22,8 @@ pub(super) struct LineSpectrum {
     pub step: f64,
     pub amplitude: Vec<f64>,
     evidence: Vec<f64>,
+    /// Evidence without the lines that shaft or mains may have.
+    foreign: Vec<f64>,
     /// Strongest local maxima above the background, strongest first.
     pub peaks: Vec<LinePeak>,
 }
@@ -38,7 +40,7 @@ impl LineSpectrum {
     /// Evidence: log-likelihood ratio n (q̄ − 1 − ln q̄) of the mean of n bins of q = A² ln 2/m² > 1 against noise.
     ///
     /// m is the running median over ± ¾ of the shaft speed; the noise has q exponential with mean 1.
-    pub fn new(spectrum: &Spectrum, shaft: f64) -> Self {
+    pub fn new(spectrum: &Spectrum, shaft: f64, hz_per_unit: Option<f64>) -> Self {
         let step = spectrum.frequencies[1] - spectrum.frequencies[0];
         let half_width = ((0.75 * shaft / step).round() as usize).max(24);
         let mut background = running_median(&spectrum.values, half_width);
@@ -48,7 +50,10 @@ impl LineSpectrum {
             spectrum.values.iter().zip(&background).map(|(a, m)| LN_2 * (a / m).powi(2)).collect();
         let evidence = line_evidence(&ratio);
         let peaks = peaks(spectrum, &background, &ratio);
-        LineSpectrum { step, amplitude: spectrum.values.clone(), evidence, peaks }
+        let known = KnownLines { shaft, hz_per_unit, step };
+        let open = |(k, e): (usize, &f64)| if known.contains(k as f64 * step) { 0.0 } else { *e };
+        let foreign = evidence.iter().enumerate().map(open).collect();
+        LineSpectrum { step, amplitude: spectrum.values.clone(), evidence, foreign, peaks }
     }
 
     /// Highest frequency.
@@ -58,12 +63,21 @@ impl LineSpectrum {
 
     /// Evidence at a frequency: the higher of the two bins beside it; 0 outside the spectrum.
     pub fn evidence(&self, frequency: f64) -> f64 {
+        self.higher_of_two(&self.evidence, frequency)
+    }
+
+    /// Evidence of a line that is neither of the shaft nor of the mains.
+    pub fn foreign_evidence(&self, frequency: f64) -> f64 {
+        self.higher_of_two(&self.foreign, frequency)
+    }
+
+    fn higher_of_two(&self, evidence: &[f64], frequency: f64) -> f64 {
         let place = frequency / self.step;
-        if place < 2.0 || place >= (self.evidence.len() - 2) as f64 {
+        if place < 2.0 || place >= (evidence.len() - 2) as f64 {
             return 0.0;
         }
         let bin = place as usize;
-        self.evidence[bin].max(self.evidence[bin + 1])
+        evidence[bin].max(evidence[bin + 1])
     }
 
     /// Highest bin within ± `reach` of a frequency: frequency and amplitude; `None` outside the spectrum.
@@ -73,6 +87,43 @@ impl LineSpectrum {
         let bins = first..=last.min(self.amplitude.len() - 2);
         let bin = bins.max_by(|&a, &b| self.amplitude[a].total_cmp(&self.amplitude[b]))?;
         Some((bin as f64 * self.step, self.amplitude[bin]))
+    }
+}
+
+/// Lines that every machine may have: harmonics of the shaft speed and of the mains.
+///
+/// A line that coincides with one of them says nothing of a bearing, whether or not the others stand.
+pub(super) struct KnownLines {
+    pub shaft: f64,
+    pub hz_per_unit: Option<f64>,
+    pub step: f64,
+}
+
+impl KnownLines {
+    /// Highest shaft order, highest frequency of the mains' harmonics \[Hz\].
+    const SHAFT_ORDERS: f64 = 30.0;
+    const MAINS_END: f64 = 600.0;
+
+    pub fn contains(&self, frequency: f64) -> bool {
+        self.is_shaft(frequency) || self.is_mains(frequency)
+    }
+
+    /// Tolerance: a bin, and 0.07 % of the stated speed.
+    pub fn is_shaft(&self, frequency: f64) -> bool {
+        let order = (frequency / self.shaft).round();
+        (1.0..=Self::SHAFT_ORDERS).contains(&order)
+            && (frequency - order * self.shaft).abs() <= self.step + 7e-4 * frequency
+    }
+
+    /// Tolerance: a bin, and 0.03 % of the mains' frequency.
+    pub fn is_mains(&self, frequency: f64) -> bool {
+        let Some(unit) = self.hz_per_unit else { return false };
+        let hz = frequency * unit;
+        hz <= Self::MAINS_END
+            && [50.0, 60.0].iter().any(|mains| {
+                let number = (hz / mains).round();
+                number >= 1.0 && (hz - number * mains).abs() <= self.step * unit + 3e-4 * hz
+            })
     }
 }
 

@@ -132,7 +132,7 @@ impl BandVerdict {
         settings: &LineSettings,
         hz_per_unit: Option<f64>,
     ) -> Self {
-        let spectrum = LineSpectrum::new(spectrum, rates.shaft);
+        let spectrum = LineSpectrum::new(spectrum, rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
         BandVerdict { spectrum, contest }
     }

@@ -71,18 +71,24 @@ impl PartFit {
             _ => 0,
         };
         let side = side_bands(part);
+        // FTF is so low that shaft and mains cover much of its comb; lines of the others stand clear of them.
+        let at = |place: f64| match part {
+            BearingPart::Cage => spectrum.evidence(place),
+            _ => spectrum.foreign_evidence(place),
+        };
         let fit = |base: f64, cage: f64| {
-            let at = |place: f64| spectrum.evidence(place).min(FIT_LIMIT);
             let mut total = 0.0;
             for h in 1..=harmonics {
-                total += at(h as f64 * base);
+                let main = at(h as f64 * base).min(FIT_LIMIT);
+                total += main;
                 for modulation in side {
                     let place = h as f64 * base + offset(*modulation, rates.shaft, cage);
-                    total += 0.5 * (at(place) - NOISE_EVIDENCE).max(0.0);
+                    // A load modulation is never stronger than what it modulates.
+                    total += 0.5 * (at(place).min(main) - NOISE_EVIDENCE).max(0.0);
                 }
             }
             if part == BearingPart::Ball {
-                total += (1..=2).map(|n| 0.5 * at(f64::from(n) * cage)).sum::<f64>();
+                total += (1..=2).map(|n| 0.5 * at(f64::from(n) * cage).min(FIT_LIMIT)).sum::<f64>();
             }
             total
         };
@@ -106,7 +112,8 @@ impl PartFit {
                     let shift = modulation.map_or(0.0, |m| offset(m, rates.shaft, cage));
                     let place = harmonic as f64 * base + shift;
                     let (frequency, amplitude) = spectrum.highest(place, 1.05 * spectrum.step + 5e-4 * place)?;
-                    let evidence = (spectrum.evidence(place) - NOISE_EVIDENCE).max(0.0);
+                    let limit = modulation.map_or(f64::INFINITY, |_| spectrum.evidence(harmonic as f64 * base));
+                    let evidence = (spectrum.evidence(place).min(limit) - NOISE_EVIDENCE).max(0.0);
                     Some(FittedLine { harmonic, modulation, frequency, amplitude, evidence, own: true })
                 })
             })
@@ -119,7 +126,7 @@ impl PartFit {
     /// Outer race ± 2 f_r (unbalance), inner race ± 4 f_r, ball ± 4 FTF. The ball's family has FTF itself, which
     /// its load modulation gives, and odd multiples of BSF, which unequal impacts on the two races give.
     pub fn explains(&self, frequency: f64, shaft: f64, step: f64) -> bool {
-        let near = 1.5 * step + 2e-3 * frequency;
+        let near = self.tolerance(frequency, step);
         let (base, side, count) = match self.part {
             BearingPart::OuterRace => (self.base, shaft, 2),
             BearingPart::InnerRace => (self.base, shaft, 4),
@@ -132,16 +139,21 @@ impl PartFit {
         (-count..=count).any(|n| near_multiple(frequency - f64::from(n) * side, base, 3 * HARMONICS, near))
     }
 
+    /// Half-width of its lines: resolution, and slip from impact to impact, which widens harmonic h with h².
+    fn tolerance(&self, frequency: f64, step: f64) -> f64 {
+        1.5 * step + (1.5e-3 + 5e-4 * frequency / self.base) * frequency
+    }
+
     /// Whether a frequency is one of its harmonics, side bands aside.
     pub fn has_harmonic(&self, frequency: f64, step: f64) -> bool {
-        near_multiple(frequency, self.base, 3 * HARMONICS, 1.5 * step + 3e-3 * frequency)
+        near_multiple(frequency, self.base, 3 * HARMONICS, self.tolerance(frequency, step) + 1e-3 * frequency)
     }
 
     /// Evidence of the lines that nothing else explains; 0 without one of the first two harmonics.
     pub fn own_evidence(&self) -> f64 {
         let first = self.main_lines().any(|l| l.own && l.harmonic <= 2 && l.evidence + NOISE_EVIDENCE > PRESENT);
-        let side = self.lines.iter().filter(|l| l.own && l.evidence + NOISE_EVIDENCE > PRESENT).count() >= 3;
-        if first || side { self.lines.iter().filter(|l| l.own).map(|l| l.evidence).sum() } else { 0.0 }
+        let stands = |l: &&FittedLine| l.own && l.modulation.is_some() && l.evidence + NOISE_EVIDENCE > PRESENT;
+        if first || self.lines.iter().filter(stands).count() >= 3 { self.lines.iter().filter(|l| l.own).map(|l| l.evidence).sum() } else { 0.0 }
     }
 
     pub fn evidence(&self) -> f64 {
