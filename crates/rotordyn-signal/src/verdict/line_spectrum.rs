@@ -21,6 +21,7 @@ pub(super) struct LineSpectrum {
     /// Spacing of the bins.
     pub step: f64,
     pub amplitude: Vec<f64>,
+    background: Vec<f64>,
     evidence: Vec<f64>,
     /// Evidence without the lines that shaft or mains may have.
     foreign: Vec<f64>,
@@ -53,7 +54,7 @@ impl LineSpectrum {
         let known = KnownLines { shaft, hz_per_unit, step };
         let open = |(k, e): (usize, &f64)| if known.contains(k as f64 * step) { 0.0 } else { *e };
         let foreign = evidence.iter().enumerate().map(open).collect();
-        LineSpectrum { step, amplitude: spectrum.values.clone(), evidence, foreign, peaks }
+        LineSpectrum { step, amplitude: spectrum.values.clone(), background, evidence, foreign, peaks }
     }
 
     /// Highest frequency.
@@ -69,6 +70,11 @@ impl LineSpectrum {
     /// Evidence of a line that is neither of the shaft nor of the mains.
     pub fn foreign_evidence(&self, frequency: f64) -> f64 {
         self.higher_of_two(&self.foreign, frequency)
+    }
+
+    /// Power of an amplitude at a bin over that of the noise, q = A² ln 2/m².
+    pub fn power_ratio(&self, bin: usize, amplitude: f64) -> f64 {
+        LN_2 * (amplitude / self.background[bin.min(self.background.len() - 1)]).powi(2)
     }
 
     fn higher_of_two(&self, evidence: &[f64], frequency: f64) -> f64 {

@@ -5,6 +5,7 @@ mod grade;
 mod line_spectrum;
 mod part_fit;
 mod rivals;
+mod shaft_speed;
 mod strong_lines;
 
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,7 @@ use contest::{Contest, contest};
 pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features};
 use line_spectrum::LineSpectrum;
 pub use rivals::{Rival, RivalKind};
+pub use shaft_speed::{RecordSpeed, SpeedFinding, shaft_speed};
 pub use strong_lines::{Explanation, StrongLine};
 use strong_lines::strong_lines;
 

@@ -6,6 +6,7 @@ use rotordyn_signal::bearing_lines::{BearingLine, BearingLines, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
+use rotordyn_signal::verdict::{Explanation, StrongLine, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// Envelope (demodulated) spectrum of a band, and the bearing's lines in it.
@@ -21,9 +22,21 @@ pub struct EnvelopeResult {
     pub band_scores: Option<Kurtogram>,
     /// Lines and diagnosis if a bearing is known.
     pub lines: Option<BearingLines>,
+    /// Diagnosis with its probability, rivals and unexplained lines if a bearing is known.
+    pub verdict: Option<Verdict>,
 }
 
 impl EnvelopeResult {
+    /// Unit of its frequencies in statements: "Hz", or "x" for orders.
+    pub fn frequency_unit(&self) -> &'static str {
+        if self.over_orders { "x" } else { "Hz" }
+    }
+
+    /// What is said of the bearing, such as "outer race, 98 %"; `None` without a bearing.
+    pub fn statement(&self) -> Option<String> {
+        self.verdict.as_ref().map(|verdict| verdict.statement(self.frequency_unit()))
+    }
+
     pub(super) fn document(&self, unit: &str) -> Document<'_> {
         let rule = match self.rule {
             BandRule::Given(..) => "given",
@@ -40,6 +53,9 @@ impl EnvelopeResult {
             .text(in_json("rule"), rule)
             .text(in_json("axis"), if self.over_orders { "order" } else { "Hz" })
             .with(in_json("peaks"), peaks)
+            .and_if(self.verdict.as_ref(), |out, verdict| {
+                out.and(verdict_document(verdict, self.frequency_unit()))
+            })
             .and_if(self.lines.as_ref(), |out, lines| out.and(lines_document(lines)));
         let score_unit = if self.rule == BandRule::Lines { "dB" } else { "1" };
         Document::new()
@@ -53,7 +69,55 @@ impl EnvelopeResult {
                 out.text(in_hdf5("diagnosis"), lines.diagnosis_name())
                     .table(in_hdf5("lines"), line_table(lines, axis_unit, unit))
             })
+            .and_if(self.verdict.as_ref(), |out, verdict| {
+                out.text(in_hdf5("statement"), verdict.statement(self.frequency_unit()))
+                    .number(in_hdf5("probability"), "1", verdict.probability)
+                    .table(in_hdf5("strong_lines"), strong_line_table(verdict, axis_unit, unit))
+            })
     }
+}
+
+/// Statement, probability, rivals and strong lines, JSON only.
+fn verdict_document<'a>(verdict: &Verdict, unit: &str) -> Document<'a> {
+    let rivals = Rows::of(&verdict.rivals)
+        .text(in_json("source"), |r| r.name())
+        .number(in_json("rate"), "", |r| r.rate)
+        .integer(in_json("lines"), |r| r.lines)
+        .number(in_json("amplitude"), "", |r| r.amplitude);
+    let strong = Rows::of(&verdict.strong_lines)
+        .number(in_json("measured"), "", |l| l.frequency)
+        .number(in_json("amplitude"), "", |l| l.amplitude)
+        .number(in_json("level_db"), "dB", |l| l.level_db)
+        .text(in_json("explained_by"), |l| explanation(l));
+    Document::new()
+        .text(in_json("statement"), verdict.statement(unit))
+        .text(in_json("candidate"), verdict.candidate.name())
+        .number(in_json("candidate_frequency"), "", verdict.frequency)
+        .number(in_json("probability"), "1", verdict.probability)
+        .table(in_json("rivals"), rivals)
+        .table(in_json("strong_lines"), strong)
+}
+
+/// What a strong line belongs to: "outer race", "3x shaft", "mains", "12.42 x 3" or "unexplained".
+fn explanation(line: &StrongLine) -> String {
+    match line.explanation {
+        Explanation::Bearing(part) => part.name().into(),
+        Explanation::Shaft(order) => format!("shaft {order}x"),
+        Explanation::Mains => "mains".into(),
+        Explanation::Periodic(rate) => {
+            format!("{:.0} x {}", (line.frequency / rate).round(), crate::document::number(rate, 4))
+        }
+        Explanation::Unexplained => "unexplained".into(),
+    }
+}
+
+/// Strong lines, HDF5 only.
+fn strong_line_table<'a, 'r>(verdict: &'r Verdict, axis_unit: &str, unit: &str) -> Rows<'a, 'r, StrongLine> {
+    Rows::of(&verdict.strong_lines)
+        .text("explained_by", explanation)
+        .number("measured", axis_unit, |l| l.frequency)
+        .number("amplitude", unit, |l| l.amplitude)
+        .number("level", "dB", |l| l.level_db)
 }
 
 /// Diagnosis and lines by family, JSON only.
