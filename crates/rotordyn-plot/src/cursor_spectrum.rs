@@ -73,8 +73,8 @@ const SHAPES: [Marker; 7] = [
     Marker::Square,
     Marker::Up,
     Marker::Down,
-    Marker::Square,
-    Marker::Cross,
+    Marker::Circle,
+    Marker::Diamond,
 ];
 
 fn mark_style(group: usize) -> Style {

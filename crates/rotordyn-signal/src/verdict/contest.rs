@@ -4,6 +4,7 @@ use super::super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use super::grade::{FEATURES, Features};
 use super::line_spectrum::{KnownLines, LinePeak, LineSpectrum};
 use super::part_fit::{FittedLine, PRESENT, PartFit};
+use super::rival_kind::RivalKind;
 use super::rivals::{Rival, find_rivals};
 
 /// Amplitude ratio from which a neighbouring line dominates another on its skirt.
@@ -13,6 +14,9 @@ const BALL_EVIDENCE: f64 = 12.0;
 /// Share of its evidence that a ball without any side band keeps in the contest: its impacts pass the load zone.
 const WITHOUT_SIDE_BANDS: f64 = 0.5;
 
+/// Evidence of a line that calls for an explanation.
+const COINCIDENCE_EVIDENCE: f64 = 30.0;
+
 /// What one envelope spectrum says: the best part, what competes with it.
 pub(super) struct Contest {
     pub winner: PartFit,
@@ -21,7 +25,7 @@ pub(super) struct Contest {
     pub features: Features,
     /// Rank of the band: evidence, less if stronger lines remain unexplained.
     pub score: f64,
-    /// The part with the highest evidence if a rival explains most of it as well.
+    /// A part whose line coincides with one of shaft or mains, and its frequency.
     pub unresolved: Option<(BearingPart, f64, Rival)>,
 }
 
@@ -76,7 +80,7 @@ pub(super) fn contest(
         })
         .fold(0.0, f64::max);
     let ambiguity = others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
-    let unresolved = unresolved(&fits, &rivals, step);
+    let unresolved = unresolved(spectrum, rates, settings, &known);
     let features = features(&fits[best], &rivals[best], [runner_up, ambiguity], spectrum, &known);
     let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0);
     let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
@@ -91,6 +95,10 @@ fn rivals_of(
     hz_per_unit: Option<f64>,
 ) -> Vec<Rival> {
     let step = spectrum.step;
+    // Without evidence there is nothing to contest.
+    if fit.evidence() < PRESENT {
+        return Vec::new();
+    }
     let others: Vec<LinePeak> =
         spectrum.peaks.iter().filter(|p| !fit.explains(p.frequency, rates.shaft, step)).copied().collect();
     // The part's own rate, found again by lines of its family that wandered, is no rival.
@@ -136,15 +144,34 @@ fn side_bands(fit: &PartFit, harmonics: usize) -> usize {
     side.filter(|l| l.own && l.evidence > PRESENT).count()
 }
 
-/// The part of highest evidence, if a rival explains more than half of it.
-fn unresolved(fits: &[PartFit; 4], rivals: &[Vec<Rival>], step: f64) -> Option<(BearingPart, f64, Rival)> {
-    let (fit, rivals) = fits.iter().zip(rivals).max_by(|a, b| a.0.evidence().total_cmp(&b.0.evidence()))?;
-    if fit.own_evidence() > 0.5 * fit.evidence() {
-        return None;
-    }
-    let first = fit.main_lines().filter(|l| l.evidence > PRESENT).min_by_key(|l| l.harmonic)?;
-    let rival = rivals.iter().find(|r| r.explains(first.frequency, step))?;
-    Some((fit.part, first.frequency, *rival))
+/// A strong line in the window of a part's first harmonic that coincides with one of shaft or mains.
+///
+/// It stands out of its neighbours in that family, so that the family alone is no sufficient explanation.
+fn unresolved(
+    spectrum: &LineSpectrum,
+    rates: &DefectFrequencies,
+    settings: &LineSettings,
+    known: &KnownLines,
+) -> Option<(BearingPart, f64, Rival)> {
+    let strongest = spectrum.peaks.first()?.amplitude;
+    let coincidence = |part: BearingPart| {
+        let expected = part.defect_frequency(rates);
+        let (frequency, amplitude) = spectrum.highest(expected, settings.slip * expected + spectrum.step)?;
+        let (kind, rate) = known.origin(frequency)?;
+        let beside = |sign: f64| {
+            let neighbour = frequency + sign * rate;
+            spectrum.highest(neighbour, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a)
+        };
+        let stands_out = spectrum.evidence(frequency) > COINCIDENCE_EVIDENCE
+            && amplitude > 0.3 * strongest
+            && beside(-1.0).max(beside(1.0)) < amplitude / 1.5;
+        let highest = (frequency / rate).round() as usize;
+        let rival = Rival { kind, rate, highest, lines: 1, amplitude, log_odds: 0.0 };
+        stands_out.then_some((part, frequency, rival))
+    };
+    let mut found = BearingPart::ALL.into_iter().filter_map(coincidence).collect::<Vec<_>>();
+    found.sort_by(|a, b| b.2.amplitude.total_cmp(&a.2.amplitude));
+    found.into_iter().next()
 }
 
 /// The quantities the grade depends on, see [`FEATURES`].
@@ -163,7 +190,7 @@ fn features(
         .peaks
         .iter()
         .find(|p| !fit.explains(p.frequency, known.shaft, step) && !known.contains(p.frequency));
-    let free = rivals.iter().filter(|r| r.kind == super::RivalKind::Periodic);
+    let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
     let strongest_rival = free.map(|r| r.amplitude).fold(0.0, f64::max);
     let present = |l: &&FittedLine| l.own && l.evidence > PRESENT;
     // Impacts of the cage have many harmonics, a modulation at FTF few.

@@ -5,6 +5,7 @@ use std::f64::consts::LN_2;
 use super::super::background::running_median;
 use super::super::ridge::interpolate_peak;
 use super::super::spectrum::Spectrum;
+use super::rival_kind::{MAINS, RivalKind};
 
 /// Lowest background over the highest line: what is 54 dB below it may be its own by-product.
 const DYNAMIC_RANGE: f64 = 2e-3;
@@ -111,25 +112,33 @@ impl KnownLines {
     const MAINS_END: f64 = 600.0;
 
     pub fn contains(&self, frequency: f64) -> bool {
-        self.is_shaft(frequency) || self.is_mains(frequency)
+        self.origin(frequency).is_some()
+    }
+
+    /// What has a line at a frequency, and its rate.
+    pub fn origin(&self, frequency: f64) -> Option<(RivalKind, f64)> {
+        if self.is_shaft(frequency) {
+            return Some((RivalKind::Shaft, self.shaft));
+        }
+        self.mains(frequency).map(|rate| (RivalKind::Mains, rate))
     }
 
     /// Tolerance: a bin, and 0.07 % of the stated speed.
-    pub fn is_shaft(&self, frequency: f64) -> bool {
+    fn is_shaft(&self, frequency: f64) -> bool {
         let order = (frequency / self.shaft).round();
         (1.0..=Self::SHAFT_ORDERS).contains(&order)
             && (frequency - order * self.shaft).abs() <= self.step + 7e-4 * frequency
     }
 
     /// Tolerance: a bin, and 0.03 % of the mains' frequency.
-    pub fn is_mains(&self, frequency: f64) -> bool {
-        let Some(unit) = self.hz_per_unit else { return false };
+    fn mains(&self, frequency: f64) -> Option<f64> {
+        let unit = self.hz_per_unit?;
         let hz = frequency * unit;
-        hz <= Self::MAINS_END
-            && [50.0, 60.0].iter().any(|mains| {
-                let number = (hz / mains).round();
-                number >= 1.0 && (hz - number * mains).abs() <= self.step * unit + 3e-4 * hz
-            })
+        let is_of = |mains: &f64| {
+            let number = (hz / mains).round();
+            number >= 1.0 && (hz - number * mains).abs() <= self.step * unit + 3e-4 * hz
+        };
+        MAINS.into_iter().filter(|_| hz <= Self::MAINS_END).find(is_of).map(|mains| mains / unit)
     }
 }
 

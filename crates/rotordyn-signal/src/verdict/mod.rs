@@ -4,6 +4,7 @@ mod contest;
 mod grade;
 mod line_spectrum;
 mod part_fit;
+mod rival_kind;
 mod rivals;
 mod shaft_speed;
 mod strong_lines;
@@ -15,13 +16,16 @@ use super::spectrum::Spectrum;
 use contest::{Contest, contest};
 pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features};
 use line_spectrum::LineSpectrum;
-pub use rivals::{Rival, RivalKind};
+pub use rival_kind::RivalKind;
+pub use rivals::Rival;
 pub use shaft_speed::{RecordSpeed, SpeedFinding, shaft_speed};
 pub use strong_lines::{Explanation, StrongLine};
 use strong_lines::strong_lines;
 
 /// Probability from which a part is named.
 const NAMED: f64 = 0.5;
+/// Harmonic of the highest defect frequency up to which a spectrum is looked at.
+const LAST_HARMONIC: f64 = 5.3;
 /// Probability below which a part is not mentioned.
 const MENTIONED: f64 = 0.2;
 
@@ -134,7 +138,9 @@ impl BandVerdict {
         settings: &LineSettings,
         hz_per_unit: Option<f64>,
     ) -> Self {
-        let spectrum = LineSpectrum::new(spectrum, rates.shaft, hz_per_unit);
+        let highest = BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
+        let end = LAST_HARMONIC * highest * (1.0 + settings.slip);
+        let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
         BandVerdict { spectrum, contest }
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::line_spectrum::LinePeak;
+use super::rival_kind::{MAINS, RivalKind};
 
 /// Harmonic numbers tried for each peak in the search of free rates.
 const MAX_NUMBER: usize = 12;
@@ -12,18 +13,6 @@ const SEED_PEAKS: usize = 24;
 const LOG_ODDS: f64 = 7.0;
 /// Families taken from one spectrum.
 const MAX_RIVALS: usize = 4;
-/// Mains frequencies \[Hz\].
-const MAINS: [f64; 2] = [50.0, 60.0];
-
-/// Origin of a family that is not of the bearing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum RivalKind {
-    Shaft,
-    Mains,
-    /// Any other rate, found in the record.
-    Periodic,
-}
-
 /// A family of harmonics of one rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
@@ -109,7 +98,7 @@ pub(super) fn find_rivals(
 fn refined(rate: f64, peaks: &[LinePeak], step: f64) -> f64 {
     let (mut over, mut under) = (0.0, 0.0);
     for peak in peaks {
-        let number = (peak.frequency / rate).round();
+        let number = nearest_number(peak.frequency / rate);
         let near = tolerance(RivalKind::Periodic, peak.frequency, step);
         if number >= 1.0 && (peak.frequency - number * rate).abs() <= near {
             over += number * peak.frequency;
@@ -136,7 +125,7 @@ fn supported(
     for peak in peaks {
         let near = tolerance(kind, peak.frequency, step);
         chance += (2.0 * near / rate).min(1.0);
-        let number = (peak.frequency / rate).round();
+        let number = nearest_number(peak.frequency / rate);
         if number >= 1.0 && (peak.frequency - number * rate).abs() <= near {
             matched += 1;
             highest = highest.max(number as usize);
@@ -164,6 +153,11 @@ fn supported(
     };
     let log_odds = matched_count * (share / chance).ln() + missed;
     (log_odds > needed).then_some(Rival { kind, rate, highest, lines: matched, amplitude, log_odds })
+}
+
+/// The nearest whole number of a positive ratio; `round` is a library call, too slow for this many.
+fn nearest_number(ratio: f64) -> f64 {
+    (ratio + 0.5) as i64 as f64
 }
 
 fn greatest_common_divisor(a: usize, b: usize) -> usize {

@@ -6,7 +6,8 @@ use super::super::bearing_lines::BearingPart;
 use super::super::spectrum::decibel;
 use super::line_spectrum::LineSpectrum;
 use super::part_fit::PartFit;
-use super::rivals::{Rival, RivalKind};
+use super::rival_kind::RivalKind;
+use super::rivals::Rival;
 
 /// Lines below this share of the highest are not listed.
 const LISTED: f64 = 0.1;

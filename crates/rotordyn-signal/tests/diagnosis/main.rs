@@ -7,6 +7,7 @@ mod generator;
 mod others;
 mod path;
 mod random;
+mod speed;
 mod table;
 
 /// Sampling rate \[Hz\], duration \[s\] and number of samples of every record.
