@@ -95,12 +95,10 @@ pub fn diagnose(
         BandRule::Kurtosis => Some(fast_kurtogram(record, sample_rate, depth)?),
         BandRule::Lines => {
             let demodulator = Demodulator::new(record, sample_rate);
+            let end = BandVerdict::needed_range(rates, settings);
             let score = |band: (f64, f64)| {
                 let spectrum = match rotation {
-                    ShaftRotation::ConstantSpeed => {
-                        let (values, rate) = demodulator.envelope(band);
-                        deviation_spectrum(values, rate)?
-                    }
+                    ShaftRotation::ConstantSpeed => demodulator.envelope_spectrum(band, end),
                     ShaftRotation::Angle(_) => clock.spectrum(&envelope(record, sample_rate, band)?)?,
                 };
                 let found = BandVerdict::new(&spectrum, rates, settings, clock.hz_per_unit());

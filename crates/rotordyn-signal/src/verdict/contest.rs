@@ -14,6 +14,10 @@ const BALL_EVIDENCE: f64 = 12.0;
 /// Share of its evidence that a ball without any side band keeps in the contest: its impacts pass the load zone.
 const WITHOUT_SIDE_BANDS: f64 = 0.5;
 
+/// Rank that a cage without further harmonics loses among the bands.
+const CAGE_WITHOUT_HARMONICS: f64 = 3.0;
+/// Harmonics of FTF among the first eight that make a cage: a ball's load modulation gives up to five.
+const CAGE_HARMONICS: usize = 6;
 /// Evidence of a line that calls for an explanation.
 const COINCIDENCE_EVIDENCE: f64 = 30.0;
 
@@ -82,7 +86,12 @@ pub(super) fn contest(
     let ambiguity = others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
     let unresolved = unresolved(spectrum, rates, settings, &known);
     let features = features(&fits[best], &rivals[best], [runner_up, ambiguity], spectrum, &known);
-    let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0);
+    // FTF alone is in every band that a ball's impacts reach: a cage is to show its many harmonics.
+    let few = match fits[best].part {
+        BearingPart::Cage => CAGE_WITHOUT_HARMONICS * (1.0 - features[FEATURES.harmonics]),
+        _ => 0.0,
+    };
+    let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0) - few;
     let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
     Contest { winner, rivals, features, score, unresolved }
 }
@@ -116,7 +125,7 @@ fn is_dominated(fit: &PartFit, line: &FittedLine, spectrum: &LineSpectrum, rates
     })
 }
 
-/// Whether a line is harmonic k of FTF and FTF's harmonics about k/2 stand as well.
+/// Whether a line is harmonic k of FTF and FTF's harmonics about k/2, or most of the first eight, stand as well.
 ///
 /// BPFO is Z FTF: in a cage's family it is one harmonic of many. A ball's load modulation gives the first few
 /// multiples of FTF and side bands about 2 BSF, but none half-way between.
@@ -128,6 +137,10 @@ fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: 
     let near = 1.2 * spectrum.step + 3e-3 * line.frequency;
     if number < 4.0 || (line.frequency - number * cage.base).abs() > near {
         return false;
+    }
+    let first = cage.main_lines().filter(|l| l.harmonic <= 8 && l.evidence > PRESENT);
+    if first.count() >= CAGE_HARMONICS && fit.part == BearingPart::Ball {
+        return true;
     }
     let middle = (0.5 * number).round();
     let stands = |n: &f64| {

@@ -138,11 +138,16 @@ impl BandVerdict {
         settings: &LineSettings,
         hz_per_unit: Option<f64>,
     ) -> Self {
-        let highest = BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
-        let end = LAST_HARMONIC * highest * (1.0 + settings.slip);
+        let end = Self::needed_range(rates, settings);
         let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
         BandVerdict { spectrum, contest }
+    }
+
+    /// Frequency up to which a spectrum is looked at.
+    pub fn needed_range(rates: &DefectFrequencies, settings: &LineSettings) -> f64 {
+        let highest = BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
+        LAST_HARMONIC * highest * (1.0 + settings.slip)
     }
 
     /// Rank of the band: ln(1 + evidence of the best part), less what stronger lines leave unexplained.

@@ -8,6 +8,7 @@ mod others;
 mod path;
 mod random;
 mod speed;
+mod statements;
 mod table;
 
 /// Sampling rate \[Hz\], duration \[s\] and number of samples of every record.
