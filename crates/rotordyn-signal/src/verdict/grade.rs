@@ -56,8 +56,23 @@ pub const FEATURE_COUNT: usize = FEATURES.count;
 pub type Features = [f64; FEATURE_COUNT];
 
 /// Coefficients of the log-odds, fitted to generated records by `tests/diagnosis` of this crate.
-pub const COEFFICIENTS: Features =
-    [-6.0, 0.0, 0.0, 0.0, 1.5, -1.0, -0.5, -2.0, 1.0, 0.5, 1.0, 1.0, -0.3, -0.5, -0.3];
+pub const COEFFICIENTS: Features = [
+    -1.043277,
+    -1.357732,
+    -0.981174,
+    -0.787958,
+    -0.787765,
+    -0.665214,
+    0.111883,
+    -1.125681,
+    8.154938,
+    4.234740,
+    7.304241,
+    14.105874,
+    -0.393652,
+    -1.709073,
+    0.008622,
+];
 
 /// Probability 1/(1 + e^(−β·x)).
 pub(super) fn probability(features: &Features) -> f64 {
