@@ -126,15 +126,14 @@ impl SignalResult {
             .numbers(in_hdf5("record"), unit, &self.samples)
             .and_if(self.shaft.as_ref(), |out, shaft| out.group(named("shaft", ""), shaft.document()))
             .and_if(self.record_speed, |out, found| {
-                let of = |speed: Option<f64>| speed.map_or(f64::NAN, |rev| 60.0 * rev);
                 let (found, ratio) = match found {
                     SpeedFinding::Found(speed) => (Some(speed), 1.0),
                     SpeedFinding::Elsewhere { speed, ratio } => (Some(speed), ratio),
                     SpeedFinding::NotFound => (None, f64::NAN),
                 };
                 let speed = Document::new()
-                    .number("found", "rpm", of(found.map(|s| s.speed)))
-                    .number("uncertainty", "rpm", of(found.map(|s| s.uncertainty)))
+                    .quantity("found", "rad/s", found.map_or(f64::NAN, |s| TAU * s.speed))
+                    .quantity("uncertainty", "rad/s", found.map_or(f64::NAN, |s| TAU * s.uncertainty))
                     .integer("harmonics", found.map_or(0, |s| s.harmonics))
                     .number("ratio_to_stated", "1", ratio);
                 out.group("record_speed", speed)
