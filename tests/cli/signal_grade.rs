@@ -17,7 +17,13 @@ fn document(samples: Vec<f64>, flags: &[&str]) -> Value {
     measured::write(&path, &MeasuredData { records: vec![record], ..MeasuredData::default() }).unwrap();
     let out = folder.path().join("out");
     json_of(
-        rotordyn().arg("signal").arg(&path).args(["--no-figures", "--analyses", "envelope"]).arg("--out").arg(&out).args(flags),
+        rotordyn()
+            .arg("signal")
+            .arg(&path)
+            .args(["--no-figures", "--analyses", "envelope"])
+            .arg("--out")
+            .arg(&out)
+            .args(flags),
     )
 }
 
@@ -41,7 +47,8 @@ fn speed_of_the_record_itself() {
     let found = document(machine(1015.0 / 60.0), &["--bearing", "6205-2RS", "--speed", "1000 rpm"]);
     let channel = &found["channels"][0];
     let speed = &channel["record_speed"];
-    let (rpm, uncertainty) = (speed["found_rpm"].as_f64().unwrap(), speed["uncertainty_rpm"].as_f64().unwrap());
+    let (rpm, uncertainty) =
+        (speed["found_rpm"].as_f64().unwrap(), speed["uncertainty_rpm"].as_f64().unwrap());
     // A twentieth of the resolution of 12 rpm.
     assert!((rpm - 1015.0).abs() < 0.6 && uncertainty < 0.6, "{speed}");
     let envelope = &channel["envelope"];
@@ -59,7 +66,11 @@ fn speed_of_the_record_itself() {
 fn wrong_rate_is_a_warning() {
     let found = document(machine(7.5), &["--bearing", "6205-2RS", "--speed", "1800 rpm"]);
     assert!(codes(&found).contains(&"shaft-speed-not-found"), "{}", found["warnings"]);
-    assert!(found["warnings"].to_string().contains("the sampling rate is 4.00 times the one used"), "{}", found["warnings"]);
+    assert!(
+        found["warnings"].to_string().contains("the sampling rate is 4.00 times the one used"),
+        "{}",
+        found["warnings"]
+    );
     // The speed as stated: no search, no warning.
     let flags = ["--bearing", "6205-2RS", "--speed", "1800 rpm", "--speed-range", "0"];
     let found = document(machine(7.5), &flags);

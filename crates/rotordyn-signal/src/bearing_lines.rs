@@ -129,7 +129,7 @@ pub struct LineFamily {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
-    /// Damaged part: that of the strongest detected family, or as a verdict on the record says; `None`: no fault.
+    /// Damaged part: that of the strongest detected family, or as the graded diagnosis of the record says; `None`: no fault.
     pub diagnosis: Option<BearingPart>,
 }
 

@@ -9,10 +9,10 @@ use super::demodulator::Demodulator;
 use super::envelope::{analytic_signal, band_analytic_signal};
 use super::error::{check_length, check_rate, check_record, check_same_length};
 use super::filter_bank::{BankLevel, max_depth};
+use super::grading::{BandGrading, GradedDiagnosis};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
-use super::verdict::{BandVerdict, Verdict};
 use super::window::WindowKind;
 
 /// Speed below which the shaft counts as at standstill \[rev/s\].
@@ -52,9 +52,9 @@ pub struct Diagnosis {
     pub kurtogram: Option<Kurtogram>,
     /// Amplitude spectrum of the band's envelope \[unit\], over Hz or over orders.
     pub envelope: Spectrum,
-    /// Lines expected of each part; its diagnosis is the verdict's.
+    /// Lines expected of each part; the damaged part is that of the graded diagnosis.
     pub lines: BearingLines,
-    pub verdict: Verdict,
+    pub graded: GradedDiagnosis,
 }
 
 /// Chooses a band, computes its envelope spectrum and detects the bearing lines in it (envelope analysis).
@@ -95,13 +95,13 @@ pub fn diagnose(
         BandRule::Kurtosis => Some(fast_kurtogram(record, sample_rate, depth)?),
         BandRule::Lines => {
             let demodulator = Demodulator::new(record, sample_rate);
-            let end = BandVerdict::needed_range(rates, settings);
+            let end = BandGrading::needed_range(rates, settings);
             let score = |band: (f64, f64)| {
                 let spectrum = match rotation {
                     ShaftRotation::ConstantSpeed => demodulator.envelope_spectrum(band, end),
                     ShaftRotation::Angle(_) => clock.spectrum(&envelope(record, sample_rate, band)?)?,
                 };
-                let found = BandVerdict::new(&spectrum, rates, settings, clock.hz_per_unit());
+                let found = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
                 Ok(DB_PER_NEPER_OF_EVIDENCE * found.score())
             };
             Some(Kurtogram { levels: score_bank(depth, half, score)?, max_frequency: half })
@@ -116,9 +116,9 @@ pub fn diagnose(
     let spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
     let strict = LineSettings { significance: settings.significance / tried as f64, ..*settings };
     let mut lines = bearing_lines(&spectrum, rates, &strict)?;
-    let verdict = BandVerdict::new(&spectrum, rates, settings, clock.hz_per_unit()).verdict(rates);
-    lines.diagnosis = verdict.part();
-    Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines, verdict })
+    let graded = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit()).diagnosis(rates);
+    lines.diagnosis = graded.part();
+    Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines, graded })
 }
 
 /// Demodulation band, kurtogram it was chosen by, and envelope spectrum.

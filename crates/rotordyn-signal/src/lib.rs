@@ -20,7 +20,7 @@
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, band selection by any score ([`filter_bank`]) |
 //! | [`bearing_lines`] | bearing defect frequencies FTF, BPFO, BPFI, 2 BSF with side bands; damaged part |
 //! | [`diagnosis`] | bearing diagnosis of a record: band, envelope spectrum, defect frequencies |
-//! | [`verdict`] | what a record says of a bearing: damaged part with its probability, rivals, lines left unexplained |
+//! | [`grading`] | what a record says of a bearing: damaged part with its probability, rivals, lines left unexplained |
 //! | [`race_defects`] | localised race defects (dents, bumps): angle, width, kind ([`jerk`]) |
 //! | [`cepstrum`] | real and power cepstrum, liftering |
 //! | [`cyclic`] | cyclic spectral coherence (cyclostationarity) |
@@ -42,6 +42,7 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
+pub mod grading;
 pub mod impact;
 pub mod jerk;
 pub mod kurtogram;
@@ -63,7 +64,6 @@ pub mod stft;
 pub mod synchronous;
 pub mod tacho;
 pub mod tacholess;
-pub mod verdict;
 pub mod waterfall;
 pub mod window;
 

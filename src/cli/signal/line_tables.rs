@@ -3,8 +3,8 @@
 use rotordyn::results::{EnvelopeResult, SignalResult};
 use rotordyn::signal::bearing_lines::{BearingLine, Modulation};
 use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::signal::grading::Explanation;
 use rotordyn::signal::ridge::find_peaks;
-use rotordyn::signal::verdict::Explanation;
 
 use super::super::terminal::{Terminal, number};
 
@@ -87,9 +87,9 @@ fn row(line: &BearingLine) -> Vec<String> {
 }
 
 fn print_diagnosis(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
-    let (Some(verdict), Some(found)) = (&envelope.verdict, &envelope.lines) else { return };
+    let (Some(graded), Some(found)) = (&envelope.graded, &envelope.lines) else { return };
     let unit = if envelope.over_orders { "order" } else { "Hz" };
-    let open: Vec<Vec<String>> = verdict
+    let open: Vec<Vec<String>> = graded
         .strong_lines
         .iter()
         .filter(|line| matches!(line.explanation, Explanation::Unexplained | Explanation::Periodic(_)))
@@ -101,19 +101,14 @@ fn print_diagnosis(terminal: &Terminal, result: &SignalResult, envelope: &Envelo
                 }
                 _ => "unexplained".into(),
             };
-            vec![
-                number(line.frequency, 6),
-                number(line.amplitude, 4),
-                format!("{:.1}", line.level_db),
-                of,
-            ]
+            vec![number(line.frequency, 6), number(line.amplitude, 4), format!("{:.1}", line.level_db), of]
         })
         .collect();
     if !open.is_empty() {
         let header = [unit, &level("peak", result), "above background dB", "family"];
         terminal.table("Strong lines that are neither of this bearing nor of the shaft", &header, &open);
     }
-    let name = verdict.statement(envelope.frequency_unit());
+    let name = graded.statement(envelope.frequency_unit());
     terminal.heading(&match found.strongest_line() {
         Some(line) if found.diagnosis.is_some() => {
             format!(

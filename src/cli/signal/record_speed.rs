@@ -1,7 +1,7 @@
 //! The shaft speed that a record shows, beside the stated one.
 
 use rotordyn::results::SignalResult;
-use rotordyn::signal::verdict::SpeedFinding;
+use rotordyn::signal::grading::SpeedFinding;
 
 use super::super::terminal::number;
 
@@ -30,7 +30,9 @@ pub fn warning(result: &SignalResult, range: f64) -> Option<String> {
     );
     match result.record_speed? {
         SpeedFinding::Found(_) => None,
-        SpeedFinding::NotFound => Some(format!("{missing}: speed and sampling rate are not confirmed by the record")),
+        SpeedFinding::NotFound => {
+            Some(format!("{missing}: speed and sampling rate are not confirmed by the record"))
+        }
         SpeedFinding::Elsewhere { speed, ratio } => Some(format!(
             "{missing}, but one of {} harmonics at {} rpm: if the speed is right the sampling rate is {} times the one used",
             speed.harmonics,

@@ -21,10 +21,10 @@ use crate::document::{Array, Document, Section, in_hdf5, in_json, named};
 use curves::{highest_peaks, over_axis, peak_rows};
 use rotordyn_bearing::CharacteristicOrders;
 use rotordyn_signal::cepstrum::Cepstrum;
+use rotordyn_signal::grading::SpeedFinding;
 use rotordyn_signal::spectrum::Spectrum;
 use rotordyn_signal::statistics::Statistics;
 use rotordyn_signal::stft::Spectrogram;
-use rotordyn_signal::verdict::SpeedFinding;
 use std::f64::consts::TAU;
 
 /// Results of one channel; analyses not requested are empty.

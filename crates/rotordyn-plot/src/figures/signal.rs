@@ -1,7 +1,9 @@
 //! Figures of a signal analysis: record, spectra, envelope, kurtogram, cepstrum.
 
 use super::Named;
-use super::signal_units::{CURSOR_GROUPS, OTHER_GROUPS, cursor_group, defect_orders, display_unit, quantity_name};
+use super::signal_units::{
+    CURSOR_GROUPS, OTHER_GROUPS, cursor_group, defect_orders, display_unit, quantity_name,
+};
 use crate::{
     Channel, Cursor, CursorLines, CursorMark, CursorPanel, Curve, Figure, HeatMap, History, Lines,
     MarkedRegion,
@@ -9,9 +11,9 @@ use crate::{
 use rotordyn_core::results::{EnvelopeResult, KurtogramResult, SignalResult};
 use rotordyn_signal::bearing_lines::{BearingPart, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
+use rotordyn_signal::grading::Explanation;
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
-use rotordyn_signal::verdict::Explanation;
 
 /// Upper end of the axis of an envelope spectrum, in multiples of BPFI.
 const ENVELOPE_RANGE_IN_BPFI: f64 = 3.3;
@@ -198,7 +200,7 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
         .map(|(k, name)| if marked(CURSOR_GROUPS.len() + k) { name.to_string() } else { String::new() })
         .collect();
     let band = format!("band {:.0} to {:.0} Hz", found.band.0, found.band.1);
-    let diagnosis = found.statement().map_or(String::new(), |said| format!(": {said}"));
+    let diagnosis = found.statement().map_or(String::new(), |statement| format!(": {statement}"));
     CursorLines {
         title: if several {
             format!("Envelope spectra: {} and {}", of[0].0.channel, of[1].0.channel)
@@ -217,7 +219,7 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
 
 /// Label of a panel: record, band and bearing diagnosis.
 fn panel_label(r: &SignalResult, found: &EnvelopeResult, title: &str) -> String {
-    let diagnosis = found.statement().map_or(String::new(), |said| format!(": {said}"));
+    let diagnosis = found.statement().map_or(String::new(), |statement| format!(": {statement}"));
     let (low, high) = found.band;
     format!("{title}, {}, {low:.0} to {high:.0} Hz{diagnosis}", r.channel)
 }
@@ -276,9 +278,9 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
 
 /// Marks every strong line that has no mark yet, by what explains it.
 fn mark_strong_lines(panel: &mut CursorPanel, found: &EnvelopeResult, divisor: f64, factor: f64) {
-    let Some(verdict) = &found.verdict else { return };
+    let Some(graded) = &found.graded else { return };
     let step = found.spectrum.frequencies[1] / divisor;
-    for line in &verdict.strong_lines {
+    for line in &graded.strong_lines {
         let group = match line.explanation {
             Explanation::Bearing(part) => cursor_group(part),
             Explanation::Shaft(_) => 0,

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use rotordyn_signal::bearing_lines::{BearingPart, LineSettings};
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn_signal::verdict::{COEFFICIENTS, FEATURE_COUNT, Features};
+use rotordyn_signal::grading::{COEFFICIENTS, FEATURE_COUNT, Features};
 
 use super::baseline::plain_diagnosis;
 use super::generator::Generated;
@@ -34,15 +34,15 @@ impl Outcome {
         let rotation = ShaftRotation::ConstantSpeed;
         let found =
             diagnose(&record.record, RATE, rotation, &record.rates, BandRule::Lines, &settings).unwrap();
-        let verdict = found.verdict;
+        let graded = found.graded;
         Outcome {
             part: record.part,
             other: record.other,
             snr: record.snr,
             rival_in_a_window: record.rival_in_a_window(settings.slip, 1.0 / SECONDS),
-            candidate: verdict.candidate,
-            probability: verdict.probability,
-            features: verdict.features,
+            candidate: graded.candidate,
+            probability: graded.probability,
+            features: graded.features,
             plain: plain_diagnosis(&record.record, &record.rates),
         }
     }
@@ -65,7 +65,8 @@ fn fitted(of: &[Outcome]) -> Features {
         let p = (&x * &beta).map(|v: f64| 1.0 / (1.0 + (-v).exp()));
         let gradient = x.transpose() * (&y - &p) - 1e-2 * &beta;
         let weighted = DMatrix::from_fn(x.nrows(), x.ncols(), |r, c| x[(r, c)] * p[r] * (1.0 - p[r]));
-        let hessian: DMatrix<f64> = x.transpose() * weighted + 1e-2 * DMatrix::identity(FEATURE_COUNT, FEATURE_COUNT);
+        let hessian: DMatrix<f64> =
+            x.transpose() * weighted + 1e-2 * DMatrix::identity(FEATURE_COUNT, FEATURE_COUNT);
         let step = hessian.lu().solve(&gradient).unwrap();
         beta += &step;
         if step.norm() < 1e-12 * beta.norm() {
@@ -97,7 +98,8 @@ fn grade_is_calibrated() {
     }
     if let Some(path) = std::env::var_os("ROTORDYN_FEATURES") {
         let lines = [(0, &of), (1, &test)].into_iter().flat_map(|(set, of)| of.iter().map(move |o| (set, o)));
-        std::fs::write(path, lines.map(|(set, o)| format!("{set},{}", o.csv_line())).collect::<String>()).unwrap();
+        std::fs::write(path, lines.map(|(set, o)| format!("{set},{}", o.csv_line())).collect::<String>())
+            .unwrap();
     }
     print_table(&test);
     if refit {

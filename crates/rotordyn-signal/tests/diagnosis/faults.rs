@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
 
+use super::SECONDS;
 use super::path::{TransferPath, arrivals};
 use super::random::Random;
-use super::SECONDS;
 
 /// A bearing at a speed: 8 to 60 rev/s, 6 to 16 balls, D cos α/D_pw from 0.1 to 0.3.
 pub fn draw_bearing(random: &mut Random) -> (DefectFrequencies, usize) {
@@ -56,7 +56,9 @@ pub fn fault(random: &mut Random, part: BearingPart, rates: &DefectFrequencies, 
     let strength = |k: usize, time: f64| match part {
         BearingPart::OuterRace => 1.0 + unbalance * (TAU * rates.shaft * time + at).cos(),
         BearingPart::InnerRace => load(TAU * rates.shaft * time + start, extent),
-        BearingPart::Ball => load(TAU * cage * time + start, extent) * if k % 2 == 0 { 1.0 } else { other_race },
+        BearingPart::Ball => {
+            load(TAU * cage * time + start, extent) * if k % 2 == 0 { 1.0 } else { other_race }
+        }
         BearingPart::Cage => 1.0,
     };
     let times = arrivals(random, rate, jitter);

@@ -82,7 +82,10 @@ impl Other {
                     random.log_range(2.0, 200.0)
                 };
                 let (depth, sharpness) = (random.range(0.3, 1.0), random.range(0.5, 3.0));
-                (modulated_noise(random, |t| (1.0 + depth * (TAU * rate * t).cos()).powf(sharpness)), vec![rate])
+                (
+                    modulated_noise(random, |t| (1.0 + depth * (TAU * rate * t).cos()).powf(sharpness)),
+                    vec![rate],
+                )
             }
             Other::Rub => {
                 // Contact over part of each revolution.
@@ -128,9 +131,8 @@ fn modulated_noise(random: &mut Random, gain: impl Fn(f64) -> f64) -> Vec<f64> {
 
 fn sines(random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let count = random.integer(1, 5);
-    let lines: Vec<_> = (0..count)
-        .map(|_| (random.log_range(5.0, 5500.0), random.range(0.3, 1.0), random.phase()))
-        .collect();
+    let lines: Vec<_> =
+        (0..count).map(|_| (random.log_range(5.0, 5500.0), random.range(0.3, 1.0), random.phase())).collect();
     // Pairs of tones in one band beat at their difference.
     let mut beats = Vec::new();
     for (k, a) in lines.iter().enumerate() {
@@ -155,7 +157,11 @@ fn gears(random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
             let harmonic = |k: usize| {
                 let order = (k + 1) as f64;
                 let inside = order * teeth * shaft < 0.45 * RATE;
-                if inside { 0.6f64.powi(k as i32) * (order * (teeth * own + phase) + phases[k]).cos() } else { 0.0 }
+                if inside {
+                    0.6f64.powi(k as i32) * (order * (teeth * own + phase) + phases[k]).cos()
+                } else {
+                    0.0
+                }
             };
             amplitude * (0..3).map(harmonic).sum::<f64>()
         })

@@ -1,6 +1,6 @@
 //! The speed a record shows, beside the stated one.
 
-use rotordyn_signal::verdict::{SpeedFinding, shaft_speed};
+use rotordyn_signal::grading::{SpeedFinding, shaft_speed};
 
 use super::RATE;
 use super::path::{sum, tones, white};
@@ -9,8 +9,7 @@ use super::random::Random;
 /// Five shaft harmonics of falling level in noise.
 fn machine(number: usize, speed: f64) -> Vec<f64> {
     let random = &mut Random::of_record(3, number);
-    let lines: Vec<_> =
-        (1..=5).map(|n| (f64::from(n) * speed, 0.3 / f64::from(n), random.phase())).collect();
+    let lines: Vec<_> = (1..=5).map(|n| (f64::from(n) * speed, 0.3 / f64::from(n), random.phase())).collect();
     sum(&white(random), &tones(&lines), 1.0)
 }
 

@@ -2,7 +2,7 @@
 
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn_signal::verdict::{Explanation, Finding, RivalKind, Verdict};
+use rotordyn_signal::grading::{Explanation, Finding, GradedDiagnosis, RivalKind};
 
 use super::RATE;
 use super::path::{TransferPath, arrivals, scaled_to, sum, white};
@@ -21,34 +21,36 @@ fn record(seed: u64, snr: f64, rate: f64, jitter: f64, strength: impl Fn(f64) ->
     sum(&white(random), &impacts, 1.0)
 }
 
-fn verdict(record: &[f64], rates: &DefectFrequencies) -> Verdict {
+fn graded(record: &[f64], rates: &DefectFrequencies) -> GradedDiagnosis {
     let settings = LineSettings::default();
-    diagnose(record, RATE, ShaftRotation::ConstantSpeed, rates, BandRule::Lines, &settings).unwrap().verdict
+    diagnose(record, RATE, ShaftRotation::ConstantSpeed, rates, BandRule::Lines, &settings).unwrap().graded
 }
 
 #[test]
 fn damaged_race_is_named_with_its_probability() {
-    let found = verdict(&record(11, 0.0, 1.01 * RATES.outer, 0.005, |_| 1.0), &RATES);
+    let found = graded(&record(11, 0.0, 1.01 * RATES.outer, 0.005, |_| 1.0), &RATES);
     assert_eq!(found.part(), Some(BearingPart::OuterRace), "{found:?}");
     assert!(found.probability > 0.9, "{}", found.probability);
     let words = found.statement("Hz");
     assert!(words.starts_with("outer race, ") && words.ends_with(" %"), "{words}");
     // Half a bin of the fifth harmonic.
     assert!((found.frequency / (1.01 * RATES.outer) - 1.0).abs() < 2e-3, "{}", found.frequency);
-    let own = found.strong_lines.iter().filter(|l| l.explanation == Explanation::Bearing(BearingPart::OuterRace));
+    let own =
+        found.strong_lines.iter().filter(|l| l.explanation == Explanation::Bearing(BearingPart::OuterRace));
     assert!(own.count() >= 3, "{:?}", found.strong_lines);
 }
 
 #[test]
 fn foreign_impacts_are_no_line_of_the_bearing() {
     for (seed, rate) in [(21, 12.42), (22, 37.3), (23, 53.1)] {
-        let found = verdict(&record(seed, 5.0, rate, 0.0, |_| 1.0), &RATES);
+        let found = graded(&record(seed, 5.0, rate, 0.0, |_| 1.0), &RATES);
         let Finding::Periodic(at) = found.finding else { panic!("{rate}: {found:?}") };
         // A tenth of a bin at the tenth harmonic.
         assert!((at / rate - 1.0).abs() < 2e-3, "{rate}: {at}");
         assert!(found.statement("Hz").ends_with(" Hz, no line of this bearing"));
         assert!(found.rivals.iter().any(|r| r.kind == RivalKind::Periodic && r.lines >= 3));
-        let explained = found.strong_lines.iter().filter(|l| matches!(l.explanation, Explanation::Periodic(_)));
+        let explained =
+            found.strong_lines.iter().filter(|l| matches!(l.explanation, Explanation::Periodic(_)));
         assert!(2 * explained.count() > found.strong_lines.len(), "{:?}", found.strong_lines);
     }
 }
@@ -56,7 +58,7 @@ fn foreign_impacts_are_no_line_of_the_bearing() {
 #[test]
 fn noise_has_no_fault() {
     for seed in 0..4 {
-        let found = verdict(&white(&mut Random::of_record(31, seed)), &RATES);
+        let found = graded(&white(&mut Random::of_record(31, seed)), &RATES);
         assert_eq!(found.statement("Hz"), "no bearing fault", "{found:?}");
     }
 }
@@ -65,7 +67,7 @@ fn noise_has_no_fault() {
 #[test]
 fn line_on_a_shaft_order_cannot_be_told() {
     let rates = DefectFrequencies { outer: 90.3, inner: 149.7, cage: 11.287, ..RATES };
-    let found = verdict(&record(41, 3.0, 90.0, 0.0, |_| 1.0), &rates);
+    let found = graded(&record(41, 3.0, 90.0, 0.0, |_| 1.0), &rates);
     let Finding::Unresolved { part, rival, .. } = found.finding else { panic!("{found:?}") };
     assert_eq!((part, rival.kind), (BearingPart::OuterRace, RivalKind::Shaft));
     assert!(found.probability < 0.5);
@@ -81,8 +83,8 @@ fn line_on_a_shaft_order_cannot_be_told() {
 fn ball_and_cage_are_told_apart() {
     let tau = std::f64::consts::TAU;
     let zone = move |t: f64| (1.0 + (tau * RATES.cage * t).cos()).powi(2);
-    let found = verdict(&record(51, 5.0, 2.0 * RATES.ball, 0.002, zone), &RATES);
+    let found = graded(&record(51, 5.0, 2.0 * RATES.ball, 0.002, zone), &RATES);
     assert_eq!(found.part(), Some(BearingPart::Ball), "{found:?}");
-    let found = verdict(&record(52, 5.0, RATES.cage, 0.001, |_| 1.0), &RATES);
+    let found = graded(&record(52, 5.0, RATES.cage, 0.001, |_| 1.0), &RATES);
     assert_eq!(found.part(), Some(BearingPart::Cage), "{found:?}");
 }

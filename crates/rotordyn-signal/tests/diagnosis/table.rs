@@ -35,17 +35,20 @@ pub fn print_table(of: &[Outcome]) {
             );
         }
     }
-    println!("\n| without a fault | named | at 95 % and above | rival in a window: at 95 % | elsewhere | plain |");
+    println!(
+        "\n| without a fault | named | at 95 % and above | rival in a window: at 95 % | elsewhere | plain |"
+    );
     println!("|---|---|---|---|---|---|");
     let row = |name: &str, own: &[&Outcome]| {
-        let said = |own: &[&Outcome], p: f64| own.iter().filter(|o| o.probability >= p).count();
-        let (near, far): (Vec<&Outcome>, Vec<&Outcome>) = own.iter().copied().partition(|o| o.rival_in_a_window);
+        let named = |own: &[&Outcome], p: f64| own.iter().filter(|o| o.probability >= p).count();
+        let (near, far): (Vec<&Outcome>, Vec<&Outcome>) =
+            own.iter().copied().partition(|o| o.rival_in_a_window);
         println!(
             "| {name} | {} | {} | {} | {} | {} |",
-            percent(said(own, 0.5), own.len()),
-            percent(said(own, 0.95), own.len()),
-            percent(said(&near, 0.95), near.len()),
-            percent(said(&far, 0.95), far.len()),
+            percent(named(own, 0.5), own.len()),
+            percent(named(own, 0.95), own.len()),
+            percent(named(&near, 0.95), near.len()),
+            percent(named(&far, 0.95), far.len()),
             percent(own.iter().filter(|o| o.plain.is_some()).count(), own.len())
         );
     };
@@ -56,13 +59,18 @@ pub fn print_table(of: &[Outcome]) {
     row("all", &of.iter().filter(|o| o.part.is_none()).collect::<Vec<_>>());
     println!("\n| grade | right |");
     println!("|---|---|");
-    for (low, high) in [(0.0, 0.05), (0.05, 0.5), (0.5, 0.7), (0.7, 0.85), (0.85, 0.95), (0.95, 0.99), (0.99, 1.1)] {
+    for (low, high) in
+        [(0.0, 0.05), (0.05, 0.5), (0.5, 0.7), (0.7, 0.85), (0.85, 0.95), (0.95, 0.99), (0.99, 1.1)]
+    {
         let own: Vec<_> = of.iter().filter(|o| (low..high).contains(&o.probability)).collect();
         let right = own.iter().filter(|o| o.is_right()).count();
         println!("| {low} to {high} | {} |", percent(right, own.len()));
     }
     let wrong = of.iter().filter(|o| o.part.is_some() && !o.is_right());
     for o in wrong.filter(|o| o.probability > 0.95) {
-        println!("wrong part: {:?} called {:?} {:.3} at {:.1} dB beside {:?}", o.part, o.candidate, o.probability, o.snr, o.other);
+        println!(
+            "wrong part: {:?} called {:?} {:.3} at {:.1} dB beside {:?}",
+            o.part, o.candidate, o.probability, o.snr, o.other
+        );
     }
 }

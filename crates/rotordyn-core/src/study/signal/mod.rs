@@ -14,11 +14,11 @@ use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn_signal::cepstrum::real_cepstrum;
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
 use rotordyn_signal::filter_bank::max_depth;
+use rotordyn_signal::grading::{SpeedFinding, shaft_speed};
 use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
 use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, power_spectral_density};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::stft::{Stft, StftSettings};
-use rotordyn_signal::verdict::{SpeedFinding, shaft_speed};
 use rotordyn_signal::{SignalError, WindowKind};
 
 /// Deepest level of a kurtogram: 128 bands.
@@ -352,7 +352,7 @@ impl<'a> Job<'a> {
                 over_orders,
                 band_scores: found.kurtogram,
                 lines: None,
-                verdict: None,
+                graded: None,
             });
         };
         let rule = self.settings.band.unwrap_or(BandRule::Lines);
@@ -364,7 +364,7 @@ impl<'a> Job<'a> {
             over_orders,
             band_scores: found.kurtogram,
             lines: Some(found.lines),
-            verdict: Some(found.verdict),
+            graded: Some(found.graded),
         })
     }
 

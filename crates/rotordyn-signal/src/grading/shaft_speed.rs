@@ -88,7 +88,8 @@ fn family(spectrum: &Spectrum, lines: &LineSpectrum, stated: f64, range: f64) ->
     let harmonics = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
     let trial_step = step / HARMONICS as f64;
     let trials = (range * stated / trial_step).ceil() as i64;
-    let score = |speed: f64| (1..=harmonics).map(|n| lines.evidence(n as f64 * speed).min(LIMIT)).sum::<f64>();
+    let score =
+        |speed: f64| (1..=harmonics).map(|n| lines.evidence(n as f64 * speed).min(LIMIT)).sum::<f64>();
     let mut best = (f64::NEG_INFINITY, stated);
     for trial in (0..=trials).flat_map(|t| [t, -t]) {
         let speed = stated + trial as f64 * trial_step;

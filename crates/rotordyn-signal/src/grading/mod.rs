@@ -1,4 +1,29 @@
 //! What a record says of a bearing: the damaged part with its probability, rivals, and lines left unexplained.
+//!
+//! In every band the families of the four parts (harmonics within slip and resolution of the defect frequency;
+//! side bands of the shaft speed for the inner race, of FTF for balls) are fitted to the envelope spectrum. A
+//! line is a family's own if shaft, mains, a cage with many harmonics, or a family of any other rate that the
+//! remaining peaks support do not explain it as well. A logistic regression on the features of the best family
+//! (`grade.rs`) gives the probability that its part is the damaged one.
+//!
+//! Records of `tests/diagnosis`: 12 kHz, 5 s, bearings of 6 to 16 balls at 8 to 60 rev/s; half with a fault
+//! (cage slip and ball slip up to 2 %, jitter up to 2 % per impact, one to three resonances, random load zone) in
+//! front of noise, shaft lines and in a third of them another source; SNR is the power of the fault over all
+//! else. Half of the 2000 records for the coefficients, the other half for this table, in percent:
+//!
+//! | fault | at −20 to −12 dB: named, at 95 % or above, plain | −12 to −8 dB | −8 to 10 dB |
+//! |---|---|---|---|
+//! | outer race | 53, 28, 22 (of 36) | 100, 71, 93 (of 14) | 97, 76, 95 (of 75) |
+//! | inner race | 50, 29, 53 (of 34) | 89, 63, 74 (of 19) | 97, 90, 94 (of 72) |
+//! | ball | 48, 29, 16 (of 31) | 88, 76, 32 (of 25) | 96, 88, 41 (of 69) |
+//! | cage | 63, 50, 73 (of 30) | 100, 93, 93 (of 14) | 98, 86, 91 (of 81) |
+//!
+//! Plain is a threshold on the envelope spectrum of the band of highest kurtosis; it names a part in 33 % of the
+//! 500 records without a fault (thirteen kinds of sources), this module in 4 %, at 95 % or above in 0.4 %: in none
+//! of the 325 without a bearing line in the window of the source's first twelve harmonics, in 1.1 % of the 175
+//! others. No fault is given to a wrong part at 95 % or above. Of the records graded 50 to 70 % 53 % are right (of
+//! 19), 70 to 85 %: 76 % (of 29), 85 to 95 %: 91 % (of 46), 95 to 99 %: 99 % (of 141), above: 99.5 % (of 212).
+//! Records of other lengths and rates use the same coefficients.
 
 mod contest;
 mod grade;
@@ -19,8 +44,8 @@ use line_spectrum::LineSpectrum;
 pub use rival_kind::RivalKind;
 pub use rivals::Rival;
 pub use shaft_speed::{RecordSpeed, SpeedFinding, shaft_speed};
-pub use strong_lines::{Explanation, StrongLine};
 use strong_lines::strong_lines;
+pub use strong_lines::{Explanation, StrongLine};
 
 /// Probability from which a part is named.
 const NAMED: f64 = 0.5;
@@ -46,7 +71,7 @@ pub enum Finding {
 
 /// Diagnosis with its grade.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
+pub struct GradedDiagnosis {
     pub finding: Finding,
     /// The part that fits best, named or not.
     pub candidate: BearingPart,
@@ -62,7 +87,7 @@ pub struct Verdict {
     pub strong_lines: Vec<StrongLine>,
 }
 
-impl Verdict {
+impl GradedDiagnosis {
     /// The damaged part, if one is named.
     pub fn part(&self) -> Option<BearingPart> {
         match self.finding {
@@ -123,12 +148,12 @@ fn significant(value: f64) -> String {
 }
 
 /// One band's contest, before the best band is chosen.
-pub(crate) struct BandVerdict {
+pub(crate) struct BandGrading {
     spectrum: LineSpectrum,
     contest: Contest,
 }
 
-impl BandVerdict {
+impl BandGrading {
     /// Compares parts and rivals in an envelope spectrum of amplitudes.
     ///
     /// `hz_per_unit`: Hz per unit of the frequency axis, `None` if it varies (orders).
@@ -141,12 +166,13 @@ impl BandVerdict {
         let end = Self::needed_range(rates, settings);
         let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
-        BandVerdict { spectrum, contest }
+        BandGrading { spectrum, contest }
     }
 
     /// Frequency up to which a spectrum is looked at.
     pub fn needed_range(rates: &DefectFrequencies, settings: &LineSettings) -> f64 {
-        let highest = BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
+        let highest =
+            BearingPart::ALL.map(|part| part.defect_frequency(rates)).into_iter().fold(0.0, f64::max);
         LAST_HARMONIC * highest * (1.0 + settings.slip)
     }
 
@@ -156,7 +182,7 @@ impl BandVerdict {
     }
 
     /// What the band says.
-    pub fn verdict(&self, rates: &DefectFrequencies) -> Verdict {
+    pub fn diagnosis(&self, rates: &DefectFrequencies) -> GradedDiagnosis {
         let Contest { winner, rivals, features, unresolved, .. } = &self.contest;
         let probability = grade::probability(features);
         let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
@@ -170,7 +196,7 @@ impl BandVerdict {
             (None, None) => Finding::NoFault,
         };
         let named = (probability >= MENTIONED).then_some(winner);
-        Verdict {
+        GradedDiagnosis {
             finding,
             candidate: winner.part,
             frequency: winner.base,

@@ -67,7 +67,9 @@ impl PartFit {
         let trial_step = spectrum.step / harmonics as f64;
         let trials = ((settings.slip * expected + 0.5 * spectrum.step) / trial_step).ceil() as i64;
         let cage_trials = match part {
-            BearingPart::Ball => ((settings.slip * rates.cage + 0.5 * spectrum.step) / spectrum.step).ceil() as i64,
+            BearingPart::Ball => {
+                ((settings.slip * rates.cage + 0.5 * spectrum.step) / spectrum.step).ceil() as i64
+            }
             _ => 0,
         };
         let side = side_bands(part);
@@ -111,8 +113,10 @@ impl PartFit {
                 modulations.filter_map(move |modulation| {
                     let shift = modulation.map_or(0.0, |m| offset(m, rates.shaft, cage));
                     let place = harmonic as f64 * base + shift;
-                    let (frequency, amplitude) = spectrum.highest(place, 1.05 * spectrum.step + 5e-4 * place)?;
-                    let limit = modulation.map_or(f64::INFINITY, |_| spectrum.evidence(harmonic as f64 * base));
+                    let (frequency, amplitude) =
+                        spectrum.highest(place, 1.05 * spectrum.step + 5e-4 * place)?;
+                    let limit =
+                        modulation.map_or(f64::INFINITY, |_| spectrum.evidence(harmonic as f64 * base));
                     let evidence = (spectrum.evidence(place).min(limit) - NOISE_EVIDENCE).max(0.0);
                     Some(FittedLine { harmonic, modulation, frequency, amplitude, evidence, own: true })
                 })
@@ -151,9 +155,15 @@ impl PartFit {
 
     /// Evidence of the lines that nothing else explains; 0 without one of the first two harmonics.
     pub fn own_evidence(&self) -> f64 {
-        let first = self.main_lines().any(|l| l.own && l.harmonic <= 2 && l.evidence + NOISE_EVIDENCE > PRESENT);
-        let stands = |l: &&FittedLine| l.own && l.modulation.is_some() && l.evidence + NOISE_EVIDENCE > PRESENT;
-        if first || self.lines.iter().filter(stands).count() >= 3 { self.lines.iter().filter(|l| l.own).map(|l| l.evidence).sum() } else { 0.0 }
+        let first =
+            self.main_lines().any(|l| l.own && l.harmonic <= 2 && l.evidence + NOISE_EVIDENCE > PRESENT);
+        let stands =
+            |l: &&FittedLine| l.own && l.modulation.is_some() && l.evidence + NOISE_EVIDENCE > PRESENT;
+        if first || self.lines.iter().filter(stands).count() >= 3 {
+            self.lines.iter().filter(|l| l.own).map(|l| l.evidence).sum()
+        } else {
+            0.0
+        }
     }
 
     pub fn evidence(&self) -> f64 {

@@ -66,7 +66,9 @@ pub(super) fn contest(
     let ball = own[BearingPart::Ball as usize];
     let strength = fits.each_ref().map(|fit| match fit.part {
         // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
-        BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 => ball + own[BearingPart::Cage as usize],
+        BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 => {
+            ball + own[BearingPart::Cage as usize]
+        }
         BearingPart::Ball => WITHOUT_SIDE_BANDS * ball,
         part => own[part as usize],
     });
@@ -83,7 +85,8 @@ pub(super) fn contest(
             }
         })
         .fold(0.0, f64::max);
-    let ambiguity = others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
+    let ambiguity =
+        others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
     let unresolved = unresolved(spectrum, rates, settings, &known);
     let features = features(&fits[best], &rivals[best], [runner_up, ambiguity], spectrum, &known);
     // FTF alone is in every band that a ball's impacts reach: a cage is to show its many harmonics.
@@ -118,7 +121,12 @@ fn rivals_of(
 }
 
 /// Whether a line lies on the skirt of a higher one that is not of its family.
-fn is_dominated(fit: &PartFit, line: &FittedLine, spectrum: &LineSpectrum, rates: &DefectFrequencies) -> bool {
+fn is_dominated(
+    fit: &PartFit,
+    line: &FittedLine,
+    spectrum: &LineSpectrum,
+    rates: &DefectFrequencies,
+) -> bool {
     let reach = (4.0 * spectrum.step).max(0.008 * line.frequency);
     spectrum.highest(line.frequency, reach).is_some_and(|(frequency, amplitude)| {
         amplitude > DOMINANT * line.amplitude && !fit.explains(frequency, rates.shaft, spectrum.step)
@@ -171,13 +179,13 @@ fn unresolved(
         let expected = part.defect_frequency(rates);
         let (frequency, amplitude) = spectrum.highest(expected, settings.slip * expected + spectrum.step)?;
         let (kind, rate) = known.origin(frequency)?;
-        let beside = |sign: f64| {
-            let neighbour = frequency + sign * rate;
-            spectrum.highest(neighbour, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a)
+        let neighbouring = |sign: f64| {
+            let place = frequency + sign * rate;
+            spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a)
         };
         let stands_out = spectrum.evidence(frequency) > COINCIDENCE_EVIDENCE
             && amplitude > 0.3 * strongest
-            && beside(-1.0).max(beside(1.0)) < amplitude / 1.5;
+            && neighbouring(-1.0).max(neighbouring(1.0)) < amplitude / 1.5;
         let highest = (frequency / rate).round() as usize;
         let rival = Rival { kind, rate, highest, lines: 1, amplitude, log_odds: 0.0 };
         stands_out.then_some((part, frequency, rival))

@@ -149,9 +149,9 @@ fn line_evidence(ratio: &[f64]) -> Vec<f64> {
         sums[k + 1] = sums[k] + q;
     }
     let at = |k: usize| {
-        let admitted = WIDTHS.iter().filter(|(width, from, _)| {
-            k as f64 >= *from && k >= width / 2 && k + width / 2 < ratio.len()
-        });
+        let admitted = WIDTHS
+            .iter()
+            .filter(|(width, from, _)| k as f64 >= *from && k >= width / 2 && k + width / 2 < ratio.len());
         admitted
             .map(|(width, _, independent)| {
                 let (first, end) = (k - width / 2, k + width / 2 + 1);
@@ -167,7 +167,10 @@ fn peaks(spectrum: &Spectrum, background: &[f64], ratio: &[f64]) -> Vec<LinePeak
     let values = &spectrum.values;
     let is_peak = |k: &usize| {
         let q = ratio[*k];
-        values[*k] > values[k - 1] && values[*k] >= values[k + 1] && q - 1.0 - q.ln() > PEAK_EVIDENCE && q > 1.0
+        values[*k] > values[k - 1]
+            && values[*k] >= values[k + 1]
+            && q - 1.0 - q.ln() > PEAK_EVIDENCE
+            && q > 1.0
     };
     let mut found: Vec<LinePeak> = (2..values.len().saturating_sub(2))
         .filter(is_peak)

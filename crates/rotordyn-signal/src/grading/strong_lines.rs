@@ -52,7 +52,9 @@ pub(super) fn strong_lines(
             return Explanation::Bearing(fit.part);
         }
         let order = (frequency / shaft).round();
-        if (1.0..=SHAFT_ORDERS).contains(&order) && (frequency - order * shaft).abs() <= step + 7e-4 * frequency {
+        if (1.0..=SHAFT_ORDERS).contains(&order)
+            && (frequency - order * shaft).abs() <= step + 7e-4 * frequency
+        {
             return Explanation::Shaft(order as usize);
         }
         match rivals.iter().find(|r| r.explains(frequency, step)) {
