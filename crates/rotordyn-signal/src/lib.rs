@@ -8,6 +8,7 @@
 //! | [`stft`] | short-time Fourier transform: spectrogram over time and rpm |
 //! | [`resample`] | resampling uniform in shaft angle (angular resampling) or in time |
 //! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
+//! | [`vold_kalman`] | Vold-Kalman order tracking: complex amplitudes of several orders, sample by sample |
 //! | [`waterfall`] | waterfall (cascade) plot: spectra at chosen speeds |
 //! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
 //! | [`orbit`] | filtered orbit, forward and backward whirl, full spectrum |
@@ -64,6 +65,7 @@ pub mod stft;
 pub mod synchronous;
 pub mod tacho;
 pub mod tacholess;
+pub mod vold_kalman;
 pub mod waterfall;
 pub mod window;
 

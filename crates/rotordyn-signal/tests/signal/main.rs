@@ -15,6 +15,7 @@ mod resampling;
 mod sections;
 mod speed_line;
 mod tacho;
+mod vold_kalman;
 
 use rotordyn_signal::Complex;
 
