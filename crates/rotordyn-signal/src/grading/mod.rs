@@ -43,6 +43,7 @@ pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features};
 use line_spectrum::LineSpectrum;
 pub use rival_kind::RivalKind;
 pub use rivals::Rival;
+use rivals::find_rivals;
 pub use shaft_speed::{RecordSpeed, SpeedFinding, shaft_speed};
 use strong_lines::strong_lines;
 pub use strong_lines::{Explanation, StrongLine};
@@ -151,6 +152,7 @@ fn significant(value: f64) -> String {
 pub(crate) struct BandGrading {
     spectrum: LineSpectrum,
     contest: Contest,
+    hz_per_unit: Option<f64>,
 }
 
 impl BandGrading {
@@ -166,7 +168,7 @@ impl BandGrading {
         let end = Self::needed_range(rates, settings);
         let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
-        BandGrading { spectrum, contest }
+        BandGrading { spectrum, contest, hz_per_unit }
     }
 
     /// Frequency up to which a spectrum is looked at.
@@ -185,6 +187,11 @@ impl BandGrading {
     pub fn diagnosis(&self, rates: &DefectFrequencies) -> GradedDiagnosis {
         let Contest { winner, rivals, features, unresolved, .. } = &self.contest;
         let probability = grade::probability(features);
+        // Without a part to name every family counts, also one at the rate of the part that fits best.
+        let every = || {
+            find_rivals(&self.spectrum.peaks, rates.shaft, self.hz_per_unit, self.spectrum.step, |_| false)
+        };
+        let rivals = &if probability >= MENTIONED { rivals.clone() } else { every() };
         let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
         let finding = match (unresolved, free.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))) {
             _ if probability >= NAMED => Finding::Part(winner.part),
