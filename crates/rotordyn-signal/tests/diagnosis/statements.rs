@@ -33,8 +33,8 @@ fn damaged_race_is_named_with_its_probability() {
     assert!(found.probability > 0.9, "{}", found.probability);
     let words = found.statement("Hz");
     assert!(words.starts_with("outer race, ") && words.ends_with(" %"), "{words}");
-    // Half a bin of the fifth harmonic.
-    assert!((found.frequency / (1.01 * RATES.outer) - 1.0).abs() < 2e-3, "{}", found.frequency);
+    // A bin and a half of the first harmonic: of limited evidence all trials on a strong line are alike.
+    assert!((found.frequency / (1.01 * RATES.outer) - 1.0).abs() < 3e-3, "{}", found.frequency);
     let own =
         found.strong_lines.iter().filter(|l| l.explanation == Explanation::Bearing(BearingPart::OuterRace));
     assert!(own.count() >= 3, "{:?}", found.strong_lines);
