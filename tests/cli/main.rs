@@ -24,6 +24,7 @@ mod run_ups;
 mod runs;
 mod signal;
 mod signal_failures;
+mod signal_grade;
 mod steady;
 mod update_frf;
 mod validate_update;
