@@ -1,5 +1,5 @@
 //! Bearing defect frequencies (FTF, BPFO, BPFI, 2 BSF) in an envelope spectrum: level over background,
-//! significance, and the damaged part.
+//! and significance.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
@@ -125,11 +125,11 @@ pub struct LineFamily {
     pub detected: bool,
 }
 
-/// All lines of a bearing, the strongest family first, and the diagnosis.
+/// All lines of a bearing, the strongest family first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
-    /// Damaged part: that of the strongest detected family, or as the graded diagnosis of the record says; `None`: no fault.
+    /// Damaged part, as the graded diagnosis of the record says; `None`: none is named.
     pub diagnosis: Option<BearingPart>,
 }
 
@@ -172,7 +172,7 @@ impl Default for LineSettings {
     }
 }
 
-/// Detects bearing defect frequencies in an envelope spectrum (amplitudes) and determines the damaged part.
+/// Detects bearing defect frequencies in an envelope spectrum (amplitudes); names no damaged part (see `grading`).
 ///
 /// For each part: the frequency within ± slip that fits its harmonics best (largest Σ_h ln(1 + A²/m²)), then
 /// the peak at each harmonic h f and side band h f ± n f_s, h f ± n FTF. Levels are relative to the local
@@ -203,8 +203,7 @@ pub fn bearing_lines(
             .expect("at least one family remains");
         families.push(open.remove(strongest));
     }
-    let diagnosis = families.first().filter(|f| f.detected).map(|f| f.part);
-    Ok(BearingLines { families, diagnosis })
+    Ok(BearingLines { families, diagnosis: None })
 }
 
 struct LineSearch<'a> {

@@ -159,7 +159,12 @@ fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: 
     let stands = |n: &f64| {
         let place = n * cage.base;
         let amplitude = spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
-        spectrum.evidence(place) > PRESENT && amplitude > 0.4 * line.amplitude
+        // Side bands of another harmonic of the part are low beside it.
+        let beside = fit.main_lines().filter(|l| (l.frequency - place).abs() < 2.5 * cage.base);
+        let reference = beside.map(|l| l.amplitude).fold(line.amplitude, f64::max);
+        !fit.has_harmonic(place, spectrum.step)
+            && spectrum.evidence(place) > PRESENT
+            && amplitude > 0.4 * reference
     };
     [middle - 1.0, middle, middle + 1.0].iter().filter(|n| stands(n)).count() >= 2
 }
@@ -245,7 +250,7 @@ fn features(
     out
 }
 
-/// Mean of ln(1 + w² evidence) at fractions j f/n of the defect frequency: a slower family has them, the bearing not.
+/// Mean of w² ln(1 + evidence) at fractions j f/n of the defect frequency: a slower family has them, the bearing not.
 ///
 /// w is the line's amplitude over a quarter of the part's highest, at most 1: harmonics of a slower family differ
 /// little in height, while a record with little noise has weak lines of many origins everywhere.
@@ -259,7 +264,7 @@ fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum, known: &KnownLines)
         let places = (1..2 * n).filter(|j| j % n != 0).map(|j| j as f64 * fit.base / n as f64);
         let own = |f: &f64| fit.explains(*f, known.shaft, spectrum.step) || known.contains(*f);
         let values: Vec<f64> =
-            places.filter(|f| !own(f)).map(|f| (relative(f) * (spectrum.evidence(f) - 1.0).max(0.0)).ln_1p()).collect();
+            places.filter(|f| !own(f)).map(|f| relative(f) * (spectrum.evidence(f) - 1.0).max(0.0).ln_1p()).collect();
         if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
     };
     // Half of 2 BSF is BSF itself: unequal impacts on the two races.

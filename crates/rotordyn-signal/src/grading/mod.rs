@@ -154,6 +154,7 @@ pub(crate) struct BandGrading {
     spectrum: LineSpectrum,
     contest: Contest,
     hz_per_unit: Option<f64>,
+    slip: f64,
 }
 
 impl BandGrading {
@@ -169,7 +170,7 @@ impl BandGrading {
         let end = Self::needed_range(rates, settings);
         let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
-        BandGrading { spectrum, contest, hz_per_unit }
+        BandGrading { spectrum, contest, hz_per_unit, slip: settings.slip }
     }
 
     /// Frequency up to which a spectrum is looked at.
@@ -196,13 +197,24 @@ impl BandGrading {
         };
         let rivals = &if probability >= MENTIONED { rivals.clone() } else { every() };
         let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
+        let line_at = |rate: f64| {
+            let reach = |line: f64| self.slip * line + self.spectrum.step;
+            let near = |part: &BearingPart| {
+                let line = part.defect_frequency(rates);
+                (rate - line).abs() <= reach(line)
+            };
+            BearingPart::ALL.into_iter().find(near)
+        };
         let finding = match (unresolved, free.max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))) {
             _ if probability >= NAMED => Finding::Part(winner.part),
             (Some((part, frequency, rival)), _) => {
                 Finding::Unresolved { part: *part, frequency: *frequency, rival: *rival }
             }
             _ if probability >= MENTIONED => Finding::Uncertain(winner.part),
-            (None, Some(rival)) => Finding::Periodic(rival.rate),
+            (None, Some(rival)) => match line_at(rival.rate) {
+                Some(part) if part == winner.part => Finding::Uncertain(part),
+                _ => Finding::Periodic(rival.rate),
+            },
             (None, None) => Finding::NoFault,
         };
         let named = (probability >= MENTIONED).then_some(winner);

@@ -129,7 +129,7 @@ impl PartFit {
 
     /// Whether a frequency is a line of the family, with the side bands that its kind may have.
     ///
-    /// Outer race ± 4 f_r (unbalance, misalignment), inner race ± 6 f_r, ball ± 4 FTF. The ball's family has FTF itself, which
+    /// Outer race ± 4 f_r (unbalance, misalignment), inner race ± 6 f_r, both ± 2 FTF (unequal balls), ball ± 4 FTF. The ball's family has FTF itself, which
     /// its load modulation gives, and odd multiples of BSF, which unequal impacts on the two races give.
     pub fn explains(&self, frequency: f64, shaft: f64, step: f64) -> bool {
         let near = self.tolerance(frequency, step);
@@ -142,7 +142,9 @@ impl PartFit {
         if self.part == BearingPart::Ball && near_multiple(frequency, self.cage, 6, near) {
             return true;
         }
-        (-count..=count).any(|n| near_multiple(frequency - f64::from(n) * side, base, 3 * HARMONICS, near))
+        let carries = |offset: f64| near_multiple(frequency - offset, base, 3 * HARMONICS, near);
+        let by_cage = |n: i32| self.part != BearingPart::Ball && carries(f64::from(n) * self.cage);
+        (-count..=count).any(|n| carries(f64::from(n) * side)) || (-2..=2).any(by_cage)
     }
 
     /// Half-width of its lines: resolution, and slip from impact to impact, which widens harmonic h with h².

@@ -16,6 +16,9 @@ const MAX_RIVALS: usize = 4;
 /// Share of a line's amplitude that a neighbouring harmonic of the family must have to explain the line.
 const NEIGHBOUR: f64 = 0.25;
 
+/// Share of the axis that the tolerances of a family may cover where it explains a line: denser ones explain anything.
+const DENSE: f64 = 0.35;
+
 /// A family of harmonics of one rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
@@ -51,7 +54,7 @@ impl Rival {
                 <= tolerance(self.kind, frequency, step) + self.wander() * frequency
     }
 
-    /// Whether it explains a line of this amplitude: a free family also needs a comparable harmonic beside it.
+    /// Whether it explains a line of this amplitude: a free family also needs comparable harmonics beside it.
     ///
     /// The lines h f + n f_r of a damaged part lie near the multiples of a fraction of f_r wherever f/f_r is
     /// nearly a ratio of small numbers (BPFO 3.597 f_r: multiples of f_r/5). Impacts at such a low rate would
@@ -64,7 +67,8 @@ impl Rival {
         spectrum: &LineSpectrum,
         of_part: impl Fn(f64) -> bool,
     ) -> bool {
-        if !self.explains(frequency, spectrum.step) {
+        let half_width = tolerance(self.kind, frequency, spectrum.step) + self.wander() * frequency;
+        if !self.explains(frequency, spectrum.step) || 2.0 * half_width > DENSE * self.rate {
             return false;
         }
         let number = (frequency / self.rate).round();
@@ -74,7 +78,11 @@ impl Rival {
             let highest = spectrum.highest(place, reach).map_or(0.0, |(_, a)| a);
             n >= 1.0 && !of_part(place) && highest >= NEIGHBOUR * amplitude
         };
-        self.kind != RivalKind::Periodic || stands(number - 1.0) || stands(number + 1.0)
+        match number {
+            _ if self.kind != RivalKind::Periodic => true,
+            n if n < 3.0 => stands(n - 1.0) || stands(n + 1.0),
+            n => stands(n - 1.0) && stands(n + 1.0),
+        }
     }
 
     /// Free sources may wander: their high harmonics are wide.

@@ -89,7 +89,7 @@ fn fitted(of: &[Outcome]) -> Features {
 }
 
 /// Records of each half; the coefficients in the code are those of this number.
-const HALF: usize = 1500;
+const HALF: usize = 1000;
 
 /// Refits the coefficients, compares them with those in the code and prints the table of the other half.
 ///
