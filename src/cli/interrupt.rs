@@ -20,10 +20,19 @@ pub fn install_handlers() {
     if !is_ignored(SIGHUP) {
         signals.push(SIGHUP);
     }
-    for signal in signals {
-        // In this order: the flag that the first signal sets lets the second end the program. Without handlers a
-        // signal kills the program; the files stay readable even then.
-        let _ = flag::register_conditional_shutdown(signal, 128 + signal, REQUESTED.clone());
+    let received: Vec<Arc<AtomicBool>> = signals.iter().map(|_| Arc::default()).collect();
+    for (own, &signal) in signals.iter().enumerate() {
+        // The same signal again ends the program, and so does another one, even if both arrive together on two
+        // threads: each marks its own flag before it reads the others. Without handlers a signal kills the program;
+        // the files stay readable even then.
+        let end_if = |flag: &Arc<AtomicBool>| flag::register_conditional_shutdown(signal, 128 + signal, flag.clone());
+        let _ = end_if(&received[own]);
+        let _ = flag::register(signal, received[own].clone());
+        for (other, flag) in received.iter().enumerate() {
+            if other != own {
+                let _ = end_if(flag);
+            }
+        }
         let _ = flag::register_usize(signal, SIGNAL.clone(), signal as usize);
         let _ = flag::register(signal, REQUESTED.clone());
     }

@@ -256,6 +256,7 @@ pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
     draft.set_flag("resolution", args.resolution.clone());
     draft.set_flag("overlap", args.overlap.clone());
     draft.set_flag("max_order", args.max_order.clone());
+    draft.set_flag("bandwidth", args.bandwidth.clone());
     draft.set_as_written("cuts", toml_array(&args.orders), written("--orders", &args.orders));
     let [resolution, top] =
         ["resolution", "max_order"].map(|key| default_words(&format!("study.orders.{key}")));

@@ -422,4 +422,5 @@ pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
     let header = ["channel", "order line", "order", "peak RMS", "unit", "at rpm"];
     terminal.table("Order cuts: peak levels", &header, &rows);
     print_omitted_count(terminal, count);
+    found.iter().for_each(|result| printed::tables(terminal, &result.section().content));
 }

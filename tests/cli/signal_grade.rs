@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::signal::faulty_bearing_record;
-use crate::{json_of, rotordyn};
+use crate::{json_of, output_of, rotordyn};
 use rotordyn::io::measured;
 use rotordyn::signal::record::{MeasuredData, Record};
 use serde_json::Value;
@@ -86,4 +86,27 @@ fn inconsistent_orders_are_a_warning() {
     let channel = &found["channels"][0];
     assert_eq!(channel["bearing"]["balls"], 9);
     assert_eq!(channel["envelope"]["diagnosis"], "outer race");
+}
+
+/// Dents and bumps of the models, simulated and analysed by the same program.
+#[test]
+fn simulated_defects_are_named() {
+    for (model, variant, set, channel, bearing, part) in [
+        ("atef_2022", "one_dent", "speed.duration=1.25 s", "ring_ax", "B", "outer race"),
+        ("atef_2022", "bump_and_dent", "speed.duration=1.25 s", "ring_ax", "B", "outer race"),
+        ("atef_2022", "inner_dent", "speed.duration=1.25 s", "ring_ax", "B", "inner race"),
+        ("atef_2022", "inner_bump_and_dent", "speed.duration=1.25 s", "ring_ax", "B", "inner race"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let model = format!("models/{model}.toml");
+        let run = ["run-up", &model, "--variant", variant, "--set", set, "--no-figures", "--quiet", "--out"];
+        output_of(rotordyn().args(run).arg(folder.path()));
+        let flags = ["--channel", channel, "--bearing", bearing, "--time", "0.25 s ..", "--analyses", "envelope"];
+        let found = json_of(
+            rotordyn().arg("signal").arg(folder.path()).args(flags).args(["--no-figures", "--out"]).arg(folder.path()),
+        );
+        let envelope = &found["channels"][0]["envelope"];
+        assert_eq!(envelope["diagnosis"], part, "{variant}: {}", envelope["statement"]);
+        assert!(envelope["probability"].as_f64().unwrap() > 0.5, "{variant}: {envelope}");
+    }
 }

@@ -12,6 +12,7 @@ mod lyapunov;
 mod modal;
 mod motion;
 mod order_line;
+mod order_tracks;
 mod poincare;
 mod response_grid;
 mod run_summary;

@@ -9,6 +9,7 @@
 //! | [`resample`] | resampling uniform in shaft angle (angular resampling) or in time |
 //! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
 //! | [`vold_kalman`] | Vold-Kalman order tracking: complex amplitudes of several orders, sample by sample |
+//! | [`order_tracks`] | amplitude and phase of orders over time and speed, from the Vold-Kalman filter |
 //! | [`waterfall`] | waterfall (cascade) plot: spectra at chosen speeds |
 //! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
 //! | [`orbit`] | filtered orbit, forward and backward whirl, full spectrum |
@@ -51,6 +52,7 @@ pub mod lyapunov;
 pub mod motion_classification;
 pub mod orbit;
 pub mod order;
+pub mod order_tracks;
 pub mod poincare;
 mod quantity;
 pub mod race_defects;

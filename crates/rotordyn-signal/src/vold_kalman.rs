@@ -106,13 +106,18 @@ pub fn vold_kalman(
 }
 
 /// Shaft speed at every sample \[Hz\], by central differences, without sign.
-fn shaft_speed(theta: &[f64], sample_rate: f64) -> Vec<f64> {
+pub(super) fn shaft_speed(theta: &[f64], sample_rate: f64) -> Vec<f64> {
     let last = theta.len() - 1;
     let at = |n: usize| {
         let (a, b) = (n.saturating_sub(1), (n + 1).min(last));
         ((theta[b] - theta[a]) * sample_rate / ((b - a) as f64 * TAU)).abs()
     };
     (0..=last).map(at).collect()
+}
+
+/// Smallest bandwidth that is accepted \[Hz\]: of two periods in the record, and by round-off.
+pub(super) fn smallest_bandwidth(samples: usize, sample_rate: f64) -> f64 {
+    (2.0 * sample_rate / samples as f64).max(MIN_RELATIVE_BANDWIDTH * sample_rate)
 }
 
 fn check_orders(
@@ -124,8 +129,7 @@ fn check_orders(
     check(!orders.is_empty(), "number of orders", "one or more", 0.0)?;
     let fastest = speed.iter().copied().fold(0.0, f64::max);
     check(fastest > 0.0, "highest shaft speed [Hz]", "a shaft that turns", fastest)?;
-    let longest_period = 2.0 * sample_rate / samples as f64;
-    let smallest = longest_period.max(MIN_RELATIVE_BANDWIDTH * sample_rate);
+    let smallest = smallest_bandwidth(samples, sample_rate);
     for (k, tracked) in orders.iter().enumerate() {
         let order = tracked.order;
         check(order >= 0.0 && order.is_finite(), "order", "0 or more", order)?;

@@ -130,6 +130,8 @@ pub struct StoredArgs {
     /// Order lines to draw or to extract (order cuts), such as 1,2,BPFO,"2 BPFO"
     #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
     pub orders: Vec<String>,
+    #[arg(long, value_name = "ORDERS", help = key_help_with("study.orders.bandwidth", "orders only"))]
+    pub bandwidth: Option<String>,
     #[arg(long, value_name = "NUMBER", help = key_help("study.orders.overlap"))]
     pub overlap: Option<String>,
     #[arg(long, value_name = "NAME", help = key_help("study.orders.window"))]

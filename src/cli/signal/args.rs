@@ -56,6 +56,14 @@ pub struct SignalArgs {
     /// Highest order [default: 2.2 BPFI, at least 20, limited by the sampling rate]
     #[arg(long, value_name = "NUMBER", help_heading = "Shaft")]
     pub max_order: Option<f64>,
+    /// Orders of the order cuts, marked in the order spectrum, such as 1,7,BPFO,"2 BPFO" [default: 1, 2 and those of the
+    /// bearing]
+    #[arg(long, value_name = "ORDERS", value_delimiter = ',', help_heading = "Shaft")]
+    pub orders: Vec<String>,
+    /// Also track amplitude and phase of these orders by the Vold-Kalman filter, with this -3 dB bandwidth in orders,
+    /// such as 0.2
+    #[arg(long, value_name = "ORDERS", help_heading = "Shaft")]
+    pub bandwidth: Option<f64>,
 
     /// Bearing: a catalogue designation, or a ball bearing of the model
     #[arg(long, value_name = "NAME", help_heading = "Bearing")]

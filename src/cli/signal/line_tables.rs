@@ -110,7 +110,7 @@ fn print_diagnosis(terminal: &Terminal, result: &SignalResult, envelope: &Envelo
     }
     let name = graded.statement(envelope.frequency_unit());
     terminal.heading(&match found.strongest_line() {
-        Some(line) if found.diagnosis.is_some() => {
+        Some(line) if found.diagnosis == Some(line.part) => {
             format!(
                 "Bearing diagnosis of {}: {name} ({:.1} dB above background at {})",
                 result.channel,

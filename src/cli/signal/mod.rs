@@ -6,6 +6,7 @@ mod channel;
 mod compare_records;
 pub mod input;
 mod line_tables;
+mod orders;
 mod record_speed;
 mod settings;
 pub mod shaft_source;
@@ -65,7 +66,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         None => ShaftSource::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
     };
     let rated = bearing::find(args, &file, &mut findings)?;
-    let settings = settings::from_flags(args, rated.is_some(), &mut findings);
+    let settings = settings::from_flags(args, rated.as_ref(), &mut findings);
     if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {
         findings.problem(
             "bearing defect frequencies need the shaft speed, which the file does not state; give --speed \"1797 rpm\", \

@@ -1,6 +1,7 @@
 //! Settings of the signal analyses from the flags.
 
 use rotordyn::names::nearest;
+use rotordyn::results::BearingWithOrders;
 use rotordyn::signal::bearing_lines::LineSettings;
 use rotordyn::signal::diagnosis::BandRule;
 use rotordyn::study::signal::{Analysis, AnalysisSelection, Race, SignalSettings};
@@ -8,9 +9,14 @@ use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
 
 use super::args::SignalArgs;
 use super::input::InputProblems;
+use super::orders;
 
-/// Settings from the flags; `bearing` is whether a bearing is known.
-pub fn from_flags(args: &SignalArgs, bearing: bool, findings: &mut InputProblems) -> SignalSettings {
+/// Settings from the flags; `bearing` if one is known.
+pub fn from_flags(
+    args: &SignalArgs,
+    bearing: Option<&BearingWithOrders>,
+    findings: &mut InputProblems,
+) -> SignalSettings {
     let defaults = SignalSettings::default();
     let frequency = |findings: &mut InputProblems, flag: &str, text: &Option<String>| {
         text.as_ref().and_then(|text| findings.positive(flag, text, FREQUENCY))
@@ -34,11 +40,13 @@ pub fn from_flags(args: &SignalArgs, bearing: bool, findings: &mut InputProblems
     };
     SignalSettings {
         analyses: analyses(&args.analyses, findings),
-        band: args.band.as_ref().and_then(|text| band(text, bearing, findings)),
+        band: args.band.as_ref().and_then(|text| band(text, bearing.is_some(), findings)),
         resolution: frequency(findings, "--resolution", &args.resolution),
         max_frequency: frequency(findings, "--max-frequency", &args.max_frequency),
         order_resolution: args.order_resolution,
         max_order: args.max_order,
+        orders: orders::lines(&args.orders, bearing, findings),
+        bandwidth: args.bandwidth,
         lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
         speed_range,
         race,

@@ -162,6 +162,8 @@ pub struct OrderStudy {
     pub window: WindowKind,
     /// Orders of the order cuts (order tracking): level over rpm.
     pub cuts: Vec<f64>,
+    /// −3 dB bandwidth \[orders\] in which the Vold-Kalman filter tracks the cuts' orders; `None`: not tracked.
+    pub bandwidth: Option<f64>,
 }
 
 /// Single ball bearings, without the machine: loads, contacts, stiffness, film and life, at an operating

@@ -167,7 +167,7 @@ impl SignalResult {
                 out.group("cepstrum", content)
             })
             .and_if(self.jerk.as_ref(), |out, found| out.and(found.document(unit)))
-            .and_if(self.orders.as_ref(), |out, found| out.group("orders", found.document(unit)))
+            .and_if(self.orders.as_ref(), |out, found| out.group("orders", found.document(&self.channel, unit)))
             .and_if(self.average.as_ref(), |out, found| {
                 out.group("synchronous_average", found.document(unit))
             })

@@ -1,9 +1,11 @@
 //! Spectrograms and order spectrograms of a run-up.
 
 use super::OrderLine;
+use super::order_tracks::tracks_document;
 use crate::document::{Array, Document, Rows, Section, StoredArray, Value, in_hdf5, in_json};
 use crate::series::Series;
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
+use rotordyn_signal::order_tracks::OrderTracks;
 use rotordyn_signal::segment::Level;
 use rotordyn_signal::stft::Spectrogram;
 use serde::{Deserialize, Serialize};
@@ -38,6 +40,8 @@ pub struct OrderResult {
     pub unit: String,
     pub spectrogram: OrderSpectrogram<Series>,
     pub cuts: Vec<(OrderLine, OrderCut)>,
+    /// Amplitude and phase of the cuts' orders by the Vold-Kalman filter, if asked for.
+    pub tracks: Option<OrderTracks>,
 }
 
 impl SpectrogramResult {
@@ -108,6 +112,10 @@ impl OrderResult {
         if self.cuts.is_empty() {
             return out;
         }
+        let lines = || self.cuts.iter().map(|(line, _)| line);
+        let out = out.and_if(self.tracks.as_ref(), |out, found| {
+            out.group("vold_kalman", tracks_document(&self.channel, lines(), found, &self.unit))
+        });
         let rms: Vec<f64> = self.cuts.iter().flat_map(|(_, cut)| &cut.rms).copied().collect();
         let orders: Vec<f64> = self.cuts.iter().map(|(_, cut)| cut.order).collect();
         let rms = Array::real(&[self.cuts.len(), windows], &self.unit, rms).over(1, "rpm");

@@ -6,6 +6,7 @@ use crate::results::{History, HistoryChannel, OrderResult, SpectrogramPeak, Spec
 use crate::series::{Keep, Series, SeriesError};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::order_tracks::order_tracks;
 use rotordyn_signal::stft::{Spectrogram, Stft, StftSettings};
 
 /// Half width of an order cut's band in bins: three bins contain the level of a Hann-windowed line to 0.2 dB,
@@ -84,22 +85,28 @@ impl Machine {
             window: study.window,
             ..OrderSettings::new(study.resolution, study.max_order)
         };
-        let mut tracker = OrderTracker::new(&history.angle.all()?, history.sample_rate, settings)?;
+        let theta = history.angle.all()?;
+        let mut tracker = OrderTracker::new(&theta, history.sample_rate, settings)?;
         let lines = self.order_lines(&study.cuts);
         let mut found = Vec::new();
         for channel in selected_channels(&study.channels, history) {
-            let records = tracker.resample(&[&without_mean(&channel.values)?])?;
+            let record = without_mean(&channel.values)?;
+            let records = tracker.resample(&[&record])?;
             let spectrogram = tracker.spectrogram(&records[0]);
             let cut = |line: &crate::results::OrderLine| {
                 let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
                 Ok((line.clone(), cut))
             };
             let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
+            let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
+            let tracks =
+                study.bandwidth.map(|width| order_tracks(&record, &theta, history.sample_rate, &orders, width));
             found.push(OrderResult {
                 channel: channel.name.clone(),
                 unit: channel.unit.clone(),
                 spectrogram: spectrogram.try_map_amplitude(&mut *keep)?,
                 cuts,
+                tracks: tracks.transpose()?,
             });
         }
         Ok(found)

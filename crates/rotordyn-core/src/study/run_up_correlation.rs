@@ -124,6 +124,7 @@ impl Machine {
             channels: Vec::new(),
             max_order,
             cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
+            bandwidth: None,
             ..orders.clone()
         };
         let runs = [measured, computed];

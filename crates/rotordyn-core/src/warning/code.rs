@@ -191,6 +191,10 @@ codes! {
         "The speed changes so much within a window of a spectrogram that an order line is more than twice as wide as a shorter \
          window would show it, and too low.",
         "shorten study.spectrogram.length, or see the order cuts of [study.orders], which follow the shaft angle";
+    OrdersInOneBand, "orders-in-one-band", Caution,
+        "Two orders that the Vold-Kalman filter tracks lie in one pass band: their amplitudes are told apart only as far as \
+         they change more slowly than the two beat.",
+        "narrow study.orders.bandwidth, as far as the amplitudes change slowly enough for it, or track one of the two";
     FreeBalls, "free-balls", Caution,
         "A study of balls and cage as free bodies, or their comparison with a kinematic cage, could not be computed.",
         "see the text of the warning";

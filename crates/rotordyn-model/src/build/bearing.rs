@@ -123,6 +123,18 @@ pub(super) fn read(
     top.items(&TOP.bearing).into_iter().map(read).collect()
 }
 
+/// Tells the places which stations and housings the bearings act between.
+pub(super) fn name_ends(top: &Reader, places: &mut Places) {
+    for (name, r) in top.items(&TOP.bearing) {
+        let Some(station) = r.given_text(&BEARING.station) else { continue };
+        let housing = r.given_text(&BEARING.housing).unwrap_or("ground");
+        places.add_connection(
+            format!("bearing.{name}"),
+            format!("station `{station}` of the shaft and `{housing}`"),
+        );
+    }
+}
+
 /// Bearings of a bearing-only file, without station and housing.
 pub(super) fn read_bearings_only(
     top: &Reader,

@@ -318,7 +318,13 @@ pub(super) fn profile(top: &Reader, files: &[ExternalFile]) -> SpeedProfile {
     let standstill = SpeedProfile::Constant { speed: 0.0, duration: 1.0 };
     let Some(r) = top.table(&TOP.speed) else { return standstill };
     if !r.has(&PROFILE.profile) {
-        r.missing(&PROFILE.profile);
+        // Of a whole ramp what is not there yet, so that the next check does not ask for the rest.
+        let rest: Vec<String> = [(&RAMP.to, "1200 rpm"), (&RAMP.ramp, "10 s")]
+            .iter()
+            .filter(|(key, _)| !r.has(*key))
+            .map(|(key, value)| format!(", {} = \"{value}\"", key.name()))
+            .collect();
+        r.missing_as(&PROFILE.profile, &format!("\"ramp\"{}", rest.concat()));
     }
     let profile = match r.choice(&PROFILE.profile) {
         Some(Shape::Constant) => {

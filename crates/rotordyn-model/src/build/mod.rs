@@ -126,6 +126,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     let joints = connections::joints(&top, &places);
     let belts = connections::belts(&top, &places);
     let bearings = bearing::read(&top, &materials, &lubricants, gravity, &places);
+    bearing::name_ends(&top, &mut places);
     let rotor_mass = line.mass() + discs.iter().map(|d| d.mass).sum::<f64>();
     let unbalances = loading::unbalances(&top, &places, rotor_mass);
     let loads = loading::loads(&top, &places);

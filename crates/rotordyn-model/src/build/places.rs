@@ -54,6 +54,8 @@ impl Place {
 /// All places of a model.
 pub(super) struct Places {
     list: Vec<Place>,
+    /// Elements between two places, with these: ("bearing.A", "station.A and housing.A").
+    connections: Vec<(String, String)>,
 }
 
 impl Places {
@@ -63,7 +65,12 @@ impl Places {
             let name = format!("station.{}", s.name);
             list.push(Place { name, node: Some(s.node), position: [0.0, 0.0, s.z] });
         }
-        Self { list }
+        Self { list, connections: Vec::new() }
+    }
+
+    /// Remembers an element that is no place itself but acts between two, for the hint to who names it as a place.
+    pub fn add_connection(&mut self, element: String, ends: String) {
+        self.connections.push((element, ends));
     }
 
     pub fn add(&mut self, name: String, node: usize, position: [f64; 3]) {
@@ -88,6 +95,10 @@ impl Places {
             [] => {
                 let what = if kinds == ["station"] { "station" } else { "place" };
                 let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
+                if let Some((element, ends)) = self.connections.iter().find(|(element, _)| element == text) {
+                    r.log.error(problem.hint(format!("{element} acts between {ends}: write one of them")));
+                    return None;
+                }
                 // suggest full or short names, as written by the user
                 let full = text.contains('.') || kinds.is_empty();
                 let names: Vec<String> =

@@ -212,6 +212,9 @@ keys! {
         resolution: Quantity = quantity(positive(NUMBER), "Order resolution.").default("0.05");
         max_order: Quantity = quantity(positive(NUMBER), "Highest order.").default("20");
         cuts: Special = special(ORDER, "Order cuts: levels of these orders over speed.").default("1");
+        bandwidth: Quantity = quantity(positive(NUMBER),
+            "With it the Vold-Kalman filter also tracks amplitude and phase of the cuts' orders: its -3 dB bandwidth in orders.")
+            .computed("not tracked").example("0.2");
     }
 }
 
@@ -458,5 +461,6 @@ fn order_spectra(r: &Reader, model: &Model) -> OrderStudy {
         overlap: r.value(&WINDOW.overlap),
         window: r.word(&WINDOW.window),
         cuts: orders(r, &ORDERS.cuts, model),
+        bandwidth: r.get(&ORDERS.bandwidth),
     }
 }

@@ -10,7 +10,7 @@
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
 //! | `run_up_bearing_<bearing>_cage`, `..._cage_orbit` | run-up with free balls: cage speed, slip, pocket force, friction torque; orbit of the cage |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
-//! | `orders_<channel>`, `order_cuts_<channel>` | order tracking: order map, order cuts with their range over the cage phases |
+//! | `orders_<channel>`, `order_cuts_<channel>`, `order_tracks_<channel>` | order tracking: order map, order cuts with their range over the cage phases, amplitude and phase by the Vold-Kalman filter |
 //! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
@@ -33,6 +33,7 @@ mod free_ball;
 pub mod identification;
 mod machine;
 mod named;
+mod order_tracks;
 mod response;
 mod run;
 mod run_free_ball;

@@ -1,6 +1,7 @@
 //! Figures of a run-up: time histories, spectrograms, waterfalls, order maps and order cuts.
 
 use super::campbell::{branches, order_lines};
+use super::order_tracks::{Shown, order_tracks};
 use super::display_unit::{DisplayUnit, decibels_of, quantity, unit};
 use super::{Named, TO_RPM};
 use crate::{
@@ -236,6 +237,13 @@ pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Mac
             ..Lines::default()
         };
         figures.push((format!("order_cuts_{}", found.channel), Figure::Lines(figure)));
+    }
+    if let Some(tracks) = &found.tracks {
+        let lines: Vec<_> = lines.iter().collect();
+        let title = format!("Order tracks of the run-up, {}", found.channel);
+        let shown = Shown { quantity: quantity(&found.unit), unit: shown.name, factor: shown.factor };
+        let figure = order_tracks(tracks, &lines, &title, &machine.model.title, shown);
+        figures.push((format!("order_tracks_{}", found.channel), figure));
     }
     figures
 }

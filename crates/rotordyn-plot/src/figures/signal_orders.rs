@@ -2,6 +2,7 @@
 //! jerk.
 
 use super::Named;
+use super::order_tracks::{Shown, order_tracks};
 use super::run::{SpectraOverSpeed, waterfall_panels};
 use super::signal_units::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, levels, quantity_name};
 use crate::{
@@ -12,6 +13,7 @@ use rotordyn_core::results::{
     CyclicResult, JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult, SpectrogramWithSpeed,
 };
 use rotordyn_core::series::Series;
+use rotordyn_signal::bearing_lines::BearingPart;
 use rotordyn_signal::race_defects::DefectKind;
 
 /// Dynamic range of level maps \[dB\].
@@ -30,6 +32,13 @@ pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
         if r.shaft.as_ref().is_some_and(|s| !s.steady) && found.map.rpm.len() > 1 {
             out.push((name("orders"), Figure::OrderMap(orders(r, found, note))));
             out.push((name("order_cuts"), Figure::Lines(order_cuts(r, found, note))));
+        }
+        if let Some(tracks) = &found.tracks {
+            let lines: Vec<_> = found.cuts.iter().map(|(line, _)| line).collect();
+            let d = display_unit(r);
+            let shown = Shown { quantity: quantity_name(r), unit: d.name, factor: d.factor };
+            let title = format!("Order tracks of {}", r.channel);
+            out.push((name("order_tracks"), order_tracks(tracks, &lines, &title, note, shown)));
         }
     }
     if let Some(found) = &r.average {
@@ -54,6 +63,10 @@ pub fn figures(r: &SignalResult, note: &str) -> Vec<Named> {
 /// Shaft and bearing lines of order maps.
 fn order_lines(r: &SignalResult) -> Vec<OrderLine> {
     let line = |label: &str, order: f64, bearing: bool| OrderLine { label: label.into(), order, bearing };
+    if let Some(found) = &r.orders {
+        let cuts = found.cuts.iter();
+        return cuts.map(|(cut, _)| line(&cut.label, cut.order, cut.bearing)).collect();
+    }
     let mut lines = vec![line("1x", 1.0, false), line("2x", 2.0, false)];
     if let Some(b) = &r.bearing {
         lines.extend(defect_orders(b).into_iter().map(|(part, order)| line(part.line_name(), order, true)));
@@ -143,9 +156,15 @@ fn orders(r: &SignalResult, found: &ShaftOrders, note: &str) -> OrderMap {
 
 fn order_spectrum(r: &SignalResult, found: &ShaftOrders, note: &str) -> CursorLines {
     let d = display_unit(r);
-    let mut cursors: Vec<Cursor> =
-        (1..=2).map(|n| Cursor { at: f64::from(n), label: format!("{n}x"), group: 0 }).collect();
-    cursors.extend(bearing_cursors(r, 1.0));
+    // The lines of the cuts: those asked for, or shaft and bearing.
+    let cursor = |(line, _): &(rotordyn_core::results::OrderLine, _)| {
+        let part = BearingPart::ALL.into_iter().find(|part| {
+            let base = part.line_name().rsplit(' ').next().unwrap_or_default();
+            line.bearing && line.label.ends_with(base)
+        });
+        Cursor { at: line.order, label: line.label.clone(), group: part.map_or(0, cursor_group) }
+    };
+    let cursors: Vec<Cursor> = found.cuts.iter().map(cursor).collect();
     let panel = CursorPanel {
         y_name: format!("{}, peak", quantity_name(r)),
         y_unit: d.name.into(),
@@ -182,7 +201,7 @@ fn groups(r: &SignalResult) -> Vec<String> {
 /// Fundamental defect frequencies of the bearing parts, in multiples of `unit`.
 fn bearing_cursors(r: &SignalResult, unit: f64) -> Vec<Cursor> {
     let rates = r.bearing.as_ref().map_or_else(Vec::new, defect_orders);
-    let cursor = |(part, order): (rotordyn_signal::bearing_lines::BearingPart, f64)| Cursor {
+    let cursor = |(part, order): (BearingPart, f64)| Cursor {
         at: unit * order,
         label: part.line_name().into(),
         group: cursor_group(part),

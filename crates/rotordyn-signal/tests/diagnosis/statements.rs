@@ -40,6 +40,25 @@ fn damaged_race_is_named_with_its_probability() {
     assert!(own.count() >= 3, "{:?}", found.strong_lines);
 }
 
+/// Shaft modulation gives lines h BPFO + n f_r. BPFO of 3.597 f_r is so near 18/5 f_r that all of them are near
+/// multiples of f_r/5, which is no other source: such a one would have lines at every multiple.
+#[test]
+fn side_bands_near_a_fraction_of_the_shaft_speed() {
+    let rates = DefectFrequencies { outer: 3.585 * 30.0, cage: 3.585 * 30.0 / 9.0, ..RATES };
+    let turn = std::f64::consts::TAU * rates.shaft;
+    let misaligned = move |t: f64| 1.0 + 0.5 * (turn * t).cos() + 0.3 * (2.0 * turn * t).sin();
+    // As good as without noise, as simulated, and with noise.
+    for (seed, snr) in [(61, 70.0), (62, 40.0), (63, 10.0)] {
+        let record = record(seed, snr, 3.597 * rates.shaft, 0.0, misaligned);
+        for rule in [BandRule::Lines, BandRule::Whole, BandRule::Given(500.0, 5500.0)] {
+            let settings = LineSettings::default();
+            let found = diagnose(&record, RATE, ShaftRotation::ConstantSpeed, &rates, rule, &settings).unwrap();
+            let graded = found.graded;
+            assert_eq!(graded.part(), Some(BearingPart::OuterRace), "{snr} dB, {rule:?}: {graded:?}");
+        }
+    }
+}
+
 #[test]
 fn foreign_impacts_are_no_line_of_the_bearing() {
     for (seed, rate) in [(21, 12.42), (22, 37.3), (23, 53.1)] {

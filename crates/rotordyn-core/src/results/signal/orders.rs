@@ -2,7 +2,9 @@
 
 use crate::document::{Array, Document, Rows, in_hdf5, in_json};
 use crate::results::OrderLine;
+use crate::results::order_tracks::tracks_document;
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
+use rotordyn_signal::order_tracks::OrderTracks;
 use serde::{Deserialize, Serialize};
 
 /// Order tracking: map, mean order spectrum and cuts.
@@ -12,10 +14,12 @@ pub struct ShaftOrders {
     /// Power average over all speeds.
     pub average: Vec<f64>,
     pub cuts: Vec<(OrderLine, OrderCut)>,
+    /// Amplitude and phase of the cuts' orders by the Vold-Kalman filter, if asked for.
+    pub tracks: Option<OrderTracks>,
 }
 
 impl ShaftOrders {
-    pub(super) fn document(&self, unit: &str) -> Document<'_> {
+    pub(super) fn document(&self, channel: &str, unit: &str) -> Document<'_> {
         let map = &self.map;
         let (windows, bins) = (map.times.len(), map.orders.len());
         let amplitude = Array::real(&[windows, bins], unit, &map.amplitude);
@@ -31,5 +35,9 @@ impl ShaftOrders {
             .numbers(in_hdf5("time"), "s", &map.times)
             .numbers(in_hdf5("order"), "1/revolution", &map.orders)
             .array(in_hdf5("average"), Array::real(&[bins], unit, &self.average).over(0, "order"))
+            .and_if(self.tracks.as_ref(), |out, found| {
+                let lines = self.cuts.iter().map(|(line, _)| line);
+                out.group("vold_kalman", tracks_document(channel, lines, found, unit))
+            })
     }
 }

@@ -8,7 +8,7 @@ mod shaft;
 pub use shaft::ShaftMotion;
 
 use crate::results::{
-    BearingWithOrders, EnvelopeResult, KurtogramResult, SignalResult, SpectrogramWithSpeed,
+    BearingWithOrders, EnvelopeResult, KurtogramResult, OrderLine, SignalResult, SpectrogramWithSpeed,
 };
 use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn_signal::cepstrum::real_cepstrum;
@@ -98,6 +98,10 @@ pub struct SignalSettings {
     /// Resolution and highest order of order tracking; `None`: 2.2 BPFI, at least 20.
     pub order_resolution: f64,
     pub max_order: Option<f64>,
+    /// Lines of the order cuts; none: 1x, 2x and the bearing's characteristic orders.
+    pub orders: Vec<OrderLine>,
+    /// −3 dB bandwidth \[orders\] in which the Vold-Kalman filter tracks them; `None`: not tracked.
+    pub bandwidth: Option<f64>,
     pub lines: LineSettings,
     /// Range about a stated steady speed, relative, in which the record's own speed is searched; 0: not searched.
     pub speed_range: f64,
@@ -116,6 +120,8 @@ impl Default for SignalSettings {
             max_frequency: None,
             order_resolution: 0.05,
             max_order: None,
+            orders: Vec::new(),
+            bandwidth: None,
             lines: LineSettings::default(),
             speed_range: 0.02,
             race: Race::Outer,
@@ -290,7 +296,11 @@ impl<'a> Job<'a> {
             Analysis::Kurtogram => out.kurtogram = Some(self.kurtogram()?),
             Analysis::Cepstrum => out.cepstrum = Some(real_cepstrum(self.x, self.rate)?),
             Analysis::Jerk => out.jerk = Some(self.jerk()?),
-            Analysis::Orders => out.orders = Some(self.orders()?),
+            Analysis::Orders => {
+                let found = self.orders()?;
+                out.warnings.extend(self.orders_in_one_band(&found));
+                out.orders = Some(found);
+            }
             Analysis::Average => out.average = Some(self.average()?),
             Analysis::Cyclic => out.cyclic = Some(self.cyclic()?),
         }

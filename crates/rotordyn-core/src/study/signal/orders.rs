@@ -1,18 +1,22 @@
 //! Order tracking and time-synchronous average.
 
 use super::{DEFAULT_MAX_ORDER, Job, MIN_SPEED, characteristic_rates};
+use crate::document::number;
 use crate::results::{OrderLine, ShaftAverage, ShaftOrders};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::bearing_lines::BearingPart;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::order_tracks::{order_tracks, orders_in_one_band};
 use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::synchronous::synchronous_average;
 
 impl Job<'_> {
-    /// Highest order: as given, else by bearing and sampling rate.
+    /// Highest order: as given, else by bearing, the orders asked for and the sampling rate.
     pub(super) fn max_order(&self) -> f64 {
-        let wanted = self.bearing.map_or(DEFAULT_MAX_ORDER, |b| (2.2 * b.orders.bpfi).max(DEFAULT_MAX_ORDER));
+        let of_bearing = self.bearing.map_or(0.0, |b| 2.2 * b.orders.bpfi);
+        let asked = self.settings.orders.iter().map(|line| 1.1 * line.order).fold(0.0, f64::max);
+        let wanted = DEFAULT_MAX_ORDER.max(of_bearing).max(asked);
         let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
         self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
     }
@@ -27,18 +31,47 @@ impl Job<'_> {
         let map = tracker.spectrogram(&records[0]);
         let average = map.average(0.0, f64::INFINITY)?;
         let highest = map.orders.last().copied().unwrap_or(0.0);
-        let lines = self.order_lines().into_iter().filter(|line| line.order < highest);
+        let asked = &self.settings.orders;
+        if let Some(above) = asked.iter().find(|line| line.order >= highest) {
+            let expected = "below the highest order of the map, which the sampling rate may limit";
+            return Err(SignalError::OutOfRange { name: "order", expected, given: above.order });
+        }
+        let lines: Vec<OrderLine> =
+            self.order_lines().into_iter().filter(|line| line.order < highest).collect();
+        let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
+        let tracks =
+            self.settings.bandwidth.map(|width| order_tracks(self.x, theta, self.rate, &orders, width));
         let cuts: Result<_, SignalError> = lines
+            .into_iter()
             .map(|line| {
                 let cut = map.cut(line.order, resolution)?;
                 Ok((line, cut))
             })
             .collect();
-        Ok(ShaftOrders { cuts: cuts?, average, map })
+        Ok(ShaftOrders { cuts: cuts?, average, map, tracks: tracks.transpose()? })
     }
 
-    /// 1x, 2x and the bearing's characteristic orders.
+    /// A warning for every pair of tracked orders that the bandwidth does not separate.
+    pub(super) fn orders_in_one_band(&self, found: &ShaftOrders) -> Vec<String> {
+        let Some(tracks) = &found.tracks else { return Vec::new() };
+        let orders: Vec<f64> = tracks.tracks.iter().map(|track| track.order).collect();
+        let text = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|k| &found.cuts[k].0.label);
+            format!(
+                "{}: {a} and {b} lie in one pass band of {} orders: their amplitudes are told apart only as far as they change \
+                 more slowly than the two beat; a narrower bandwidth separates them",
+                self.channel.name,
+                number(tracks.bandwidth, 3)
+            )
+        };
+        orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text).collect()
+    }
+
+    /// The orders asked for, by default 1x, 2x and the bearing's characteristic orders.
     fn order_lines(&self) -> Vec<OrderLine> {
+        if !self.settings.orders.is_empty() {
+            return self.settings.orders.clone();
+        }
         let shaft = |n: f64| OrderLine { label: format!("{n}x"), order: n, bearing: false };
         let mut lines = vec![shaft(1.0), shaft(2.0)];
         if let Some(bearing) = self.bearing {

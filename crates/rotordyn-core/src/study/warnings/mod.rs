@@ -2,6 +2,7 @@
 
 mod linear;
 mod modes;
+mod order_tracks;
 mod run;
 mod spectrogram;
 mod supports;
@@ -37,6 +38,7 @@ impl Machine {
         found.extend(results.run_up.iter().flat_map(run::run_up));
         found.extend(run::sample_rate(&self.model, results));
         found.extend(spectrogram::smeared_orders(&self.model, results));
+        found.extend(order_tracks::orders_in_one_band(results));
         found.extend(run::settling(&self.model, results));
         found
     }

@@ -43,30 +43,34 @@ impl Machine {
             return machine.free_motion_warnings(speeds);
         }
         let held_with_closed_contacts = rigid_body_modes_of_machine(&self.model, &self.assembly)?;
-        let mut known: Vec<String> = Vec::new();
-        let mut found = Vec::new();
-        for speed in standstill_and_top(speeds) {
+        let mut found: Vec<(String, Vec<f64>)> = Vec::new();
+        let compared = standstill_and_top(speeds);
+        for &speed in &compared {
             for motion in self.unconstrained_motions(&self.linear_system(speed)?)? {
-                if known.contains(&motion) {
-                    continue;
+                match found.iter_mut().find(|(name, _)| *name == motion) {
+                    Some((_, at)) => at.push(speed),
+                    None => found.push((motion, vec![speed])),
                 }
-                let opened = !held_with_closed_contacts.contains(&motion);
-                let at =
-                    if speed == 0.0 { "standstill".into() } else { format!("{:.0} rpm", speed * TO_RPM) };
-                let code = if motion == AXIAL { Code::FreeAxialMotion } else { Code::FreeMotion };
-                let text = format!("unconstrained rigid-body mode: {motion}, at {at}");
-                let warning = Warning::new(code, "", text);
-                found.push(match opened {
-                    true => warning.advise(
-                        "the bearings that would hold it carry nothing: preload them, reduce their clearance, or state \
-                         their load",
-                    ),
-                    false => warning.advise("add a bearing, joint or bushing that holds it"),
-                });
-                known.push(motion);
             }
         }
-        Ok(found)
+        let warning = |(motion, at): &(String, Vec<f64>)| {
+            let speeds = match at.as_slice() {
+                // Nothing that holds it depends on the speed.
+                all if all.len() == compared.len() => String::new(),
+                [0.0] => ", at standstill".into(),
+                some => format!(", at {:.0} rpm", some[0] * TO_RPM),
+            };
+            let code = if motion == AXIAL { Code::FreeAxialMotion } else { Code::FreeMotion };
+            let warning = Warning::new(code, "", format!("unconstrained rigid-body mode: {motion}{speeds}"));
+            warning.advise(match held_with_closed_contacts.contains(motion) {
+                false => {
+                    "the bearings that would hold it carry nothing: preload them, reduce their clearance, or state \
+                     their load"
+                }
+                true => "add a bearing, joint or bushing that holds it",
+            })
+        };
+        Ok(found.iter().map(warning).collect())
     }
 
     /// Bearings and rows of which no contact carries load, at a speed \[rad/s\].

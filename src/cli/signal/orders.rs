@@ -1,0 +1,73 @@
+//! Orders asked for by number or by name: 7, 1x, BPFO, "2 BPFO".
+
+use rotordyn::results::{BearingWithOrders, OrderLine};
+
+use super::input::InputProblems;
+
+/// The order lines of the words; problems for those that are none.
+pub fn lines(
+    words: &[String],
+    bearing: Option<&BearingWithOrders>,
+    findings: &mut InputProblems,
+) -> Vec<OrderLine> {
+    let mut lines: Vec<OrderLine> = Vec::new();
+    for word in words {
+        match line(word.trim(), bearing) {
+            Ok(line) if lines.iter().any(|known| known.order == line.order) => {}
+            Ok(line) => lines.push(line),
+            Err(problem) => findings.problem(format!("--orders {word}: {problem}")),
+        }
+    }
+    lines
+}
+
+fn line(word: &str, bearing: Option<&BearingWithOrders>) -> Result<OrderLine, String> {
+    const EXPECTED: &str = "expected a number, or BPFO, BPFI, BSF, FTF as \"2 BPFO\"";
+    let factor = |text: &str| match text.trim().trim_end_matches(['x', 'X']).parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err(EXPECTED.to_string()),
+    };
+    let Some(start) = word.find(|c: char| c.is_ascii_alphabetic() && !c.eq_ignore_ascii_case(&'x')) else {
+        let order = factor(word)?;
+        return Ok(OrderLine { label: format!("{order}x"), order, bearing: false });
+    };
+    let (multiple, name) = word.split_at(start);
+    let multiple = if multiple.trim().is_empty() { 1.0 } else { factor(multiple)? };
+    let name = name.trim().to_uppercase();
+    let Some(bearing) = bearing else {
+        return Err("names of bearing orders need --bearing or --bearing-orders".into());
+    };
+    let orders = &bearing.orders;
+    let order = match name.as_str() {
+        "BPFO" => orders.bpfo,
+        "BPFI" => orders.bpfi,
+        "BSF" => orders.bsf,
+        "FTF" => orders.ftf,
+        _ => return Err(EXPECTED.into()),
+    };
+    let label = if multiple == 1.0 { name } else { format!("{multiple} {name}") };
+    Ok(OrderLine { label, order: multiple * order, bearing: true })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rotordyn::bearing::CharacteristicOrders;
+
+    #[test]
+    fn orders_by_number_and_by_name() {
+        let orders = CharacteristicOrders { ftf: 0.4, bpfo: 3.6, bpfi: 5.4, bsf: 2.3 };
+        let bearing =
+            BearingWithOrders { name: "b".into(), source: String::new(), orders, balls: 9, raceway_radii: None };
+        let found = |word: &str| line(word, Some(&bearing)).map(|line| (line.label, line.order, line.bearing));
+        assert_eq!(found("7"), Ok(("7x".into(), 7.0, false)));
+        assert_eq!(found("1x"), Ok(("1x".into(), 1.0, false)));
+        assert_eq!(found("7.144"), Ok(("7.144x".into(), 7.144, false)));
+        assert_eq!(found("bpfo"), Ok(("BPFO".into(), 3.6, true)));
+        assert_eq!(found("2 BSF"), Ok(("2 BSF".into(), 4.6, true)));
+        for wrong in ["-1", "0", "BPF", "two", "nan", "1e400", ""] {
+            assert!(line(wrong, Some(&bearing)).is_err(), "{wrong}");
+        }
+        assert!(line("BPFO", None).unwrap_err().contains("--bearing"));
+    }
+}
