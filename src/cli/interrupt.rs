@@ -25,7 +25,8 @@ pub fn install_handlers() {
         // The same signal again ends the program, and so does another one, even if both arrive together on two
         // threads: each marks its own flag before it reads the others. Without handlers a signal kills the program;
         // the files stay readable even then.
-        let end_if = |flag: &Arc<AtomicBool>| flag::register_conditional_shutdown(signal, 128 + signal, flag.clone());
+        let end_if =
+            |flag: &Arc<AtomicBool>| flag::register_conditional_shutdown(signal, 128 + signal, flag.clone());
         let _ = end_if(&received[own]);
         let _ = flag::register(signal, received[own].clone());
         for (other, flag) in received.iter().enumerate() {

@@ -91,19 +91,33 @@ fn inconsistent_orders_are_a_warning() {
 /// Dents and bumps of the models, simulated and analysed by the same program.
 #[test]
 fn simulated_defects_are_named() {
-    for (model, variant, set, channel, bearing, part) in [
-        ("atef_2022", "one_dent", "speed.duration=1.25 s", "ring_ax", "B", "outer race"),
-        ("atef_2022", "bump_and_dent", "speed.duration=1.25 s", "ring_ax", "B", "outer race"),
-        ("atef_2022", "inner_dent", "speed.duration=1.25 s", "ring_ax", "B", "inner race"),
-        ("atef_2022", "inner_bump_and_dent", "speed.duration=1.25 s", "ring_ax", "B", "inner race"),
+    // Settled after a quarter of a second, and after the ramp to 1200 rpm.
+    let atef = ("atef_2022", "speed.duration=1.25 s", "ring_ax", "0.25 s ..");
+    let rig = (
+        "overhung_rig",
+        "speed={profile=\"ramp\", settle=\"0.3 s\", ramp=\"0.3 s\", hold=\"3 s\", to=\"1200 rpm\"}",
+        "B_ay",
+        "1 s ..",
+    );
+    for ((model, set, channel, time), variant, part) in [
+        (atef, "one_dent", "outer race"),
+        (atef, "bump_and_dent", "outer race"),
+        (atef, "inner_dent", "inner race"),
+        (atef, "inner_bump_and_dent", "inner race"),
+        (rig, "dented", "outer race"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let model = format!("models/{model}.toml");
         let run = ["run-up", &model, "--variant", variant, "--set", set, "--no-figures", "--quiet", "--out"];
         output_of(rotordyn().args(run).arg(folder.path()));
-        let flags = ["--channel", channel, "--bearing", bearing, "--time", "0.25 s ..", "--analyses", "envelope"];
+        let flags = ["--channel", channel, "--bearing", "B", "--time", time, "--analyses", "envelope"];
         let found = json_of(
-            rotordyn().arg("signal").arg(folder.path()).args(flags).args(["--no-figures", "--out"]).arg(folder.path()),
+            rotordyn()
+                .arg("signal")
+                .arg(folder.path())
+                .args(flags)
+                .args(["--no-figures", "--out"])
+                .arg(folder.path()),
         );
         let envelope = &found["channels"][0]["envelope"];
         assert_eq!(envelope["diagnosis"], part, "{variant}: {}", envelope["statement"]);

@@ -49,7 +49,8 @@ fn faults_of_inner_and_outer_race() {
                 samples: record.time_samples().unwrap().to_vec(),
                 orthogonal: None,
             };
-            for rule in [BandRule::Lines, BandRule::Kurtosis, BandRule::Whole, BandRule::Given(500.0, 5500.0)] {
+            for rule in [BandRule::Lines, BandRule::Kurtosis, BandRule::Whole, BandRule::Given(500.0, 5500.0)]
+            {
                 let settings = SignalSettings {
                     analyses: AnalysisSelection::Only(vec![Analysis::Envelope]),
                     band: Some(rule),
@@ -71,7 +72,10 @@ fn faults_of_inner_and_outer_race() {
                 let strongest = lines.strongest_line().unwrap();
                 assert_eq!((strongest.part, strongest.modulation), (part, None), "{what}");
                 // Within 0.5 % of the catalogue.
-                assert!((strongest.frequency / strongest.expected - 1.0).abs() < 5e-3, "{what} {strongest:?}");
+                assert!(
+                    (strongest.frequency / strongest.expected - 1.0).abs() < 5e-3,
+                    "{what} {strongest:?}"
+                );
             }
         }
     }

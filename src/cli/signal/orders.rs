@@ -57,9 +57,15 @@ mod tests {
     #[test]
     fn orders_by_number_and_by_name() {
         let orders = CharacteristicOrders { ftf: 0.4, bpfo: 3.6, bpfi: 5.4, bsf: 2.3 };
-        let bearing =
-            BearingWithOrders { name: "b".into(), source: String::new(), orders, balls: 9, raceway_radii: None };
-        let found = |word: &str| line(word, Some(&bearing)).map(|line| (line.label, line.order, line.bearing));
+        let bearing = BearingWithOrders {
+            name: "b".into(),
+            source: String::new(),
+            orders,
+            balls: 9,
+            raceway_radii: None,
+        };
+        let found =
+            |word: &str| line(word, Some(&bearing)).map(|line| (line.label, line.order, line.bearing));
         assert_eq!(found("7"), Ok(("7x".into(), 7.0, false)));
         assert_eq!(found("1x"), Ok(("1x".into(), 1.0, false)));
         assert_eq!(found("7.144"), Ok(("7.144x".into(), 7.144, false)));

@@ -99,6 +99,14 @@ pub struct SpectrogramWithSpeed {
 }
 
 impl SignalResult {
+    /// Mean shaft speed \[rev/s\]: that of the record's own harmonics if they were found, else the stated one.
+    pub fn shaft_speed(&self) -> Option<f64> {
+        match self.record_speed {
+            Some(SpeedFinding::Found(found)) => Some(found.speed),
+            _ => self.shaft.as_ref().map(|s| s.mean),
+        }
+    }
+
     /// The group of the channel.
     pub fn section(&self) -> Section<'_> {
         Section::listed("channels", group_name(&self.channel), self.document())
@@ -167,7 +175,9 @@ impl SignalResult {
                 out.group("cepstrum", content)
             })
             .and_if(self.jerk.as_ref(), |out, found| out.and(found.document(unit)))
-            .and_if(self.orders.as_ref(), |out, found| out.group("orders", found.document(&self.channel, unit)))
+            .and_if(self.orders.as_ref(), |out, found| {
+                out.group("orders", found.document(&self.channel, unit))
+            })
             .and_if(self.average.as_ref(), |out, found| {
                 out.group("synchronous_average", found.document(unit))
             })

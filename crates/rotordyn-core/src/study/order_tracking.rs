@@ -99,8 +99,9 @@ impl Machine {
             };
             let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
             let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
-            let tracks =
-                study.bandwidth.map(|width| order_tracks(&record, &theta, history.sample_rate, &orders, width));
+            let tracks = study
+                .bandwidth
+                .map(|width| order_tracks(&record, &theta, history.sample_rate, &orders, width));
             found.push(OrderResult {
                 channel: channel.name.clone(),
                 unit: channel.unit.clone(),

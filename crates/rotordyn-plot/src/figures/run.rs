@@ -1,8 +1,8 @@
 //! Figures of a run-up: time histories, spectrograms, waterfalls, order maps and order cuts.
 
 use super::campbell::{branches, order_lines};
-use super::order_tracks::{Shown, order_tracks};
 use super::display_unit::{DisplayUnit, decibels_of, quantity, unit};
+use super::order_tracks::{Shown, order_tracks};
 use super::{Named, TO_RPM};
 use crate::{
     Branch, Channel, Curve, Figure, History, Lines, OrderMap, Spectrogram, SpectrogramPanel, Waterfall,

@@ -239,7 +239,7 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
         }],
         ..CursorPanel::default()
     };
-    let unit = if found.over_orders { 1.0 } else { r.shaft.as_ref().map_or(0.0, |s| s.mean) } / divisor;
+    let unit = if found.over_orders { 1.0 } else { r.shaft_speed().unwrap_or(0.0) } / divisor;
     if unit > 0.0 {
         panel.cursors.extend((1..=2).map(|n| Cursor {
             at: f64::from(n) * unit,

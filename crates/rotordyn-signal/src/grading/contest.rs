@@ -56,9 +56,10 @@ pub(super) fn contest(
                 .iter()
                 .map(|line| {
                     !rivals.iter().any(|r| {
-                        r.claims(line.frequency, line.amplitude, spectrum, |f| fit.explains(f, rates.shaft, step))
-                    })
-                        && !is_dominated(fit, line, spectrum, rates)
+                        r.claims(line.frequency, line.amplitude, spectrum, |f| {
+                            fit.explains(f, rates.shaft, step)
+                        })
+                    }) && !is_dominated(fit, line, spectrum, rates)
                         && !is_cage_harmonic(fit, line, &cage, spectrum)
                         && (fit.part == BearingPart::Cage || !known.contains(line.frequency))
                 })
@@ -263,8 +264,10 @@ fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum, known: &KnownLines)
     let mean = |n: usize| {
         let places = (1..2 * n).filter(|j| j % n != 0).map(|j| j as f64 * fit.base / n as f64);
         let own = |f: &f64| fit.explains(*f, known.shaft, spectrum.step) || known.contains(*f);
-        let values: Vec<f64> =
-            places.filter(|f| !own(f)).map(|f| relative(f) * (spectrum.evidence(f) - 1.0).max(0.0).ln_1p()).collect();
+        let values: Vec<f64> = places
+            .filter(|f| !own(f))
+            .map(|f| relative(f) * (spectrum.evidence(f) - 1.0).max(0.0).ln_1p())
+            .collect();
         if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
     };
     // Half of 2 BSF is BSF itself: unequal impacts on the two races.

@@ -6,11 +6,11 @@ use rotordyn_signal::bearing_lines::{BearingPart, LineSettings};
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
 use rotordyn_signal::grading::{COEFFICIENTS, FEATURE_COUNT, Features};
 
+use super::RATE;
 use super::baseline::plain_diagnosis;
 use super::generator::Generated;
 use super::others::Other;
 use super::table::print_table;
-use super::RATE;
 
 /// Seeds of the records the coefficients are fitted to, and of those they are tested on.
 const FITTED: u64 = 2026;
@@ -38,8 +38,7 @@ impl Outcome {
     pub fn of(record: &Generated, rule: BandRule) -> Self {
         let settings = LineSettings::default();
         let rotation = ShaftRotation::ConstantSpeed;
-        let found =
-            diagnose(&record.record, RATE, rotation, &record.rates, rule, &settings).unwrap();
+        let found = diagnose(&record.record, RATE, rotation, &record.rates, rule, &settings).unwrap();
         let graded = found.graded;
         Outcome {
             part: record.part,

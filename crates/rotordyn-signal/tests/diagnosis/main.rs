@@ -7,7 +7,6 @@ mod generator;
 mod others;
 mod path;
 mod random;
-mod scratch;
 mod speed;
 mod statements;
 mod table;

@@ -52,7 +52,8 @@ fn side_bands_near_a_fraction_of_the_shaft_speed() {
         let record = record(seed, snr, 3.597 * rates.shaft, 0.0, misaligned);
         for rule in [BandRule::Lines, BandRule::Whole, BandRule::Given(500.0, 5500.0)] {
             let settings = LineSettings::default();
-            let found = diagnose(&record, RATE, ShaftRotation::ConstantSpeed, &rates, rule, &settings).unwrap();
+            let found =
+                diagnose(&record, RATE, ShaftRotation::ConstantSpeed, &rates, rule, &settings).unwrap();
             let graded = found.graded;
             assert_eq!(graded.part(), Some(BearingPart::OuterRace), "{snr} dB, {rule:?}: {graded:?}");
         }
