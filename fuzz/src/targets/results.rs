@@ -89,6 +89,7 @@ fn read_run(store: &dyn Reader, folder: Option<&Path>, limits: &Limits, outcome:
         overlap: 0.5,
         window: WindowKind::Hann,
         cuts: vec![1.0],
+        bandwidth: None,
     };
     outcome.after("orders", machine.orders(&orders, &history));
 }

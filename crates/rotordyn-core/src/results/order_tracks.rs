@@ -1,7 +1,7 @@
 //! Document of the amplitudes and phases of orders that the Vold-Kalman filter tracks.
 
 use super::OrderLine;
-use crate::document::{Array, Document, Rows, in_hdf5, in_json, named, number};
+use crate::document::{Array, Document, Rows, in_hdf5, in_json, number};
 use rotordyn_signal::order_tracks::{OrderTrack, OrderTracks};
 
 /// What is written of the tracks of a channel; `lines` as many as tracks.
@@ -33,7 +33,7 @@ pub(super) fn tracks_document<'a>(
         .text("label", |(line, ..)| &line.label)
         .number("order", "1/revolution", |(_, track, ..)| track.order)
         .number("highest_amplitude", unit, |(.., amplitude, _)| *amplitude)
-        .number(named("at", "at_rpm"), "rpm", |(.., rpm)| *rpm)
+        .number("at_rpm", "", |(.., rpm)| *rpm)
         .series("amplitude", unit, |(_, track, ..)| &track.amplitude)
         .series("phase_rad", "rad", |(_, track, ..)| &track.phase);
     Document::new()
@@ -45,7 +45,11 @@ pub(super) fn tracks_document<'a>(
         .array(in_hdf5("amplitude"), amplitude)
         .array(in_hdf5("phase"), phase)
         .texts(in_hdf5("label"), rows.iter().map(|(line, ..)| &line.label))
-        .numbers(in_hdf5("order"), "1/revolution", found.tracks.iter().map(|track| track.order))
+        .numbers(
+            in_hdf5("order"),
+            "1/revolution",
+            found.tracks.iter().map(|track| track.order).collect::<Vec<_>>(),
+        )
         .numbers("rpm", "rpm", &found.rpm)
         .numbers("time", "s", &found.times)
 }

@@ -248,6 +248,11 @@ fn features(
     out[FEATURES.runner_up] = (runner_up.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
     out[FEATURES.ambiguity] = (ambiguity.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
     out[FEATURES.fraction] = fraction_evidence(fit, spectrum, known);
+    for (k, place) in [FEATURES.rival, FEATURES.shared, FEATURES.harmonics].into_iter().enumerate() {
+        for (n, part) in [FEATURES.inner, FEATURES.ball, FEATURES.cage].into_iter().enumerate() {
+            out[FEATURES.by_part + 3 * k + n] = out[place] * out[part];
+        }
+    }
     out
 }
 

@@ -29,6 +29,9 @@ pub(super) struct FeaturePlaces {
     pub ambiguity: usize,
     /// 1 for a band that was not chosen by the evidence in it.
     pub given_band: usize,
+    /// First of the features `rival`, `shared` and `harmonics`, each for inner race, ball and cage: they weigh
+    /// differently from part to part.
+    pub by_part: usize,
     pub count: usize,
 }
 
@@ -49,7 +52,8 @@ pub(super) const FEATURES: FeaturePlaces = FeaturePlaces {
     fraction: 13,
     ambiguity: 14,
     given_band: 15,
-    count: 16,
+    by_part: 16,
+    count: 25,
 };
 
 /// Number of features of a grade, the constant included.
@@ -60,8 +64,9 @@ pub type Features = [f64; FEATURE_COUNT];
 
 /// Coefficients of the log-odds, fitted to generated records by `tests/diagnosis` of this crate.
 pub const COEFFICIENTS: Features = [
-    -1.538422, -0.937156, -0.637696, -0.563345, -0.548808, -0.047183, -0.321368, -0.136501, 6.294155,
-    2.364142, 3.191471, 4.240656, -0.500969, -0.634803, 0.040681, 0.628335,
+    -3.307883, -1.442991, -2.306250, 1.273338, -0.529464, -0.123291, -0.742834, -0.034946, 7.760860,
+    2.138065, 4.645116, 8.171574, -0.386135, -0.438968, 0.057021, 0.659030, -0.562768, -0.749798, 0.648258,
+    -2.496671, 2.111106, -0.143754, -2.898361, -3.729665, 0.131647,
 ];
 
 /// Probability 1/(1 + e^(−β·x)).
