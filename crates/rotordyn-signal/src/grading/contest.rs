@@ -60,7 +60,7 @@ pub(super) fn contest(
                             fit.explains(f, rates.shaft, step)
                         })
                     }) && !is_dominated(fit, line, spectrum, rates)
-                        && !is_cage_harmonic(fit, line, &cage, spectrum)
+                        && !is_cage_harmonic(fit, line, &cage, spectrum, rates.shaft)
                         && (fit.part == BearingPart::Cage || !known.contains(line.frequency))
                 })
                 .collect();
@@ -143,7 +143,13 @@ fn is_dominated(
 ///
 /// BPFO is Z FTF: in a cage's family it is one harmonic of many. A ball's load modulation gives the first few
 /// multiples of FTF and side bands about 2 BSF, but none half-way between.
-fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: &LineSpectrum) -> bool {
+fn is_cage_harmonic(
+    fit: &PartFit,
+    line: &FittedLine,
+    cage: &PartFit,
+    spectrum: &LineSpectrum,
+    shaft: f64,
+) -> bool {
     if fit.part == BearingPart::Cage {
         return false;
     }
@@ -164,6 +170,7 @@ fn is_cage_harmonic(fit: &PartFit, line: &FittedLine, cage: &PartFit, spectrum: 
         let beside = fit.main_lines().filter(|l| (l.frequency - place).abs() < 2.5 * cage.base);
         let reference = beside.map(|l| l.amplitude).fold(line.amplitude, f64::max);
         !fit.has_harmonic(place, spectrum.step)
+            && !fit.has_shaft_side_band(place, shaft, spectrum.step)
             && spectrum.evidence(place) > PRESENT
             && amplitude > 0.4 * reference
     };

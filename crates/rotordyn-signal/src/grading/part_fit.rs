@@ -157,6 +157,14 @@ impl PartFit {
         near_multiple(frequency, self.base, 3 * HARMONICS, self.tolerance(frequency, step) + 1e-3 * frequency)
     }
 
+    /// Whether a frequency is one of its harmonics ± 1 or 2 f_r.
+    pub fn has_shaft_side_band(&self, frequency: f64, shaft: f64, step: f64) -> bool {
+        let near = self.tolerance(frequency, step);
+        [-2.0, -1.0, 1.0, 2.0]
+            .iter()
+            .any(|n| near_multiple(frequency - n * shaft, self.base, HARMONICS, near))
+    }
+
     /// Evidence of the lines that nothing else explains; 0 without one of the first two harmonics.
     pub fn own_evidence(&self) -> f64 {
         let first =

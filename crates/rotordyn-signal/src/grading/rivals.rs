@@ -14,7 +14,7 @@ const LOG_ODDS: f64 = 7.0;
 /// Families taken from one spectrum.
 const MAX_RIVALS: usize = 4;
 /// Share of a line's amplitude that a neighbouring harmonic of the family must have to explain the line.
-const NEIGHBOUR: f64 = 0.25;
+const NEIGHBOUR: f64 = 1.0 / 3.0;
 
 /// Share of the axis that the tolerances of a family may cover where it explains a line: denser ones explain anything.
 const DENSE: f64 = 0.35;
