@@ -88,7 +88,7 @@ fn graded_document<'a>(graded: &GradedDiagnosis, unit: &str) -> Document<'a> {
         .number(in_json("measured"), "", |l| l.frequency)
         .number(in_json("amplitude"), "", |l| l.amplitude)
         .number(in_json("level_db"), "dB", |l| l.level_db)
-        .text(in_json("explained_by"), |l| explanation(l));
+        .text(in_json("explained_by"), explanation);
     Document::new()
         .text(in_json("statement"), graded.statement(unit))
         .text(in_json("candidate"), graded.candidate.name())
