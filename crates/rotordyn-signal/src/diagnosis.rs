@@ -9,7 +9,7 @@ use super::demodulator::Demodulator;
 use super::envelope::{analytic_signal, band_analytic_signal};
 use super::error::{check_length, check_rate, check_record, check_same_length};
 use super::filter_bank::{BankLevel, max_depth};
-use super::grading::{BandGrading, GradedDiagnosis};
+use super::grading::{BandGrading, Finding, GradedDiagnosis};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
@@ -113,11 +113,27 @@ pub fn diagnose(
         (_, None) => (0.0, half),
     };
     let tried = kurtogram.as_ref().map_or(1, |k| k.bands().count());
-    let spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    let mut spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    let chosen = rule == BandRule::Lines && kurtogram.is_some();
+    let grading = |spectrum: &Spectrum| BandGrading::new(spectrum, rates, settings, clock.hz_per_unit());
+    let mut graded = grading(&spectrum).diagnosis(rates, chosen);
+    let mut band = band;
+    if chosen && graded.finding == Finding::NoFault {
+        // No band has lines of the bearing: the whole record shows what else repeats.
+        let whole = clock.spectrum(&envelope(record, sample_rate, (0.0, half))?)?;
+        let other = grading(&whole).diagnosis(rates, chosen);
+        if matches!(other.finding, Finding::Periodic(_)) {
+            (band, spectrum) = ((0.0, half), whole);
+            graded = GradedDiagnosis {
+                finding: other.finding,
+                rivals: other.rivals,
+                strong_lines: other.strong_lines,
+                ..graded
+            };
+        }
+    }
     let strict = LineSettings { significance: settings.significance / tried as f64, ..*settings };
     let mut lines = bearing_lines(&spectrum, rates, &strict)?;
-    let graded = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
-    let graded = graded.diagnosis(rates, rule == BandRule::Lines && kurtogram.is_some());
     lines.diagnosis = graded.part();
     Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines, graded })
 }
