@@ -65,7 +65,7 @@ pub fn fault(random: &mut Random, part: BearingPart, rates: &DefectFrequencies, 
     let strength = |k: usize, time: f64| match part {
         BearingPart::InnerRace => load(TAU * rates.shaft * time + start, extent),
         BearingPart::Ball => {
-            load(TAU * cage * time + start, extent) * if k % 2 == 0 { 1.0 } else { other_race }
+            load(TAU * cage * time + start, extent) * if k.is_multiple_of(2) { 1.0 } else { other_race }
         }
         BearingPart::OuterRace | BearingPart::Cage => 1.0,
     };
