@@ -91,6 +91,7 @@
 //!     overlap: 0.5,
 //!     window: study::WindowKind::Hann,
 //!     cuts: vec![1.0],
+//!     bandwidth: None,
 //! };
 //! let found = machine.orders(&orders, &recorder.history)?;
 //! assert!(found[0].cuts[0].1.rms.iter().all(|level| level.is_finite()));

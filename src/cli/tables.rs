@@ -13,6 +13,7 @@ use rotordyn::results::{
 use rotordyn::series::SeriesError;
 
 use super::equilibrium_loads;
+use super::printed;
 use super::terminal::{Terminal, number, rpm};
 
 /// Largest number of rows printed; the rest is in results.h5.

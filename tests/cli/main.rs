@@ -14,6 +14,7 @@ mod hit_beside_shaft;
 mod identify;
 mod impact_test;
 mod init;
+mod order_tracks;
 mod pairing;
 mod path_names;
 mod preloads;

@@ -82,6 +82,7 @@ fn synchronous_ridge_energy_balance_and_step_size() {
         overlap: 0.75,
         window: WindowKind::Hann,
         cuts: vec![1.0, 2.0],
+        bandwidth: None,
     };
     let (coarse, fine) = (machine.orders(&study, &history).unwrap(), machine.orders(&study, &finer).unwrap());
     for (a, b) in coarse.iter().zip(&fine) {
@@ -158,6 +159,7 @@ fn second_bending_pair_follows_the_campbell_lines() {
         overlap: 0.75,
         window: WindowKind::Hann,
         cuts: vec![7.0, 8.0, 9.0],
+        bandwidth: None,
     };
     let orders = &machine.orders(&study, &history).unwrap()[0];
     for (line, cut) in &orders.cuts {

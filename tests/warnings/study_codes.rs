@@ -129,6 +129,13 @@ pub const RUNS: &[Case] = &[
         // 100 Hz/s: 2x sweeps over 20 and 38 lines.
         command("run-up", &of("0.31 s"), &of("0.44 s"), &[])
     }),
+    (Code::OrdersInOneBand, || {
+        let of = |bandwidth: f64| {
+            let settings = "[study.run_up]\nstep = \"100 us\"\ncutoff = \"2 kHz\"\n[study.orders]\nresolution = 0.2\nmax_order = 5\n";
+            run_up(3000.0, &format!("{settings}cuts = [1, 1.1]\nbandwidth = {bandwidth}\n"))
+        };
+        command("run-up", &of(0.15), &of(0.25), &[])
+    }),
     (Code::FreeBalls, || {
         // A floating shaft does not settle.
         let free = replaced(

@@ -37,7 +37,8 @@ pub struct OrderTrack {
     pub phase: Vec<f64>,
 }
 
-/// Tracks `orders` (> 0) of a record by the Vold-Kalman filter with a bandwidth of `width` orders.
+/// Tracks `orders` (> 0) and the slowly varying mean of a record by the Vold-Kalman filter with a bandwidth of `width`
+/// orders.
 ///
 /// `record` (N), `theta` (N) shaft angle \[rad\], `sample_rate` \[Hz\]. A bandwidth is B = max(width f, B_min), f the shaft
 /// speed \[Hz\], B_min the smallest that the record's length and rate allow. Where an order lies below its bandwidth
@@ -54,13 +55,17 @@ pub fn order_tracks(
     width: f64,
 ) -> Result<OrderTracks, SignalError> {
     let lowest = orders.iter().copied().fold(f64::INFINITY, f64::min);
-    check(orders.is_empty() || lowest > 0.0, "order", "more than 0", lowest)?;
+    check(!orders.is_empty(), "number of orders", "one or more", 0.0)?;
+    check(lowest > 0.0, "order", "more than 0", lowest)?;
     let unknowns = record.len() as f64 * orders.len() as f64;
     let expected = "at most 1e7: a shorter part of the record, fewer orders or a lower sampling rate";
     check(unknowns <= MAX_UNKNOWNS, "samples times orders", expected, unknowns)?;
     let min_hertz = smallest_bandwidth(record.len(), sample_rate);
     let bandwidth = Bandwidth::Orders { width, min_hertz };
-    let wanted: Vec<TrackedOrder> = orders.iter().map(|&order| TrackedOrder { order, bandwidth }).collect();
+    let mut wanted: Vec<TrackedOrder> =
+        orders.iter().map(|&order| TrackedOrder { order, bandwidth }).collect();
+    // What changes more slowly than any order, such as the drift of a sensor, is none of them.
+    wanted.push(TrackedOrder { order: 0.0, bandwidth: Bandwidth::Hertz(min_hertz) });
     let found = vold_kalman(record, theta, sample_rate, &wanted)?;
 
     let speed = shaft_speed(theta, sample_rate);
@@ -72,7 +77,7 @@ pub fn order_tracks(
     let stride = ((sample_rate / (POINTS_PER_CHANGE * widest)) as usize).max(1);
     let places: Vec<usize> = range.clone().step_by(stride).collect();
     let rms = |x: &[f64]| (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt();
-    let tracks = found.orders.iter().map(|envelope| OrderTrack {
+    let tracks = found.orders[..orders.len()].iter().map(|envelope| OrderTrack {
         order: envelope.order,
         amplitude: places.iter().map(|&n| envelope.amplitude[n].norm()).collect(),
         phase: places.iter().map(|&n| envelope.amplitude[n].arg()).collect(),

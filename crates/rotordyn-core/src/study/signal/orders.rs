@@ -28,7 +28,11 @@ impl Job<'_> {
             OrderSettings { min_speed: MIN_SPEED, ..OrderSettings::new(resolution, self.max_order()) };
         let mut tracker = OrderTracker::new(theta, self.rate, settings)?;
         let records = tracker.resample(&[self.x])?;
-        let map = tracker.spectrogram(&records[0]);
+        let mut map = tracker.spectrogram(&records[0]);
+        // On the channel's time axis; the shaft angle may cover a part of it only.
+        let start = self.channel.start + self.first as f64 / self.rate;
+        let shift = |times: &mut [f64]| times.iter_mut().for_each(|t| *t += start);
+        shift(&mut map.times);
         let average = map.average(0.0, f64::INFINITY)?;
         let highest = map.orders.last().copied().unwrap_or(0.0);
         let asked = &self.settings.orders;
@@ -39,8 +43,9 @@ impl Job<'_> {
         let lines: Vec<OrderLine> =
             self.order_lines().into_iter().filter(|line| line.order < highest).collect();
         let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
-        let tracks =
-            self.settings.bandwidth.map(|width| order_tracks(self.x, theta, self.rate, &orders, width));
+        let track = |width| order_tracks(self.x, theta, self.rate, &orders, width);
+        let mut tracks = self.settings.bandwidth.map(track).transpose()?;
+        tracks.iter_mut().for_each(|found| shift(&mut found.times));
         let cuts: Result<_, SignalError> = lines
             .into_iter()
             .map(|line| {
@@ -48,7 +53,7 @@ impl Job<'_> {
                 Ok((line, cut))
             })
             .collect();
-        Ok(ShaftOrders { cuts: cuts?, average, map, tracks: tracks.transpose()? })
+        Ok(ShaftOrders { cuts: cuts?, average, map, tracks })
     }
 
     /// A warning for every pair of tracked orders that the bandwidth does not separate.
