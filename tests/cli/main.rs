@@ -25,6 +25,7 @@ mod run_ups;
 mod runs;
 mod signal;
 mod signal_failures;
+mod signal_grade;
 mod steady;
 mod update_frf;
 mod validate_update;

@@ -72,7 +72,7 @@ fn bad_input() {
         (
             "rates_that_are_no_bearing",
             "good.h5",
-            vec!["--speed", "1800 rpm", "--bearing-orders", "BPFO=3.6,BPFI=5.9"],
+            vec!["--speed", "1800 rpm", "--bearing-orders", "BPFO=5.9,BPFI=3.6"],
         ),
         ("rates_misspelt", "good.h5", vec!["--speed", "1800 rpm", "--bearing-orders", "BPO=3.6,BPFI=x"]),
         ("no_time_left", "good.h5", vec!["--time", "7 s .. 8 s"]),

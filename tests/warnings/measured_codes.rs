@@ -66,9 +66,41 @@ pub const CASES: &[Case] = &[
             program::codes(folder.path(), &arguments, 0)
         })
     }),
+    (Code::ShaftSpeedNotFound, || {
+        let folder = program::folder(&[]);
+        write(folder.path(), "record.npz", vec![shaft_at_30_hz()]);
+        // The speed of the record, and one of whose harmonics only the fourth is there.
+        ["1800 rpm", "1350 rpm"].map(|speed| {
+            let arguments = ["signal", "record.npz", "--bearing", "6205-2RS", "--speed", speed];
+            program::codes(folder.path(), &[&arguments[..], &ENVELOPE, &OUT].concat(), 0)
+        })
+    }),
+    (Code::BearingOrdersInconsistent, || {
+        let folder = program::folder(&[]);
+        write(folder.path(), "record.npz", vec![shaft_at_30_hz()]);
+        ["BPFO=3.585,BPFI=5.415", "BPFO=3.585,BPFI=5.46"].map(|orders| {
+            let arguments = ["signal", "record.npz", "--bearing-orders", orders, "--speed", "1800 rpm"];
+            program::codes(folder.path(), &[&arguments[..], &ENVELOPE, &OUT].concat(), 0)
+        })
+    }),
 ];
 
 const OUT: [&str; 3] = ["--no-figures", "--out", "out"];
+
+const ENVELOPE: [&str; 2] = ["--analyses", "envelope"];
+
+/// Five seconds of 1x, 2x and 3x of 30 rev/s in noise.
+fn shaft_at_30_hz() -> Record {
+    let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 5000.0);
+    let mut state = 1u32;
+    let sample = |k: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let noise = f64::from(state) / f64::from(u32::MAX) - 0.5;
+        let angle = TAU * 30.0 * f64::from(k) / 5000.0;
+        noise + 0.3 * angle.cos() + 0.2 * (2.0 * angle).cos() + 0.2 * (3.0 * angle).cos()
+    };
+    Record::new("acc", Kind::Time, axis, Values::Real((0..25_000).map(sample).collect()), "m/s^2")
+}
 
 fn two_discs() -> tempfile::TempDir {
     program::folder(&[("machine.toml", machine("two_discs_soft").text())])

@@ -57,8 +57,9 @@ pub struct CursorLines {
 
 /// Colour and dash of a group, distinguishable in grey too.
 fn group_style(group: usize) -> Style {
-    const COLORS: [Color; 5] = [MUTED, RED, ORANGE, GREEN, PURPLE];
-    const DASHES: [Dash; 5] = [Dash::Short, Dash::Solid, Dash::DashDot, Dash::Long, Dash::Dotted];
+    const COLORS: [Color; 7] = [MUTED, RED, ORANGE, GREEN, PURPLE, BLUE, INK];
+    const DASHES: [Dash; 7] =
+        [Dash::Short, Dash::Solid, Dash::DashDot, Dash::Long, Dash::Dotted, Dash::Dotted, Dash::Dotted];
     Style::stroke(COLORS[group % COLORS.len()], 1.0).dashed(DASHES[group % DASHES.len()])
 }
 
@@ -66,7 +67,15 @@ fn group_color(group: usize) -> Color {
     group_style(group).stroke.unwrap_or(INK)
 }
 
-const SHAPES: [Marker; 5] = [Marker::Circle, Marker::Diamond, Marker::Square, Marker::Up, Marker::Down];
+const SHAPES: [Marker; 7] = [
+    Marker::Circle,
+    Marker::Diamond,
+    Marker::Square,
+    Marker::Up,
+    Marker::Down,
+    Marker::Circle,
+    Marker::Diamond,
+];
 
 fn mark_style(group: usize) -> Style {
     Style::stroke(group_color(group), 1.2).filled(WHITE)

@@ -101,9 +101,9 @@ pub fn draw(data: &HeatMap) -> Svg {
     svg
 }
 
-/// Bounds of all values, rounded outwards.
+/// Bounds of all values, rounded outwards to about a twentieth of their range.
 fn round_bounds(values: &[f64]) -> Range {
     let Some((lo, hi)) = extremes(values.iter().copied()) else { return Range::new(0.0, 1.0) };
-    let step = nice_step(hi - lo, 5.0);
+    let step = nice_step(hi - lo, 20.0);
     Range::new(step * (lo / step).floor(), step * (hi / step).ceil())
 }

@@ -1,17 +1,17 @@
 //! Bearing defect frequencies (FTF, BPFO, BPFI, 2 BSF) in an envelope spectrum: level over background,
-//! significance, and the damaged part.
+//! and significance.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_2;
 
 use super::SignalError;
+use super::background::running_median;
 use super::error::{check, check_record, check_same_length};
-use super::jerk::median;
 use super::ridge::interpolate_peak;
 use super::spectrum::{Spectrum, decibel};
 
-/// Half-width of the peak search about an expected frequency in bins, and half the width of a line.
-const SEARCH_HALF_WIDTH: usize = 2;
+/// Half-width of the peak search about an expected frequency in bins: the resolution.
+const SEARCH_HALF_WIDTH: usize = 1;
 /// Highest side band orders (shaft, cage) of the strongest family that are not attributed to another part.
 const MAX_SHAFT_SIDE_BANDS: i32 = 6;
 const MAX_CAGE_SIDE_BANDS: i32 = 3;
@@ -125,18 +125,18 @@ pub struct LineFamily {
     pub detected: bool,
 }
 
-/// All lines of a bearing, the strongest family first, and the diagnosis.
+/// All lines of a bearing, the strongest family first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BearingLines {
     pub families: Vec<LineFamily>,
-    /// Diagnosed (damaged) part: that of the strongest detected family; `None`: no bearing line.
+    /// Damaged part, as the graded diagnosis of the record says; `None`: none is named.
     pub diagnosis: Option<BearingPart>,
 }
 
 impl BearingLines {
-    /// "inner race", "outer race", "ball", "cage" or "no bearing line".
+    /// "inner race", "outer race", "ball", "cage" or "no bearing fault".
     pub fn diagnosis_name(&self) -> &'static str {
-        self.diagnosis.map_or("no bearing line", BearingPart::name)
+        self.diagnosis.map_or("no bearing fault", BearingPart::name)
     }
 
     /// One part's lines.
@@ -166,13 +166,13 @@ pub struct LineSettings {
 }
 
 impl Default for LineSettings {
-    /// 1.5 %, five harmonics, one side band on each side, false-alarm probability 1e-6.
+    /// 2 %, five harmonics, one side band on each side, false-alarm probability 1e-6.
     fn default() -> Self {
-        LineSettings { slip: 0.015, harmonics: 5, side_bands: 1, significance: 1e-6 }
+        LineSettings { slip: 0.02, harmonics: 5, side_bands: 1, significance: 1e-6 }
     }
 }
 
-/// Detects bearing defect frequencies in an envelope spectrum (amplitudes) and determines the damaged part.
+/// Detects bearing defect frequencies in an envelope spectrum (amplitudes); names no damaged part (see `grading`).
 ///
 /// For each part: the frequency within ± slip that fits its harmonics best (largest Σ_h ln(1 + A²/m²)), then
 /// the peak at each harmonic h f and side band h f ± n f_s, h f ± n FTF. Levels are relative to the local
@@ -203,29 +203,7 @@ pub fn bearing_lines(
             .expect("at least one family remains");
         families.push(open.remove(strongest));
     }
-    let diagnosis = families.first().filter(|f| f.detected).map(|f| f.part);
-    Ok(BearingLines { families, diagnosis })
-}
-
-/// Score of a band by its bearing lines: level of the best fitting part over the background \[dB\].
-///
-/// 10 log₁₀ of the mean of A²/m² over the first `harmonics`, maximum of the four parts. Arguments and errors
-/// as [`bearing_lines`].
-pub fn line_score(
-    spectrum: &Spectrum,
-    rates: &DefectFrequencies,
-    settings: &LineSettings,
-) -> Result<f64, SignalError> {
-    let search = LineSearch::new(spectrum, rates, settings)?;
-    let score = |part: BearingPart| {
-        let base = search.fitted_frequency(part);
-        let ratios = (1..=settings.harmonics).map(|h| {
-            let (_, amplitude, background) = search.peak(h as f64 * base);
-            (amplitude / background).powi(2)
-        });
-        10.0 * (ratios.sum::<f64>() / settings.harmonics as f64).log10()
-    };
-    Ok(BearingPart::ALL.map(score).into_iter().fold(f64::NEG_INFINITY, f64::max))
+    Ok(BearingLines { families, diagnosis: None })
 }
 
 struct LineSearch<'a> {
@@ -406,23 +384,4 @@ impl<'a> LineSearch<'a> {
 fn false_alarm_probability(ratio: f64, bins: f64) -> f64 {
     let single_bin = (-LN_2 * ratio * ratio).exp();
     -(bins * (-single_bin).ln_1p()).exp_m1()
-}
-
-/// Running median over ± `half_width` bins, truncated at the ends; the bin at 0 Hz is excluded.
-///
-/// A median of zero (a mostly empty spectrum) is replaced by the rounding error of the largest value.
-fn running_median(values: &[f64], half_width: usize) -> Vec<f64> {
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    let floor = (f64::EPSILON * largest).max(f64::MIN_POSITIVE);
-    // One median per eighth of the half-width, shared by the bins around it.
-    let stride = (half_width / 8).max(1);
-    let at = |middle: usize| {
-        let range = middle.saturating_sub(half_width).max(1)..(middle + half_width + 1).min(values.len());
-        median(values[range].to_vec()).max(floor)
-    };
-    let mut out = vec![0.0; values.len()];
-    for (chunk, part) in out.chunks_mut(stride).enumerate() {
-        part.fill(at((chunk * stride + stride / 2).min(values.len() - 1)));
-    }
-    out
 }

@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::SignalError;
-use super::bearing_lines::{
-    BearingLines, BearingPart, DefectFrequencies, LineSettings, bearing_lines, line_score,
-};
+use super::bearing_lines::{BearingLines, BearingPart, DefectFrequencies, LineSettings, bearing_lines};
+use super::demodulator::Demodulator;
 use super::envelope::{analytic_signal, band_analytic_signal};
 use super::error::{check_length, check_rate, check_record, check_same_length};
 use super::filter_bank::{BankLevel, max_depth};
+use super::grading::{BandGrading, Finding, GradedDiagnosis};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
@@ -27,9 +27,12 @@ pub enum BandRule {
     Whole,
     /// The band of highest kurtosis (fast kurtogram): the most impulsive one, whatever the source.
     Kurtosis,
-    /// The band with the highest level of bearing lines over the background in its envelope spectrum.
+    /// The band in whose envelope spectrum the most speaks for a damaged part.
     Lines,
 }
+
+/// 10/ln 10: evidence, a power ratio, in dB.
+const DB_PER_NEPER_OF_EVIDENCE: f64 = 4.342944819032518;
 
 /// Shaft rotation during the record.
 #[derive(Clone, Copy, Debug)]
@@ -45,11 +48,13 @@ pub enum ShaftRotation<'a> {
 pub struct Diagnosis {
     /// Band \[Hz\].
     pub band: (f64, f64),
-    /// Score of every band compared, kurtosis or line level \[dB\]; `None` for a given band.
+    /// Score of every band compared, kurtosis or evidence of bearing lines \[dB\]; `None` for a given band.
     pub kurtogram: Option<Kurtogram>,
     /// Amplitude spectrum of the band's envelope \[unit\], over Hz or over orders.
     pub envelope: Spectrum,
+    /// Lines expected of each part; the damaged part is that of the graded diagnosis.
     pub lines: BearingLines,
+    pub graded: GradedDiagnosis,
 }
 
 /// Chooses a band, computes its envelope spectrum and detects the bearing lines in it (envelope analysis).
@@ -89,10 +94,15 @@ pub fn diagnose(
         _ if depth == 0 => None,
         BandRule::Kurtosis => Some(fast_kurtogram(record, sample_rate, depth)?),
         BandRule::Lines => {
-            // The first two harmonics: as many as the narrowest band contains.
-            let settings = LineSettings { harmonics: settings.harmonics.min(2), ..*settings };
+            let demodulator = Demodulator::new(record, sample_rate);
+            let end = BandGrading::needed_range(rates, settings);
             let score = |band: (f64, f64)| {
-                line_score(&clock.spectrum(&envelope(record, sample_rate, band)?)?, rates, &settings)
+                let spectrum = match rotation {
+                    ShaftRotation::ConstantSpeed => demodulator.envelope_spectrum(band, end),
+                    ShaftRotation::Angle(_) => clock.spectrum(&envelope(record, sample_rate, band)?)?,
+                };
+                let found = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
+                Ok(DB_PER_NEPER_OF_EVIDENCE * found.score())
             };
             Some(Kurtogram { levels: score_bank(depth, half, score)?, max_frequency: half })
         }
@@ -103,10 +113,29 @@ pub fn diagnose(
         (_, None) => (0.0, half),
     };
     let tried = kurtogram.as_ref().map_or(1, |k| k.bands().count());
-    let spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    let mut spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
+    let chosen = rule == BandRule::Lines && kurtogram.is_some();
+    let grading = |spectrum: &Spectrum| BandGrading::new(spectrum, rates, settings, clock.hz_per_unit());
+    let mut graded = grading(&spectrum).diagnosis(rates, chosen);
+    let mut band = band;
+    if chosen && graded.finding == Finding::NoFault {
+        // No band has lines of the bearing: the whole record shows what else repeats.
+        let whole = clock.spectrum(&envelope(record, sample_rate, (0.0, half))?)?;
+        let other = grading(&whole).diagnosis(rates, chosen);
+        if matches!(other.finding, Finding::Periodic(_)) {
+            (band, spectrum) = ((0.0, half), whole);
+            graded = GradedDiagnosis {
+                finding: other.finding,
+                rivals: other.rivals,
+                strong_lines: other.strong_lines,
+                ..graded
+            };
+        }
+    }
     let strict = LineSettings { significance: settings.significance / tried as f64, ..*settings };
-    let lines = bearing_lines(&spectrum, rates, &strict)?;
-    Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines })
+    let mut lines = bearing_lines(&spectrum, rates, &strict)?;
+    lines.diagnosis = graded.part();
+    Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines, graded })
 }
 
 /// Demodulation band, kurtogram it was chosen by, and envelope spectrum.
@@ -198,6 +227,14 @@ impl SpectrumDomain {
         Ok(SpectrumDomain::Angle { resampler, longest, fastest })
     }
 
+    /// Hz per unit of the frequency axis; `None` for orders.
+    fn hz_per_unit(&self) -> Option<f64> {
+        match self {
+            SpectrumDomain::Time { .. } => Some(1.0),
+            SpectrumDomain::Angle { .. } => None,
+        }
+    }
+
     /// Maximum Hz per unit of the defect frequencies: 1, or the highest shaft speed \[rev/s\].
     fn max_hz_per_unit(&self) -> f64 {
         match self {
@@ -230,7 +267,7 @@ impl SpectrumDomain {
 
     /// Amplitude spectrum of an envelope minus its mean (Hann, peak).
     fn spectrum(&self, envelope: &[f64]) -> Result<Spectrum, SignalError> {
-        let (mut values, rate) = match self {
+        let (values, rate) = match self {
             SpectrumDomain::Time { rate } => (envelope.to_vec(), *rate),
             SpectrumDomain::Angle { resampler, longest, .. } => {
                 let mut parts = resampler.resample(&[envelope])?;
@@ -238,8 +275,13 @@ impl SpectrumDomain {
                 (channel, resampler.samples_per_revolution() as f64)
             }
         };
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.iter_mut().for_each(|e| *e -= mean);
-        amplitude_spectrum(&values, rate, WindowKind::Hann, Level::Peak)
+        deviation_spectrum(values, rate)
     }
+}
+
+/// Amplitude spectrum of an envelope minus its mean (Hann, peak).
+fn deviation_spectrum(mut values: Vec<f64>, rate: f64) -> Result<Spectrum, SignalError> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter_mut().for_each(|e| *e -= mean);
+    amplitude_spectrum(&values, rate, WindowKind::Hann, Level::Peak)
 }

@@ -22,6 +22,7 @@
 //! | [`kurtogram`] | spectral kurtosis, fast kurtogram, band selection by any score ([`filter_bank`]) |
 //! | [`bearing_lines`] | bearing defect frequencies FTF, BPFO, BPFI, 2 BSF with side bands; damaged part |
 //! | [`diagnosis`] | bearing diagnosis of a record: band, envelope spectrum, defect frequencies |
+//! | [`grading`] | what a record says of a bearing: damaged part with its probability, rivals, lines left unexplained |
 //! | [`race_defects`] | localised race defects (dents, bumps): angle, width, kind ([`jerk`]) |
 //! | [`cepstrum`] | real and power cepstrum, liftering |
 //! | [`cyclic`] | cyclic spectral coherence (cyclostationarity) |
@@ -33,14 +34,17 @@
 //! Sample n of a record is at t = n/f_s; every function returns a [`SignalError`] for empty records, NaN and
 //! infinity.
 
+mod background;
 pub mod bearing_lines;
 pub mod cepstrum;
 pub mod cyclic;
+mod demodulator;
 pub mod diagnosis;
 pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
+pub mod grading;
 pub mod impact;
 pub mod jerk;
 pub mod kurtogram;

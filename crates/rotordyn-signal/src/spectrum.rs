@@ -19,6 +19,18 @@ pub struct Spectrum {
     pub noise_bandwidth_hz: f64,
 }
 
+impl Spectrum {
+    /// The part up to a frequency.
+    pub fn up_to(&self, frequency: f64) -> Spectrum {
+        let count = self.frequencies.partition_point(|f| *f <= frequency).max(2).min(self.frequencies.len());
+        Spectrum {
+            frequencies: self.frequencies[..count].to_vec(),
+            values: self.values[..count].to_vec(),
+            noise_bandwidth_hz: self.noise_bandwidth_hz,
+        }
+    }
+}
+
 /// A one-sided complex spectrum over frequencies \[Hz\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComplexSpectrum {

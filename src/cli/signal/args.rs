@@ -84,7 +84,7 @@ pub struct SignalArgs {
         conflicts_with = "bearing"
     )]
     pub bearing_orders: Vec<String>,
-    /// Demodulation band of the envelope: lines (highest bearing lines above the background), kurtosis (from
+    /// Demodulation band of the envelope: lines (most evidence of a damaged part), kurtosis (from
     /// the kurtogram), full, or "500 Hz .. 5.5 kHz" [default: lines; without a bearing, kurtosis]
     #[arg(long, value_name = "BAND", help_heading = "Bearing")]
     pub band: Option<String>,
@@ -92,8 +92,12 @@ pub struct SignalArgs {
     #[arg(long, value_name = "N", default_value_t = 5, help_heading = "Bearing")]
     pub harmonics: usize,
     /// Search tolerance of the lines for slip and contact angle, such as "1.5 %"
-    #[arg(long, value_name = "SHARE", default_value = "1.5 %", help_heading = "Bearing")]
+    #[arg(long, value_name = "SHARE", default_value = "2 %", help_heading = "Bearing")]
     pub slip: String,
+    /// Range about a stated speed in which the record's own speed (1x to 10x) is searched for the bearing lines,
+    /// such as "1 %"; 0 takes the speed as stated
+    #[arg(long, value_name = "SHARE", default_value = "2 %", help_heading = "Bearing")]
+    pub speed_range: String,
     /// Race to which the jumps of the jerk are assigned: outer or inner
     #[arg(long, value_name = "RACE", default_value = "outer", help_heading = "Bearing")]
     pub race: String,

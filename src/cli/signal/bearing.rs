@@ -5,6 +5,7 @@ use rotordyn::io::hdf5::open_reader;
 use rotordyn::model::catalogue;
 use rotordyn::names::nearest;
 use rotordyn::results::BearingWithOrders;
+use rotordyn::warning::Code;
 
 use super::super::args::ModelArgs;
 use super::super::catalogue::geometry as catalogue_geometry;
@@ -75,6 +76,9 @@ fn radii(pitch: f64, ball: f64, angle: f64) -> [f64; 2] {
     [-1.0, 1.0].map(|side| 0.5 * (pitch + side * ball * angle.cos()))
 }
 
+/// Deviation of BPFO + BPFI from a whole number that rounding of both to two digits explains.
+const ORDER_TOLERANCE: f64 = 0.02;
+
 /// Parses `FTF=..., BPFO=..., BPFI=..., BSF=...`; the number of balls is Z = BPFO + BPFI, missing FTF and BSF
 /// are computed for a contact angle of zero.
 fn from_orders(rates: &[String], findings: &mut InputProblems) -> Option<BearingWithOrders> {
@@ -99,12 +103,21 @@ fn from_orders(rates: &[String], findings: &mut InputProblems) -> Option<Bearing
         return None;
     };
     let z = (bpfo + bpfi).round();
-    if z < 3.0 || (bpfo + bpfi - z).abs() > 0.02 || bpfo >= bpfi {
+    if z < 3.0 || bpfo >= bpfi {
         findings.problem(format!(
-            "--bearing-orders: BPFO + BPFI = {:.3} must be the number of balls, with BPFO < BPFI",
+            "--bearing-orders: BPFO + BPFI = {:.3} must be the number of balls, 3 or more, with BPFO < BPFI",
             bpfo + bpfi
         ));
         return None;
+    }
+    if (bpfo + bpfi - z).abs() > ORDER_TOLERANCE {
+        findings.warn_of(
+            Code::BearingOrdersInconsistent,
+            format!(
+                "--bearing-orders: BPFO + BPFI = {:.3} should be the number of balls; {z} is assumed, the orders are taken as given",
+                bpfo + bpfi
+            ),
+        );
     }
     let gamma = (bpfi - bpfo) / z;
     let orders = CharacteristicOrders {

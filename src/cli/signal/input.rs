@@ -11,6 +11,7 @@ use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
 use serde_json::{Value, json};
+use rotordyn::warning::Code;
 
 use super::super::failure::Failure;
 use super::super::limits::limits;
@@ -21,11 +22,18 @@ use super::super::store;
 pub struct InputProblems {
     pub problems: Vec<String>,
     pub warnings: Vec<String>,
+    /// Warnings with a code of their own.
+    pub coded: Vec<(Code, String)>,
 }
 
 impl InputProblems {
     pub fn problem(&mut self, text: impl Into<String>) {
         self.problems.push(text.into());
+    }
+
+    /// Adds a warning with its code.
+    pub fn warn_of(&mut self, code: Code, text: String) {
+        self.coded.push((code, text));
     }
 
     /// The value; an error is added to the problems.

@@ -1,8 +1,9 @@
 //! Tables of bearing lines (BPFO, BPFI, BSF, FTF) in the envelope spectrum, and the diagnosis.
 
 use rotordyn::results::{EnvelopeResult, SignalResult};
-use rotordyn::signal::bearing_lines::{BearingLine, BearingLines, Modulation};
+use rotordyn::signal::bearing_lines::{BearingLine, Modulation};
 use rotordyn::signal::diagnosis::BandRule;
+use rotordyn::signal::grading::Explanation;
 use rotordyn::signal::ridge::find_peaks;
 
 use super::super::terminal::{Terminal, number};
@@ -13,7 +14,7 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
         BandRule::Given(..) => "as given",
         BandRule::Whole => "full band",
         BandRule::Kurtosis => "maximum of the kurtogram",
-        BandRule::Lines => "highest bearing lines above the background",
+        BandRule::Lines => "most evidence of a damaged part",
     };
     let title_suffix = format!("envelope of {} in {}, {why}", result.channel, band(envelope.band));
     let Some(found) = &envelope.lines else {
@@ -58,7 +59,7 @@ pub fn lines(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResu
     if !bands.is_empty() {
         terminal.table("Sidebands", &header, &bands);
     }
-    print_diagnosis(terminal, result, found);
+    print_diagnosis(terminal, result, envelope);
 }
 
 fn row(line: &BearingLine) -> Vec<String> {
@@ -85,10 +86,31 @@ fn row(line: &BearingLine) -> Vec<String> {
     ]
 }
 
-fn print_diagnosis(terminal: &Terminal, result: &SignalResult, found: &BearingLines) {
-    let name = found.diagnosis_name();
+fn print_diagnosis(terminal: &Terminal, result: &SignalResult, envelope: &EnvelopeResult) {
+    let (Some(graded), Some(found)) = (&envelope.graded, &envelope.lines) else { return };
+    let unit = if envelope.over_orders { "order" } else { "Hz" };
+    let open: Vec<Vec<String>> = graded
+        .strong_lines
+        .iter()
+        .filter(|line| matches!(line.explanation, Explanation::Unexplained | Explanation::Periodic(_)))
+        .take(MAX_LINES)
+        .map(|line| {
+            let of = match line.explanation {
+                Explanation::Periodic(rate) => {
+                    format!("{:.0} x {} {unit}", (line.frequency / rate).round(), number(rate, 5))
+                }
+                _ => "unexplained".into(),
+            };
+            vec![number(line.frequency, 6), number(line.amplitude, 4), format!("{:.1}", line.level_db), of]
+        })
+        .collect();
+    if !open.is_empty() {
+        let header = [unit, &level("peak", result), "above background dB", "family"];
+        terminal.table("Strong lines that are neither of this bearing nor of the shaft", &header, &open);
+    }
+    let name = graded.statement(envelope.frequency_unit());
     terminal.heading(&match found.strongest_line() {
-        Some(line) if found.diagnosis.is_some() => {
+        Some(line) if found.diagnosis == Some(line.part) => {
             format!(
                 "Bearing diagnosis of {}: {name} ({:.1} dB above background at {})",
                 result.channel,

@@ -7,6 +7,7 @@ mod compare_records;
 pub mod input;
 mod line_tables;
 mod orders;
+mod record_speed;
 mod settings;
 pub mod shaft_source;
 mod tables;
@@ -110,6 +111,9 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
     warnings.into_iter().for_each(|text| terminal.warn_of(Code::SignalAnalysis, text));
+    findings.coded.into_iter().for_each(|(code, text)| terminal.warn_of(code, text));
+    let speeds = results.iter().filter_map(|result| record_speed::warning(result, settings.speed_range));
+    speeds.for_each(|text| terminal.warn_of(Code::ShaftSpeedNotFound, text));
 
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");

@@ -24,6 +24,12 @@ pub fn from_flags(
     let slip = findings
         .value_or_problem("--slip: ", units::parse(&args.slip, NUMBER))
         .unwrap_or(defaults.lines.slip);
+    let speed_range = findings
+        .value_or_problem("--speed-range: ", units::parse(&args.speed_range, NUMBER))
+        .unwrap_or(defaults.speed_range);
+    if !(0.0..=0.2).contains(&speed_range) {
+        findings.problem(format!("--speed-range {}: expected 0 to 20 %", args.speed_range));
+    }
     let race = match args.race.to_lowercase().as_str() {
         "outer" => Race::Outer,
         "inner" => Race::Inner,
@@ -42,6 +48,7 @@ pub fn from_flags(
         orders: orders::lines(&args.orders, bearing, findings),
         bandwidth: args.bandwidth,
         lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
+        speed_range,
         race,
         datum: findings.quantity("--reference-time", &args.reference_time, TIME).unwrap_or(0.0),
     }

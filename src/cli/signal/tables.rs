@@ -12,6 +12,7 @@ use super::super::printed;
 use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
+use super::record_speed;
 
 /// Largest number of rows of the channel list.
 const MAX_CHANNELS: usize = 24;
@@ -68,6 +69,9 @@ pub fn shaft_and_bearing(terminal: &Terminal, result: &SignalResult) {
             false => format!("{} to {} rpm, mean {}", rpm(s.min), rpm(s.max), rpm(s.mean)),
         };
         terminal.print(&format!("\nShaft: {speed}, {}", s.source));
+    }
+    if let Some(line) = record_speed::line(result) {
+        terminal.print(&line);
     }
     if let Some(b) = &result.bearing {
         let o = &b.orders;

@@ -21,6 +21,7 @@ use crate::document::{Array, Document, Section, in_hdf5, in_json, named};
 use curves::{highest_peaks, over_axis, peak_rows};
 use rotordyn_bearing::CharacteristicOrders;
 use rotordyn_signal::cepstrum::Cepstrum;
+use rotordyn_signal::grading::SpeedFinding;
 use rotordyn_signal::spectrum::Spectrum;
 use rotordyn_signal::statistics::Statistics;
 use rotordyn_signal::stft::Spectrogram;
@@ -40,6 +41,8 @@ pub struct SignalResult {
     /// The analysed samples.
     pub samples: Vec<f64>,
     pub shaft: Option<ShaftSummary>,
+    /// Shaft speed that the record itself shows; `None` if it was not searched.
+    pub record_speed: Option<SpeedFinding>,
     /// Times \[s\] and speeds \[rpm\] at some 200 instants; empty if only the mean is known.
     pub speed: [Vec<f64>; 2],
     pub bearing: Option<BearingWithOrders>,
@@ -96,6 +99,14 @@ pub struct SpectrogramWithSpeed {
 }
 
 impl SignalResult {
+    /// Mean shaft speed \[rev/s\]: that of the record's own harmonics if they were found, else the stated one.
+    pub fn shaft_speed(&self) -> Option<f64> {
+        match self.record_speed {
+            Some(SpeedFinding::Found(found)) => Some(found.speed),
+            _ => self.shaft.as_ref().map(|s| s.mean),
+        }
+    }
+
     /// The group of the channel.
     pub fn section(&self) -> Section<'_> {
         Section::listed("channels", group_name(&self.channel), self.document())
@@ -123,6 +134,19 @@ impl SignalResult {
             .integer(in_json("samples"), self.samples.len())
             .numbers(in_hdf5("record"), unit, &self.samples)
             .and_if(self.shaft.as_ref(), |out, shaft| out.group(named("shaft", ""), shaft.document()))
+            .and_if(self.record_speed, |out, found| {
+                let (found, ratio) = match found {
+                    SpeedFinding::Found(speed) => (Some(speed), 1.0),
+                    SpeedFinding::Elsewhere { speed, ratio } => (Some(speed), ratio),
+                    SpeedFinding::NotFound => (None, f64::NAN),
+                };
+                let speed = Document::new()
+                    .quantity("found", "rad/s", found.map_or(f64::NAN, |s| TAU * s.speed))
+                    .quantity("uncertainty", "rad/s", found.map_or(f64::NAN, |s| TAU * s.uncertainty))
+                    .integer("harmonics", found.map_or(0, |s| s.harmonics))
+                    .number("ratio_to_stated", "1", ratio);
+                out.group("record_speed", speed)
+            })
             .and_if((!time.is_empty()).then_some(()), |out, ()| {
                 let speed = Document::new()
                     .array("rpm", Array::real(&[rpm.len()], "rpm", rpm).over(0, "time"))

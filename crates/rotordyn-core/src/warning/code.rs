@@ -220,6 +220,12 @@ codes! {
     ModelUpdate, "model-update", Caution,
         "An update has correlated, bounded or poorly determined parameters, or does not explain the measurement.",
         "free fewer parameters, or measure more";
+    ShaftSpeedNotFound, "shaft-speed-not-found", Caution,
+        "A record has no family of shaft harmonics near the stated speed; bearing lines are multiples of the speed.",
+        "check speed and sampling rate, or widen --speed-range";
+    BearingOrdersInconsistent, "bearing-orders-inconsistent", Caution,
+        "Given orders BPFO and BPFI do not add up to a whole number of balls.",
+        "check the orders: those of another bearing or rounded ones move every line";
     SignalAnalysis, "signal-analysis", Caution,
         "An analysis of a record was left out, or needs what the record does not contain.",
         "see the text of the warning";

@@ -1,7 +1,9 @@
 //! Figures of a signal analysis: record, spectra, envelope, kurtogram, cepstrum.
 
 use super::Named;
-use super::signal_units::{CURSOR_GROUPS, cursor_group, defect_orders, display_unit, quantity_name};
+use super::signal_units::{
+    CURSOR_GROUPS, OTHER_GROUPS, cursor_group, defect_orders, display_unit, quantity_name,
+};
 use crate::{
     Channel, Cursor, CursorLines, CursorMark, CursorPanel, Curve, Figure, HeatMap, History, Lines,
     MarkedRegion,
@@ -10,6 +12,7 @@ use rotordyn_core::results::{EnvelopeResult, KurtogramResult, SignalResult};
 use rotordyn_core::series::Series;
 use rotordyn_signal::bearing_lines::{BearingPart, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
+use rotordyn_signal::grading::Explanation;
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
 
@@ -33,8 +36,8 @@ pub fn figures(r: &SignalResult, title: &str) -> Vec<Named> {
         out.push((name("envelope"), Figure::CursorLines(envelope(&[(r, found, title)], &note))));
         if let Some(compared) = found.band_scores.as_ref().filter(|_| found.rule == BandRule::Lines) {
             let map = HeatMap {
-                title: format!("Demodulation bands of {} by the level of bearing lines", r.channel),
-                quantity: "bearing lines above background".into(),
+                title: format!("Demodulation bands of {} by the evidence of a damaged part", r.channel),
+                quantity: "evidence of bearing lines".into(),
                 unit: "dB".into(),
                 ..band_map(compared, &note)
             };
@@ -192,8 +195,13 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
         .iter()
         .enumerate()
         .map(|(k, g)| if known || k == 0 { g.to_string() } else { String::new() });
+    // Only groups that occur are in the legend.
+    let marked = |group: usize| panels.iter().any(|p| p.found.iter().any(|f| f.group == group));
+    let others: Vec<String> = (OTHER_GROUPS.iter().enumerate())
+        .map(|(k, name)| if marked(CURSOR_GROUPS.len() + k) { name.to_string() } else { String::new() })
+        .collect();
     let band = format!("band {:.0} to {:.0} Hz", found.band.0, found.band.1);
-    let diagnosis = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
+    let diagnosis = found.statement().map_or(String::new(), |statement| format!(": {statement}"));
     CursorLines {
         title: if several {
             format!("Envelope spectra: {} and {}", of[0].0.channel, of[1].0.channel)
@@ -203,7 +211,7 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
         note: if several { note.into() } else { format!("{note}; {band}") },
         x_name: if by_order { "order" } else { "frequency" }.into(),
         x_unit: if by_order { "1/rev" } else { "Hz" }.into(),
-        groups: groups.collect(),
+        groups: groups.chain(others).collect(),
         panels,
         log_y: false,
         x_range: Some([0.0, end.min(if by_order == found.over_orders { last } else { end })]),
@@ -212,7 +220,7 @@ pub fn envelope(of: &[(&SignalResult, &EnvelopeResult, &str)], note: &str) -> Cu
 
 /// Label of a panel: record, band and bearing diagnosis.
 fn panel_label(r: &SignalResult, found: &EnvelopeResult, title: &str) -> String {
-    let diagnosis = found.lines.as_ref().map_or(String::new(), |l| format!(": {}", l.diagnosis_name()));
+    let diagnosis = found.statement().map_or(String::new(), |statement| format!(": {statement}"));
     let (low, high) = found.band;
     format!("{title}, {}, {low:.0} to {high:.0} Hz{diagnosis}", r.channel)
 }
@@ -231,7 +239,7 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
         }],
         ..CursorPanel::default()
     };
-    let unit = if found.over_orders { 1.0 } else { r.shaft.as_ref().map_or(0.0, |s| s.mean) } / divisor;
+    let unit = if found.over_orders { 1.0 } else { r.shaft_speed().unwrap_or(0.0) } / divisor;
     if unit > 0.0 {
         panel.cursors.extend((1..=2).map(|n| Cursor {
             at: f64::from(n) * unit,
@@ -265,7 +273,26 @@ fn envelope_panel(r: &SignalResult, found: &EnvelopeResult, divisor: f64, label:
             panel.found.push(CursorMark { x: at, y, group: cursor_group(family.part) });
         }
     }
+    mark_strong_lines(&mut panel, found, divisor, d.factor);
     panel
+}
+
+/// Marks every strong line that has no mark yet, by what explains it.
+fn mark_strong_lines(panel: &mut CursorPanel, found: &EnvelopeResult, divisor: f64, factor: f64) {
+    let Some(graded) = &found.graded else { return };
+    let step = found.spectrum.frequencies[1] / divisor;
+    for line in &graded.strong_lines {
+        let group = match line.explanation {
+            Explanation::Bearing(part) => cursor_group(part),
+            Explanation::Shaft(_) => 0,
+            Explanation::Mains | Explanation::Periodic(_) => CURSOR_GROUPS.len(),
+            Explanation::Unexplained => CURSOR_GROUPS.len() + 1,
+        };
+        let x = line.frequency / divisor;
+        if panel.found.iter().all(|mark| (mark.x - x).abs() > 1.5 * step) {
+            panel.found.push(CursorMark { x, y: line.amplitude * factor, group });
+        }
+    }
 }
 
 /// Sidebands get the style of the modulating frequency.

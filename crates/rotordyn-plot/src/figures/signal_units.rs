@@ -6,6 +6,8 @@ use rotordyn_signal::bearing_lines::BearingPart;
 
 /// Groups of cursors: the shaft, then the bearing parts.
 pub const CURSOR_GROUPS: [&str; 5] = ["shaft", "BPFO", "BPFI", "2 BSF", "FTF"];
+/// Groups of strong lines that are neither of the shaft nor of the bearing.
+pub const OTHER_GROUPS: [&str; 2] = ["another source", "unexplained"];
 
 /// Cursor group of a bearing part.
 pub fn cursor_group(part: BearingPart) -> usize {

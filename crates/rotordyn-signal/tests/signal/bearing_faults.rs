@@ -278,7 +278,7 @@ fn healthy_machine_has_no_bearing_line() {
                     .unwrap();
             assert_eq!(
                 got.lines.diagnosis_name(),
-                "no bearing line",
+                "no bearing fault",
                 "{seed} {rule:?} {:?}",
                 got.lines.strongest_line()
             );

@@ -4,6 +4,7 @@ use super::curves::{bands, highest_peaks, over_axis, peak_rows};
 use crate::document::{Document, Rows, Value, in_hdf5, in_json};
 use rotordyn_signal::bearing_lines::{BearingLine, BearingLines, Modulation};
 use rotordyn_signal::diagnosis::BandRule;
+use rotordyn_signal::grading::{Explanation, GradedDiagnosis, StrongLine};
 use rotordyn_signal::kurtogram::Kurtogram;
 use rotordyn_signal::spectrum::Spectrum;
 use serde::{Deserialize, Serialize};
@@ -21,9 +22,21 @@ pub struct EnvelopeResult {
     pub band_scores: Option<Kurtogram>,
     /// Lines and diagnosis if a bearing is known.
     pub lines: Option<BearingLines>,
+    /// Diagnosis with its probability, rivals and unexplained lines if a bearing is known.
+    pub graded: Option<GradedDiagnosis>,
 }
 
 impl EnvelopeResult {
+    /// Unit of its frequencies in statements: "Hz", or "x" for orders.
+    pub fn frequency_unit(&self) -> &'static str {
+        if self.over_orders { "x" } else { "Hz" }
+    }
+
+    /// What is said of the bearing, such as "outer race, 98 %"; `None` without a bearing.
+    pub fn statement(&self) -> Option<String> {
+        self.graded.as_ref().map(|graded| graded.statement(self.frequency_unit()))
+    }
+
     pub(super) fn document(&self, unit: &str) -> Document<'_> {
         let rule = match self.rule {
             BandRule::Given(..) => "given",
@@ -40,6 +53,9 @@ impl EnvelopeResult {
             .text(in_json("rule"), rule)
             .text(in_json("axis"), if self.over_orders { "order" } else { "Hz" })
             .with(in_json("peaks"), peaks)
+            .and_if(self.graded.as_ref(), |out, graded| {
+                out.and(graded_document(graded, self.frequency_unit()))
+            })
             .and_if(self.lines.as_ref(), |out, lines| out.and(lines_document(lines)));
         let score_unit = if self.rule == BandRule::Lines { "dB" } else { "1" };
         Document::new()
@@ -53,7 +69,59 @@ impl EnvelopeResult {
                 out.text(in_hdf5("diagnosis"), lines.diagnosis_name())
                     .table(in_hdf5("lines"), line_table(lines, axis_unit, unit))
             })
+            .and_if(self.graded.as_ref(), |out, graded| {
+                out.text(in_hdf5("statement"), graded.statement(self.frequency_unit()))
+                    .number(in_hdf5("probability"), "1", graded.probability)
+                    .table(in_hdf5("strong_lines"), strong_line_table(graded, axis_unit, unit))
+            })
     }
+}
+
+/// Statement, probability, rivals and strong lines, JSON only.
+fn graded_document<'a>(graded: &GradedDiagnosis, unit: &str) -> Document<'a> {
+    let rivals = Rows::of(&graded.rivals)
+        .text(in_json("source"), |r| r.name())
+        .number(in_json("rate"), "", |r| r.rate)
+        .integer(in_json("lines"), |r| r.lines)
+        .number(in_json("amplitude"), "", |r| r.amplitude);
+    let strong = Rows::of(&graded.strong_lines)
+        .number(in_json("measured"), "", |l| l.frequency)
+        .number(in_json("amplitude"), "", |l| l.amplitude)
+        .number(in_json("level_db"), "dB", |l| l.level_db)
+        .text(in_json("explained_by"), explanation);
+    Document::new()
+        .text(in_json("statement"), graded.statement(unit))
+        .text(in_json("candidate"), graded.candidate.name())
+        .number(in_json("candidate_frequency"), "", graded.frequency)
+        .number(in_json("probability"), "1", graded.probability)
+        .table(in_json("rivals"), rivals)
+        .table(in_json("strong_lines"), strong)
+}
+
+/// What a strong line belongs to: "outer race", "3x shaft", "mains", "12.42 x 3" or "unexplained".
+fn explanation(line: &StrongLine) -> String {
+    match line.explanation {
+        Explanation::Bearing(part) => part.name().into(),
+        Explanation::Shaft(order) => format!("shaft {order}x"),
+        Explanation::Mains => "mains".into(),
+        Explanation::Periodic(rate) => {
+            format!("{:.0} x {}", (line.frequency / rate).round(), crate::document::number(rate, 4))
+        }
+        Explanation::Unexplained => "unexplained".into(),
+    }
+}
+
+/// Strong lines, HDF5 only.
+fn strong_line_table<'a, 'r>(
+    graded: &'r GradedDiagnosis,
+    axis_unit: &str,
+    unit: &str,
+) -> Rows<'a, 'r, StrongLine> {
+    Rows::of(&graded.strong_lines)
+        .text("explained_by", explanation)
+        .number("measured", axis_unit, |l| l.frequency)
+        .number("amplitude", unit, |l| l.amplitude)
+        .number("level", "dB", |l| l.level_db)
 }
 
 /// Diagnosis and lines by family, JSON only.

@@ -14,6 +14,7 @@ use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn_signal::cepstrum::real_cepstrum;
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
 use rotordyn_signal::filter_bank::max_depth;
+use rotordyn_signal::grading::{SpeedFinding, shaft_speed};
 use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
 use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, power_spectral_density};
 use rotordyn_signal::statistics::statistics;
@@ -102,6 +103,8 @@ pub struct SignalSettings {
     /// −3 dB bandwidth \[orders\] in which the Vold-Kalman filter tracks them; `None`: not tracked.
     pub bandwidth: Option<f64>,
     pub lines: LineSettings,
+    /// Range about a stated steady speed, relative, in which the record's own speed is searched; 0: not searched.
+    pub speed_range: f64,
     pub race: Race,
     /// Time \[s\] on the channel's time axis at which a ball is at angle 0 of the race and that angle lies
     /// along x.
@@ -120,6 +123,7 @@ impl Default for SignalSettings {
             orders: Vec::new(),
             bandwidth: None,
             lines: LineSettings::default(),
+            speed_range: 0.02,
             race: Race::Outer,
             datum: 0.0,
         }
@@ -155,7 +159,8 @@ pub fn analyse(
     bearing: Option<&BearingWithOrders>,
     settings: &SignalSettings,
 ) -> Result<SignalResult, SignalError> {
-    let job = Job::new(channel, shaft, bearing, settings);
+    let mut job = Job::new(channel, shaft, bearing, settings);
+    job.record_speed = job.search_speed()?;
     let mut out = SignalResult {
         channel: channel.name.clone(),
         unit: channel.unit.clone(),
@@ -163,6 +168,7 @@ pub fn analyse(
         start: channel.start + job.first as f64 / channel.sample_rate,
         samples: job.x.to_vec(),
         shaft: shaft.map(|s| s.summary.clone()),
+        record_speed: job.record_speed,
         speed: shaft.map_or_else(Default::default, |s| s.speeds(channel.sample_rate, channel.start)),
         bearing: bearing.cloned(),
         statistics: statistics(job.x)?,
@@ -191,6 +197,8 @@ struct Job<'a> {
     shaft: Option<&'a ShaftMotion>,
     bearing: Option<&'a BearingWithOrders>,
     settings: &'a SignalSettings,
+    /// Speed that the record shows, for the bearing's lines.
+    record_speed: Option<SpeedFinding>,
 }
 
 impl<'a> Job<'a> {
@@ -205,7 +213,7 @@ impl<'a> Job<'a> {
             Some(s) => (s.first, &whole[s.first..(s.first + s.angle.len()).min(whole.len())]),
             None => (0, whole),
         };
-        Job { x, first, rate: channel.sample_rate, channel, shaft, bearing, settings }
+        Job { x, first, rate: channel.sample_rate, channel, shaft, bearing, settings, record_speed: None }
     }
 
     fn selected_analyses(&self) -> Vec<Analysis> {
@@ -242,6 +250,19 @@ impl<'a> Job<'a> {
         }
     }
 
+    /// Speed of the record's own shaft harmonics: a bearing at a stated speed, without a shaft angle.
+    fn search_speed(&self) -> Result<Option<SpeedFinding>, SignalError> {
+        let stated = self.shaft.filter(|s| s.summary.steady && s.angle.is_empty());
+        let (Some(shaft), Some(_), true) = (stated, self.bearing, self.settings.speed_range > 0.0) else {
+            return Ok(None);
+        };
+        match shaft_speed(self.x, self.rate, shaft.summary.mean, self.settings.speed_range) {
+            // Too short for the search: the stated speed stands.
+            Err(SignalError::TooFewRevolutions { .. }) => Ok(None),
+            found => found.map(Some),
+        }
+    }
+
     /// Characteristic frequencies of the bearing at constant speed, else orders; with the shaft rotation.
     fn rates(&self) -> Option<(DefectFrequencies, ShaftRotation<'a>)> {
         let bearing = self.bearing?;
@@ -254,7 +275,10 @@ impl<'a> Job<'a> {
     fn rate_reference(&self) -> Option<(f64, ShaftRotation<'a>)> {
         let shaft = self.shaft?;
         Some(match shaft.summary.steady {
-            true => (shaft.summary.mean, ShaftRotation::ConstantSpeed),
+            true => match self.record_speed {
+                Some(SpeedFinding::Found(found)) => (found.speed, ShaftRotation::ConstantSpeed),
+                _ => (shaft.summary.mean, ShaftRotation::ConstantSpeed),
+            },
             false => (1.0, ShaftRotation::Angle(&shaft.angle[..self.x.len()])),
         })
     }
@@ -338,6 +362,7 @@ impl<'a> Job<'a> {
                 over_orders,
                 band_scores: found.kurtogram,
                 lines: None,
+                graded: None,
             });
         };
         let rule = self.settings.band.unwrap_or(BandRule::Lines);
@@ -349,6 +374,7 @@ impl<'a> Job<'a> {
             over_orders,
             band_scores: found.kurtogram,
             lines: Some(found.lines),
+            graded: Some(found.graded),
         })
     }
 
