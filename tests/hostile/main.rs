@@ -6,6 +6,7 @@ mod archives;
 mod hdf5_files;
 mod hdf5_results;
 mod matlab;
+mod models;
 mod tables;
 mod universal;
 mod wav_files;
