@@ -198,7 +198,7 @@ impl Sources {
 
 /// What is reported once.
 #[derive(PartialEq, Eq, Hash)]
-enum Seen {
+enum Reported {
     Error(Range<usize>, String),
     Hint(String),
     Default(String),
@@ -212,7 +212,7 @@ pub(crate) struct Log {
     hints: RefCell<Vec<Problem>>,
     defaults: RefCell<Vec<DefaultValue>>,
     /// What was reported already, of what is reported once.
-    seen: RefCell<HashSet<Seen>>,
+    seen: RefCell<HashSet<Reported>>,
     /// Where the spans of the file end and those of settings of the command line start.
     file_end: Cell<usize>,
     /// Starts of the keys that each variant sets, in the order in which the variants apply.
@@ -224,13 +224,13 @@ impl Log {
         self.errors.borrow_mut().push(problem);
     }
 
-    fn is_first(&self, report: Seen) -> bool {
+    fn is_first(&self, report: Reported) -> bool {
         self.seen.borrow_mut().insert(report)
     }
 
     /// Add an error of a place that is read more than once.
     pub fn error_once(&self, problem: Problem) {
-        if self.is_first(Seen::Error(problem.span.clone(), problem.message.clone())) {
+        if self.is_first(Reported::Error(problem.span.clone(), problem.message.clone())) {
             self.error(problem);
         }
     }
@@ -251,14 +251,14 @@ impl Log {
 
     /// Add a hint, once per message.
     pub fn hint(&self, problem: Problem) {
-        if self.is_first(Seen::Hint(problem.message.clone())) {
+        if self.is_first(Reported::Hint(problem.message.clone())) {
             self.hints.borrow_mut().push(problem);
         }
     }
 
     /// Record a value that the file does not give, once per path.
     pub fn taken_by_default(&self, path: String, value: String) {
-        if self.is_first(Seen::Default(path.clone())) {
+        if self.is_first(Reported::Default(path.clone())) {
             self.defaults.borrow_mut().push(DefaultValue { path, value });
         }
     }
