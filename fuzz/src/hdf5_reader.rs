@@ -14,12 +14,19 @@ const OWN_MEMORY: u64 = 256_000_000;
 /// Processor time for one question \[s\].
 const SECONDS: u64 = 2;
 
+/// Environment variable that says where a worker reads HDF5 files.
+pub const PLACE_VARIABLE: &str = "ROTORDYN_FUZZ_HDF5";
+/// In the worker itself.
+pub const HERE: &str = "here";
+/// In a process for each file.
+pub const APART: &str = "apart";
+
 /// The limits with which targets read files: HDF5 by this program in a process of its own, as by the command line.
 ///
-/// With `ROTORDYN_FUZZ_HDF5=here` set, the worker itself reads them: several times faster, and a crash of the HDF5 library
-/// is a finding.
+/// With [`PLACE_VARIABLE`] as [`HERE`], the worker itself reads them: many times faster, and a crash of the HDF5 library
+/// ends it.
 pub fn reading_limits() -> Limits {
-    let here = std::env::var_os("ROTORDYN_FUZZ_HDF5").is_some_and(|value| value == "here");
+    let here = std::env::var_os(PLACE_VARIABLE).is_some_and(|value| value == HERE);
     let program = if here { None } else { std::env::current_exe().ok() };
     Limits { hdf5_program: program, ..Limits::default() }
 }
@@ -29,6 +36,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Option<ExitCode> {
     serve_if_asked(arguments, &|stage, memory| match stage {
         Stage::Started => limits::limit_memory(memory.saturating_mul(2).saturating_add(OWN_MEMORY)),
         Stage::Opened => {}
-        Stage::Question => limits::limit_cpu_seconds(SECONDS),
+        Stage::Question { .. } => limits::limit_cpu_seconds(SECONDS),
     })
 }

@@ -10,6 +10,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, PoisonError};
 
 use crate::feature::{self, EdgeCounts, Feature};
+use crate::hdf5_reader::PLACE_VARIABLE;
 use crate::limits;
 use crate::targets::Target;
 
@@ -98,9 +99,11 @@ pub struct Worker {
 impl Worker {
     /// Starts this program as a worker with a folder for its files, in which `errors` and `edges` are its own.
     ///
+    /// `hdf5`: where it reads HDF5 files, unless the environment of this program says it.
+    ///
     /// # Errors
     /// The process or its files cannot be made.
-    pub fn start(target: &Target, folder: &Path) -> io::Result<Self> {
+    pub fn start(target: &Target, folder: &Path, hdf5: &str) -> io::Result<Self> {
         let (errors, edges) = (folder.join("errors"), folder.join("edges"));
         File::create(&edges)?;
         // Instrumented code writes a profile at its end, wanted or not.
@@ -113,6 +116,7 @@ impl Worker {
             // Two threads show races of readers as well as many, with less address space.
             .env("RAYON_NUM_THREADS", "2")
             .env("RUST_BACKTRACE", "0")
+            .env(PLACE_VARIABLE, std::env::var_os(PLACE_VARIABLE).unwrap_or_else(|| hdf5.into()))
             .env("LLVM_PROFILE_FILE", profile)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

@@ -10,8 +10,12 @@ use super::system;
 
 /// Memory of the HDF5 library besides the data, and of the program \[bytes\].
 const OWN_MEMORY: u64 = 128_000_000;
+/// Computing time of any question \[s\], most of which take a thousandth of it.
+const BASE_SECONDS: f64 = 0.5;
 /// Data that is read in a second of computing time at least, however slow the machine \[bytes\].
-const SLOWEST_READING: u64 = 100_000_000;
+const SLOWEST_READING: f64 = 100e6;
+/// Part of a file whose links and attributes are looked at in a second at least \[bytes\].
+const SLOWEST_SEARCH: f64 = 5e6;
 
 /// Reads the file for the process that started this one, if the arguments say so.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Option<ExitCode> {
@@ -19,6 +23,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Option<ExitCode> {
         // Data as it is read, and as its chunks are decompressed.
         Stage::Started => system::limit_memory(memory.saturating_mul(2).saturating_add(OWN_MEMORY)),
         Stage::Opened => system::limit_files(),
-        Stage::Question => system::limit_cpu_seconds(1 + memory / SLOWEST_READING),
+        Stage::Question { file, data } => system::limit_cpu_seconds(
+            BASE_SECONDS + file as f64 / SLOWEST_SEARCH + data as f64 / SLOWEST_READING,
+        ),
     })
 }

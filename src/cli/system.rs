@@ -1,6 +1,12 @@
 //! Questions to the operating system: free disk space, processor time, names.
 
 use std::path::Path;
+#[cfg(unix)]
+use std::time::Duration;
+
+/// Stack of the thread that watches the processor time \[bytes\].
+#[cfg(unix)]
+const WATCH_STACK: usize = 64 << 10;
 
 /// Free bytes of the file system of a folder that may not exist yet; `None` where it cannot be asked.
 #[cfg(unix)]
@@ -58,15 +64,36 @@ pub fn limit_files() {
 #[cfg(not(unix))]
 pub fn limit_files() {}
 
-/// Ends the program by a signal when it has computed so long from now on \[s\].
+/// Ends the program by SIGXCPU when it has computed so long from now on \[s\], in place of an earlier limit.
+///
+/// Limits of the system are whole seconds: a thread of the program looks at its clock, and the system's limit is for the
+/// case that it cannot.
 #[cfg(unix)]
-pub fn limit_cpu_seconds(seconds: u64) {
-    let used = cpu_seconds().unwrap_or(0.0).ceil() as u64;
-    limit(rustix::process::Resource::Cpu, used.saturating_add(seconds));
+pub fn limit_cpu_seconds(seconds: f64) {
+    use std::sync::OnceLock;
+    use std::sync::atomic::{AtomicU64, Ordering};
+    static END_MICROSECONDS: AtomicU64 = AtomicU64::new(u64::MAX);
+    static WATCH: OnceLock<bool> = OnceLock::new();
+    let Some(used) = cpu_seconds() else { return };
+    END_MICROSECONDS.store((1e6 * (used + seconds)) as u64, Ordering::Relaxed);
+    limit(rustix::process::Resource::Cpu, (used + seconds).ceil() as u64 + 1);
+    let watch = || {
+        loop {
+            let end = 1e-6 * END_MICROSECONDS.load(Ordering::Relaxed) as f64;
+            let left = cpu_seconds().map_or(0.0, |used| end - used);
+            if left <= 0.0 {
+                let _ =
+                    rustix::process::kill_process(rustix::process::getpid(), rustix::process::Signal::XCPU);
+            }
+            // One thread computes, so that the time left cannot pass sooner.
+            std::thread::sleep(Duration::from_secs_f64(left.clamp(0.01, 1.0)));
+        }
+    };
+    WATCH.get_or_init(|| std::thread::Builder::new().stack_size(WATCH_STACK).spawn(watch).is_ok());
 }
 
 #[cfg(not(unix))]
-pub fn limit_cpu_seconds(_: u64) {}
+pub fn limit_cpu_seconds(_: f64) {}
 
 /// Sets the current limit, not beyond the one that the system allows.
 #[cfg(unix)]

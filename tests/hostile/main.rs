@@ -7,6 +7,7 @@ mod hdf5_files;
 mod hdf5_results;
 mod matlab;
 mod matlab_73;
+mod models;
 mod tables;
 mod universal;
 mod wav_files;

@@ -6,6 +6,7 @@
 
 use super::dot::partial_sums;
 use super::eigen::{self, EigenError};
+use super::refinement::{NEGLIGIBLE, PreciseResidual, refine, relative_size};
 use super::{BandLayout, BandLu, Complex64, DenseLu, GroupDense, SparseMatrix, Triplets};
 use nalgebra::DMatrix;
 
@@ -248,6 +249,8 @@ impl<'a> Factors<'a> {
 struct Arnoldi<'a> {
     part: &'a CoupledGroup,
     lu: Factors<'a>,
+    /// Whether round-off of the direct solution would show.
+    refined: bool,
     /// Block size: number of start vectors.
     block: usize,
     basis: Vec<Vec<f64>>,
@@ -263,13 +266,36 @@ impl<'a> Arnoldi<'a> {
         let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
         let block = if rotating { 1 } else { 2 };
         let noise = PseudoRandom(0x9E37_79B9_7F4A_7C15);
-        let mut new = Self { part, lu, block, basis: Vec::new(), columns: Vec::new(), noise };
+        let mut new = Self { part, lu, refined: false, block, basis: Vec::new(), columns: Vec::new(), noise };
+        new.refined = new.shows_round_off();
         for _ in 0..block {
             let random: Vec<f64> = (0..2 * part.order()).map(|_| new.noise.next()).collect();
             let start = new.apply(&random);
             orthonormalise(start, &mut new.basis, &mut new.noise);
         }
         Ok(new)
+    }
+
+    /// Whether the direct solution under inertia of equal accelerations has errors that show.
+    fn shows_round_off(&self) -> bool {
+        let load = self.part.m.mul(&vec![1.0; self.part.order()]);
+        let mut x = load.clone();
+        self.lu.solve(&mut x);
+        relative_size(&self.correction(&load, &x), &x) > NEGLIGIBLE
+    }
+
+    /// (K + σ C + σ² M)⁻¹ (b − (K + σ C + σ² M) x); zero with a dense part, whose size is limited.
+    fn correction(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+        if self.part.dense.is_some() {
+            return vec![0.0; x.len()];
+        }
+        let mut residual = PreciseResidual::of(b);
+        // Their sum is rounded, so that its rows no longer cancel for rigid-body motion.
+        residual.subtract(1.0, &self.part.k, x);
+        residual.subtract(self.part.shift, &self.part.damp, x);
+        let mut out = residual.values();
+        self.lu.solve(&mut out);
+        out
     }
 
     /// (A − σ)⁻¹ x.
@@ -282,7 +308,13 @@ impl<'a> Arnoldi<'a> {
         if let Some(dense) = &self.part.dense {
             dense.mul_add(-1.0, a, &mut q);
         }
-        self.lu.solve(&mut q);
+        if self.refined {
+            let load = q.clone();
+            self.lu.solve(&mut q);
+            refine(&mut q, |q| self.correction(&load, q));
+        } else {
+            self.lu.solve(&mut q);
+        }
         let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
         q.extend(v);
         q

@@ -15,6 +15,7 @@
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
+//! | [`refinement`] | residuals in twice the precision, iterative refinement |
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 
@@ -31,6 +32,7 @@ pub mod krylov;
 pub mod panel;
 pub mod pchip;
 pub mod piecewise;
+pub mod refinement;
 pub mod small_dense;
 pub mod sparse;
 pub mod spline;

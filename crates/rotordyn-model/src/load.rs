@@ -50,7 +50,7 @@ impl Loaded {
 pub fn item_span(text: &str, path: &[&str]) -> Range<usize> {
     let root = Table::parse(text, 0).unwrap_or_default();
     let variants = match root.get("variant").map(|e| &e.node.value) {
-        Some(Value::Table(variants)) => variants.entries.as_slice(),
+        Some(Value::Table(variants)) => variants.entries(),
         _ => &[],
     };
     let tables = variants.iter().filter_map(|e| match &e.node.value {

@@ -83,7 +83,7 @@ fn collect_values(
             // Skip items without that key.
             let has = |entry: &&Entry| has_path(&entry.node, &parts[depth + 1..]);
             table
-                .entries
+                .entries()
                 .iter()
                 .filter(has)
                 .try_for_each(|entry| into(entry.written_key(), &entry.node, found))
@@ -107,7 +107,7 @@ fn collect_values(
 fn has_path(node: &Node, parts: &[&str]) -> bool {
     match (&node.value, parts.split_first()) {
         (_, None) => true,
-        (Value::Table(table), Some((&"*", rest))) => table.entries.iter().any(|e| has_path(&e.node, rest)),
+        (Value::Table(table), Some((&"*", rest))) => table.entries().iter().any(|e| has_path(&e.node, rest)),
         (Value::Table(table), Some((first, rest))) => {
             table.get(first).is_some_and(|e| has_path(&e.node, rest))
         }

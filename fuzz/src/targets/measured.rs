@@ -20,7 +20,7 @@ const MAX_RECORDS: usize = 50;
 const MAX_FRFS: usize = 400;
 
 pub fn run(bytes: &[u8], path: &Path) -> Outcome {
-    if let Err(error) = std::fs::write(path, bytes) {
+    if let Err(error) = write_anew(path, bytes) {
         return Outcome::refused(error);
     }
     match measured::read_within(path, &reading_limits()) {
@@ -31,6 +31,12 @@ pub fn run(bytes: &[u8], path: &Path) -> Outcome {
             outcome
         }
     }
+}
+
+/// Writes a file that is not the one that was there: the HDF5 library may still have that open after an error.
+pub fn write_anew(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let _ = std::fs::remove_file(path);
+    std::fs::write(path, bytes)
 }
 
 /// Uses what was read as the commands do.

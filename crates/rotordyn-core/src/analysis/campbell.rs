@@ -10,7 +10,7 @@ use rotordyn_linalg::Complex64;
 use serde::{Deserialize, Serialize};
 
 /// Modes computed in addition to the requested ones, so that a branch continues when others drop below it.
-pub(super) const EXTRA_MODES: usize = 4;
+pub(crate) const EXTRA_MODES: usize = 4;
 /// Below this MAC the speed step is halved.
 const CERTAIN_MAC: f64 = 0.7;
 /// Below this MAC a branch is lost.

@@ -2,10 +2,14 @@
 
 use crate::assembly::{LinearSystem, ModalDamping};
 use nalgebra::{DMatrix, DVector};
+use rotordyn_linalg::refinement::{NEGLIGIBLE, PreciseResidual, complex_values, refine, relative_size};
 use rotordyn_linalg::{BandLayout, BandLu, Complex64, ZeroPivot, gmres};
+use std::collections::HashSet;
 
 /// Relative change of the solution at which the iteration with modal damping ends.
 const TOLERANCE: f64 = 1e-13;
+/// Unknowns of a group from which round-off of direct solutions may show: a shaft of a hundred elements.
+const MANY_UNKNOWNS: usize = 400;
 /// Products with the modal damping matrix before the dense solution is used instead.
 const MAX_PRODUCTS: usize = 60;
 
@@ -38,7 +42,7 @@ impl<'a> HarmonicSystem<'a> {
 
     /// Memory for the solution at one frequency after another.
     pub fn solver(&self) -> HarmonicSolver<'_> {
-        HarmonicSolver { of: self, lu: self.layout.workspace(), omega: 0.0 }
+        HarmonicSolver { of: self, lu: self.layout.workspace(), omega: 0.0, refined: false }
     }
 }
 
@@ -52,6 +56,8 @@ pub struct HarmonicSolver<'a> {
     of: &'a HarmonicSystem<'a>,
     lu: BandLu<'a, Complex64>,
     omega: f64,
+    /// Whether round-off of the direct solution would show.
+    refined: bool,
 }
 
 impl HarmonicSolver<'_> {
@@ -71,6 +77,11 @@ impl HarmonicSolver<'_> {
                     Complex64::new(s[i] - square * m[i], omega * d[i] + ratio * (square * m[i] + k[i]))
                 })
             }
+            None if self.of.layout.groups().any(|group| group.len() >= MANY_UNKNOWNS) => {
+                self.lu.refactor(|i| Complex64::new(s[i] - square * m[i], omega * d[i]))?;
+                self.refined = self.shows_round_off();
+                Ok(())
+            }
             _ => self.lu.refactor(|i| Complex64::new(s[i] - square * m[i], omega * d[i])),
         }
     }
@@ -78,7 +89,11 @@ impl HarmonicSolver<'_> {
     /// Replaces f by the response q; unknowns outside the prepared groups must be zero.
     pub fn solve(&self, f: &mut [Complex64]) {
         let Some((modal, _)) = self.of.modal.as_ref().filter(|_| self.omega > 0.0) else {
+            let load = if self.refined { f.to_vec() } else { Vec::new() };
             self.lu.solve(f);
+            if self.refined {
+                refine(f, |q| self.correction(&load, q));
+            }
             return;
         };
         let load = f.to_vec();
@@ -102,6 +117,39 @@ impl HarmonicSolver<'_> {
         } else if let Some(q) = self.dense_solution(&load) {
             f.copy_from_slice(&q);
         }
+    }
+
+    /// Whether the direct solution under inertia of equal accelerations has errors that show.
+    fn shows_round_off(&self) -> bool {
+        let mut load = vec![Complex64::default(); self.of.size()];
+        for &i in self.of.layout.groups().flatten() {
+            load[i] = 1.0.into();
+        }
+        let mut load = self.of.system.mass.mul_complex(&load);
+        let reached: HashSet<usize> = self.of.layout.groups().flatten().copied().collect();
+        load.iter_mut().enumerate().filter(|(i, _)| !reached.contains(i)).for_each(|(_, f)| *f = 0.0.into());
+        let mut q = load.clone();
+        self.lu.solve(&mut q);
+        relative_size(&self.correction(&load, &q), &q) > NEGLIGIBLE
+    }
+
+    /// (S − ω² M + jω D)⁻¹ (f − (S − ω² M + jω D) q).
+    fn correction(&self, load: &[Complex64], q: &[Complex64]) -> Vec<Complex64> {
+        let parts = |of: &[Complex64]| -> [Vec<f64>; 2] {
+            [of.iter().map(|v| v.re).collect(), of.iter().map(|v| v.im).collect()]
+        };
+        let (system, omega) = (self.of.system, self.omega);
+        let ([re, im], [load_re, load_im]) = (parts(q), parts(load));
+        let part = |load: &[f64], own: &[f64], other: &[f64], sign: f64| {
+            let mut residual = PreciseResidual::of(load);
+            residual.subtract(1.0, &system.stiffness, own);
+            residual.subtract(-omega * omega, &system.mass, own);
+            residual.subtract(sign * omega, &system.damping, other);
+            residual
+        };
+        let mut out = complex_values(&part(&load_re, &re, &im, -1.0), &part(&load_im, &im, &re, 1.0));
+        self.lu.solve(&mut out);
+        out
     }
 
     /// (A − P) q = jω C q − jζ (ω² M + K) q.

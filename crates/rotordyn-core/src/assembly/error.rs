@@ -54,6 +54,15 @@ pub enum PhysicsError {
     )]
     TooLarge { purpose: String, unknowns: usize, gigabytes: f64, limit: f64, shaft: String },
     #[error(
+        "round-off, which grows with the fourth power of the number of elements, leaves an error of about {:.1e} of the static displacements: {shaft}; check the unit of its length, or raise element_length",
+        .error
+    )]
+    RoundOff { error: f64, shaft: String },
+    #[error(
+        "{study} needs {megabytes:.0} MB for mode shapes at all speeds, at most {limit:.0} MB are allowed: {shaft}; check the unit of its length, or raise element_length"
+    )]
+    TooManyShapes { study: String, megabytes: f64, limit: f64, shaft: String },
+    #[error(
         "the recorded motion of a run has {frames:.0} frames, {gigabytes:.1} GB in memory, at most {limit:.1} GB are allowed; lower motion_rate, or record a shorter time"
     )]
     TooManyFrames { frames: f64, gigabytes: f64, limit: f64 },

@@ -5,12 +5,13 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::{Machine, StudyError};
+use crate::analysis::campbell::EXTRA_MODES;
 use crate::assembly::PhysicsError;
 use crate::model::study::{
     BifurcationStudy, CampbellStudy, Continuation, FrfStudy, Integrator, ModalStudy, RunUpStudy,
     SectionTrigger, SpectrogramStudy, SteadyRunSettings, Studies, Sweep, UnbalanceStudy,
 };
-use crate::model::{BearingSite, Model, Probe, Quantity};
+use crate::model::{BearingSite, Model, Probe, Quantity, ShaftExtent};
 use crate::results::Motion;
 use crate::transient::reduction::{Reduction, check_size};
 use crate::transient::run::{Settings, run};
@@ -32,6 +33,13 @@ const COMMON_CHANNELS: usize = 11;
 const BEARING_CHANNELS: usize = 4;
 /// Largest size of the frames of a motion: 100 MB of an animation are already hard to show.
 const MAX_MOTION_BYTES: f64 = 1e9;
+/// Largest size of the mode shapes of a Campbell diagram or of a search for critical speeds: of 1300 nodes with 31 speeds and 14
+/// modes, far more than a shaft needs.
+const MAX_SHAPES_BYTES: f64 = 500e6;
+/// Shapes in memory of every mode and speed of a Campbell diagram, with those of its crossings, as measured.
+const SHAPES_PER_MODE: usize = 6;
+/// Shapes in memory during a search for critical speeds, as measured with the default speeds.
+const CRITICAL_SHAPES: usize = 1600;
 
 /// Kind of work of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -242,8 +250,24 @@ impl Machine {
                 self.model.studies.run_up.as_ref().map_or(Ok(()), |study| check_motion(study, &self.model))
             }
             "poincare" | "lyapunov" | "bifurcation" => check_size(&self.assembly),
+            "campbell" => self.model.studies.campbell.as_ref().map_or(Ok(()), |campbell| {
+                let modes = campbell.modes + EXTRA_MODES;
+                self.check_shapes(study, SHAPES_PER_MODE * campbell.speeds.len() * modes)
+            }),
+            "critical" => self.check_shapes(study, CRITICAL_SHAPES),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses more mode shapes in memory together than are allowed.
+    fn check_shapes(&self, study: &str, shapes: usize) -> Result<(), PhysicsError> {
+        let bytes = COMPLEX * shapes as f64 * self.assembly.dofs.len() as f64;
+        if bytes <= MAX_SHAPES_BYTES {
+            return Ok(());
+        }
+        let [megabytes, limit] = [bytes, MAX_SHAPES_BYTES].map(|bytes| 1e-6 * bytes);
+        let shaft = ShaftExtent::of(&self.model).to_string();
+        Err(PhysicsError::TooManyShapes { study: study.into(), megabytes, limit, shaft })
     }
 
     /// Forecasts of the requested studies; free balls divide the steps of runs as their contacts need at the start.

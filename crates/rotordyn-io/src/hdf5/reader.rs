@@ -117,6 +117,12 @@ impl OpenFile {
         })?;
         Ok(Self { store, memory: limits.memory_of(size) })
     }
+
+    /// Values that a data set claims to have, at most 2⁴⁸; none if it cannot be opened.
+    pub(super) fn values_in(&self, name: &str) -> u64 {
+        let shape = self.store.file.dataset(name).map_or(vec![0], |data| data.shape());
+        shape.iter().fold(1_u64, |product, n| product.saturating_mul(*n as u64)).min(1 << 48)
+    }
 }
 
 impl Bounded for OpenFile {

@@ -4,13 +4,15 @@ use super::recording::{
     Channel, RUN_STATE, RUNNING, channel_names, channel_path, describe_channel, recorded_samples, sampling,
     time_path,
 };
-use super::{Attribute, DEFLATE_LEVEL, Store, attribute};
+use super::{Attribute, CACHE_PLACES, DEFLATE_LEVEL, Store, attribute};
 use crate::error::Error;
 use hdf5::Dataset;
 use hdf5::plist::dataset_create::{AllocTime, FillTime};
 
 /// Samples per chunk of the compressed data sets.
 const CHUNK_SAMPLES: usize = 4096;
+/// Chunks in memory of every compressed data set while it is written, each of them once and whole \[bytes\].
+const WRITE_CACHE: usize = 2 * 8 * CHUNK_SAMPLES;
 
 /// Name and unit of the data sets of `<root>/time`, before the channels.
 pub(super) const TIME_SETS: [(&str, &str); 3] = [("t", "s"), ("theta", "rad"), ("speed", "rad/s")];
@@ -56,7 +58,9 @@ pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(),
         names.iter().map(|name| describe_channel(from, root, name)).collect::<Result<_, _>>()?;
     let [sample_rate, start] = sampling(from, root)?;
     let growable = |name: &str, attributes: &[(&str, Attribute)]| {
+        let (places, whole_first) = CACHE_PLACES;
         let builder = to.file.new_dataset::<f64>().obj_track_times(false).chunk(CHUNK_SAMPLES);
+        let builder = builder.chunk_cache(places, WRITE_CACHE, whole_first);
         let dataset = builder.shuffle().deflate(DEFLATE_LEVEL).shape(0..).create(name)?;
         attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
         Ok(dataset)

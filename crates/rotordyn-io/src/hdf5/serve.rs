@@ -20,8 +20,8 @@ pub enum Stage {
     Started,
     /// The file is open, and no other file is needed.
     Opened,
-    /// A question will be answered.
-    Question,
+    /// A question will be answered, about a file of so many bytes, with so many bytes of data.
+    Question { file: u64, data: u64 },
 }
 
 /// Reads a file for the process that started this one, if the arguments of the program say so; whether it ended well.
@@ -59,7 +59,8 @@ fn serve(
 ) -> Result<()> {
     let mut out = BufWriter::with_capacity(1 << 16, answers);
     let limits = Limits { memory: Some(memory), hdf5_program: None };
-    prepare(Stage::Question);
+    let size = std::fs::metadata(file).map_or(0, |found| found.len());
+    prepare(Stage::Question { file: size, data: 0 });
     let reader = match OpenFile::open(file, &limits) {
         Ok(reader) => reader,
         Err(error) => {
@@ -76,9 +77,15 @@ fn serve(
             Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(()),
             Err(error) => return Err(error),
         };
-        prepare(Stage::Question);
+        prepare(Stage::Question { file: size, data: 0 });
         // A panic of the hdf5 crate on a strange file is an answer, too.
-        let found = catch_unwind(AssertUnwindSafe(|| found(&reader, question)));
+        let found = catch_unwind(AssertUnwindSafe(|| {
+            let data = asked_bytes(&reader, &question);
+            if data > 0 {
+                prepare(Stage::Question { file: size, data: data.min(memory) });
+            }
+            found(&reader, question)
+        }));
         let found = found.unwrap_or_else(|_| {
             let problem = "the HDF5 library gave an answer that cannot be";
             Ok(Found::Answer(Answer::Failed(problem.into(), "copy the file again".into())))
@@ -96,6 +103,18 @@ fn serve(
             Err(error) => send(&mut out, &failed(error))?,
         }
         out.flush()?;
+    }
+}
+
+/// Size of the data that a question asks for \[bytes\]; zero for what is no data or not there.
+fn asked_bytes(reader: &OpenFile, question: &Question) -> u64 {
+    match question {
+        Question::ReadRange(_, range) => 8 * range.len() as u64,
+        Question::Read(name) => 8 * reader.values_in(name),
+        Question::ReadComplex(name) => 16 * reader.values_in(name),
+        // A text has a length and a place elsewhere in the file.
+        Question::ReadTexts(name) => 64 * reader.values_in(name),
+        _ => 0,
     }
 }
 

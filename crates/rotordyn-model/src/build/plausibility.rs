@@ -300,5 +300,5 @@ fn texts<'t>(table: &'t Table, found: &mut Vec<&'t str>) {
             _ => {}
         }
     }
-    table.entries.iter().for_each(|entry| of_value(&entry.node.value, found));
+    table.entries().iter().for_each(|entry| of_value(&entry.node.value, found));
 }

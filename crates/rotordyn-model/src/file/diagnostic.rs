@@ -3,6 +3,7 @@
 use rotordyn_core::warning::{Code, Warning};
 use rotordyn_units::names::nearest;
 use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// A text that was read: the model file, or one `--set` argument.
@@ -195,6 +196,14 @@ impl Sources {
     }
 }
 
+/// What is reported once.
+#[derive(PartialEq, Eq, Hash)]
+enum Reported {
+    Error(Range<usize>, String),
+    Hint(String),
+    Default(String),
+}
+
 /// Problems found so far; reading continues after each.
 #[derive(Default)]
 pub(crate) struct Log {
@@ -202,10 +211,12 @@ pub(crate) struct Log {
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
     defaults: RefCell<Vec<DefaultValue>>,
+    /// What was reported already, of what is reported once.
+    seen: RefCell<HashSet<Reported>>,
     /// Where the spans of the file end and those of settings of the command line start.
     file_end: Cell<usize>,
     /// Starts of the keys that each variant sets, in the order in which the variants apply.
-    variant_keys: RefCell<Vec<Vec<usize>>>,
+    variant_keys: RefCell<Vec<HashSet<usize>>>,
 }
 
 impl Log {
@@ -213,18 +224,24 @@ impl Log {
         self.errors.borrow_mut().push(problem);
     }
 
+    fn is_first(&self, report: Reported) -> bool {
+        self.seen.borrow_mut().insert(report)
+    }
+
     /// Add an error of a place that is read more than once.
     pub fn error_once(&self, problem: Problem) {
-        let is_it = |p: &Problem| p.span == problem.span && p.message == problem.message;
-        if !self.errors.borrow().iter().any(is_it) {
+        if self.is_first(Reported::Error(problem.span.clone(), problem.message.clone())) {
             self.error(problem);
         }
     }
 
-    /// Remove the report of a missing key whose misspelt form was found.
-    pub fn retract_missing(&self, span: &Range<usize>, message: &str) {
+    /// Remove the report of a missing key whose misspelt form was found, which is not among the first `before` errors.
+    pub fn retract_missing(&self, before: usize, span: &Range<usize>, message: &str) {
         let is_it = |p: &Problem| p.kind == Kind::MissingKey && p.span == *span && p.message == message;
-        self.errors.borrow_mut().retain(|p| !is_it(p));
+        let mut errors = self.errors.borrow_mut();
+        let before = before.min(errors.len());
+        let later = errors.split_off(before);
+        errors.extend(later.into_iter().filter(|p| !is_it(p)));
     }
 
     /// Add a warning about an item of the file, such as `bearing.B`.
@@ -234,17 +251,15 @@ impl Log {
 
     /// Add a hint, once per message.
     pub fn hint(&self, problem: Problem) {
-        let mut hints = self.hints.borrow_mut();
-        if hints.iter().all(|known| known.message != problem.message) {
-            hints.push(problem);
+        if self.is_first(Reported::Hint(problem.message.clone())) {
+            self.hints.borrow_mut().push(problem);
         }
     }
 
     /// Record a value that the file does not give, once per path.
     pub fn taken_by_default(&self, path: String, value: String) {
-        let mut defaults = self.defaults.borrow_mut();
-        if defaults.iter().all(|known| known.path != path) {
-            defaults.push(DefaultValue { path, value });
+        if self.is_first(Reported::Default(path.clone())) {
+            self.defaults.borrow_mut().push(DefaultValue { path, value });
         }
     }
 
@@ -270,7 +285,7 @@ impl Log {
 
     /// Record the starts of the keys that a variant sets.
     pub fn add_variant(&self, keys: Vec<usize>) {
-        self.variant_keys.borrow_mut().push(keys);
+        self.variant_keys.borrow_mut().push(keys.into_iter().collect());
     }
 
     /// Which of two keys overrides the other: 0 in the file itself, then the variants in order, then the command line.

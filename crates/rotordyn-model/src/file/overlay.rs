@@ -5,6 +5,7 @@ use super::key::{NamedTables, Text, Texts, keys, named_tables, text, texts};
 use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::folder_problem;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
@@ -68,7 +69,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
     while let Some((name, asked_at)) = next.take() {
         let Some(entry) = variants.get(&name) else {
             let problem = Problem::new(Kind::UnknownName, &asked_at, format!("unknown variant `{name}`"));
-            log.error(match variants.entries.len() {
+            log.error(match variants.entries().len() {
                 0 => problem.hint("the file has no variants"),
                 _ => problem.suggest(&name, variants.keys()),
             });
@@ -120,7 +121,8 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
 
 /// Refuses names that would lead out of the folder of results, or to that of another variant.
 fn check_names(variants: &Table, log: &Log) {
-    for (k, Entry { key, key_span, .. }) in variants.entries.iter().enumerate() {
+    let mut in_lower_case = HashMap::new();
+    for Entry { key, key_span, .. } in variants.entries() {
         let refuse = |reason: String| {
             let message = format!("{key:?} cannot be the name of a variant: {reason}");
             let problem = Problem::new(Kind::OutOfRange, key_span, message);
@@ -132,9 +134,9 @@ fn check_names(variants: &Table, log: &Log) {
         match folder_problem(key) {
             Some(reason) => refuse(reason),
             None => {
-                let same = |other: &&Entry| other.key.to_lowercase() == key.to_lowercase();
-                if let Some(other) = variants.entries[..k].iter().find(same) {
-                    refuse(format!("it differs from `{}` only in upper and lower case", other.key));
+                let other = *in_lower_case.entry(key.to_lowercase()).or_insert(key);
+                if other != key {
+                    refuse(format!("it differs from `{other}` only in upper and lower case"));
                 }
             }
         }
@@ -171,8 +173,8 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
                 table.remove(part);
                 break;
             }
-            match table.get_mut(part) {
-                Some(Entry { node: Node { value: Value::Table(inner), .. }, .. }) => table = inner,
+            match table.node_mut(part) {
+                Some(Node { value: Value::Table(inner), .. }) => table = inner,
                 _ => {
                     log.error(Problem::new(Kind::BadPath, &path.span, format!("`{part}` is not a table")));
                     break;
@@ -184,7 +186,7 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
 
 /// Starts of all keys of a table and of those within.
 fn key_starts(table: &Table, found: &mut Vec<usize>) {
-    for entry in &table.entries {
+    for entry in table.entries() {
         found.push(entry.key_span.start);
         if let Value::Table(inner) = &entry.node.value {
             key_starts(inner, found);
@@ -193,17 +195,14 @@ fn key_starts(table: &Table, found: &mut Vec<usize>) {
 }
 
 fn merge(into: &mut Table, from: Table) {
-    for entry in from.entries {
-        match into.get_mut(&entry.key) {
-            None => into.entries.push(entry),
-            Some(old) => match (&mut old.node.value, entry.node.value) {
-                (Value::Table(old_table), Value::Table(new_table)) => merge(old_table, new_table),
-                (_, value) => {
-                    old.former_key = entry.former_key;
-                    old.key_span = entry.key_span;
-                    old.node = Node { span: entry.node.span, value };
-                }
-            },
+    for entry in from.into_entries() {
+        let Some(Node { value: Value::Table(old), .. }) = into.node_mut(&entry.key) else {
+            into.set(entry);
+            continue;
+        };
+        match entry.node.value {
+            Value::Table(new) => merge(old, new),
+            value => into.set(Entry { node: Node { span: entry.node.span, value }, ..entry }),
         }
     }
 }
@@ -219,8 +218,10 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
     let start = sources.push("--set", text);
     let value_start = start + path.len() + 1;
     let span = value_start..value_start + value.len();
-    let mut node = match Table::parse(&format!("x={value}"), value_start.saturating_sub(2)) {
-        Ok(mut table) if table.entries.len() == 1 && !value.contains('\n') => table.entries.remove(0).node,
+    let parsed = Table::parse(&format!("x={value}"), value_start.saturating_sub(2));
+    let mut entries = parsed.map_or(Vec::new(), Table::into_entries);
+    let mut node = match entries.pop() {
+        Some(only) if entries.is_empty() && !value.contains('\n') => only.node,
         _ => Node { span, value: Value::Text(value.trim().to_string()) },
     };
     let mut at = start;
@@ -284,20 +285,20 @@ fn set_in_table(
             return Err(bad_path(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
         }
         let empty = Node { span: part.span.clone(), value: Value::Table(Table::default()) };
-        table.entries.push(Entry {
+        table.set(Entry {
             key: part.name.into(),
             former_key: None,
             key_span: part.span.clone(),
             node: empty,
         });
     }
-    let Some(entry) = table.get_mut(part.name) else { return Ok(()) };
     if last {
-        entry.key_span = part.span.clone();
-        entry.node = node;
+        let former_key = table.get(part.name).and_then(|entry| entry.former_key.clone());
+        table.set(Entry { key: part.name.into(), former_key, key_span: part.span.clone(), node });
         return Ok(());
     }
-    set_in_node(&mut entry.node, path, parts, depth + 1, node)
+    let Some(inner) = table.node_mut(part.name) else { return Ok(()) };
+    set_in_node(inner, path, parts, depth + 1, node)
 }
 
 fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: Node) -> Result<(), Problem> {

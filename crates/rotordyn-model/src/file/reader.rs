@@ -12,7 +12,9 @@ use super::key::{
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::{item_problem, nearest};
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// One table of the file.
 pub(crate) struct Reader<'a> {
@@ -27,8 +29,18 @@ pub(crate) struct Reader<'a> {
     declared_path: String,
     pub log: &'a Log,
     errors_before: usize,
-    requested_keys: RefCell<Vec<String>>,
+    requested_keys: RefCell<Requested>,
 }
+
+/// Keys in the order in which they were first asked for.
+#[derive(Default)]
+struct Requested {
+    names: Vec<String>,
+    known: HashSet<String>,
+}
+
+/// Most unknown keys of a table that are reported one by one: fewer than a person reads, and than the program prints.
+const MAX_UNKNOWN: usize = 20;
 
 /// Other names of tables and keys, with those of the file.
 const SYNONYMS: [(&str, &str); 18] = [
@@ -52,7 +64,7 @@ const SYNONYMS: [(&str, &str); 18] = [
     ("analysis", "study"),
 ];
 
-static EMPTY_TABLE: Table = Table { entries: Vec::new() };
+static EMPTY_TABLE: LazyLock<Table> = LazyLock::new(Table::default);
 
 impl<'a> Reader<'a> {
     /// The whole file.
@@ -92,8 +104,10 @@ impl<'a> Reader<'a> {
     }
 
     fn mark_known(&self, name: &str) {
-        if !self.requested_keys.borrow().iter().any(|k| k == name) {
-            self.requested_keys.borrow_mut().push(name.into());
+        let mut requested = self.requested_keys.borrow_mut();
+        if !requested.known.contains(name) {
+            requested.known.insert(name.into());
+            requested.names.push(name.into());
         }
     }
 
@@ -381,7 +395,7 @@ impl<'a> Reader<'a> {
         let declared = key.value.0;
         let Some(all) = self.table_of(key, declared) else { return Vec::new() };
         let mut items = Vec::new();
-        for entry in &all.table.entries {
+        for entry in all.table.entries() {
             let path = all.entry_name(&entry.key);
             self.check_item_name(key.about.name, entry);
             match &entry.node.value {
@@ -428,10 +442,10 @@ impl<'a> Reader<'a> {
 
     /// All entries of this table, marked as known.
     pub fn entries(&self) -> &'a [Entry] {
-        for entry in &self.table.entries {
+        for entry in self.table.entries() {
             self.mark_known(&entry.key);
         }
-        &self.table.entries
+        self.table.entries()
     }
 
     /// Names of all declared keys, each once.
@@ -448,10 +462,11 @@ impl<'a> Reader<'a> {
     /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
     pub fn finish(self) {
         let requested = self.requested_keys.borrow();
-        let known: Vec<&str> = requested.iter().map(String::as_str).collect();
-        for entry in self.table.entries.iter().filter(|e| !known.contains(&e.key.as_str())) {
+        let known: Vec<&str> = requested.names.iter().map(String::as_str).collect();
+        let mut unknown = self.table.entries().iter().filter(|e| !requested.known.contains(&e.key));
+        for entry in unknown.by_ref().take(MAX_UNKNOWN) {
             if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
-                self.log.retract_missing(&self.span, &self.missing_message(meant));
+                self.log.retract_missing(self.errors_before, &self.span, &self.missing_message(meant));
             }
             let message = format!("unknown key {}", self.entry_name(&entry.key));
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
@@ -468,6 +483,12 @@ impl<'a> Reader<'a> {
                 _ => problem.suggest(&entry.key, known.iter().copied()),
             };
             self.log.error(problem.after_list(&all_keys));
+        }
+        if let Some(next) = unknown.next() {
+            let place = if self.path.is_empty() { "the file" } else { &self.path };
+            let message = format!("{} more unknown keys in {place}", 1 + unknown.count());
+            let problem = Problem::new(Kind::UnknownKey, &next.key_span, message);
+            self.log.error(problem.hint(format!("the first {MAX_UNKNOWN} are reported one by one")));
         }
     }
 }

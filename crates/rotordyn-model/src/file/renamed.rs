@@ -4,7 +4,7 @@
 //! are applied to it, and so are their paths.
 
 use super::diagnostic::{Kind, Log, Problem};
-use super::tree::{Node, Table, Value};
+use super::tree::{Entry, Node, Table, Value};
 
 /// Renamed keys: path of their table (`*` is any name), former and present spelling.
 const KEYS: &[(&str, &str, &str)] = &[
@@ -71,15 +71,15 @@ pub(crate) fn translate(root: &mut Table, log: &Log) {
 }
 
 fn translate_table(table: &mut Table, path: &mut Vec<String>, log: &Log) {
-    for k in 0..table.entries.len() {
-        let key = table.entries[k].key.clone();
+    for k in 0..table.entries().len() {
+        let Entry { key, key_span: span, .. } = &table.entries()[k];
+        let (mut key, span) = (key.clone(), span.clone());
         if path.is_empty() && key == "variant" {
             continue;
         }
         let new = renamed(KEYS, path, &key);
         if let Some(new) = new {
             let (old_path, new_path) = (joined(path, &key), joined(path, new));
-            let span = table.entries[k].key_span.clone();
             if table.get(new).is_some() {
                 let message = format!("{old_path} and `{new}` are the same key");
                 let advice = format!("`{key}` is the former name of `{new}`: give only `{new}`");
@@ -87,11 +87,13 @@ fn translate_table(table: &mut Table, path: &mut Vec<String>, log: &Log) {
                 continue;
             }
             log.hint(Problem::new(Kind::FormerName, &span, hint(&old_path, &new_path)));
-            table.entries[k].former_key = Some(key.clone());
-            table.entries[k].key = new.into();
+            table.rename(k, new);
+            key = new.into();
         }
-        path.push(new.map_or(key, String::from));
-        translate_node(&mut table.entries[k].node, path, log);
+        path.push(key.clone());
+        if let Some(node) = table.node_mut(&key) {
+            translate_node(node, path, log);
+        }
         path.pop();
     }
 }

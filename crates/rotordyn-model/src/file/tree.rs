@@ -1,5 +1,6 @@
 //! The TOML document as a tree in file order, every key and value with its source span.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -37,10 +38,12 @@ impl Value {
     }
 }
 
-/// Entries in file order.
+/// Entries in file order, no key twice.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Table {
-    pub entries: Vec<Entry>,
+    entries: Vec<Entry>,
+    /// Place of every key: a file may have a hundred thousand of them.
+    places: HashMap<String, usize>,
 }
 
 #[derive(Clone, Debug)]
@@ -60,17 +63,52 @@ impl Entry {
 }
 
 impl Table {
-    pub fn get(&self, key: &str) -> Option<&Entry> {
-        self.entries.iter().find(|e| e.key == key)
+    fn of(entries: Vec<Entry>) -> Self {
+        let places = entries.iter().enumerate().map(|(place, e)| (e.key.clone(), place)).collect();
+        Self { entries, places }
     }
 
-    pub fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
-        self.entries.iter_mut().find(|e| e.key == key)
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    pub fn get(&self, key: &str) -> Option<&Entry> {
+        self.places.get(key).map(|place| &self.entries[*place])
+    }
+
+    /// The value of a key.
+    pub fn node_mut(&mut self, key: &str) -> Option<&mut Node> {
+        self.places.get(key).map(|place| &mut self.entries[*place].node)
+    }
+
+    /// Replaces an entry, or adds it at the end.
+    pub fn set(&mut self, entry: Entry) {
+        match self.places.get(&entry.key) {
+            Some(place) => self.entries[*place] = entry,
+            None => {
+                self.places.insert(entry.key.clone(), self.entries.len());
+                self.entries.push(entry);
+            }
+        }
+    }
+
+    /// Gives the entry at a place the present spelling of its key, which no other has.
+    pub fn rename(&mut self, place: usize, key: &str) {
+        let entry = &mut self.entries[place];
+        let former = std::mem::replace(&mut entry.key, key.into());
+        self.places.remove(&former);
+        self.places.insert(key.into(), place);
+        entry.former_key = Some(former);
     }
 
     pub fn remove(&mut self, key: &str) -> Option<Entry> {
-        let at = self.entries.iter().position(|e| e.key == key)?;
-        Some(self.entries.remove(at))
+        let place = self.places.remove(key)?;
+        self.places.values_mut().filter(|later| **later > place).for_each(|later| *later -= 1);
+        Some(self.entries.remove(place))
+    }
+
+    pub fn into_entries(self) -> Vec<Entry> {
+        self.entries
     }
 
     pub fn keys(&self) -> impl Iterator<Item = &str> {
@@ -96,7 +134,7 @@ fn table(from: &DeTable<'_>, offset: usize) -> Table {
     };
     let mut entries: Vec<Entry> = from.iter().map(entry).collect();
     entries.sort_by_key(|e| e.key_span.start);
-    Table { entries }
+    Table::of(entries)
 }
 
 fn node(from: &Spanned<DeValue<'_>>, offset: usize) -> Node {
