@@ -2,13 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use crate::signal::measured_data;
 use crate::{json_of, rotordyn};
 use rotordyn::io::measured;
 use rotordyn::signal::record::{MeasuredData, Record, Values};
 use serde_json::Value;
-
-#[path = "../common/measured_data.rs"]
-mod measured_data;
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()

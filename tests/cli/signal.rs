@@ -10,7 +10,7 @@ use rotordyn::signal::record::{MeasuredData, Record};
 use serde_json::Value;
 
 #[path = "../common/measured_data.rs"]
-mod measured_data;
+pub mod measured_data;
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))

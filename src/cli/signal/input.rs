@@ -10,8 +10,8 @@ use rotordyn::names::nearest;
 use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
-use serde_json::{Value, json};
 use rotordyn::warning::Code;
+use serde_json::{Value, json};
 
 use super::super::failure::Failure;
 use super::super::limits::limits;
