@@ -166,9 +166,9 @@ fn is_cage_harmonic(
     let stands = |n: &f64| {
         let place = n * cage.base;
         let amplitude = spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
-        // Side bands of another harmonic of the part are low beside it.
-        let beside = fit.main_lines().filter(|l| (l.frequency - place).abs() < 2.5 * cage.base);
-        let reference = beside.map(|l| l.amplitude).fold(line.amplitude, f64::max);
+        // Side bands of another harmonic of the part are low near it.
+        let near = fit.main_lines().filter(|l| (l.frequency - place).abs() < 2.5 * cage.base);
+        let reference = near.map(|l| l.amplitude).fold(line.amplitude, f64::max);
         !fit.has_harmonic(place, spectrum.step)
             && !fit.has_shaft_side_band(place, shaft, spectrum.step)
             && spectrum.evidence(place) > PRESENT
