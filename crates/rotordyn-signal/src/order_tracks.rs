@@ -1,6 +1,7 @@
 //! Order tracks: amplitude and phase of several orders over time and speed, from the Vold-Kalman filter.
 
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 use super::SignalError;
 use super::error::check;
@@ -16,7 +17,7 @@ const MAX_UNKNOWNS: f64 = 1e7;
 pub struct OrderTracks {
     /// From the first to the last instant at which every order lies above its bandwidth \[s\].
     pub times: Vec<f64>,
-    /// Shaft speed there \[rpm\].
+    /// Shaft speed there \[rpm\], the mean over 1/bandwidth revolutions: the amplitudes resolve no shorter time.
     pub rpm: Vec<f64>,
     /// In the sequence of the request.
     pub tracks: Vec<OrderTrack>,
@@ -84,7 +85,7 @@ pub fn order_tracks(
     });
     Ok(OrderTracks {
         times: places.iter().map(|&n| n as f64 / sample_rate).collect(),
-        rpm: places.iter().map(|&n| 60.0 * speed[n]).collect(),
+        rpm: places.iter().map(|&n| 60.0 * mean_speed(theta, sample_rate, n, speed[n], width)).collect(),
         tracks: tracks.collect(),
         bandwidth: width,
         min_bandwidth_hz: min_hertz,
@@ -98,6 +99,15 @@ pub fn order_tracks(
 pub fn orders_in_one_band(orders: &[f64], width: f64) -> Vec<[usize; 2]> {
     let pairs = (0..orders.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
     pairs.filter(|&[a, b]| (orders[a] - orders[b]).abs() < 0.5 * width).collect()
+}
+
+/// Mean shaft speed over 1/`width` revolutions about sample n \[Hz\], fewer towards the ends; `speed` the one at n.
+fn mean_speed(theta: &[f64], sample_rate: f64, n: usize, speed: f64, width: f64) -> f64 {
+    let half = (0.5 * sample_rate / (width * speed)) as usize;
+    match half.min(n).min(theta.len() - 1 - n) {
+        0 => speed,
+        half => ((theta[n + half] - theta[n - half]) * sample_rate / (2.0 * half as f64 * TAU)).abs(),
+    }
 }
 
 /// The longest range of places where a condition holds.
