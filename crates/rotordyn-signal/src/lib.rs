@@ -29,6 +29,7 @@
 //! | [`tacho`] | shaft angle from tachometer (keyphasor) pulses |
 //! | [`tacholess`] | tacholess speed estimation: shaft angle from an order line of the record |
 //! | [`synchronous`] | time-synchronous average (TSA) |
+//! | [`trend`] | trend over several records: Mann-Kendall test, Theil-Sen slope |
 //! | [`record`] | measured records, FRFs, test geometry and mode shapes as read from files |
 //!
 //! Sample n of a record is at t = n/f_s; every function returns a [`SignalError`] for empty records, NaN and
@@ -67,6 +68,7 @@ pub mod stft;
 pub mod synchronous;
 pub mod tacho;
 pub mod tacholess;
+pub mod trend;
 pub mod vold_kalman;
 pub mod waterfall;
 pub mod window;

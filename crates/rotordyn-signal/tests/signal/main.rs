@@ -9,6 +9,7 @@ mod impact_hits;
 mod oracle;
 mod oracle_bearing;
 mod oracle_resampling;
+mod oracle_trend;
 mod orders;
 mod refusals;
 mod resampling;
