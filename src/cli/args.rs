@@ -18,6 +18,7 @@ use clap::{Args, Parser, Subcommand};
 use rotordyn::io::run_export::{self, RunFormat};
 
 use super::signal::args::SignalArgs;
+use super::trend::args::TrendArgs;
 pub use bearing::BearingArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
@@ -425,6 +426,15 @@ Examples:
     /// and simulated, are drawn in one figure.
     #[command(after_long_help = super::signal::args::EXAMPLES)]
     Signal(Box<SignalArgs>),
+
+    /// Follow several records of one machine over time, load or speed: statistics, bearing lines, diagnosis
+    ///
+    /// Every record gets a row: RMS, peak, crest factor, kurtosis, skewness, the amplitudes of the bearing's lines in one
+    /// common band, and its diagnosis with probability. A change is stated if the Mann-Kendall test finds it significant
+    /// among all quantities together, with the Theil-Sen slope and its 95 % interval. A record that cannot be read or
+    /// judged is a row that says why; the exit code is then that of the first such record.
+    #[command(after_long_help = super::trend::args::EXAMPLES)]
+    Trend(Box<TrendArgs>),
 
     /// Export geometry, modes, FRFs and time histories: glTF (glb), VTK, UFF, MATLAB, NumPy, CSV, WAV
     ///

@@ -106,6 +106,17 @@ impl Failure {
         }
     }
 
+    /// The same failure with the file it concerns, if its message does not name it.
+    pub fn of_file(self, path: &std::path::Path) -> Self {
+        let name = path.display().to_string();
+        let message = self.message();
+        match self {
+            Self::Library(Error::Environment { .. }) | Self::Interrupted => self,
+            other if message.contains(&name) => other,
+            _ => Self::Input(format!("{name}: {message}")),
+        }
+    }
+
     /// 2 input, 3 physics, 4 environment, 130 Ctrl-C, 143 SIGTERM, 129 SIGHUP.
     pub fn exit_code(&self) -> u8 {
         match self {

@@ -54,6 +54,7 @@ mod studies;
 mod system;
 mod tables;
 mod terminal;
+mod trend;
 mod update;
 mod validate;
 
@@ -205,6 +206,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         }
         Command::Help { path } => help::run(path.as_deref(), terminal).map(Outcome::from),
         Command::Signal(args) => signal::run(args, terminal),
+        Command::Trend(args) => trend::run(args, terminal),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),
     }
 }

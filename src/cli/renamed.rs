@@ -83,7 +83,7 @@ fn resolve_values(command: &mut Command) -> Vec<String> {
             }
         }
         Command::Signal(args) => {
-            if let Some(band) = &mut args.band {
+            if let Some(band) = &mut args.diagnosis.band {
                 replace("--band", band, "whole", "full");
             }
             for analysis in &mut args.analyses {
@@ -156,7 +156,7 @@ mod tests {
         ));
         let notes = resolve_values(&mut cli.command);
         let Command::Signal(args) = cli.command else { panic!() };
-        assert_eq!(args.band.as_deref(), Some("full"));
+        assert_eq!(args.diagnosis.band.as_deref(), Some("full"));
         assert_eq!(
             args.analyses,
             ["envelope", "synchronous-average", "cyclic-coherence", "synchronous-average"]

@@ -21,6 +21,7 @@ mod run_up_correlation;
 mod signal;
 mod spectra;
 mod steady;
+mod trend;
 mod unbalance;
 mod variant_comparison;
 
@@ -50,6 +51,9 @@ pub use signal::{
 };
 pub use spectra::{OrderResult, SpectrogramPeak, SpectrogramResult};
 pub use steady::{RecordedPeriods, SectionChannel, SectionClock};
+pub use trend::{
+    Change, LineLevel, RecordDiagnosis, RecordState, TrendAxis, TrendQuantity, TrendRecord, TrendResult,
+};
 pub use unbalance::{DiscOrbit, ResponsePeak, UnbalanceChannel, UnbalanceResult};
 pub use variant_comparison::{PairedMode, PairedModes, UnpairedVariant, VariantComparison, VariantMode};
 

@@ -9,6 +9,7 @@ mod settings;
 mod style;
 mod table_axis;
 
+pub use date_time::date_seconds;
 pub use read::read;
 
 use std::fmt::Write as _;

@@ -32,7 +32,7 @@ mod document;
 pub use document::{add_sections, document, groups};
 
 use rotordyn_core::document::{Document, Section};
-use rotordyn_core::results::{BearingResult, SignalResult};
+use rotordyn_core::results::{BearingResult, SignalResult, TrendResult};
 use rotordyn_core::study::{Machine, Results};
 use rotordyn_core::warning::Warning;
 use serde_json::{Map, Value, json};
@@ -116,5 +116,20 @@ pub fn signal_to_json(results: &[SignalResult], compared: Option<&SignalResult>)
     if let Some(other) = compared {
         out["compared_record"] = document(&other.document());
     }
+    out
+}
+
+/// Several records of one machine; schema "rotordyn-trend-1".
+///
+/// | key | contents |
+/// |---|---|
+/// | `axis` | `name`, `unit`, `source` |
+/// | `unit`, `bearing`, `line_band_low_hz`, `line_band_high_hz`, `rms_bands_hz`, `lines` | what holds for all records |
+/// | `records` | one for each: `name`, `position`, `problem`, `channel`, statistics, `line_amplitude` and `line_level_db` by `lines`, `statement`, `diagnosis`, `candidate`, `probability` |
+/// | `changes` | `quantity`, `first`, `last`, `slope`, `slope_95_percent`, `tau`, `p_value`, `significant` |
+/// | `statements` | what is said of the whole |
+pub fn trend_to_json(found: &TrendResult) -> Value {
+    let mut out = document(&found.section().content);
+    out["schema"] = json!("rotordyn-trend-1");
     out
 }

@@ -46,7 +46,7 @@ pub fn draw(data: &Grid) -> Svg {
     let page = (LEFT + CELL[0]) * columns as f64 + RIGHT;
     let style = |k: usize| if data.legend.is_empty() { Style::stroke(BLUE, 1.5) } else { curve(k) };
     let entries: Vec<Entry> =
-        data.legend.iter().enumerate().map(|(k, name)| Entry::line(name, style(k))).collect();
+        data.legend.iter().enumerate().map(|(k, name)| entry(data, k, name, style(k))).collect();
     let (mut svg, top) = page_heading(page.max(430.0), LEFT, &data.title, &data.note, &entries);
     let rows = panels.len().max(1).div_ceil(columns);
     let x = Range::of(panels.iter().flat_map(|p| &p.curves).flat_map(|c| c.x.iter().copied())).near_zero();
@@ -80,8 +80,7 @@ pub fn draw(data: &Grid) -> Svg {
         }
         for (k, c) in panel.curves.iter().enumerate() {
             if c.points || c.x.len() == 1 {
-                let fill = Style::stroke(INK, 0.0).filled(style(k).stroke.unwrap_or(INK));
-                axes.markers(&mut svg, &c.x, &c.y, Marker::Circle, fill, 2.0);
+                axes.markers(&mut svg, &c.x, &c.y, marker(k), filled(style(k)), 2.0);
             } else {
                 axes.curve(&mut svg, &c.x, &c.y, style(k));
             }
@@ -91,6 +90,25 @@ pub fn draw(data: &Grid) -> Svg {
     }
     svg.height = top + (CELL[1] + GAP) * rows as f64 - GAP + BOTTOM;
     svg
+}
+
+/// Shape of the points of curve number k.
+fn marker(k: usize) -> Marker {
+    const SHAPES: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Diamond, Marker::Up];
+    SHAPES[k % SHAPES.len()]
+}
+
+fn filled(style: Style) -> Style {
+    Style::stroke(INK, 0.0).filled(style.stroke.unwrap_or(INK))
+}
+
+/// Legend entry of curve number k: a marker if it has points in every panel.
+fn entry(data: &Grid, k: usize, name: &str, style: Style) -> Entry {
+    let mut curves = data.panels.iter().filter_map(|panel| panel.curves.get(k)).peekable();
+    if curves.peek().is_some() && curves.all(|curve| curve.points) {
+        return Entry::marker(name, marker(k), filled(style));
+    }
+    Entry::line(name, style)
 }
 
 /// Range of at least ±0.1 % of its mean, so that round-off of a constant does not fill the panel.

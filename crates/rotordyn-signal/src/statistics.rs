@@ -1,6 +1,7 @@
 //! Time-domain statistics of a record: RMS, peak, crest factor, skewness, kurtosis.
 
 use super::SignalError;
+use super::envelope::band_analytic_signal;
 use super::error::check_record;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +32,18 @@ pub struct Statistics {
     /// m₄ / m₂², Pearson's, without −3: 3 for a normal distribution, 1.5 for a sine; `None` for a constant
     /// record.
     pub kurtosis: Option<f64>,
+}
+
+/// RMS of a record in a band, the mean excluded: the band is cut out of its Fourier transform.
+///
+/// `record` \[unit\], `sample_rate` \[Hz\], `band` \[Hz\] in 0..f_s/2. Bands side by side add up in power to the
+/// variance. Errors: as [`band_analytic_signal`].
+pub fn band_rms(record: &[f64], sample_rate: f64, band: (f64, f64)) -> Result<f64, SignalError> {
+    let mean = record.iter().sum::<f64>() / record.len().max(1) as f64;
+    let deviation: Vec<f64> = record.iter().map(|v| v - mean).collect();
+    let signal = band_analytic_signal(&deviation, sample_rate, band)?;
+    let power = signal.iter().map(|z| z.re * z.re).sum::<f64>() / signal.len() as f64;
+    Ok(power.sqrt())
 }
 
 /// Computes the statistics of a record; errors: empty, NaN.

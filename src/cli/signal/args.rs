@@ -25,16 +25,9 @@ fn analyses_help() -> String {
     )
 }
 
-/// Arguments of `signal`.
+/// What the file of a record does not state, and the part of it that is used.
 #[derive(Args, Clone, Debug)]
-pub struct SignalArgs {
-    /// The record: .mat (versions 4 to 7.3), .csv, .txt, .lvm, .wav, .uff, .npz, .h5, or a folder with the results.h5 of a
-    /// run. Channels of structures and cells are named by path, such as bearing.gs, runs(2).x, c{3}; rates are found by name
-    /// (fs, sr, SampleFrequency, dt, t, X_Value, freq ...)
-    pub file: PathBuf,
-    /// Channels, separated by commas, or "all" [default: the first vibration channel]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub channel: Vec<String>,
+pub struct RecordArgs {
     /// Sampling rate, such as "12 kHz", if the file does not state it
     #[arg(long, value_name = "FREQUENCY")]
     pub rate: Option<String>,
@@ -44,29 +37,11 @@ pub struct SignalArgs {
     /// Time range, such as "0.5 s .. 4 s" or "0.5 s .." [default: all]
     #[arg(long, value_name = "RANGE", allow_hyphen_values = true)]
     pub time: Option<String>,
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', help = analyses_help())]
-    pub analyses: Vec<String>,
+}
 
-    /// Shaft speed, such as "1797 rpm" [default: as stated in the file]
-    #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
-    pub speed: Option<String>,
-    #[command(flatten)]
-    pub shaft: ShaftArgs,
-    /// Order resolution
-    #[arg(long, value_name = "NUMBER", default_value_t = 0.05, help_heading = "Shaft")]
-    pub order_resolution: f64,
-    /// Highest order [default: 2.2 BPFI, at least 20, limited by the sampling rate]
-    #[arg(long, value_name = "NUMBER", help_heading = "Shaft")]
-    pub max_order: Option<f64>,
-    /// Orders of the order cuts, marked in the order spectrum, such as 1,7,BPFO,"2 BPFO" [default: 1, 2 and those of the
-    /// bearing]
-    #[arg(long, value_name = "ORDERS", value_delimiter = ',', help_heading = "Shaft")]
-    pub orders: Vec<String>,
-    /// Also track amplitude and phase of these orders by the Vold-Kalman filter, with this -3 dB bandwidth in orders,
-    /// such as 0.2
-    #[arg(long, value_name = "ORDERS", help_heading = "Shaft")]
-    pub bandwidth: Option<f64>,
-
+/// The bearing and the search for its damage.
+#[derive(Args, Clone, Debug)]
+pub struct DiagnosisArgs {
     /// Bearing: a catalogue designation, or a ball bearing of the model
     #[arg(long, value_name = "NAME", help_heading = "Bearing")]
     pub bearing: Option<String>,
@@ -98,6 +73,45 @@ pub struct SignalArgs {
     /// such as "1 %"; 0 takes the speed as stated
     #[arg(long, value_name = "SHARE", default_value = "2 %", help_heading = "Bearing")]
     pub speed_range: String,
+}
+
+/// Arguments of `signal`.
+#[derive(Args, Clone, Debug)]
+pub struct SignalArgs {
+    /// The record: .mat (versions 4 to 7.3), .csv, .txt, .lvm, .wav, .uff, .npz, .h5, or a folder with the results.h5 of a
+    /// run. Channels of structures and cells are named by path, such as bearing.gs, runs(2).x, c{3}; rates are found by name
+    /// (fs, sr, SampleFrequency, dt, t, X_Value, freq ...)
+    pub file: PathBuf,
+    /// Channels, separated by commas, or "all" [default: the first vibration channel]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub channel: Vec<String>,
+    #[command(flatten)]
+    pub record: RecordArgs,
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', help = analyses_help())]
+    pub analyses: Vec<String>,
+
+    /// Shaft speed, such as "1797 rpm" [default: as stated in the file]
+    #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
+    pub speed: Option<String>,
+    #[command(flatten)]
+    pub shaft: ShaftArgs,
+    /// Order resolution
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.05, help_heading = "Shaft")]
+    pub order_resolution: f64,
+    /// Highest order [default: 2.2 BPFI, at least 20, limited by the sampling rate]
+    #[arg(long, value_name = "NUMBER", help_heading = "Shaft")]
+    pub max_order: Option<f64>,
+    /// Orders of the order cuts, marked in the order spectrum, such as 1,7,BPFO,"2 BPFO" [default: 1, 2 and those of the
+    /// bearing]
+    #[arg(long, value_name = "ORDERS", value_delimiter = ',', help_heading = "Shaft")]
+    pub orders: Vec<String>,
+    /// Also track amplitude and phase of these orders by the Vold-Kalman filter, with this -3 dB bandwidth in orders,
+    /// such as 0.2
+    #[arg(long, value_name = "ORDERS", help_heading = "Shaft")]
+    pub bandwidth: Option<f64>,
+
+    #[command(flatten)]
+    pub diagnosis: DiagnosisArgs,
     /// Race to which the jumps of the jerk are assigned: outer or inner
     #[arg(long, value_name = "RACE", default_value = "outer", help_heading = "Bearing")]
     pub race: String,

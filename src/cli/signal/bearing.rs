@@ -1,5 +1,7 @@
 //! Bearing of the diagnosis: from the catalogue, from a model, or by its defect frequencies (orders).
 
+use std::path::Path;
+
 use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::model::catalogue;
@@ -14,13 +16,13 @@ use super::super::limits::limits;
 use super::super::machine::ModelSource;
 use super::super::settings::Settings;
 use super::super::store::stored_origin;
-use super::args::SignalArgs;
-use super::input::{File, InputProblems};
+use super::args::DiagnosisArgs;
+use super::input::InputProblems;
 
-/// The bearing given by the flags.
+/// The bearing given by the flags; `run`: the results file of a stored run, whose model may have it.
 pub fn find(
-    args: &SignalArgs,
-    file: &File,
+    args: &DiagnosisArgs,
+    run: Option<&Path>,
     findings: &mut InputProblems,
 ) -> Result<Option<BearingWithOrders>, Failure> {
     if !args.bearing_orders.is_empty() {
@@ -32,8 +34,10 @@ pub fn find(
             let model = ModelArgs { model: model.clone(), variant: None, set: Vec::new() };
             Some(ModelSource::read(&model)?)
         }
-        None if file.stored_run => stored_origin(&*open_reader(&file.path, limits())?).ok(),
-        None => None,
+        None => match run {
+            Some(path) => stored_origin(&*open_reader(path, limits())?).ok(),
+            None => None,
+        },
     };
     let of_model = match &origin {
         Some(origin) => origin.load_bearings(&Settings::default())?.bearings,

@@ -7,7 +7,7 @@ use rotordyn::signal::SignalError;
 use rotordyn::study::signal::{SignalChannel, SignalSettings, analyse};
 
 /// The analyses of one channel.
-pub(super) fn analyse_channel(
+pub fn analyse_channel(
     channel: &SignalChannel,
     shaft: &ShaftSource,
     bearing: Option<&BearingWithOrders>,

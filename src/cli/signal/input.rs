@@ -124,6 +124,11 @@ impl File {
         Ok(File { path, stem, measured, stored_run })
     }
 
+    /// The results file of a stored run.
+    pub fn run(&self) -> Option<&Path> {
+        self.stored_run.then_some(self.path.as_path())
+    }
+
     /// Time records, or records without a stated abscissa.
     pub fn time_records(&self) -> impl Iterator<Item = &Record> {
         self.measured.records.iter().filter(|r| r.time_samples().is_ok())
@@ -153,6 +158,16 @@ impl File {
         let vibrates = |r: &&Record| !without.contains(&r.name.as_str()) && !is_rotation_signal(r);
         self.time_records().filter(vibrates).min_by_key(|r| rank(r))
     }
+}
+
+/// Name of a variable without the number of a record, as in the CWRU files: "X105_DE_time" becomes "de".
+pub fn plain_name(name: &str) -> String {
+    let name = name.to_lowercase();
+    let bare = match name.split_once('_') {
+        Some((id, rest)) if id.starts_with('x') && id[1..].bytes().all(|b| b.is_ascii_digit()) => rest,
+        _ => &name,
+    };
+    bare.strip_suffix("_time").unwrap_or(bare).to_string()
 }
 
 /// For JSON: every channel of a file with what states its axis, its numbers, and what was not read.

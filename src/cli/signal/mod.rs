@@ -1,14 +1,14 @@
 //! `signal`: signal analysis of a measured or simulated record and bearing diagnosis.
 
 pub mod args;
-mod bearing;
-mod channel;
+pub mod bearing;
+pub mod channel;
 mod compare_records;
 pub mod input;
-mod line_tables;
+pub mod line_tables;
 mod orders;
-mod record_speed;
-mod settings;
+pub mod record_speed;
+pub mod settings;
 pub mod shaft_source;
 mod tables;
 
@@ -53,9 +53,9 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         names: &args.channel,
         excluded: &without,
         quadrature: args.quadrature_channel.as_deref(),
-        rate: args.rate.as_deref(),
-        unit: args.unit.as_deref(),
-        time: args.time.as_deref(),
+        rate: args.record.rate.as_deref(),
+        unit: args.record.unit.as_deref(),
+        time: args.record.time.as_deref(),
         flag_prefix: "--",
     };
     let channels = input::channels(&file, &choice, &mut findings);
@@ -63,9 +63,9 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         Some(text) => findings
             .positive("--speed", text, SPEED)
             .map_or(ShaftSource::Unknown, |speed| ShaftSource::Steady(speed / TAU, "as given".into())),
-        None => ShaftSource::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
+        None => ShaftSource::of(&args.shaft, args.record.rate.as_deref(), &file, &mut findings),
     };
-    let rated = bearing::find(args, &file, &mut findings)?;
+    let rated = bearing::find(&args.diagnosis, file.run(), &mut findings)?;
     let settings = settings::from_flags(args, rated.as_ref(), &mut findings);
     if rated.is_some() && !shaft.is_known() && findings.problems.is_empty() {
         findings.problem(
@@ -107,7 +107,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     }
     let mut warnings = file.measured.notes.clone();
     // A rate given by a flag is no longer missing.
-    warnings.retain(|note| args.rate.is_none() || !note.starts_with("no sampling rate"));
+    warnings.retain(|note| args.record.rate.is_none() || !note.starts_with("no sampling rate"));
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
     warnings.into_iter().for_each(|text| terminal.warn_of(Code::SignalAnalysis, text));

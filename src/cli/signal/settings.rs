@@ -7,7 +7,7 @@ use rotordyn::signal::diagnosis::BandRule;
 use rotordyn::study::signal::{Analysis, AnalysisSelection, Race, SignalSettings};
 use rotordyn::units::{self, FREQUENCY, NUMBER, TIME};
 
-use super::args::SignalArgs;
+use super::args::{DiagnosisArgs, SignalArgs};
 use super::input::InputProblems;
 use super::orders;
 
@@ -17,19 +17,9 @@ pub fn from_flags(
     bearing: Option<&BearingWithOrders>,
     findings: &mut InputProblems,
 ) -> SignalSettings {
-    let defaults = SignalSettings::default();
     let frequency = |findings: &mut InputProblems, flag: &str, text: &Option<String>| {
         text.as_ref().and_then(|text| findings.positive(flag, text, FREQUENCY))
     };
-    let slip = findings
-        .value_or_problem("--slip: ", units::parse(&args.slip, NUMBER))
-        .unwrap_or(defaults.lines.slip);
-    let speed_range = findings
-        .value_or_problem("--speed-range: ", units::parse(&args.speed_range, NUMBER))
-        .unwrap_or(defaults.speed_range);
-    if !(0.0..=0.2).contains(&speed_range) {
-        findings.problem(format!("--speed-range {}: expected 0 to 20 %", args.speed_range));
-    }
     let race = match args.race.to_lowercase().as_str() {
         "outer" => Race::Outer,
         "inner" => Race::Inner,
@@ -40,17 +30,39 @@ pub fn from_flags(
     };
     SignalSettings {
         analyses: analyses(&args.analyses, findings),
-        band: args.band.as_ref().and_then(|text| band(text, bearing.is_some(), findings)),
         resolution: frequency(findings, "--resolution", &args.resolution),
         max_frequency: frequency(findings, "--max-frequency", &args.max_frequency),
         order_resolution: args.order_resolution,
         max_order: args.max_order,
         orders: orders::lines(&args.orders, bearing, findings),
         bandwidth: args.bandwidth,
-        lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
-        speed_range,
         race,
         datum: findings.quantity("--reference-time", &args.reference_time, TIME).unwrap_or(0.0),
+        ..diagnosis(&args.diagnosis, bearing, findings)
+    }
+}
+
+/// Settings of the diagnosis; the others as by default.
+pub fn diagnosis(
+    args: &DiagnosisArgs,
+    bearing: Option<&BearingWithOrders>,
+    findings: &mut InputProblems,
+) -> SignalSettings {
+    let defaults = SignalSettings::default();
+    let slip = findings
+        .value_or_problem("--slip: ", units::parse(&args.slip, NUMBER))
+        .unwrap_or(defaults.lines.slip);
+    let speed_range = findings
+        .value_or_problem("--speed-range: ", units::parse(&args.speed_range, NUMBER))
+        .unwrap_or(defaults.speed_range);
+    if !(0.0..=0.2).contains(&speed_range) {
+        findings.problem(format!("--speed-range {}: expected 0 to 20 %", args.speed_range));
+    }
+    SignalSettings {
+        band: args.band.as_ref().and_then(|text| band(text, bearing.is_some(), findings)),
+        lines: LineSettings { slip, harmonics: args.harmonics, ..defaults.lines },
+        speed_range,
+        ..defaults
     }
 }
 

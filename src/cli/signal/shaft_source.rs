@@ -9,7 +9,7 @@ use rotordyn::study::signal::{ShaftMotion, SignalChannel};
 use rotordyn::units::FREQUENCY;
 
 use super::super::args::ShaftArgs;
-use super::input::{File, InputProblems};
+use super::input::{File, InputProblems, plain_name};
 
 /// Trigger hysteresis as a fraction of the tacho signal's range.
 const HYSTERESIS: f64 = 0.2;
@@ -213,17 +213,8 @@ fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut InputProblems
 
 /// Shaft angle, speed over time or constant speed stated in the file.
 pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
-    // Variable names as in the CWRU files: "X105_DE_time" becomes "de".
-    let plain = |name: &str| {
-        let name = name.to_lowercase();
-        let bare = match name.split_once('_') {
-            Some((id, rest)) if id.starts_with('x') && id[1..].bytes().all(|b| b.is_ascii_digit()) => rest,
-            _ => &name,
-        };
-        bare.strip_suffix("_time").unwrap_or(bare).to_string()
-    };
     let sampled = |unit: &str, names: &[&str]| {
-        file.time_records().find(|r| r.unit == unit && names.contains(&plain(&r.name).as_str()))
+        file.time_records().find(|r| r.unit == unit && names.contains(&plain_name(&r.name).as_str()))
     };
     let of = |record: &Record, factor: f64, is_angle: bool| {
         let rate = record.sample_rate().ok()?;

@@ -203,7 +203,7 @@ impl ShaftSummary {
 }
 
 impl BearingWithOrders {
-    fn document(&self) -> Document<'_> {
+    pub(super) fn document(&self) -> Document<'_> {
         Document::new()
             .text(named("name", "bearing"), &self.name)
             .text(in_json("source"), &self.source)

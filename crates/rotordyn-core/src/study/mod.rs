@@ -23,6 +23,7 @@ mod settling;
 pub mod signal;
 mod steady_motion;
 mod step_error;
+pub mod trend;
 mod variant_comparison;
 mod warnings;
 

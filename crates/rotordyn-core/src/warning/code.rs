@@ -226,6 +226,10 @@ codes! {
     BearingOrdersInconsistent, "bearing-orders-inconsistent", Caution,
         "Given orders BPFO and BPFI do not add up to a whole number of balls.",
         "check the orders: those of another bearing or rounded ones move every line";
+    RecordsDiffer, "records-differ", Caution,
+        "The records of a trend have different sampling rates, durations, channels or units: what changes between them may be \
+         the measurement, not the machine.",
+        "compare records of one setting, or restrict them with --channel and --time";
     SignalAnalysis, "signal-analysis", Caution,
         "An analysis of a record was left out, or needs what the record does not contain.",
         "see the text of the warning";

@@ -180,6 +180,36 @@ pub(super) fn seconds(stamps: &[Stamp]) -> Result<Vec<f64>, ContentProblem> {
 
 const ADVICE: &str = "write the dates as year-month-day, such as 2026-11-23";
 
+/// Seconds since the first of dates of any of these forms, and of universal files: "12-Feb-04 10:32:39".
+///
+/// `None` without texts, if one is no date, has no date but a time of day, or is open to two readings.
+pub fn date_seconds(texts: &[&str]) -> Option<Vec<f64>> {
+    let stamps: Option<Vec<Stamp>> = texts
+        .iter()
+        .map(|text| Stamp::read(&in_digits(text.trim())).filter(|stamp| stamp.date.is_some()))
+        .collect();
+    stamps.filter(|stamps| !stamps.is_empty()).and_then(|stamps| seconds(&stamps).ok())
+}
+
+/// "12-Feb-04 10:32:39" as "2004-02-12 10:32:39"; other texts as they are.
+fn in_digits(text: &str) -> String {
+    const MONTHS: [&str; 12] =
+        ["jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"];
+    let (date, time) = text.split_once(' ').unwrap_or((text, ""));
+    let parts: Vec<&str> = date.split('-').collect();
+    let [day, month, year] = parts[..] else { return text.into() };
+    let Some(month) = MONTHS.iter().position(|name| month.eq_ignore_ascii_case(name)) else {
+        return text.into();
+    };
+    let year = match (digits(year, 2..=2), digits(year, 4..=4)) {
+        // The first universal files are of 1970.
+        (Some(short), _) => short + if short < 70 { 2000 } else { 1900 },
+        (_, Some(year)) => year,
+        _ => return text.into(),
+    };
+    format!("{year}-{:02}-{day} {time}", month + 1).trim_end().into()
+}
+
 /// Whether the month is first in dates with slashes.
 fn month_first(stamps: &[Stamp]) -> Result<bool, ContentProblem> {
     let dates = || {
@@ -213,6 +243,18 @@ mod tests {
         let stamps: Vec<Stamp> =
             [a, b].map(|text| Stamp::read(text).unwrap_or_else(|| panic!("{text}"))).into();
         seconds(&stamps).unwrap()[1]
+    }
+
+    #[test]
+    fn dates_of_files_and_names() {
+        assert_eq!(date_seconds(&["12-Feb-04 10:32:39", "2004-02-12 10:33:39.5"]), Some(vec![0.0, 60.5]));
+        assert_eq!(date_seconds(&["28-FEB-1999", "1-mar-99"]), Some(vec![0.0, 86_400.0]));
+        // A time of day alone, a day that there is not, no date, and two readings.
+        for wrong in ["10:32:39", "31-Feb-04", "pump", "", "1-xyz-04", "-Feb-"] {
+            assert_eq!(date_seconds(&[wrong]), None, "{wrong}");
+        }
+        assert_eq!(date_seconds(&["03/04/2026", "05/06/2026"]), None);
+        assert_eq!(date_seconds(&[]), None);
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub use provenance::{
 pub use run_history::{channels_of, history_of, read_history};
 pub use run_up_correlation::write_run_up_correlation;
 pub use section::{write_document, write_section};
-pub use signal::{SignalMeta, write_signal};
+pub use signal::{SignalMeta, write_signal, write_trend};
 pub use writer::{FINISHED, PREVIOUS, ResultsWriter, UNFINISHED, UNFINISHED_PREVIOUS, newest_results};
 
 use super::hdf5::Store;

@@ -17,7 +17,7 @@ use super::provenance::SCHEMA;
 use super::section::write_section;
 use crate::error::Error;
 use crate::hdf5::Store;
-use rotordyn_core::results::SignalResult;
+use rotordyn_core::results::{SignalResult, TrendResult};
 
 /// Provenance of results.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,23 @@ pub fn write_signal(
     results: &[SignalResult],
     compared: Option<&SignalResult>,
 ) -> Result<(), Error> {
+    write_meta(store, meta)?;
+    results.iter().try_for_each(|result| write_section(store, "", &result.section()))?;
+    compared.map_or(Ok(()), |other| write_section(store, "/compared_record", &other.section()))?;
+    store.flush()
+}
+
+/// Writes the trend of several records: `/meta` and `/trend`.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_trend(store: &Store, meta: &SignalMeta, found: &TrendResult) -> Result<(), Error> {
+    write_meta(store, meta)?;
+    write_section(store, "", &found.section())?;
+    store.flush()
+}
+
+fn write_meta(store: &Store, meta: &SignalMeta) -> Result<(), Error> {
     let writer = GroupWriter::new(store, "/meta")?;
     writer.set_attribute("schema", SCHEMA)?;
     writer.set_attribute("program", "rotordyn")?;
@@ -47,8 +64,5 @@ pub fn write_signal(
     writer.set_attribute(
         "units",
         "SI where the record's unit is known; frequencies in Hz, orders per revolution of the shaft",
-    )?;
-    results.iter().try_for_each(|result| write_section(store, "", &result.section()))?;
-    compared.map_or(Ok(()), |other| write_section(store, "/compared_record", &other.section()))?;
-    store.flush()
+    )
 }

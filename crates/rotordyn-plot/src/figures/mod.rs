@@ -42,6 +42,7 @@ mod signal;
 mod signal_orders;
 mod signal_units;
 mod steady;
+mod trend;
 mod validation;
 
 use concern::Concern;
@@ -58,7 +59,7 @@ use crate::FigureError;
 use crate::{self as plot, Figure};
 use rotordyn_core::document::Section;
 use rotordyn_core::model::BearingSite;
-use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, SignalResult};
+use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, SignalResult, TrendResult};
 use rotordyn_core::study::{Machine, Results};
 use rotordyn_update::target::Target;
 
@@ -194,6 +195,18 @@ pub fn draw_signal<'a>(
     let sections: Vec<Section> = found.iter().map(SignalResult::section).collect();
     figures.extend(drawn::figures(&sections, title));
     write_plain(figures, folder)
+}
+
+/// Draws several records of one machine over their axis; `title`: what they are of. Returns the SVG file.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn draw_trend<'a>(
+    found: &TrendResult,
+    title: &str,
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(vec![trend::figure(found, title)], folder)
 }
 
 /// Draws the envelope spectra of two records, each with the title of its file, in panels one below the other.
